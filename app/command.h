@@ -1,0 +1,38 @@
+#pragma once
+// What the commands share: how each registers itself, how a mesh is named, how errors end.
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "lrcore/base/result.h"
+#include "lrcore/mesh/mesh.h"
+
+namespace lr::app {
+
+/// Exit codes: a contract (docs/command-line.md).
+enum Exit : int { done = 0, check_failed = 1, wrong_usage = 2, bad_input = 3, no_device = 4 };
+
+/// What main runs once the command line is parsed. Returns an Exit.
+using Action = std::function<int()>;
+
+/// A command adds itself to `program` and, when chosen, sets `action`.
+using AddCommand = void (*)(CLI::App& program, Action& action);
+
+/// A mesh argument and its --weld option.
+struct MeshInput {
+    std::string path;
+    std::string weld;  ///< "", "attributes" or "position"
+};
+
+/// Adds `--weld` / `--weld=position` to a command that reads meshes.
+void add_weld(CLI::App& command, std::string& weld);
+
+/// Reads and welds. The input may also be an .lr file, which is validated and decoded.
+Result<Mesh> load(const MeshInput& input);
+
+/// Prints "lacedring: FILE: what" on standard error, one line, and returns the exit code for the error.
+int fail(const std::string& file, const Error& error);
+
+}  // namespace lr::app

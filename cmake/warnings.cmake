@@ -1,0 +1,11 @@
+# An interface library with the project's warnings and sanitizers, linked privately by every target of ours.
+add_library(lacedring_options INTERFACE)
+target_compile_options(lacedring_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor)
+if(LACEDRING_WERROR)
+    target_compile_options(lacedring_options INTERFACE -Werror)
+endif()
+if(LACEDRING_SANITIZE)
+    target_compile_options(lacedring_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all
+                                                       -fno-omit-frame-pointer)
+    target_link_options(lacedring_options INTERFACE -fsanitize=address,undefined)
+endif()

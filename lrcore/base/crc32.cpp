@@ -1,0 +1,12 @@
+#include "lrcore/base/crc32.h"
+
+#include <zlib.h>
+
+namespace lr {
+
+std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t before) {
+    return static_cast<std::uint32_t>(
+        ::crc32_z(before, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
+}
+
+}  // namespace lr
