@@ -1,5 +1,5 @@
 #pragma once
-// The Corner Table: V and O arrays over the corners of a triangle mesh.
+// The Corner Table: for every corner of a triangle mesh, its vertex (V) and its opposite corner (O).
 // Paper: LR 2011, section 2.1; Rossignac's chapter, "Corner Table".
 //
 //              v(n(c))                    c.n next        c.p previous
@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "lrcore/base/ids.h"
@@ -37,15 +38,19 @@ struct Topology {
 /// Corner table of any triangle soup, made manifold by leaving edges unjoined and oriented by flipping triangles.
 /// No vertex is renumbered: a vertex whose triangles form several fans keeps its one number.
 struct CornerTable {
-    std::vector<VertexId> V;          ///< 3 per triangle, in the input's order; corners 1 and 2 swapped where flipped
-    std::vector<CornerId> O;          ///< opposite corner, or null across a border, a cut or a degenerate triangle
+    /// V and O side by side: whoever reads one of them mostly reads the other, so a triangle is one cache line.
+    struct Corner {
+        VertexId vertex;
+        CornerId opposite;  ///< or null across a border, a cut or a degenerate triangle
+    };
+    std::vector<Corner> corners;      ///< 3 per triangle, in the input's order; the last two swapped where flipped
     std::vector<std::uint64_t> flip;  ///< bit t: triangle t was turned round; empty if none was
     std::uint32_t vertex_count = 0;
     Topology topology;
 
-    std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(V.size() / 3); }
-    VertexId vertex(CornerId c) const { return V[c.value]; }
-    CornerId opposite(CornerId c) const { return O[c.value]; }
+    std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(corners.size() / 3); }
+    VertexId vertex(CornerId c) const { return corners[c.value].vertex; }
+    CornerId opposite(CornerId c) const { return corners[c.value].opposite; }
     CornerId left(CornerId c) const { return opposite(next(c)); }
     CornerId right(CornerId c) const { return opposite(previous(c)); }
     /// Next corner around vertex(c), or null at a border.
@@ -55,7 +60,7 @@ struct CornerTable {
     }
     bool flipped(TriangleId t) const { return !flip.empty() && (flip[t.value / 64] >> (t.value % 64) & 1) != 0; }
     bool degenerate(TriangleId t) const {
-        const VertexId a = V[3 * t.value], b = V[3 * t.value + 1], c = V[3 * t.value + 2];
+        const VertexId a = vertex(corner(t, 0)), b = vertex(corner(t, 1)), c = vertex(corner(t, 2));
         return a == b || b == c || c == a;
     }
 };

@@ -2,8 +2,10 @@
 // The lean LR index stream: one vertex reference per ring side, and the few triangles without a ring edge verbatim.
 // Paper: LR 2011, section 7 and section 5 (wart skipping).
 //
+// A mesh's stream is at most 3 references a triangle and a 32-byte header, whatever its shape.
+//
 // Slots are numbered: [0, 2*rings2) two-sided, then rings1 one-sided, then verbatim. Each slot is one triangle of the
-// index buffer, degenerate (three equal vertices) where it is the redundant copy of a T2, a border, or closes a ring.
+// index buffer, degenerate (its first two vertices equal) where it is the redundant copy of a T2, a border, or closes a ring.
 
 #include <cstddef>
 #include <cstdint>
@@ -42,7 +44,7 @@ struct LeanStream {
 
 /// Encodes every triangle of the table that is not degenerate.
 /// Cost: O(T) time; 4 bytes a reference for the words, 4 for slot_triangle, 4 a vertex for vertex_order, 4 while it runs.
-Result<LeanStream> encode_lean(const CornerTable& table, const Rings& rings, const LeanOptions& options = {});
+LeanStream encode_lean(const CornerTable& table, const Rings& rings, const LeanOptions& options = {});
 
 /// A lean stream somewhere in memory, its header read. Holds no copy.
 struct LeanView {
@@ -60,6 +62,9 @@ struct LeanView {
     /// References stored: one per ring slot, three per verbatim triangle.
     std::size_t references() const { return std::size_t{ring_slots()} + std::size_t{3} * verbatim; }
 };
+
+/// CRC-32 of a stream without its checksum word. `words` is at least the header.
+std::uint32_t lean_checksum(std::span<const std::uint32_t> words);
 
 /// Reads the header of `words` and checks sizes only. What lies behind it is trusted by decode_lean: call validate_lean
 /// first on anything that was not just encoded. Errors: malformed. Untrusted input: safe.

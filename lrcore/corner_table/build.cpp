@@ -1,0 +1,56 @@
+// Rossignac's chapter: O from V. Here for any triangle soup.
+
+#include <fmt/format.h>
+
+#include "lrcore/corner_table/corner_table.h"
+#include "lrcore/corner_table/edges.h"
+
+namespace lr {
+
+Result<CornerTable> build_corner_table(std::span<const std::uint32_t> indices, std::uint32_t vertex_count) {
+    constexpr std::uint32_t kMostVertices = 1U << 29;
+    constexpr std::size_t kMostTriangles = UINT32_MAX / 3 - 1;
+    if (vertex_count > kMostVertices) {
+        return Error{ErrorCode::too_large, fmt::format("{} vertices; at most {} are supported", vertex_count, kMostVertices)};
+    }
+    if (indices.size() / 3 > kMostTriangles) {
+        return Error{ErrorCode::too_large,
+                     fmt::format("{} triangles; at most {} are supported", indices.size() / 3, kMostTriangles)};
+    }
+    CornerTable table;
+    table.vertex_count = vertex_count;
+    table.corners.resize(indices.size() / 3 * 3);
+    for (std::size_t i = 0; i < table.corners.size(); ++i) {
+        if (indices[i] >= vertex_count) {
+            return Error{ErrorCode::malformed,
+                         fmt::format("triangle {}: vertex {} of {}", i / 3, indices[i], vertex_count)};
+        }
+        table.corners[i] = {{indices[i]}, null_corner};
+    }
+    for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
+        if (table.degenerate({t})) ++table.topology.degenerate;
+    }
+    NonManifoldEdges nonmanifold;
+    if (join_edges(table, nonmanifold)) orient(table);
+    pair_nonmanifold(table, nonmanifold);
+    return table;
+}
+
+std::string validate(const CornerTable& table) {
+    if (table.corners.size() % 3 != 0) return "not three corners a triangle";
+    for (std::uint32_t i = 0; i < table.corners.size(); ++i) {
+        if (table.corners[i].vertex.value >= table.vertex_count) return fmt::format("V[{}] is no vertex", i);
+        const CornerId c{i}, o = table.corners[i].opposite;
+        if (o.is_null()) continue;
+        if (o.value >= table.corners.size() || table.corners[o.value].opposite != c || o == c) {
+            return fmt::format("O[{}] is not an involution", i);
+        }
+        if (table.degenerate(triangle(c))) return fmt::format("O[{}] joins a degenerate triangle", i);
+        if (edge_start(table, c) != edge_end(table, o) || edge_end(table, c) != edge_start(table, o)) {
+            return fmt::format("O[{}] joins different edges or the same direction", i);
+        }
+    }
+    return {};
+}
+
+}  // namespace lr

@@ -1,0 +1,28 @@
+#pragma once
+// What can be said of a mesh's topology. Rossignac's chapter, sections on borders, shells and handles.
+
+#include <cstdint>
+
+#include "lrcore/corner_table/corner_table.h"
+
+namespace lr {
+
+struct TopologyReport {
+    std::uint32_t triangles = 0;      ///< that are not degenerate
+    std::uint32_t used_vertices = 0;  ///< in at least one of them
+    std::uint32_t components = 0;     ///< triangles connected through joined edges
+    std::uint32_t border_loops = 0;
+    std::uint32_t nonmanifold_vertices = 0;  ///< whose triangles form several fans
+    std::uint32_t fans = 0;                  ///< vertices, once each non-manifold vertex is split into its fans
+    std::uint32_t max_valence = 0;           ///< edges at a vertex
+    double valence6_percent = 0;             ///< share of used vertices with six edges
+    std::int64_t euler_characteristic = 0;   ///< of the split, joined surface
+    bool closed = false;                     ///< no border
+    bool orientable = true;
+    std::int64_t genus = 0;  ///< summed over components; meaningful with borders too (loops capped)
+};
+
+/// Cost: O(T) time, 9 bytes a triangle.
+TopologyReport report_topology(const CornerTable& table);
+
+}  // namespace lr

@@ -1,0 +1,302 @@
+// LR 2011, section 7, with the wart skipping of section 5. Differs from the paper:
+// - a ring that has triangles on (almost) one side only stores that side alone, the few others go verbatim; a ring not
+//   worth its slots is not stored at all. So no mesh takes more than three references a triangle;
+// - a ring is rotated so that its closing edge has a free slot (a border, or a T2's redundant copy), which holds the ring's
+//   first vertex: several components cost nothing;
+// - a triangle that was turned round to orient the mesh has a flag in its word.
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+
+#include "lrcore/base/bits.h"
+#include "lrcore/base/crc32.h"
+#include "lrcore/lean/lean_format.h"
+#include "lrcore/lean/lean_stream.h"
+
+namespace lr {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "streams are little-endian words");
+
+constexpr std::uint32_t kNone = UINT32_MAX;
+
+/// The corner of c's and d's triangle that is neither.
+CornerId third(CornerId c, CornerId d) { return {triangle(c).value * 9 + 3 - c.value - d.value}; }
+
+/// Which sides of a ring are stored as slots.
+enum class Sides : std::uint8_t { both, left, right, none };
+
+class Encoder {
+  public:
+    Encoder(const CornerTable& table, const Rings& rings, const LeanOptions& options)
+        : table_(table),
+          rings_(rings),
+          options_(options),
+          rung_(table.triangle_count()),
+          covered_(table.triangle_count()) {}
+
+    LeanStream encode() {
+        for (const RingEdge& edge : rings_.edges) {
+            rung_.set(triangle(edge.left).value);
+            if (!edge.right.is_null()) rung_.set(triangle(edge.right).value);
+        }
+        std::vector<Sides> sides(rings_.count());
+        std::uint32_t rings2 = 0, rings1 = 0;
+        for (std::size_t r = 0; r < rings_.count(); ++r) {
+            sides[r] = choose_sides(rings_.ring(r));
+            const auto size = static_cast<std::uint32_t>(rings_.ring(r).size());
+            if (sides[r] == Sides::both) rings2 += size;
+            if (sides[r] == Sides::left || sides[r] == Sides::right) rings1 += size;
+        }
+        out_.statistics.ring_vertices = rings2 + rings1;
+        out_.vertex_order.reserve(table_.vertex_count);
+        out_.words.reserve(LR_LEAN_HEADER_WORDS + std::size_t{2} * rings2 + rings1);
+        out_.words.resize(LR_LEAN_HEADER_WORDS);
+        out_.slot_triangle.reserve(std::size_t{2} * rings2 + rings1);
+        for (std::size_t r = 0; r < rings_.count(); ++r) {
+            if (sides[r] == Sides::both) emit(rings_.ring(r), Sides::both);
+        }
+        for (std::size_t r = 0; r < rings_.count(); ++r) {
+            if (sides[r] == Sides::left || sides[r] == Sides::right) emit(rings_.ring(r), sides[r]);
+        }
+        const std::uint32_t verbatim = emit_verbatim();
+        renumber();
+        write_header(rings2, rings1, verbatim);
+        return std::move(out_);
+    }
+
+  private:
+    /// One ring, read in the direction in which the stored sides lie left and right, and what its slots will hold.
+    struct Walk {
+        std::span<const RingEdge> ring;
+        bool backwards = false;
+        std::uint32_t sides = 2;
+        std::array<std::vector<CornerId>, 2> tip;  // null where the slot is free
+        std::array<std::vector<bool>, 2> wart;
+
+        std::size_t size() const { return ring.size(); }
+        std::size_t after(std::size_t i) const { return i + 1 == size() ? 0 : i + 1; }
+        VertexId start(std::size_t i) const { return ring[!backwards || i == 0 ? i : size() - i].start; }
+        CornerId face(std::uint32_t side, std::size_t i) const {
+            const RingEdge& edge = ring[backwards ? size() - 1 - i : i];
+            return (side == 0) != backwards ? edge.left : edge.right;
+        }
+        VertexId face_tip(std::uint32_t side, std::size_t i) const {
+            const RingEdge& edge = ring[backwards ? size() - 1 - i : i];
+            return (side == 0) != backwards ? edge.left_tip : edge.right_tip;
+        }
+        /// Is edge i's triangle the same as that of the edge after it (the first copy of a T2)?
+        bool repeats(std::uint32_t side, std::size_t i) const {
+            const CornerId c = face(side, i), d = face(side, after(i));
+            return !c.is_null() && !d.is_null() && triangle(c) == triangle(d);
+        }
+        /// A triangle whose three edges are the whole ring.
+        bool is_t3(std::uint32_t side) const { return size() == 3 && repeats(side, 0) && repeats(side, 1); }
+    };
+
+    void load(std::span<const RingEdge> ring, Sides sides) {
+        walk_.ring = ring;
+        walk_.sides = sides == Sides::both ? 2 : 1;
+        walk_.backwards = sides == Sides::right;
+    }
+
+    /// The T0 that the first copy of a T2 at edge i could hold, as its corner across the shared edge; else null.
+    CornerId wart_at(std::uint32_t side, std::size_t i) const {
+        if (!options_.wart_skipping || !walk_.repeats(side, i) || walk_.is_t3(side)) return null_corner;
+        const CornerId y = table_.opposite(third(walk_.face(side, i), walk_.face(side, walk_.after(i))));
+        if (y.is_null() || rung_.test(triangle(y).value) || covered_.test(triangle(y).value)) return null_corner;
+        return y;
+    }
+
+    /// The cheapest way to store a ring, counted in references: 2 or 1 a ring vertex, 3 for each triangle left verbatim.
+    Sides choose_sides(std::span<const RingEdge> ring) {
+        load(ring, Sides::both);
+        const auto size = static_cast<std::int64_t>(walk_.size());
+        std::int64_t triangles[2] = {0, 0}, warts[2] = {0, 0};
+        for (std::uint32_t s = 0; s < 2; ++s) {
+            for (std::size_t i = 0; i < walk_.size(); ++i) {
+                if (!walk_.face(s, i).is_null() && !walk_.repeats(s, i)) ++triangles[s];
+            }
+            if (walk_.is_t3(s)) triangles[s] = 1;
+        }
+        if (3 * triangles[0] >= size && 3 * triangles[1] >= size) return Sides::both;
+        bool can_close_right = false;
+        for (std::uint32_t s = 0; s < 2; ++s) {
+            paired_.clear();
+            for (std::size_t i = 0; i < walk_.size(); ++i) {
+                if (s == 1 && (walk_.face(1, i).is_null() || walk_.repeats(1, i))) can_close_right = true;
+                const CornerId y = wart_at(s, i);
+                if (y.is_null()) continue;
+                covered_.set(triangle(y).value);
+                paired_.push_back(triangle(y));
+            }
+            warts[s] = static_cast<std::int64_t>(paired_.size());
+            for (const TriangleId t : paired_) covered_.clear(t.value);
+        }
+        const std::pair<std::int64_t, Sides> choices[] = {
+            {2 * size - 3 * (warts[0] + warts[1]), Sides::both},
+            {size + 3 * triangles[1] - 3 * warts[0], Sides::left},
+            {can_close_right ? size + 3 * triangles[0] - 3 * warts[1] : INT64_MAX, Sides::right},
+            {3 * (triangles[0] + triangles[1]), Sides::none}};
+        return std::min_element(std::begin(choices), std::end(choices),
+                                [](const auto& a, const auto& b) { return a.first < b.first; })
+            ->second;
+    }
+
+    void fill_slots(std::uint32_t side) {
+        auto& tip = walk_.tip[side];
+        tip.assign(walk_.size(), null_corner);
+        walk_.wart[side].assign(walk_.size(), false);
+        const bool t3 = walk_.is_t3(side);
+        for (std::size_t i = 0; i < walk_.size(); ++i) {
+            const CornerId c = walk_.face(side, i);
+            if (c.is_null()) continue;
+            if (t3 ? i != 0 : walk_.repeats(side, i)) {
+                if (!t3) ++out_.statistics.t2;
+                continue;
+            }
+            if (covered_.test(triangle(c).value)) continue;  // by another ring
+            covered_.set(triangle(c).value);
+            tip[i] = c;
+        }
+        if (t3) ++out_.statistics.t2;
+    }
+
+    void fill_warts(std::uint32_t side) {
+        for (std::size_t i = 0; i < walk_.size(); ++i) {
+            const CornerId y = wart_at(side, i);
+            if (y.is_null()) continue;
+            covered_.set(triangle(y).value);
+            walk_.tip[side][i] = y;
+            walk_.wart[side][i] = true;
+            ++out_.statistics.t0_wart;
+        }
+    }
+
+    /// The edge that closes the ring: one with a free slot, if need be freed from its wart. Sets the side of the slot.
+    std::size_t closing_edge(std::uint32_t& side) {
+        for (std::size_t i = 0; i < walk_.size(); ++i) {
+            for (side = 0; side < walk_.sides; ++side) {
+                if (walk_.tip[side][i].is_null()) return i;
+            }
+        }
+        side = 0;
+        const auto it = std::find(walk_.wart[0].begin(), walk_.wart[0].end(), true);
+        assert(it != walk_.wart[0].end());  // the left side is a tree of triangles: its leaves are T2
+        const auto i = static_cast<std::size_t>(it - walk_.wart[0].begin());
+        covered_.clear(triangle(walk_.tip[0][i]).value);
+        walk_.tip[0][i] = null_corner;
+        walk_.wart[0][i] = false;
+        --out_.statistics.t0_wart;
+        return i;
+    }
+
+    /// Appends a ring's slots. Words hold the mesh's vertex numbers until renumber().
+    void emit(std::span<const RingEdge> ring, Sides sides) {
+        load(ring, sides);
+        for (std::uint32_t s = 0; s < walk_.sides; ++s) fill_slots(s);
+        for (std::uint32_t s = 0; s < walk_.sides; ++s) fill_warts(s);
+        std::uint32_t closing_side = 0;
+        const std::size_t closing = closing_edge(closing_side);
+        std::size_t i = closing;
+        do {
+            i = walk_.after(i);
+            out_.vertex_order.push_back(walk_.start(i).value);
+            for (std::uint32_t s = 0; s < walk_.sides; ++s) {
+                const CornerId tip = walk_.tip[s][i];
+                std::uint32_t word = 0, slot_triangle = kNone;
+                if (!tip.is_null()) {
+                    slot_triangle = triangle(tip).value;
+                    const bool wart = walk_.wart[s][i];
+                    word = (wart ? table_.vertex(tip) : walk_.face_tip(s, i)).value;
+                    if (wart) word |= LR_LEAN_WART_FLAG;
+                    if (table_.flipped(triangle(tip))) word |= LR_LEAN_FLIP_FLAG;
+                } else if (i == closing && s == closing_side) {
+                    word = walk_.start(walk_.after(i)).value | LR_LEAN_CLOSE_FLAG;
+                } else {
+                    word = walk_.start(s == 0 ? i : walk_.after(i)).value;
+                }
+                out_.words.push_back(word);
+                out_.slot_triangle.push_back(slot_triangle);
+            }
+        } while (i != closing);
+    }
+
+    std::uint32_t emit_verbatim() {
+        std::uint32_t count = 0;
+        for (std::uint32_t i = 0; i < table_.triangle_count(); ++i) {
+            const TriangleId t{i};
+            if (covered_.test(i) || table_.degenerate(t)) continue;
+            const std::uint32_t swap = table_.flipped(t) ? 1 : 0;
+            out_.words.push_back(table_.vertex(corner(t, 0)).value);
+            out_.words.push_back(table_.vertex(corner(t, 1 + swap)).value);
+            out_.words.push_back(table_.vertex(corner(t, 2 - swap)).value);
+            out_.slot_triangle.push_back(i);
+            ++(rung_.test(i) ? out_.statistics.unrung : out_.statistics.t0);
+            ++count;
+        }
+        // Neighbours of the T0 that are left. covered_ is not needed any more: it marks those not yet counted.
+        for (std::size_t s = out_.slot_triangle.size() - count; s < out_.slot_triangle.size(); ++s) {
+            const TriangleId t{out_.slot_triangle[s]};
+            if (rung_.test(t.value)) continue;
+            for (std::uint32_t k = 0; k < 3; ++k) {
+                const CornerId o = table_.opposite(corner(t, k));
+                if (o.is_null() || !covered_.test(triangle(o).value)) continue;
+                covered_.clear(triangle(o).value);
+                ++out_.statistics.irregular;
+            }
+        }
+        return count;
+    }
+
+    /// Numbers the vertices off the rings after the ring vertices and puts the new numbers into the words.
+    void renumber() {
+        std::vector<std::uint32_t> number(table_.vertex_count, kNone);
+        const auto on_rings = static_cast<std::uint32_t>(out_.vertex_order.size());
+        for (std::uint32_t i = 0; i < on_rings; ++i) number[out_.vertex_order[i]] = i;
+        for (std::uint32_t v = 0; v < table_.vertex_count; ++v) {
+            if (number[v] != kNone) continue;
+            number[v] = static_cast<std::uint32_t>(out_.vertex_order.size());
+            out_.vertex_order.push_back(v);
+        }
+        BitVector used(table_.vertex_count);
+        for (std::size_t i = LR_LEAN_HEADER_WORDS; i < out_.words.size(); ++i) {
+            const std::uint32_t v = number[out_.words[i] & LR_LEAN_TIP_MASK];
+            out_.words[i] = (out_.words[i] & ~LR_LEAN_TIP_MASK) | v;
+            if (v >= on_rings && !used.test(v)) {
+                used.set(v);
+                ++out_.statistics.isolated;
+            }
+        }
+    }
+
+    void write_header(std::uint32_t rings2, std::uint32_t rings1, std::uint32_t verbatim) {
+        out_.words[LR_LEAN_WORD_MAGIC] = LR_LEAN_MAGIC;
+        out_.words[LR_LEAN_WORD_VERSION] = LR_LEAN_VERSION;
+        out_.words[LR_LEAN_WORD_VERTICES] = table_.vertex_count;
+        out_.words[LR_LEAN_WORD_RINGS2] = rings2;
+        out_.words[LR_LEAN_WORD_RINGS1] = rings1;
+        out_.words[LR_LEAN_WORD_VERBATIM] = verbatim;
+        out_.words[LR_LEAN_WORD_TRIANGLES] = table_.triangle_count() - table_.topology.degenerate;
+        out_.words[LR_LEAN_WORD_CHECKSUM] = lean_checksum(out_.words);
+    }
+
+    const CornerTable& table_;
+    const Rings& rings_;
+    const LeanOptions& options_;
+    BitVector rung_;     // triangles with a ring edge
+    BitVector covered_;  // triangles that have a slot
+    Walk walk_;
+    std::vector<TriangleId> paired_;
+    LeanStream out_;
+};
+
+}  // namespace
+
+LeanStream encode_lean(const CornerTable& table, const Rings& rings, const LeanOptions& options) {
+    return Encoder(table, rings, options).encode();
+}
+
+}  // namespace lr

@@ -1,0 +1,186 @@
+// RING-EXPANDER (LR 2011, section 4.2), depth first.
+//
+// The invaded region is a tree of triangles; walking around it clockwise meets its boundary edges in ring order, so each
+// edge that cannot be crossed is emitted at once as the next ring edge. The paper walks back through the triangles with
+// flags on them as breadcrumbs; here the edges still to be looked at are on a stack instead, which reads each triangle
+// once and lets those on the way back be fetched ahead.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "lrcore/base/bits.h"
+#include "lrcore/ring/ring.h"
+
+namespace lr {
+namespace {
+
+/// SplitMix64 (Steele, Lea, Flood 2014).
+std::uint64_t random_next(std::uint64_t& state) {
+    std::uint64_t z = (state += 0x9e3779b97f4a7c15U);
+    z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
+    z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
+    return z ^ (z >> 31U);
+}
+
+constexpr std::size_t kAhead = 6;  // edges on the stack whose triangle is fetched before its turn
+
+class Expander {
+  public:
+    explicit Expander(const CornerTable& table)
+        : table_(table), visited_(table.vertex_count), rung_(table.triangle_count()) {}
+
+    bool can_seed(TriangleId t) const {
+        return !table_.degenerate(t) && !visited(t, 0) && !visited(t, 1) && !visited(t, 2);
+    }
+
+    /// Grows a region from seed's triangle and appends its boundary to `edges`.
+    void grow(CornerId seed, std::vector<RingEdge>& edges) {
+        for (const CornerId c : {seed, next(seed), previous(seed)}) visited_.set(table_.vertex(c).value);
+        stack_.assign({facing(next(seed)), facing(previous(seed))});
+        RingEdge edge = facing(seed);
+        while (true) {
+            const CornerId c = edge.right;
+            if (!c.is_null()) {
+                edge.right_tip = table_.vertex(c);
+                if (!visited_.test(edge.right_tip.value)) {  // invade c's triangle, to the right first
+                    visited_.set(edge.right_tip.value);
+                    stack_.push_back(facing(next(c)));
+                    edge = facing(previous(c));
+                    continue;
+                }
+            }
+            edges.push_back(edge);
+            if (stack_.empty()) return;
+            edge = stack_.back();
+            stack_.pop_back();
+            if (stack_.size() >= kAhead) {
+                const CornerId later = stack_[stack_.size() - kAhead].right;
+                if (!later.is_null()) __builtin_prefetch(&table_.corners[later.value]);
+            }
+        }
+    }
+
+    /// Takes back a ring: its vertices are unvisited again.
+    void undo(std::span<const RingEdge> ring) {
+        for (const RingEdge& edge : ring) visited_.clear(edge.start.value);
+    }
+
+    /// What the ring costs, in references of a two-sided lean ring, up to a constant of its component: two per ring
+    /// vertex, less three for every triangle that need not go verbatim.
+    std::int64_t cost(std::span<const RingEdge> ring) {
+        const auto size = static_cast<std::int64_t>(ring.size());
+        std::int64_t covered = 0;
+        for (const RingEdge& edge : ring) {
+            for (const CornerId c : {edge.left, edge.right}) {
+                if (c.is_null() || rung_.test(triangle(c).value)) continue;
+                rung_.set(triangle(c).value);
+                ++covered;
+            }
+        }
+        // A T2 with its two edges at i and i+1 takes one T0 neighbour along (wart skipping).
+        paired_.clear();
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            const RingEdge &a = ring[i], &b = ring[i + 1 == ring.size() ? 0 : i + 1];
+            for (const auto& [c, d] : {std::pair{a.left, b.left}, std::pair{a.right, b.right}}) {
+                if (c.is_null() || d.is_null() || triangle(c) != triangle(d) || c == d) continue;
+                const CornerId y = table_.opposite({triangle(c).value * 9 + 3 - c.value - d.value});
+                if (y.is_null() || rung_.test(triangle(y).value)) continue;
+                rung_.set(triangle(y).value);
+                paired_.push_back(triangle(y));
+            }
+        }
+        for (const RingEdge& edge : ring) {
+            rung_.clear(triangle(edge.left).value);
+            if (!edge.right.is_null()) rung_.clear(triangle(edge.right).value);
+        }
+        for (const TriangleId t : paired_) rung_.clear(t.value);
+        return 2 * size - 3 * covered - 3 * static_cast<std::int64_t>(paired_.size());
+    }
+
+  private:
+    bool visited(TriangleId t, std::uint32_t k) const { return visited_.test(table_.vertex(corner(t, k)).value); }
+    /// The edge that corner x faces, x's triangle being invaded.
+    RingEdge facing(CornerId x) const {
+        return {table_.vertex(previous(x)), x, table_.opposite(x), table_.vertex(x), null_vertex};
+    }
+
+    const CornerTable& table_;
+    BitVector visited_;  // paper: v.m
+    BitVector rung_;     // scratch of cost(): triangles with a ring edge; all clear between calls
+    std::vector<RingEdge> stack_;
+    std::vector<TriangleId> paired_;
+};
+
+}  // namespace
+
+Rings expand_rings(const CornerTable& table, const RingOptions& options) {
+    Rings rings;
+    rings.edges.reserve(table.vertex_count);
+    Expander expander(table);
+    std::uint64_t random = options.random_seed;
+    std::vector<RingEdge> trial, region;
+    for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
+        if (!expander.can_seed({t})) continue;
+        const std::size_t begin = rings.edges.size();
+        rings.first.push_back(static_cast<std::uint32_t>(begin));
+        CornerId best = corner({t}, 0);
+        expander.grow(best, rings.edges);
+        if (options.seeds <= 1 || rings.edges.size() - begin < 4) continue;
+
+        // More seeds, drawn from the triangles at the first ring; only the best seed is remembered and grown again.
+        region.assign(rings.edges.begin() + static_cast<std::ptrdiff_t>(begin), rings.edges.end());
+        std::int64_t best_cost = expander.cost(region);
+        CornerId grown = best;
+        trial = region;
+        for (std::uint32_t s = 1; s < options.seeds; ++s) {
+            expander.undo(trial);
+            trial.clear();
+            const RingEdge& edge = region[random_next(random) % region.size()];
+            grown = edge.right;
+            if (grown.is_null() || random_next(random) % 2 == 0) grown = edge.left;
+            if (!expander.can_seed(triangle(grown))) grown = best;
+            expander.grow(grown, trial);
+            if (const std::int64_t cost = expander.cost(trial); cost < best_cost) {
+                best_cost = cost;
+                best = grown;
+            }
+        }
+        if (grown != best) {
+            expander.undo(trial);
+            trial.clear();
+            expander.grow(best, trial);
+        }
+        rings.edges.resize(begin);
+        rings.edges.insert(rings.edges.end(), trial.begin(), trial.end());
+    }
+    rings.first.push_back(static_cast<std::uint32_t>(rings.edges.size()));
+    return rings;
+}
+
+std::string validate(const CornerTable& table, const Rings& rings) {
+    if (rings.first.empty() || rings.first.front() != 0 || rings.first.back() != rings.edges.size()) {
+        return "rings do not tile the edges";
+    }
+    BitVector visited(table.vertex_count);
+    for (std::size_t r = 0; r < rings.count(); ++r) {
+        if (rings.first[r + 1] < rings.first[r] + 3) return fmt::format("ring {} has fewer than three edges", r);
+        const std::span<const RingEdge> ring = rings.ring(r);
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            const RingEdge &edge = ring[i], &after = ring[i + 1 == ring.size() ? 0 : i + 1];
+            if (edge.left.value >= table.corners.size() || table.opposite(edge.left) != edge.right ||
+                table.vertex(previous(edge.left)) != edge.start || table.vertex(edge.left) != edge.left_tip ||
+                edge.right_tip != (edge.right.is_null() ? null_vertex : table.vertex(edge.right))) {
+                return fmt::format("ring {}: edge {} is not the corner table's", r, i);
+            }
+            if (visited.test(edge.start.value)) return fmt::format("vertex {} is on a ring twice", edge.start.value);
+            visited.set(edge.start.value);
+            if (table.vertex(next(edge.left)) != after.start) {
+                return fmt::format("ring {}: edge {} does not continue", r, i);
+            }
+        }
+    }
+    return {};
+}
+
+}  // namespace lr
