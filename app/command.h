@@ -8,17 +8,15 @@
 
 #include "lrcore/base/result.h"
 #include "lrcore/mesh/mesh.h"
+#include "lrcore/ring/ring.h"
 
 namespace lr::app {
 
 /// Exit codes: a contract (docs/command-line.md).
 enum Exit : int { done = 0, check_failed = 1, wrong_usage = 2, bad_input = 3, no_device = 4 };
 
-/// What main runs once the command line is parsed. Returns an Exit.
+/// What main runs once the command line is parsed; the command that was chosen sets it. Returns an Exit.
 using Action = std::function<int()>;
-
-/// A command adds itself to `program` and, when chosen, sets `action`.
-using AddCommand = void (*)(CLI::App& program, Action& action);
 
 /// A mesh argument and its --weld option.
 struct MeshInput {
@@ -28,6 +26,15 @@ struct MeshInput {
 
 /// Adds `--weld` / `--weld=position` to a command that reads meshes.
 void add_weld(CLI::App& command, std::string& weld);
+
+/// How the rings are to be made.
+struct RingChoice {
+    std::string ring = "expander";
+    std::uint32_t seeds = 0;  ///< 0: recommended_seeds
+    std::uint64_t random_seed = 1;
+};
+void add_ring_options(CLI::App& command, RingChoice& choice);
+RingOptions ring_options(const RingChoice& choice, std::size_t triangles);
 
 /// Reads and welds. The input may also be an .lr file, which is validated and decoded.
 Result<Mesh> load(const MeshInput& input);

@@ -128,7 +128,9 @@ void pair_nonmanifold(CornerTable& table, const NonManifoldEdges& nonmanifold) {
         forward.clear();
         backward.clear();
         for (std::uint32_t i = nonmanifold.first[e]; i < nonmanifold.first[e + 1]; ++i) {
-            const CornerId c = nonmanifold.corners[i];
+            CornerId c = nonmanifold.corners[i];
+            // Listed before orient(): where that turned the triangle round, its last two corners have changed places.
+            if (table.flipped(triangle(c)) && c.value % 3 != 0) c = c.value % 3 == 1 ? next(c) : previous(c);
             (edge_start(table, c) < edge_end(table, c) ? forward : backward).push_back(c);
         }
         for (int wanted = 2; wanted >= 0; --wanted) {  // fans merged by the pair

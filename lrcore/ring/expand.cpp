@@ -114,6 +114,11 @@ class Expander {
 
 }  // namespace
 
+std::uint32_t recommended_seeds(std::size_t triangles) {
+    constexpr std::size_t kBudget = 4'000'000;  // triangles walked, all seeds together
+    return static_cast<std::uint32_t>(std::clamp<std::size_t>(kBudget / std::max<std::size_t>(triangles, 1), 1, 64));
+}
+
 Rings expand_rings(const CornerTable& table, const RingOptions& options) {
     Rings rings;
     rings.edges.reserve(table.vertex_count);

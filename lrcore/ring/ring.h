@@ -17,6 +17,9 @@ struct RingOptions {
     std::uint64_t random_seed = 1;
 };
 
+/// Seeds worth trying on a mesh of that size: more on small meshes, where chance weighs more and trying is cheap.
+std::uint32_t recommended_seeds(std::size_t triangles);
+
 /// The edge from ring vertex v to v.n, and the corners that face it from the triangles beside it.
 struct RingEdge {
     VertexId start;      ///< v

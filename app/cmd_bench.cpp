@@ -1,0 +1,120 @@
+// lacedring bench MESH...: construction, decoding and drawing, each beside a rival in the same run.
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "app/measure.h"
+#include "lrcore/baseline/strips.h"
+#include "lrcore/lean/lean_stream.h"
+
+namespace lr::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+    std::vector<std::string> paths;
+    std::string weld;
+    int rounds = 5;
+    std::uint32_t seeds = 1;
+    bool json = false;
+};
+
+struct Section {
+    std::string name;
+    std::vector<Candidate> candidates;
+};
+
+Json to_json(const Section& section, double triangles) {
+    Json out = Json::object();
+    for (const Candidate& c : section.candidates) {
+        out[c.name] = {{"seconds", c.median()},
+                       {"mtri_per_s", triangles / c.median() / 1e6},
+                       {"seconds_min", *std::min_element(c.seconds.begin(), c.seconds.end())},
+                       {"seconds_max", *std::max_element(c.seconds.begin(), c.seconds.end())}};
+    }
+    return out;
+}
+
+int run(const Options& options) {
+    Json meshes = Json::array();
+    for (const std::string& path : options.paths) {
+        const Result<Mesh> mesh = load({path, options.weld});
+        if (!mesh) return fail(path, mesh.error());
+        const auto build = [&] { return build_corner_table(mesh->indices, mesh->vertex_count); };
+        const Result<CornerTable> table = build();
+        if (!table) return fail(path, table.error());
+        const auto triangles = static_cast<double>(mesh->triangle_count());
+        const RingOptions ring_choice{options.seeds, 1};
+        const Rings rings = expand_rings(*table, ring_choice);
+        const LeanStream lean = encode_lean(*table, rings);
+        const Result<LeanView> view = view_lean(lean.words);
+        if (!view) return fail(path, view.error());
+
+        Section construct{"construct", {}};
+        construct.candidates.push_back({"corner_table", [&] { (void)build(); }, {}});
+        construct.candidates.push_back({"ring", [&] { expand_rings(*table, ring_choice); }, {}});
+        construct.candidates.push_back({"lean_encode", [&] { encode_lean(*table, rings); }, {}});
+        const auto whole = [&] {
+            const Result<CornerTable> t = build();
+            encode_lean(*t, expand_rings(*t, ring_choice));
+        };
+        construct.candidates.push_back({"lean", whole, {}});
+        construct.candidates.push_back({"strips", [&] { make_restart_strip(mesh->indices, mesh->vertex_count); }, {}});
+        run_interleaved(construct.candidates, options.rounds);
+
+        Section decode{"decode_cpu", {}};
+        std::vector<std::uint32_t> indices(std::size_t{3} * view->slots()), copy(indices.size());
+        decode.candidates.push_back({"lean", [&] { decode_lean(*view, indices); }, {}});
+        decode.candidates.push_back({"copy", [&] { std::copy(indices.begin(), indices.end(), copy.begin()); }, {}});
+        run_interleaved(decode.candidates, options.rounds * 3);
+
+        Json peak = {{"lean", peak_bytes(whole)},
+                     {"strips", peak_bytes([&] { make_restart_strip(mesh->indices, mesh->vertex_count); })}};
+        const double ratio = construct.candidates[4].median() / construct.candidates[3].median();
+        if (options.json) {
+            meshes.push_back({{"file", path},
+                              {"triangles", mesh->triangle_count()},
+                              {"construct", to_json(construct, triangles)},
+                              {"construct_ratio", {{"strips_over_lean", ratio}}},
+                              {"decode_cpu", to_json(decode, triangles)},
+                              {"decode_gpu", Json::object()},
+                              {"draw", Json::object()},
+                              {"operators", Json::object()},
+                              {"peak_bytes", peak}});
+            continue;
+        }
+        fmt::print("{}: {} triangles; medians of {} rounds\n", path, mesh->triangle_count(), options.rounds);
+        for (const Section& section : {construct, decode}) {
+            fmt::print("  {}\n", section.name);
+            for (const Candidate& c : section.candidates) {
+                fmt::print("    {:<16}{:>11.3f} ms{:>10.1f} Mtri/s\n", c.name, c.median() * 1e3, triangles / c.median() / 1e6);
+            }
+        }
+        fmt::print("  lean is built {:.2f} times as fast as strips\n  peak memory beyond the input\n", ratio);
+        for (const auto& [name, bytes] : peak.items()) {
+            fmt::print("    {:<16}{:>11.1f} MB{:>10.1f} bytes a triangle\n", name, bytes.get<double>() / 1e6,
+                       bytes.get<double>() / triangles);
+        }
+    }
+    if (options.json) fmt::print("{}\n", Json{{"schema", 1}, {"meshes", std::move(meshes)}}.dump(2));
+    return done;
+}
+
+}  // namespace
+
+void add_bench(CLI::App& program, Action& action) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = program.add_subcommand("bench", "time construction, decoding and drawing beside rivals");
+    command->add_option("MESH", options->paths, "mesh files")->required();
+    add_weld(*command, options->weld);
+    command->add_option("--rounds", options->rounds, "how often each is run")->check(CLI::Range(1, 1000))->capture_default_str();
+    command->add_option("--seeds", options->seeds, "seed corners per component")->check(CLI::Range(1, 10000))->capture_default_str();
+    command->add_flag("--json", options->json, "one JSON document on standard output");
+    command->callback([options, &action] { action = [options] { return run(*options); }; });
+}
+
+}  // namespace lr::app

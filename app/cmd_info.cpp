@@ -1,0 +1,93 @@
+// lacedring info MESH: what the file holds and what its topology is.
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "lrcore/corner_table/report.h"
+
+namespace lr::app {
+namespace {
+
+struct Options {
+    MeshInput input;
+    bool json = false;
+};
+
+const char* type_name(ComponentType type) {
+    constexpr const char* kNames[] = {"i8", "u8", "i16", "u16", "i32", "u32", "f32", "f64"};
+    return kNames[static_cast<std::size_t>(type)];
+}
+
+int run(const Options& options) {
+    const Result<Mesh> mesh = load(options.input);
+    if (!mesh) return fail(options.input.path, mesh.error());
+    const Result<CornerTable> table = build_corner_table(mesh->indices, mesh->vertex_count);
+    if (!table) return fail(options.input.path, table.error());
+    const TopologyReport r = report_topology(*table);
+    const Topology& t = table->topology;
+    if (options.json) {
+        nlohmann::ordered_json attributes = nlohmann::ordered_json::array();
+        for (const Attribute& a : mesh->attributes) {
+            attributes.push_back({{"name", a.name}, {"type", type_name(a.type)}, {"components", a.components}});
+        }
+        const nlohmann::ordered_json out = {{"schema", 1},
+                                            {"file", options.input.path},
+                                            {"triangles", mesh->triangle_count()},
+                                            {"vertices", mesh->vertex_count},
+                                            {"unused_vertices", mesh->vertex_count - r.used_vertices},
+                                            {"components", r.components},
+                                            {"border_edges", t.border_edges},
+                                            {"border_loops", r.border_loops},
+                                            {"nonmanifold_edges", t.nonmanifold_edges},
+                                            {"nonmanifold_vertices", r.nonmanifold_vertices},
+                                            {"degenerate_dropped", t.degenerate},
+                                            {"flipped", t.flipped},
+                                            {"cut_edges", t.cut_edges},
+                                            {"orientable", r.orientable},
+                                            {"closed", r.closed},
+                                            {"euler_characteristic", r.euler_characteristic},
+                                            {"genus", r.genus},
+                                            {"valence6_percent", r.valence6_percent},
+                                            {"max_valence", r.max_valence},
+                                            {"attributes", attributes}};
+        fmt::print("{}\n", out.dump(2));
+        return done;
+    }
+    fmt::print("{}\n", options.input.path);
+    const auto line = [](const char* name, const std::string& value) { fmt::print("  {:<22} {}\n", name, value); };
+    line("triangles", fmt::format("{}{}", mesh->triangle_count(),
+                                  t.degenerate > 0 ? fmt::format(", {} of them degenerate", t.degenerate) : ""));
+    const std::uint32_t unused = mesh->vertex_count - r.used_vertices;
+    line("vertices", fmt::format("{}{}", mesh->vertex_count, unused > 0 ? fmt::format(", {} unused", unused) : ""));
+    line("components", fmt::format("{}", r.components));
+    line("borders", fmt::format("{} edges in {} loops", t.border_edges, r.border_loops));
+    line("non-manifold", fmt::format("{} edges, {} vertices", t.nonmanifold_edges, r.nonmanifold_vertices));
+    line("orientation", !r.orientable    ? fmt::format("not orientable: cut at {} edges", t.cut_edges)
+                        : t.flipped == 0 ? "consistent"
+                                         : fmt::format("orientable once {} triangles are turned round", t.flipped));
+    line("Euler characteristic", fmt::format("{}", r.euler_characteristic));
+    line("genus", fmt::format("{}{}", r.genus, r.components > 1 ? ", all components together" : ""));
+    line("valence 6", fmt::format("{:.1f} % of vertices; largest valence {}", r.valence6_percent, r.max_valence));
+    std::string attributes;
+    for (const Attribute& a : mesh->attributes) {
+        attributes += fmt::format("{}{} ({} x {})", attributes.empty() ? "" : ", ", a.name, a.components, type_name(a.type));
+    }
+    line("attributes", attributes);
+    return done;
+}
+
+}  // namespace
+
+void add_info(CLI::App& program, Action& action) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = program.add_subcommand("info", "topology report");
+    command->add_option("MESH", options->input.path, "mesh file")->required();
+    add_weld(*command, options->input.weld);
+    command->add_flag("--json", options->json, "one JSON document on standard output");
+    command->callback([options, &action] { action = [options] { return run(*options); }; });
+}
+
+}  // namespace lr::app

@@ -1,0 +1,119 @@
+// lacedring stats MESH...: the size of every format, side by side.
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "app/formats.h"
+#include "lrcore/baseline/strips.h"
+
+namespace lr::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+    std::vector<std::string> paths;
+    std::string weld;
+    RingChoice ring;
+    bool paper = false;
+    bool json = false;
+};
+
+Json to_json(const std::string& path, const Mesh& mesh, const FormatSet& set) {
+    Json out = {{"file", path},
+                {"triangles", mesh.triangle_count()},
+                {"vertices", mesh.vertex_count},
+                {"components", set.report.components},
+                {"border_edges", set.topology.border_edges},
+                {"border_loops", set.report.border_loops},
+                {"nonmanifold_edges", set.topology.nonmanifold_edges},
+                {"degenerate_dropped", set.topology.degenerate},
+                {"valence6_percent", set.report.valence6_percent},
+                {"ring",
+                 {{"ring_vertices", set.lean.ring_vertices},
+                  {"isolated", set.lean.isolated},
+                  {"t0", set.lean.t0},
+                  {"t0_wart", set.lean.t0_wart},
+                  {"t2", set.lean.t2},
+                  {"irregular", set.lean.irregular},
+                  {"seeds", set.ring.seeds}}},
+                {"formats", Json::object()},
+                {"absent", Json::object()}};
+    const auto triangles = static_cast<double>(mesh.triangle_count());
+    for (const Format& format : set.formats) {
+        const CacheFigures cache = analyze_fifo32(format.indices, mesh.vertex_count);
+        Json entry = {{"bytes", format.bytes},
+                      {"bits_per_triangle", 8 * static_cast<double>(format.bytes) / triangles},
+                      {"references_per_triangle", static_cast<double>(format.references) / triangles},
+                      {"acmr_fifo32", cache.acmr},
+                      {"atvr_fifo32", cache.atvr}};
+        if (format.has_ring) {
+            entry["ring"] = "expander";
+            entry["k"] = nullptr;  // depth first
+            entry["passes"] = 0;
+        }
+        out["formats"][format.name] = std::move(entry);
+    }
+    for (const auto& [name, reason] : set.absent) out["absent"][name] = reason;
+    return out;
+}
+
+void print(const std::string& path, const Mesh& mesh, const FormatSet& set) {
+    const auto triangles = static_cast<double>(mesh.triangle_count());
+    const auto share = [&](std::uint32_t count) { return 100.0 * count / triangles; };
+    fmt::print("{}: {} triangles, {} vertices, {} component{}, {} border edges", path, mesh.triangle_count(),
+               mesh.vertex_count, set.report.components, set.report.components == 1 ? "" : "s", set.topology.border_edges);
+    if (set.topology.nonmanifold_edges > 0) fmt::print(", {} non-manifold edges", set.topology.nonmanifold_edges);
+    if (set.topology.degenerate > 0) fmt::print(", {} degenerate triangles dropped", set.topology.degenerate);
+    fmt::print("\n  ring: {} vertices on it, {} isolated; T0 {:.2f} %, in warts {:.2f} %, T2 {:.2f} %\n\n",
+               set.lean.ring_vertices, set.lean.isolated, share(set.lean.t0), share(set.lean.t0_wart), share(set.lean.t2));
+    fmt::print("  {:<18}{:>12}{:>12}{:>12}{:>10}{:>10}\n", "format", "bytes", "bits/tri", "refs/tri", "of u32", "ACMR(32)");
+    const auto base = static_cast<double>(set.formats.front().bytes);
+    for (const Format& format : set.formats) {
+        const auto bytes = static_cast<double>(format.bytes);
+        fmt::print("  {:<18}{:>12}{:>12.2f}{:>12.3f}{:>8.1f} %{:>10.3f}\n", format.name, format.bytes,
+                   8 * bytes / triangles, static_cast<double>(format.references) / triangles,
+                   base > 0 ? 100 * bytes / base : 0.0, analyze_fifo32(format.indices, mesh.vertex_count).acmr);
+    }
+    fmt::print("\n");
+}
+
+int run(const Options& options) {
+    Json meshes = Json::array();
+    for (const std::string& path : options.paths) {
+        const Result<Mesh> mesh = load({path, options.weld});
+        if (!mesh) return fail(path, mesh.error());
+        const Result<FormatSet> set = make_formats(*mesh, options.ring);
+        if (!set) return fail(path, set.error());
+        for (const Format& format : set->formats) {
+            if (format.invalid.empty()) continue;
+            fmt::print(stderr, "lacedring: {}: {}: {}\n", path, format.name, format.invalid);
+            return check_failed;
+        }
+        if (options.json) {
+            meshes.push_back(to_json(path, *mesh, *set));
+        } else {
+            print(path, *mesh, *set);
+        }
+    }
+    if (options.json) fmt::print("{}\n", Json{{"schema", 1}, {"meshes", std::move(meshes)}}.dump(2));
+    return done;
+}
+
+}  // namespace
+
+void add_stats(CLI::App& program, Action& action) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = program.add_subcommand("stats", "size of every format, side by side");
+    command->add_option("MESH", options->paths, "mesh files")->required();
+    add_weld(*command, options->weld);
+    add_ring_options(*command, options->ring);
+    command->add_flag("--paper", options->paper, "the paper's procedures alone (for lean: the ring-expander, the default)");
+    command->add_flag("--json", options->json, "one JSON document on standard output");
+    command->callback([options, &action] { action = [options] { return run(*options); }; });
+}
+
+}  // namespace lr::app

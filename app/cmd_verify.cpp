@@ -1,0 +1,93 @@
+// lacedring verify MESH|IN.lr: every format gives back the same multiset of oriented triangles.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "app/formats.h"
+
+namespace lr::app {
+namespace {
+
+struct Options {
+    MeshInput input;
+    RingChoice ring;
+    bool json = false;
+};
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// The triangles, each rotated so that its smallest vertex leads, sorted; those with a repeated vertex left out.
+std::vector<Triangle> oriented_triangles(const std::vector<std::uint32_t>& indices, const std::vector<std::uint32_t>& order) {
+    std::vector<Triangle> out;
+    out.reserve(indices.size() / 3);
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+        Triangle t{indices[i], indices[i + 1], indices[i + 2]};
+        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+        if (!order.empty()) {
+            for (std::uint32_t& v : t) v = order[v];
+        }
+        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+        out.push_back(t);
+    }
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
+/// Empty, or why `order` is not a permutation of the mesh's vertices.
+std::string check_order(const std::vector<std::uint32_t>& order, std::uint32_t vertices) {
+    std::vector<bool> seen(vertices, false);
+    for (const std::uint32_t v : order) {
+        if (v >= vertices || seen[v]) return fmt::format("vertex {} is not permuted once", v);
+        seen[v] = true;
+    }
+    return order.size() == vertices ? "" : "some vertices are lost";
+}
+
+int run(const Options& options) {
+    const Result<Mesh> mesh = load(options.input);
+    if (!mesh) return fail(options.input.path, mesh.error());
+    const Result<FormatSet> set = make_formats(*mesh, options.ring);
+    if (!set) return fail(options.input.path, set.error());
+    const std::vector<Triangle> expected = oriented_triangles(mesh->indices, {});
+    nlohmann::ordered_json formats = nlohmann::ordered_json::object();
+    bool all = true;
+    for (const Format& format : set->formats) {
+        std::string why = format.invalid;
+        if (why.empty() && !format.order.empty()) why = check_order(format.order, mesh->vertex_count);
+        if (why.empty()) {
+            const std::vector<Triangle> got = oriented_triangles(format.indices, format.order);
+            if (got.size() != expected.size()) {
+                why = fmt::format("{} triangles instead of {}", got.size(), expected.size());
+            } else if (got != expected) {
+                why = "other triangles, or another orientation";
+            }
+        }
+        all = all && why.empty();
+        formats[format.name] = {{"ok", why.empty()}, {"why", why}};
+        if (!options.json) fmt::print("{:<18} {}\n", format.name, why.empty() ? "ok" : "FAILED: " + why);
+    }
+    if (options.json) {
+        const nlohmann::ordered_json out = {{"schema", 1}, {"file", options.input.path}, {"formats", formats}};
+        fmt::print("{}\n", out.dump(2));
+    }
+    return all ? done : check_failed;
+}
+
+}  // namespace
+
+void add_verify(CLI::App& program, Action& action) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = program.add_subcommand("verify", "check that every format round-trips");
+    command->add_option("MESH|IN.lr", options->input.path, "mesh file or .lr file")->required();
+    add_weld(*command, options->input.weld);
+    add_ring_options(*command, options->ring);
+    command->add_flag("--json", options->json, "one JSON document on standard output");
+    command->callback([options, &action] { action = [options] { return run(*options); }; });
+}
+
+}  // namespace lr::app

@@ -1,0 +1,37 @@
+#pragma once
+// Every format that one mesh can be stored in, made and measured. Shared by stats and verify.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/command.h"
+#include "lrcore/corner_table/report.h"
+#include "lrcore/lean/lean_stream.h"
+
+namespace lr::app {
+
+/// One format of one mesh. `indices` are the triangles as the format gives them back, in its order.
+struct Format {
+    std::string name;
+    std::size_t bytes = 0;
+    std::size_t references = 0;
+    std::vector<std::uint32_t> indices;  ///< numbered as `order` says
+    std::vector<std::uint32_t> order;    ///< order[new] = vertex of the mesh; empty if the format keeps the mesh's numbers
+    bool has_ring = false;
+    std::string invalid;  ///< what the format's own validation found wrong; empty if nothing
+};
+
+struct FormatSet {
+    TopologyReport report;
+    Topology topology;
+    LeanStatistics lean;
+    RingOptions ring;
+    std::vector<Format> formats;
+    std::vector<std::pair<std::string, std::string>> absent;  ///< name, reason
+};
+
+/// Makes every format of the mesh and decodes it again. Errors: those of build_corner_table.
+Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice);
+
+}  // namespace lr::app

@@ -1,0 +1,44 @@
+// lacedring: parses the command line, runs one command, and turns what went wrong into one line and an exit code.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "app/command.h"
+#include "app/commands.h"
+
+namespace {
+
+int run(int argc, char** argv) {
+    CLI::App program("LacedRing: mesh connectivity in one reference per triangle, drawn straight from the GPU");
+    program.name("lacedring");
+    program.set_version_flag("--version", LACEDRING_VERSION);
+    program.require_subcommand(1);
+    program.failure_message([](const CLI::App*, const CLI::Error& error) {
+        return fmt::format("lacedring: {} (lacedring --help lists the commands)\n", error.what());
+    });
+    lr::app::Action action;
+    lr::app::add_commands(program, action);
+    try {
+        program.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        const int code = program.exit(error);
+        return code == 0 ? lr::app::done : lr::app::wrong_usage;
+    }
+    return action();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const std::bad_alloc&) {
+        std::fputs("lacedring: not enough memory\n", stderr);
+    } catch (const std::exception& error) {  // a bug: nothing of ours throws
+        fmt::print(stderr, "lacedring: internal error: {}\n", error.what());
+    }
+    return lr::app::bad_input;
+}

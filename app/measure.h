@@ -1,0 +1,31 @@
+#pragma once
+// Seconds and peak memory of a piece of work.
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace lr::app {
+
+/// Wall seconds of one call.
+double seconds(const std::function<void()>& work);
+
+/// Bytes by which the process's resident memory rose above where it was, at most, during one call. 0 where the system does
+/// not tell (it needs /proc/self/clear_refs).
+std::size_t peak_bytes(const std::function<void()>& work);
+
+/// Something to time, run in turn with others.
+struct Candidate {
+    std::string name;
+    std::function<void()> work;
+    std::vector<double> seconds;  ///< one entry a round
+    double median() const;
+};
+
+/// Runs every candidate once per round, so that a slow spell of the machine meets all of them.
+void run_interleaved(std::vector<Candidate>& candidates, int rounds);
+
+}  // namespace lr::app

@@ -1,0 +1,48 @@
+#include "lrcore/baseline/strips.h"
+
+#include <meshoptimizer.h>
+
+namespace lr {
+
+namespace {
+
+std::vector<std::uint32_t> strip_order(std::span<const std::uint32_t> indices, std::uint32_t vertex_count) {
+    std::vector<std::uint32_t> ordered(indices.size());
+    if (!indices.empty()) {
+        meshopt_optimizeVertexCacheStrip(ordered.data(), indices.data(), indices.size(), vertex_count);
+    }
+    return ordered;
+}
+
+std::vector<std::uint32_t> stripify(std::span<const std::uint32_t> ordered, std::uint32_t vertex_count,
+                                    std::uint32_t restart) {
+    std::vector<std::uint32_t> strip(meshopt_stripifyBound(ordered.size()));
+    if (ordered.empty()) return {};
+    strip.resize(meshopt_stripify(strip.data(), ordered.data(), ordered.size(), vertex_count, restart));
+    return strip;
+}
+
+}  // namespace
+
+Strips make_strips(std::span<const std::uint32_t> indices, std::uint32_t vertex_count) {
+    const std::vector<std::uint32_t> ordered = strip_order(indices, vertex_count);
+    return {stripify(ordered, vertex_count, kStripRestart), stripify(ordered, vertex_count, 0)};
+}
+
+std::vector<std::uint32_t> make_restart_strip(std::span<const std::uint32_t> indices, std::uint32_t vertex_count) {
+    return stripify(strip_order(indices, vertex_count), vertex_count, kStripRestart);
+}
+
+std::vector<std::uint32_t> unstrip(std::span<const std::uint32_t> strip, bool restart) {
+    std::vector<std::uint32_t> indices(meshopt_unstripifyBound(strip.size()));
+    indices.resize(meshopt_unstripify(indices.data(), strip.data(), strip.size(), restart ? kStripRestart : 0));
+    return indices;
+}
+
+CacheFigures analyze_fifo32(std::span<const std::uint32_t> indices, std::uint32_t vertex_count) {
+    if (indices.empty()) return {};
+    const auto figures = meshopt_analyzeVertexCache(indices.data(), indices.size(), vertex_count, 32, 0, 0);
+    return {static_cast<double>(figures.acmr), static_cast<double>(figures.atvr)};
+}
+
+}  // namespace lr

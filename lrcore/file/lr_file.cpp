@@ -1,0 +1,313 @@
+#include "lrcore/file/lr_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <numeric>
+
+#include "lrcore/base/bits.h"
+#include "lrcore/base/crc32.h"
+#include "lrcore/base/file.h"
+
+namespace lr {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, ".lr files are little-endian");
+
+constexpr std::uint32_t kMagic = 0x4c46524c;  // "LRFL"
+constexpr std::uint32_t kVersion = 1;
+
+enum Kind : std::uint32_t { kLean = 1, kAttribute = 2, kVertexOrder = 3, kTriangleOrder = 4 };
+
+struct FileHeader {
+    std::uint32_t magic, version, sections, vertices, input_triangles, reserved;
+    std::uint32_t table_crc;   // of the section table
+    std::uint32_t header_crc;  // of the seven words before
+};
+static_assert(sizeof(FileHeader) == 32);
+
+struct Section {
+    std::uint32_t kind;
+    std::uint32_t crc;  // of the contents
+    std::uint64_t offset, size;
+    std::uint32_t layout;       // attributes: type | components << 8 | normalized << 16
+    std::uint32_t name_length;  // attributes: the contents begin with the name, padded with zeros to 8 bytes
+};
+static_assert(sizeof(Section) == 32);
+
+constexpr std::size_t align8(std::size_t size) { return (size + 7) / 8 * 8; }
+
+template <class T>
+std::span<const std::byte> bytes_of(const T& value) {
+    return std::as_bytes(std::span(&value, 1));
+}
+
+Error malformed(std::string message) { return {ErrorCode::malformed, "lr file: " + std::move(message)}; }
+
+class Reader {
+  public:
+    explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+
+    Result<LrFile> read() {
+        FileHeader header;
+        if (bytes_.size() < sizeof header) return malformed("shorter than its header");
+        std::memcpy(&header, bytes_.data(), sizeof header);
+        if (header.magic != kMagic) return malformed("wrong magic number");
+        if (header.version != kVersion) return malformed(fmt::format("version {} is not {}", header.version, kVersion));
+        if (header.header_crc != crc32(bytes_.first(28)) || header.reserved != 0) return malformed("damaged header");
+        const std::uint64_t table = std::uint64_t{header.sections} * sizeof(Section);
+        if (table > bytes_.size() - sizeof header) return malformed("shorter than its section table");
+        const auto table_bytes = bytes_.subspan(sizeof header, table);
+        if (header.table_crc != crc32(table_bytes)) return malformed("damaged section table");
+        file_.vertex_count = header.vertices;
+        file_.input_triangles = header.input_triangles;
+        std::size_t end = sizeof header + table;
+        for (std::uint32_t i = 0; i < header.sections; ++i) {
+            Section section;
+            std::memcpy(&section, table_bytes.data() + std::size_t{i} * sizeof section, sizeof section);
+            if (section.offset != align8(end) || section.offset > bytes_.size() ||
+                section.size > bytes_.size() - section.offset) {
+                return malformed(fmt::format("section {} lies outside the file", i));
+            }
+            for (; end < section.offset; ++end) {
+                if (bytes_[end] != std::byte{0}) return malformed(fmt::format("padding before section {}", i));
+            }
+            end = section.offset + section.size;
+            const auto contents = bytes_.subspan(section.offset, section.size);
+            if (section.crc != crc32(contents)) return malformed(fmt::format("section {} is damaged", i));
+            if (std::string why = read_section(section, contents); !why.empty()) {
+                return malformed(fmt::format("section {}: {}", i, why));
+            }
+        }
+        if (end != bytes_.size()) return malformed("bytes behind the last section");
+        if (std::string why = check(); !why.empty()) return malformed(std::move(why));
+        return std::move(file_);
+    }
+
+  private:
+    std::string read_section(const Section& section, std::span<const std::byte> contents) {
+        switch (section.kind) {
+            case kLean: return read_words(contents, file_.lean);
+            case kVertexOrder: return read_words(contents, file_.vertex_order);
+            case kTriangleOrder: return read_words(contents, file_.triangle_order);
+            case kAttribute: return read_attribute(section, contents);
+            default: return fmt::format("unknown kind {}", section.kind);
+        }
+    }
+
+    static std::string read_words(std::span<const std::byte> contents, std::vector<std::uint32_t>& words) {
+        if (!words.empty()) return "occurs twice";
+        if (contents.size() % 4 != 0) return "no whole number of words";
+        words.resize(contents.size() / 4);
+        if (!words.empty()) std::memcpy(words.data(), contents.data(), contents.size());
+        return {};
+    }
+
+    std::string read_attribute(const Section& section, std::span<const std::byte> contents) {
+        Attribute attribute;
+        const std::uint32_t type = section.layout & 0xff;
+        attribute.components = static_cast<std::uint8_t>(section.layout >> 8 & 0xff);
+        attribute.normalized = (section.layout >> 16 & 1) != 0;
+        if (type > static_cast<std::uint32_t>(ComponentType::f64) || attribute.components == 0 || section.layout >> 17 != 0) {
+            return "unknown attribute layout";
+        }
+        attribute.type = static_cast<ComponentType>(type);
+        const std::uint64_t name = align8(section.name_length);
+        if (name > contents.size() || contents.size() - name != std::uint64_t{file_.vertex_count} * attribute.stride()) {
+            return "attribute of the wrong size";
+        }
+        for (std::size_t i = section.name_length; i < name; ++i) {
+            if (contents[i] != std::byte{0}) return "attribute name not padded with zeros";
+        }
+        attribute.name.assign(reinterpret_cast<const char*>(contents.data()), section.name_length);
+        attribute.data.assign(contents.begin() + static_cast<std::ptrdiff_t>(name), contents.end());
+        file_.attributes.push_back(std::move(attribute));
+        return {};
+    }
+
+    std::string check() const {
+        const Result<LeanView> view = validate_lean(file_.lean);
+        if (!view) return view.error().message;
+        if (view->vertices != file_.vertex_count) return "stream and file have different vertex counts";
+        if (view->triangles > file_.input_triangles) return "more triangles than the input had";
+        if (file_.attributes.empty() || file_.attributes[0].name != "POSITION" || file_.attributes[0].components != 3 ||
+            (file_.attributes[0].type != ComponentType::f32 && file_.attributes[0].type != ComponentType::f64)) {
+            return "the first attribute is not POSITION";
+        }
+        if (!finite(file_.attributes[0])) return "a position is not finite";
+        if (!file_.vertex_order.empty() && !permutation_into(file_.vertex_order, file_.vertex_count, file_.vertex_count)) {
+            return "the vertex order is no permutation";
+        }
+        if (!file_.triangle_order.empty() &&
+            !permutation_into(file_.triangle_order, view->triangles, file_.input_triangles)) {
+            return "the triangle order is no permutation";
+        }
+        return {};
+    }
+
+    static bool finite(const Attribute& attribute) {
+        const std::size_t size = size_of(attribute.type);
+        for (std::size_t i = 0; i < attribute.data.size(); i += size) {
+            double value = 0;
+            if (attribute.type == ComponentType::f64) {
+                std::memcpy(&value, attribute.data.data() + i, sizeof value);
+            } else {
+                float single = 0;
+                std::memcpy(&single, attribute.data.data() + i, sizeof single);
+                value = static_cast<double>(single);
+            }
+            if (!std::isfinite(value)) return false;
+        }
+        return true;
+    }
+
+    /// `size` distinct numbers below `range`?
+    static bool permutation_into(std::span<const std::uint32_t> order, std::uint32_t size, std::uint32_t range) {
+        if (order.size() != size || size > range) return false;
+        if (range / 64 > size) {  // mostly degenerate input, or a hostile count: no flag for each
+            std::vector<std::uint32_t> sorted(order.begin(), order.end());
+            std::sort(sorted.begin(), sorted.end());
+            return sorted.empty() || (sorted.back() < range && std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end());
+        }
+        BitVector seen(range);
+        for (const std::uint32_t i : order) {
+            if (i >= range || seen.test(i)) return false;
+            seen.set(i);
+        }
+        return true;
+    }
+
+    std::span<const std::byte> bytes_;
+    LrFile file_;
+};
+
+}  // namespace
+
+LrFile make_lr_file(const Mesh& mesh, LeanStream stream, bool keep_order) {
+    LrFile file;
+    file.vertex_count = mesh.vertex_count;
+    file.input_triangles = static_cast<std::uint32_t>(mesh.triangle_count());
+    file.attributes = permute_attributes(mesh.attributes, stream.vertex_order);
+    file.lean = std::move(stream.words);
+    if (keep_order) {
+        file.vertex_order = std::move(stream.vertex_order);
+        file.triangle_order = std::move(stream.slot_triangle);
+        std::erase(file.triangle_order, UINT32_MAX);
+    }
+    return file;
+}
+
+std::vector<std::byte> serialize_lr(const LrFile& file) {
+    std::vector<Section> sections;
+    std::vector<std::vector<std::byte>> names;  // beside sections; empty but for attributes
+    std::vector<std::span<const std::byte>> contents;
+    const auto add = [&](std::uint32_t kind, std::span<const std::byte> data) {
+        sections.push_back({kind, 0, 0, 0, 0, 0});
+        names.emplace_back();
+        contents.push_back(data);
+    };
+    add(kLean, std::as_bytes(std::span(file.lean)));
+    for (const Attribute& attribute : file.attributes) {
+        add(kAttribute, attribute.data);
+        sections.back().layout = static_cast<std::uint32_t>(attribute.type) | std::uint32_t{attribute.components} << 8 |
+                                 (attribute.normalized ? 1U << 16 : 0U);
+        sections.back().name_length = static_cast<std::uint32_t>(attribute.name.size());
+        names.back().resize(align8(attribute.name.size()));
+        std::memcpy(names.back().data(), attribute.name.data(), attribute.name.size());
+    }
+    if (!file.vertex_order.empty()) add(kVertexOrder, std::as_bytes(std::span(file.vertex_order)));
+    if (!file.triangle_order.empty()) add(kTriangleOrder, std::as_bytes(std::span(file.triangle_order)));
+
+    std::size_t end = sizeof(FileHeader) + sections.size() * sizeof(Section);
+    for (std::size_t i = 0; i < sections.size(); ++i) {
+        sections[i].offset = align8(end);
+        sections[i].size = names[i].size() + contents[i].size();
+        sections[i].crc = crc32(contents[i], crc32(names[i]));
+        end = sections[i].offset + sections[i].size;
+    }
+    FileHeader header{kMagic, kVersion, static_cast<std::uint32_t>(sections.size()), file.vertex_count,
+                      file.input_triangles, 0, crc32(std::as_bytes(std::span(sections))), 0};
+    header.header_crc = crc32(bytes_of(header).first(28));
+    std::vector<std::byte> out(end);
+    const auto put = [&](std::size_t offset, std::span<const std::byte> data) {
+        if (!data.empty()) std::memcpy(out.data() + offset, data.data(), data.size());
+    };
+    put(0, bytes_of(header));
+    put(sizeof header, std::as_bytes(std::span(sections)));
+    for (std::size_t i = 0; i < sections.size(); ++i) {
+        put(sections[i].offset, names[i]);
+        put(sections[i].offset + names[i].size(), contents[i]);
+    }
+    return out;
+}
+
+Result<LrFile> parse_lr(std::span<const std::byte> bytes) { return Reader(bytes).read(); }
+
+Result<void> write_lr(const LrFile& file, const std::filesystem::path& path) {
+    const std::vector<std::byte> bytes = serialize_lr(file);
+    const std::span<const std::byte> parts[] = {bytes};
+    return write_file(path, parts);
+}
+
+Result<LrFile> read_lr(const std::filesystem::path& path) {
+    Result<std::vector<std::byte>> bytes = read_file(path);
+    if (!bytes) return bytes.error();
+    return parse_lr(*bytes);
+}
+
+bool is_lr(const std::filesystem::path& path) {
+    std::error_code status;
+    if (!std::filesystem::is_regular_file(path, status)) return false;
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
+    std::uint32_t magic = 0;
+    return file && std::fread(&magic, sizeof magic, 1, file.get()) == 1 && magic == kMagic;
+}
+
+Mesh decode_lr(const LrFile& file) {
+    Mesh mesh;
+    mesh.vertex_count = file.vertex_count;
+    mesh.attributes = file.attributes;
+    const Result<LeanView> view = view_lean(file.lean);
+    if (!view) return mesh;
+    mesh.indices.resize(std::size_t{3} * view->slots());
+    decode_lean(*view, mesh.indices);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        if (mesh.indices[i] == mesh.indices[i + 1]) continue;  // a degenerate slot
+        for (std::size_t k = 0; k < 3; ++k) mesh.indices[kept + k] = mesh.indices[i + k];
+        kept += 3;
+    }
+    mesh.indices.resize(kept);
+    return mesh;
+}
+
+Result<Mesh> decode_lr_original_order(const LrFile& file) {
+    Mesh stream = decode_lr(file);
+    if (file.vertex_order.size() != file.vertex_count || file.triangle_order.size() != stream.triangle_count()) {
+        return Error{ErrorCode::invalid_argument, "the file does not keep the input's order (encode --keep-order does)"};
+    }
+    // Where each new vertex was, inverted: permute_attributes wants the new number of each old vertex.
+    std::vector<std::uint32_t> number(file.vertex_count);
+    for (std::uint32_t i = 0; i < file.vertex_count; ++i) number[file.vertex_order[i]] = i;
+    Mesh mesh;
+    mesh.vertex_count = file.vertex_count;
+    mesh.attributes = permute_attributes(stream.attributes, number);
+    std::vector<std::uint32_t> by_input(file.triangle_order.size());
+    std::iota(by_input.begin(), by_input.end(), 0U);
+    std::sort(by_input.begin(), by_input.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return file.triangle_order[a] < file.triangle_order[b]; });
+    mesh.indices.reserve(stream.indices.size());
+    for (const std::uint32_t i : by_input) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            mesh.indices.push_back(file.vertex_order[stream.indices[std::size_t{3} * i + k]]);
+        }
+    }
+    return mesh;
+}
+
+}  // namespace lr

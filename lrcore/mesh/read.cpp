@@ -1,0 +1,127 @@
+#include "lrcore/mesh/read.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstring>
+#include <new>
+#include <stdexcept>
+
+#include "lrcore/base/file.h"
+#include "lrcore/mesh/read_formats.h"
+#include "lrcore/mesh/text_scanner.h"
+
+namespace lr {
+namespace detail {
+
+std::string shown(std::string_view text) {
+    constexpr std::size_t longest = 40;
+    std::string out = "'";
+    for (const char c : text.substr(0, longest)) out += (c >= ' ' && c <= '~') ? c : '?';
+    if (text.size() > longest) out += "...";
+    return out + "'";
+}
+
+Attribute float_attribute(std::string name, std::uint8_t components, std::span<const float> values) {
+    Attribute out{std::move(name), ComponentType::f32, components, false, {}};
+    const std::span<const std::byte> bytes = std::as_bytes(values);
+    out.data.assign(bytes.begin(), bytes.end());
+    return out;
+}
+
+bool is_underflow(std::string_view word) {
+    // The decimal exponent of the first digit that is not zero tells: no number near 1 is ever out of range.
+    const std::size_t mark = std::min(word.find_first_of("eE"), word.size());
+    const std::string_view digits = word.substr(0, mark);
+    long exponent = 0;
+    if (mark < word.size() && !parse_number(word.substr(mark + 1), exponent)) {
+        return word[mark + 1] == '-';  // the exponent itself is out of range
+    }
+    const std::size_t point = std::min(digits.find('.'), digits.size());
+    const std::size_t first = digits.find_first_of("123456789");
+    if (first == std::string_view::npos) return true;
+    const long place = first < point ? static_cast<long>(point - first) : -static_cast<long>(first - point);
+    return exponent < -place;
+}
+
+namespace {
+
+template <class Real>
+std::size_t first_not_finite(std::span<const std::byte> data) {
+    for (std::size_t i = 0; i * sizeof(Real) < data.size(); ++i) {
+        Real value{};
+        std::memcpy(&value, data.data() + i * sizeof(Real), sizeof(Real));
+        if (!std::isfinite(value)) return i;
+    }
+    return SIZE_MAX;
+}
+
+}  // namespace
+
+Result<Mesh> checked(Mesh mesh) {
+    if (mesh.indices.empty()) return malformed("has no triangles");
+    const Attribute& position = mesh.attributes.front();
+    const std::size_t bad = position.type == ComponentType::f64 ? first_not_finite<double>(position.data)
+                                                                : first_not_finite<float>(position.data);
+    if (bad != SIZE_MAX) return malformed("vertex {}: the position is not finite", bad / 3);
+    return mesh;
+}
+
+namespace {
+
+std::string_view without_byte_order_mark(std::string_view text) {
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    return text;
+}
+
+std::string lower_extension(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return extension;
+}
+
+Result<Mesh> read_bytes(std::span<const std::byte> bytes, const std::filesystem::path& path) {
+    const std::string_view raw(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::string_view text = without_byte_order_mark(raw);
+    if (raw.empty()) return malformed("is empty");
+
+    // Signatures first: files with the wrong extension are common.
+    const std::size_t start = text.find_first_not_of(" \t\r\n");
+    if (raw.starts_with("glTF") || (start != std::string_view::npos && text[start] == '{')) {
+        return read_gltf(bytes.subspan(raw.size() - text.size()), path.parent_path());
+    }
+    if (text.starts_with("ply\n") || text.starts_with("ply\r")) return read_ply(text);
+    if (looks_like_stl(raw)) return read_stl(raw);
+    if (looks_like_off(text)) return read_off(text);
+
+    const std::string extension = lower_extension(path);
+    if (extension == ".obj") return read_obj(text);
+    if (extension == ".off") return read_off(text);
+    if (extension == ".stl") return read_stl(raw);
+    if (extension == ".ply") return malformed("line 1: does not begin with 'ply'");
+    if (extension == ".gltf" || extension == ".glb")
+        return malformed("begins neither with 'glTF' nor with JSON's '{{'");
+    return unsupported("the format is not recognised (glTF, GLB, OBJ, PLY, OFF and STL are read)");
+}
+
+}  // namespace
+}  // namespace detail
+
+Result<Mesh> read_mesh(const std::filesystem::path& path) {
+    // The standard library may run out of memory, and what the glTF library throws is not documented.
+    try {
+        const auto bytes = read_file(path);
+        if (!bytes) return bytes.error();
+        return detail::read_bytes(*bytes, path);
+    } catch (const std::bad_alloc&) {
+        return Error{ErrorCode::too_large, "does not fit into memory"};
+    } catch (const std::length_error&) {
+        return Error{ErrorCode::too_large, "does not fit into memory"};
+    } catch (const std::exception& exception) {
+        return detail::malformed("cannot be read: {}", detail::shown(exception.what()));
+    } catch (...) {
+        return detail::malformed("cannot be read");
+    }
+}
+
+}  // namespace lr

@@ -1,0 +1,74 @@
+#pragma once
+// Device memory: a few big blocks, from which buffers and images are cut.
+
+#include <vulkan/vulkan.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "lrcore/base/result.h"
+
+namespace lr::gpu {
+
+/// Where a resource's bytes are wanted.
+enum class Memory {
+    gpu,       ///< fastest for the device
+    upload,    ///< the host writes it, mapped
+    readback,  ///< the host reads it, mapped, cached if possible
+};
+
+/// Buffers and images never share a block, so that bufferImageGranularity needs no thought.
+enum class Tiling { buffer, image };
+
+struct Allocation {
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    VkDeviceSize offset = 0;
+    VkDeviceSize size = 0;
+    std::byte* mapped = nullptr;  ///< of `offset`; null for Memory::gpu unless the device's memory is the host's
+    std::uint32_t block = 0;
+};
+
+/// Not thread-safe. First fit over sorted free ranges; a block that is empty again is given back if it was made for one
+/// large resource.
+class Arena {
+  public:
+    Arena(VkPhysicalDevice physical, VkDevice device);
+    ~Arena();
+    Arena(const Arena&) = delete;
+    Arena& operator=(const Arena&) = delete;
+
+    /// Errors: too_large (past maxMemoryAllocationSize, or out of memory), device_failure.
+    Result<Allocation> allocate(const VkMemoryRequirements& requirements, Memory memory, Tiling tiling);
+    void free(const Allocation& allocation);
+
+    /// Bytes of device memory held now, and at most so far.
+    VkDeviceSize held() const { return held_; }
+    VkDeviceSize peak() const { return peak_; }
+    std::uint32_t block_count() const;
+
+  private:
+    struct Block {
+        VkDeviceMemory memory = VK_NULL_HANDLE;  // null: given back, the entry may be used again
+        VkDeviceSize size = 0;
+        std::uint32_t type = 0;
+        Tiling tiling = Tiling::buffer;
+        std::byte* mapped = nullptr;
+        std::map<VkDeviceSize, VkDeviceSize> free;  // offset -> size
+    };
+
+    std::uint32_t choose_type(std::uint32_t allowed, Memory memory) const;
+    bool carve(std::uint32_t block, const VkMemoryRequirements& requirements, Allocation& out);
+    Result<std::uint32_t> add_block(std::uint32_t type, VkDeviceSize size, Tiling tiling);
+
+    VkDevice device_;
+    VkPhysicalDeviceMemoryProperties properties_{};
+    VkDeviceSize max_allocation_ = 0;
+    std::vector<Block> blocks_;
+    VkDeviceSize held_ = 0;
+    VkDeviceSize peak_ = 0;
+};
+
+}  // namespace lr::gpu

@@ -1,0 +1,42 @@
+#pragma once
+#include <vulkan/vulkan.h>
+
+#include <string>
+
+#include "lrcore/base/result.h"
+#include "renderer/arena.h"
+
+namespace lr::gpu {
+
+class Context;
+
+/// A buffer and its memory.
+class Buffer {
+  public:
+    Buffer() = default;
+    /// Transfer source and destination are always allowed. A size of 0 becomes 16 bytes, so that every buffer can be bound.
+    /// Errors: too_large, device_failure.
+    static Result<Buffer> create(Context& context, const std::string& name, VkDeviceSize size, VkBufferUsageFlags usage,
+                                 Memory memory = Memory::gpu);
+    Buffer(Buffer&& other) noexcept;
+    Buffer& operator=(Buffer&& other) noexcept;
+    Buffer(const Buffer&) = delete;
+    Buffer& operator=(const Buffer&) = delete;
+    ~Buffer();
+
+    VkBuffer handle() const { return buffer_; }
+    VkDeviceSize size() const { return size_; }
+    /// The buffer's bytes; null for Memory::gpu on most devices.
+    std::byte* mapped() const { return allocation_.mapped; }
+    explicit operator bool() const { return buffer_ != VK_NULL_HANDLE; }
+
+  private:
+    void reset();
+
+    Context* context_ = nullptr;
+    VkBuffer buffer_ = VK_NULL_HANDLE;
+    VkDeviceSize size_ = 0;
+    Allocation allocation_;
+};
+
+}  // namespace lr::gpu

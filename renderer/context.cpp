@@ -1,0 +1,193 @@
+#include "renderer/context.h"
+
+#include <algorithm>
+#include <cstring>
+#include <vector>
+
+#include "renderer/device_choice.h"
+#include "renderer/try.h"
+
+namespace lr::gpu {
+namespace {
+
+std::vector<VkExtensionProperties> instance_extensions(const char* layer) {
+    std::uint32_t count = 0;
+    if (vkEnumerateInstanceExtensionProperties(layer, &count, nullptr) != VK_SUCCESS) return {};
+    std::vector<VkExtensionProperties> extensions(count);
+    if (vkEnumerateInstanceExtensionProperties(layer, &count, extensions.data()) != VK_SUCCESS) return {};
+    extensions.resize(count);
+    return extensions;
+}
+
+bool has(const std::vector<VkExtensionProperties>& extensions, const char* name) {
+    return std::any_of(extensions.begin(), extensions.end(),
+                       [&](const VkExtensionProperties& e) { return std::strcmp(e.extensionName, name) == 0; });
+}
+
+bool layer_installed(const char* name) {
+    std::uint32_t count = 0;
+    if (vkEnumerateInstanceLayerProperties(&count, nullptr) != VK_SUCCESS) return false;
+    std::vector<VkLayerProperties> layers(count);
+    if (vkEnumerateInstanceLayerProperties(&count, layers.data()) != VK_SUCCESS) return false;
+    return std::any_of(layers.begin(), layers.end(),
+                       [&](const VkLayerProperties& l) { return std::strcmp(l.layerName, name) == 0; });
+}
+
+std::string version(std::uint32_t v) {
+    return std::to_string(VK_API_VERSION_MAJOR(v)) + "." + std::to_string(VK_API_VERSION_MINOR(v)) + "." +
+           std::to_string(VK_API_VERSION_PATCH(v));
+}
+
+DeviceInfo describe(const DeviceChoice& choice) {
+    VkPhysicalDeviceVulkan13Properties p13{};
+    p13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_PROPERTIES;
+    VkPhysicalDeviceDriverProperties driver{};
+    driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
+    driver.pNext = &p13;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    properties.pNext = &driver;
+    vkGetPhysicalDeviceProperties2(choice.device, &properties);
+    std::uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(choice.device, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(choice.device, &count, families.data());
+
+    DeviceInfo info;
+    info.name = properties.properties.deviceName;
+    info.driver = std::string(driver.driverName) + (driver.driverInfo[0] != '\0' ? " " : "") + driver.driverInfo;
+    info.api = version(properties.properties.apiVersion);
+    info.software = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    info.wire = choice.wire;
+    info.limits = properties.properties.limits;
+    info.max_buffer_size = p13.maxBufferSize;
+    info.max_line_width = choice.wide_lines ? info.limits.lineWidthRange[1] : 1.0F;
+    info.timestamps = families[choice.queue_family].timestampValidBits != 0 && info.limits.timestampPeriod > 0.0F;
+    info.max_index = choice.full_index_range ? UINT32_MAX - 1 : info.limits.maxDrawIndexedIndexValue;
+    return info;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Context>> Context::create(const ContextOptions& options) {
+    std::unique_ptr<Context> context(new Context);
+    LR_TRY(context->create_instance(options));
+    LR_TRY(context->create_device(options));
+    return context;
+}
+
+Result<void> Context::create_instance(const ContextOptions& options) {
+    const auto extensions = instance_extensions(nullptr);
+    std::vector<const char*> layers;
+    std::vector<const char*> enabled;
+    if (options.validation) {
+        if (!layer_installed(kValidationLayer)) {
+            return Error{ErrorCode::no_device, std::string("validation was asked for, and ") + kValidationLayer +
+                                                   " is not installed (Debian: vulkan-validationlayers)"};
+        }
+        layers.push_back(kValidationLayer);
+        if (!has(instance_extensions(kValidationLayer), VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME)) {
+            return Error{ErrorCode::no_device, "the validation layer has no synchronization validation"};
+        }
+        enabled.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
+    }
+    // Without validation the extension still names objects, for a debugger's layer.
+    debug_utils_ = has(extensions, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    if (debug_utils_) enabled.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    if (options.validation && !debug_utils_) return Error{ErrorCode::no_device, "no VK_EXT_debug_utils for validation"};
+
+    VkApplicationInfo application{};
+    application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
+    application.pApplicationName = "LacedRing";
+    application.apiVersion = VK_API_VERSION_1_3;
+    VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_info(validation_);
+    constexpr VkValidationFeatureEnableEXT kSynchronization = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+    VkValidationFeaturesEXT features{};
+    features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
+    features.pNext = &messenger;  // so that messages about the instance itself are kept too
+    features.enabledValidationFeatureCount = 1;
+    features.pEnabledValidationFeatures = &kSynchronization;
+    VkInstanceCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
+    info.pNext = options.validation ? &features : nullptr;
+    info.pApplicationInfo = &application;
+    info.enabledLayerCount = static_cast<std::uint32_t>(layers.size());
+    info.ppEnabledLayerNames = layers.data();
+    info.enabledExtensionCount = static_cast<std::uint32_t>(enabled.size());
+    info.ppEnabledExtensionNames = enabled.data();
+    if (const VkResult result = vkCreateInstance(&info, nullptr, &instance_); result != VK_SUCCESS) {
+        return Error{ErrorCode::no_device, "no Vulkan: vkCreateInstance: " + result_name(result)};
+    }
+    if (options.validation) {
+        const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+            vkGetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
+        if (create == nullptr) return Error{ErrorCode::no_device, "no vkCreateDebugUtilsMessengerEXT"};
+        LR_TRY_VK(create(instance_, &messenger, nullptr, &messenger_));
+        validating_ = true;
+    }
+    return {};
+}
+
+Result<void> Context::create_device(const ContextOptions& options) {
+    LR_ASSIGN(const DeviceChoice choice, choose_device(instance_, options.device));
+    info_ = describe(choice);
+    queue_family_ = choice.queue_family;
+
+    VkPhysicalDeviceVulkan13Features f13{};
+    f13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+    f13.dynamicRendering = VK_TRUE;
+    f13.synchronization2 = VK_TRUE;
+    VkPhysicalDeviceFeatures2 features{};
+    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    features.pNext = &f13;
+    features.features.geometryShader = VK_TRUE;
+    features.features.fragmentStoresAndAtomics = VK_TRUE;
+    features.features.fillModeNonSolid = choice.wire ? VK_TRUE : VK_FALSE;
+    features.features.wideLines = choice.wide_lines ? VK_TRUE : VK_FALSE;
+    features.features.fullDrawIndexUint32 = choice.full_index_range ? VK_TRUE : VK_FALSE;
+    const float priority = 1.0F;
+    VkDeviceQueueCreateInfo queue{};
+    queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+    queue.queueFamilyIndex = queue_family_;
+    queue.queueCount = 1;
+    queue.pQueuePriorities = &priority;
+    VkDeviceCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+    info.pNext = &features;
+    info.queueCreateInfoCount = 1;
+    info.pQueueCreateInfos = &queue;
+    LR_TRY_VK(vkCreateDevice(choice.device, &info, nullptr, &device_));
+    vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
+    if (debug_utils_) {
+        set_name_ = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(
+            vkGetDeviceProcAddr(device_, "vkSetDebugUtilsObjectNameEXT"));
+    }
+    arena_ = std::make_unique<Arena>(choice.device, device_);
+    return {};
+}
+
+Context::~Context() {
+    if (device_ != VK_NULL_HANDLE) {
+        vkDeviceWaitIdle(device_);
+        arena_.reset();
+        vkDestroyDevice(device_, nullptr);
+    }
+    if (messenger_ != VK_NULL_HANDLE) {
+        const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
+            vkGetInstanceProcAddr(instance_, "vkDestroyDebugUtilsMessengerEXT"));
+        if (destroy != nullptr) destroy(instance_, messenger_, nullptr);
+    }
+    if (instance_ != VK_NULL_HANDLE) vkDestroyInstance(instance_, nullptr);
+}
+
+void Context::name_object(VkObjectType type, std::uint64_t handle, const std::string& text) const {
+    if (set_name_ == nullptr) return;
+    VkDebugUtilsObjectNameInfoEXT info{};
+    info.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT;
+    info.objectType = type;
+    info.objectHandle = handle;
+    info.pObjectName = text.c_str();
+    set_name_(device_, &info);  // a missing name harms nothing
+}
+
+}  // namespace lr::gpu

@@ -1,0 +1,76 @@
+#pragma once
+// One Vulkan device, headless: instance, device, queue, limits, memory. Everything else in renderer/ hangs on it and must
+// go before it.
+
+#include <vulkan/vulkan.h>
+
+#include <memory>
+#include <string>
+
+#include "lrcore/base/result.h"
+#include "renderer/arena.h"
+#include "renderer/validation.h"
+
+namespace lr::gpu {
+
+struct ContextOptions {
+    std::string device;       ///< part of a device's name; empty: the best one
+    bool validation = false;  ///< VK_LAYER_KHRONOS_validation with synchronization validation
+};
+
+struct DeviceInfo {
+    std::string name;    ///< "llvmpipe (LLVM 15.0.6, 256 bits)"
+    std::string driver;  ///< "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)"
+    std::string api;     ///< "1.3.230"
+    bool software = false;
+    bool wire = false;        ///< triangles can be drawn as lines
+    bool timestamps = false;  ///< the queue has timestamps
+    float max_line_width = 1.0F;
+    VkPhysicalDeviceLimits limits{};
+    std::uint64_t max_buffer_size = 0;
+    std::uint32_t max_index = 0;  ///< largest vertex number that an index buffer may hold
+};
+
+class Context {
+  public:
+    /// Errors: no_device (no driver, no device that fits, no validation layer though asked for), device_failure.
+    static Result<std::unique_ptr<Context>> create(const ContextOptions& options);
+    ~Context();
+    Context(const Context&) = delete;
+    Context& operator=(const Context&) = delete;
+
+    VkDevice device() const { return device_; }
+    VkQueue queue() const { return queue_; }
+    std::uint32_t queue_family() const { return queue_family_; }
+    const DeviceInfo& info() const { return info_; }
+    const VkPhysicalDeviceLimits& limits() const { return info_.limits; }
+    Arena& arena() { return *arena_; }
+    ValidationLog& validation() { return validation_; }
+    bool validating() const { return validating_; }
+
+    /// Gives a Vulkan object a name, which validation messages and debuggers show.
+    template <class T>
+    void name(VkObjectType type, T handle, const std::string& text) const {
+        name_object(type, reinterpret_cast<std::uint64_t>(handle), text);
+    }
+
+  private:
+    Context() = default;
+    Result<void> create_instance(const ContextOptions& options);
+    Result<void> create_device(const ContextOptions& options);
+    void name_object(VkObjectType type, std::uint64_t handle, const std::string& text) const;
+
+    ValidationLog validation_;
+    VkInstance instance_ = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+    VkDevice device_ = VK_NULL_HANDLE;
+    VkQueue queue_ = VK_NULL_HANDLE;
+    std::uint32_t queue_family_ = 0;
+    PFN_vkSetDebugUtilsObjectNameEXT set_name_ = nullptr;
+    DeviceInfo info_;
+    std::unique_ptr<Arena> arena_;
+    bool debug_utils_ = false;
+    bool validating_ = false;
+};
+
+}  // namespace lr::gpu

@@ -1,0 +1,29 @@
+#pragma once
+// Which of the machine's Vulkan devices is used, and why the others are not.
+
+#include <vulkan/vulkan.h>
+
+#include <string>
+#include <vector>
+
+#include "lrcore/base/result.h"
+
+namespace lr::gpu {
+
+/// A device that has everything needed.
+struct DeviceChoice {
+    VkPhysicalDevice device = VK_NULL_HANDLE;
+    std::uint32_t queue_family = 0;  ///< graphics and compute
+    bool wire = false;               ///< fillModeNonSolid
+    bool wide_lines = false;
+    bool full_index_range = false;   ///< indices past 2^24
+};
+
+/// What a device lacks of what the renderer needs: names of features, formats and versions. Empty: usable.
+std::vector<std::string> missing_features(VkPhysicalDevice device);
+
+/// The best usable device: a GPU before a software one. `name`, if not empty, must be part of the device's or driver's
+/// name (case does not matter). Errors: no_device, one line with every device and what is wrong with it.
+Result<DeviceChoice> choose_device(VkInstance instance, const std::string& name);
+
+}  // namespace lr::gpu

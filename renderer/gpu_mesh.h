@@ -1,0 +1,60 @@
+#pragma once
+// A mesh on the device: what its picture is drawn from.
+
+#include <cstdint>
+
+#include "renderer/buffer.h"
+#include "renderer/model.h"
+#include "renderer/transfer.h"
+
+namespace lr::gpu {
+
+enum class Source {
+    plain,  ///< the mesh's own index list and vertex order
+    lean,   ///< the lean stream; vertices in ring order; the device makes the index buffer and the draw commands
+};
+
+struct UploadOptions {
+    /// Bytes that one storage descriptor may cover: larger buffers are worked on in parts. 0: the device's
+    /// maxStorageBufferRange. At least 2048; a test makes it small.
+    std::uint64_t max_range = 0;
+    bool classes = false;  ///< triangle classes, and the ring's lines
+};
+
+/// Triangles are numbered by slot: for Source::plain that is the mesh's own order. Buffers of one value a slot are bound
+/// at the first slot of each draw command, so that none needs to fit one descriptor.
+struct GpuMesh {
+    Source source = Source::plain;
+    std::uint32_t vertex_count = 0;
+    std::uint32_t slots = 0;       ///< triangles of the index buffer, degenerate ones too
+    std::uint32_t draw_slots = 0;  ///< slots of every draw command but the last: a multiple of 256
+    std::uint32_t draws = 0;       ///< draw commands
+    std::uint64_t max_range = 0;   ///< bytes a descriptor covers
+
+    Buffer vertices;       ///< Vertex
+    Buffer indices;        ///< u32, 3 a slot, padded to whole invocations; lean: written by the device
+    Buffer stream;         ///< lean: the stream
+    Buffer commands;       ///< lean: VkDrawIndexedIndirectCommand, written by the device
+    Buffer slot_triangle;  ///< lean: the mesh's triangle of each slot
+    Buffer vertex_order;   ///< lean: the mesh's vertex of each vertex
+    Buffer classes;        ///< LR_CLASS_*, one byte a slot; only if asked for
+    Buffer lines;          ///< u32, 2 a ring edge; only if asked for
+    std::uint32_t line_indices = 0;
+
+    bool decoded = false;  ///< the index buffer holds the triangles
+    bool rotated = false;  ///< and each begins with its smallest original vertex
+};
+
+/// What the vertex shaders read.
+struct Vertex {
+    float position[3];
+    float normal[3];
+    float ring;  ///< place along the rings in [0, 1]; -1 off the rings
+};
+
+/// Errors: too_large (indices past the device's, or a buffer), invalid_argument (max_range), and Vulkan's.
+Result<GpuMesh> upload_plain(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options);
+/// The model's stream must be valid, as encode_lean makes it.
+Result<GpuMesh> upload_lean(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options);
+
+}  // namespace lr::gpu

@@ -1,0 +1,89 @@
+#include "renderer/lean_decoder.h"
+
+#include <algorithm>
+#include <array>
+
+#include "lrcore/lean/lean_format.h"
+#include "renderer/context.h"
+#include "renderer/try.h"
+#include "spirv/lean_decode_comp.h"
+
+namespace lr::gpu {
+namespace {
+
+constexpr VkDeviceSize kAlignment = 256;  // no device wants more of a descriptor's offset
+constexpr std::uint64_t kSlotStep = 64;   // 64 slots are 768 bytes of the index buffer: aligned
+
+std::uint32_t in_groups(std::uint64_t triangles) {
+    constexpr std::uint64_t kPerGroup = std::uint64_t{LR_COMPUTE_GROUP} * LR_TRIANGLES_PER_INVOCATION;
+    return static_cast<std::uint32_t>((triangles + kPerGroup - 1) / kPerGroup);
+}
+
+}  // namespace
+
+Result<LeanDecoder> LeanDecoder::create(Context& context) {
+    LeanDecoder out;
+    out.context_ = &context;
+    const std::array<Binding, 4> bindings{{{0}, {1}, {2}, {3}}};
+    LR_ASSIGN(out.layout_, Layout::create(context, "lean decode", bindings, VK_SHADER_STAGE_COMPUTE_BIT,
+                                          sizeof(DecodeConstants)));
+    LR_ASSIGN(out.pipeline_, create_compute(context, "lean decode", out.layout_, spirv_lean_decode_comp));
+    return out;
+}
+
+Result<DecodePlan> LeanDecoder::plan(Descriptors& descriptors, const GpuMesh& mesh) const {
+    constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    // The host needs the header's counts to cut the stream; it has them in the sizes that it allocated.
+    const std::uint64_t payload = (mesh.stream.size() - 64) / sizeof(std::uint32_t) - LR_LEAN_HEADER_WORDS;
+    const std::uint64_t verbatim = (payload - mesh.slots) / 2;  // a slot is one word, a verbatim one three
+    const std::uint64_t ring_slots = mesh.slots - verbatim;
+    const auto word_of = [&](std::uint64_t slot) {
+        return LR_LEAN_HEADER_WORDS + (slot <= ring_slots ? slot : ring_slots + 3 * (slot - ring_slots));
+    };
+    // A slot is at most 12 bytes of either buffer; the rest is for alignment and for the words looked ahead at.
+    const std::uint64_t by_range = (mesh.max_range - 512) / 12 / kSlotStep * kSlotStep;
+    const std::uint64_t by_groups = std::uint64_t{context_->limits().maxComputeWorkGroupCount[0]} * LR_COMPUTE_GROUP *
+                                    LR_TRIANGLES_PER_INVOCATION;
+    const std::uint64_t step = std::min(by_range, by_groups / kSlotStep * kSlotStep);
+    DecodePlan plan;
+    for (std::uint64_t first = 0; first < mesh.slots; first += step) {
+        const std::uint64_t slots = std::min(step, mesh.slots - first);
+        const VkDeviceSize begin = word_of(first) * sizeof(std::uint32_t) / kAlignment * kAlignment;
+        const VkDeviceSize end = std::min(word_of(first + slots) * sizeof(std::uint32_t) + 32, mesh.stream.size());
+        const VkDeviceSize out_bytes = std::min(12 * ((slots + 3) / 4 * 4), mesh.indices.size() - 12 * first);
+        DecodePlan::Dispatch dispatch;
+        LR_ASSIGN(dispatch.set, descriptors.allocate(layout_));
+        descriptors.write(dispatch.set, 0, kStorage, {&mesh.stream, 0, LR_LEAN_HEADER_WORDS * sizeof(std::uint32_t)});
+        descriptors.write(dispatch.set, 1, kStorage, {&mesh.stream, begin, end - begin});
+        descriptors.write(dispatch.set, 2, kStorage, {&mesh.indices, 12 * first, out_bytes});
+        descriptors.write(dispatch.set, 3, kStorage, {&mesh.commands});
+        dispatch.constants = {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(slots),
+                              static_cast<std::uint32_t>(begin / sizeof(std::uint32_t)), first == 0 ? mesh.draws : 0,
+                              mesh.draw_slots};
+        dispatch.groups = in_groups(slots);
+        plan.dispatches.push_back(dispatch);
+    }
+    return plan;
+}
+
+void LeanDecoder::record(VkCommandBuffer commands, const DecodePlan& plan) const {
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
+    for (const DecodePlan::Dispatch& dispatch : plan.dispatches) {
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.pipeline(), 0, 1, &dispatch.set, 0,
+                                nullptr);
+        vkCmdPushConstants(commands, layout_.pipeline(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(DecodeConstants),
+                           &dispatch.constants);
+        vkCmdDispatch(commands, dispatch.groups, 1, 1);
+    }
+}
+
+void decode_barrier(VkCommandBuffer commands) {
+    memory_barrier(commands, {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
+                   {VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT |
+                        VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
+                    VK_ACCESS_2_INDEX_READ_BIT | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT |
+                        VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
+                        VK_ACCESS_2_TRANSFER_READ_BIT});
+}
+
+}  // namespace lr::gpu

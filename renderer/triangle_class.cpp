@@ -1,0 +1,80 @@
+#include "renderer/triangle_class.h"
+
+#include "lrcore/lean/lean_format.h"
+#include "shaders/shared.h"
+
+namespace lr::gpu {
+namespace {
+
+/// v.n of every ring vertex, then its inverse asked for by comparing.
+std::vector<std::uint32_t> ring_next(const LeanView& lean) {
+    const std::uint32_t rings = lean.rings2 + lean.rings1;
+    std::vector<std::uint32_t> next(rings);
+    for (std::uint32_t v = 0; v < rings; ++v) {
+        next[v] = v + 1;
+        const bool two = v < lean.rings2;
+        const std::uint32_t slot = two ? 2 * v : v + lean.rings2;
+        for (std::uint32_t side = 0; side < (two ? 2U : 1U); ++side) {
+            const std::uint32_t word = lean.payload[slot + side];
+            if ((word & LR_LEAN_CLOSE_FLAG) != 0) next[v] = word & LR_LEAN_TIP_MASK;
+        }
+    }
+    return next;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> slot_classes(const LeanView& lean) {
+    const std::vector<std::uint32_t> next = ring_next(lean);
+    const auto follows = [&](std::uint32_t a, std::uint32_t b) { return a < next.size() && next[a] == b; };
+    std::vector<std::uint8_t> out(lean.slots(), LR_CLASS_NONE);
+    for (std::uint32_t slot = 0; slot < lean.slots(); ++slot) {
+        const LeanTriangle t = decode_lean_slot(lean, slot);
+        if (t.degenerate()) continue;
+        const bool in_ring = slot < lean.ring_slots();
+        if (in_ring && (lean.payload[slot] & LR_LEAN_WART_FLAG) != 0) {
+            out[slot] = LR_CLASS_T0_WART;
+            continue;
+        }
+        std::uint32_t forward = 0, backward = 0;  // ring edges along the triangle's orientation, and against it
+        for (int i = 0; i < 3; ++i) {
+            const std::uint32_t a = t.v[i], b = t.v[(i + 1) % 3];
+            if (follows(a, b)) ++forward;
+            if (follows(b, a)) ++backward;
+        }
+        if (forward + backward == 0) {
+            out[slot] = LR_CLASS_T0;
+        } else if (forward + backward >= 2) {
+            out[slot] = LR_CLASS_T2;
+        } else if (slot < 2 * lean.rings2) {
+            out[slot] = slot % 2 == 0 ? LR_CLASS_T1_LEFT : LR_CLASS_T1_RIGHT;
+        } else if (in_ring) {
+            out[slot] = LR_CLASS_T1_LEFT;
+        } else {
+            // A triangle of a side that is not stored: (v, tip, v.n) is a left one, and has the edge backwards.
+            out[slot] = backward != 0 ? LR_CLASS_T1_LEFT : LR_CLASS_T1_RIGHT;
+        }
+    }
+    // The T2 beside a wart starts at the vertex that the wart's edge skips, on the same side.
+    for (std::uint32_t slot = 0; slot < lean.ring_slots(); ++slot) {
+        if (out[slot] != LR_CLASS_T0_WART) continue;
+        const bool two = slot < 2 * lean.rings2;
+        const std::uint32_t skipped = next[two ? slot / 2 : slot - lean.rings2];
+        const std::uint32_t t2 = two ? 2 * skipped + slot % 2 : skipped + lean.rings2;
+        if (out[t2] == LR_CLASS_T2) out[t2] = LR_CLASS_T2_WART;
+    }
+    return out;
+}
+
+std::vector<std::uint32_t> ring_lines(const LeanView& lean) {
+    const std::vector<std::uint32_t> next = ring_next(lean);
+    std::vector<std::uint32_t> out;
+    out.reserve(2 * next.size());
+    for (std::uint32_t v = 0; v < next.size(); ++v) {
+        out.push_back(v);
+        out.push_back(next[v]);
+    }
+    return out;
+}
+
+}  // namespace lr::gpu

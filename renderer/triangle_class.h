@@ -1,0 +1,17 @@
+#pragma once
+// What each triangle is to the ring, for pictures. Paper: LR 2011, section 4.3 and Figure 1.
+
+#include <cstdint>
+#include <vector>
+
+#include "lrcore/lean/lean_stream.h"
+
+namespace lr::gpu {
+
+/// LR_CLASS_* (shaders/shared.h), one byte a slot. Cost: O(slots). The stream must be valid.
+std::vector<std::uint8_t> slot_classes(const LeanView& lean);
+
+/// The rings as pairs (v, v.n) of ring vertices.
+std::vector<std::uint32_t> ring_lines(const LeanView& lean);
+
+}  // namespace lr::gpu

@@ -1,0 +1,48 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Turns every triangle of an index buffer so that the vertex with the smallest original number comes first. Two buffers
+// with the same triangles in other rotations then interpolate alike, to the last bit (docs/renderer.md).
+#include "shaders/shared.h"
+
+layout(local_size_x = LR_COMPUTE_GROUP) in;
+
+layout(push_constant) uniform Push { RotateConstants push; };
+layout(std430, binding = 0) buffer Indices { uvec4 indices[]; };
+layout(std430, binding = 1) readonly buffer Order { uint original[]; } order[LR_ORDER_WINDOWS];
+
+uint original(uint v) {
+    if (push.lean == 0u) return v;
+    // Constant subscripts: a vertex is nothing uniform, and descriptor indexing is not asked for.
+    uint window = v / push.order_window;
+    uint i = v - window * push.order_window;
+    if (window == 0u) return order[0].original[i];
+    if (window == 1u) return order[1].original[i];
+    if (window == 2u) return order[2].original[i];
+    return order[3].original[i];
+}
+
+uvec3 rotated(uvec3 t) {
+    uint a = original(t.x);
+    uint b = original(t.y);
+    uint c = original(t.z);
+    if (b < a && b <= c) return t.yzx;
+    if (c < a && c < b) return t.zxy;
+    return t;
+}
+
+void main() {
+    uint local = gl_GlobalInvocationID.x * LR_TRIANGLES_PER_INVOCATION;
+    if (local >= push.triangles) return;
+    uint at = gl_GlobalInvocationID.x * 3u;
+    uvec4 p = indices[at];
+    uvec4 q = indices[at + 1u];
+    uvec4 r = indices[at + 2u];
+    // The buffer is padded to whole invocations with vertex 0, so the last one may turn triangles that nothing draws.
+    uvec3 t0 = rotated(p.xyz);
+    uvec3 t1 = rotated(uvec3(p.w, q.xy));
+    uvec3 t2 = rotated(uvec3(q.zw, r.x));
+    uvec3 t3 = rotated(r.yzw);
+    indices[at] = uvec4(t0, t1.x);
+    indices[at + 1u] = uvec4(t1.yz, t2.xy);
+    indices[at + 2u] = uvec4(t2.z, t3);
+}

@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+"""Does a decoded mesh hold exactly the triangles of the mesh that was encoded?
+
+    check_decode.py INPUT OUT.ply             what `lacedring decode` wrote
+    check_decode.py INPUT --lr FILE.lr        the .lr file itself, decoded here (both may be given)
+
+INPUT is OBJ, PLY, OFF, STL, glTF or GLB. Compared are the multisets of oriented triangles, each as the bits of its three
+positions, rotated so that the least comes first; triangles that repeat a vertex of INPUT are dropped. With
+--weld=position those that repeat a position are dropped too, as `encode --weld=position` does.
+Shares no code with lrcore. Prints one line; exits 0 if the multisets are equal, 1 if not or if a file cannot be read.
+"""
+
+import argparse
+import os
+import sys
+from collections import Counter
+
+from gltf_reader import read_gltf
+from lr_reader import read_lr
+from mesh_readers import BadFile, read_obj, read_off, read_ply, read_stl
+
+
+def read(path):
+    with open(path, "rb") as file:
+        data = file.read()
+    text = data[3:] if data.startswith(b"\xef\xbb\xbf") else data
+    extension = os.path.splitext(path)[1].lower()
+    if data.startswith(b"LRFL"):
+        return read_lr(data)
+    if data.startswith(b"glTF") or text.lstrip().startswith(b"{"):
+        return read_gltf(data, os.path.dirname(path))
+    if text.startswith((b"ply\n", b"ply\r")):
+        return read_ply(text)
+    readers = {".obj": read_obj, ".off": read_off, ".stl": read_stl}
+    if extension not in readers:
+        raise BadFile("unknown format")
+    return readers[extension](data if extension == ".stl" else text)
+
+
+def multiset(mesh, numbers, weld_position=False):
+    """Counter of triangles, each one integer made of the numbers of its positions. `numbers` is shared by the meshes."""
+    of_vertex = [numbers.setdefault(position, len(numbers)) for position in mesh.positions]
+    triangles = []
+    dropped = 0
+    corners = iter(mesh.indices)
+    for i, j, k in zip(corners, corners, corners):
+        a, b, c = of_vertex[i], of_vertex[j], of_vertex[k]
+        if i == j or j == k or k == i or (weld_position and (a == b or b == c or c == a)):
+            dropped += 1
+            continue
+        if a <= b and a <= c:
+            if a == c and b > a:  # the least twice: (a, a, b) is the least rotation
+                a, b, c = a, a, b
+        elif b <= c:
+            a, b, c = b, c, a
+        else:
+            a, b, c = c, a, b
+        triangles.append(a << 64 | b << 32 | c)
+    return Counter(triangles), len(triangles), dropped
+
+
+def compare(wanted, got):
+    if wanted == got:
+        return None
+    missing, extra = wanted - got, got - wanted
+    turned = sum(1 for t in missing if (t >> 64 << 64 | (t & 0xFFFFFFFF) << 32 | t >> 32 & 0xFFFFFFFF) in extra)
+    return (f"{sum(missing.values())} triangles missing, {sum(extra.values())} that should not be there, "
+            f"{turned} of them turned round")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("input")
+    parser.add_argument("output", nargs="?")
+    parser.add_argument("--lr")
+    parser.add_argument("--weld", choices=["position"])
+    options = parser.parse_args()
+    if options.output is None and options.lr is None:
+        parser.error("nothing to compare with")
+    path = options.input
+    try:
+        numbers = {}
+        wanted, count, dropped = multiset(read(path), numbers, options.weld == "position")
+        for path in filter(None, (options.output, options.lr)):
+            got, _, repeated = multiset(read(path), numbers)
+            why = compare(wanted, got)
+            if why is None and repeated:
+                why = f"{repeated} degenerate triangles"
+            if why is not None:
+                print(f"FAIL {options.input}: {path}: {why}")
+                return 1
+    except (BadFile, OSError, ValueError, KeyError, IndexError, TypeError) as error:
+        print(f"FAIL {path}: cannot be read: {type(error).__name__}: {' '.join(str(error).split())}")
+        return 1
+    except Exception as error:  # struct.error and the like: still one line
+        print(f"FAIL {path}: cannot be read: {type(error).__name__}: {error}")
+        return 1
+    print(f"ok {options.input}: {count} triangles, {dropped} degenerate")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

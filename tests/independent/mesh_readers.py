@@ -1,0 +1,341 @@
+"""Readers of OBJ, PLY, OFF and STL that know nothing of lrcore.
+
+Every reader returns a Mesh: one bytes object a vertex (the bits of its position: three little-endian floats, or three
+doubles where a PLY file has doubles), and a flat list of vertex numbers, three a triangle, in the file's orientation.
+Whatever makes two corners the same vertex in the file's own terms gives them the same number.
+"""
+
+import array
+import struct
+import sys
+from fractions import Fraction
+
+assert sys.byteorder == "little"
+
+
+class BadFile(Exception):
+    pass
+
+
+class Mesh:
+    def __init__(self, positions, indices):
+        self.positions = positions
+        self.indices = indices
+
+
+def split_keys(buffer, size=12):
+    return [buffer[i:i + size] for i in range(0, len(buffer), size)]
+
+
+def nearest_float(word):
+    """The 32-bit float nearest to a decimal (ties to even), by exact arithmetic."""
+    exact = Fraction(word.decode())
+    first = array.array("f", [float(word)])
+    bits = int.from_bytes(first.tobytes(), "little")
+    best = None
+    for candidate in (bits - 1, bits, bits + 1):
+        if candidate & 0x7FFFFFFF >= 0x7F800000 or candidate < 0:
+            continue
+        value = struct.unpack("<f", struct.pack("<I", candidate))[0]
+        score = (abs(Fraction(value) - exact), candidate & 1)
+        if best is None or score < best[0]:
+            best = (score, value)
+    return best[1]
+
+
+def floats_of_words(words):
+    """Decimals to an array of 32-bit floats, each rounded once. Through a double is the same but for its exact ties."""
+    doubles = array.array("d", map(float, words))
+    out = array.array("f", doubles)
+    bits = array.array("Q", doubles.tobytes())
+    for i, b in enumerate(bits):
+        exponent = b >> 52 & 0x7FF
+        if b & 0x1FFFFFFF == 0x10000000 or (exponent < 900 and b << 1 & 0xFFFFFFFFFFFFFFFF):
+            out[i] = nearest_float(words[i])
+    return out
+
+
+def fan(corners, out):
+    for i in range(2, len(corners)):
+        out += (corners[0], corners[i - 1], corners[i])
+
+
+def strip(corners, out):
+    for i in range(2, len(corners)):
+        if i % 2 == 0:
+            out += (corners[i - 2], corners[i - 1], corners[i])
+        else:
+            out += (corners[i - 2], corners[i], corners[i - 1])
+
+
+# --- OBJ ---
+
+
+def read_obj(data):
+    words = []
+    faces = []
+    counts = [0, 0, 0]  # of v, vt, vn so far
+    data = data.replace(b"\\\r\n", b" ").replace(b"\\\n", b" ")
+    for line in data.splitlines():
+        parts = line.split()
+        if not parts:
+            continue
+        keyword = parts[0]
+        if keyword == b"v":
+            words += parts[1:4]
+            counts[0] += 1
+        elif keyword == b"vt":
+            counts[1] += 1
+        elif keyword == b"vn":
+            counts[2] += 1
+        elif keyword == b"f":
+            corners = []
+            for part in parts[1:]:
+                if part.startswith(b"#"):
+                    break
+                # v alone is an int, v/vt/vn a tuple: equal if and only if all three are
+                if b"/" not in part:
+                    i = int(part)
+                    corners.append(i - 1 if i > 0 else counts[0] + i)
+                else:
+                    corner = []
+                    for which, number in enumerate(part.split(b"/")[:3]):
+                        i = int(number) if number else None
+                        corner.append(None if i is None else i - 1 if i > 0 else counts[which] + i)
+                    corners.append(tuple(corner + [None] * (3 - len(corner))))
+            fan(corners, faces)
+    keys = split_keys(floats_of_words(words).tobytes())
+    numbers = {}
+    positions = []
+    indices = []
+    for corner in faces:
+        if isinstance(corner, int):
+            corner = (corner, None, None)
+        number = numbers.get(corner)
+        if number is None:
+            number = numbers[corner] = len(positions)
+            positions.append(keys[corner[0]])
+        indices.append(number)
+    return Mesh(positions, indices)
+
+
+# --- OFF ---
+
+
+def read_off(data):
+    lines = []
+    for line in data.splitlines():
+        line = line.split(b"#")[0].split()
+        if line:
+            lines.append(line)
+    first = lines[0][0]
+    if first.endswith(b"OFF"):
+        if b"4" in first or b"n" in first or b"BINARY" in lines[0]:
+            raise BadFile("this kind of OFF is not read")
+        lines[0] = lines[0][1:]
+        if not lines[0]:
+            lines = lines[1:]
+    header = lines[0] if len(lines[0]) > 1 else lines[0] + lines[1]
+    at = 1 if len(lines[0]) > 1 else 2
+    vertices, faces = int(header[0]), int(header[1])
+    words = []
+    for line in lines[at:at + vertices]:
+        words += line[:3]
+    indices = []
+    for line in lines[at + vertices:at + vertices + faces]:
+        n = int(line[0])
+        fan(list(map(int, line[1:1 + n])), indices)
+    return Mesh(split_keys(floats_of_words(words).tobytes()), indices)
+
+
+# --- STL ---
+
+
+def read_stl(data):
+    words = data[:512].split()
+    text = bool(words) and words[0].lower() == b"solid" and not any(c < 9 for c in data[:512])
+    if len(data) >= 84 and len(data) == 84 + 50 * struct.unpack_from("<I", data, 80)[0]:
+        text = False
+    if text:
+        numbers = []
+        for line in data.splitlines():
+            parts = line.split()
+            for i, part in enumerate(parts):
+                if part.lower() == b"vertex" and parts[0].lower() not in (b"solid", b"endsolid"):
+                    numbers += parts[i + 1:i + 4]
+        corners = split_keys(floats_of_words(numbers).tobytes())
+    else:
+        count = struct.unpack_from("<I", data, 80)[0]
+        corners = []
+        for t in range(count):
+            at = 84 + 50 * t + 12
+            corners += (data[at:at + 12], data[at + 12:at + 24], data[at + 24:at + 36])
+    numbers = {}
+    indices = [numbers.setdefault(corner, len(numbers)) for corner in corners]
+    return Mesh(list(numbers), indices)
+
+
+# --- PLY ---
+
+PLY_TYPES = {"char": "b", "int8": "b", "uchar": "B", "uint8": "B", "short": "h", "int16": "h", "ushort": "H",
+             "uint16": "H", "int": "i", "int32": "i", "uint": "I", "uint32": "I", "float": "f", "float32": "f",
+             "double": "d", "float64": "d"}
+
+
+class PlyElement:
+    def __init__(self, name, count):
+        self.name = name
+        self.count = count
+        self.properties = []  # (name, type, count type or None)
+
+
+def ply_header(data):
+    end = b"\r\n" if data[3:5] == b"\r\n" else data[3:4]
+    elements = []
+    order = None
+    at = 0
+    while True:
+        stop = data.find(end, at)
+        if stop < 0:
+            raise BadFile("the PLY header does not end")
+        words = data[at:stop].decode("latin-1").split()
+        at = stop + len(end)
+        if not words:
+            continue
+        if words[0] == "format":
+            order = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}[words[1]]
+        elif words[0] == "element":
+            elements.append(PlyElement(words[1], int(words[2])))
+        elif words[0] == "property" and words[1] == "list":
+            elements[-1].properties.append((words[4], PLY_TYPES[words[3]], PLY_TYPES[words[2]]))
+        elif words[0] == "property":
+            elements[-1].properties.append((words[2], PLY_TYPES[words[1]], None))
+        elif words[0] == "end_header":
+            return elements, order, at
+
+
+class AsciiRows:
+    """The values of an element, from all the words of the file."""
+
+    def __init__(self, data, at):
+        self.words = data[at:].split()
+        self.at = 0
+
+    def scalars(self, element, wanted):
+        width = len(element.properties)
+        block = self.words[self.at:self.at + width * element.count]
+        self.at += width * element.count
+        return [block[i::width] for i in wanted]
+
+    def rows(self, element):
+        words, at = self.words, self.at
+        for _ in range(element.count):
+            row = []
+            for _, kind, count_type in element.properties:
+                if count_type is None:
+                    row.append(words[at])
+                    at += 1
+                else:
+                    n = int(words[at])
+                    row.append([int(w) if kind not in "fd" else w for w in words[at + 1:at + 1 + n]])
+                    at += 1 + n
+            yield row
+        self.at = at
+
+
+class BinaryRows:
+    def __init__(self, data, at, order):
+        self.data, self.at, self.order = data, at, order
+
+    def scalars(self, element, wanted):
+        row = struct.Struct(self.order + "".join(kind for _, kind, _ in element.properties))
+        stop = self.at + row.size * element.count
+        columns = list(zip(*row.iter_unpack(self.data[self.at:stop]))) if element.count else []
+        self.at = stop
+        return [list(columns[i]) if columns else [] for i in wanted]
+
+    def rows(self, element):
+        data, at, order = self.data, self.at, self.order
+        if len(element.properties) == 1 and element.properties[0][2] is not None:
+            # Triangles only is the common case, and one call unpacks them all.
+            _, kind, count_type = element.properties[0]
+            row = struct.Struct(order + count_type + "3" + kind)
+            stop = at + row.size * element.count
+            if stop <= len(data):
+                all_rows = list(row.iter_unpack(data[at:stop]))
+                if all(r[0] == 3 for r in all_rows):
+                    self.at = stop
+                    for r in all_rows:
+                        yield [r[1:]]
+                    return
+        for _ in range(element.count):
+            row = []
+            for _, kind, count_type in element.properties:
+                n = 1
+                if count_type is not None:
+                    n = struct.unpack_from(order + count_type, data, at)[0]
+                    at += struct.calcsize(count_type)
+                values = struct.unpack_from(f"{order}{n}{kind}", data, at)
+                at += struct.calcsize(f"{order}{n}{kind}")
+                row.append(values if count_type is not None else values[0])
+            yield row
+        self.at = at
+
+
+def ply_positions(columns, kinds, is_text):
+    if all(kind == "d" for kind in kinds):
+        flat = array.array("d", bytes(24 * len(columns[0])))
+        for i in range(3):
+            flat[i::3] = array.array("d", map(float, columns[i]))
+        return split_keys(flat.tobytes(), 24)
+    flat = array.array("f", bytes(12 * len(columns[0])))
+    for i in range(3):
+        if is_text and kinds[i] == "f":
+            flat[i::3] = floats_of_words(columns[i])
+        else:
+            flat[i::3] = array.array("f", map(float, columns[i]))
+    return split_keys(flat.tobytes())
+
+
+def read_ply(data):
+    elements, order, at = ply_header(data)
+    source = AsciiRows(data, at) if order == "" else BinaryRows(data, at, order)
+    positions = None
+    indices = []
+    for element in elements:
+        names = [name for name, _, _ in element.properties]
+        if not names:
+            continue
+        if element.name == "vertex":
+            xyz = [names.index(axis) for axis in "xyz"]
+            if all(count_type is None for _, _, count_type in element.properties):
+                columns = source.scalars(element, xyz)
+            else:
+                rows = list(source.rows(element))
+                columns = [[row[i] for row in rows] for i in xyz]
+            positions = ply_positions(columns, [element.properties[i][1] for i in xyz], order == "")
+            continue
+        lists = [i for i, (name, _, count_type) in enumerate(element.properties)
+                 if name in ("vertex_indices", "vertex_index") and count_type is not None]
+        for row in source.rows(element):
+            if not lists or element.name not in ("face", "tristrips"):
+                continue
+            corners = row[lists[0]]
+            if element.name == "face":
+                if len(corners) == 3:
+                    indices += corners
+                else:
+                    fan(corners, indices)
+                continue
+            piece = []
+            for v in list(corners) + [-1]:
+                if v == -1:
+                    strip(piece, indices)
+                    piece = []
+                else:
+                    piece.append(v)
+    if positions is None:
+        raise BadFile("the PLY file has no vertices")
+    if indices and (max(indices) >= len(positions) or min(indices) < 0):
+        raise BadFile("a PLY index is out of range")
+    return Mesh(positions, indices)

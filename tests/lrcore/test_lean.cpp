@@ -1,0 +1,165 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "lrcore/lean/lean_format.h"
+#include "lrcore/lean/lean_stream.h"
+#include "tests/support/meshes.h"
+
+using namespace lr;
+
+namespace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+Triangle leading_smallest(Triangle t) {
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    return t;
+}
+
+/// Encodes and checks everything there is to check. Returns the stream.
+LeanStream check(const Mesh& mesh, const RingOptions& ring_options, const LeanOptions& options) {
+    const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
+    REQUIRE(table);
+    LeanStream stream = encode_lean(*table, expand_rings(*table, ring_options), options);
+
+    // The stream alone, in a buffer of exactly its size, so that a sanitizer sees any read beyond it.
+    const auto exact = std::make_unique<std::uint32_t[]>(stream.words.size());
+    std::copy(stream.words.begin(), stream.words.end(), exact.get());
+    const std::span<const std::uint32_t> words(exact.get(), stream.words.size());
+    const Result<LeanView> view = validate_lean(words);
+    REQUIRE_MESSAGE(view, view.error().message);
+    CHECK(view->bytes() == 4 * stream.words.size());
+    CHECK(view->references() <= mesh.indices.size());  // never above three a triangle
+    const auto indices = std::make_unique<std::uint32_t[]>(std::size_t{3} * view->slots());
+    const std::span<std::uint32_t> decoded(indices.get(), std::size_t{3} * view->slots());
+    decode_lean(*view, decoded);
+
+    // vertex_order is a permutation.
+    REQUIRE(stream.vertex_order.size() == mesh.vertex_count);
+    std::vector<std::uint32_t> sorted = stream.vertex_order;
+    std::sort(sorted.begin(), sorted.end());
+    for (std::uint32_t v = 0; v < sorted.size(); ++v) REQUIRE(sorted[v] == v);
+
+    // Every slot is the triangle that slot_triangle says, oriented as in the input; each triangle has one slot.
+    REQUIRE(stream.slot_triangle.size() == view->slots());
+    std::vector<std::uint32_t> slots_of(mesh.triangle_count(), 0);
+    std::uint32_t degenerate_slots = 0;
+    for (std::uint32_t slot = 0; slot < view->slots(); ++slot) {
+        const LeanTriangle one = decode_lean_slot(*view, slot);
+        for (std::size_t k = 0; k < 3; ++k) {
+            REQUIRE(one.v[k] == decoded[std::size_t{3} * slot + k]);
+            REQUIRE(one.v[k] < mesh.vertex_count);
+        }
+        const std::uint32_t t = stream.slot_triangle[slot];
+        CHECK(one.degenerate() == (t == UINT32_MAX));
+        if (t == UINT32_MAX) {
+            ++degenerate_slots;
+            continue;
+        }
+        ++slots_of[t];
+        const Triangle got{stream.vertex_order[one.v[0]], stream.vertex_order[one.v[1]], stream.vertex_order[one.v[2]]};
+        const Triangle want{mesh.indices[std::size_t{3} * t], mesh.indices[std::size_t{3} * t + 1],
+                            mesh.indices[std::size_t{3} * t + 2]};
+        CHECK(leading_smallest(got) == leading_smallest(want));
+    }
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) CHECK(slots_of[t] == (table->degenerate({t}) ? 0 : 1));
+    CHECK(view->triangles == view->slots() - degenerate_slots);
+
+    // And once more without slot_triangle.
+    std::vector<std::uint32_t> renumbered(decoded.begin(), decoded.end());
+    for (std::uint32_t& v : renumbered) v = stream.vertex_order[v];
+    CHECK(test::oriented_triangles(renumbered) == test::oriented_triangles(mesh.indices));
+
+    const LeanStatistics& s = stream.statistics;
+    CHECK(s.ring_vertices == view->rings2 + view->rings1);
+    CHECK(s.t0 + s.unrung == view->verbatim);
+    if (!options.wart_skipping) CHECK(s.t0_wart == 0);
+    return stream;
+}
+
+void check_all(const Mesh& mesh) {
+    const LeanStream warts = check(mesh, {1, 1}, {});
+    const LeanStream none = check(mesh, {1, 1}, {.wart_skipping = false});
+    CHECK(warts.words.size() <= none.words.size());
+    check(mesh, {4, 3}, {});
+}
+
+}  // namespace
+
+TEST_CASE("lean streams of named meshes") {
+    for (const auto& [name, mesh] : test::named_meshes()) {
+        CAPTURE(name);
+        check_all(mesh);
+    }
+}
+
+TEST_CASE("lean streams of random soups") {
+    for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+        CAPTURE(seed);
+        check_all(test::random_soup(4 + static_cast<std::uint32_t>(seed % 29), 1 + static_cast<std::uint32_t>(seed % 83), seed));
+        check_all(test::random_gluing(10 + static_cast<std::uint32_t>(seed % 50), 150, seed));
+    }
+}
+
+TEST_CASE("one side suffices for a strip of triangles") {
+    // Eight triangles, ten vertices, all on the border: ten references, where an index list has 24.
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t i = 0; i < 8; ++i) {
+        indices.insert(indices.end(), {i, i + 1 + i % 2, i + 2 - i % 2});
+    }
+    const LeanStream stream = check(test::make_mesh(indices, 10), {}, {});
+    const Result<LeanView> view = view_lean(stream.words);
+    REQUIRE(view);
+    CHECK(view->references() == 10);
+    CHECK(view->rings1 == 10);
+}
+
+TEST_CASE("damaged streams are refused or harmless") {
+    const std::uint64_t seed = 20261122;
+    INFO("seed ", seed);
+    std::uint64_t state = seed;
+    const auto random = [&](std::uint32_t below) {
+        state = state * 6364136223846793005U + 1442695040888963407U;
+        return static_cast<std::uint32_t>((state >> 33) % below);
+    };
+    std::size_t accepted = 0, refused = 0;
+    for (std::uint64_t shape = 1; shape <= 20; ++shape) {
+        const Mesh mesh = test::random_gluing(30, 60, shape);
+        const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
+        REQUIRE(table);
+        const std::vector<std::uint32_t> good = encode_lean(*table, expand_rings(*table)).words;
+        for (std::size_t size = 0; size < good.size(); ++size) {
+            CHECK_FALSE(validate_lean(std::span(good).first(size)));
+        }
+        std::vector<std::uint32_t> longer = good;
+        longer.push_back(0);
+        CHECK_FALSE(validate_lean(longer));
+        for (int trial = 0; trial < 300; ++trial) {
+            std::vector<std::uint32_t> bad = good;
+            for (std::uint32_t k = 0; k <= random(3); ++k) {
+                std::uint32_t& word = bad[random(static_cast<std::uint32_t>(bad.size()))];
+                word = random(2) == 0 ? word ^ 1U << random(32) : random(64);
+            }
+            if (bad == good) continue;
+            CHECK_FALSE(validate_lean(bad));  // the checksum
+            bad[LR_LEAN_WORD_CHECKSUM] = lean_checksum(bad);
+            const Result<LeanView> view = validate_lean(bad);
+            if (!view) {
+                ++refused;
+                continue;
+            }
+            ++accepted;  // another mesh, then: whatever it is, decoding stays in bounds
+            const std::unique_ptr<std::uint32_t[]> exact(new std::uint32_t[bad.size()]);
+            std::copy(bad.begin(), bad.end(), exact.get());
+            const Result<LeanView> moved = validate_lean(std::span<const std::uint32_t>(exact.get(), bad.size()));
+            REQUIRE(moved);
+            std::vector<std::uint32_t> indices(std::size_t{3} * moved->slots());
+            decode_lean(*moved, indices);
+            for (const std::uint32_t v : indices) CHECK(v < moved->vertices);
+        }
+    }
+    CHECK(accepted > 100);
+    CHECK(refused > 100);
+}

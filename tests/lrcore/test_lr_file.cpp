@@ -1,0 +1,120 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+
+#include "lrcore/file/lr_file.h"
+#include "tests/support/meshes.h"
+
+using namespace lr;
+
+namespace {
+
+LrFile make(const Mesh& mesh, bool keep_order) {
+    const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
+    REQUIRE(table);
+    return make_lr_file(mesh, encode_lean(*table, expand_rings(*table)), keep_order);
+}
+
+/// A mesh with attributes of several types, all values telling.
+Mesh with_attributes() {
+    Mesh mesh = test::random_gluing(40, 80, 5);
+    Attribute colour{"COLOR_0", ComponentType::u8, 3, true, {}};  // three bytes: nothing is padded
+    Attribute weight{"weight", ComponentType::f64, 1, false, {}};
+    for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
+        for (std::uint32_t k = 0; k < 3; ++k) colour.data.push_back(static_cast<std::byte>(v * 3 + k));
+        const double w = 0.1 * v;
+        const auto* bytes = reinterpret_cast<const std::byte*>(&w);
+        weight.data.insert(weight.data.end(), bytes, bytes + sizeof w);
+    }
+    mesh.attributes.push_back(std::move(colour));
+    mesh.attributes.push_back(std::move(weight));
+    return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("lr files give back the mesh") {
+    for (const auto& [name, mesh] : test::named_meshes()) {
+        CAPTURE(name);
+        const Result<LrFile> file = parse_lr(serialize_lr(make(mesh, true)));
+        REQUIRE_MESSAGE(file, file.error().message);
+        const Result<Mesh> original = decode_lr_original_order(*file);
+        REQUIRE(original);
+        // Order, attributes and orientation are the input's; only rotations and degenerate triangles are not.
+        std::vector<std::uint32_t> want;
+        for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+            const auto t = test::oriented_triangles(std::span(mesh.indices).subspan(i, 3));
+            if (!t.empty()) want.insert(want.end(), t[0].begin(), t[0].end());
+        }
+        std::vector<std::uint32_t> got;
+        for (std::size_t i = 0; i < original->indices.size(); i += 3) {
+            const auto t = test::oriented_triangles(std::span(original->indices).subspan(i, 3));
+            REQUIRE(t.size() == 1);
+            got.insert(got.end(), t[0].begin(), t[0].end());
+        }
+        CHECK(got == want);
+        REQUIRE(original->attributes.size() == mesh.attributes.size());
+        for (std::size_t a = 0; a < mesh.attributes.size(); ++a) {
+            CHECK(original->attributes[a].data == mesh.attributes[a].data);
+        }
+    }
+}
+
+TEST_CASE("attributes of every type travel bit for bit") {
+    const Mesh mesh = with_attributes();
+    const Result<LrFile> file = parse_lr(serialize_lr(make(mesh, true)));
+    REQUIRE(file);
+    const Result<Mesh> back = decode_lr_original_order(*file);
+    REQUIRE(back);
+    REQUIRE(back->attributes.size() == 3);
+    for (std::size_t a = 0; a < 3; ++a) {
+        CHECK(back->attributes[a].name == mesh.attributes[a].name);
+        CHECK(back->attributes[a].type == mesh.attributes[a].type);
+        CHECK(back->attributes[a].components == mesh.attributes[a].components);
+        CHECK(back->attributes[a].normalized == mesh.attributes[a].normalized);
+        CHECK(back->attributes[a].data == mesh.attributes[a].data);
+    }
+    CHECK_FALSE(decode_lr_original_order(make(mesh, false)));
+}
+
+TEST_CASE("every truncation and every flipped bit of an lr file is refused") {
+    const std::vector<std::byte> good = serialize_lr(make(with_attributes(), true));
+    REQUIRE(parse_lr(good));
+    for (std::size_t size = 0; size < good.size(); ++size) {
+        const std::unique_ptr<std::byte[]> exact(new std::byte[size]);
+        std::copy_n(good.begin(), size, exact.get());
+        CHECK_FALSE(parse_lr(std::span<const std::byte>(exact.get(), size)));
+    }
+    std::vector<std::byte> bad = good;
+    bad.push_back(std::byte{0});
+    CHECK_FALSE(parse_lr(bad));
+    for (std::size_t i = 0; i < good.size(); ++i) {
+        bad = good;
+        bad[i] ^= static_cast<std::byte>(1U << (i % 8));
+        CAPTURE(i);
+        CHECK_FALSE(parse_lr(bad));
+    }
+}
+
+TEST_CASE("hostile lr files with matching checksums") {
+    LrFile file = make(with_attributes(), true);
+    SUBCASE("a position that is not finite") {
+        const float nan = std::numeric_limits<float>::quiet_NaN();
+        std::memcpy(file.attributes[0].data.data() + 8, &nan, sizeof nan);
+    }
+    SUBCASE("no position") { file.attributes.erase(file.attributes.begin()); }
+    SUBCASE("an attribute too short") { file.attributes[1].data.pop_back(); }
+    SUBCASE("a vertex twice in the order") { file.vertex_order[0] = file.vertex_order[1]; }
+    SUBCASE("a triangle twice in the order") { file.triangle_order[0] = file.triangle_order[1]; }
+    SUBCASE("a triangle that the input did not have") { file.triangle_order[0] = file.input_triangles; }
+    SUBCASE("four billion input triangles and an order that says so") {
+        file.input_triangles = UINT32_MAX;
+        file.triangle_order[0] = file.triangle_order[1];
+    }
+    SUBCASE("more triangles than the input") { file.input_triangles = 3; }
+    SUBCASE("another vertex count") { ++file.vertex_count; }
+    SUBCASE("no stream") { file.lean.clear(); }
+    CHECK_FALSE(parse_lr(serialize_lr(file)));
+}
