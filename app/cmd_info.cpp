@@ -39,6 +39,7 @@ int run(const Options& options) {
                                             {"vertices", mesh->vertex_count},
                                             {"unused_vertices", mesh->vertex_count - r.used_vertices},
                                             {"components", r.components},
+                                            {"shells", r.shells},
                                             {"border_edges", t.border_edges},
                                             {"border_loops", r.border_loops},
                                             {"nonmanifold_edges", t.nonmanifold_edges},
@@ -62,14 +63,15 @@ int run(const Options& options) {
                                   t.degenerate > 0 ? fmt::format(", {} of them degenerate", t.degenerate) : ""));
     const std::uint32_t unused = mesh->vertex_count - r.used_vertices;
     line("vertices", fmt::format("{}{}", mesh->vertex_count, unused > 0 ? fmt::format(", {} unused", unused) : ""));
-    line("components", fmt::format("{}", r.components));
+    line("components", fmt::format("{}{}", r.components,
+                                   r.shells != r.components ? fmt::format(", {} pieces of surface", r.shells) : ""));
     line("borders", fmt::format("{} edges in {} loops", t.border_edges, r.border_loops));
     line("non-manifold", fmt::format("{} edges, {} vertices", t.nonmanifold_edges, r.nonmanifold_vertices));
     line("orientation", !r.orientable    ? fmt::format("not orientable: cut at {} edges", t.cut_edges)
                         : t.flipped == 0 ? "consistent"
                                          : fmt::format("orientable once {} triangles are turned round", t.flipped));
     line("Euler characteristic", fmt::format("{}", r.euler_characteristic));
-    line("genus", fmt::format("{}{}", r.genus, r.components > 1 ? ", all components together" : ""));
+    line("genus", fmt::format("{}{}", r.genus, r.shells > 1 ? ", all pieces together" : ""));
     line("valence 6", fmt::format("{:.1f} % of vertices; largest valence {}", r.valence6_percent, r.max_valence));
     std::string attributes;
     for (const Attribute& a : mesh->attributes) {

@@ -1,6 +1,7 @@
 #include "lrcore/corner_table/report.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace lr {
 namespace {
@@ -12,14 +13,40 @@ CornerId next_border(const CornerTable& table, CornerId c) {
     return x;
 }
 
+/// Sets of vertices that triangles connect.
 std::uint32_t count_components(const CornerTable& table) {
+    std::vector<std::uint32_t> parent(table.vertex_count);
+    std::iota(parent.begin(), parent.end(), 0U);
+    const auto find = [&](VertexId v) {
+        std::uint32_t i = v.value;
+        while (parent[i] != i) i = parent[i] = parent[parent[i]];
+        return i;
+    };
+    std::vector<bool> used(table.vertex_count, false);
+    std::uint32_t components = 0;
+    for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
+        if (table.degenerate({t})) continue;
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const VertexId v = table.vertex(corner({t}, k));
+            if (!used[v.value]) ++components;
+            used[v.value] = true;
+            const std::uint32_t a = find(v), b = find(table.vertex(corner({t}, 0)));
+            if (a == b) continue;
+            parent[a] = b;
+            --components;
+        }
+    }
+    return components;
+}
+
+std::uint32_t count_shells(const CornerTable& table) {
     const std::uint32_t triangles = table.triangle_count();
     std::vector<bool> reached(triangles, false);
     std::vector<TriangleId> stack;
-    std::uint32_t components = 0;
+    std::uint32_t shells = 0;
     for (std::uint32_t seed = 0; seed < triangles; ++seed) {
         if (reached[seed] || table.degenerate({seed})) continue;
-        ++components;
+        ++shells;
         reached[seed] = true;
         stack.assign(1, TriangleId{seed});
         while (!stack.empty()) {
@@ -33,7 +60,7 @@ std::uint32_t count_components(const CornerTable& table) {
             }
         }
     }
-    return components;
+    return shells;
 }
 
 }  // namespace
@@ -43,6 +70,7 @@ TopologyReport report_topology(const CornerTable& table) {
     const auto corners = static_cast<std::uint32_t>(table.corners.size());
     report.triangles = table.triangle_count() - table.topology.degenerate;
     report.components = count_components(table);
+    report.shells = count_shells(table);
     report.orientable = table.topology.cut_edges == 0;
 
     // Fans: a corner begins one if nothing precedes it around its vertex; what is left then are closed cycles.
@@ -84,7 +112,7 @@ TopologyReport report_topology(const CornerTable& table) {
     report.closed = border_half_edges == 0;
     const std::int64_t edges = (std::int64_t{report.triangles} * 3 + static_cast<std::int64_t>(border_half_edges)) / 2;
     report.euler_characteristic = std::int64_t{report.fans} - edges + std::int64_t{report.triangles};
-    report.genus = (2 * std::int64_t{report.components} - std::int64_t{report.border_loops} - report.euler_characteristic) / 2;
+    report.genus = (2 * std::int64_t{report.shells} - std::int64_t{report.border_loops} - report.euler_characteristic) / 2;
     return report;
 }
 

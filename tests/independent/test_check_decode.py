@@ -2,10 +2,7 @@
 """The checker checked: every format of the same mesh reads alike, and every kind of damage is seen."""
 
 import array
-import base64
-import json
 import os
-import struct
 import subprocess
 import sys
 import tempfile
@@ -13,86 +10,13 @@ import unittest
 import zlib
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-import check_decode
 import lr_reader
 from mesh_readers import BadFile, floats_of_words
+from mesh_writers import decoded, flat, gltf, ply, stl, stl_text
 
 POINTS = [(0, 0, 0), (1.5, 0, 0), (1, 1, 0.25), (0, 1, 0), (0.1, 0.2, -3e-7), (5, 5, 5)]
 FACES = [(0, 1, 2, 3), (0, 4, 1), (1, 4, 2), (2, 2, 3)]  # a quad, two triangles, a degenerate one
 TRIANGLES = [(0, 1, 2), (0, 2, 3), (0, 4, 1), (1, 4, 2)]
-
-
-def ply(points, faces, order="<", strips=None, real="float"):
-    kind = {"float": "f", "double": "d"}[real]
-    name = {"": "ascii", "<": "binary_little_endian", ">": "binary_big_endian"}[order]
-    head = f"ply\nformat {name} 1.0\ncomment x\nelement vertex {len(points)}\nproperty uchar red\n"
-    head += "".join(f"property {real} {c}\n" for c in "xyz")
-    if strips is None:
-        head += f"element face {len(faces)}\nproperty list uchar int vertex_indices\nproperty uchar flag\n"
-    else:
-        head += "element tristrips 1\nproperty list int int vertex_indices\n"
-    head = (head + "end_header\n").encode()
-    if order == "":
-        body = "".join("7 " + " ".join(map(repr, map(float, p))) + "\n" for p in points)
-        if strips is None:
-            body += "".join(f"{len(f)} {' '.join(map(str, f))} 1\n" for f in faces)
-        else:
-            body += f"{len(strips)} {' '.join(map(str, strips))}\n"
-        return head + body.encode()
-    body = b"".join(struct.pack(f"{order}B3{kind}", 7, *p) for p in points)
-    if strips is None:
-        body += b"".join(struct.pack(f"{order}B{len(f)}iB", len(f), *f, 1) for f in faces)
-    else:
-        body += struct.pack(f"{order}i{len(strips)}i", len(strips), *strips)
-    return head + body
-
-
-def decoded(points, triangles):
-    """As `lacedring decode` writes it."""
-    head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\nproperty float x\nproperty float y\n"
-            f"property float z\nelement face {len(triangles)}\nproperty list uchar uint vertex_indices\nend_header\n")
-    return (head.encode() + b"".join(struct.pack("<3f", *p) for p in points) +
-            b"".join(struct.pack("<B3I", 3, *t) for t in triangles))
-
-
-def gltf(points, primitives, nodes=None, binary=False, uri=None, sparse=None):
-    """primitives: (mode, indices)."""
-    blob = b"".join(struct.pack("<3f", *p) for p in points)
-    views = [{"buffer": 0, "byteLength": len(blob)}]
-    accessors = [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": len(points)}]
-    made = []
-    for mode, indices in primitives:
-        views.append({"buffer": 0, "byteOffset": len(blob), "byteLength": 2 * len(indices)})
-        accessors.append({"bufferView": len(views) - 1, "componentType": 5123, "type": "SCALAR", "count": len(indices)})
-        blob += struct.pack(f"<{len(indices)}H", *indices) + bytes(2 * (len(indices) % 2))
-        made.append({"attributes": {"POSITION": 0}, "indices": len(accessors) - 1, "mode": mode})
-    if sparse is not None:
-        views.append({"buffer": 0, "byteOffset": len(blob), "byteLength": 4})
-        blob += struct.pack("<I", sparse[0])
-        views.append({"buffer": 0, "byteOffset": len(blob), "byteLength": 12})
-        blob += struct.pack("<3f", *sparse[1])
-        accessors[0]["sparse"] = {"count": 1, "indices": {"bufferView": len(views) - 2, "componentType": 5125},
-                                  "values": {"bufferView": len(views) - 1}}
-    out = {"asset": {"version": "2.0"}, "meshes": [{"primitives": made}], "bufferViews": views, "accessors": accessors,
-           "buffers": [{"byteLength": len(blob)}]}
-    if nodes is not None:
-        out["nodes"] = nodes
-        out["scenes"] = [{"nodes": [0]}]
-    if binary:
-        text = json.dumps(out).encode()
-        text += b" " * (-len(text) % 4)
-        blob += bytes(-len(blob) % 4)
-        return (struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(blob)) + struct.pack("<I4s", len(text), b"JSON") +
-                text + struct.pack("<I4s", len(blob), b"BIN\0") + blob)
-    if uri is None:
-        out["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64.b64encode(blob).decode()
-        return json.dumps(out).encode()
-    out["buffers"][0]["uri"] = uri
-    return json.dumps(out).encode(), blob
-
-
-def flat(triangles):
-    return [v for t in triangles for v in t]
 
 
 class CheckDecode(unittest.TestCase):
@@ -122,17 +46,11 @@ class CheckDecode(unittest.TestCase):
         f = "f 1/1 2/1 3/1 4/1\nf -6/1 5//1 -5/1/1 # comment\nf 2 5 3\nf 3 3 4\n"
         off = "".join(f"{x!r} {y!r} {z!r} 255 0 0\n" for x, y, z in POINTS)
         off_faces = "".join(f"{len(t)}  {' '.join(map(str, t))} 9 9 9\n" for t in FACES)
-        corners = [(POINTS[a], POINTS[b], POINTS[c]) for a, b, c in TRIANGLES]
-        stl = b"solid binary".ljust(80) + struct.pack("<I", len(corners))
-        stl += b"".join(struct.pack("<12fH", 0, 0, 0, *flat(t), 0) for t in corners)
-        text = "solid a vertex b\n" + "".join(
-            "facet normal 0 0 1\n outer loop\n" + "".join(f"  vertex {x!r} {y!r} {z!r}\n" for x, y, z in t) +
-            " endloop\nendfacet\n" for t in corners) + "endsolid a\n"
         glb = gltf(POINTS, [(4, flat(TRIANGLES[2:])), (6, [0, 1, 2, 3])], binary=True)
         shifted, blob = gltf([(9, 9, 9)] + POINTS[1:], [(4, flat(TRIANGLES))], uri="a%20b.bin", sparse=(0, POINTS[0]))
         self.write("a b.bin", blob)
-        files = {"a.obj": (v + f).encode(), "a.off": f"COFF # x\n\n6 4 0\n{off}\n{off_faces}".encode(), "b.stl": stl,
-                 "c.stl": text.encode(), "a.ply": ply(POINTS, FACES), "b.ply": ply(POINTS, FACES, ">"),
+        files = {"a.obj": (v + f).encode(), "a.off": f"COFF # x\n\n6 4 0\n{off}\n{off_faces}".encode(), "b.stl": stl(POINTS, TRIANGLES),
+                 "c.stl": stl_text(POINTS, TRIANGLES).replace(b"solid a", b"solid a vertex b", 1), "a.ply": ply(POINTS, FACES), "b.ply": ply(POINTS, FACES, ">"),
                  "c.ply": ply(POINTS, FACES, ""), "a.glb": glb, "b.gltf": shifted,
                  "d.ply": ply(POINTS, [], "<", strips=[1, 2, 0, 3, -1, 0, 4, 1, -1, 1, 4, 2]),
                  "e.ply": ply(POINTS, [], "", strips=[1, 2, 0, 3, -1, 0, 4, 1, -1, 1, 4, 2]),

@@ -1,0 +1,174 @@
+// lacedring render MESH -o OUT.png
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "app/gpu_options.h"
+#include "renderer/renderer.h"
+
+namespace lr::app {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+struct Options {
+    MeshInput input;
+    std::string output;
+    std::string source = "lean";
+    std::string path = "compute";
+    std::string view = "smooth";
+    PictureSize size;
+    std::uint32_t samples = 3;
+    gpu::CameraOptions camera;
+    gpu::ContextOptions context;
+    bool json = false;
+};
+
+bool parse_number(std::string_view text, double& out) {
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), out);
+    return error == std::errc() && rest == text.data() + text.size();
+}
+
+/// "1,0.5,-2"
+bool parse_vector(std::string_view text, Vector& out) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t comma = i < 2 ? text.find(',') : text.size();
+        if (comma == std::string_view::npos || !parse_number(text.substr(0, comma), out[i])) return false;
+        text.remove_prefix(i < 2 ? comma + 1 : comma);
+    }
+    return true;
+}
+
+/// "+Z", "-x", "Y", or a vector
+bool parse_up(std::string_view text, Vector& out) {
+    std::string_view axis = text;
+    const double sign = !axis.empty() && axis.front() == '-' ? -1 : 1;
+    if (!axis.empty() && (axis.front() == '-' || axis.front() == '+')) axis.remove_prefix(1);
+    const std::size_t i = axis.size() == 1 ? std::string_view("XYZxyz").find(axis.front()) : std::string_view::npos;
+    if (i == std::string_view::npos) return parse_vector(text, out);
+    out = {0, 0, 0};
+    out[i % 3] = sign;
+    return true;
+}
+
+template <class Parse, class Set>
+void add_vector(CLI::App& command, const char* name, const char* type, const char* what, Parse parse, Set set) {
+    command
+        .add_option_function<std::string>(
+            name,
+            [=](const std::string& text) {
+                Vector value{};
+                if (!parse(text, value)) throw CLI::ValidationError(name, "not " + std::string(type));
+                set(value);
+            },
+            what)
+        ->type_name(type);
+}
+
+void add_camera(CLI::App& command, gpu::CameraOptions& camera) {
+    add_vector(command, "--up", "[+|-]X|Y|Z or X,Y,Z", "direction that is up in the picture, +Y unless told", parse_up,
+               [&camera](const Vector& v) { camera.up = v; });
+    add_vector(command, "--camera-position", "X,Y,Z", "where the eye is, in the mesh's coordinates", parse_vector,
+               [&camera](const Vector& v) { camera.position = v; });
+    add_vector(command, "--camera-focal-point", "X,Y,Z", "what the eye looks at", parse_vector,
+               [&camera](const Vector& v) { camera.focal_point = v; });
+    command.add_option("--camera-azimuth-angle", camera.azimuth, "degrees the eye is moved to its right, around");
+    command.add_option("--camera-elevation-angle", camera.elevation, "degrees the eye is then moved up, around");
+    command.add_option("--camera-zoom-factor", camera.zoom, "how many times nearer the eye is then")
+        ->capture_default_str();
+    command.add_option("--camera-view-angle", camera.view_angle, "degrees seen along the picture's shorter side")
+        ->capture_default_str();
+}
+
+int run(const Options& options) {
+    const Result<Mesh> mesh = load(options.input);
+    if (!mesh) return fail(options.input.path, mesh.error());
+    const Result<gpu::Model> model = gpu::make_model(*mesh);
+    if (!model) return fail(options.input.path, model.error());
+    const Result<std::unique_ptr<gpu::Context>> context = gpu::Context::create(options.context);
+    if (!context) return fail(options.input.path, context.error());
+
+    gpu::RendererOptions renderer_options;
+    renderer_options.view = gpu::view_named(options.view).value_or(gpu::View::smooth);
+    const std::uint32_t largest = (*context)->limits().maxImageDimension2D;
+    std::uint32_t samples = options.samples;
+    while (samples > 1 && std::max(options.size.width, options.size.height) * samples > largest) --samples;
+    renderer_options.samples = samples;
+    renderer_options.width = options.size.width * samples;
+    renderer_options.height = options.size.height * samples;
+    Result<gpu::Picture> drawn = [&]() -> Result<gpu::Picture> {
+        Result<gpu::Renderer> renderer = gpu::Renderer::create(**context, renderer_options);
+        if (!renderer) return renderer.error();
+        const gpu::Source source = options.source == "plain" ? gpu::Source::plain : gpu::Source::lean;
+        Result<gpu::Drawable> drawable = renderer->upload(*model, source);
+        if (!drawable) return drawable.error();
+        const Result<gpu::Camera> camera =
+            gpu::make_camera(*model, options.camera, renderer_options.width, renderer_options.height);
+        if (!camera) return camera.error();
+        return renderer->draw(*drawable, *model, *camera, true);
+    }();
+    const std::size_t messages = print_validation(**context);
+    if (!drawn) return fail(options.input.path, drawn.error());
+    const gpu::Picture picture = gpu::finish(*drawn, samples);
+    if (const Result<void> written = gpu::write_png(options.output, picture); !written) {
+        return fail(options.output, written.error());
+    }
+    std::uint64_t covered = 0;
+    for (const std::uint32_t id : drawn->triangles) covered += id != 0 ? 1 : 0;
+    const double share = static_cast<double>(covered) / static_cast<double>(drawn->pixels());
+    if (options.json) {
+        const gpu::DeviceInfo& info = (*context)->info();
+        nlohmann::ordered_json out = {{"schema", 1},
+                                      {"file", options.input.path},
+                                      {"output", options.output},
+                                      {"device", {{"name", info.name}, {"driver", info.driver}, {"api", info.api}}},
+                                      {"size", {options.size.width, options.size.height}},
+                                      {"samples", samples * samples},
+                                      {"source", options.source},
+                                      {"path", options.path},
+                                      {"view", options.view},
+                                      {"triangles", model->triangle_count()},
+                                      {"covered", share},
+                                      {"validation_messages", messages}};
+        fmt::print("{}\n", out.dump(2));
+    } else {
+        fmt::print("{}: {}x{}, {} triangles, {} {}, covers {:.1f} % of the picture; {}\n", options.output,
+                   options.size.width, options.size.height, model->triangle_count(), options.source, options.view,
+                   100 * share, (*context)->info().name);
+    }
+    return messages == 0 ? done : check_failed;
+}
+
+}  // namespace
+
+void add_render(CLI::App& program, Action& action) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = program.add_subcommand("render", "draw a mesh into a PNG file");
+    command->add_option("MESH", options->input.path, "mesh file")->required();
+    command->add_option("-o,--output", options->output, "the PNG file")->required();
+    add_weld(*command, options->input.weld);
+    command->add_option("--source", options->source, "what the triangles come from")
+        ->check(CLI::IsMember({"plain", "lean"}))
+        ->capture_default_str();
+    command->add_option("--path", options->path, "how the device expands the source")
+        ->check(CLI::IsMember({"compute"}))
+        ->capture_default_str();
+    command->add_option("--view", options->view, "what is shown")
+        ->check(CLI::IsMember({"smooth", "flat", "class", "ring", "wire"}))
+        ->capture_default_str();
+    add_size(*command, options->size);
+    command->add_option("--samples", options->samples, "samples a pixel along each side")
+        ->check(CLI::Range(1, 8))
+        ->capture_default_str();
+    add_camera(*command, options->camera);
+    add_device_options(*command, options->context);
+    command->add_flag("--json", options->json, "one JSON document on standard output");
+    command->callback([options, &action] { action = [options] { return run(*options); }; });
+}
+
+}  // namespace lr::app

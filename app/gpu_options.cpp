@@ -1,0 +1,44 @@
+#include "app/gpu_options.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstdio>
+
+namespace lr::app {
+namespace {
+
+bool parse_size(const std::string& text, PictureSize& size) {
+    const char* end = text.data() + text.size();
+    const auto [x, error] = std::from_chars(text.data(), end, size.width);
+    if (error != std::errc() || x == end || *x != 'x') return false;
+    const auto [rest, error2] = std::from_chars(x + 1, end, size.height);
+    if (error2 != std::errc() || rest != end) return false;
+    return size.width >= 1 && size.height >= 1 && size.width <= 16384 && size.height <= 16384;
+}
+
+}  // namespace
+
+void add_device_options(CLI::App& command, gpu::ContextOptions& options) {
+    command.add_option("--device", options.device, "part of the name of the Vulkan device to use")->type_name("NAME");
+    command.add_flag("--validation", options.validation, "Vulkan validation layers, with synchronization validation");
+}
+
+void add_size(CLI::App& command, PictureSize& size) {
+    command
+        .add_option_function<std::string>(
+            "--size",
+            [&size](const std::string& text) {
+                if (!parse_size(text, size)) throw CLI::ValidationError("--size", "not WIDTHxHEIGHT, each 1 to 16384");
+            },
+            "pixels, 1280x720 unless told")
+        ->type_name("WxH");
+}
+
+std::size_t print_validation(gpu::Context& context) {
+    const std::vector<std::string> messages = context.validation().messages();
+    for (const std::string& message : messages) fmt::print(stderr, "lacedring: validation: {}\n", message);
+    return messages.size();
+}
+
+}  // namespace lr::app

@@ -1,0 +1,25 @@
+#pragma once
+// Options of every command that uses Vulkan.
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "renderer/context.h"
+
+namespace lr::app {
+
+/// --device, --validation
+void add_device_options(CLI::App& command, gpu::ContextOptions& options);
+
+/// A WIDTHxHEIGHT option.
+struct PictureSize {
+    std::uint32_t width = 1280;
+    std::uint32_t height = 720;
+};
+void add_size(CLI::App& command, PictureSize& size);
+
+/// Prints the validation messages on standard error, if there are any. Returns how many.
+std::size_t print_validation(gpu::Context& context);
+
+}  // namespace lr::app

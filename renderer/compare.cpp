@@ -1,0 +1,136 @@
+#include "renderer/compare.h"
+
+#include <algorithm>
+#include <array>
+
+#include "renderer/renderer.h"
+#include "renderer/try.h"
+
+namespace lr::gpu {
+namespace {
+
+constexpr std::uint32_t kViews = 6;
+constexpr std::uint32_t kColumns = 3;
+
+/// The six axes, tilted so that no side of a box is seen edge-on or straight.
+constexpr std::array<std::array<double, 3>, kViews> kDirections{{{1.0, 0.31, 0.23},
+                                                                 {-1.0, 0.27, -0.34},
+                                                                 {0.29, 1.0, 0.37},
+                                                                 {-0.33, -1.0, 0.26},
+                                                                 {0.36, 0.22, 1.0},
+                                                                 {-0.24, 0.35, -1.0}}};
+
+/// Pixels that differ, one byte each: bit 0 exactly, bit 1 raw.
+using Marks = std::vector<std::uint8_t>;
+
+void mark(Marks& marks, const Picture& a, const Picture& b, std::uint8_t bit) {
+    for (std::size_t i = 0; i < a.pixels(); ++i) {
+        const bool colour = !std::equal(&a.rgba[4 * i], &a.rgba[4 * i] + 4, &b.rgba[4 * i]);
+        // Raw pictures may show another of two coincident triangles: only their colours count.
+        if (colour || (bit == 1 && a.triangles[i] != b.triangles[i])) marks[i] = static_cast<std::uint8_t>(marks[i] | bit);
+    }
+}
+
+/// Puts one view into the picture of all: grey and pale, a square around each pixel that differs.
+void paste(Picture& sheet, const Picture& view, const Marks& marks, std::uint32_t number) {
+    const std::uint32_t left = number % kColumns * view.width, top = number / kColumns * view.height;
+    const auto at = [&](std::uint32_t x, std::uint32_t y) {
+        return &sheet.rgba[4 * (std::size_t{top + y} * sheet.width + left + x)];
+    };
+    for (std::uint32_t y = 0; y < view.height; ++y) {
+        for (std::uint32_t x = 0; x < view.width; ++x) {
+            const std::uint8_t* p = &view.rgba[4 * (std::size_t{y} * view.width + x)];
+            const std::uint32_t grey = (54U * p[0] + 183U * p[1] + 19U * p[2]) / 256;
+            const auto pale = static_cast<std::uint8_t>(p[3] == 0 ? 255 : 110 + grey / 2);
+            std::fill_n(at(x, y), 3, pale);
+            at(x, y)[3] = 255;
+        }
+    }
+    constexpr std::array<std::array<std::uint8_t, 3>, 2> kColours{{{245, 160, 0}, {220, 0, 0}}};
+    for (const std::uint8_t bit : {std::uint8_t{2}, std::uint8_t{1}}) {
+        for (std::uint32_t y = 0; y < view.height; ++y) {
+            for (std::uint32_t x = 0; x < view.width; ++x) {
+                if ((marks[std::size_t{y} * view.width + x] & bit) == 0) continue;
+                for (std::uint32_t j = y < 2 ? 0 : y - 2; j <= std::min(y + 2, view.height - 1); ++j) {
+                    for (std::uint32_t i = x < 2 ? 0 : x - 2; i <= std::min(x + 2, view.width - 1); ++i) {
+                        std::copy_n(kColours[bit == 1 ? 1 : 0].data(), 3, at(i, j));
+                    }
+                }
+            }
+        }
+    }
+}
+
+void note_seen(std::vector<bool>& seen, const Picture& picture) {
+    for (const std::uint32_t id : picture.triangles) {
+        if (id != 0 && id <= seen.size()) seen[id - 1] = true;
+    }
+}
+
+Result<bool> indices_equal_cpu(Renderer& renderer, Drawable& lean, const Model& model) {
+    LR_ASSIGN(const LeanView view, view_lean(model.lean.words));
+    LR_ASSIGN(const std::vector<std::uint32_t> device, renderer.read_indices(lean));
+    std::vector<std::uint32_t> host(device.size());
+    decode_lean(view, host);
+    return device == host;
+}
+
+}  // namespace
+
+Result<Comparison> compare(Context& context, const Model& model, const CompareOptions& options) {
+    RendererOptions renderer_options;
+    renderer_options.width = options.width;
+    renderer_options.height = options.height;
+    renderer_options.max_range = options.max_range;
+    renderer_options.omit_decode_barrier = options.omit_decode_barrier;
+    LR_ASSIGN(Renderer renderer, Renderer::create(context, renderer_options));
+    LR_ASSIGN(Drawable plain, renderer.upload(model, Source::plain));
+    LR_ASSIGN(Drawable lean, renderer.upload(model, Source::lean));
+
+    std::array<Camera, kViews> cameras;
+    for (std::uint32_t v = 0; v < kViews; ++v) {
+        CameraOptions camera;
+        camera.direction = kDirections[v];
+        LR_ASSIGN(cameras[v], make_camera(model, camera, options.width, options.height));
+    }
+    Comparison out;
+    out.views = kViews;
+    std::array<Marks, kViews> marks;
+    for (std::uint32_t v = 0; v < kViews; ++v) {
+        // The first picture of the lean mesh decodes it, in the same submission.
+        LR_ASSIGN(const Picture b, renderer.draw(lean, model, cameras[v], false));
+        LR_ASSIGN(const Picture a, renderer.draw(plain, model, cameras[v], false));
+        const Difference d = difference(a, b);
+        out.raw_pixels_different += d.pixels;
+        out.raw_max_channel_difference = std::max(out.raw_max_channel_difference, d.channel);
+        marks[v].assign(a.pixels(), 0);
+        mark(marks[v], a, b, 2);
+    }
+    LR_ASSIGN(out.indices_equal_cpu, indices_equal_cpu(renderer, lean, model));
+
+    std::vector<bool> seen(model.triangle_count());
+    out.picture.width = kColumns * options.width;
+    out.picture.height = kViews / kColumns * options.height;
+    out.picture.rgba.resize(4 * out.picture.pixels());
+    for (std::uint32_t v = 0; v < kViews; ++v) {
+        LR_ASSIGN(const Picture a, renderer.draw(plain, model, cameras[v], true));
+        LR_ASSIGN(const Picture b, renderer.draw(lean, model, cameras[v], true));
+        const Difference d = difference(a, b);
+        out.pixels_different += d.pixels;
+        out.max_channel_difference = std::max(out.max_channel_difference, d.channel);
+        out.triangle_ids_different += d.triangles;
+        out.covered_pixels += d.covered;
+        note_seen(seen, a);
+        mark(marks[v], a, b, 1);
+        paste(out.picture, a, marks[v], v);
+    }
+    out.distinct_ids = static_cast<std::uint64_t>(std::count(seen.begin(), seen.end(), true));
+    // A mesh may hide most of its triangles, and a needle covers little: the bars are low, but nothing drawn, or all drawn
+    // as one, does not pass. The cameras fit the mesh to the picture, so a thousandth is less than a needle.
+    const std::uint64_t pixels = std::uint64_t{options.width} * options.height * kViews;
+    const std::uint64_t visible = std::min<std::uint64_t>(model.triangle_count(), out.covered_pixels);
+    out.blank = out.covered_pixels * 1000 < pixels || out.distinct_ids < std::max<std::uint64_t>(1, visible / 1000);
+    return out;
+}
+
+}  // namespace lr::gpu

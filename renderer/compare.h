@@ -1,0 +1,44 @@
+#pragma once
+// Is the picture that the lean stream gives the picture that the mesh's own index list gives?
+
+#include <cstdint>
+
+#include "lrcore/base/result.h"
+#include "renderer/context.h"
+#include "renderer/model.h"
+#include "renderer/picture.h"
+
+namespace lr::gpu {
+
+struct CompareOptions {
+    std::uint32_t width = 1280;
+    std::uint32_t height = 720;
+    std::uint64_t max_range = 0;       ///< see UploadOptions
+    bool omit_decode_barrier = false;  ///< see RendererOptions
+};
+
+/// Sums over all views, largest values where the name says so.
+struct Comparison {
+    std::uint32_t views = 0;
+    std::uint64_t pixels_different = 0;
+    std::uint32_t max_channel_difference = 0;  ///< of 255
+    std::uint64_t triangle_ids_different = 0;
+    bool indices_equal_cpu = false;            ///< the index buffer that the device wrote is decode_lean's
+    std::uint64_t raw_pixels_different = 0;    ///< without rotating triangles and without breaking ties
+    std::uint32_t raw_max_channel_difference = 0;
+    std::uint64_t covered_pixels = 0;          ///< of the mesh's own picture
+    std::uint64_t distinct_ids = 0;            ///< different triangles seen in the mesh's own pictures
+    bool blank = false;                        ///< too little was seen for the rest to mean anything
+    Picture picture;  ///< all views, pale; red where they differ, amber where only the raw ones do
+
+    bool same() const {
+        return pixels_different == 0 && triangle_ids_different == 0 && indices_equal_cpu && !blank;
+    }
+};
+
+/// Draws the mesh plain and from its lean stream, from six sides, with smooth normals: first as the index buffers are,
+/// then exactly (docs/renderer.md). The stream and its maps are taken from model.lean as they are: a wrong one is drawn
+/// and found out, as long as its vertices and ring ends are in range (validate_lean).
+Result<Comparison> compare(Context& context, const Model& model, const CompareOptions& options);
+
+}  // namespace lr::gpu

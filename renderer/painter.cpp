@@ -1,0 +1,213 @@
+#include "renderer/painter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+
+#include "renderer/context.h"
+#include "renderer/try.h"
+#include "spirv/claim_frag.h"
+#include "spirv/line_frag.h"
+#include "spirv/line_vert.h"
+#include "spirv/surface_frag.h"
+#include "spirv/surface_vert.h"
+
+namespace lr::gpu {
+namespace {
+
+bool has_ring(View view) { return view == View::triangle_class || view == View::ring; }
+
+}  // namespace
+
+std::optional<View> view_named(std::string_view name) {
+    constexpr std::array<std::pair<std::string_view, View>, 5> kViews{{{"smooth", View::smooth},
+                                                                       {"flat", View::flat},
+                                                                       {"class", View::triangle_class},
+                                                                       {"ring", View::ring},
+                                                                       {"wire", View::wire}}};
+    for (const auto& [text, view] : kViews) {
+        if (text == name) return view;
+    }
+    return std::nullopt;
+}
+
+Result<Painter> Painter::create(Context& context, View view, std::uint32_t samples) {
+    if (view == View::wire && !context.info().wire) {
+        return Error{ErrorCode::unsupported, context.info().name + " lacks fillModeNonSolid, which the wire view needs"};
+    }
+    Painter out;
+    out.context_ = &context;
+    out.view_ = view;
+    out.samples_ = samples;
+    constexpr VkShaderStageFlags kFragment = VK_SHADER_STAGE_FRAGMENT_BIT;
+    const std::array<Binding, 4> bindings{
+        {{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_SHADER_STAGE_VERTEX_BIT | kFragment},
+         {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kFragment},
+         {2, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kFragment},
+         {3, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, kFragment}}};
+    LR_ASSIGN(out.layout_, Layout::create(context, "draw", bindings, kFragment, sizeof(DrawConstants)));
+
+    GraphicsInfo base;
+    base.vertex = spirv_surface_vert;
+    base.vertex_binding = {0, sizeof(Vertex), VK_VERTEX_INPUT_RATE_VERTEX};
+    base.vertex_attributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Vertex, position)},
+                              {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Vertex, normal)},
+                              {2, 0, VK_FORMAT_R32_SFLOAT, offsetof(Vertex, ring)}};
+    base.push_back = has_ring(view) || view == View::wire;
+
+    GraphicsInfo depth = base;
+    depth.name = "depth";
+    LR_ASSIGN(out.depth_, create_graphics(context, out.layout_, depth));
+
+    GraphicsInfo claim = base;
+    claim.name = "claim";
+    claim.fragment = spirv_claim_frag;
+    claim.depth_compare = VK_COMPARE_OP_EQUAL;
+    claim.depth_write = false;
+    LR_ASSIGN(out.claim_, create_graphics(context, out.layout_, claim));
+
+    GraphicsInfo resolve = base;
+    resolve.name = "resolve";
+    resolve.fragment = spirv_surface_frag;
+    resolve.constants = {static_cast<std::uint32_t>(view), VK_TRUE};
+    resolve.depth_compare = VK_COMPARE_OP_EQUAL;
+    resolve.depth_write = false;
+    resolve.colours = {Target::kColour, Target::kTriangles};
+    LR_ASSIGN(out.resolve_, create_graphics(context, out.layout_, resolve));
+
+    GraphicsInfo single = base;
+    single.name = "single pass";
+    single.fragment = spirv_surface_frag;
+    single.constants = {static_cast<std::uint32_t>(view), VK_FALSE};
+    single.colours = {Target::kColour, Target::kTriangles};
+    LR_ASSIGN(out.single_, create_graphics(context, out.layout_, single));
+
+    if (has_ring(view) || view == View::wire) {
+        GraphicsInfo lines = base;
+        lines.name = "lines";
+        lines.vertex = spirv_line_vert;
+        lines.fragment = spirv_line_frag;
+        lines.vertex_attributes.resize(1);
+        if (view == View::wire) {
+            lines.polygon_mode = VK_POLYGON_MODE_LINE;
+        } else {
+            lines.topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST;
+        }
+        lines.push_back = false;
+        lines.depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL;
+        lines.depth_write = false;
+        lines.blend = true;
+        lines.colours = {Target::kColour};
+        LR_ASSIGN(out.lines_, create_graphics(context, out.layout_, lines));
+    }
+    LR_ASSIGN(out.frame_, Buffer::create(context, "frame", sizeof(FrameConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                                         Memory::upload));
+    LR_ASSIGN(out.nothing_, Buffer::create(context, "nothing", 16, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT));
+    return out;
+}
+
+Result<DrawPlan> Painter::plan(Descriptors& descriptors, const GpuMesh& mesh, const Target& target) const {
+    DrawPlan plan;
+    for (std::uint32_t draw = 0; draw < mesh.draws; ++draw) {
+        const std::uint64_t first = std::uint64_t{draw} * mesh.draw_slots;
+        const std::uint64_t slots = std::min<std::uint64_t>(mesh.draw_slots, mesh.slots - first);
+        LR_ASSIGN(const VkDescriptorSet set, descriptors.allocate(layout_));
+        descriptors.write(set, 0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, {&frame_});
+        BufferRange triangles{&nothing_}, classes{&nothing_};
+        if (mesh.slot_triangle) triangles = {&mesh.slot_triangle, 4 * first, 4 * slots};
+        if (mesh.classes) classes = {&mesh.classes, first, (slots + 3) / 4 * 4};
+        descriptors.write(set, 1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, triangles);
+        descriptors.write(set, 2, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, classes);
+        descriptors.write_image(set, 3, target.winner().view());
+        plan.sets.push_back(set);
+    }
+    return plan;
+}
+
+void Painter::set_frame(const Model& model, const Camera& camera) {
+    FrameConstants frame{};
+    frame.view_from_world = camera.view_from_world;
+    frame.clip_from_view = camera.clip_from_view;
+    frame.normal_sign = model.normal_sign;
+    frame.line_lift = 0.0012F;
+    // Where edges are only a few pixels long, lines fade instead of painting the mesh black.
+    const double pixels = model.mean_edge * camera.pixels_per_unit / samples_;
+    const double strength = std::clamp((pixels - 1.0) / 9.0, 0.0, 1.0);
+    if (view_ == View::wire) {
+        frame.line_colour = {0.07F, 0.08F, 0.10F, static_cast<float>(0.16 + 0.66 * strength)};
+        line_width_ = static_cast<float>(0.6 + 0.6 * strength) * static_cast<float>(samples_);
+    } else {
+        frame.line_colour = {0.03F, 0.03F, 0.03F, static_cast<float>(0.22 + 0.76 * strength)};
+        line_width_ = static_cast<float>(0.7 + 1.5 * strength) * static_cast<float>(samples_);
+    }
+    line_width_ = std::clamp(line_width_, 1.0F, context_->info().max_line_width);
+    std::memcpy(frame_.mapped(), &frame, sizeof(frame));
+}
+
+void Painter::draw_triangles(VkCommandBuffer commands, VkPipeline pipeline, const GpuMesh& mesh,
+                             const DrawPlan& plan) const {
+    const VkBuffer vertices = mesh.vertices.handle();
+    const VkDeviceSize zero = 0;
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+    vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &zero);
+    vkCmdBindIndexBuffer(commands, mesh.indices.handle(), 0, VK_INDEX_TYPE_UINT32);
+    for (std::uint32_t draw = 0; draw < mesh.draws; ++draw) {
+        const std::uint32_t first = draw * mesh.draw_slots;
+        const DrawConstants constants{first, mesh.source == Source::lean ? 1U : 0U};
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.pipeline(), 0, 1, &plan.sets[draw], 0,
+                                nullptr);
+        vkCmdPushConstants(commands, layout_.pipeline(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(constants), &constants);
+        if (mesh.source == Source::lean) {
+            constexpr std::uint32_t kStride = sizeof(VkDrawIndexedIndirectCommand);
+            vkCmdDrawIndexedIndirect(commands, mesh.commands.handle(), std::uint64_t{draw} * kStride, 1, kStride);
+        } else {
+            const std::uint32_t slots = std::min(mesh.draw_slots, mesh.slots - first);
+            vkCmdDrawIndexed(commands, 3 * slots, 1, 3 * first, 0, 0);
+        }
+    }
+}
+
+void Painter::draw_lines(VkCommandBuffer commands, const GpuMesh& mesh, const DrawPlan& plan) const {
+    if (view_ == View::wire) {
+        vkCmdSetLineWidth(commands, line_width_);
+        draw_triangles(commands, lines_.get(), mesh, plan);
+        return;
+    }
+    if (mesh.line_indices == 0) return;
+    const VkBuffer vertices = mesh.vertices.handle();
+    const VkDeviceSize zero = 0;
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, lines_.get());
+    vkCmdSetLineWidth(commands, line_width_);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.pipeline(), 0, 1, &plan.sets[0], 0,
+                            nullptr);
+    vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &zero);
+    vkCmdBindIndexBuffer(commands, mesh.lines.handle(), 0, VK_INDEX_TYPE_UINT32);
+    vkCmdDrawIndexed(commands, mesh.line_indices, 1, 0, 0, 0);
+}
+
+void Painter::record(VkCommandBuffer commands, const GpuMesh& mesh, const DrawPlan& plan, const Target& target,
+                     Ties ties) const {
+    target.prepare(commands);
+    Target::Use surface{.colour = true, .triangles = true, .clear_colour = true, .clear_depth = true};
+    if (ties == Ties::by_number) {
+        target.begin(commands, {.clear_depth = true});
+        draw_triangles(commands, depth_.get(), mesh, plan);
+        draw_triangles(commands, claim_.get(), mesh, plan);
+        Target::end(commands);
+        Target::between(commands);
+        surface.clear_depth = false;
+    }
+    target.begin(commands, surface);
+    draw_triangles(commands, ties == Ties::by_number ? resolve_.get() : single_.get(), mesh, plan);
+    Target::end(commands);
+    if (lines_) {
+        Target::between(commands);
+        target.begin(commands, {.colour = true});
+        draw_lines(commands, mesh, plan);
+        Target::end(commands);
+    }
+}
+
+}  // namespace lr::gpu

@@ -1,0 +1,73 @@
+#include "renderer/renderer.h"
+
+#include "renderer/try.h"
+
+namespace lr::gpu {
+
+Result<Renderer> Renderer::create(Context& context, const RendererOptions& options) {
+    Renderer out;
+    out.context_ = &context;
+    out.options_ = options;
+    LR_ASSIGN(out.commands_, Commands::create(context));
+    LR_ASSIGN(out.transfer_, Transfer::create(context));
+    LR_ASSIGN(out.target_, Target::create(context, {options.width, options.height}));
+    LR_ASSIGN(out.painter_, Painter::create(context, options.view, options.samples));
+    LR_ASSIGN(out.decoder_, LeanDecoder::create(context));
+    LR_ASSIGN(out.rotator_, Rotator::create(context));
+    return out;
+}
+
+Result<Drawable> Renderer::upload(const Model& model, Source source) {
+    UploadOptions options;
+    options.max_range = options_.max_range;
+    options.classes = options_.view == View::triangle_class || options_.view == View::ring;
+    Drawable out;
+    out.descriptors = Descriptors(*context_);
+    if (source == Source::lean) {
+        LR_ASSIGN(out.mesh, upload_lean(*context_, *transfer_, model, options));
+        LR_ASSIGN(out.decode, decoder_.plan(out.descriptors, out.mesh));
+    } else {
+        LR_ASSIGN(out.mesh, upload_plain(*context_, *transfer_, model, options));
+    }
+    LR_ASSIGN(out.rotate, rotator_.plan(out.descriptors, out.mesh));
+    LR_ASSIGN(out.draw, painter_.plan(out.descriptors, out.mesh, target_));
+    return out;
+}
+
+void Renderer::decode(VkCommandBuffer commands, Drawable& drawable) const {
+    if (drawable.mesh.decoded) return;
+    decoder_.record(commands, drawable.decode);
+    if (!options_.omit_decode_barrier) decode_barrier(commands);
+    drawable.mesh.decoded = true;
+    drawable.mesh.rotated = false;
+}
+
+Result<Picture> Renderer::draw(Drawable& drawable, const Model& model, const Camera& camera, bool exact) {
+    if (!exact && drawable.mesh.rotated) {
+        return Error{ErrorCode::invalid_argument, "the triangles are rotated already: draw the raw pictures first"};
+    }
+    painter_.set_frame(model, camera);
+    LR_ASSIGN(const VkCommandBuffer commands, commands_->begin());
+    decode(commands, drawable);
+    if (exact && !drawable.mesh.rotated) {
+        rotator_.record(commands, drawable.rotate);
+        decode_barrier(commands);
+        drawable.mesh.rotated = true;
+    }
+    painter_.record(commands, drawable.mesh, drawable.draw, target_,
+                    exact ? Painter::Ties::by_number : Painter::Ties::first_drawn);
+    target_.record_read(commands);
+    LR_TRY(commands_->run());
+    return target_.picture();
+}
+
+Result<std::vector<std::uint32_t>> Renderer::read_indices(Drawable& drawable) {
+    LR_ASSIGN(const VkCommandBuffer commands, commands_->begin());
+    decode(commands, drawable);
+    LR_TRY(commands_->run());
+    std::vector<std::uint32_t> out(std::size_t{3} * drawable.mesh.slots);
+    LR_TRY(transfer_->read(drawable.mesh.indices, 0, std::as_writable_bytes(std::span(out))));
+    return out;
+}
+
+}  // namespace lr::gpu

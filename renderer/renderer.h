@@ -1,0 +1,65 @@
+#pragma once
+// Everything that draws pictures of one model, put together.
+
+#include "renderer/context.h"
+#include "renderer/lean_decoder.h"
+#include "renderer/painter.h"
+#include "renderer/rotator.h"
+
+namespace lr::gpu {
+
+struct RendererOptions {
+    View view = View::smooth;
+    std::uint32_t width = 1280;      ///< of what is drawn, supersampling included
+    std::uint32_t height = 720;
+    std::uint32_t samples = 1;       ///< lines get this much wider
+    std::uint64_t max_range = 0;     ///< see UploadOptions
+    bool omit_decode_barrier = false;  ///< a bug on request: the test that validation sees it
+};
+
+/// A mesh on the device, with what is bound to draw it. Goes before its Renderer's context.
+struct Drawable {
+    GpuMesh mesh;
+    Descriptors descriptors;
+    DecodePlan decode;  ///< empty for Source::plain
+    RotatePlan rotate;
+    DrawPlan draw;
+};
+
+class Renderer {
+  public:
+    static Result<Renderer> create(Context& context, const RendererOptions& options);
+
+    Result<Drawable> upload(const Model& model, Source source);
+
+    /// Records the decoding of a lean mesh and what makes it visible, if that has not been done.
+    void decode(VkCommandBuffer commands, Drawable& drawable) const;
+
+    /// One picture. `exact`: triangles rotated to begin with their smallest vertex, and ties broken by number, so that
+    /// both sources give the same bits; a drawable stays rotated after it. Otherwise as the index buffer is.
+    Result<Picture> draw(Drawable& drawable, const Model& model, const Camera& camera, bool exact);
+
+    /// The first 3 * slots indices, as they are on the device. Decodes first if need be.
+    Result<std::vector<std::uint32_t>> read_indices(Drawable& drawable);
+
+    Context& context() { return *context_; }
+    Commands& commands() { return *commands_; }
+    Transfer& transfer() { return *transfer_; }
+    const Target& target() const { return target_; }
+    Painter& painter() { return painter_; }
+    const LeanDecoder& decoder() const { return decoder_; }
+
+  private:
+    Renderer() = default;
+
+    Context* context_ = nullptr;
+    RendererOptions options_;
+    std::optional<Commands> commands_;
+    std::optional<Transfer> transfer_;
+    Target target_;
+    Painter painter_;
+    LeanDecoder decoder_;
+    Rotator rotator_;
+};
+
+}  // namespace lr::gpu

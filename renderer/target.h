@@ -1,0 +1,46 @@
+#pragma once
+// What is drawn into, offscreen: colour, triangle numbers, depth, and which triangle claimed each pixel.
+
+#include "renderer/buffer.h"
+#include "renderer/image.h"
+#include "renderer/picture.h"
+
+namespace lr::gpu {
+
+class Target {
+  public:
+    static constexpr VkFormat kColour = VK_FORMAT_R8G8B8A8_UNORM;
+    static constexpr VkFormat kTriangles = VK_FORMAT_R32_UINT;
+    static constexpr VkFormat kDepth = VK_FORMAT_D32_SFLOAT;
+
+    static Result<Target> create(Context& context, VkExtent2D extent);
+
+    VkExtent2D extent() const { return extent_; }
+    const Image& winner() const { return winner_; }
+
+    /// Brings every image to its layout and drops what it held; clears the claims.
+    void prepare(VkCommandBuffer commands) const;
+
+    /// What a rendering instance draws into, and whether it starts afresh.
+    struct Use {
+        bool colour = false;
+        bool triangles = false;
+        bool clear_colour = false;  ///< and triangles
+        bool clear_depth = false;
+    };
+    void begin(VkCommandBuffer commands, const Use& use) const;
+    static void end(VkCommandBuffer commands);
+    /// Between rendering instances: everything drawn and claimed so far is visible to the next.
+    static void between(VkCommandBuffer commands);
+
+    /// Copies the pictures to the host's side; picture() gives them once the commands have run.
+    void record_read(VkCommandBuffer commands) const;
+    Picture picture() const;
+
+  private:
+    VkExtent2D extent_{};
+    Image colour_, triangles_, winner_, depth_;
+    Buffer colour_bytes_, triangle_bytes_;
+};
+
+}  // namespace lr::gpu
