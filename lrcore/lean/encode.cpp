@@ -14,6 +14,7 @@
 #include "lrcore/base/crc32.h"
 #include "lrcore/lean/lean_format.h"
 #include "lrcore/lean/lean_stream.h"
+#include "lrcore/ring/ring_walk.h"
 
 namespace lr {
 namespace {
@@ -21,9 +22,6 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "streams are little-endian words");
 
 constexpr std::uint32_t kNone = UINT32_MAX;
-
-/// The corner of c's and d's triangle that is neither.
-CornerId third(CornerId c, CornerId d) { return {triangle(c).value * 9 + 3 - c.value - d.value}; }
 
 /// Which sides of a ring are stored as slots.
 enum class Sides : std::uint8_t { both, left, right, none };
@@ -68,44 +66,15 @@ class Encoder {
     }
 
   private:
-    /// One ring, read in the direction in which the stored sides lie left and right, and what its slots will hold.
-    struct Walk {
-        std::span<const RingEdge> ring;
-        bool backwards = false;
-        std::uint32_t sides = 2;
-        std::array<std::vector<CornerId>, 2> tip;  // null where the slot is free
-        std::array<std::vector<bool>, 2> wart;
-
-        std::size_t size() const { return ring.size(); }
-        std::size_t after(std::size_t i) const { return i + 1 == size() ? 0 : i + 1; }
-        VertexId start(std::size_t i) const { return ring[!backwards || i == 0 ? i : size() - i].start; }
-        CornerId face(std::uint32_t side, std::size_t i) const {
-            const RingEdge& edge = ring[backwards ? size() - 1 - i : i];
-            return (side == 0) != backwards ? edge.left : edge.right;
-        }
-        VertexId face_tip(std::uint32_t side, std::size_t i) const {
-            const RingEdge& edge = ring[backwards ? size() - 1 - i : i];
-            return (side == 0) != backwards ? edge.left_tip : edge.right_tip;
-        }
-        /// Is edge i's triangle the same as that of the edge after it (the first copy of a T2)?
-        bool repeats(std::uint32_t side, std::size_t i) const {
-            const CornerId c = face(side, i), d = face(side, after(i));
-            return !c.is_null() && !d.is_null() && triangle(c) == triangle(d);
-        }
-        /// A triangle whose three edges are the whole ring.
-        bool is_t3(std::uint32_t side) const { return size() == 3 && repeats(side, 0) && repeats(side, 1); }
-    };
-
     void load(std::span<const RingEdge> ring, Sides sides) {
-        walk_.ring = ring;
-        walk_.sides = sides == Sides::both ? 2 : 1;
-        walk_.backwards = sides == Sides::right;
+        walk_ = RingWalk(ring, sides == Sides::right);
+        sides_ = sides == Sides::both ? 2 : 1;
     }
 
     /// The T0 that the first copy of a T2 at edge i could hold, as its corner across the shared edge; else null.
     CornerId wart_at(std::uint32_t side, std::size_t i) const {
         if (!options_.wart_skipping || !walk_.repeats(side, i) || walk_.is_t3(side)) return null_corner;
-        const CornerId y = table_.opposite(third(walk_.face(side, i), walk_.face(side, walk_.after(i))));
+        const CornerId y = walk_.across_t2(table_, side, i);
         if (y.is_null() || rung_.test(triangle(y).value) || covered_.test(triangle(y).value)) return null_corner;
         return y;
     }
@@ -146,9 +115,9 @@ class Encoder {
     }
 
     void fill_slots(std::uint32_t side) {
-        auto& tip = walk_.tip[side];
+        auto& tip = tip_[side];
         tip.assign(walk_.size(), null_corner);
-        walk_.wart[side].assign(walk_.size(), false);
+        wart_[side].assign(walk_.size(), false);
         const bool t3 = walk_.is_t3(side);
         for (std::size_t i = 0; i < walk_.size(); ++i) {
             const CornerId c = walk_.face(side, i);
@@ -169,8 +138,8 @@ class Encoder {
             const CornerId y = wart_at(side, i);
             if (y.is_null()) continue;
             covered_.set(triangle(y).value);
-            walk_.tip[side][i] = y;
-            walk_.wart[side][i] = true;
+            tip_[side][i] = y;
+            wart_[side][i] = true;
             ++out_.statistics.t0_wart;
         }
     }
@@ -178,17 +147,17 @@ class Encoder {
     /// The edge that closes the ring: one with a free slot, if need be freed from its wart. Sets the side of the slot.
     std::size_t closing_edge(std::uint32_t& side) {
         for (std::size_t i = 0; i < walk_.size(); ++i) {
-            for (side = 0; side < walk_.sides; ++side) {
-                if (walk_.tip[side][i].is_null()) return i;
+            for (side = 0; side < sides_; ++side) {
+                if (tip_[side][i].is_null()) return i;
             }
         }
         side = 0;
-        const auto it = std::find(walk_.wart[0].begin(), walk_.wart[0].end(), true);
-        assert(it != walk_.wart[0].end());  // the left side is a tree of triangles: its leaves are T2
-        const auto i = static_cast<std::size_t>(it - walk_.wart[0].begin());
-        covered_.clear(triangle(walk_.tip[0][i]).value);
-        walk_.tip[0][i] = null_corner;
-        walk_.wart[0][i] = false;
+        const auto it = std::find(wart_[0].begin(), wart_[0].end(), true);
+        assert(it != wart_[0].end());  // the left side is a tree of triangles: its leaves are T2
+        const auto i = static_cast<std::size_t>(it - wart_[0].begin());
+        covered_.clear(triangle(tip_[0][i]).value);
+        tip_[0][i] = null_corner;
+        wart_[0][i] = false;
         --out_.statistics.t0_wart;
         return i;
     }
@@ -196,21 +165,21 @@ class Encoder {
     /// Appends a ring's slots. Words hold the mesh's vertex numbers until renumber().
     void emit(std::span<const RingEdge> ring, Sides sides) {
         load(ring, sides);
-        for (std::uint32_t s = 0; s < walk_.sides; ++s) fill_slots(s);
-        for (std::uint32_t s = 0; s < walk_.sides; ++s) fill_warts(s);
+        for (std::uint32_t s = 0; s < sides_; ++s) fill_slots(s);
+        for (std::uint32_t s = 0; s < sides_; ++s) fill_warts(s);
         std::uint32_t closing_side = 0;
         const std::size_t closing = closing_edge(closing_side);
         std::size_t i = closing;
         do {
             i = walk_.after(i);
             out_.vertex_order.push_back(walk_.start(i).value);
-            for (std::uint32_t s = 0; s < walk_.sides; ++s) {
-                const CornerId tip = walk_.tip[s][i];
+            for (std::uint32_t s = 0; s < sides_; ++s) {
+                const CornerId tip = tip_[s][i];
                 std::uint32_t word = 0, slot_triangle = kNone;
                 if (!tip.is_null()) {
                     slot_triangle = triangle(tip).value;
-                    const bool wart = walk_.wart[s][i];
-                    word = (wart ? table_.vertex(tip) : walk_.face_tip(s, i)).value;
+                    const bool wart = wart_[s][i];
+                    word = (wart ? table_.vertex(tip) : walk_.tip(s, i)).value;
                     if (wart) word |= LR_LEAN_WART_FLAG;
                     if (table_.flipped(triangle(tip))) word |= LR_LEAN_FLIP_FLAG;
                 } else if (i == closing && s == closing_side) {
@@ -288,7 +257,11 @@ class Encoder {
     const LeanOptions& options_;
     BitVector rung_;     // triangles with a ring edge
     BitVector covered_;  // triangles that have a slot
-    Walk walk_;
+    // The ring being written: how it is read, how many sides are stored, and what their slots hold.
+    RingWalk walk_;
+    std::uint32_t sides_ = 2;
+    std::array<std::vector<CornerId>, 2> tip_;  // null where the slot is free
+    std::array<std::vector<bool>, 2> wart_;
     std::vector<TriangleId> paired_;
     LeanStream out_;
 };

@@ -11,6 +11,7 @@
 
 #include "lrcore/base/bits.h"
 #include "lrcore/ring/ring.h"
+#include "lrcore/ring/ring_walk.h"
 
 namespace lr {
 namespace {
@@ -78,13 +79,13 @@ class Expander {
                 ++covered;
             }
         }
-        // A T2 with its two edges at i and i+1 takes one T0 neighbour along (wart skipping).
+        // A T2 takes one T0 neighbour along (wart skipping).
         paired_.clear();
-        for (std::size_t i = 0; i < ring.size(); ++i) {
-            const RingEdge &a = ring[i], &b = ring[i + 1 == ring.size() ? 0 : i + 1];
-            for (const auto& [c, d] : {std::pair{a.left, b.left}, std::pair{a.right, b.right}}) {
-                if (c.is_null() || d.is_null() || triangle(c) != triangle(d) || c == d) continue;
-                const CornerId y = table_.opposite({triangle(c).value * 9 + 3 - c.value - d.value});
+        const RingWalk walk(ring);
+        for (std::uint32_t side = 0; side < 2; ++side) {
+            for (std::size_t i = 0; i < ring.size(); ++i) {
+                if (!walk.repeats(side, i)) continue;
+                const CornerId y = walk.across_t2(table_, side, i);
                 if (y.is_null() || rung_.test(triangle(y).value)) continue;
                 rung_.set(triangle(y).value);
                 paired_.push_back(triangle(y));
@@ -119,14 +120,45 @@ std::uint32_t recommended_seeds(std::size_t triangles) {
     return static_cast<std::uint32_t>(std::clamp<std::size_t>(kBudget / std::max<std::size_t>(triangles, 1), 1, 64));
 }
 
+namespace {
+
+/// Marks the triangles connected to t.
+void flood(const CornerTable& table, TriangleId t, BitVector& reached, std::vector<TriangleId>& stack) {
+    reached.set(t.value);
+    stack.assign(1, t);
+    while (!stack.empty()) {
+        const TriangleId u = stack.back();
+        stack.pop_back();
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const CornerId o = table.opposite(corner(u, k));
+            if (o.is_null() || reached.test(triangle(o).value)) continue;
+            reached.set(triangle(o).value);
+            stack.push_back(triangle(o));
+        }
+    }
+}
+
+}  // namespace
+
 Rings expand_rings(const CornerTable& table, const RingOptions& options) {
     Rings rings;
     rings.edges.reserve(table.vertex_count);
     Expander expander(table);
     std::uint64_t random = options.random_seed;
     std::vector<RingEdge> trial, region;
+    // With one_per_shell: which triangles belong to a shell that has its ring. Most meshes leave no vertices for another
+    // ring to begin at, so shells are flooded only once that is in question.
+    BitVector in_shell(options.one_per_shell ? table.triangle_count() : 0);
+    std::vector<TriangleId> stack;
+    std::size_t flooded = 0;
     for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
         if (!expander.can_seed({t})) continue;
+        if (options.one_per_shell) {
+            for (; flooded < rings.first.size(); ++flooded) {
+                flood(table, triangle(rings.edges[rings.first[flooded]].left), in_shell, stack);
+            }
+            if (in_shell.test(t)) continue;
+        }
         const std::size_t begin = rings.edges.size();
         rings.first.push_back(static_cast<std::uint32_t>(begin));
         CornerId best = corner({t}, 0);

@@ -15,6 +15,7 @@ namespace lr {
 struct RingOptions {
     std::uint32_t seeds = 1;     ///< seed corners tried per component; the one with the cheapest ring is kept
     std::uint64_t random_seed = 1;
+    bool one_per_shell = false;  ///< never a further ring among vertices that a shell's ring left out
 };
 
 /// Seeds worth trying on a mesh of that size: more on small meshes, where chance weighs more and trying is cheap.

@@ -1,0 +1,82 @@
+#pragma once
+// The standard Laced Ring representation: L, R, VO, VO* and C. Paper: LR 2011, sections 4 and 5.
+//
+// Vertices 0 .. ring_vertices-1 lie along the rings, ring after ring; isolated vertices follow, then those of no triangle.
+// Triangle 2v is (v, L[v], v.n), triangle 2v+1 is (v.n, R[v], v), triangles from 2 ring_vertices on are T0. Corners are 8v+0,
+// 1, 2 (left: v, v.l, v.n) and 8v+4, 5, 6 (right: v.n, v.r, v); T0 triangle t has 4t, 4t+1, 4t+2.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lrcore/base/result.h"
+#include "lrcore/corner_table/corner_table.h"
+#include "lrcore/lr/lr_format.h"
+#include "lrcore/ring/ring.h"
+
+namespace lr {
+
+/// The arrays, wherever they are: in an LrTable, or in a memory-mapped file. Holds no copy.
+struct LrView {
+    std::uint32_t vertices = 0;           ///< all: on rings, isolated, and of no triangle
+    std::uint32_t ring_vertices = 0;      ///< m_r
+    std::span<const std::uint32_t> lr;    ///< 2 m_r words (lr_format.h)
+    std::span<const std::uint32_t> vo;    ///< 6 a T0: three vertices, three opposite corners
+    std::span<const std::uint32_t> star;  ///< VO*, 3 an irregular triangle: tip, opposites of the start and the end corner
+    std::span<const std::uint32_t> c;     ///< a corner of each isolated vertex
+
+    // What LrOperators asks of a representation. side: 0 left, 1 right.
+    std::uint32_t kind(std::uint32_t v, std::uint32_t side) const { return lr[2 * v + side] & word::kKind; }
+    bool closes(std::uint32_t v) const { return kind(v, 0) == word::kClosing; }
+    std::uint32_t first(std::uint32_t v) const { return lr[2 * v] & word::kTip; }
+    std::uint32_t tip(std::uint32_t v, std::uint32_t side) const {
+        const std::uint32_t w = lr[2 * v + side];
+        const std::uint32_t i = w & word::kTip;
+        return (w & (word::kSpecial | word::kIrregular)) == word::kIrregular ? star[i] : i;
+    }
+    /// Of an irregular triangle, the opposite of its start corner (end = 0) or end corner (end = 1).
+    std::uint32_t star_opposite(std::uint32_t v, std::uint32_t side, std::uint32_t end) const {
+        return star[(lr[2 * v + side] & word::kTip) + 1 + end];
+    }
+    std::uint32_t t0_vertex(std::uint32_t i) const { return vo[i / 3 * 6 + i % 3] & ~word::kT0Flip; }
+    std::uint32_t t0_opposite(std::uint32_t i) const { return vo[i / 3 * 6 + 3 + i % 3]; }
+    std::uint32_t isolated_corner(std::uint32_t i) const { return c[i]; }
+
+    std::uint32_t used_vertices() const { return ring_vertices + static_cast<std::uint32_t>(c.size()); }
+    /// Numbers that triangles have: 2 m_r, then the T0. Those of redundant T2 copies and borders name no triangle.
+    std::uint32_t triangle_numbers() const { return 2 * ring_vertices + static_cast<std::uint32_t>(vo.size() / 6); }
+    /// 2 m_r + 6 n_0 + 3 n_i + m_i.
+    std::size_t references() const { return lr.size() + vo.size() + star.size() + c.size(); }
+};
+
+struct LrStatistics {
+    std::uint32_t t0 = 0, t0_wart = 0, t1_irregular = 0, t2_irregular = 0, t2 = 0, isolated = 0;
+};
+
+struct LrTable {
+    std::uint32_t vertices = 0, ring_vertices = 0;
+    std::vector<std::uint32_t> lr, vo, star, c;
+    LrStatistics statistics;
+
+    LrView view() const { return {vertices, ring_vertices, lr, vo, star, c}; }
+};
+
+/// Which element of the corner table each element of the LR tables is.
+struct LrMap {
+    std::vector<VertexId> vertex;      ///< vertex[LR vertex] = corner table's
+    std::vector<TriangleId> triangle;  ///< triangle[LR triangle] = corner table's, null for redundant copies and borders
+    std::vector<std::uint32_t> start;  ///< start[LR triangle] = 0, 1, 2: which of its corners is the LR triangle's first
+};
+
+struct LrOptions {
+    bool wart_skipping = true;
+};
+
+/// Builds the tables from a pseudo-manifold corner table (split_fans) and its rings, one per shell
+/// (RingOptions::one_per_shell). Degenerate triangles take no part.
+/// Cost: O(T) time; 4 bytes a reference, and about 18 bytes a triangle while it runs. `map` may be null.
+/// Errors: too_large (2^28 vertices).
+Result<LrTable> build_lr(const CornerTable& table, const Rings& rings, const LrOptions& options = {}, LrMap* map = nullptr);
+
+}  // namespace lr

@@ -1,0 +1,101 @@
+#pragma once
+// Every operator of a laced ring at every corner and vertex, against the corner table that it was built from.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "lrcore/lr/lr_table.h"
+#include "lrcore/lr/operators.h"
+
+namespace lr::test {
+
+template <class Store>
+void check_operators(const CornerTable& table, const LrOperators<Store>& ops, const LrMap& map) {
+    // The bijection: every triangle that is not degenerate has one canonical number, every vertex one number.
+    std::vector<std::uint32_t> number(table.triangle_count(), UINT32_MAX);
+    for (std::uint32_t t = 0; t < map.triangle.size(); ++t) {
+        REQUIRE(ops.is_canonical({t}) == !map.triangle[t].is_null());
+        if (map.triangle[t].is_null()) continue;
+        REQUIRE(number[map.triangle[t].value] == UINT32_MAX);
+        number[map.triangle[t].value] = t;
+    }
+    for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
+        REQUIRE((number[t] == UINT32_MAX) == table.degenerate({t}));
+    }
+    std::vector<std::uint32_t> vertex_number(table.vertex_count, UINT32_MAX);
+    REQUIRE(map.vertex.size() == table.vertex_count);
+    for (std::uint32_t v = 0; v < map.vertex.size(); ++v) {
+        REQUIRE(vertex_number[map.vertex[v].value] == UINT32_MAX);
+        vertex_number[map.vertex[v].value] = v;
+    }
+    const auto there = [&](CornerId c) -> CornerId {  // the corner table's corner of a canonical LR corner
+        if (c.is_null()) return c;
+        const std::uint32_t t = c.value / 4;
+        REQUIRE(t < map.triangle.size());
+        REQUIRE_FALSE(map.triangle[t].is_null());
+        return corner(map.triangle[t], (map.start[t] + c.value % 4) % 3);
+    };
+
+    for (std::uint32_t t = 0; t < map.triangle.size(); ++t) {
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const CornerId c{4 * t + k};
+            CAPTURE(c.value);
+            REQUIRE(ops.triangle(c).value == t);
+            REQUIRE(ops.next(c).value == 4 * t + (k + 1) % 3);
+            REQUIRE(ops.previous(c).value == 4 * t + (k + 2) % 3);
+            const CornerId canonical = ops.canonical(c);
+            if (canonical.is_null()) {  // a border: a slot with an edge and no triangle
+                REQUIRE(ops.opposite(c).is_null());
+                continue;
+            }
+            const CornerId x = there(canonical);
+            if (ops.is_canonical({t})) REQUIRE(canonical == c);
+            REQUIRE(map.vertex[ops.vertex(c).value] == table.vertex(x));  // of a T2's first copy as well
+            REQUIRE(there(ops.next(canonical)) == next(x));
+            REQUIRE(there(ops.canonical(ops.next(c))) == next(x));
+            REQUIRE(there(ops.opposite(c)) == table.opposite(x));
+            REQUIRE(there(ops.left(c)) == table.left(x));
+            REQUIRE(there(ops.right(c)) == table.right(x));
+            REQUIRE(there(ops.swing(c)) == table.swing(x));
+            const CornerId back = table.right(x);
+            REQUIRE(there(ops.swing_back(c)) == (back.is_null() ? back : previous(back)));
+        }
+    }
+
+    std::vector<std::uint32_t> triangles_at(table.vertex_count, 0), border_starts(table.vertex_count, 0);
+    for (std::uint32_t i = 0; i < table.corners.size(); ++i) {
+        if (table.degenerate(triangle(CornerId{i}))) continue;
+        ++triangles_at[table.vertex({i}).value];
+        if (table.opposite({i}).is_null()) ++border_starts[table.vertex(next(CornerId{i})).value];
+    }
+    for (std::uint32_t v = 0; v < map.vertex.size(); ++v) {
+        CAPTURE(v);
+        const std::uint32_t there_v = map.vertex[v].value;
+        const CornerId c = ops.corner(VertexId{v});
+        REQUIRE(c.is_null() == (triangles_at[there_v] == 0));
+        if (c.is_null()) {
+            CHECK(ops.valence({v}) == 0);
+            continue;
+        }
+        REQUIRE(ops.vertex(c).value == v);
+        REQUIRE(ops.canonical(c) == c);
+        REQUIRE(border_starts[there_v] <= 1);  // a pseudo-manifold
+        REQUIRE(ops.is_border({v}) == (border_starts[there_v] == 1));
+        REQUIRE(ops.valence({v}) == triangles_at[there_v] + border_starts[there_v]);
+        std::vector<std::uint32_t> star;
+        ops.star({v}, [&](CornerId x) {
+            REQUIRE(ops.vertex(x).value == v);
+            star.push_back(there(x).value);
+        });
+        REQUIRE(star.size() == triangles_at[there_v]);
+        std::sort(star.begin(), star.end());
+        REQUIRE(std::adjacent_find(star.begin(), star.end()) == star.end());
+        std::uint32_t neighbours = 0;
+        ops.neighbours({v}, [&](VertexId) { ++neighbours; });
+        REQUIRE(neighbours == ops.valence({v}));
+    }
+}
+
+}  // namespace lr::test

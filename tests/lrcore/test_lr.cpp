@@ -1,0 +1,51 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "lrcore/corner_table/split.h"
+#include "lrcore/lr/lr_table.h"
+#include "lrcore/lr/operators.h"
+#include "tests/lrcore/operator_oracle.h"
+#include "tests/support/meshes.h"
+
+using namespace lr;
+
+namespace {
+
+void check(const Mesh& mesh, const RingOptions& rings_options, const LrOptions& options) {
+    Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
+    REQUIRE(table);
+    split_fans(*table);
+    CHECK(validate(*table) == "");
+    RingOptions one = rings_options;
+    one.one_per_shell = true;
+    const Rings rings = expand_rings(*table, one);
+    REQUIRE(validate(*table, rings) == "");
+    LrMap map;
+    const Result<LrTable> lr = build_lr(*table, rings, options, &map);
+    REQUIRE(lr);
+    const LrStatistics& s = lr->statistics;
+    CHECK(lr->view().references() == std::size_t{2} * lr->ring_vertices + std::size_t{6} * s.t0 +
+                                         std::size_t{3} * (s.t1_irregular + s.t2_irregular) + s.isolated);
+    test::check_operators(*table, LrOperators<LrView>(lr->view()), map);
+}
+
+}  // namespace
+
+TEST_CASE("LR operators equal the corner table's on named meshes") {
+    for (const auto& [name, mesh] : test::named_meshes()) {
+        CAPTURE(name);
+        check(mesh, {1, 1}, {});
+        check(mesh, {1, 1}, {.wart_skipping = false});
+        check(mesh, {4, 9}, {});
+    }
+}
+
+TEST_CASE("LR operators equal the corner table's on random soups") {
+    for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+        CAPTURE(seed);
+        const bool warts = seed % 3 != 0;
+        check(test::random_soup(4 + static_cast<std::uint32_t>(seed % 29), 1 + static_cast<std::uint32_t>(seed % 83), seed), {2, seed}, {warts});
+        check(test::random_gluing(10 + static_cast<std::uint32_t>(seed % 50), 150, seed), {1, seed}, {warts});
+    }
+}
