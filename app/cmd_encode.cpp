@@ -23,18 +23,18 @@ int run(const Options& options) {
     const Result<Mesh> mesh = load(options.input);
     if (!mesh) return fail(options.input.path, mesh.error());
     LrFile file;
+    std::uint32_t degenerate = 0;
     {
         const Result<CornerTable> table = build_corner_table(mesh->indices, mesh->vertex_count);
         if (!table) return fail(options.input.path, table.error());
         const Rings rings = expand_rings(*table, ring_options(options.ring, mesh->triangle_count()));
         file = make_lr_file(*mesh, encode_lean(*table, rings, {.wart_skipping = !options.no_warts}), options.keep_order);
-        if (table->topology.degenerate > 0) {
-            fmt::print(stderr, "{}: {} degenerate triangles dropped\n", options.input.path, table->topology.degenerate);
-        }
+        degenerate = table->topology.degenerate;
     }
     if (const Result<void> written = write_lr(file, options.output); !written) {
         return fail(options.output, written.error());
     }
+    if (degenerate > 0) fmt::print(stderr, "{}: {} degenerate triangles dropped\n", options.input.path, degenerate);
     const Result<LeanView> view = view_lean(file.lean);
     const auto triangles = static_cast<double>(mesh->triangle_count());
     fmt::print(stderr, "{}: {} triangles, connectivity {} bytes, {:.3f} references and {:.2f} bits per triangle\n",
