@@ -103,7 +103,7 @@ class GltfReader {
         }
         const std::size_t corners = primitive.corner_count(plan.blocks[primitive.block].count);
         if (corners % 3 != 0) return malformed("{} indices are not triangles", corners);
-        plan.primitives.push_back(std::move(primitive));
+        plan.primitives.push_back(primitive);
         return {};
     }
 

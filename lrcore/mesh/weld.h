@@ -14,7 +14,7 @@ enum class Weld {
 
 /// Merges vertices with identical bits (so -0 and +0 differ, as do two NaN payloads). The first of each group is kept,
 /// in the order of first appearance. Triangles keep their order; some may become degenerate. Unused vertices take part.
-/// Cost: O(V) expected time, about 12 bytes a vertex beside the result.
+/// Cost: O(V) expected time, about 4 bytes a vertex and 10 to 17 a group beside the result.
 Mesh weld(const Mesh& mesh, Weld mode);
 
 }  // namespace lr

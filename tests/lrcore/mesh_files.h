@@ -37,6 +37,7 @@ inline const std::filesystem::path& folder() {
 
 inline std::filesystem::path write_text(const std::string& name, std::string_view content) {
     const std::filesystem::path path = folder() / name;
+    std::filesystem::remove(path);  // some file systems wait for the disk when a file is truncated and written again
     std::ofstream file(path, std::ios::binary | std::ios::trunc);
     file.write(content.data(), static_cast<std::streamsize>(content.size()));
     return path;

@@ -54,8 +54,8 @@ class GltfMaker {
 const std::initializer_list<float> square{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
 const std::string one_node = R"("scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)";
 
-std::string mesh_of(const std::string& primitives) {
-    return R"("meshes":[{"primitives":[)" + primitives + "]}]";
+std::string mesh_of(const std::string& primitives, const std::string& before = "") {
+    return before + R"("meshes":[{"primitives":[)" + primitives + "]}]";
 }
 
 }  // namespace
@@ -104,7 +104,7 @@ TEST_CASE("glTF: node transforms, instances and mirrors") {
     maker.floats("VEC3", {-0.0F, 0.1F, 0.2F, 1, 0, 0, 0, 1, 0}, 3);  // 0
     maker.floats("VEC3", {0, 0, 1, 0, 0, 1, 1, 0, 0}, 3);            // 1
     maker.floats("VEC4", {1, 0, 0, -1, 0, 1, 0, 1, 0, 0, 1, 1}, 4);  // 2
-    const std::string mesh = "," + mesh_of(R"({"attributes":{"POSITION":0,"NORMAL":1,"TANGENT":2}})");
+    const std::string mesh = mesh_of(R"({"attributes":{"POSITION":0,"NORMAL":1,"TANGENT":2}})", ",");
     SUBCASE("depth first, a node before its children; identity keeps the bits") {
         const Mesh read =
             must_read("nodes.glb", maker.glb_file(R"("scenes":[{"nodes":[]},{"nodes":[3,0]}],"scene":1,"nodes":[
@@ -244,7 +244,7 @@ TEST_CASE("glTF: references, bounds and cycles are checked") {
     maker.add<std::uint16_t>(5123, "SCALAR", {0, 1, 4}, 1);
     maker.add<std::uint16_t>(5123, "SCALAR", {0, 1, 65535}, 1);
     maker.add<std::uint16_t>(5123, "SCALAR", {0, 1}, 1);
-    const std::string mesh = "," + mesh_of(R"({"attributes":{"POSITION":0},"mode":6})");
+    const std::string mesh = mesh_of(R"({"attributes":{"POSITION":0},"mode":6})", ",");
     for (const char* nodes : {
              R"("nodes":[{"mesh":0,"children":[0]}])",
              R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"children":[1]},{"children":[0]}])",

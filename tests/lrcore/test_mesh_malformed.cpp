@@ -236,7 +236,7 @@ TEST_CASE("counts that the file has no bytes for") {
     std::string stl(84, '\0');
     stl.replace(80, 4, "\xFF\xFF\xFF\xFF");
     CHECK(message_of("h.stl", stl).find("4294967295") != std::string::npos);
-    CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(20));
+    CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(60));
 }
 
 TEST_CASE("errors name the place and the cause") {
