@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -9,6 +10,10 @@
 #include "app/measure.h"
 #include "lrcore/baseline/strips.h"
 #include "lrcore/lean/lean_stream.h"
+#ifdef LACEDRING_GPU
+#include "app/bench_gpu.h"
+#include "app/gpu_options.h"
+#endif
 
 namespace lr::app {
 namespace {
@@ -20,6 +25,10 @@ struct Options {
     std::string weld;
     int rounds = 5;
     std::uint32_t seeds = 1;
+    bool no_gpu = false;
+#ifdef LACEDRING_GPU
+    gpu::ContextOptions context;
+#endif
     bool json = false;
 };
 
@@ -35,6 +44,7 @@ Json to_json(const Section& section, double triangles) {
                        {"mtri_per_s", triangles / c.median() / 1e6},
                        {"seconds_min", *std::min_element(c.seconds.begin(), c.seconds.end())},
                        {"seconds_max", *std::max_element(c.seconds.begin(), c.seconds.end())}};
+        if (!c.gpu_seconds.empty()) out[c.name]["gpu_seconds"] = median(c.gpu_seconds);
     }
     return out;
 }
@@ -55,25 +65,43 @@ int run(const Options& options) {
         if (!view) return fail(path, view.error());
 
         Section construct{"construct", {}};
-        construct.candidates.push_back({"corner_table", [&] { (void)build(); }, {}});
-        construct.candidates.push_back({"ring", [&] { expand_rings(*table, ring_choice); }, {}});
-        construct.candidates.push_back({"lean_encode", [&] { encode_lean(*table, rings); }, {}});
+        construct.candidates.push_back({"corner_table", [&] { (void)build(); }, {}, {}});
+        construct.candidates.push_back({"ring", [&] { expand_rings(*table, ring_choice); }, {}, {}});
+        construct.candidates.push_back({"lean_encode", [&] { encode_lean(*table, rings); }, {}, {}});
         const auto whole = [&] {
             const Result<CornerTable> t = build();
             encode_lean(*t, expand_rings(*t, ring_choice));
         };
-        construct.candidates.push_back({"lean", whole, {}});
-        construct.candidates.push_back({"strips", [&] { make_restart_strip(mesh->indices, mesh->vertex_count); }, {}});
+        construct.candidates.push_back({"lean", whole, {}, {}});
+        construct.candidates.push_back({"strips", [&] { make_restart_strip(mesh->indices, mesh->vertex_count); }, {}, {}});
         run_interleaved(construct.candidates, options.rounds);
 
         Section decode{"decode_cpu", {}};
         std::vector<std::uint32_t> indices(std::size_t{3} * view->slots()), copy(indices.size());
-        decode.candidates.push_back({"lean", [&] { decode_lean(*view, indices); }, {}});
-        decode.candidates.push_back({"copy", [&] { std::copy(indices.begin(), indices.end(), copy.begin()); }, {}});
+        decode.candidates.push_back({"lean", [&] { decode_lean(*view, indices); }, {}, {}});
+        decode.candidates.push_back({"copy", [&] { std::copy(indices.begin(), indices.end(), copy.begin()); }, {}, {}});
         run_interleaved(decode.candidates, options.rounds * 3);
 
-        Json peak = {{"lean", peak_bytes(whole)},
-                     {"strips", peak_bytes([&] { make_restart_strip(mesh->indices, mesh->vertex_count); })}};
+        Section decode_gpu{"decode_gpu (wall)", {}}, draw{"draw (wall)", {}};
+        std::string device, gpu_skipped = "built without Vulkan";
+        Json peak = Json::object();
+#ifdef LACEDRING_GPU
+        if (options.no_gpu) {
+            gpu_skipped = "--no-gpu";
+        } else if (Result<GpuFigures> gpu = measure_gpu(*mesh, options.context, options.rounds)) {
+            gpu_skipped.clear();
+            device = gpu->device;
+            decode_gpu.candidates = std::move(gpu->decode);
+            draw.candidates = std::move(gpu->draw);
+            peak["gpu"] = gpu->device_bytes;
+        } else if (gpu.error().code == ErrorCode::no_device && options.context.device.empty()) {
+            gpu_skipped = gpu.error().message;
+        } else {
+            return fail(path, gpu.error());
+        }
+#endif
+        peak.update(Json{{"lean", peak_bytes(whole)},
+                     {"strips", peak_bytes([&] { make_restart_strip(mesh->indices, mesh->vertex_count); })}});
         const double ratio = construct.candidates[4].median() / construct.candidates[3].median();
         if (options.json) {
             meshes.push_back({{"file", path},
@@ -81,22 +109,27 @@ int run(const Options& options) {
                               {"construct", to_json(construct, triangles)},
                               {"construct_ratio", {{"strips_over_lean", ratio}}},
                               {"decode_cpu", to_json(decode, triangles)},
-                              {"decode_gpu", Json::object()},
-                              {"draw", Json::object()},
+                              {"decode_gpu", to_json(decode_gpu, triangles)},
+                              {"draw", to_json(draw, triangles)},
+                              {"device", device},
+                              {"gpu_skipped", gpu_skipped},
                               {"operators", Json::object()},
                               {"peak_bytes", peak}});
             continue;
         }
         fmt::print("{}: {} triangles; medians of {} rounds\n", path, mesh->triangle_count(), options.rounds);
-        for (const Section& section : {construct, decode}) {
+        for (const Section& section : {construct, decode, decode_gpu, draw}) {
+            if (section.candidates.empty()) continue;
             fmt::print("  {}\n", section.name);
             for (const Candidate& c : section.candidates) {
-                fmt::print("    {:<16}{:>11.3f} ms{:>10.1f} Mtri/s\n", c.name, c.median() * 1e3, triangles / c.median() / 1e6);
+                fmt::print("    {:<24}{:>11.3f} ms{:>10.1f} Mtri/s\n", c.name, c.median() * 1e3,
+                           triangles / c.median() / 1e6);
             }
         }
+        fmt::print("  {}\n", gpu_skipped.empty() ? "drawn at 1280x720 on " + device : "not drawn: " + gpu_skipped);
         fmt::print("  lean is built {:.2f} times as fast as strips\n  peak memory beyond the input\n", ratio);
         for (const auto& [name, bytes] : peak.items()) {
-            fmt::print("    {:<16}{:>11.1f} MB{:>10.1f} bytes a triangle\n", name, bytes.get<double>() / 1e6,
+            fmt::print("    {:<24}{:>11.1f} MB{:>10.1f} bytes a triangle\n", name, bytes.get<double>() / 1e6,
                        bytes.get<double>() / triangles);
         }
     }
@@ -113,6 +146,10 @@ void add_bench(CLI::App& program, Action& action) {
     add_weld(*command, options->weld);
     command->add_option("--rounds", options->rounds, "how often each is run")->check(CLI::Range(1, 1000))->capture_default_str();
     command->add_option("--seeds", options->seeds, "seed corners per component")->check(CLI::Range(1, 10000))->capture_default_str();
+#ifdef LACEDRING_GPU
+    command->add_flag("--no-gpu", options->no_gpu, "leave the device out");
+    add_device_options(*command, options->context);
+#endif
     command->add_flag("--json", options->json, "one JSON document on standard output");
     command->callback([options, &action] { action = [options] { return run(*options); }; });
 }

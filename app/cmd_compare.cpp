@@ -36,6 +36,7 @@ nlohmann::ordered_json to_json(const Options& options, const gpu::DeviceInfo& in
                                                      {"indices_equal_cpu", c.indices_equal_cpu},
                                                      {"raw_pixels_different", c.raw_pixels_different},
                                                      {"raw_max_channel_difference", c.raw_max_channel_difference},
+                                                     {"raw_pixels_beyond_one", c.raw_pixels_beyond_one},
                                                      {"covered_pixels", c.covered_pixels},
                                                      {"distinct_ids", c.distinct_ids},
                                                      {"blank", c.blank},
@@ -49,16 +50,18 @@ nlohmann::ordered_json to_json(const Options& options, const gpu::DeviceInfo& in
 }
 
 void print_table(const Options& options, const gpu::DeviceInfo& info, const gpu::Comparison& c, std::size_t messages) {
-    const double raw_share =
-        c.covered_pixels == 0 ? 0 : 100 * static_cast<double>(c.raw_pixels_different) / static_cast<double>(c.covered_pixels);
+    const double raw_share = c.covered_pixels == 0 ? 0
+                                                   : 100 * static_cast<double>(c.raw_pixels_different) /
+                                                         static_cast<double>(c.covered_pixels);
     fmt::print("{}: plain against lean, {} views of {}x{} on {}\n", options.input.path, c.views, options.size.width,
                options.size.height, info.name);
     fmt::print("  {:<30}{:>12}\n", "pixels that differ", c.pixels_different);
     fmt::print("  {:<30}{:>12}\n", "largest difference, of 255", c.max_channel_difference);
     fmt::print("  {:<30}{:>12}\n", "triangle numbers that differ", c.triangle_ids_different);
     fmt::print("  {:<30}{:>12}\n", "indices as the CPU decodes", c.indices_equal_cpu ? "yes" : "NO");
-    fmt::print("  {:<30}{:>12}  {:.4f} % of those covered, by at most {}/255\n", "raw pixels that differ",
-               c.raw_pixels_different, raw_share, c.raw_max_channel_difference);
+    fmt::print("  {:<30}{:>12}  {:.4f} % of those covered; {} by more than 1/255, at most {}/255\n",
+               "raw pixels that differ", c.raw_pixels_different, raw_share, c.raw_pixels_beyond_one,
+               c.raw_max_channel_difference);
     fmt::print("  {:<30}{:>12}{}\n", "pixels covered", c.covered_pixels, c.blank ? "  BLANK" : "");
     fmt::print("  {:<30}{:>12}\n", "triangles seen", c.distinct_ids);
     if (options.context.validation) fmt::print("  {:<30}{:>12}\n", "validation messages", messages);
@@ -80,7 +83,8 @@ int run(const Options& options) {
 
     // Where anything differs there is always a picture of it; beside the working folder's files, named after the mesh.
     std::string diff = options.diff;
-    if (diff.empty() && !comparison->same()) diff = std::filesystem::path(options.input.path).stem().string() + ".diff.png";
+    if (diff.empty() && !comparison->same())
+        diff = std::filesystem::path(options.input.path).stem().string() + ".diff.png";
     if (!diff.empty()) {
         if (const Result<void> written = gpu::write_png(diff, comparison->picture); !written) {
             return fail(diff, written.error());
@@ -101,7 +105,8 @@ int run(const Options& options) {
 
 void add_compare(CLI::App& program, Action& action) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = program.add_subcommand("compare", "draw a mesh plain and from its stream, and compare the pixels");
+    CLI::App* command =
+        program.add_subcommand("compare", "draw a mesh plain and from its stream, and compare the pixels");
     command->add_option("MESH", options->input.path, "mesh file")->required();
     add_weld(*command, options->input.weld);
     add_size(*command, options->size);

@@ -46,12 +46,13 @@ std::size_t peak_bytes(const std::function<void()>& work) {
     return peak > before ? peak - before : 0;
 }
 
-double Candidate::median() const {
-    std::vector<double> sorted = seconds;
-    if (sorted.empty()) return 0;
-    std::sort(sorted.begin(), sorted.end());
-    return sorted[sorted.size() / 2];
+double median(std::vector<double> values) {
+    if (values.empty()) return 0;
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
 }
+
+double Candidate::median() const { return app::median(seconds); }
 
 void run_interleaved(std::vector<Candidate>& candidates, int rounds) {
     for (int round = 0; round < rounds; ++round) {

@@ -21,9 +21,12 @@ std::size_t peak_bytes(const std::function<void()>& work);
 struct Candidate {
     std::string name;
     std::function<void()> work;
-    std::vector<double> seconds;  ///< one entry a round
+    std::vector<double> seconds;      ///< wall, one entry a round
+    std::vector<double> gpu_seconds;  ///< by the device's timestamps, where there are any
     double median() const;
 };
+
+double median(std::vector<double> values);
 
 /// Runs every candidate once per round, so that a slow spell of the machine meets all of them.
 void run_interleaved(std::vector<Candidate>& candidates, int rounds);

@@ -60,7 +60,8 @@ bool Arena::carve(std::uint32_t index, const VkMemoryRequirements& requirements,
         block.free.erase(it);
         if (offset > begin) block.free.emplace(begin, offset - begin);
         if (end < begin + size) block.free.emplace(end, begin + size - end);
-        out = {block.memory, offset, requirements.size, block.mapped == nullptr ? nullptr : block.mapped + offset, index};
+        out = {block.memory, offset, requirements.size, block.mapped == nullptr ? nullptr : block.mapped + offset,
+               index};
         return true;
     }
     return false;
@@ -88,8 +89,8 @@ Result<std::uint32_t> Arena::add_block(std::uint32_t type, VkDeviceSize size, Ti
     }
     held_ += size;
     peak_ = std::max(peak_, held_);
-    const auto hole = std::find_if(blocks_.begin(), blocks_.end(),
-                                   [](const Block& b) { return b.memory == VK_NULL_HANDLE; });
+    const auto hole =
+        std::find_if(blocks_.begin(), blocks_.end(), [](const Block& b) { return b.memory == VK_NULL_HANDLE; });
     const auto index = static_cast<std::uint32_t>(hole - blocks_.begin());
     if (hole == blocks_.end()) {
         blocks_.push_back(std::move(block));
@@ -103,7 +104,8 @@ Result<Allocation> Arena::allocate(const VkMemoryRequirements& requirements, Mem
     const std::uint32_t type = choose_type(requirements.memoryTypeBits, memory);
     if (type == kNoType) return Error{ErrorCode::device_failure, "no memory type fits a resource"};
     if (requirements.size > max_allocation_) {
-        return Error{ErrorCode::too_large, std::to_string(requirements.size) + " bytes in one resource; the device gives " +
+        return Error{ErrorCode::too_large, std::to_string(requirements.size) +
+                                               " bytes in one resource; the device gives " +
                                                std::to_string(max_allocation_)};
     }
     Allocation out;

@@ -12,7 +12,8 @@ Result<Buffer> Buffer::create(Context& context, const std::string& name, VkDevic
                               Memory memory) {
     size = std::max<VkDeviceSize>(size, 16);
     if (size > context.info().max_buffer_size) {
-        return Error{ErrorCode::too_large, name + ": " + std::to_string(size) + " bytes; the device allows buffers of " +
+        return Error{ErrorCode::too_large, name + ": " + std::to_string(size) +
+                                               " bytes; the device allows buffers of " +
                                                std::to_string(context.info().max_buffer_size)};
     }
     Buffer out;
@@ -56,7 +57,9 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
     return *this;
 }
 
-Buffer::~Buffer() { reset(); }
+Buffer::~Buffer() {
+    reset();
+}
 
 void Buffer::reset() {
     if (buffer_ == VK_NULL_HANDLE) return;

@@ -12,12 +12,16 @@
 namespace lr::gpu {
 namespace {
 
-constexpr double kMargin = 1.07;     // around the mesh, where it is fitted to the picture
+constexpr double kMargin = 1.07;  // around the mesh, where it is fitted to the picture
 constexpr double kSmallestNear = 1e-3;
 
-glm::dvec3 vec(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
+glm::dvec3 vec(const std::array<double, 3>& a) {
+    return {a[0], a[1], a[2]};
+}
 
-bool finite(const glm::dvec3& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
+bool finite(const glm::dvec3& a) {
+    return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
 
 mat4 store(const glm::dmat4& m) {
     mat4 out;
@@ -90,7 +94,8 @@ Result<Camera> make_camera(const Model& model, const CameraOptions& options, std
     up = glm::normalize(up);
     if (!(options.zoom > 0) || !std::isfinite(options.zoom)) return invalid("the camera's zoom factor is not positive");
     if (!(options.view_angle > 0) || options.view_angle >= 179) return invalid("the view angle is not in (0, 179)");
-    if (!std::isfinite(options.azimuth) || !std::isfinite(options.elevation)) return invalid("an angle is not a number");
+    if (!std::isfinite(options.azimuth) || !std::isfinite(options.elevation))
+        return invalid("an angle is not a number");
 
     const auto to_unit = [&](const std::array<double, 3>& p) { return (vec(p) - vec(model.centre)) / model.radius; };
     glm::dvec3 focal = options.focal_point ? to_unit(*options.focal_point) : glm::dvec3(0.0);

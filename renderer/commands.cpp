@@ -87,8 +87,8 @@ Result<Elapsed> Commands::run() {
         std::array<std::uint64_t, 2> ticks{};
         LR_TRY_VK(vkGetQueryPoolResults(context_->device(), queries_.get(), 0, 2, sizeof(ticks), ticks.data(),
                                         sizeof(ticks[0]), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
-        elapsed.gpu = static_cast<double>(ticks[1] - ticks[0]) *
-                      static_cast<double>(context_->limits().timestampPeriod) * 1e-9;
+        elapsed.gpu =
+            static_cast<double>(ticks[1] - ticks[0]) * static_cast<double>(context_->limits().timestampPeriod) * 1e-9;
     }
     return elapsed;
 }

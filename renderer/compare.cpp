@@ -27,7 +27,8 @@ void mark(Marks& marks, const Picture& a, const Picture& b, std::uint8_t bit) {
     for (std::size_t i = 0; i < a.pixels(); ++i) {
         const bool colour = !std::equal(&a.rgba[4 * i], &a.rgba[4 * i] + 4, &b.rgba[4 * i]);
         // Raw pictures may show another of two coincident triangles: only their colours count.
-        if (colour || (bit == 1 && a.triangles[i] != b.triangles[i])) marks[i] = static_cast<std::uint8_t>(marks[i] | bit);
+        if (colour || (bit == 1 && a.triangles[i] != b.triangles[i]))
+            marks[i] = static_cast<std::uint8_t>(marks[i] | bit);
     }
 }
 
@@ -62,7 +63,8 @@ void paste(Picture& sheet, const Picture& view, const Marks& marks, std::uint32_
 }
 
 void note_seen(std::vector<bool>& seen, const Picture& picture) {
-    for (const std::uint32_t id : picture.triangles) {
+    for (const std::uint32_t value : picture.triangles) {
+        const std::uint32_t id = value & ~LR_FRONT_FLAG;
         if (id != 0 && id <= seen.size()) seen[id - 1] = true;
     }
 }
@@ -102,6 +104,7 @@ Result<Comparison> compare(Context& context, const Model& model, const CompareOp
         LR_ASSIGN(const Picture a, renderer.draw(plain, model, cameras[v], false));
         const Difference d = difference(a, b);
         out.raw_pixels_different += d.pixels;
+        out.raw_pixels_beyond_one += d.beyond_one;
         out.raw_max_channel_difference = std::max(out.raw_max_channel_difference, d.channel);
         marks[v].assign(a.pixels(), 0);
         mark(marks[v], a, b, 2);
@@ -125,8 +128,8 @@ Result<Comparison> compare(Context& context, const Model& model, const CompareOp
         paste(out.picture, a, marks[v], v);
     }
     out.distinct_ids = static_cast<std::uint64_t>(std::count(seen.begin(), seen.end(), true));
-    // A mesh may hide most of its triangles, and a needle covers little: the bars are low, but nothing drawn, or all drawn
-    // as one, does not pass. The cameras fit the mesh to the picture, so a thousandth is less than a needle.
+    // A mesh may hide most of its triangles, and a needle covers little: the bars are low, but nothing drawn, or all
+    // drawn as one, does not pass. The cameras fit the mesh to the picture, so a thousandth is less than a needle.
     const std::uint64_t pixels = std::uint64_t{options.width} * options.height * kViews;
     const std::uint64_t visible = std::min<std::uint64_t>(model.triangle_count(), out.covered_pixels);
     out.blank = out.covered_pixels * 1000 < pixels || out.distinct_ids < std::max<std::uint64_t>(1, visible / 1000);

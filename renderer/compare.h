@@ -22,18 +22,17 @@ struct Comparison {
     std::uint32_t views = 0;
     std::uint64_t pixels_different = 0;
     std::uint32_t max_channel_difference = 0;  ///< of 255
-    std::uint64_t triangle_ids_different = 0;
+    std::uint64_t triangle_ids_different = 0;  ///< pixels that show another triangle, or its other side
     bool indices_equal_cpu = false;            ///< the index buffer that the device wrote is decode_lean's
     std::uint64_t raw_pixels_different = 0;    ///< without rotating triangles and without breaking ties
     std::uint32_t raw_max_channel_difference = 0;
-    std::uint64_t covered_pixels = 0;          ///< of the mesh's own picture
-    std::uint64_t distinct_ids = 0;            ///< different triangles seen in the mesh's own pictures
-    bool blank = false;                        ///< too little was seen for the rest to mean anything
+    std::uint64_t raw_pixels_beyond_one = 0;  ///< of these, by more than 1/255: another triangle was nearer, or first
+    std::uint64_t covered_pixels = 0;         ///< of the mesh's own picture
+    std::uint64_t distinct_ids = 0;           ///< different triangles seen in the mesh's own pictures
+    bool blank = false;                       ///< too little was seen for the rest to mean anything
     Picture picture;  ///< all views, pale; red where they differ, amber where only the raw ones do
 
-    bool same() const {
-        return pixels_different == 0 && triangle_ids_different == 0 && indices_equal_cpu && !blank;
-    }
+    bool same() const { return pixels_different == 0 && triangle_ids_different == 0 && indices_equal_cpu && !blank; }
 };
 
 /// Draws the mesh plain and from its lean stream, from six sides, with smooth normals: first as the index buffers are,

@@ -58,7 +58,6 @@ DeviceInfo describe(const DeviceChoice& choice) {
     info.driver = std::string(driver.driverName) + (driver.driverInfo[0] != '\0' ? " " : "") + driver.driverInfo;
     info.api = version(properties.properties.apiVersion);
     info.software = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
-    info.wire = choice.wire;
     info.limits = properties.properties.limits;
     info.max_buffer_size = p13.maxBufferSize;
     info.max_line_width = choice.wide_lines ? info.limits.lineWidthRange[1] : 1.0F;
@@ -101,7 +100,8 @@ Result<void> Context::create_instance(const ContextOptions& options) {
     application.pApplicationName = "LacedRing";
     application.apiVersion = VK_API_VERSION_1_3;
     VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_info(validation_);
-    constexpr VkValidationFeatureEnableEXT kSynchronization = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+    constexpr VkValidationFeatureEnableEXT kSynchronization =
+        VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
     VkValidationFeaturesEXT features{};
     features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
     features.pNext = &messenger;  // so that messages about the instance itself are kept too
@@ -116,7 +116,8 @@ Result<void> Context::create_instance(const ContextOptions& options) {
     info.enabledExtensionCount = static_cast<std::uint32_t>(enabled.size());
     info.ppEnabledExtensionNames = enabled.data();
     if (const VkResult result = vkCreateInstance(&info, nullptr, &instance_); result != VK_SUCCESS) {
-        return Error{ErrorCode::no_device, "no Vulkan: vkCreateInstance: " + result_name(result)};
+        return Error{ErrorCode::no_device,
+                     "no Vulkan driver (Debian: mesa-vulkan-drivers): vkCreateInstance: " + result_name(result)};
     }
     if (options.validation) {
         const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
@@ -137,12 +138,12 @@ Result<void> Context::create_device(const ContextOptions& options) {
     f13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
     f13.dynamicRendering = VK_TRUE;
     f13.synchronization2 = VK_TRUE;
+    f13.maintenance4 = VK_TRUE;
     VkPhysicalDeviceFeatures2 features{};
     features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
     features.pNext = &f13;
     features.features.geometryShader = VK_TRUE;
     features.features.fragmentStoresAndAtomics = VK_TRUE;
-    features.features.fillModeNonSolid = choice.wire ? VK_TRUE : VK_FALSE;
     features.features.wideLines = choice.wide_lines ? VK_TRUE : VK_FALSE;
     features.features.fullDrawIndexUint32 = choice.full_index_range ? VK_TRUE : VK_FALSE;
     const float priority = 1.0F;

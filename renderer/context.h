@@ -1,6 +1,6 @@
 #pragma once
-// One Vulkan device, headless: instance, device, queue, limits, memory. Everything else in renderer/ hangs on it and must
-// go before it.
+// One Vulkan device, headless: instance, device, queue, limits, memory. Everything else in renderer/ hangs on it and
+// must go before it.
 
 #include <vulkan/vulkan.h>
 
@@ -23,7 +23,6 @@ struct DeviceInfo {
     std::string driver;  ///< "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)"
     std::string api;     ///< "1.3.230"
     bool software = false;
-    bool wire = false;        ///< triangles can be drawn as lines
     bool timestamps = false;  ///< the queue has timestamps
     float max_line_width = 1.0F;
     VkPhysicalDeviceLimits limits{};

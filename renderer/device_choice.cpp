@@ -35,11 +35,16 @@ bool format_has(VkPhysicalDevice device, VkFormat format, VkFormatFeatureFlags f
 
 int rank(VkPhysicalDeviceType type) {
     switch (type) {
-        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return 4;
-        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return 3;
-        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return 2;
-        case VK_PHYSICAL_DEVICE_TYPE_CPU: return 1;
-        default: return 0;
+        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+            return 4;
+        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+            return 3;
+        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+            return 2;
+        case VK_PHYSICAL_DEVICE_TYPE_CPU:
+            return 1;
+        default:
+            return 0;
     }
 }
 
@@ -71,6 +76,7 @@ std::vector<std::string> missing_features(VkPhysicalDevice device) {
     };
     need(f13.dynamicRendering, "dynamicRendering");
     need(f13.synchronization2, "synchronization2");
+    need(f13.maintenance4, "maintenance4 (workgroup sizes as SPIR-V 1.6 gives them)");
     need(f.features.geometryShader, "geometryShader (gl_PrimitiveID in fragment shaders)");
     need(f.features.fragmentStoresAndAtomics, "fragmentStoresAndAtomics");
     const auto need_format = [&](VkFormat format, VkFormatFeatureFlags features, const char* what) {
@@ -129,8 +135,8 @@ Result<DeviceChoice> choose_device(VkInstance instance, const std::string& name)
     }
     VkPhysicalDeviceFeatures features{};
     vkGetPhysicalDeviceFeatures(best, &features);
-    return DeviceChoice{best, *graphics_compute_family(best), features.fillModeNonSolid == VK_TRUE,
-                        features.wideLines == VK_TRUE, features.fullDrawIndexUint32 == VK_TRUE};
+    return DeviceChoice{best, *graphics_compute_family(best), features.wideLines == VK_TRUE,
+                        features.fullDrawIndexUint32 == VK_TRUE};
 }
 
 }  // namespace lr::gpu

@@ -14,9 +14,8 @@ namespace lr::gpu {
 struct DeviceChoice {
     VkPhysicalDevice device = VK_NULL_HANDLE;
     std::uint32_t queue_family = 0;  ///< graphics and compute
-    bool wire = false;               ///< fillModeNonSolid
     bool wide_lines = false;
-    bool full_index_range = false;   ///< indices past 2^24
+    bool full_index_range = false;  ///< indices past 2^24
 };
 
 /// What a device lacks of what the renderer needs: names of features, formats and versions. Empty: usable.

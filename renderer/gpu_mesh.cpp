@@ -24,16 +24,18 @@ Result<GpuMesh> prepare(Context& context, const Model& model, std::uint64_t slot
     GpuMesh mesh;
     mesh.max_range = options.max_range == 0 ? context.limits().maxStorageBufferRange : options.max_range;
     if (mesh.max_range < kSmallestRange) return Error{ErrorCode::invalid_argument, "descriptor range below 2048 bytes"};
-    if (slots == 0) return Error{ErrorCode::invalid_argument, "the mesh has no triangles to draw"};
+    if (slots == 0) return Error{ErrorCode::unsupported, "the mesh has no triangles to draw"};
     if (slots > UINT32_MAX / 3) return Error{ErrorCode::too_large, "more than 2^32 indices"};
     if (model.vertex_count() - 1 > context.info().max_index) {
-        return Error{ErrorCode::too_large, std::to_string(model.vertex_count()) + " vertices; the device's indices go to " +
+        return Error{ErrorCode::too_large, std::to_string(model.vertex_count()) +
+                                               " vertices; the device's indices go to " +
                                                std::to_string(context.info().max_index)};
     }
     mesh.vertex_count = model.vertex_count();
     mesh.slots = static_cast<std::uint32_t>(slots);
     mesh.draw_slots = static_cast<std::uint32_t>(
-        std::min<std::uint64_t>(mesh.max_range / sizeof(std::uint32_t), std::uint64_t{1} << 30) / kSlotStep * kSlotStep);
+        std::min<std::uint64_t>(mesh.max_range / sizeof(std::uint32_t), std::uint64_t{1} << 30) / kSlotStep *
+        kSlotStep);
     mesh.draws = (mesh.slots + mesh.draw_slots - 1) / mesh.draw_slots;
     LR_ASSIGN(mesh.vertices, Buffer::create(context, "vertices", sizeof(Vertex) * std::uint64_t{mesh.vertex_count},
                                             VK_BUFFER_USAGE_VERTEX_BUFFER_BIT));
@@ -61,16 +63,38 @@ Result<void> upload_vertices(Transfer& transfer, const GpuMesh& mesh, const Mode
                            });
 }
 
-Result<void> upload_extras(Context& context, Transfer& transfer, GpuMesh& mesh, std::span<const std::uint8_t> classes,
-                           std::span<const std::uint32_t> lines) {
+Result<void> upload_classes(Context& context, Transfer& transfer, GpuMesh& mesh,
+                            std::span<const std::uint8_t> classes) {
     // The shader reads whole words.
     const std::uint64_t bytes = (classes.size() + 3) / 4 * 4;
     LR_ASSIGN(mesh.classes, Buffer::create(context, "triangle classes", bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT));
-    LR_TRY(transfer.upload(mesh.classes, classes));
-    LR_ASSIGN(mesh.lines, Buffer::create(context, "ring lines", lines.size_bytes(), VK_BUFFER_USAGE_INDEX_BUFFER_BIT));
-    LR_TRY(transfer.upload(mesh.lines, lines));
+    return transfer.upload(mesh.classes, classes);
+}
+
+/// The lines in the vertex numbers of `mesh`. They come in the same order and direction for both sources, so that they
+/// are drawn alike.
+Result<void> upload_lines(Context& context, Transfer& transfer, GpuMesh& mesh, const Model& model, const LeanView& lean,
+                          UploadOptions::Lines kind) {
+    if (kind == UploadOptions::Lines::none) return {};
+    std::vector<std::uint32_t> lines;
+    const std::vector<std::uint32_t>& order = model.lean.vertex_order;
+    if (kind == UploadOptions::Lines::ring) {
+        lines = ring_lines(lean);
+        if (mesh.source == Source::plain) {
+            for (std::uint32_t& v : lines) v = order[v];
+        }
+    } else {
+        lines = mesh_edges(model.indices);
+        if (mesh.source == Source::lean) {
+            std::vector<std::uint32_t> place(order.size());
+            for (std::uint32_t i = 0; i < order.size(); ++i) place[order[i]] = i;
+            for (std::uint32_t& v : lines) v = place[v];
+        }
+    }
+    if (lines.size() > UINT32_MAX) return Error{ErrorCode::too_large, "more than 2^31 lines"};
+    LR_ASSIGN(mesh.lines, Buffer::create(context, "lines", 4 * lines.size(), VK_BUFFER_USAGE_INDEX_BUFFER_BIT));
     mesh.line_indices = static_cast<std::uint32_t>(lines.size());
-    return {};
+    return transfer.upload(mesh.lines, std::span<const std::uint32_t>(lines));
 }
 
 float ring_place(std::uint32_t rank, std::uint32_t rings) {
@@ -82,32 +106,32 @@ float ring_place(std::uint32_t rank, std::uint32_t rings) {
 Result<GpuMesh> upload_plain(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options) {
     LR_ASSIGN(GpuMesh mesh, prepare(context, model, model.triangle_count(), options));
     const auto indices = std::as_bytes(model.indices);
-    LR_TRY(transfer.upload(mesh.indices, 0, mesh.indices.size(), 4, [&](std::byte* to, std::size_t from, std::size_t size) {
-        const std::size_t real = from < indices.size() ? std::min(size, indices.size() - from) : 0;
-        if (real != 0) std::memcpy(to, indices.data() + from, real);
-        std::memset(to + real, 0, size - real);
-    }));
+    LR_TRY(transfer.upload(
+        mesh.indices, 0, mesh.indices.size(), 4, [&](std::byte* to, std::size_t from, std::size_t size) {
+            const std::size_t real = from < indices.size() ? std::min(size, indices.size() - from) : 0;
+            if (real != 0) std::memcpy(to, indices.data() + from, real);
+            std::memset(to + real, 0, size - real);
+        }));
     mesh.decoded = true;
     const auto identity = [](std::uint32_t v) { return v; };
-    if (!options.classes) {
+    LR_ASSIGN(const LeanView lean, view_lean(model.lean.words));
+    LR_TRY(upload_lines(context, transfer, mesh, model, lean, options.lines));
+    if (!options.ring) {
         LR_TRY(upload_vertices(transfer, mesh, model, identity, [](std::uint32_t) { return -1.0F; }));
         return mesh;
     }
-    LR_ASSIGN(const LeanView lean, view_lean(model.lean.words));
     const std::uint32_t rings = lean.rings2 + lean.rings1;
     std::vector<std::uint32_t> rank(mesh.vertex_count, UINT32_MAX);
     for (std::uint32_t i = 0; i < rings; ++i) rank[model.lean.vertex_order[i]] = i;
-    LR_TRY(upload_vertices(transfer, mesh, model, identity,
-                           [&](std::uint32_t v) { return ring_place(rank[v], rings); }));
+    LR_TRY(
+        upload_vertices(transfer, mesh, model, identity, [&](std::uint32_t v) { return ring_place(rank[v], rings); }));
     const std::vector<std::uint8_t> by_slot = slot_classes(lean);
     std::vector<std::uint8_t> classes(mesh.slots, LR_CLASS_NONE);
     for (std::uint32_t slot = 0; slot < by_slot.size(); ++slot) {
         const std::uint32_t t = model.lean.slot_triangle[slot];
         if (t < mesh.slots) classes[t] = by_slot[slot];
     }
-    std::vector<std::uint32_t> lines = ring_lines(lean);
-    for (std::uint32_t& v : lines) v = model.lean.vertex_order[v];
-    LR_TRY(upload_extras(context, transfer, mesh, classes, lines));
+    LR_TRY(upload_classes(context, transfer, mesh, classes));
     return mesh;
 }
 
@@ -125,9 +149,9 @@ Result<GpuMesh> upload_lean(Context& context, Transfer& transfer, const Model& m
     // The decoder loads a few words past the ones that it needs.
     LR_ASSIGN(mesh.stream, Buffer::create(context, "lean stream", bytes + 64, kStorage));
     LR_TRY(transfer.upload(mesh.stream, std::span<const std::uint32_t>(stream.words)));
-    LR_ASSIGN(mesh.commands, Buffer::create(context, "draw commands",
-                                            mesh.draws * std::uint64_t{sizeof(VkDrawIndexedIndirectCommand)},
-                                            kStorage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT));
+    LR_ASSIGN(mesh.commands,
+              Buffer::create(context, "draw commands", mesh.draws * std::uint64_t{sizeof(VkDrawIndexedIndirectCommand)},
+                             kStorage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT));
     LR_ASSIGN(mesh.slot_triangle,
               Buffer::create(context, "slot triangles", stream.slot_triangle.size() * sizeof(std::uint32_t), kStorage));
     LR_TRY(transfer.upload(mesh.slot_triangle, std::span<const std::uint32_t>(stream.slot_triangle)));
@@ -135,9 +159,11 @@ Result<GpuMesh> upload_lean(Context& context, Transfer& transfer, const Model& m
               Buffer::create(context, "vertex order", stream.vertex_order.size() * sizeof(std::uint32_t), kStorage));
     LR_TRY(transfer.upload(mesh.vertex_order, std::span<const std::uint32_t>(stream.vertex_order)));
     const std::uint32_t rings = lean.rings2 + lean.rings1;
-    LR_TRY(upload_vertices(transfer, mesh, model, [&](std::uint32_t v) { return stream.vertex_order[v]; },
-                           [&](std::uint32_t v) { return ring_place(v, rings); }));
-    if (options.classes) LR_TRY(upload_extras(context, transfer, mesh, slot_classes(lean), ring_lines(lean)));
+    LR_TRY(upload_vertices(
+        transfer, mesh, model, [&](std::uint32_t v) { return stream.vertex_order[v]; },
+        [&](std::uint32_t v) { return ring_place(v, rings); }));
+    LR_TRY(upload_lines(context, transfer, mesh, model, lean, options.lines));
+    if (options.ring) LR_TRY(upload_classes(context, transfer, mesh, slot_classes(lean)));
     return mesh;
 }
 

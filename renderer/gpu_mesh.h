@@ -18,11 +18,12 @@ struct UploadOptions {
     /// Bytes that one storage descriptor may cover: larger buffers are worked on in parts. 0: the device's
     /// maxStorageBufferRange. At least 2048; a test makes it small.
     std::uint64_t max_range = 0;
-    bool classes = false;  ///< triangle classes, and the ring's lines
+    bool ring = false;  ///< triangle classes, and the vertices' places on the rings
+    enum class Lines { none, ring, edges } lines = Lines::none;  ///< drawn over the surface
 };
 
-/// Triangles are numbered by slot: for Source::plain that is the mesh's own order. Buffers of one value a slot are bound
-/// at the first slot of each draw command, so that none needs to fit one descriptor.
+/// Triangles are numbered by slot: for Source::plain that is the mesh's own order. Buffers of one value a slot are
+/// bound at the first slot of each draw command, so that none needs to fit one descriptor.
 struct GpuMesh {
     Source source = Source::plain;
     std::uint32_t vertex_count = 0;
@@ -38,7 +39,7 @@ struct GpuMesh {
     Buffer slot_triangle;  ///< lean: the mesh's triangle of each slot
     Buffer vertex_order;   ///< lean: the mesh's vertex of each vertex
     Buffer classes;        ///< LR_CLASS_*, one byte a slot; only if asked for
-    Buffer lines;          ///< u32, 2 a ring edge; only if asked for
+    Buffer lines;          ///< u32, 2 a line; only if asked for
     std::uint32_t line_indices = 0;
 
     bool decoded = false;  ///< the index buffer holds the triangles
@@ -52,7 +53,8 @@ struct Vertex {
     float ring;  ///< place along the rings in [0, 1]; -1 off the rings
 };
 
-/// Errors: too_large (indices past the device's, or a buffer), invalid_argument (max_range), and Vulkan's.
+/// Errors: too_large (indices past the device's, or a buffer), invalid_argument (max_range), unsupported (only
+/// degenerate triangles), and Vulkan's.
 Result<GpuMesh> upload_plain(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options);
 /// The model's stream must be valid, as encode_lean makes it.
 Result<GpuMesh> upload_lean(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options);

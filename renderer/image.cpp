@@ -13,7 +13,8 @@ Result<Image> Image::create(Context& context, const std::string& name, VkExtent2
     if (extent.width == 0 || extent.height == 0) return Error{ErrorCode::invalid_argument, "an image of no size"};
     if (extent.width > limit || extent.height > limit) {
         return Error{ErrorCode::too_large, std::to_string(extent.width) + "x" + std::to_string(extent.height) +
-                                               " pixels; the device draws at most " + std::to_string(limit) + " a side"};
+                                               " pixels; the device draws at most " + std::to_string(limit) +
+                                               " a side"};
     }
     VkImageCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
@@ -77,7 +78,9 @@ Image& Image::operator=(Image&& other) noexcept {
     return *this;
 }
 
-Image::~Image() { reset(); }
+Image::~Image() {
+    reset();
+}
 
 void Image::reset() {
     if (image_ == VK_NULL_HANDLE) return;

@@ -25,8 +25,8 @@ Result<LeanDecoder> LeanDecoder::create(Context& context) {
     LeanDecoder out;
     out.context_ = &context;
     const std::array<Binding, 4> bindings{{{0}, {1}, {2}, {3}}};
-    LR_ASSIGN(out.layout_, Layout::create(context, "lean decode", bindings, VK_SHADER_STAGE_COMPUTE_BIT,
-                                          sizeof(DecodeConstants)));
+    LR_ASSIGN(out.layout_,
+              Layout::create(context, "lean decode", bindings, VK_SHADER_STAGE_COMPUTE_BIT, sizeof(DecodeConstants)));
     LR_ASSIGN(out.pipeline_, create_compute(context, "lean decode", out.layout_, spirv_lean_decode_comp));
     return out;
 }
@@ -42,8 +42,8 @@ Result<DecodePlan> LeanDecoder::plan(Descriptors& descriptors, const GpuMesh& me
     };
     // A slot is at most 12 bytes of either buffer; the rest is for alignment and for the words looked ahead at.
     const std::uint64_t by_range = (mesh.max_range - 512) / 12 / kSlotStep * kSlotStep;
-    const std::uint64_t by_groups = std::uint64_t{context_->limits().maxComputeWorkGroupCount[0]} * LR_COMPUTE_GROUP *
-                                    LR_TRIANGLES_PER_INVOCATION;
+    const std::uint64_t by_groups =
+        std::uint64_t{context_->limits().maxComputeWorkGroupCount[0]} * LR_COMPUTE_GROUP * LR_TRIANGLES_PER_INVOCATION;
     const std::uint64_t step = std::min(by_range, by_groups / kSlotStep * kSlotStep);
     DecodePlan plan;
     for (std::uint64_t first = 0; first < mesh.slots; first += step) {
@@ -78,12 +78,12 @@ void LeanDecoder::record(VkCommandBuffer commands, const DecodePlan& plan) const
 }
 
 void decode_barrier(VkCommandBuffer commands) {
-    memory_barrier(commands, {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
-                   {VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT |
-                        VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
-                    VK_ACCESS_2_INDEX_READ_BIT | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT |
-                        VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
-                        VK_ACCESS_2_TRANSFER_READ_BIT});
+    memory_barrier(
+        commands, {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
+        {VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT |
+             VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
+         VK_ACCESS_2_INDEX_READ_BIT | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
+             VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_READ_BIT});
 }
 
 }  // namespace lr::gpu

@@ -17,10 +17,11 @@ Point point(std::span<const float> values, std::uint32_t v) {
     return {values[3 * std::size_t{v}], values[3 * std::size_t{v} + 1], values[3 * std::size_t{v} + 2]};
 }
 
-Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point cross(const Point& a, const Point& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+Point minus(const Point& a, const Point& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+double dot(const Point& a, const Point& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 Result<void> normalise(Model& model) {
@@ -43,7 +44,7 @@ Result<void> normalise(Model& model) {
     }
     model.radius = std::sqrt(squared);
     if (!std::isfinite(model.radius) || model.radius <= 0) {
-        return Error{ErrorCode::invalid_argument, "all triangles lie in one point, or past what 32-bit floats hold"};
+        return Error{ErrorCode::unsupported, "all triangles lie in one point, or past what 32-bit floats hold"};
     }
     for (std::size_t i = 0; i < model.positions.size(); ++i) {
         const double scaled = (static_cast<double>(model.positions[i]) - model.centre[i % 3]) / model.radius;
@@ -52,29 +53,26 @@ Result<void> normalise(Model& model) {
     return {};
 }
 
-void measure(Model& model) {
-    double length = 0, agreement = 0;
-    for (std::size_t i = 0; i < model.indices.size(); i += 3) {
-        const std::uint32_t a = model.indices[i], b = model.indices[i + 1], c = model.indices[i + 2];
-        const Point p = point(model.positions, a), q = point(model.positions, b), r = point(model.positions, c);
-        const Point e = minus(q, p), f = minus(r, p), g = minus(r, q);
-        length += std::sqrt(dot(e, e)) + std::sqrt(dot(f, f)) + std::sqrt(dot(g, g));
-        agreement += dot(cross(e, f), point(model.normals, a));
+double mean_edge(const Model& model) {
+    double length = 0;
+    for (std::size_t i = 0; i < model.indices.size(); ++i) {
+        const std::uint32_t b = model.indices[i % 3 == 2 ? i - 2 : i + 1];
+        const Point e = minus(point(model.positions, model.indices[i]), point(model.positions, b));
+        length += std::sqrt(dot(e, e));
     }
-    model.mean_edge = length / static_cast<double>(model.indices.size());
-    model.normal_sign = agreement < 0 ? -1.0F : 1.0F;
+    return length / static_cast<double>(model.indices.size());
 }
 
 }  // namespace
 
 Result<Model> make_model(const Mesh& mesh) {
-    if (mesh.indices.empty()) return Error{ErrorCode::invalid_argument, "the mesh has no triangles to draw"};
+    if (mesh.indices.empty()) return Error{ErrorCode::unsupported, "the mesh has no triangles to draw"};
     Model model;
     model.indices = mesh.indices;
     model.positions = positions_f32(mesh);
     model.normals = normals_f32(mesh);
     LR_TRY(normalise(model));
-    measure(model);
+    model.mean_edge = mean_edge(model);
     LR_ASSIGN(const CornerTable table, build_corner_table(mesh.indices, mesh.vertex_count));
     model.lean = encode_lean(table, expand_rings(table));
     return model;

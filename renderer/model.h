@@ -12,24 +12,23 @@
 
 namespace lr::gpu {
 
-/// Positions are moved and scaled so that the used vertices fill the unit sphere: f32 depth and derivatives then mean the
-/// same for every mesh, and both sources draw exactly the same numbers.
+/// Positions are moved and scaled so that the used vertices fill the unit sphere: f32 depth and derivatives then mean
+/// the same for every mesh, and both sources draw exactly the same numbers.
 struct Model {
     std::span<const std::uint32_t> indices;  ///< of the mesh, which must outlive the model; 3 a triangle
     std::vector<float> positions;            ///< 3 a vertex, in the mesh's own vertex order
     std::vector<float> normals;              ///< 3 a vertex, unit
     LeanStream lean;
-    std::array<double, 3> centre{};          ///< of the unit sphere, in the mesh's coordinates
-    double radius = 1;                       ///< likewise
-    double mean_edge = 0;                    ///< mean length of the triangles' edges, of the unit sphere
-    float normal_sign = 1;                   ///< -1 where most normals point against their triangles' orientation
+    std::array<double, 3> centre{};  ///< of the unit sphere, in the mesh's coordinates
+    double radius = 1;               ///< likewise
+    double mean_edge = 0;            ///< mean length of the triangles' edges, of the unit sphere
 
     std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(positions.size() / 3); }
     std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(indices.size() / 3); }
 };
 
 /// Normalises, and encodes the lean stream (corner table, ring, stream). Cost: O(V + T).
-/// Errors: invalid_argument (no triangles, extent zero or past f32), and build_corner_table's.
+/// Errors: unsupported (no triangles, extent zero or past f32), and build_corner_table's.
 Result<Model> make_model(const Mesh& mesh);
 
 }  // namespace lr::gpu

@@ -17,7 +17,12 @@
 namespace lr::gpu {
 namespace {
 
-bool has_ring(View view) { return view == View::triangle_class || view == View::ring; }
+bool has_ring(View view) {
+    return view == View::triangle_class || view == View::ring;
+}
+bool has_lines(View view) {
+    return has_ring(view) || view == View::wire;
+}
 
 }  // namespace
 
@@ -33,10 +38,15 @@ std::optional<View> view_named(std::string_view name) {
     return std::nullopt;
 }
 
+UploadOptions upload_options(View view) {
+    UploadOptions options;
+    options.ring = has_ring(view);
+    if (options.ring) options.lines = UploadOptions::Lines::ring;
+    if (view == View::wire) options.lines = UploadOptions::Lines::edges;
+    return options;
+}
+
 Result<Painter> Painter::create(Context& context, View view, std::uint32_t samples) {
-    if (view == View::wire && !context.info().wire) {
-        return Error{ErrorCode::unsupported, context.info().name + " lacks fillModeNonSolid, which the wire view needs"};
-    }
     Painter out;
     out.context_ = &context;
     out.view_ = view;
@@ -55,7 +65,7 @@ Result<Painter> Painter::create(Context& context, View view, std::uint32_t sampl
     base.vertex_attributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Vertex, position)},
                               {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Vertex, normal)},
                               {2, 0, VK_FORMAT_R32_SFLOAT, offsetof(Vertex, ring)}};
-    base.push_back = has_ring(view) || view == View::wire;
+    base.push_back = has_lines(view);
 
     GraphicsInfo depth = base;
     depth.name = "depth";
@@ -84,17 +94,13 @@ Result<Painter> Painter::create(Context& context, View view, std::uint32_t sampl
     single.colours = {Target::kColour, Target::kTriangles};
     LR_ASSIGN(out.single_, create_graphics(context, out.layout_, single));
 
-    if (has_ring(view) || view == View::wire) {
+    if (has_lines(view)) {
         GraphicsInfo lines = base;
         lines.name = "lines";
         lines.vertex = spirv_line_vert;
         lines.fragment = spirv_line_frag;
         lines.vertex_attributes.resize(1);
-        if (view == View::wire) {
-            lines.polygon_mode = VK_POLYGON_MODE_LINE;
-        } else {
-            lines.topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST;
-        }
+        lines.topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST;
         lines.push_back = false;
         lines.depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL;
         lines.depth_write = false;
@@ -130,17 +136,19 @@ void Painter::set_frame(const Model& model, const Camera& camera) {
     FrameConstants frame{};
     frame.view_from_world = camera.view_from_world;
     frame.clip_from_view = camera.clip_from_view;
-    frame.normal_sign = model.normal_sign;
     frame.line_lift = 0.0012F;
     // Where edges are only a few pixels long, lines fade instead of painting the mesh black.
     const double pixels = model.mean_edge * camera.pixels_per_unit / samples_;
     const double strength = std::clamp((pixels - 1.0) / 9.0, 0.0, 1.0);
     if (view_ == View::wire) {
-        frame.line_colour = {0.07F, 0.08F, 0.10F, static_cast<float>(0.16 + 0.66 * strength)};
+        frame.line_colour = {0.07F, 0.08F, 0.10F, static_cast<float>(0.13 + 0.57 * strength)};
         line_width_ = static_cast<float>(0.6 + 0.6 * strength) * static_cast<float>(samples_);
     } else {
-        frame.line_colour = {0.03F, 0.03F, 0.03F, static_cast<float>(0.22 + 0.76 * strength)};
-        line_width_ = static_cast<float>(0.7 + 1.5 * strength) * static_cast<float>(samples_);
+        // In the ring view the line only helps: the colours say the order.
+        const double opacity = view_ == View::ring ? 0.10 + 0.80 * strength : 0.22 + 0.76 * strength;
+        const double closer = std::clamp((pixels - 10.0) / 40.0, 0.0, 1.0);
+        frame.line_colour = {0.03F, 0.03F, 0.03F, static_cast<float>(opacity)};
+        line_width_ = static_cast<float>(0.7 + 1.5 * strength + 1.3 * closer) * static_cast<float>(samples_);
     }
     line_width_ = std::clamp(line_width_, 1.0F, context_->info().max_line_width);
     std::memcpy(frame_.mapped(), &frame, sizeof(frame));
@@ -156,9 +164,10 @@ void Painter::draw_triangles(VkCommandBuffer commands, VkPipeline pipeline, cons
     for (std::uint32_t draw = 0; draw < mesh.draws; ++draw) {
         const std::uint32_t first = draw * mesh.draw_slots;
         const DrawConstants constants{first, mesh.source == Source::lean ? 1U : 0U};
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.pipeline(), 0, 1, &plan.sets[draw], 0,
-                                nullptr);
-        vkCmdPushConstants(commands, layout_.pipeline(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(constants), &constants);
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.pipeline(), 0, 1, &plan.sets[draw],
+                                0, nullptr);
+        vkCmdPushConstants(commands, layout_.pipeline(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(constants),
+                           &constants);
         if (mesh.source == Source::lean) {
             constexpr std::uint32_t kStride = sizeof(VkDrawIndexedIndirectCommand);
             vkCmdDrawIndexedIndirect(commands, mesh.commands.handle(), std::uint64_t{draw} * kStride, 1, kStride);
@@ -170,11 +179,6 @@ void Painter::draw_triangles(VkCommandBuffer commands, VkPipeline pipeline, cons
 }
 
 void Painter::draw_lines(VkCommandBuffer commands, const GpuMesh& mesh, const DrawPlan& plan) const {
-    if (view_ == View::wire) {
-        vkCmdSetLineWidth(commands, line_width_);
-        draw_triangles(commands, lines_.get(), mesh, plan);
-        return;
-    }
     if (mesh.line_indices == 0) return;
     const VkBuffer vertices = mesh.vertices.handle();
     const VkDeviceSize zero = 0;

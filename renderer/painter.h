@@ -13,12 +13,14 @@
 namespace lr::gpu {
 
 enum class View : std::uint32_t {
-    smooth = LR_VIEW_SMOOTH,       ///< interpolated normals
-    flat = LR_VIEW_FLAT,           ///< the triangles' own normals
+    smooth = LR_VIEW_SMOOTH,         ///< interpolated normals
+    flat = LR_VIEW_FLAT,             ///< the triangles' own normals
     triangle_class = LR_VIEW_CLASS,  ///< what each triangle is to the ring, and the ring
-    ring = LR_VIEW_RING,           ///< the vertices' order along the ring, and the ring
-    wire = LR_VIEW_WIRE,           ///< flat, and the triangles' edges
+    ring = LR_VIEW_RING,             ///< the vertices' order along the ring, and the ring
+    wire = LR_VIEW_WIRE,             ///< flat, and the triangles' edges
 };
+/// What a view needs on the device beside the triangles.
+UploadOptions upload_options(View view);
 /// "smooth", "flat", "class", "ring", "wire"
 std::optional<View> view_named(std::string_view name);
 
@@ -30,7 +32,6 @@ struct DrawPlan {
 class Painter {
   public:
     /// Makes the pipelines of one view. `samples` is the supersampling of its pictures: lines get that much wider.
-    /// Errors: unsupported (wire, on a device that draws no triangles as lines).
     static Result<Painter> create(Context& context, View view, std::uint32_t samples);
 
     Result<DrawPlan> plan(Descriptors& descriptors, const GpuMesh& mesh, const Target& target) const;

@@ -69,6 +69,7 @@ Difference difference(const Picture& a, const Picture& b) {
             largest = std::max(largest, static_cast<std::uint32_t>(d));
         }
         if (largest != 0) ++out.pixels;
+        if (largest > 1) ++out.beyond_one;
         out.channel = std::max(out.channel, largest);
         if (!a.triangles.empty()) {
             if (a.triangles[i] != b.triangles[i]) ++out.triangles;

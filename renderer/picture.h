@@ -15,8 +15,10 @@ namespace lr::gpu {
 struct Picture {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
-    std::vector<std::uint8_t> rgba;        ///< 4 a pixel
-    std::vector<std::uint32_t> triangles;  ///< original triangle + 1, 0: background. Empty where it was not drawn
+    std::vector<std::uint8_t> rgba;  ///< 4 a pixel
+    /// Original triangle + 1, with LR_FRONT_FLAG where its front is seen (shaders/shared.h); 0: background. Empty where
+    /// it was not drawn.
+    std::vector<std::uint32_t> triangles;
 
     std::size_t pixels() const { return std::size_t{width} * height; }
 };
@@ -29,7 +31,8 @@ Picture finish(const Picture& drawn, std::uint32_t factor);
 struct Difference {
     std::uint64_t pixels = 0;      ///< pixels whose colour differs
     std::uint32_t channel = 0;     ///< the largest difference of a channel, of 255
-    std::uint64_t triangles = 0;   ///< pixels whose triangle differs
+    std::uint64_t beyond_one = 0;  ///< pixels of which a channel differs by more than one
+    std::uint64_t triangles = 0;   ///< pixels whose triangle, or its side, differs
     std::uint64_t covered = 0;     ///< pixels of the first picture that show a triangle
 };
 Difference difference(const Picture& a, const Picture& b);

@@ -155,7 +155,7 @@ Result<PipelineHandle> create_graphics(Context& context, const Layout& layout, c
     viewport.scissorCount = 1;
     VkPipelineRasterizationStateCreateInfo raster{};
     raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
-    raster.polygonMode = info.polygon_mode;
+    raster.polygonMode = VK_POLYGON_MODE_FILL;
     raster.cullMode = VK_CULL_MODE_NONE;
     raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
     raster.depthBiasEnable = info.push_back ? VK_TRUE : VK_FALSE;
@@ -170,8 +170,8 @@ Result<PipelineHandle> create_graphics(Context& context, const Layout& layout, c
     depth.depthWriteEnable = info.depth_write ? VK_TRUE : VK_FALSE;
     depth.depthCompareOp = info.depth_compare;
     VkPipelineColorBlendAttachmentState attachment{};
-    attachment.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
-                                VK_COLOR_COMPONENT_A_BIT;
+    attachment.colorWriteMask =
+        VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
     if (info.blend) {
         attachment.blendEnable = VK_TRUE;
         attachment.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
@@ -186,7 +186,7 @@ Result<PipelineHandle> create_graphics(Context& context, const Layout& layout, c
     blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
     blend.attachmentCount = static_cast<std::uint32_t>(attachments.size());
     blend.pAttachments = attachments.data();
-    const bool lines = info.topology == VK_PRIMITIVE_TOPOLOGY_LINE_LIST || info.polygon_mode == VK_POLYGON_MODE_LINE;
+    const bool lines = info.topology == VK_PRIMITIVE_TOPOLOGY_LINE_LIST;
     const std::array<VkDynamicState, 3> dynamic_states{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
                                                        VK_DYNAMIC_STATE_LINE_WIDTH};
     VkPipelineDynamicStateCreateInfo dynamic{};

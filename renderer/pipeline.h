@@ -68,18 +68,18 @@ class Descriptors {
 Result<PipelineHandle> create_compute(Context& context, const std::string& name, const Layout& layout,
                                       std::span<const std::uint32_t> spirv);
 
-/// What differs between the graphics pipelines. Viewport and scissor are dynamic, and the line width where lines are drawn.
+/// What differs between the graphics pipelines. Viewport and scissor are dynamic, and the line width where lines are
+/// drawn.
 struct GraphicsInfo {
     std::string name;
     std::span<const std::uint32_t> vertex;
-    std::span<const std::uint32_t> fragment;         ///< empty: depth only
-    std::vector<std::uint32_t> constants;            ///< the fragment shader's specialization constants 0, 1, ...
+    std::span<const std::uint32_t> fragment;  ///< empty: depth only
+    std::vector<std::uint32_t> constants;     ///< the fragment shader's specialization constants 0, 1, ...
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-    VkPolygonMode polygon_mode = VK_POLYGON_MODE_FILL;
     VkCompareOp depth_compare = VK_COMPARE_OP_LESS;
     bool depth_write = true;
-    bool push_back = false;                          ///< triangles a little away from the eye, for lines on top
-    bool blend = false;                              ///< over, with the source's opacity; result premultiplied
+    bool push_back = false;  ///< triangles a little away from the eye, for lines on top
+    bool blend = false;      ///< over, with the source's opacity; result premultiplied
     std::vector<VkFormat> colours;
     VkVertexInputBindingDescription vertex_binding{};
     std::vector<VkVertexInputAttributeDescription> vertex_attributes;

@@ -18,9 +18,8 @@ Result<Renderer> Renderer::create(Context& context, const RendererOptions& optio
 }
 
 Result<Drawable> Renderer::upload(const Model& model, Source source) {
-    UploadOptions options;
+    UploadOptions options = upload_options(options_.view);
     options.max_range = options_.max_range;
-    options.classes = options_.view == View::triangle_class || options_.view == View::ring;
     Drawable out;
     out.descriptors = Descriptors(*context_);
     if (source == Source::lean) {

@@ -10,10 +10,10 @@ namespace lr::gpu {
 
 struct RendererOptions {
     View view = View::smooth;
-    std::uint32_t width = 1280;      ///< of what is drawn, supersampling included
+    std::uint32_t width = 1280;  ///< of what is drawn, supersampling included
     std::uint32_t height = 720;
-    std::uint32_t samples = 1;       ///< lines get this much wider
-    std::uint64_t max_range = 0;     ///< see UploadOptions
+    std::uint32_t samples = 1;         ///< lines get this much wider
+    std::uint64_t max_range = 0;       ///< see UploadOptions
     bool omit_decode_barrier = false;  ///< a bug on request: the test that validation sees it
 };
 

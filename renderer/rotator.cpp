@@ -17,6 +17,7 @@ Result<Rotator> Rotator::create(Context& context) {
     LR_ASSIGN(out.layout_,
               Layout::create(context, "rotate", bindings, VK_SHADER_STAGE_COMPUTE_BIT, sizeof(RotateConstants)));
     LR_ASSIGN(out.pipeline_, create_compute(context, "rotate", out.layout_, spirv_rotate_comp));
+    LR_ASSIGN(out.nothing_, Buffer::create(context, "nothing", 16, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT));
     return out;
 }
 
@@ -33,13 +34,11 @@ Result<RotatePlan> Rotator::plan(Descriptors& descriptors, const GpuMesh& mesh) 
     std::array<BufferRange, LR_ORDER_WINDOWS> order;
     for (std::uint64_t w = 0; w < LR_ORDER_WINDOWS; ++w) {
         const bool used = lean && w * window < mesh.vertex_count;
-        // Unused ones must be bound to something, and are not read.
-        const Buffer& buffer = lean ? mesh.vertex_order : mesh.indices;
-        order[w] = {&buffer, used ? 4 * w * window : 0,
-                    used ? 4 * std::min(window, mesh.vertex_count - w * window) : VkDeviceSize{16}};
+        order[w] = {&nothing_};
+        if (used) order[w] = {&mesh.vertex_order, 4 * w * window, 4 * std::min(window, mesh.vertex_count - w * window)};
     }
-    const std::uint64_t by_groups = std::uint64_t{context_->limits().maxComputeWorkGroupCount[0]} * LR_COMPUTE_GROUP *
-                                    LR_TRIANGLES_PER_INVOCATION;
+    const std::uint64_t by_groups =
+        std::uint64_t{context_->limits().maxComputeWorkGroupCount[0]} * LR_COMPUTE_GROUP * LR_TRIANGLES_PER_INVOCATION;
     const std::uint64_t step = std::min(mesh.max_range / 12, by_groups) / 64 * 64;  // 768 bytes: aligned
     RotatePlan plan;
     for (std::uint64_t first = 0; first < mesh.slots; first += step) {

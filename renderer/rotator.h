@@ -32,6 +32,7 @@ class Rotator {
     Context* context_ = nullptr;
     Layout layout_;
     PipelineHandle pipeline_;
+    Buffer nothing_;  // bound in place of windows that are not there
 };
 
 }  // namespace lr::gpu

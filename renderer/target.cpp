@@ -32,8 +32,7 @@ Result<Target> Target::create(Context& context, VkExtent2D extent) {
     LR_ASSIGN(out.triangles_, Image::create(context, "triangle numbers", extent, kTriangles, kDrawn));
     LR_ASSIGN(out.winner_, Image::create(context, "claims", extent, kTriangles,
                                          VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT));
-    LR_ASSIGN(out.depth_,
-              Image::create(context, "depth", extent, kDepth, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT));
+    LR_ASSIGN(out.depth_, Image::create(context, "depth", extent, kDepth, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT));
     const VkDeviceSize bytes = VkDeviceSize{4} * extent.width * extent.height;
     LR_ASSIGN(out.colour_bytes_, Buffer::create(context, "colour bytes", bytes, 0, Memory::readback));
     LR_ASSIGN(out.triangle_bytes_, Buffer::create(context, "triangle bytes", bytes, 0, Memory::readback));
@@ -87,7 +86,9 @@ void Target::begin(VkCommandBuffer commands, const Use& use) const {
     vkCmdSetScissor(commands, 0, 1, &scissor);
 }
 
-void Target::end(VkCommandBuffer commands) { vkCmdEndRendering(commands); }
+void Target::end(VkCommandBuffer commands) {
+    vkCmdEndRendering(commands);
+}
 
 void Target::between(VkCommandBuffer commands) {
     const Access all{kColourWrite.stage | kDepthWrite.stage | kClaim.stage,

@@ -19,13 +19,13 @@ struct TimingOptions {
 };
 
 struct DeviceTimes {
-    Times decode;             ///< lean stream -> index buffer and draw command
-    Times copy;               ///< vkCmdCopyBuffer of an index buffer of that size. Trust its wall time only on lavapipe
-    Times draw_plain;         ///< indexed, the mesh's own order
-    Times draw_lean;          ///< indexed indirect, decoded before
-    Times decode_and_draw;    ///< both, each time
-    std::uint64_t index_bytes = 0;    ///< of the index buffer that is decoded and copied
-    std::uint64_t device_bytes = 0;   ///< device memory held at most
+    Times decode;           ///< lean stream -> index buffer and draw command
+    Times copy;             ///< vkCmdCopyBuffer of an index buffer of that size. Trust its wall time only on lavapipe
+    Times draw_plain;       ///< indexed, the mesh's own order
+    Times draw_lean;        ///< indexed indirect, decoded before
+    Times decode_and_draw;  ///< both, each time
+    std::uint64_t index_bytes = 0;   ///< of the index buffer that is decoded and copied
+    std::uint64_t device_bytes = 0;  ///< device memory held at most
 };
 
 /// Pictures are drawn in one pass with smooth normals, from the default camera, and not read back.

@@ -1,5 +1,7 @@
 #include "renderer/triangle_class.h"
 
+#include <algorithm>
+
 #include "lrcore/lean/lean_format.h"
 #include "shaders/shared.h"
 
@@ -62,6 +64,24 @@ std::vector<std::uint8_t> slot_classes(const LeanView& lean) {
         const std::uint32_t skipped = next[two ? slot / 2 : slot - lean.rings2];
         const std::uint32_t t2 = two ? 2 * skipped + slot % 2 : skipped + lean.rings2;
         if (out[t2] == LR_CLASS_T2) out[t2] = LR_CLASS_T2_WART;
+    }
+    return out;
+}
+
+std::vector<std::uint32_t> mesh_edges(std::span<const std::uint32_t> indices) {
+    std::vector<std::uint64_t> edges;
+    edges.reserve(indices.size());
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        const std::uint64_t a = indices[i], b = indices[i % 3 == 2 ? i - 2 : i + 1];
+        if (a != b) edges.push_back(std::min(a, b) << 32 | std::max(a, b));
+    }
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    std::vector<std::uint32_t> out;
+    out.reserve(2 * edges.size());
+    for (const std::uint64_t edge : edges) {
+        out.push_back(static_cast<std::uint32_t>(edge >> 32));
+        out.push_back(static_cast<std::uint32_t>(edge));
     }
     return out;
 }

@@ -2,6 +2,7 @@
 // What each triangle is to the ring, for pictures. Paper: LR 2011, section 4.3 and Figure 1.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "lrcore/lean/lean_stream.h"
@@ -10,6 +11,10 @@ namespace lr::gpu {
 
 /// LR_CLASS_* (shaders/shared.h), one byte a slot. Cost: O(slots). The stream must be valid.
 std::vector<std::uint8_t> slot_classes(const LeanView& lean);
+
+/// Every edge of the triangles once, as pairs (smaller vertex, larger vertex), sorted. Cost: O(T log T), 24 bytes a
+/// triangle.
+std::vector<std::uint32_t> mesh_edges(std::span<const std::uint32_t> indices);
 
 /// The rings as pairs (v, v.n) of ring vertices.
 std::vector<std::uint32_t> ring_lines(const LeanView& lean);

@@ -22,9 +22,9 @@ Result<void> check(VkResult result, const char* call);
 #define LR_CONCAT(a, b) LR_CONCAT_(a, b)
 
 /// Returns the error of a Result, if it is one.
-#define LR_TRY(expression)                                                  \
-    do {                                                                    \
-        if (auto lr_try_ = (expression); !lr_try_) return lr_try_.error();  \
+#define LR_TRY(expression)                                                 \
+    do {                                                                   \
+        if (auto lr_try_ = (expression); !lr_try_) return lr_try_.error(); \
     } while (false)
 
 /// LR_ASSIGN(auto x, f()): x is the value of the Result that f returns; its error is returned.

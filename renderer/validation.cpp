@@ -5,11 +5,21 @@
 namespace lr::gpu {
 namespace {
 
+/// Messages that are not about a fault of this program.
+bool is_noise(const VkDebugUtilsMessengerCallbackDataEXT& data) {
+    // The loader's own remarks (a driver that another driver hides, say) are about the machine.
+    if (data.pMessageIdName != nullptr && std::strcmp(data.pMessageIdName, "Loader Message") == 0) return true;
+    // `invariant gl_Position` decorates a member of gl_PerVertex. Vulkan allows that (VUID-Invariant-Invariant-04677
+    // speaks of it); the SPIR-V validator inside layer 1.3.239 warns all the same.
+    constexpr const char* kInvariant = "Decoration not allowed on struct members: SpvDecorationInvariant";
+    return data.pMessage != nullptr && std::strstr(data.pMessage, kInvariant) != nullptr;
+}
+
 VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                           const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
-    // The loader's own remarks (a driver that another driver hides, say) are about the machine, not about this program.
-    const bool loader = data->pMessageIdName != nullptr && std::strcmp(data->pMessageIdName, "Loader Message") == 0;
-    if (!loader) static_cast<ValidationLog*>(user)->add(data->pMessage != nullptr ? data->pMessage : "(no text)");
+    if (!is_noise(*data)) {
+        static_cast<ValidationLog*>(user)->add(data->pMessage != nullptr ? data->pMessage : "(no text)");
+    }
     return VK_FALSE;
 }
 

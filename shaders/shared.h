@@ -17,35 +17,34 @@ using mat4 = std::array<float, 16>;  // column-major
 
 // lean_decode.comp: one dispatch expands `slots` slots from `first_slot`, through descriptors that cover only them.
 struct DecodeConstants {
-    uint first_slot;   // a multiple of LR_TRIANGLES_PER_INVOCATION
-    uint slots;        // slots of this dispatch
-    uint first_word;   // word of the stream (header included) at which its descriptor begins; a multiple of 4
-    uint draws;        // draw commands to write: 0 in every dispatch but one
-    uint draw_slots;   // slots of each draw command but the last
+    uint first_slot;  // a multiple of LR_TRIANGLES_PER_INVOCATION
+    uint slots;       // slots of this dispatch
+    uint first_word;  // word of the stream (header included) at which its descriptor begins; a multiple of 4
+    uint draws;       // draw commands to write: 0 in every dispatch but one
+    uint draw_slots;  // slots of each draw command but the last
 };
 
 // rotate.comp: the window of the index buffer is the descriptor's.
 #define LR_ORDER_WINDOWS 4
 struct RotateConstants {
-    uint triangles;    // in this dispatch
-    uint lean;         // 0: vertices have their original numbers; 1: vertex_order has them
-    uint order_window; // vertices that each of the LR_ORDER_WINDOWS descriptors of vertex_order covers
+    uint triangles;     // in this dispatch
+    uint lean;          // 0: vertices have their original numbers; 1: vertex_order has them
+    uint order_window;  // vertices that each of the LR_ORDER_WINDOWS descriptors of vertex_order covers
 };
 
 // One picture.
 struct FrameConstants {
     mat4 view_from_world;
     mat4 clip_from_view;
-    vec4 line_colour;      // with its opacity
-    float normal_sign;     // -1 where the vertex normals point against the triangles' orientation
-    float line_lift;       // lines are drawn this share of their distance nearer to the eye
-    float pad0, pad1;
+    vec4 line_colour;  // with its opacity
+    float line_lift;   // lines are drawn this share of their distance nearer to the eye
+    float pad0, pad1, pad2;
 };
 
 // One draw command. All per-triangle buffers are bound at the draw's first slot.
 struct DrawConstants {
-    uint first_triangle;   // plain: original triangle of the draw's first one
-    uint lean;             // 1: slot_triangle has the original triangle of each slot
+    uint first_triangle;  // plain: original triangle of the draw's first one
+    uint lean;            // 1: slot_triangle has the original triangle of each slot
 };
 
 #define LR_VIEW_SMOOTH 0u
@@ -54,14 +53,17 @@ struct DrawConstants {
 #define LR_VIEW_RING 3u
 #define LR_VIEW_WIRE 4u
 
+// The picture of triangle numbers: 0 is the background, else the original triangle + 1 and which side of it is seen.
+#define LR_FRONT_FLAG 0x80000000u
+
 // What a triangle is to the ring (paper: section 4.3, section 5), one byte a slot.
-#define LR_CLASS_NONE 0u       // degenerate
-#define LR_CLASS_T0 1u         // no ring edge
+#define LR_CLASS_NONE 0u  // degenerate
+#define LR_CLASS_T0 1u    // no ring edge
 #define LR_CLASS_T1_LEFT 2u
 #define LR_CLASS_T1_RIGHT 3u
-#define LR_CLASS_T2 4u         // two ring edges, or three
-#define LR_CLASS_T0_WART 5u    // a T0 that is stored in the redundant copy of a T2
-#define LR_CLASS_T2_WART 6u    // that T2
+#define LR_CLASS_T2 4u       // two ring edges, or three
+#define LR_CLASS_T0_WART 5u  // a T0 that is stored in the redundant copy of a T2
+#define LR_CLASS_T2_WART 6u  // that T2
 
 #ifdef __cplusplus
 }  // namespace lr::gpu

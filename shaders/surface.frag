@@ -14,14 +14,14 @@ layout(location = 1) in vec3 in_normal;
 layout(location = 2) in vec3 in_ring_colour;
 
 layout(location = 0) out vec4 out_colour;
-layout(location = 1) out uint out_triangle;  // original triangle + 1; 0 is the background
+layout(location = 1) out uint out_triangle;
 
 vec3 class_colour() {
     uint i = uint(gl_PrimitiveID);
     uint c = (classes[i / 4u] >> (8u * (i % 4u))) & 0xffu;
     if (c == LR_CLASS_T0) return vec3(0.13, 0.42, 0.10);
-    if (c == LR_CLASS_T1_LEFT) return vec3(0.93, 0.80, 0.52);
-    if (c == LR_CLASS_T1_RIGHT) return vec3(0.90, 0.33, 0.06);
+    if (c == LR_CLASS_T1_LEFT) return vec3(0.82, 0.70, 0.44);
+    if (c == LR_CLASS_T1_RIGHT) return vec3(0.84, 0.31, 0.055);
     if (c == LR_CLASS_T2) return vec3(0.06, 0.20, 0.58);
     if (c == LR_CLASS_T0_WART) return vec3(0.58, 0.03, 0.03);
     return vec3(0.30);
@@ -35,10 +35,10 @@ vec3 lit(vec3 albedo, vec3 n, float gloss) {
     const vec3 key = normalize(vec3(-0.45, 0.72, 0.62));
     const vec3 fill = normalize(vec3(0.80, 0.05, 0.45));
     // Wrapped diffuse: no hard edge where the light ends, so that dense meshes stay calm.
-    float k = clamp((dot(n, key) + 0.25) / 1.25, 0.0, 1.0);
+    float k = clamp((dot(n, key) + 0.20) / 1.20, 0.0, 1.0);
     float f = clamp((dot(n, fill) + 0.35) / 1.35, 0.0, 1.0);
-    vec3 sky = mix(vec3(0.13, 0.12, 0.12), vec3(0.26, 0.29, 0.34), 0.5 + 0.5 * n.y);
-    vec3 light = sky + k * k * vec3(0.98, 0.94, 0.87) + f * vec3(0.10, 0.14, 0.20);
+    vec3 sky = mix(vec3(0.10, 0.095, 0.095), vec3(0.24, 0.27, 0.32), 0.5 + 0.5 * n.y);
+    vec3 light = sky + k * k * vec3(1.02, 0.97, 0.89) + f * vec3(0.10, 0.14, 0.20);
     float highlight = pow(clamp(dot(n, normalize(key + to_eye)), 0.0, 1.0), 48.0);
     float rim = pow(1.0 - clamp(dot(n, to_eye), 0.0, 1.0), 4.0);
     return albedo * light + gloss * (0.16 * highlight * vec3(1.0, 0.97, 0.92) + 0.10 * rim * vec3(0.6, 0.7, 0.9));
@@ -50,15 +50,6 @@ void main() {
     uint triangle = original_triangle();
     if (resolve && imageLoad(winner, ivec2(gl_FragCoord.xy)).x != triangle) discard;
 
-    vec3 n;
-    if (view == LR_VIEW_SMOOTH || view == LR_VIEW_RING) {
-        // Both sides of the surface are lit. Which one this is comes from the triangle, not from the normal: at a
-        // silhouette the interpolated normal may point away a little.
-        n = normalize(in_normal) * (gl_FrontFacing ? frame.normal_sign : -frame.normal_sign);
-    } else {
-        n = dot(facet, facet) > 0.0 ? normalize(facet) : vec3(0.0, 0.0, 1.0);
-        if (dot(n, in_position) > 0.0) n = -n;
-    }
     vec3 albedo = vec3(0.62, 0.60, 0.565);
     float gloss = 1.0;
     if (view == LR_VIEW_CLASS) {
@@ -71,7 +62,19 @@ void main() {
         albedo = vec3(0.66, 0.68, 0.70);
         gloss = 0.2;
     }
-    vec3 colour = min(lit(albedo, n, gloss), vec3(1.0));
+    vec3 colour;
+    if (view == LR_VIEW_SMOOTH || view == LR_VIEW_RING) {
+        // Both sides of the surface are lit, and which one this is comes from the normal, gradually: at a silhouette a
+        // triangle that faces the eye and its neighbour that does not have nearly the same depth, and whichever is seen by
+        // a rounding error must look the same.
+        vec3 n = normalize(in_normal);
+        float facing = dot(n, normalize(-in_position));
+        colour = mix(lit(albedo, -n, gloss), lit(albedo, n, gloss), smoothstep(-0.12, 0.12, facing));
+    } else {
+        vec3 n = dot(facet, facet) > 0.0 ? normalize(facet) : vec3(0.0, 0.0, 1.0);
+        colour = lit(albedo, dot(n, in_position) > 0.0 ? -n : n, gloss);
+    }
+    colour = min(colour, vec3(1.0));
     out_colour = vec4(srgb(colour.x), srgb(colour.y), srgb(colour.z), 1.0);
-    out_triangle = triangle + 1u;
+    out_triangle = (triangle + 1u) | (gl_FrontFacing ? LR_FRONT_FLAG : 0u);
 }

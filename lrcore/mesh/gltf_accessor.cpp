@@ -111,7 +111,7 @@ Result<AccessorView> view_accessor(const tinygltf::Model& model, int index, std:
     const bool padded_matrix = components > 4 || accessor.type == TINYGLTF_TYPE_MAT2;
     if (padded_matrix && size_of(view.type) < 4) return unsupported("{}: a matrix of small integers", where);
 
-    if (accessor.bufferView >= 0) {
+    if (accessor.bufferView != -1) {  // tinygltf leaves -1 where there is none
         const auto values =
             view_bytes(model, accessor.bufferView, accessor.byteOffset, view.count, view.element_bytes(), where);
         if (!values) return values.error();

@@ -35,8 +35,12 @@ class Expander {
         return !table_.degenerate(t) && !visited(t, 0) && !visited(t, 1) && !visited(t, 2);
     }
 
-    /// Grows a region from seed's triangle and appends its boundary to `edges`.
-    void grow(CornerId seed, std::vector<RingEdge>& edges) {
+    /// Grows a region from seed's triangle and appends its boundary to `edges`. k as in RingOptions.
+    void grow(CornerId seed, std::uint32_t k, std::vector<RingEdge>& edges) {
+        if (k > 0) {
+            grow_hybrid(seed, k, edges);
+            return;
+        }
         for (const CornerId c : {seed, next(seed), previous(seed)}) visited_.set(table_.vertex(c).value);
         stack_.assign({facing(next(seed)), facing(previous(seed))});
         RingEdge edge = facing(seed);
@@ -60,6 +64,45 @@ class Expander {
                 if (!later.is_null()) __builtin_prefetch(&table_.corners[later.value]);
             }
         }
+    }
+
+    /// The same, interrupting the depth-first search every k triangles to go on from the oldest edge left
+    /// (HYBRID-RING-EXPANDER, section 6.1). The region is grown first and its boundary walked afterwards.
+    void grow_hybrid(CornerId seed, std::uint32_t k, std::vector<RingEdge>& edges) {
+        if (invaded_.empty()) invaded_ = BitVector(table_.triangle_count());
+        for (const CornerId c : {seed, next(seed), previous(seed)}) visited_.set(table_.vertex(c).value);
+        invaded_.set(triangle(seed).value);
+        region_.assign(1, triangle(seed));
+        queue_.assign({table_.opposite(seed), table_.opposite(next(seed)), table_.opposite(previous(seed))});
+        std::size_t front = 0;
+        while (front < queue_.size()) {
+            const bool breadth = region_.size() % k == 0;
+            const CornerId c = breadth ? queue_[front++] : queue_.back();
+            if (!breadth) queue_.pop_back();
+            if (c.is_null() || visited_.test(table_.vertex(c).value)) continue;
+            visited_.set(table_.vertex(c).value);
+            invaded_.set(triangle(c).value);
+            region_.push_back(triangle(c));
+            queue_.push_back(table_.left(c));
+            queue_.push_back(table_.right(c));
+        }
+        stack_.assign({facing(next(seed)), facing(previous(seed))});
+        RingEdge edge = facing(seed);
+        while (true) {
+            const CornerId c = edge.right;
+            // The region is a tree of triangles: what is invaded across an edge not yet walked was invaded through it.
+            if (!c.is_null() && invaded_.test(triangle(c).value)) {
+                stack_.push_back(facing(next(c)));
+                edge = facing(previous(c));
+                continue;
+            }
+            if (!c.is_null()) edge.right_tip = table_.vertex(c);
+            edges.push_back(edge);
+            if (stack_.empty()) break;
+            edge = stack_.back();
+            stack_.pop_back();
+        }
+        for (const TriangleId t : region_) invaded_.clear(t.value);
     }
 
     /// Takes back a ring: its vertices are unvisited again.
@@ -108,6 +151,9 @@ class Expander {
 
     const CornerTable& table_;
     BitVector visited_;  // paper: v.m
+    BitVector invaded_{0};  // paper: t.m; of the region being grown
+    std::vector<TriangleId> region_;
+    std::vector<CornerId> queue_;
     BitVector rung_;     // scratch of cost(): triangles with a ring edge; all clear between calls
     std::vector<RingEdge> stack_;
     std::vector<TriangleId> paired_;
@@ -162,7 +208,7 @@ Rings expand_rings(const CornerTable& table, const RingOptions& options) {
         const std::size_t begin = rings.edges.size();
         rings.first.push_back(static_cast<std::uint32_t>(begin));
         CornerId best = corner({t}, 0);
-        expander.grow(best, rings.edges);
+        expander.grow(best, options.k, rings.edges);
         if (options.seeds <= 1 || rings.edges.size() - begin < 4) continue;
 
         // More seeds, drawn from the triangles at the first ring; only the best seed is remembered and grown again.
@@ -177,7 +223,7 @@ Rings expand_rings(const CornerTable& table, const RingOptions& options) {
             grown = edge.right;
             if (grown.is_null() || random_next(random) % 2 == 0) grown = edge.left;
             if (!expander.can_seed(triangle(grown))) grown = best;
-            expander.grow(grown, trial);
+            expander.grow(grown, options.k, trial);
             if (const std::int64_t cost = expander.cost(trial); cost < best_cost) {
                 best_cost = cost;
                 best = grown;
@@ -186,7 +232,7 @@ Rings expand_rings(const CornerTable& table, const RingOptions& options) {
         if (grown != best) {
             expander.undo(trial);
             trial.clear();
-            expander.grow(best, trial);
+            expander.grow(best, options.k, trial);
         }
         rings.edges.resize(begin);
         rings.edges.insert(rings.edges.end(), trial.begin(), trial.end());

@@ -15,6 +15,7 @@ namespace lr {
 struct RingOptions {
     std::uint32_t seeds = 1;     ///< seed corners tried per component; the one with the cheapest ring is kept
     std::uint64_t random_seed = 1;
+    std::uint32_t k = 0;         ///< 0: RING-EXPANDER; else HYBRID-RING-EXPANDER, breadth first every k triangles
     bool one_per_shell = false;  ///< never a further ring among vertices that a shell's ring left out
 };
 
@@ -41,7 +42,7 @@ struct Rings {
     }
 };
 
-/// RING-EXPANDER, depth first, over every component. A vertex is on at most one ring, once.
+/// RING-EXPANDER, depth first (section 4.2), or with k HYBRID-RING-EXPANDER (section 6.1), over every component. A vertex is on at most one ring, once.
 /// Differs from the paper: the seed is a triangle whose three edges are all followed, borders are opposite(c) == null with
 /// no dummy triangles, ring edges are emitted while the invaded region is walked, and a component whose ring left three
 /// unvisited vertices in one triangle gets a further ring there.

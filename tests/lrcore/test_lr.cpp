@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "lrcore/corner_table/split.h"
+#include "lrcore/lr/compact_lr.h"
 #include "lrcore/lr/lr_table.h"
 #include "lrcore/lr/operators.h"
 #include "tests/lrcore/operator_oracle.h"
@@ -28,6 +29,12 @@ void check(const Mesh& mesh, const RingOptions& rings_options, const LrOptions& 
     CHECK(lr->view().references() == std::size_t{2} * lr->ring_vertices + std::size_t{6} * s.t0 +
                                          std::size_t{3} * (s.t1_irregular + s.t2_irregular) + s.isolated);
     test::check_operators(*table, LrOperators<LrView>(lr->view()), map);
+
+    const Result<CompactLrTable> compact = build_compact_lr(lr->view());
+    REQUIRE(compact);
+    CHECK(compact->view().bytes() == 4 * (std::size_t{compact->ring_vertices} + std::size_t{6} * s.t0 +
+                                          std::size_t{3} * compact->irregular + compact->long_tips + s.isolated));
+    test::check_operators(*table, LrOperators<CompactLrView>(compact->view()), map);
 }
 
 }  // namespace
@@ -38,6 +45,8 @@ TEST_CASE("LR operators equal the corner table's on named meshes") {
         check(mesh, {1, 1}, {});
         check(mesh, {1, 1}, {.wart_skipping = false});
         check(mesh, {4, 9}, {});
+        check(mesh, {1, 1, 1}, {});
+        check(mesh, {2, 5, 32}, {});
     }
 }
 
@@ -46,6 +55,6 @@ TEST_CASE("LR operators equal the corner table's on random soups") {
         CAPTURE(seed);
         const bool warts = seed % 3 != 0;
         check(test::random_soup(4 + static_cast<std::uint32_t>(seed % 29), 1 + static_cast<std::uint32_t>(seed % 83), seed), {2, seed}, {warts});
-        check(test::random_gluing(10 + static_cast<std::uint32_t>(seed % 50), 150, seed), {1, seed}, {warts});
+        check(test::random_gluing(10 + static_cast<std::uint32_t>(seed % 50), 150, seed), {1, seed, static_cast<std::uint32_t>(seed % 7)}, {warts});
     }
 }

@@ -34,6 +34,8 @@ TEST_CASE("rings of named meshes are cycles that cannot grow") {
         CAPTURE(name);
         check(mesh, {1, 1});
         check(mesh, {5, 7});
+        check(mesh, {1, 1, 1});
+        check(mesh, {3, 1, 20});
     }
 }
 

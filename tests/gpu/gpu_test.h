@@ -1,0 +1,49 @@
+#pragma once
+// What every test on the device has: validation on, and no message of it.
+
+#include <doctest/doctest.h>
+
+#include "lrcore/generate/generate.h"
+#include "renderer/compare.h"
+#include "renderer/renderer.h"
+#include "renderer/timing.h"
+
+namespace lr::test {
+
+/// Fails, and does not skip, where there is no device or no validation layer.
+struct GpuTest {
+    GpuTest() {
+        Result<std::unique_ptr<gpu::Context>> made = gpu::Context::create({{}, true});
+        REQUIRE_MESSAGE(made, made.error().message);
+        context = std::move(made).value();
+    }
+    GpuTest(const GpuTest&) = delete;
+    GpuTest& operator=(const GpuTest&) = delete;
+    ~GpuTest() {
+        if (context == nullptr) return;
+        CHECK(context->validation().count() == 0);
+        const std::vector<std::string> messages = context->validation().messages();
+        for (std::size_t i = 0; i < std::min<std::size_t>(3, messages.size()); ++i) MESSAGE(messages[i]);
+    }
+
+    std::unique_ptr<gpu::Context> context;
+};
+
+inline Mesh generated(std::string_view kind, std::uint64_t triangles, std::uint64_t seed = 1) {
+    Result<Mesh> mesh = generate(kind, triangles, seed);
+    REQUIRE_MESSAGE(mesh, mesh.error().message);
+    return std::move(mesh).value();
+}
+
+inline gpu::Model model_of(const Mesh& mesh) {
+    Result<gpu::Model> model = gpu::make_model(mesh);
+    REQUIRE_MESSAGE(model, model.error().message);
+    return std::move(model).value();
+}
+
+/// The smallest descriptor range with which this mesh can be worked on: many parts.
+inline std::uint64_t small_range(const Mesh& mesh) {
+    return std::max<std::uint64_t>(2048, (std::uint64_t{mesh.vertex_count} + 255) / 256 * 256);
+}
+
+}  // namespace lr::test

@@ -1,0 +1,56 @@
+// Classes are what the pictures' colours stand for: they must add up to the encoder's own counts.
+
+#include <array>
+
+#include "renderer/triangle_class.h"
+#include "shaders/shared.h"
+#include "tests/gpu/gpu_test.h"
+#include "tests/support/meshes.h"
+
+using namespace lr;
+using namespace lr::test;
+
+TEST_CASE("triangle classes add up to the encoder's statistics") {
+    for (const char* kind : {"sphere", "torus", "genus", "blob", "terrain"}) {
+        CAPTURE(kind);
+        const Mesh mesh = generated(kind, 5000, 4);
+        const gpu::Model model = model_of(mesh);
+        const Result<LeanView> view = view_lean(model.lean.words);
+        REQUIRE(view);
+        std::array<std::uint32_t, 7> count{};
+        for (const std::uint8_t c : gpu::slot_classes(*view)) ++count.at(c);
+        const LeanStatistics& s = model.lean.statistics;
+        REQUIRE(s.unrung == 0);
+        CHECK(count[LR_CLASS_T0] == s.t0);
+        CHECK(count[LR_CLASS_T0_WART] == s.t0_wart);
+        CHECK(count[LR_CLASS_T2] + count[LR_CLASS_T2_WART] == s.t2);
+        CHECK(count[LR_CLASS_T2_WART] == s.t0_wart);
+        CHECK(count[LR_CLASS_NONE] == view->slots() - view->triangles);
+    }
+}
+
+TEST_CASE("the ring's lines are closed loops over the ring vertices") {
+    for (const NamedMesh& named : named_meshes()) {
+        CAPTURE(named.name);
+        const Result<gpu::Model> model = gpu::make_model(named.mesh);
+        if (!model) continue;
+        const Result<LeanView> view = view_lean(model->lean.words);
+        REQUIRE(view);
+        const std::vector<std::uint32_t> lines = gpu::ring_lines(*view);
+        REQUIRE(lines.size() == 2 * (view->rings2 + view->rings1));
+        std::vector<std::uint32_t> entered(lines.size() / 2, 0);
+        for (std::size_t i = 0; i < lines.size(); i += 2) {
+            REQUIRE(lines[i] == i / 2);
+            REQUIRE(lines[i + 1] < entered.size());
+            ++entered[lines[i + 1]];
+        }
+        for (const std::uint32_t n : entered) REQUIRE(n == 1);
+    }
+}
+
+TEST_CASE("every edge is drawn once") {
+    const std::vector<std::uint32_t> indices{0, 1, 2, 2, 1, 3, 3, 3, 0};
+    CHECK(gpu::mesh_edges(indices) == std::vector<std::uint32_t>{0, 1, 0, 2, 0, 3, 1, 2, 1, 3, 2, 3});
+    const Mesh sphere = generated("sphere", 2000);
+    CHECK(gpu::mesh_edges(sphere.indices).size() == sphere.indices.size());  // 3T/2 edges, two ends each
+}

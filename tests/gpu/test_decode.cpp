@@ -1,0 +1,135 @@
+// The device's index buffer is decode_lean's, integer for integer; its draw commands cover it; rotating is rotating.
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "tests/gpu/gpu_test.h"
+#include "tests/support/meshes.h"
+
+using namespace lr;
+using namespace lr::test;
+
+namespace {
+
+void check_decode(gpu::Context& context, const Mesh& mesh, std::uint64_t max_range) {
+    const Result<gpu::Model> model = gpu::make_model(mesh);
+    if (!model || model->lean.slot_triangle.empty()) return;  // nothing to draw: test_compare has that
+    gpu::RendererOptions options;
+    options.width = options.height = 8;
+    options.max_range = max_range;
+    Result<gpu::Renderer> renderer = gpu::Renderer::create(context, options);
+    REQUIRE_MESSAGE(renderer, renderer.error().message);
+    Result<gpu::Drawable> drawable = renderer->upload(*model, gpu::Source::lean);
+    REQUIRE_MESSAGE(drawable, drawable.error().message);
+    const auto indices = renderer->read_indices(*drawable);
+    REQUIRE_MESSAGE(indices, indices.error().message);
+    const Result<LeanView> view = validate_lean(model->lean.words);
+    REQUIRE_MESSAGE(view, view.error().message);
+    std::vector<std::uint32_t> expected(std::size_t{3} * view->slots());
+    decode_lean(*view, expected);
+    REQUIRE(indices->size() == expected.size());
+    CHECK(*indices == expected);
+
+    std::vector<VkDrawIndexedIndirectCommand> commands(drawable->mesh.draws);
+    REQUIRE(renderer->transfer().read(drawable->mesh.commands, 0, std::as_writable_bytes(std::span(commands))));
+    std::uint64_t covered = 0;
+    for (const VkDrawIndexedIndirectCommand& command : commands) {
+        CHECK(command.firstIndex == covered);
+        CHECK(command.instanceCount == 1);
+        CHECK(command.vertexOffset == 0);
+        CHECK(command.firstInstance == 0);
+        covered += command.indexCount;
+    }
+    CHECK(covered == expected.size());
+    if (max_range != 0 && expected.size() * 4 > 2 * max_range) CHECK(drawable->decode.dispatches.size() > 1);
+}
+
+}  // namespace
+
+TEST_CASE_FIXTURE(GpuTest, "every small mesh decodes as on the CPU") {
+    for (const NamedMesh& named : named_meshes()) {
+        CAPTURE(named.name);
+        check_decode(*context, named.mesh, 0);
+    }
+}
+
+TEST_CASE_FIXTURE(GpuTest, "every small mesh decodes as on the CPU through many small descriptors") {
+    for (const NamedMesh& named : named_meshes()) {
+        CAPTURE(named.name);
+        check_decode(*context, named.mesh, small_range(named.mesh));
+    }
+}
+
+TEST_CASE_FIXTURE(GpuTest, "random soups decode as on the CPU") {
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+        CAPTURE(seed);
+        const auto size = static_cast<std::uint32_t>(seed * 7);
+        check_decode(*context, random_soup(size + 2, 3 * size, seed), seed % 2 == 0 ? 0 : 2048);
+        check_decode(*context, random_gluing(size + 2, 3 * size, seed), seed % 2 == 0 ? 2048 : 0);
+    }
+}
+
+TEST_CASE_FIXTURE(GpuTest, "larger generated meshes decode as on the CPU") {
+    for (const GeneratorInfo& kind : generators()) {
+        CAPTURE(kind.name);
+        const Mesh mesh = generated(kind.name, 60000, 3);
+        check_decode(*context, mesh, 0);
+        check_decode(*context, mesh, 100000);
+    }
+}
+
+TEST_CASE_FIXTURE(GpuTest, "an exact picture leaves every triangle rotated to its smallest original vertex") {
+    const Mesh mesh = generated("blob", 5000);
+    const gpu::Model model = model_of(mesh);
+    gpu::RendererOptions options;
+    options.width = options.height = 32;
+    options.max_range = small_range(mesh);
+    Result<gpu::Renderer> renderer = gpu::Renderer::create(*context, options);
+    REQUIRE(renderer);
+    const auto camera = gpu::make_camera(model, {}, 32, 32);
+    REQUIRE(camera);
+    const auto rotated = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        std::array<std::uint32_t, 3> t{a, b, c};
+        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+        return t;
+    };
+    for (const gpu::Source source : {gpu::Source::plain, gpu::Source::lean}) {
+        Result<gpu::Drawable> drawable = renderer->upload(model, source);
+        REQUIRE(drawable);
+        REQUIRE(renderer->draw(*drawable, model, *camera, true));
+        auto indices = renderer->read_indices(*drawable);
+        REQUIRE(indices);
+        std::size_t triangles = 0;
+        for (std::size_t slot = 0; slot < indices->size() / 3; ++slot) {
+            std::array<std::uint32_t, 3> t{(*indices)[3 * slot], (*indices)[3 * slot + 1], (*indices)[3 * slot + 2]};
+            if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+            std::uint32_t original = static_cast<std::uint32_t>(slot);
+            if (source == gpu::Source::lean) {
+                for (std::uint32_t& v : t) v = model.lean.vertex_order[v];
+                original = model.lean.slot_triangle[slot];
+            }
+            const std::size_t at = std::size_t{3} * original;
+            REQUIRE(t == rotated(mesh.indices[at], mesh.indices[at + 1], mesh.indices[at + 2]));
+            ++triangles;
+        }
+        CHECK(triangles == mesh.triangle_count());
+        // Raw pictures would now be of rotated triangles.
+        CHECK(!renderer->draw(*drawable, model, *camera, false));
+    }
+}
+
+TEST_CASE_FIXTURE(GpuTest, "ranges too small to work with are refused") {
+    const Mesh mesh = generated("sphere", 20000);
+    const gpu::Model model = model_of(mesh);
+    for (const std::uint64_t range : {std::uint64_t{1}, std::uint64_t{2047}, std::uint64_t{4096}}) {
+        gpu::RendererOptions options;
+        options.width = options.height = 8;
+        options.max_range = range;
+        Result<gpu::Renderer> renderer = gpu::Renderer::create(*context, options);
+        REQUIRE(renderer);
+        const auto drawable = renderer->upload(model, gpu::Source::lean);
+        REQUIRE(!drawable);
+        CHECK(drawable.error().code == (range < 2048 ? ErrorCode::invalid_argument : ErrorCode::too_large));
+    }
+}

@@ -1,0 +1,83 @@
+#include <vector>
+
+#include "tests/gpu/gpu_test.h"
+
+using namespace lr;
+using namespace lr::test;
+
+TEST_CASE("a device that is not there is an error that lists the ones that are") {
+    const auto context = gpu::Context::create({"no such device", false});
+    REQUIRE(!context);
+    CHECK(context.error().code == ErrorCode::no_device);
+    CHECK(context.error().message.find("not named \"no such device\"") != std::string::npos);
+    CHECK(context.error().message.find('\n') == std::string::npos);
+}
+
+TEST_CASE_FIXTURE(GpuTest, "the device can be asked for by part of its name, in any case") {
+    std::string part = context->info().name.substr(0, 5);
+    for (char& c : part) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    const auto again = gpu::Context::create({part, false});
+    REQUIRE_MESSAGE(again, again.error().message);
+    CHECK((*again)->info().name == context->info().name);
+    CHECK((*again)->info().api.rfind("1.", 0) == 0);
+}
+
+TEST_CASE_FIXTURE(GpuTest, "buffers are cut from few blocks, do not overlap, and are joined again") {
+    std::vector<gpu::Buffer> buffers;
+    for (std::uint32_t i = 0; i < 500; ++i) {
+        auto buffer = gpu::Buffer::create(*context, "small", 1000 + 37 * i, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                                          gpu::Memory::upload);
+        REQUIRE_MESSAGE(buffer, buffer.error().message);
+        std::fill_n(buffer->mapped(), buffer->size(), static_cast<std::byte>(i));
+        buffers.push_back(std::move(buffer).value());
+        if (i % 3 == 0) buffers.erase(buffers.begin() + static_cast<std::ptrdiff_t>(buffers.size() / 2));
+    }
+    for (const gpu::Buffer& buffer : buffers) {
+        const std::byte first = buffer.mapped()[0];
+        for (std::uint64_t i = 0; i < buffer.size(); ++i) REQUIRE(buffer.mapped()[i] == first);
+    }
+    CHECK(context->arena().block_count() <= 2);
+    const VkDeviceSize held = context->arena().held();
+    buffers.clear();
+    // Everything is one free range again, so a buffer as large as all of them needs no new block.
+    const auto large =
+        gpu::Buffer::create(*context, "large", held / 2, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Memory::upload);
+    REQUIRE(large);
+    CHECK(context->arena().held() == held);
+}
+
+TEST_CASE_FIXTURE(GpuTest, "a block made for one large buffer goes with it") {
+    const VkDeviceSize held = context->arena().held();
+    {
+        const auto large =
+            gpu::Buffer::create(*context, "large", VkDeviceSize{100} << 20, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+        REQUIRE(large);
+        CHECK(context->arena().held() > held);
+    }
+    CHECK(context->arena().held() == held);
+}
+
+TEST_CASE_FIXTURE(GpuTest, "more than the device gives is an error") {
+    const auto buffer =
+        gpu::Buffer::create(*context, "huge", context->info().max_buffer_size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    REQUIRE(!buffer);
+    CHECK(buffer.error().code == ErrorCode::too_large);
+    CHECK(buffer.error().message.find("huge") != std::string::npos);
+    const auto target = gpu::Target::create(*context, {context->limits().maxImageDimension2D + 1, 1});
+    REQUIRE(!target);
+    CHECK(target.error().code == ErrorCode::too_large);
+}
+
+TEST_CASE_FIXTURE(GpuTest, "bytes survive the way to the device and back, in pieces") {
+    auto transfer = gpu::Transfer::create(*context);
+    REQUIRE(transfer);
+    std::vector<std::uint32_t> values((std::size_t{20} << 20) / 4 + 3);
+    for (std::uint32_t i = 0; i < values.size(); ++i) values[i] = i * 2654435761U;
+    const auto buffer = gpu::Buffer::create(*context, "values", 4 * values.size(), 0);
+    REQUIRE(buffer);
+    REQUIRE(transfer->upload(*buffer, std::span<const std::uint32_t>(values)));
+    std::vector<std::uint32_t> back(values.size());
+    REQUIRE(transfer->read(*buffer, 0, std::as_writable_bytes(std::span(back))));
+    CHECK(back == values);
+    CHECK(!transfer->read(*buffer, 8, std::as_writable_bytes(std::span(back))));
+}
