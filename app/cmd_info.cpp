@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "lrcore/corner_table/geometry.h"
 #include "lrcore/corner_table/report.h"
+#include "lrcore/corner_table/smesh.h"
 
 namespace lr::app {
 namespace {
@@ -21,6 +23,32 @@ const char* type_name(ComponentType type) {
     return kNames[static_cast<std::size_t>(type)];
 }
 
+/// The closed shells of a mesh, summed up.
+struct Solid {
+    std::size_t shells = 0, inside_out = 0, flat = 0;
+    double volume = 0;  ///< hollows count as what they take away
+};
+
+Solid sum(const std::vector<ClosedShell>& shells) {
+    Solid solid;
+    solid.shells = shells.size();
+    for (const ClosedShell& shell : shells) {
+        solid.inside_out += shell.inside_out() ? 1 : 0;
+        solid.flat += shell.flat() ? 1 : 0;
+        solid.volume += shell.volume;
+    }
+    return solid;
+}
+
+std::string describe(const Solid& solid, bool all_closed) {
+    if (solid.shells == 0) return "none: no piece of surface is closed";
+    std::string text = all_closed ? fmt::format("{:.6g}", solid.volume) : "none: not all pieces of surface are closed";
+    if (solid.shells > 1 || !all_closed) text += fmt::format("; {} closed", solid.shells);
+    if (solid.inside_out > 0) text += fmt::format("; {} inside out, or hollows", solid.inside_out);
+    if (solid.flat > 0) text += fmt::format("; {} flat", solid.flat);
+    return text;
+}
+
 int run(const Options& options) {
     const Result<Mesh> mesh = load(options.input);
     if (!mesh) return fail(options.input.path, mesh.error());
@@ -28,6 +56,11 @@ int run(const Options& options) {
     if (!table) return fail(options.input.path, table.error());
     const TopologyReport r = report_topology(*table);
     const Topology& t = table->topology;
+    const Positions positions(*mesh);
+    const std::vector<ClosedShell> closed = closed_shells(*table, positions);
+    const SmeshCheck smesh = positions.empty() ? check_smesh(*table, r) : check_smesh(*table, r, closed);
+    const Solid solid = sum(closed);
+    const bool has_volume = r.closed && r.shells > 0 && !positions.empty();
     if (options.json) {
         nlohmann::ordered_json attributes = nlohmann::ordered_json::array();
         for (const Attribute& a : mesh->attributes) {
@@ -53,6 +86,13 @@ int run(const Options& options) {
                                             {"genus", r.genus},
                                             {"valence6_percent", r.valence6_percent},
                                             {"max_valence", r.max_valence},
+                                            {"handles", r.orientable ? nlohmann::ordered_json(r.genus) : nullptr},
+                                            {"smesh", smesh.is_smesh()},
+                                            {"smesh_reason", smesh.reason},
+                                            {"closed_shells", solid.shells},
+                                            {"inside_out_shells", solid.inside_out},
+                                            {"flat_shells", solid.flat},
+                                            {"volume", has_volume ? nlohmann::ordered_json(solid.volume) : nullptr},
                                             {"attributes", attributes}};
         fmt::print("{}\n", out.dump(2));
         return done;
@@ -71,11 +111,15 @@ int run(const Options& options) {
                         : t.flipped == 0 ? "consistent"
                                          : fmt::format("orientable once {} triangles are turned round", t.flipped));
     line("Euler characteristic", fmt::format("{}", r.euler_characteristic));
-    line("genus", fmt::format("{}{}", r.genus, r.shells > 1 ? ", all pieces together" : ""));
+    line("genus", fmt::format("{}{}{}", r.genus, r.shells > 1 ? ", all pieces together" : "",
+                              r.orientable ? "" : ", of the surface as cut"));
+    line("smesh", smesh.is_smesh() ? "yes: a sphere, counterclockwise" : "no: " + smesh.reason);
+    line("volume", describe(solid, r.closed));
     line("valence 6", fmt::format("{:.1f} % of vertices; largest valence {}", r.valence6_percent, r.max_valence));
     std::string attributes;
     for (const Attribute& a : mesh->attributes) {
-        attributes += fmt::format("{}{} ({} x {})", attributes.empty() ? "" : ", ", a.name, a.components, type_name(a.type));
+        attributes +=
+            fmt::format("{}{} ({} x {})", attributes.empty() ? "" : ", ", a.name, a.components, type_name(a.type));
     }
     line("attributes", attributes);
     return done;

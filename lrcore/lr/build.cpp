@@ -14,6 +14,8 @@
 namespace lr {
 namespace {
 
+constexpr std::uint32_t kAhead = 24;  // slots for which memory is fetched before their turn
+
 class Builder {
   public:
     Builder(const CornerTable& table, const Rings& rings, const LrOptions& options)
@@ -31,10 +33,13 @@ class Builder {
             if (!edge.right.is_null()) rung_.set(triangle(edge.right).value);
         }
         for (std::size_t r = 0; r < rings_.count(); ++r) place_ring(rings_.ring(r), rings_.first[r]);
-        number_isolated();
+        out_.statistics.t0_wart = static_cast<std::uint32_t>(wart_slots_.size());
         number_t0();
+        number_isolated();
         // Until now words hold the corner table's vertices.
-        for (std::uint32_t& w : out_.lr) {
+        for (std::size_t i = 0; i < out_.lr.size(); ++i) {
+            if (i + kAhead < out_.lr.size()) __builtin_prefetch(number_.data() + (out_.lr[i + kAhead] & word::kTip));
+            std::uint32_t& w = out_.lr[i];
             if ((w & word::kKind) != word::kBorder) w = (w & ~word::kTip) | number_[w & word::kTip];
         }
         fill_t0();
@@ -79,6 +84,7 @@ class Builder {
             for (std::uint32_t side = 0; side < 2; ++side) {
                 const std::uint32_t slot = 2 * v + side;
                 CornerId c = walk.face(side, i);
+                VertexId tip = walk.tip(side, i);
                 std::uint32_t flags = 0;
                 if (c.is_null()) {
                     out_.lr[slot] = word::kBorder | word::kTip;
@@ -93,11 +99,12 @@ class Builder {
                         continue;
                     }
                     c = wart_[side][i];
+                    tip = table_.vertex(c);
                     flags = word::kWart;
-                    ++out_.statistics.t0_wart;
+                    wart_slots_.push_back(slot);
                 }
                 if (table_.flipped(triangle(c))) flags |= word::kFlip;
-                out_.lr[slot] = flags | (flags & word::kWart ? table_.vertex(c) : walk.tip(side, i)).value;
+                out_.lr[slot] = flags | tip.value;
                 tip_corner_[slot] = c;
                 number_of_triangle_[triangle(c).value] = slot;
             }
@@ -105,22 +112,7 @@ class Builder {
         } while (i != closing);
     }
 
-    void number_isolated() {
-        std::vector<bool> used(table_.vertex_count, false);
-        for (std::uint32_t i = 0; i < table_.corners.size(); ++i) {
-            if (table_.degenerate(triangle(CornerId{i}))) continue;
-            used[table_.vertex({i}).value] = true;
-        }
-        std::uint32_t next_number = out_.ring_vertices;
-        for (const bool wanted : {true, false}) {
-            for (std::uint32_t v = 0; v < table_.vertex_count; ++v) {
-                if (used[v] == wanted && number_[v] == UINT32_MAX) number_[v] = next_number++;
-            }
-            if (wanted) out_.c.assign(next_number - out_.ring_vertices, UINT32_MAX);
-        }
-        out_.statistics.isolated = static_cast<std::uint32_t>(out_.c.size());
-    }
-
+    /// Numbers the triangles without a slot.
     void number_t0() {
         std::uint32_t number = 2 * out_.ring_vertices;
         for (std::uint32_t t = 0; t < table_.triangle_count(); ++t) {
@@ -131,19 +123,34 @@ class Builder {
         out_.statistics.t0 = static_cast<std::uint32_t>(t0_.size());
     }
 
+    /// Numbers the vertices off the rings: those of triangles first. All triangles of such a vertex are T0, in warts or not.
+    void number_isolated() {
+        std::vector<bool> used(table_.vertex_count, false);
+        for (const TriangleId t : t0_) {
+            for (std::uint32_t k = 0; k < 3; ++k) used[table_.vertex(corner(t, k)).value] = true;
+        }
+        for (const std::uint32_t slot : wart_slots_) used[out_.lr[slot] & word::kTip] = true;
+        std::uint32_t next_number = out_.ring_vertices;
+        for (const bool wanted : {true, false}) {
+            for (std::uint32_t v = 0; v < table_.vertex_count; ++v) {
+                if (number_[v] == UINT32_MAX && used[v] == wanted) number_[v] = next_number++;
+            }
+            if (wanted) out_.c.assign(next_number - out_.ring_vertices, UINT32_MAX);
+        }
+        out_.statistics.isolated = static_cast<std::uint32_t>(out_.c.size());
+    }
+
     void fill_t0() {
         out_.vo.reserve(t0_.size() * 6);
         for (const TriangleId t : t0_) {
             for (std::uint32_t k = 0; k < 3; ++k) {
                 const std::uint32_t v = number_[table_.vertex(corner(t, k)).value];
                 out_.vo.push_back(v | (k == 0 && table_.flipped(t) ? word::kT0Flip : 0));
-                // Every triangle of an isolated vertex is a T0, or has it as its tip.
                 if (v >= out_.ring_vertices) out_.c[v - out_.ring_vertices] = lr_corner(corner(t, k)).value;
             }
             for (std::uint32_t k = 0; k < 3; ++k) out_.vo.push_back(lr_corner(table_.opposite(corner(t, k))).value);
         }
-        for (std::uint32_t slot = 0; slot < out_.lr.size(); ++slot) {
-            if (tip_corner_[slot].is_null()) continue;
+        for (const std::uint32_t slot : wart_slots_) {
             const std::uint32_t v = out_.lr[slot] & word::kTip;
             if (v >= out_.ring_vertices) out_.c[v - out_.ring_vertices] = lr_corner(tip_corner_[slot]).value;
         }
@@ -154,12 +161,15 @@ class Builder {
         {
             const LrOperators<LrView> ops(out_.view());
             for (std::uint32_t slot = 0; slot < out_.lr.size(); ++slot) {
+                if (slot + kAhead < out_.lr.size() && !tip_corner_[slot + kAhead].is_null()) {
+                    __builtin_prefetch(&table_.corners[tip_corner_[slot + kAhead].value]);
+                }
                 const CornerId c = tip_corner_[slot];
                 if (c.is_null()) continue;
                 const std::uint32_t v = slot / 2, side = slot % 2;
                 const CornerId start{8 * v + (side == 0 ? 0 : 6)}, end{8 * v + (side == 0 ? 2 : 4)};
-                if (ops.opposite(start) != lr_corner(table_.opposite(side == 0 ? previous(c) : next(c))) ||
-                    ops.opposite(end) != lr_corner(table_.opposite(side == 0 ? next(c) : previous(c)))) {
+                if (table_corner(ops.opposite(start)) != table_.opposite(side == 0 ? previous(c) : next(c)) ||
+                    table_corner(ops.opposite(end)) != table_.opposite(side == 0 ? next(c) : previous(c))) {
                     irregular.push_back(slot);
                 }
             }
@@ -193,6 +203,14 @@ class Builder {
         return {4 * t + (after_tip ? 2U : 0U)};
     }
 
+    /// The corner table's number of a canonical ring corner.
+    CornerId table_corner(CornerId c) const {
+        if (c.is_null()) return c;
+        const CornerId tip = tip_corner_[c.value / 4];
+        const std::uint32_t k = c.value % 4;
+        return k == 1 ? tip : k == 0 ? previous(tip) : next(tip);
+    }
+
     void fill(LrMap& map) const {
         map.vertex.resize(out_.vertices);
         for (std::uint32_t v = 0; v < out_.vertices; ++v) map.vertex[number_[v]] = {v};
@@ -215,6 +233,7 @@ class Builder {
     std::vector<CornerId> tip_corner_;               // of each slot, null where it has no triangle of its own
     std::vector<CornerId> wart_[2];                  // of one ring: the T0's corner across the T2 whose first copy is here
     std::vector<TriangleId> t0_;
+    std::vector<std::uint32_t> wart_slots_;
     LrTable out_;
 };
 

@@ -11,8 +11,8 @@
 
 namespace lr::test {
 
-/// `ops` has the operators of LrOperators. Its triangle t has corners stride * t + 0, 1, 2, and is triangle map.triangle[t]
-/// of the table, whose corner map.start[t] it begins with.
+/// `ops` has the operators of LrOperators. Its triangle t has corners stride * t + 0, 1, 2, and is triangle
+/// map.triangle[t] of the table, whose corner map.start[t] it begins with.
 template <class Operators>
 void check_operators(const CornerTable& table, const Operators& ops, const LrMap& map, std::uint32_t stride = 4) {
     // The bijection: every triangle that is not degenerate has one canonical number, every vertex one number.
@@ -39,8 +39,10 @@ void check_operators(const CornerTable& table, const Operators& ops, const LrMap
         REQUIRE_FALSE(map.triangle[t].is_null());
         return corner(map.triangle[t], (map.start[t] + c.value % stride) % 3);
     };
-    // Corners of a laced ring that are of no triangle lie at an edge with a border; others may not be asked about at all.
-    constexpr bool border_slots = requires { ops.ring_next(0U); };
+    // A laced ring's corners of no triangle lie at an edge with a border; others may not be asked about at all.
+    constexpr bool border_slots = requires {
+        ops.ring_next(0U);
+    };
 
     for (std::uint32_t t = 0; t < map.triangle.size(); ++t) {
         REQUIRE(ops.corner(TriangleId{t}).value == stride * t);
