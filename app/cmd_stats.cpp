@@ -44,19 +44,24 @@ Json to_json(const std::string& path, const Mesh& mesh, const FormatSet& set) {
                 {"absent", Json::object()}};
     const auto triangles = static_cast<double>(mesh.triangle_count());
     for (const Format& format : set.formats) {
-        const CacheFigures cache = analyze_fifo32(format.indices, mesh.vertex_count);
+        const CacheFigures cache = analyze_fifo32(format.indices, format.vertex_count(mesh));
         Json entry = {{"bytes", format.bytes},
                       {"bits_per_triangle", 8 * static_cast<double>(format.bytes) / triangles},
                       {"references_per_triangle", static_cast<double>(format.references) / triangles},
                       {"acmr_fifo32", cache.acmr},
                       {"atvr_fifo32", cache.atvr}};
-        if (format.has_ring) {
-            entry["ring"] = "expander";
-            entry["k"] = nullptr;  // depth first
+        if (format.ring != nullptr) {
+            entry["ring"] = format.ring;
+            entry["k"] = format.k == 0 ? Json(nullptr) : Json(format.k);  // null: depth first
             entry["passes"] = 0;
         }
         out["formats"][format.name] = std::move(entry);
     }
+    out["lr_ring"] = {{"t0", set.lr.t0},
+                      {"t0_wart", set.lr.t0_wart},
+                      {"t2", set.lr.t2},
+                      {"irregular", set.lr.t1_irregular + set.lr.t2_irregular},
+                      {"isolated", set.lr.isolated}};
     for (const auto& [name, reason] : set.absent) out["absent"][name] = reason;
     return out;
 }
@@ -76,7 +81,7 @@ void print(const std::string& path, const Mesh& mesh, const FormatSet& set) {
         const auto bytes = static_cast<double>(format.bytes);
         fmt::print("  {:<18}{:>12}{:>12.2f}{:>12.3f}{:>8.1f} %{:>10.3f}\n", format.name, format.bytes,
                    8 * bytes / triangles, static_cast<double>(format.references) / triangles,
-                   base > 0 ? 100 * bytes / base : 0.0, analyze_fifo32(format.indices, mesh.vertex_count).acmr);
+                   base > 0 ? 100 * bytes / base : 0.0, analyze_fifo32(format.indices, format.vertex_count(mesh)).acmr);
     }
     fmt::print("\n");
 }
@@ -111,7 +116,7 @@ void add_stats(CLI::App& program, Action& action) {
     command->add_option("MESH", options->paths, "mesh files")->required();
     add_weld(*command, options->weld);
     add_ring_options(*command, options->ring);
-    command->add_flag("--paper", options->paper, "the paper's procedures alone (for lean: the ring-expander, the default)");
+    command->add_flag("--paper", options->paper, "the paper's procedures alone: ring-expander, and for lr_compact the hybrid with the best k (the default)");
     command->add_flag("--json", options->json, "one JSON document on standard output");
     command->callback([options, &action] { action = [options] { return run(*options); }; });
 }

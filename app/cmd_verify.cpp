@@ -38,14 +38,17 @@ std::vector<Triangle> oriented_triangles(const std::vector<std::uint32_t>& indic
     return out;
 }
 
-/// Empty, or why `order` is not a permutation of the mesh's vertices.
-std::string check_order(const std::vector<std::uint32_t>& order, std::uint32_t vertices) {
+/// Empty, or what of the mesh's vertices `order` loses. Copies of non-manifold vertices may come on top.
+std::string check_order(const Format& format, std::uint32_t vertices) {
     std::vector<bool> seen(vertices, false);
-    for (const std::uint32_t v : order) {
-        if (v >= vertices || seen[v]) return fmt::format("vertex {} is not permuted once", v);
+    std::size_t again = 0;
+    for (const std::uint32_t v : format.order) {
+        if (v >= vertices) return fmt::format("vertex {} of {}", v, vertices);
+        again += seen[v] ? 1 : 0;
         seen[v] = true;
     }
-    return order.size() == vertices ? "" : "some vertices are lost";
+    if (again != format.copies) return fmt::format("{} vertices twice instead of {}", again, format.copies);
+    return format.order.size() == vertices + format.copies ? "" : "some vertices are lost";
 }
 
 int run(const Options& options) {
@@ -58,7 +61,7 @@ int run(const Options& options) {
     bool all = true;
     for (const Format& format : set->formats) {
         std::string why = format.invalid;
-        if (why.empty() && !format.order.empty()) why = check_order(format.order, mesh->vertex_count);
+        if (why.empty() && !format.order.empty()) why = check_order(format, mesh->vertex_count);
         if (why.empty()) {
             const std::vector<Triangle> got = oriented_triangles(format.indices, format.order);
             if (got.size() != expected.size()) {

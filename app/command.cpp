@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <system_error>
 
 #include "lrcore/file/lr_file.h"
+#include "lrcore/lr/search.h"
 #include "lrcore/mesh/read.h"
 #include "lrcore/mesh/weld.h"
 
@@ -20,8 +22,15 @@ void add_weld(CLI::App& command, std::string& weld) {
 }
 
 void add_ring_options(CLI::App& command, RingChoice& choice) {
-    command.add_option("--ring", choice.ring, "ring construction")
-        ->check(CLI::IsMember({"expander"}))
+    command.add_option("--ring", choice.ring, "ring construction for every format, not for each the one it is best with")
+        ->check(CLI::IsMember({"expander", "hybrid"}));
+    command.add_option("--k", choice.k, "period of the hybrid, or auto: several are tried and the smallest kept")
+        ->check([](const std::string& text) {
+            std::uint32_t k = 0;
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), k);
+            const bool number = error == std::errc() && end == text.data() + text.size() && k > 0;
+            return number || text == "auto" ? std::string() : "k is a number above 0, or auto";
+        })
         ->capture_default_str();
     command.add_option("--seeds", choice.seeds, "seed corners tried per component; 0: by the mesh's size")
         ->check(CLI::Range(0, 100000))
@@ -29,11 +38,30 @@ void add_ring_options(CLI::App& command, RingChoice& choice) {
     command.add_option("--random-seed", choice.random_seed, "for the choice of seed corners")->capture_default_str();
 }
 
+namespace {
+
+/// 0 for auto. The text was checked.
+std::uint32_t period(const RingChoice& choice) {
+    std::uint32_t k = 0;
+    std::from_chars(choice.k.data(), choice.k.data() + choice.k.size(), k);
+    return k;
+}
+
+}  // namespace
+
 RingOptions ring_options(const RingChoice& choice, std::size_t triangles) {
+    constexpr std::uint32_t kPaperMedian = 100;
     RingOptions options;
     options.random_seed = choice.random_seed;
     options.seeds = choice.seeds != 0 ? choice.seeds : recommended_seeds(triangles);
+    if (choice.ring == "hybrid") options.k = period(choice) != 0 ? period(choice) : kPaperMedian;
     return options;
+}
+
+std::vector<std::uint32_t> ring_periods(const RingChoice& choice, std::size_t triangles) {
+    if (choice.ring == "expander") return {0};
+    if (const std::uint32_t k = period(choice); k != 0) return {k};
+    return recommended_periods(triangles);
 }
 
 Result<Mesh> load(const MeshInput& input) {

@@ -29,12 +29,16 @@ void add_weld(CLI::App& command, std::string& weld);
 
 /// How the rings are to be made.
 struct RingChoice {
-    std::string ring = "expander";
+    std::string ring;         ///< "", for what each format is best with; "expander" or "hybrid", for all
+    std::string k = "auto";   ///< of the hybrid: a number, or the best of recommended_periods
     std::uint32_t seeds = 0;  ///< 0: recommended_seeds
     std::uint64_t random_seed = 1;
 };
 void add_ring_options(CLI::App& command, RingChoice& choice);
+/// For a format that is best with the ring-expander. With --ring hybrid, --k auto means the paper's median, 100.
 RingOptions ring_options(const RingChoice& choice, std::size_t triangles);
+/// For one that is best with the hybrid: the periods to try.
+std::vector<std::uint32_t> ring_periods(const RingChoice& choice, std::size_t triangles);
 
 /// Reads and welds. The input may also be an .lr file, which is validated and decoded.
 Result<Mesh> load(const MeshInput& input);

@@ -8,6 +8,7 @@
 #include "app/command.h"
 #include "lrcore/corner_table/report.h"
 #include "lrcore/lean/lean_stream.h"
+#include "lrcore/lr/lr_table.h"
 
 namespace lr::app {
 
@@ -18,15 +19,21 @@ struct Format {
     std::size_t references = 0;
     std::vector<std::uint32_t> indices;  ///< numbered as `order` says
     std::vector<std::uint32_t> order;    ///< order[new] = vertex of the mesh; empty if the format keeps the mesh's numbers
-    bool has_ring = false;
+    const char* ring = nullptr;  ///< "expander" or "hybrid"; null for a format without one
+    std::uint32_t k = 0;         ///< of the hybrid
+    std::size_t copies = 0;      ///< of non-manifold vertices: entries of `order` beyond the mesh's vertices
     std::string invalid;  ///< what the format's own validation found wrong; empty if nothing
+
+    /// Numbers that `indices` may use.
+    std::size_t vertex_count(const Mesh& mesh) const { return mesh.vertex_count + copies; }
 };
 
 struct FormatSet {
     TopologyReport report;
     Topology topology;
     LeanStatistics lean;
-    RingOptions ring;
+    LrStatistics lr;
+    RingOptions ring;  ///< lean's
     std::vector<Format> formats;
     std::vector<std::pair<std::string, std::string>> absent;  ///< name, reason
 };

@@ -39,7 +39,7 @@ std::vector<std::uint32_t> unstrip(std::span<const std::uint32_t> strip, bool re
     return indices;
 }
 
-CacheFigures analyze_fifo32(std::span<const std::uint32_t> indices, std::uint32_t vertex_count) {
+CacheFigures analyze_fifo32(std::span<const std::uint32_t> indices, std::size_t vertex_count) {
     if (indices.empty()) return {};
     const auto figures = meshopt_analyzeVertexCache(indices.data(), indices.size(), vertex_count, 32, 0, 0);
     return {static_cast<double>(figures.acmr), static_cast<double>(figures.atvr)};

@@ -28,6 +28,6 @@ struct CacheFigures {
     double acmr = 0;
     double atvr = 0;
 };
-CacheFigures analyze_fifo32(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);
+CacheFigures analyze_fifo32(std::span<const std::uint32_t> indices, std::size_t vertex_count);
 
 }  // namespace lr

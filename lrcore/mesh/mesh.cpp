@@ -29,7 +29,7 @@ const Attribute* find_attribute(const Mesh& mesh, std::string_view name) {
 std::vector<float> positions_f32(const Mesh& mesh) {
     std::vector<float> out(std::size_t{mesh.vertex_count} * 3);
     const Attribute* position = find_attribute(mesh, "POSITION");
-    if (position == nullptr || position->components != 3) return out;
+    if (out.empty() || position == nullptr || position->components != 3) return out;
     if (position->type == ComponentType::f32) {
         std::memcpy(out.data(), position->data.data(), out.size() * sizeof(float));
     } else if (position->type == ComponentType::f64) {
@@ -45,6 +45,7 @@ std::vector<float> positions_f32(const Mesh& mesh) {
 std::vector<float> normals_f32(const Mesh& mesh) {
     const std::size_t count = mesh.vertex_count;
     std::vector<float> out(count * 3, 0.0F);
+    if (out.empty()) return out;
     const Attribute* normal = find_attribute(mesh, "NORMAL");
     if (normal != nullptr && normal->type == ComponentType::f32 && normal->components == 3) {
         std::memcpy(out.data(), normal->data.data(), out.size() * sizeof(float));
