@@ -58,6 +58,13 @@ RingOptions ring_options(const RingChoice& choice, std::size_t triangles) {
     return options;
 }
 
+RingOptions compact_ring_options(const RingChoice& choice) {
+    RingOptions options;
+    options.random_seed = choice.random_seed;
+    options.seeds = choice.seeds == 0 ? 1 : choice.seeds;  // each period is tried with them
+    return options;
+}
+
 std::vector<std::uint32_t> ring_periods(const RingChoice& choice, std::size_t triangles) {
     if (choice.ring == "expander") return {0};
     if (const std::uint32_t k = period(choice); k != 0) return {k};

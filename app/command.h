@@ -37,7 +37,8 @@ struct RingChoice {
 void add_ring_options(CLI::App& command, RingChoice& choice);
 /// For a format that is best with the ring-expander. With --ring hybrid, --k auto means the paper's median, 100.
 RingOptions ring_options(const RingChoice& choice, std::size_t triangles);
-/// For one that is best with the hybrid: the periods to try.
+/// For one that is best with the hybrid: the options beside the period, and the periods to try.
+RingOptions compact_ring_options(const RingChoice& choice);
 std::vector<std::uint32_t> ring_periods(const RingChoice& choice, std::size_t triangles);
 
 /// Reads and welds. The input may also be an .lr file, which is validated and decoded.

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include "lrcore/baseline/strips.h"
-#include "lrcore/corner_table/split.h"
-#include "lrcore/lr/lr_stream.h"
-#include "lrcore/lr/search.h"
+#include "lrcore/lr/lr_encode.h"
 
 namespace lr::app {
 namespace {
@@ -47,65 +45,23 @@ Format lean_format(const char* name, std::uint32_t k, LeanStream stream) {
     return format;
 }
 
-/// LR tables, as the words that a file holds, validated and decoded. `order` takes LR vertices to the mesh's.
+/// LR tables, as the words that a file holds, validated and decoded.
 template <class Stream>
-Format lr_format(const char* name, std::uint32_t k, const std::vector<std::uint32_t>& words, const Result<Stream>& stream,
-                 std::vector<std::uint32_t> order) {
+Format lr_format(const char* name, EncodedLr encoded, const Result<Stream>& stream) {
     Format format;
     format.name = name;
-    format.ring = k == 0 ? "expander" : "hybrid";
-    format.k = k;
-    format.bytes = words.size() * sizeof(std::uint32_t);
-    format.references = words.size() - kLrHeaderWords;
+    format.ring = encoded.k == 0 ? "expander" : "hybrid";
+    format.k = encoded.k;
+    format.bytes = encoded.words.size() * sizeof(std::uint32_t);
+    format.references = encoded.words.size() - kLrHeaderWords;
     if (!stream) {
         format.invalid = stream.error().message;
         return format;
     }
     format.indices = decode_lr(*stream);
-    format.order = std::move(order);
-    format.copies = stream->copies.size() / 2;
+    format.order = std::move(encoded.vertex_order);
+    format.copies = encoded.copies;
     return format;
-}
-
-/// The standard and the bit-efficient tables, each with its ring.
-Result<void> add_lr(FormatSet& set, CornerTable& table, const RingChoice& choice, std::size_t triangles) {
-    const std::uint32_t mesh_vertices = table.vertex_count;
-    const std::vector<VertexId> originals = split_fans(table);
-    // LR vertices as the mesh's, and which of them are copies.
-    const auto translate = [&](const LrMap& map, std::vector<std::uint32_t>& order) {
-        std::vector<std::uint32_t> number(mesh_vertices);
-        for (std::uint32_t v = 0; v < map.vertex.size(); ++v) {
-            if (map.vertex[v].value < mesh_vertices) number[map.vertex[v].value] = v;
-        }
-        std::vector<VertexCopy> copies;
-        order.clear();
-        for (std::uint32_t v = 0; v < map.vertex.size(); ++v) {
-            const std::uint32_t u = map.vertex[v].value;
-            const std::uint32_t original = u < mesh_vertices ? u : originals[u - mesh_vertices].value;
-            if (u >= mesh_vertices) copies.push_back({v, number[original]});
-            order.push_back(original);
-        }
-        return copies;
-    };
-    std::vector<std::uint32_t> order;
-    {
-        RingOptions options = ring_options(choice, triangles);
-        options.one_per_shell = true;
-        LrMap map;
-        const Result<LrTable> lr = build_lr(table, expand_rings(table, options), {}, &map);
-        if (!lr) return lr.error();
-        const std::vector<VertexCopy> copies = translate(map, order);
-        const std::vector<std::uint32_t> words = serialize(*lr, copies);
-        set.lr = lr->statistics;
-        set.formats.push_back(lr_format("lr", options.k, words, validate_lr(words), order));
-    }
-    const RingOptions one_seed{.seeds = choice.seeds == 0 ? 1 : choice.seeds, .random_seed = choice.random_seed};
-    const Result<CompactChoice> best = smallest_compact_lr(table, one_seed, ring_periods(choice, triangles));
-    if (!best) return best.error();
-    const std::vector<VertexCopy> copies = translate(best->map, order);
-    const std::vector<std::uint32_t> words = serialize(best->compact, copies);
-    set.formats.push_back(lr_format("lr_compact", best->k, words, validate_compact_lr(words), order));
-    return {};
 }
 
 }  // namespace
@@ -139,7 +95,20 @@ Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice) {
     set.lean = lean.statistics;
     set.formats.push_back(lean_format("lean", set.ring.k, std::move(lean)));
     set.formats.push_back(lean_format("lean_no_warts", set.ring.k, encode_lean(*table, rings, {.wart_skipping = false})));
-    if (const Result<void> added = add_lr(set, *table, choice, mesh.triangle_count()); !added) return added.error();
+    {
+        Result<EncodedLr> lr = encode_lr(*table, set.ring);
+        if (!lr) return lr.error();
+        set.lr = lr->statistics;
+        const auto stream = validate_lr(lr->words);
+        set.formats.push_back(lr_format("lr", std::move(*lr), stream));
+    }
+    {
+        Result<EncodedLr> compact = encode_compact_lr(std::move(*table), compact_ring_options(choice),
+                                                      ring_periods(choice, mesh.triangle_count()));
+        if (!compact) return compact.error();
+        const auto stream = validate_compact_lr(compact->words);
+        set.formats.push_back(lr_format("lr_compact", std::move(*compact), stream));
+    }
     for (const char* name : {"winged_edge", "corner_table", "squad", "packed", "packed_cache",
                              "meshopt_index_codec", "meshlets"}) {
         set.absent.emplace_back(name, "not in this version");

@@ -13,6 +13,8 @@
 #include "lrcore/base/bits.h"
 #include "lrcore/base/crc32.h"
 #include "lrcore/base/file.h"
+#include "lrcore/lean/lean_stream.h"
+#include "lrcore/lr/lr_stream.h"
 
 namespace lr {
 namespace {
@@ -22,7 +24,7 @@ static_assert(std::endian::native == std::endian::little, ".lr files are little-
 constexpr std::uint32_t kMagic = 0x4c46524c;  // "LRFL"
 constexpr std::uint32_t kVersion = 1;
 
-enum Kind : std::uint32_t { kLean = 1, kAttribute = 2, kVertexOrder = 3, kTriangleOrder = 4 };
+enum Kind : std::uint32_t { kLean = 1, kAttribute = 2, kVertexOrder = 3, kTriangleOrder = 4, kLr = 5, kLrCompact = 6 };
 
 struct FileHeader {
     std::uint32_t magic, version, sections, vertices, input_triangles, reserved;
@@ -49,42 +51,97 @@ std::span<const std::byte> bytes_of(const T& value) {
 
 Error malformed(std::string message) { return {ErrorCode::malformed, "lr file: " + std::move(message)}; }
 
+/// The triangles that a file's connectivity holds, degenerate slots left out, and which of its vertices are copies.
+struct Decoded {
+    std::uint32_t vertices = 0;
+    std::vector<std::uint32_t> indices;
+    std::vector<bool> copy;  // empty if none is
+};
+
+Result<Decoded> decode(const LrFile& file, bool untrusted) {
+    Decoded out;
+    const auto from_tables = [&](const auto& stream) -> Result<Decoded> {
+        if (!stream) return stream.error();
+        out.vertices = stream->view.vertices;
+        out.indices = decode_lr(*stream);
+        if (!stream->copies.empty()) out.copy.assign(out.vertices, false);
+        for (std::size_t i = 0; i < stream->copies.size(); i += 2) out.copy[stream->copies[i]] = true;
+        return out;
+    };
+    const std::span<const std::uint32_t> words = file.words;
+    if (file.format == Connectivity::lr) return from_tables(untrusted ? validate_lr(words) : view_lr(words));
+    if (file.format == Connectivity::lr_compact) {
+        return from_tables(untrusted ? validate_compact_lr(words) : view_compact_lr(words));
+    }
+    const Result<LeanView> view = untrusted ? validate_lean(words) : view_lean(words);
+    if (!view) return view.error();
+    out.vertices = view->vertices;
+    out.indices.resize(std::size_t{3} * view->slots());
+    decode_lean(*view, out.indices);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < out.indices.size(); i += 3) {
+        if (out.indices[i] == out.indices[i + 1]) continue;  // a degenerate slot
+        for (std::size_t k = 0; k < 3; ++k) out.indices[kept + k] = out.indices[i + k];
+        kept += 3;
+    }
+    out.indices.resize(kept);
+    return out;
+}
+
+/// Leaves out of `values`, one for each vertex, those of copies.
+void remove_copies(const Decoded& decoded, std::vector<std::uint32_t>& values) {
+    if (decoded.copy.empty()) return;
+    std::size_t kept = 0;
+    for (std::size_t v = 0; v < values.size(); ++v) {
+        if (!decoded.copy[v]) values[kept++] = values[v];
+    }
+    values.resize(kept);
+}
+
+/// Checks header and section table and calls visit(section, contents) for each section; what visit returns, if not empty,
+/// is an error. The contents' checksums are visit's to look at.
+template <class Visit>
+Result<FileHeader> visit_sections(std::span<const std::byte> bytes, Visit visit) {
+    FileHeader header;
+    if (bytes.size() < sizeof header) return malformed("shorter than its header");
+    std::memcpy(&header, bytes.data(), sizeof header);
+    if (header.magic != kMagic) return malformed("wrong magic number");
+    if (header.version != kVersion) return malformed(fmt::format("version {} is not {}", header.version, kVersion));
+    if (header.header_crc != crc32(bytes.first(28)) || header.reserved != 0) return malformed("damaged header");
+    const std::uint64_t table = std::uint64_t{header.sections} * sizeof(Section);
+    if (table > bytes.size() - sizeof header) return malformed("shorter than its section table");
+    const auto table_bytes = bytes.subspan(sizeof header, table);
+    if (header.table_crc != crc32(table_bytes)) return malformed("damaged section table");
+    std::size_t end = sizeof header + table;
+    for (std::uint32_t i = 0; i < header.sections; ++i) {
+        Section section;
+        std::memcpy(&section, table_bytes.data() + std::size_t{i} * sizeof section, sizeof section);
+        if (section.offset != align8(end) || section.offset > bytes.size() || section.size > bytes.size() - section.offset) {
+            return malformed(fmt::format("section {} lies outside the file", i));
+        }
+        for (; end < section.offset; ++end) {
+            if (bytes[end] != std::byte{0}) return malformed(fmt::format("padding before section {}", i));
+        }
+        end = section.offset + section.size;
+        if (std::string why = visit(header, section, bytes.subspan(section.offset, section.size)); !why.empty()) {
+            return malformed(fmt::format("section {}: {}", i, why));
+        }
+    }
+    if (end != bytes.size()) return malformed("bytes behind the last section");
+    return header;
+}
+
 class Reader {
   public:
-    explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
-
-    Result<LrFile> read() {
-        FileHeader header;
-        if (bytes_.size() < sizeof header) return malformed("shorter than its header");
-        std::memcpy(&header, bytes_.data(), sizeof header);
-        if (header.magic != kMagic) return malformed("wrong magic number");
-        if (header.version != kVersion) return malformed(fmt::format("version {} is not {}", header.version, kVersion));
-        if (header.header_crc != crc32(bytes_.first(28)) || header.reserved != 0) return malformed("damaged header");
-        const std::uint64_t table = std::uint64_t{header.sections} * sizeof(Section);
-        if (table > bytes_.size() - sizeof header) return malformed("shorter than its section table");
-        const auto table_bytes = bytes_.subspan(sizeof header, table);
-        if (header.table_crc != crc32(table_bytes)) return malformed("damaged section table");
-        file_.vertex_count = header.vertices;
-        file_.input_triangles = header.input_triangles;
-        std::size_t end = sizeof header + table;
-        for (std::uint32_t i = 0; i < header.sections; ++i) {
-            Section section;
-            std::memcpy(&section, table_bytes.data() + std::size_t{i} * sizeof section, sizeof section);
-            if (section.offset != align8(end) || section.offset > bytes_.size() ||
-                section.size > bytes_.size() - section.offset) {
-                return malformed(fmt::format("section {} lies outside the file", i));
-            }
-            for (; end < section.offset; ++end) {
-                if (bytes_[end] != std::byte{0}) return malformed(fmt::format("padding before section {}", i));
-            }
-            end = section.offset + section.size;
-            const auto contents = bytes_.subspan(section.offset, section.size);
-            if (section.crc != crc32(contents)) return malformed(fmt::format("section {} is damaged", i));
-            if (std::string why = read_section(section, contents); !why.empty()) {
-                return malformed(fmt::format("section {}: {}", i, why));
-            }
-        }
-        if (end != bytes_.size()) return malformed("bytes behind the last section");
+    Result<LrFile> read(std::span<const std::byte> bytes) {
+        const Result<FileHeader> header = visit_sections(
+            bytes, [this](const FileHeader& h, const Section& section, std::span<const std::byte> contents) -> std::string {
+                file_.vertex_count = h.vertices;
+                file_.input_triangles = h.input_triangles;
+                if (section.crc != crc32(contents)) return "is damaged";
+                return read_section(section, contents);
+            });
+        if (!header) return header.error();
         if (std::string why = check(); !why.empty()) return malformed(std::move(why));
         return std::move(file_);
     }
@@ -92,7 +149,9 @@ class Reader {
   private:
     std::string read_section(const Section& section, std::span<const std::byte> contents) {
         switch (section.kind) {
-            case kLean: return read_words(contents, file_.lean);
+            case kLean:
+            case kLr:
+            case kLrCompact: file_.format = Connectivity{section.kind}; return read_words(contents, file_.words);
             case kVertexOrder: return read_words(contents, file_.vertex_order);
             case kTriangleOrder: return read_words(contents, file_.triangle_order);
             case kAttribute: return read_attribute(section, contents);
@@ -131,20 +190,24 @@ class Reader {
     }
 
     std::string check() const {
-        const Result<LeanView> view = validate_lean(file_.lean);
-        if (!view) return view.error().message;
-        if (view->vertices != file_.vertex_count) return "stream and file have different vertex counts";
-        if (view->triangles > file_.input_triangles) return "more triangles than the input had";
+        const Result<Decoded> decoded = decode(file_, true);
+        if (!decoded) return decoded.error().message;
+        if (decoded->vertices != file_.vertex_count) return "connectivity and file have different vertex counts";
+        const std::size_t triangles = decoded->indices.size() / 3;
+        if (triangles > file_.input_triangles) return "more triangles than the input had";
         if (file_.attributes.empty() || file_.attributes[0].name != "POSITION" || file_.attributes[0].components != 3 ||
             (file_.attributes[0].type != ComponentType::f32 && file_.attributes[0].type != ComponentType::f64)) {
             return "the first attribute is not POSITION";
         }
         if (!finite(file_.attributes[0])) return "a position is not finite";
-        if (!file_.vertex_order.empty() && !permutation_into(file_.vertex_order, file_.vertex_count, file_.vertex_count)) {
-            return "the vertex order is no permutation";
+        if (!file_.vertex_order.empty()) {
+            if (file_.vertex_order.size() != file_.vertex_count) return "the vertex order has another size";
+            std::vector<std::uint32_t> order = file_.vertex_order;
+            remove_copies(*decoded, order);
+            const auto kept = static_cast<std::uint32_t>(order.size());
+            if (!permutation_into(order, kept, kept)) return "the vertex order is no permutation";
         }
-        if (!file_.triangle_order.empty() &&
-            !permutation_into(file_.triangle_order, view->triangles, file_.input_triangles)) {
+        if (!file_.triangle_order.empty() && !permutation_into(file_.triangle_order, triangles, file_.input_triangles)) {
             return "the triangle order is no permutation";
         }
         return {};
@@ -167,7 +230,7 @@ class Reader {
     }
 
     /// `size` distinct numbers below `range`?
-    static bool permutation_into(std::span<const std::uint32_t> order, std::uint32_t size, std::uint32_t range) {
+    static bool permutation_into(std::span<const std::uint32_t> order, std::size_t size, std::uint32_t range) {
         if (order.size() != size || size > range) return false;
         if (range / 64 > size) {  // mostly degenerate input, or a hostile count: no flag for each
             std::vector<std::uint32_t> sorted(order.begin(), order.end());
@@ -182,21 +245,22 @@ class Reader {
         return true;
     }
 
-    std::span<const std::byte> bytes_;
     LrFile file_;
 };
 
 }  // namespace
 
-LrFile make_lr_file(const Mesh& mesh, LeanStream stream, bool keep_order) {
+LrFile make_lr_file(const Mesh& mesh, Connectivity format, std::vector<std::uint32_t> words,
+                    std::vector<std::uint32_t> vertex_order, std::vector<std::uint32_t> triangle_order, bool keep_order) {
     LrFile file;
-    file.vertex_count = mesh.vertex_count;
+    file.vertex_count = static_cast<std::uint32_t>(vertex_order.size());
     file.input_triangles = static_cast<std::uint32_t>(mesh.triangle_count());
-    file.attributes = permute_attributes(mesh.attributes, stream.vertex_order);
-    file.lean = std::move(stream.words);
+    file.format = format;
+    file.words = std::move(words);
+    file.attributes = permute_attributes(mesh.attributes, vertex_order);
     if (keep_order) {
-        file.vertex_order = std::move(stream.vertex_order);
-        file.triangle_order = std::move(stream.slot_triangle);
+        file.vertex_order = std::move(vertex_order);
+        file.triangle_order = std::move(triangle_order);
         std::erase(file.triangle_order, UINT32_MAX);
     }
     return file;
@@ -211,7 +275,7 @@ std::vector<std::byte> serialize_lr(const LrFile& file) {
         names.emplace_back();
         contents.push_back(data);
     };
-    add(kLean, std::as_bytes(std::span(file.lean)));
+    add(static_cast<std::uint32_t>(file.format), std::as_bytes(std::span(file.words)));
     for (const Attribute& attribute : file.attributes) {
         add(kAttribute, attribute.data);
         sections.back().layout = static_cast<std::uint32_t>(attribute.type) | std::uint32_t{attribute.components} << 8 |
@@ -246,7 +310,7 @@ std::vector<std::byte> serialize_lr(const LrFile& file) {
     return out;
 }
 
-Result<LrFile> parse_lr(std::span<const std::byte> bytes) { return Reader(bytes).read(); }
+Result<LrFile> parse_lr(std::span<const std::byte> bytes) { return Reader().read(bytes); }
 
 Result<void> write_lr(const LrFile& file, const std::filesystem::path& path) {
     const std::vector<std::byte> bytes = serialize_lr(file);
@@ -268,21 +332,43 @@ bool is_lr(const std::filesystem::path& path) {
     return file && std::fread(&magic, sizeof magic, 1, file.get()) == 1 && magic == kMagic;
 }
 
+Result<ConnectivityWords> connectivity_in(std::span<const std::byte> bytes) {
+    ConnectivityWords out{Connectivity::lean, {}};
+    bool found = false;
+    const Result<FileHeader> header = visit_sections(
+        bytes, [&](const FileHeader&, const Section& section, std::span<const std::byte> contents) -> std::string {
+            if (section.kind != kLean && section.kind != kLr && section.kind != kLrCompact) return {};
+            if (found) return "occurs twice";
+            if (contents.size() % 4 != 0) return "no whole number of words";
+            found = true;
+            out.format = Connectivity{section.kind};
+            out.words = {reinterpret_cast<const std::uint32_t*>(contents.data()), contents.size() / 4};
+            return {};
+        });
+    if (!header) return header.error();
+    if (!found) return malformed("no connectivity");
+    return out;
+}
+
 Mesh decode_lr(const LrFile& file) {
     Mesh mesh;
-    mesh.vertex_count = file.vertex_count;
-    mesh.attributes = file.attributes;
-    const Result<LeanView> view = view_lean(file.lean);
-    if (!view) return mesh;
-    mesh.indices.resize(std::size_t{3} * view->slots());
-    decode_lean(*view, mesh.indices);
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-        if (mesh.indices[i] == mesh.indices[i + 1]) continue;  // a degenerate slot
-        for (std::size_t k = 0; k < 3; ++k) mesh.indices[kept + k] = mesh.indices[i + k];
-        kept += 3;
+    Result<Decoded> decoded = decode(file, false);
+    if (!decoded) return mesh;
+    mesh.indices = std::move(decoded->indices);
+    if (decoded->copy.empty()) {
+        mesh.vertex_count = file.vertex_count;
+        mesh.attributes = file.attributes;
+        return mesh;
     }
-    mesh.indices.resize(kept);
+    // The vertices that are no copies close ranks. No triangle names a copy.
+    std::vector<std::uint32_t> kept(file.vertex_count);
+    std::iota(kept.begin(), kept.end(), 0U);
+    remove_copies(*decoded, kept);
+    mesh.vertex_count = static_cast<std::uint32_t>(kept.size());
+    mesh.attributes = permute_attributes(file.attributes, kept);
+    std::vector<std::uint32_t> number(file.vertex_count, 0);
+    for (std::uint32_t i = 0; i < kept.size(); ++i) number[kept[i]] = i;
+    for (std::uint32_t& v : mesh.indices) v = number[v];
     return mesh;
 }
 
@@ -291,11 +377,15 @@ Result<Mesh> decode_lr_original_order(const LrFile& file) {
     if (file.vertex_order.size() != file.vertex_count || file.triangle_order.size() != stream.triangle_count()) {
         return Error{ErrorCode::invalid_argument, "the file does not keep the input's order (encode --keep-order does)"};
     }
+    const Result<Decoded> decoded = decode(file, false);
+    if (!decoded) return decoded.error();
+    std::vector<std::uint32_t> vertex_order = file.vertex_order;
+    remove_copies(*decoded, vertex_order);
     // Where each new vertex was, inverted: permute_attributes wants the new number of each old vertex.
-    std::vector<std::uint32_t> number(file.vertex_count);
-    for (std::uint32_t i = 0; i < file.vertex_count; ++i) number[file.vertex_order[i]] = i;
+    std::vector<std::uint32_t> number(vertex_order.size());
+    for (std::uint32_t i = 0; i < number.size(); ++i) number[vertex_order[i]] = i;
     Mesh mesh;
-    mesh.vertex_count = file.vertex_count;
+    mesh.vertex_count = stream.vertex_count;
     mesh.attributes = permute_attributes(stream.attributes, number);
     std::vector<std::uint32_t> by_input(file.triangle_order.size());
     std::iota(by_input.begin(), by_input.end(), 0U);
@@ -304,7 +394,7 @@ Result<Mesh> decode_lr_original_order(const LrFile& file) {
     mesh.indices.reserve(stream.indices.size());
     for (const std::uint32_t i : by_input) {
         for (std::size_t k = 0; k < 3; ++k) {
-            mesh.indices.push_back(file.vertex_order[stream.indices[std::size_t{3} * i + k]]);
+            mesh.indices.push_back(vertex_order[stream.indices[std::size_t{3} * i + k]]);
         }
     }
     return mesh;

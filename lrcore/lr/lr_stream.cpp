@@ -186,6 +186,18 @@ std::string check_operators(const View& view) {
     return {};
 }
 
+std::string check_copies(std::uint32_t vertices, std::span<const std::uint32_t> copies) {
+    BitVector copied(copies.empty() ? 0 : vertices);
+    for (std::size_t i = 0; i < copies.size(); i += 2) {
+        if (copies[i] >= vertices || copied.test(copies[i])) return fmt::format("copied vertex {}", copies[i]);
+        copied.set(copies[i]);
+    }
+    for (std::size_t i = 1; i < copies.size(); i += 2) {
+        if (copies[i] >= vertices || copied.test(copies[i])) return fmt::format("a copy of vertex {}", copies[i]);
+    }
+    return {};
+}
+
 template <class View>
 Result<LrStream<View>> validate_tables(std::span<const std::uint32_t> words, const Result<LrStream<View>>& stream) {
     if (!stream) return stream;
@@ -193,9 +205,7 @@ Result<LrStream<View>> validate_tables(std::span<const std::uint32_t> words, con
     std::string why = check_slots(stream->view);
     if (why.empty()) why = check_rings(stream->view);
     if (why.empty()) why = check_operators(stream->view);
-    for (std::size_t i = 0; i < stream->copies.size() && why.empty(); ++i) {
-        if (stream->copies[i] >= stream->view.used_vertices()) why = "a copied vertex is none";
-    }
+    if (why.empty()) why = check_copies(stream->view.used_vertices(), stream->copies);
     if (!why.empty()) return malformed(std::move(why));
     return stream;
 }

@@ -5,17 +5,28 @@
 #include <memory>
 
 #include "lrcore/file/lr_file.h"
+#include "lrcore/lean/lean_stream.h"
+#include "lrcore/lr/lr_encode.h"
 #include "tests/support/meshes.h"
 
 using namespace lr;
 
 namespace {
 
-LrFile make(const Mesh& mesh, bool keep_order) {
-    const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
+LrFile make(const Mesh& mesh, bool keep_order, Connectivity format = Connectivity::lean) {
+    Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
     REQUIRE(table);
-    return make_lr_file(mesh, encode_lean(*table, expand_rings(*table)), keep_order);
+    if (format == Connectivity::lean) {
+        LeanStream lean = encode_lean(*table, expand_rings(*table));
+        return make_lr_file(mesh, format, lean.words, lean.vertex_order, lean.slot_triangle, keep_order);
+    }
+    constexpr std::uint32_t kPeriods[] = {0, 3};
+    Result<EncodedLr> lr = format == Connectivity::lr ? encode_lr(*table, {}) : encode_compact_lr(*table, {}, kPeriods);
+    REQUIRE(lr);
+    return make_lr_file(mesh, format, lr->words, lr->vertex_order, lr->triangle_order, keep_order);
 }
+
+constexpr Connectivity kFormats[] = {Connectivity::lean, Connectivity::lr, Connectivity::lr_compact};
 
 /// A mesh with attributes of several types, all values telling.
 Mesh with_attributes() {
@@ -38,26 +49,30 @@ Mesh with_attributes() {
 TEST_CASE("lr files give back the mesh") {
     for (const auto& [name, mesh] : test::named_meshes()) {
         CAPTURE(name);
-        const Result<LrFile> file = parse_lr(serialize_lr(make(mesh, true)));
-        REQUIRE_MESSAGE(file, file.error().message);
-        const Result<Mesh> original = decode_lr_original_order(*file);
-        REQUIRE(original);
-        // Order, attributes and orientation are the input's; only rotations and degenerate triangles are not.
-        std::vector<std::uint32_t> want;
-        for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-            const auto t = test::oriented_triangles(std::span(mesh.indices).subspan(i, 3));
-            if (!t.empty()) want.insert(want.end(), t[0].begin(), t[0].end());
-        }
-        std::vector<std::uint32_t> got;
-        for (std::size_t i = 0; i < original->indices.size(); i += 3) {
-            const auto t = test::oriented_triangles(std::span(original->indices).subspan(i, 3));
-            REQUIRE(t.size() == 1);
-            got.insert(got.end(), t[0].begin(), t[0].end());
-        }
-        CHECK(got == want);
-        REQUIRE(original->attributes.size() == mesh.attributes.size());
-        for (std::size_t a = 0; a < mesh.attributes.size(); ++a) {
-            CHECK(original->attributes[a].data == mesh.attributes[a].data);
+        for (const Connectivity format : kFormats) {
+            CAPTURE(static_cast<int>(format));
+            const Result<LrFile> file = parse_lr(serialize_lr(make(mesh, true, format)));
+            REQUIRE_MESSAGE(file, file.error().message);
+            const Result<Mesh> original = decode_lr_original_order(*file);
+            REQUIRE(original);
+            // Order, attributes and orientation are the input's; only rotations and degenerate triangles are not.
+            std::vector<std::uint32_t> want;
+            for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+                const auto t = test::oriented_triangles(std::span(mesh.indices).subspan(i, 3));
+                if (!t.empty()) want.insert(want.end(), t[0].begin(), t[0].end());
+            }
+            std::vector<std::uint32_t> got;
+            for (std::size_t i = 0; i < original->indices.size(); i += 3) {
+                const auto t = test::oriented_triangles(std::span(original->indices).subspan(i, 3));
+                REQUIRE(t.size() == 1);
+                got.insert(got.end(), t[0].begin(), t[0].end());
+            }
+            CHECK(got == want);
+            REQUIRE(original->attributes.size() == mesh.attributes.size());
+            for (std::size_t a = 0; a < mesh.attributes.size(); ++a) {
+                CHECK(original->attributes[a].data == mesh.attributes[a].data);
+            }
+            CHECK(decode_lr(*file).vertex_count == mesh.vertex_count);
         }
     }
 }
@@ -80,8 +95,20 @@ TEST_CASE("attributes of every type travel bit for bit") {
 }
 
 TEST_CASE("every truncation and every flipped bit of an lr file is refused") {
-    const std::vector<std::byte> good = serialize_lr(make(with_attributes(), true));
+    Connectivity format = Connectivity::lean;
+    SUBCASE("lean") {}
+    SUBCASE("lr") {
+        format = Connectivity::lr;
+    }
+    SUBCASE("lr-compact") {
+        format = Connectivity::lr_compact;
+    }
+    const std::vector<std::byte> good = serialize_lr(make(with_attributes(), true, format));
     REQUIRE(parse_lr(good));
+    const Result<ConnectivityWords> words = connectivity_in(good);
+    REQUIRE(words);
+    CHECK(words->format == format);
+    CHECK(std::ranges::equal(words->words, make(with_attributes(), true, format).words));
     for (std::size_t size = 0; size < good.size(); ++size) {
         const std::unique_ptr<std::byte[]> exact(new std::byte[size]);
         std::copy_n(good.begin(), size, exact.get());
@@ -104,17 +131,36 @@ TEST_CASE("hostile lr files with matching checksums") {
         const float nan = std::numeric_limits<float>::quiet_NaN();
         std::memcpy(file.attributes[0].data.data() + 8, &nan, sizeof nan);
     }
-    SUBCASE("no position") { file.attributes.erase(file.attributes.begin()); }
-    SUBCASE("an attribute too short") { file.attributes[1].data.pop_back(); }
-    SUBCASE("a vertex twice in the order") { file.vertex_order[0] = file.vertex_order[1]; }
-    SUBCASE("a triangle twice in the order") { file.triangle_order[0] = file.triangle_order[1]; }
-    SUBCASE("a triangle that the input did not have") { file.triangle_order[0] = file.input_triangles; }
+    SUBCASE("no position") {
+        file.attributes.erase(file.attributes.begin());
+    }
+    SUBCASE("an attribute too short") {
+        file.attributes[1].data.pop_back();
+    }
+    SUBCASE("a vertex twice in the order") {
+        file.vertex_order[0] = file.vertex_order[1];
+    }
+    SUBCASE("a triangle twice in the order") {
+        file.triangle_order[0] = file.triangle_order[1];
+    }
+    SUBCASE("a triangle that the input did not have") {
+        file.triangle_order[0] = file.input_triangles;
+    }
     SUBCASE("four billion input triangles and an order that says so") {
         file.input_triangles = UINT32_MAX;
         file.triangle_order[0] = file.triangle_order[1];
     }
-    SUBCASE("more triangles than the input") { file.input_triangles = 3; }
-    SUBCASE("another vertex count") { ++file.vertex_count; }
-    SUBCASE("no stream") { file.lean.clear(); }
+    SUBCASE("more triangles than the input") {
+        file.input_triangles = 3;
+    }
+    SUBCASE("another vertex count") {
+        ++file.vertex_count;
+    }
+    SUBCASE("no stream") {
+        file.words.clear();
+    }
+    SUBCASE("another format's words") {
+        file.format = Connectivity::lr;
+    }
     CHECK_FALSE(parse_lr(serialize_lr(file)));
 }
