@@ -39,9 +39,66 @@ struct LrView {
     std::uint32_t star_opposite(std::uint32_t v, std::uint32_t side, std::uint32_t end) const {
         return star[(lr[2 * v + side] & word::kTip) + 1 + end];
     }
+    static constexpr std::uint32_t kNoStep = UINT32_MAX;
+    /// The swing of ring corner c where nothing special is near, which is nearly always: no flag in any word looked at, so
+    /// no wart, copy, border, ring's end or irregular triangle. kNoStep where LrOperators has to look closer.
+    std::uint32_t fan_step(std::uint32_t corner) const {
+        constexpr std::uint32_t kPlain = word::kTip;  // a word not above it has no flag
+        const std::uint32_t v = corner / 8;
+        if (v < 2 || v + 1 >= ring_vertices) return kNoStep;
+        const std::uint32_t* w = lr.data() + 2 * std::size_t{v};  // w[0], w[1]: v.l, v.r; w[-2], w[-1]: those of v.p
+        switch (corner % 8) {
+            case 0:  // at the start on the left: over the ring edge
+                return (w[0] | w[1]) <= kPlain ? corner + 6 : kNoStep;
+            case 4:  // at the end on the right: likewise
+                return (w[0] | w[1]) <= kPlain ? corner - 2 : kNoStep;
+            case 1:  // at the tip on the left: the edge before, while it has the same tip
+                return w[0] == w[-2] && (w[0] | w[-4]) <= kPlain ? corner - 8 : kNoStep;
+            case 5:  // at the tip on the right: the edge after
+                return w[1] == w[3] && (w[1] | w[0] | w[-1] | w[-2]) <= kPlain ? corner + 8 : kNoStep;
+            case 2: {  // at the end on the left: the slot that starts here, or the one that ends at the tip
+                const std::uint32_t u = w[0];
+                if ((u | w[-2] | w[2]) > kPlain) return kNoStep;
+                if (w[2] == u) return 8 * (v + 1);
+                if (u < 2 || u >= ring_vertices) return kNoStep;
+                const std::uint32_t* before = lr.data() + 2 * std::size_t{u};
+                return before[-2] == v + 1 && before[-4] <= kPlain ? 8 * (u - 1) + 1 : kNoStep;
+            }
+            default: {  // at the start on the right: the slot that ends here, or the one that starts at the tip
+                const std::uint32_t u = w[1];
+                if ((u | w[-1] | w[-2] | w[-3] | w[-4]) > kPlain) return kNoStep;
+                if (w[-1] == u) return 8 * (v - 1) + 4;
+                return u < ring_vertices && lr[2 * std::size_t{u} + 1] == v ? 8 * u + 5 : kNoStep;
+            }
+        }
+    }
+
+    /// The neighbours of ring vertex v where its triangles are two runs of T1, one a side, which is nearly always: v.n,
+    /// right .. right + right_count, v.p, left + left_count .. left (all inclusive, in swing order after left itself).
+    struct PlainFan {
+        std::uint32_t left, left_count, right, right_count;
+    };
+    /// Along a corridor v's tips run against v, so between L[v] and L[v.p] lie the slots that have v as their tip: their
+    /// number needs no walk, only a look at each. Constant time; false where LrOperators has to walk.
+    bool plain_fan(std::uint32_t v, PlainFan& fan) const {
+        if (v < 2 || v + 1 >= ring_vertices) return false;
+        const std::uint32_t* w = lr.data() + 2 * std::size_t{v};
+        if ((w[0] | w[1] | w[-1] | w[-2] | w[-3] | w[-4]) > word::kTip) return false;
+        fan = {w[0], w[-2] - w[0], w[1], w[-1] - w[1]};
+        return run_has_tip(fan.left, fan.left_count, v, 0) && run_has_tip(fan.right, fan.right_count, v, 1);
+    }
+
     std::uint32_t t0_vertex(std::uint32_t i) const { return vo[i / 3 * 6 + i % 3] & ~word::kT0Flip; }
     std::uint32_t t0_opposite(std::uint32_t i) const { return vo[i / 3 * 6 + 3 + i % 3]; }
     std::uint32_t isolated_corner(std::uint32_t i) const { return c[i]; }
+
+    /// Do the slots first .. first + count - 1 have the plain tip v? Four at most; no branch on how many.
+    bool run_has_tip(std::uint32_t first, std::uint32_t count, std::uint32_t v, std::uint32_t side) const {
+        if (count > 4 || std::uint64_t{first} + 3 >= ring_vertices) return false;
+        const std::uint32_t* w = lr.data() + 2 * std::size_t{first} + side;
+        return ((w[0] == v) | (count < 1)) & ((w[2] == v) | (count < 2)) & ((w[4] == v) | (count < 3)) &
+               ((w[6] == v) | (count < 4));
+    }
 
     std::uint32_t used_vertices() const { return ring_vertices + static_cast<std::uint32_t>(c.size()); }
     /// Numbers that triangles have: 2 m_r, then the T0. Those of redundant T2 copies and borders name no triangle.

@@ -79,6 +79,10 @@ class LrOperators {
     /// c.o: canonical, or null across a border.
     CornerId opposite(CornerId c) const {
         if (is_t0(c)) return {s_.t0_opposite(t0_index(c))};
+        if constexpr (kHasSteps) {  // c.o = c.p.s.p
+            const std::uint32_t step = s_.fan_step(previous(c).value);
+            if (step != Store::kNoStep) return previous(CornerId{step});
+        }
         Slot slot = slot_of(c);
         std::uint32_t kind = s_.kind(slot.v, slot.side);
         if ((kind & word::kSpecial) != 0) {
@@ -100,6 +104,12 @@ class LrOperators {
     CornerId right(CornerId c) const { return opposite(previous(c)); }
     /// c.s: the next corner around c's vertex, null at a border.
     CornerId swing(CornerId c) const {
+        if constexpr (kHasSteps) {
+            if (!is_t0(c)) {
+                const std::uint32_t step = s_.fan_step(c.value);
+                if (step != Store::kNoStep) return {step};
+            }
+        }
         const CornerId l = left(c);
         return l.is_null() ? l : next(l);
     }
@@ -139,8 +149,12 @@ class LrOperators {
         for (c = swing_back(first); !c.is_null(); c = swing_back(c)) visit(c);
     }
 
-    /// Edges at v: its triangles, and one more on a border. O(valence).
+    /// Edges at v: its triangles, and one more on a border. O(valence), constant where LrView::plain_fan sees it.
     std::uint32_t valence(VertexId v) const {
+        if constexpr (kHasSteps) {
+            typename Store::PlainFan fan;
+            if (v.value < ring_ && s_.plain_fan(v.value, fan)) return 4 + fan.left_count + fan.right_count;
+        }
         const CornerId first = corner(v);
         if (first.is_null()) return 0;
         std::uint32_t count = 0;
@@ -154,9 +168,20 @@ class LrOperators {
         return count + 1;
     }
 
-    /// Calls visit(vertex) for every neighbour of v once, border neighbours included. O(valence).
+    /// Calls visit(vertex) for every neighbour of v once, around an interior vertex in swing order. O(valence).
     template <class Visit>
     void neighbours(VertexId v, Visit visit) const {
+        if constexpr (kHasSteps) {
+            typename Store::PlainFan fan;
+            if (v.value < ring_ && s_.plain_fan(v.value, fan)) {
+                visit(VertexId{fan.left});
+                visit(VertexId{v.value + 1});
+                for (std::uint32_t i = 0; i <= fan.right_count; ++i) visit(VertexId{fan.right + i});
+                visit(VertexId{v.value - 1});
+                for (std::uint32_t i = fan.left_count; i > 0; --i) visit(VertexId{fan.left + i});
+                return;
+            }
+        }
         star(v, [&](CornerId c) {
             visit(vertex(next(c)));
             if (left(c).is_null()) visit(vertex(previous(c)));  // the last edge, before the border
@@ -164,6 +189,8 @@ class LrOperators {
     }
 
   private:
+    static constexpr bool kHasSteps = requires(const Store& store, std::uint32_t c) { store.fan_step(c); };
+
     enum Role : std::uint32_t { kStart = 0, kTip = 1, kEnd = 2 };
     struct Slot {
         std::uint32_t v, side;

@@ -99,9 +99,25 @@ void check_operators(const CornerTable& table, const Operators& ops, const LrMap
         REQUIRE(star.size() == triangles_at[there_v]);
         std::sort(star.begin(), star.end());
         REQUIRE(std::adjacent_find(star.begin(), star.end()) == star.end());
-        std::uint32_t neighbours = 0;
-        ops.neighbours({v}, [&](VertexId) { ++neighbours; });
-        REQUIRE(neighbours == ops.valence({v}));
+        std::vector<std::uint32_t> neighbours, expected;
+        ops.neighbours({v}, [&](VertexId u) { neighbours.push_back(map.vertex[u.value].value); });
+        REQUIRE(neighbours.size() == ops.valence({v}));
+        const CornerId begin = there(c);
+        CornerId x = begin;
+        do {  // around an interior vertex, the order is that of swing
+            expected.push_back(table.vertex(next(x)).value);
+            x = table.swing(x);
+        } while (!x.is_null() && x != begin);
+        if (x.is_null()) {
+            expected.clear();
+            for (const std::uint32_t s : star) {
+                expected.push_back(table.vertex(next(CornerId{s})).value);
+                if (table.left({s}).is_null()) expected.push_back(table.vertex(previous(CornerId{s})).value);
+            }
+            std::sort(expected.begin(), expected.end());
+            std::sort(neighbours.begin(), neighbours.end());
+        }
+        REQUIRE(neighbours == expected);
     }
 }
 
