@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/bench_operators.h"
 #include "app/commands.h"
 #include "app/measure.h"
 #include "lrcore/baseline/strips.h"
@@ -26,6 +27,7 @@ struct Options {
     int rounds = 5;
     std::uint32_t seeds = 1;
     bool no_gpu = false;
+    bool operators = false;
 #ifdef LACEDRING_GPU
     gpu::ContextOptions context;
 #endif
@@ -82,6 +84,18 @@ int run(const Options& options) {
         decode.candidates.push_back({"copy", [&] { std::copy(indices.begin(), indices.end(), copy.begin()); }, {}, {}});
         run_interleaved(decode.candidates, options.rounds * 3);
 
+        std::vector<OperatorFigures> operators;
+        Json operators_json = Json::object();
+        if (options.operators) {
+            Result<std::vector<OperatorFigures>> measured = measure_operators(*mesh, *table, options.rounds);
+            if (!measured) return fail(path, measured.error());
+            operators = std::move(*measured);
+            for (const OperatorFigures& structure : operators) {
+                Json& entry = operators_json[structure.structure];
+                for (const auto& row : structure.rows) entry[row.name] = {{"ns_per_op", row.ns_per_op()}};
+            }
+        }
+
         Section decode_gpu{"decode_gpu (wall)", {}}, draw{"draw (wall)", {}};
         std::string device, gpu_skipped = "built without Vulkan";
         Json peak = Json::object();
@@ -113,7 +127,7 @@ int run(const Options& options) {
                               {"draw", to_json(draw, triangles)},
                               {"device", device},
                               {"gpu_skipped", gpu_skipped},
-                              {"operators", Json::object()},
+                              {"operators", operators_json},
                               {"peak_bytes", peak}});
             continue;
         }
@@ -127,6 +141,15 @@ int run(const Options& options) {
             }
         }
         fmt::print("  {}\n", gpu_skipped.empty() ? "drawn at 1280x720 on " + device : "not drawn: " + gpu_skipped);
+        if (!operators.empty()) {
+            fmt::print("  operators, ns each{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "refs/tri", "c.v", "c.o, c.s", "valence",
+                       "normal", "contour");
+        }
+        for (const OperatorFigures& structure : operators) {
+            fmt::print("    {:<16}{:>10.3f}", structure.structure, structure.references_per_triangle);
+            for (const auto& row : structure.rows) fmt::print("{:>10.2f}", row.ns_per_op());
+            fmt::print("\n");
+        }
         fmt::print("  lean is built {:.2f} times as fast as strips\n  peak memory beyond the input\n", ratio);
         for (const auto& [name, bytes] : peak.items()) {
             fmt::print("    {:<24}{:>11.1f} MB{:>10.1f} bytes a triangle\n", name, bytes.get<double>() / 1e6,
@@ -146,6 +169,7 @@ void add_bench(CLI::App& program, Action& action) {
     add_weld(*command, options->weld);
     command->add_option("--rounds", options->rounds, "how often each is run")->check(CLI::Range(1, 1000))->capture_default_str();
     command->add_option("--seeds", options->seeds, "seed corners per component")->check(CLI::Range(1, 10000))->capture_default_str();
+    command->add_flag("--operators", options->operators, "also time the corner operators on LR and on what it is compared with");
 #ifdef LACEDRING_GPU
     command->add_flag("--no-gpu", options->no_gpu, "leave the device out");
     add_device_options(*command, options->context);

@@ -74,9 +74,37 @@ struct CompactLrView {
         const bool behind_left = side == 1 && (w & compact::kLongLeftIrregular) != 0;
         return star[record(w) + 2 + (behind_left ? 2 : 0) + end];
     }
+    /// As LrView::plain_fan.
+    using PlainFan = LrView::PlainFan;
+    bool plain_fan(std::uint32_t v, PlainFan& fan) const {
+        if (v < 2 || v + 1 >= ring_vertices) return false;
+        const std::uint32_t a = lr[v], b = lr[v - 1];
+        if (((a | b | lr[v - 2]) & compact::kLong) != 0) return false;
+        const std::int32_t la = offset(a, 0), ra = offset(a, 1), lb = offset(b, 0), rb = offset(b, 1);
+        // 0 is a border and 2 a copy: with that bit cleared, either is nothing.
+        if (((la & ~2) == 0) | ((ra & ~2) == 0) | ((lb & ~2) == 0) | ((rb & ~2) == 0)) return false;
+        const auto at = [](std::uint32_t u, std::int32_t o) { return u + static_cast<std::uint32_t>(o); };
+        fan.left = at(v, la);
+        fan.right = at(v, ra);
+        fan.left_count = at(v - 1, lb) - fan.left;
+        fan.right_count = at(v - 1, rb) - fan.right;
+        return run_has_tip(fan.left, fan.left_count, v, 16) && run_has_tip(fan.right, fan.right_count, v, 0);
+    }
+
     std::uint32_t t0_vertex(std::uint32_t i) const { return vo[i / 3 * 6 + i % 3] & ~word::kT0Flip; }
     std::uint32_t t0_opposite(std::uint32_t i) const { return vo[i / 3 * 6 + 3 + i % 3]; }
     std::uint32_t isolated_corner(std::uint32_t i) const { return c[i]; }
+
+    /// Do the slots first .. first + count - 1 have the plain tip v? Four at most. `shift` chooses the half of the word.
+    bool run_has_tip(std::uint32_t first, std::uint32_t count, std::uint32_t v, std::uint32_t shift) const {
+        if (count > 4 || std::uint64_t{first} + 3 >= ring_vertices) return false;
+        const std::uint32_t* w = lr.data() + first;
+        const std::uint32_t o = v - first;  // of the first; one less of each after it; 2 would be a copy
+        const auto is = [&](std::uint32_t i) {
+            return ((w[i] >> shift & 0xffff) == ((o - i) & 0x7fff)) & (o - i + (1U << 14) < 1U << 15) & (o - i != 2);
+        };
+        return (is(0) | (count < 1)) & (is(1) | (count < 2)) & (is(2) | (count < 3)) & (is(3) | (count < 4));
+    }
 
     std::uint32_t used_vertices() const { return ring_vertices + static_cast<std::uint32_t>(c.size()); }
     std::uint32_t triangle_numbers() const { return 2 * ring_vertices + static_cast<std::uint32_t>(vo.size() / 6); }

@@ -151,7 +151,7 @@ class LrOperators {
 
     /// Edges at v: its triangles, and one more on a border. O(valence), constant where LrView::plain_fan sees it.
     std::uint32_t valence(VertexId v) const {
-        if constexpr (kHasSteps) {
+        if constexpr (kHasFans) {
             typename Store::PlainFan fan;
             if (v.value < ring_ && s_.plain_fan(v.value, fan)) return 4 + fan.left_count + fan.right_count;
         }
@@ -171,7 +171,7 @@ class LrOperators {
     /// Calls visit(vertex) for every neighbour of v once, around an interior vertex in swing order. O(valence).
     template <class Visit>
     void neighbours(VertexId v, Visit visit) const {
-        if constexpr (kHasSteps) {
+        if constexpr (kHasFans) {
             typename Store::PlainFan fan;
             if (v.value < ring_ && s_.plain_fan(v.value, fan)) {
                 visit(VertexId{fan.left});
@@ -190,6 +190,9 @@ class LrOperators {
 
   private:
     static constexpr bool kHasSteps = requires(const Store& store, std::uint32_t c) { store.fan_step(c); };
+
+    static constexpr bool kHasFans =
+        requires(const Store& store, typename Store::PlainFan& fan) { store.plain_fan(0, fan); };
 
     enum Role : std::uint32_t { kStart = 0, kTip = 1, kEnd = 2 };
     struct Slot {

@@ -1,0 +1,195 @@
+#include "app/bench_operators.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "lrcore/corner_table/split.h"
+#include "lrcore/lr/operators.h"
+#include "lrcore/lr/search.h"
+#include "lrcore/rivals/corner_table_c.h"
+#include "lrcore/rivals/squad.h"
+#include "lrcore/rivals/winged_edge.h"
+
+namespace lr::app {
+namespace {
+
+/// One structure and the vertex positions in its own order.
+template <class Ops>
+class Bench {
+  public:
+    /// `order[v]`: the corner table's vertex that the structure calls v; empty if it keeps the numbers.
+    Bench(const char* name, Ops ops, std::size_t references, std::size_t triangles, const std::vector<float>& positions,
+          const std::vector<VertexId>& order)
+        : ops_(std::move(ops)), positions_(positions) {
+        if (!order.empty()) {
+            for (std::size_t v = 0; v < order.size(); ++v) {
+                std::copy_n(positions.begin() + static_cast<std::ptrdiff_t>(3 * std::size_t{order[v].value}), 3,
+                            positions_.begin() + static_cast<std::ptrdiff_t>(3 * v));
+            }
+        }
+        figures_.structure = name;
+        figures_.references_per_triangle = static_cast<double>(references) / static_cast<double>(triangles);
+        float low = INFINITY, high = -INFINITY;
+        for (std::size_t i = 0; i < positions_.size(); i += 3) {
+            low = std::min(low, positions_[i]);
+            high = std::max(high, positions_[i]);
+        }
+        plane_ = low + (high - low) * 0.5F;
+        for (std::uint32_t t = 0; t < ops_.store().triangle_numbers(); ++t) {
+            const CornerId c = ops_.corner(TriangleId{t});
+            if (!ops_.is_canonical({t})) continue;
+            if (above(c) != above(ops_.next(c)) || above(c) != above(ops_.previous(c))) crossing_.push_back(c);
+        }
+    }
+
+    /// One round of every operator; returns a checksum of each, which every structure must agree on.
+    std::vector<double> round() {
+        std::vector<double> sums;
+        const auto time = [&](const char* name, std::size_t elements, const auto& work) {
+            double sum = 0;
+            const double s = app::seconds([&] { sum = work(); });
+            sums.push_back(sum);
+            auto row = std::find_if(figures_.rows.begin(), figures_.rows.end(), [&](const auto& r) { return r.name == name; });
+            if (row == figures_.rows.end()) row = figures_.rows.insert(row, {name, {}, elements});
+            row->seconds.push_back(s);
+        };
+        const std::uint32_t triangles = ops_.store().triangle_numbers(), vertices = ops_.store().vertices;
+        const std::size_t corners = std::size_t{3} * triangles;
+        time("vertex", corners, [&] {
+            float sum = 0;  // of something that does not depend on the numbering
+            each_corner([&](CornerId c) { sum = std::max(sum, positions_[3 * std::size_t{ops_.vertex(c).value}]); });
+            return static_cast<double>(sum);
+        });
+        time("opposite", corners, [&] {
+            std::uint64_t borders = 0;
+            each_corner([&](CornerId c) { borders += step(c).is_null() ? 1 : 0; });
+            return static_cast<double>(borders);
+        });
+        time("valence", vertices, [&] {
+            std::uint64_t sum = 0;
+            for (std::uint32_t v = 0; v < vertices; ++v) sum += ops_.valence({v});
+            return static_cast<double>(sum);
+        });
+        time("normal", vertices, [&] {
+            std::uint64_t up = 0;
+            for (std::uint32_t v = 0; v < vertices; ++v) up += normal_z(v) > 0 ? 1 : 0;
+            return up == 0 ? 0.0 : 1.0;  // rounding depends on where the star begins
+        });
+        std::size_t met = 0;
+        std::vector<bool> seen(triangles, false);
+        time("contour", 0, [&] {
+            met = contour(seen);
+            return static_cast<double>(met);
+        });
+        figures_.rows.back().elements = std::max<std::size_t>(met, 1);
+        return sums;
+    }
+
+    OperatorFigures figures() const { return figures_; }
+
+  private:
+    template <class Visit>
+    void each_corner(Visit visit) const {
+        for (std::uint32_t t = 0; t < ops_.store().triangle_numbers(); ++t) {
+            if (!ops_.is_canonical({t})) continue;
+            CornerId c = ops_.corner(TriangleId{t});
+            for (int k = 0; k < 3; ++k, c = ops_.next(c)) visit(c);
+        }
+    }
+    /// c.o, or for SQuad, whose own step it is, c.s.
+    CornerId step(CornerId c) const {
+        if constexpr (std::is_same_v<Ops, SquadView>) {
+            return ops_.swing(c);
+        } else {
+            return ops_.opposite(c);
+        }
+    }
+    const float* position(VertexId v) const { return positions_.data() + 3 * std::size_t{v.value}; }
+    bool above(CornerId c) const { return position(ops_.vertex(c))[0] > plane_; }
+
+    /// The z of the sum of cross products around v.
+    float normal_z(std::uint32_t v) const {
+        const float* p = position({v});
+        float first[2] = {0, 0}, last[2] = {0, 0}, z = 0;
+        bool any = false;
+        ops_.neighbours({v}, [&](VertexId u) {
+            const float* q = position(u);
+            const float d[2] = {q[0] - p[0], q[1] - p[1]};
+            if (any) {
+                z += last[0] * d[1] - last[1] * d[0];
+            } else {
+                std::copy_n(d, 2, first);
+                any = true;
+            }
+            std::copy_n(d, 2, last);
+        });
+        return z + last[0] * first[1] - last[1] * first[0];
+    }
+
+    /// Follows every contour from triangle to triangle; the triangles met.
+    std::size_t contour(std::vector<bool>& seen) const {
+        std::size_t met = 0;
+        for (const CornerId seed : crossing_) {
+            if (seen[ops_.triangle(seed).value]) continue;
+            CornerId c = seed;  // made to face the edge entered by: its ends lie on either side
+            if (above(ops_.next(c)) == above(ops_.previous(c))) c = ops_.next(c);
+            while (!c.is_null() && !seen[ops_.triangle(c).value]) {
+                seen[ops_.triangle(c).value] = true;
+                ++met;
+                c = above(c) == above(ops_.next(c)) ? ops_.opposite(ops_.next(c)) : ops_.opposite(ops_.previous(c));
+            }
+        }
+        return met;
+    }
+
+    Ops ops_;
+    std::vector<float> positions_;
+    std::vector<CornerId> crossing_;
+    float plane_ = 0;
+    OperatorFigures figures_;
+};
+
+}  // namespace
+
+double OperatorFigures::Row::ns_per_op() const { return median(seconds) / static_cast<double>(elements) * 1e9; }
+
+Result<std::vector<OperatorFigures>> measure_operators(const Mesh& mesh, CornerTable table, int rounds) {
+    std::vector<float> positions = positions_f32(mesh);
+    for (const VertexId original : split_fans(table)) {
+        for (std::size_t i = 0; i < 3; ++i) positions.push_back(positions[3 * std::size_t{original.value} + i]);
+    }
+    const std::size_t triangles = mesh.triangle_count();
+    const CornerTableC corner_table = build_corner_table_c(table);
+    const WingedEdge winged = build_winged_edge(table);
+    LrMap squad_map, lr_map;
+    const Result<Squad> squad = build_squad(table, {}, &squad_map);
+    if (!squad) return squad.error();
+    const Result<LrTable> lr = build_lr(table, expand_rings(table, {.one_per_shell = true}), {}, &lr_map);
+    if (!lr) return lr.error();
+    const Result<CompactChoice> compact = smallest_compact_lr(table, {}, recommended_periods(triangles));
+    if (!compact) return compact.error();
+    table = {};
+
+    const auto no_order = std::vector<VertexId>{};
+    Bench a("corner_table", corner_table.view(), corner_table.view().references(), triangles, positions, no_order);
+    Bench b("winged_edge", winged.view(), winged.view().references(), triangles, positions, no_order);
+    Bench c("squad", squad->view(), squad->view().references(), triangles, positions, squad_map.vertex);
+    Bench d("lr", LrOperators<LrView>(lr->view()), lr->view().references(), triangles, positions, lr_map.vertex);
+    Bench e("lr_compact", LrOperators<CompactLrView>(compact->compact.view()), compact->compact.view().bytes() / 4,
+            triangles, positions, compact->map.vertex);
+    for (int round = 0; round < rounds; ++round) {
+        const std::vector<double> expected = a.round();
+        for (const std::vector<double>& sums : {b.round(), c.round(), d.round(), e.round()}) {
+            // Contours may be cut differently by where their walk begins; the others are one number.
+            if (!std::equal(sums.begin(), sums.end() - 1, expected.begin())) {
+                return Error{ErrorCode::invalid_argument, "structures disagree on an operator"};
+            }
+        }
+    }
+    return std::vector<OperatorFigures>{a.figures(), b.figures(), c.figures(), d.figures(), e.figures()};
+}
+
+}  // namespace lr::app

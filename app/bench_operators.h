@@ -1,0 +1,31 @@
+#pragma once
+// Figure 10 of LR 2011, in memory: the same algorithms on every structure that answers the corner operators.
+
+#include <string>
+#include <vector>
+
+#include "app/measure.h"
+#include "lrcore/base/result.h"
+#include "lrcore/corner_table/corner_table.h"
+#include "lrcore/mesh/mesh.h"
+
+namespace lr::app {
+
+struct OperatorFigures {
+    std::string structure;
+    double references_per_triangle = 0;
+    struct Row {
+        std::string name;  ///< vertex, opposite, valence, normal, contour
+        std::vector<double> seconds;
+        std::size_t elements = 0;
+        double ns_per_op() const;
+    };
+    std::vector<Row> rows;
+};
+
+/// Times sequential loops over all corners (c.v; c.o, c.s for SQuad) and vertices (valence, normal), and the contours of a
+/// plane through the mesh's middle, per triangle met. Structures take turns; vertex positions are in each one's own order.
+/// Errors: invalid_argument if two structures disagree on a result.
+Result<std::vector<OperatorFigures>> measure_operators(const Mesh& mesh, CornerTable table, int rounds);
+
+}  // namespace lr::app
