@@ -52,7 +52,8 @@ class Bench {
             double sum = 0;
             const double s = app::seconds([&] { sum = work(); });
             sums.push_back(sum);
-            auto row = std::find_if(figures_.rows.begin(), figures_.rows.end(), [&](const auto& r) { return r.name == name; });
+            auto row =
+                std::find_if(figures_.rows.begin(), figures_.rows.end(), [&](const auto& r) { return r.name == name; });
             if (row == figures_.rows.end()) row = figures_.rows.insert(row, {name, {}, elements});
             row->seconds.push_back(s);
         };
@@ -154,7 +155,9 @@ class Bench {
 
 }  // namespace
 
-double OperatorFigures::Row::ns_per_op() const { return median(seconds) / static_cast<double>(elements) * 1e9; }
+double OperatorFigures::Row::ns_per_op() const {
+    return median(seconds) / static_cast<double>(elements) * 1e9;
+}
 
 Result<std::vector<OperatorFigures>> measure_operators(const Mesh& mesh, CornerTable table, int rounds) {
     std::vector<float> positions = positions_f32(mesh);

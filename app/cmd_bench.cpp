@@ -75,7 +75,8 @@ int run(const Options& options) {
             encode_lean(*t, expand_rings(*t, ring_choice));
         };
         construct.candidates.push_back({"lean", whole, {}, {}});
-        construct.candidates.push_back({"strips", [&] { make_restart_strip(mesh->indices, mesh->vertex_count); }, {}, {}});
+        construct.candidates.push_back(
+            {"strips", [&] { make_restart_strip(mesh->indices, mesh->vertex_count); }, {}, {}});
         run_interleaved(construct.candidates, options.rounds);
 
         Section decode{"decode_cpu", {}};
@@ -115,7 +116,7 @@ int run(const Options& options) {
         }
 #endif
         peak.update(Json{{"lean", peak_bytes(whole)},
-                     {"strips", peak_bytes([&] { make_restart_strip(mesh->indices, mesh->vertex_count); })}});
+                         {"strips", peak_bytes([&] { make_restart_strip(mesh->indices, mesh->vertex_count); })}});
         const double ratio = construct.candidates[4].median() / construct.candidates[3].median();
         if (options.json) {
             meshes.push_back({{"file", path},
@@ -142,8 +143,8 @@ int run(const Options& options) {
         }
         fmt::print("  {}\n", gpu_skipped.empty() ? "drawn at 1280x720 on " + device : "not drawn: " + gpu_skipped);
         if (!operators.empty()) {
-            fmt::print("  operators, ns each{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "refs/tri", "c.v", "c.o, c.s", "valence",
-                       "normal", "contour");
+            fmt::print("  operators, ns each{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "refs/tri", "c.v", "c.o, c.s",
+                       "valence", "normal", "contour");
         }
         for (const OperatorFigures& structure : operators) {
             fmt::print("    {:<16}{:>10.3f}", structure.structure, structure.references_per_triangle);
@@ -156,7 +157,7 @@ int run(const Options& options) {
                        bytes.get<double>() / triangles);
         }
     }
-    if (options.json) fmt::print("{}\n", Json{{"schema", 1}, {"meshes", std::move(meshes)}}.dump(2));
+    if (options.json) print_json(Json{{"schema", 1}, {"meshes", std::move(meshes)}});
     return done;
 }
 
@@ -167,9 +168,14 @@ void add_bench(CLI::App& program, Action& action) {
     CLI::App* command = program.add_subcommand("bench", "time construction, decoding and drawing beside rivals");
     command->add_option("MESH", options->paths, "mesh files")->required();
     add_weld(*command, options->weld);
-    command->add_option("--rounds", options->rounds, "how often each is run")->check(CLI::Range(1, 1000))->capture_default_str();
-    command->add_option("--seeds", options->seeds, "seed corners per component")->check(CLI::Range(1, 10000))->capture_default_str();
-    command->add_flag("--operators", options->operators, "also time the corner operators on LR and on what it is compared with");
+    command->add_option("--rounds", options->rounds, "how often each is run")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    command->add_option("--seeds", options->seeds, "seed corners per component")
+        ->check(CLI::Range(1, 10000))
+        ->capture_default_str();
+    command->add_flag("--operators", options->operators,
+                      "also time the corner operators on LR and on what it is compared with");
 #ifdef LACEDRING_GPU
     command->add_flag("--no-gpu", options->no_gpu, "leave the device out");
     add_device_options(*command, options->context);

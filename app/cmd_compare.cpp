@@ -92,7 +92,7 @@ int run(const Options& options) {
     }
     const bool passed = comparison->same() && messages == 0;
     if (options.json) {
-        fmt::print("{}\n", to_json(options, (*context)->info(), *comparison, messages, diff).dump(2));
+        print_json(to_json(options, (*context)->info(), *comparison, messages, diff));
     } else {
         print_table(options, (*context)->info(), *comparison, messages);
         if (!diff.empty()) fmt::print("  differences drawn in {}\n", diff);

@@ -17,8 +17,7 @@ struct Options {
 int run(const Options& options) {
     const Result<LrFile> file = read_lr(options.input);
     if (!file) return fail(options.input, file.error());
-    const Result<Mesh> mesh =
-        options.original_order ? decode_lr_original_order(*file) : Result<Mesh>(decode_lr(*file));
+    const Result<Mesh> mesh = options.original_order ? decode_lr_original_order(*file) : Result<Mesh>(decode_lr(*file));
     if (!mesh) return fail(options.input, mesh.error());
     if (const Result<void> written = write_mesh(*mesh, options.output); !written) {
         return fail(options.output, written.error());

@@ -94,7 +94,7 @@ int run(const Options& options) {
                                             {"flat_shells", solid.flat},
                                             {"volume", has_volume ? nlohmann::ordered_json(solid.volume) : nullptr},
                                             {"attributes", attributes}};
-        fmt::print("{}\n", out.dump(2));
+        print_json(out);
         return done;
     }
     fmt::print("{}\n", options.input.path);

@@ -135,7 +135,7 @@ int run(const Options& options) {
                                       {"triangles", model->triangle_count()},
                                       {"covered", share},
                                       {"validation_messages", messages}};
-        fmt::print("{}\n", out.dump(2));
+        print_json(out);
     } else {
         fmt::print("{}: {}x{}, {} triangles, {} {}, covers {:.1f} % of the picture; {}\n", options.output,
                    options.size.width, options.size.height, model->triangle_count(), options.source, options.view,

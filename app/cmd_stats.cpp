@@ -70,12 +70,15 @@ void print(const std::string& path, const Mesh& mesh, const FormatSet& set) {
     const auto triangles = static_cast<double>(mesh.triangle_count());
     const auto share = [&](std::uint32_t count) { return 100.0 * count / triangles; };
     fmt::print("{}: {} triangles, {} vertices, {} component{}, {} border edges", path, mesh.triangle_count(),
-               mesh.vertex_count, set.report.components, set.report.components == 1 ? "" : "s", set.topology.border_edges);
+               mesh.vertex_count, set.report.components, set.report.components == 1 ? "" : "s",
+               set.topology.border_edges);
     if (set.topology.nonmanifold_edges > 0) fmt::print(", {} non-manifold edges", set.topology.nonmanifold_edges);
     if (set.topology.degenerate > 0) fmt::print(", {} degenerate triangles dropped", set.topology.degenerate);
     fmt::print("\n  ring: {} vertices on it, {} isolated; T0 {:.2f} %, in warts {:.2f} %, T2 {:.2f} %\n\n",
-               set.lean.ring_vertices, set.lean.isolated, share(set.lean.t0), share(set.lean.t0_wart), share(set.lean.t2));
-    fmt::print("  {:<18}{:>12}{:>12}{:>12}{:>10}{:>10}\n", "format", "bytes", "bits/tri", "refs/tri", "of u32", "ACMR(32)");
+               set.lean.ring_vertices, set.lean.isolated, share(set.lean.t0), share(set.lean.t0_wart),
+               share(set.lean.t2));
+    fmt::print("  {:<18}{:>12}{:>12}{:>12}{:>10}{:>10}\n", "format", "bytes", "bits/tri", "refs/tri", "of u32",
+               "ACMR(32)");
     const auto base = static_cast<double>(set.formats.front().bytes);
     for (const Format& format : set.formats) {
         const auto bytes = static_cast<double>(format.bytes);
@@ -91,7 +94,7 @@ int run(const Options& options) {
     for (const std::string& path : options.paths) {
         const Result<Mesh> mesh = load({path, options.weld});
         if (!mesh) return fail(path, mesh.error());
-        const Result<FormatSet> set = make_formats(*mesh, options.ring);
+        const Result<FormatSet> set = make_formats(*mesh, options.ring, options.paper);
         if (!set) return fail(path, set.error());
         for (const Format& format : set->formats) {
             if (format.invalid.empty()) continue;
@@ -104,7 +107,7 @@ int run(const Options& options) {
             print(path, *mesh, *set);
         }
     }
-    if (options.json) fmt::print("{}\n", Json{{"schema", 1}, {"meshes", std::move(meshes)}}.dump(2));
+    if (options.json) print_json(Json{{"schema", 1}, {"meshes", std::move(meshes)}});
     return done;
 }
 
@@ -116,7 +119,9 @@ void add_stats(CLI::App& program, Action& action) {
     command->add_option("MESH", options->paths, "mesh files")->required();
     add_weld(*command, options->weld);
     add_ring_options(*command, options->ring);
-    command->add_flag("--paper", options->paper, "the paper's procedures alone: ring-expander, and for lr_compact the hybrid with the best k (the default)");
+    command->add_flag(
+        "--paper", options->paper,
+        "the paper's procedures alone: ring-expander, and for lr_compact the hybrid with the best k (the default)");
     command->add_flag("--json", options->json, "one JSON document on standard output");
     command->callback([options, &action] { action = [options] { return run(*options); }; });
 }

@@ -22,7 +22,8 @@ struct Options {
 using Triangle = std::array<std::uint32_t, 3>;
 
 /// The triangles, each rotated so that its smallest vertex leads, sorted; those with a repeated vertex left out.
-std::vector<Triangle> oriented_triangles(const std::vector<std::uint32_t>& indices, const std::vector<std::uint32_t>& order) {
+std::vector<Triangle> oriented_triangles(const std::vector<std::uint32_t>& indices,
+                                         const std::vector<std::uint32_t>& order) {
     std::vector<Triangle> out;
     out.reserve(indices.size() / 3);
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
@@ -76,7 +77,7 @@ int run(const Options& options) {
     }
     if (options.json) {
         const nlohmann::ordered_json out = {{"schema", 1}, {"file", options.input.path}, {"formats", formats}};
-        fmt::print("{}\n", out.dump(2));
+        print_json(out);
     }
     return all ? done : check_failed;
 }

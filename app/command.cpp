@@ -22,7 +22,8 @@ void add_weld(CLI::App& command, std::string& weld) {
 }
 
 void add_ring_options(CLI::App& command, RingChoice& choice) {
-    command.add_option("--ring", choice.ring, "ring construction for every format, not for each the one it is best with")
+    command
+        .add_option("--ring", choice.ring, "ring construction for every format, not for each the one it is best with")
         ->check(CLI::IsMember({"expander", "hybrid"}));
     command.add_option("--k", choice.k, "period of the hybrid, or auto: several are tried and the smallest kept")
         ->check([](const std::string& text) {
@@ -68,7 +69,9 @@ RingOptions compact_ring_options(const RingChoice& choice) {
 std::vector<std::uint32_t> ring_periods(const RingChoice& choice, std::size_t triangles) {
     if (choice.ring == "expander") return {0};
     if (const std::uint32_t k = period(choice); k != 0) return {k};
-    return recommended_periods(triangles);
+    std::vector<std::uint32_t> periods = recommended_periods(triangles);
+    if (choice.ring == "hybrid") std::erase(periods, 0U);  // that is the expander
+    return periods;
 }
 
 Result<Mesh> load(const MeshInput& input) {
@@ -82,16 +85,24 @@ Result<Mesh> load(const MeshInput& input) {
     return weld(*mesh, input.weld == "position" ? Weld::position : Weld::attributes);
 }
 
+void print_json(const nlohmann::ordered_json& document) {
+    fmt::print("{}\n", document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
 int fail(const std::string& file, const Error& error) {
     std::string line = fmt::format("lacedring: {}: {}", file, error.message);
     for (char& c : line) {
-        if (c == '\n' || c == '\r') c = ' ';
+        if (static_cast<unsigned char>(c) < 0x20) c = ' ';  // one line, whatever the file is called
     }
     fmt::print(stderr, "{}\n", line);
     switch (error.code) {
-        case ErrorCode::no_device: return no_device;
-        case ErrorCode::invalid_argument: return wrong_usage;
-        default: return bad_input;
+        case ErrorCode::no_device:
+        case ErrorCode::device_failure:
+            return no_device;
+        case ErrorCode::invalid_argument:
+            return wrong_usage;
+        default:
+            return bad_input;
     }
 }
 

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "lrcore/base/result.h"
@@ -43,6 +44,9 @@ std::vector<std::uint32_t> ring_periods(const RingChoice& choice, std::size_t tr
 
 /// Reads and welds. The input may also be an .lr file, which is validated and decoded.
 Result<Mesh> load(const MeshInput& input);
+
+/// Prints a JSON document on standard output. Bytes that are no UTF-8 (of file or attribute names) are replaced.
+void print_json(const nlohmann::ordered_json& document);
 
 /// Prints "lacedring: FILE: what" on standard error, one line, and returns the exit code for the error.
 int fail(const std::string& file, const Error& error);

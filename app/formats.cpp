@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include "lrcore/baseline/strips.h"
+#include "lrcore/corner_table/split.h"
 #include "lrcore/lr/lr_encode.h"
+#include "lrcore/rivals/corner_table_c.h"
+#include "lrcore/rivals/squad.h"
+#include "lrcore/rivals/winged_edge.h"
 
 namespace lr::app {
 namespace {
@@ -64,9 +68,63 @@ Format lr_format(const char* name, EncodedLr encoded, const Result<Stream>& stre
     return format;
 }
 
+/// A structure that answers the corner operators, read back triangle by triangle. Arrays alone: these have no file.
+template <class View>
+Format rival_format(const char* name, const View& view, std::vector<std::uint32_t> order,
+                    const std::vector<bool>& flipped) {
+    Format format;
+    format.name = name;
+    format.references = view.references();
+    format.bytes = 4 * format.references;
+    for (std::uint32_t t = 0; t < view.triangle_numbers(); ++t) {
+        if (!view.is_canonical({t})) continue;
+        CornerId c = view.corner(TriangleId{t});
+        std::uint32_t v[3];
+        for (std::uint32_t& u : v) {
+            u = view.vertex(c).value;
+            c = view.next(c);
+        }
+        if (!flipped.empty() && flipped[t]) std::swap(v[0], v[2]);  // the structures hold the oriented mesh
+        format.indices.insert(format.indices.end(), v, v + 3);
+    }
+    format.order = std::move(order);
+    return format;
+}
+
+void add_rivals(FormatSet& set, CornerTable table, std::uint32_t mesh_vertices) {
+    const std::vector<VertexId> originals = split_fans(table);
+    std::vector<std::uint32_t> order(table.vertex_count);
+    const auto original = [&](std::uint32_t v) { return v < mesh_vertices ? v : originals[v - mesh_vertices].value; };
+    for (std::uint32_t v = 0; v < order.size(); ++v) order[v] = original(v);
+    std::vector<bool> flipped(table.triangle_count());
+    for (std::uint32_t t = 0; t < flipped.size(); ++t) flipped[t] = table.flipped({t});
+    const auto add = [&](Format format) {
+        format.copies = originals.size();
+        set.formats.push_back(std::move(format));
+    };
+    {
+        const WingedEdge winged = build_winged_edge(table);
+        add(rival_format("winged_edge", winged.view(), order, flipped));
+        const CornerTableC corner_table = build_corner_table_c(table);
+        add(rival_format("corner_table", corner_table.view(), order, flipped));
+    }
+    LrMap map;
+    const Result<Squad> squad = build_squad(table, {}, &map);
+    if (!squad) {
+        set.absent.emplace_back("squad", squad.error().message);
+        return;
+    }
+    std::vector<bool> squad_flipped(map.triangle.size());
+    for (std::uint32_t t = 0; t < map.triangle.size(); ++t) {
+        squad_flipped[t] = !map.triangle[t].is_null() && table.flipped(map.triangle[t]);
+    }
+    for (std::uint32_t v = 0; v < map.vertex.size(); ++v) order[v] = original(map.vertex[v].value);
+    add(rival_format("squad", squad->view(), std::move(order), squad_flipped));
+}
+
 }  // namespace
 
-Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice) {
+Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool paper) {
     Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
     if (!table) return table.error();
     FormatSet set;
@@ -77,7 +135,8 @@ Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice) {
     const std::vector<std::uint32_t> triangles = without_degenerate(mesh.indices);
     const auto add_list = [&](const char* name, std::size_t width, const std::vector<std::uint32_t>& references,
                               std::vector<std::uint32_t> indices) {
-        set.formats.push_back({name, references.size() * width, references.size(), std::move(indices), {}, nullptr, 0, 0, {}});
+        set.formats.push_back(
+            {name, references.size() * width, references.size(), std::move(indices), {}, nullptr, 0, 0, {}});
     };
     add_list("index_u32", 4, triangles, triangles);
     if (mesh.vertex_count <= 65536) {
@@ -94,23 +153,25 @@ Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice) {
     LeanStream lean = encode_lean(*table, rings);
     set.lean = lean.statistics;
     set.formats.push_back(lean_format("lean", set.ring.k, std::move(lean)));
-    set.formats.push_back(lean_format("lean_no_warts", set.ring.k, encode_lean(*table, rings, {.wart_skipping = false})));
-    {
-        Result<EncodedLr> lr = encode_lr(*table, set.ring);
-        if (!lr) return lr.error();
+    set.formats.push_back(
+        lean_format("lean_no_warts", set.ring.k, encode_lean(*table, rings, {.wart_skipping = false})));
+    if (Result<EncodedLr> lr = encode_lr(*table, set.ring)) {
         set.lr = lr->statistics;
         const auto stream = validate_lr(lr->words);
         set.formats.push_back(lr_format("lr", std::move(*lr), stream));
+    } else {
+        set.absent.emplace_back("lr", lr.error().message);
     }
-    {
-        Result<EncodedLr> compact = encode_compact_lr(std::move(*table), compact_ring_options(choice),
-                                                      ring_periods(choice, mesh.triangle_count()));
-        if (!compact) return compact.error();
+    std::vector<std::uint32_t> periods = ring_periods(choice, mesh.triangle_count());
+    if (paper) std::erase(periods, 0U);  // the hybrid, not the expander
+    if (Result<EncodedLr> compact = encode_compact_lr(*table, compact_ring_options(choice), periods)) {
         const auto stream = validate_compact_lr(compact->words);
         set.formats.push_back(lr_format("lr_compact", std::move(*compact), stream));
+    } else {
+        set.absent.emplace_back("lr_compact", compact.error().message);
     }
-    for (const char* name : {"winged_edge", "corner_table", "squad", "packed", "packed_cache",
-                             "meshopt_index_codec", "meshlets"}) {
+    add_rivals(set, std::move(*table), mesh.vertex_count);
+    for (const char* name : {"packed", "packed_cache", "meshopt_index_codec", "meshlets"}) {
         set.absent.emplace_back(name, "not in this version");
     }
     return set;

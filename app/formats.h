@@ -39,6 +39,7 @@ struct FormatSet {
 };
 
 /// Makes every format of the mesh and decodes it again. Errors: those of build_corner_table.
-Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice);
+/// `paper`: the paper's procedures alone.
+Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool paper = false);
 
 }  // namespace lr::app

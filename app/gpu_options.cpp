@@ -14,7 +14,7 @@ bool parse_size(const std::string& text, PictureSize& size) {
     if (error != std::errc() || x == end || *x != 'x') return false;
     const auto [rest, error2] = std::from_chars(x + 1, end, size.height);
     if (error2 != std::errc() || rest != end) return false;
-    return size.width >= 1 && size.height >= 1 && size.width <= 16384 && size.height <= 16384;
+    return size.width >= 1 && size.height >= 1 && size.width <= 8192 && size.height <= 8192;
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ void add_size(CLI::App& command, PictureSize& size) {
         .add_option_function<std::string>(
             "--size",
             [&size](const std::string& text) {
-                if (!parse_size(text, size)) throw CLI::ValidationError("--size", "not WIDTHxHEIGHT, each 1 to 16384");
+                if (!parse_size(text, size)) throw CLI::ValidationError("--size", "not WIDTHxHEIGHT, each 1 to 8192");
             },
             "pixels, 1280x720 unless told")
         ->type_name("WxH");

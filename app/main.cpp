@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -27,12 +28,18 @@ int run(int argc, char** argv) {
         const int code = program.exit(error);
         return code == 0 ? lr::app::done : lr::app::wrong_usage;
     }
-    return action();
+    const int code = action();
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+        std::fputs("lacedring: standard output: cannot be written\n", stderr);
+        return code == lr::app::done ? lr::app::bad_input : code;
+    }
+    return code;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+    std::signal(SIGXFSZ, SIG_IGN);  // a file past its size limit is an error to report, not a death
     try {
         return run(argc, argv);
     } catch (const std::bad_alloc&) {

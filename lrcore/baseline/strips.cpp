@@ -34,6 +34,7 @@ std::vector<std::uint32_t> make_restart_strip(std::span<const std::uint32_t> ind
 }
 
 std::vector<std::uint32_t> unstrip(std::span<const std::uint32_t> strip, bool restart) {
+    if (strip.empty()) return {};
     std::vector<std::uint32_t> indices(meshopt_unstripifyBound(strip.size()));
     indices.resize(meshopt_unstripify(indices.data(), strip.data(), strip.size(), restart ? kStripRestart : 0));
     return indices;

@@ -1,7 +1,10 @@
 // LR 2011, section 7, with the wart skipping of section 5. Differs from the paper:
-// - a ring that has triangles on (almost) one side only stores that side alone, the few others go verbatim; a ring not
-//   worth its slots is not stored at all. So no mesh takes more than three references a triangle;
-// - a ring is rotated so that its closing edge has a free slot (a border, or a T2's redundant copy), which holds the ring's
+// - a ring that has triangles on (almost) one side only stores the left side alone, the few others go verbatim. The
+// left
+//   side is a tree of triangles, more than a third of which have a ring edge, so this is never worse than storing them
+//   all verbatim: no mesh takes more than three references a triangle;
+// - a ring is rotated so that its closing edge has a free slot (a border, or a T2's redundant copy), which holds the
+// ring's
 //   first vertex: several components cost nothing;
 // - a triangle that was turned round to orient the mesh has a flag in its word.
 
@@ -23,8 +26,8 @@ static_assert(std::endian::native == std::endian::little, "streams are little-en
 
 constexpr std::uint32_t kNone = UINT32_MAX;
 
-/// Which sides of a ring are stored as slots.
-enum class Sides : std::uint8_t { both, left, right, none };
+/// How many sides of a ring are stored as slots: the left one, or both.
+using Sides = std::uint32_t;
 
 class Encoder {
   public:
@@ -45,19 +48,20 @@ class Encoder {
         for (std::size_t r = 0; r < rings_.count(); ++r) {
             sides[r] = choose_sides(rings_.ring(r));
             const auto size = static_cast<std::uint32_t>(rings_.ring(r).size());
-            if (sides[r] == Sides::both) rings2 += size;
-            if (sides[r] == Sides::left || sides[r] == Sides::right) rings1 += size;
+            (sides[r] == 2 ? rings2 : rings1) += size;
         }
         out_.statistics.ring_vertices = rings2 + rings1;
         out_.vertex_order.reserve(table_.vertex_count);
-        out_.words.reserve(LR_LEAN_HEADER_WORDS + std::size_t{2} * rings2 + rings1);
+        // Room for every triangle without a ring edge as well: what no one touches costs no memory.
+        std::size_t t0 = 0;
+        for (std::uint32_t t = 0; t < table_.triangle_count(); ++t) t0 += rung_.test(t) ? 0 : 1;
+        out_.words.reserve(LR_LEAN_HEADER_WORDS + std::size_t{2} * rings2 + rings1 + 3 * t0);
         out_.words.resize(LR_LEAN_HEADER_WORDS);
-        out_.slot_triangle.reserve(std::size_t{2} * rings2 + rings1);
-        for (std::size_t r = 0; r < rings_.count(); ++r) {
-            if (sides[r] == Sides::both) emit(rings_.ring(r), Sides::both);
-        }
-        for (std::size_t r = 0; r < rings_.count(); ++r) {
-            if (sides[r] == Sides::left || sides[r] == Sides::right) emit(rings_.ring(r), sides[r]);
+        out_.slot_triangle.reserve(std::size_t{2} * rings2 + rings1 + t0);
+        for (const Sides wanted : {2U, 1U}) {
+            for (std::size_t r = 0; r < rings_.count(); ++r) {
+                if (sides[r] == wanted) emit(rings_.ring(r), wanted);
+            }
         }
         const std::uint32_t verbatim = emit_verbatim();
         renumber();
@@ -66,11 +70,6 @@ class Encoder {
     }
 
   private:
-    void load(std::span<const RingEdge> ring, Sides sides) {
-        walk_ = RingWalk(ring, sides == Sides::right);
-        sides_ = sides == Sides::both ? 2 : 1;
-    }
-
     /// The T0 that the first copy of a T2 at edge i could hold, as its corner across the shared edge; else null.
     CornerId wart_at(std::uint32_t side, std::size_t i) const {
         if (!options_.wart_skipping || !walk_.repeats(side, i) || walk_.is_t3(side)) return null_corner;
@@ -79,39 +78,32 @@ class Encoder {
         return y;
     }
 
-    /// The cheapest way to store a ring, counted in references: 2 or 1 a ring vertex, 3 for each triangle left verbatim.
+    /// The cheapest way to store a ring, counted in references: 2 or 1 a ring vertex, 3 for each triangle left
+    /// verbatim.
     Sides choose_sides(std::span<const RingEdge> ring) {
-        load(ring, Sides::both);
+        walk_ = RingWalk(ring);
+        std::int64_t on_right = 0, repeated = 0;
+        for (std::size_t i = 0; i < walk_.size(); ++i) {
+            if (walk_.face(1, i).is_null()) continue;
+            ++(walk_.repeats(1, i) ? repeated : on_right);
+        }
+        if (walk_.is_t3(1)) on_right = 1;
+        // A right side that is stored takes a slot a vertex and saves its triangles, and as many T0 as it has warts
+        // for.
         const auto size = static_cast<std::int64_t>(walk_.size());
-        std::int64_t triangles[2] = {0, 0}, warts[2] = {0, 0};
-        for (std::uint32_t s = 0; s < 2; ++s) {
-            for (std::size_t i = 0; i < walk_.size(); ++i) {
-                if (!walk_.face(s, i).is_null() && !walk_.repeats(s, i)) ++triangles[s];
-            }
-            if (walk_.is_t3(s)) triangles[s] = 1;
+        if (size <= 3 * on_right) return 2;
+        if (size > 3 * (on_right + repeated)) return 1;
+        std::int64_t warts = 0;
+        paired_.clear();
+        for (std::size_t i = 0; i < walk_.size(); ++i) {
+            const CornerId y = wart_at(1, i);
+            if (y.is_null()) continue;
+            covered_.set(triangle(y).value);
+            paired_.push_back(triangle(y));
+            ++warts;
         }
-        if (3 * triangles[0] >= size && 3 * triangles[1] >= size) return Sides::both;
-        bool can_close_right = false;
-        for (std::uint32_t s = 0; s < 2; ++s) {
-            paired_.clear();
-            for (std::size_t i = 0; i < walk_.size(); ++i) {
-                if (s == 1 && (walk_.face(1, i).is_null() || walk_.repeats(1, i))) can_close_right = true;
-                const CornerId y = wart_at(s, i);
-                if (y.is_null()) continue;
-                covered_.set(triangle(y).value);
-                paired_.push_back(triangle(y));
-            }
-            warts[s] = static_cast<std::int64_t>(paired_.size());
-            for (const TriangleId t : paired_) covered_.clear(t.value);
-        }
-        const std::pair<std::int64_t, Sides> choices[] = {
-            {2 * size - 3 * (warts[0] + warts[1]), Sides::both},
-            {size + 3 * triangles[1] - 3 * warts[0], Sides::left},
-            {can_close_right ? size + 3 * triangles[0] - 3 * warts[1] : INT64_MAX, Sides::right},
-            {3 * (triangles[0] + triangles[1]), Sides::none}};
-        return std::min_element(std::begin(choices), std::end(choices),
-                                [](const auto& a, const auto& b) { return a.first < b.first; })
-            ->second;
+        for (const TriangleId t : paired_) covered_.clear(t.value);
+        return size <= 3 * (on_right + warts) ? 2 : 1;
     }
 
     void fill_slots(std::uint32_t side) {
@@ -164,7 +156,8 @@ class Encoder {
 
     /// Appends a ring's slots. Words hold the mesh's vertex numbers until renumber().
     void emit(std::span<const RingEdge> ring, Sides sides) {
-        load(ring, sides);
+        walk_ = RingWalk(ring);
+        sides_ = sides;
         for (std::uint32_t s = 0; s < sides_; ++s) fill_slots(s);
         for (std::uint32_t s = 0; s < sides_; ++s) fill_warts(s);
         std::uint32_t closing_side = 0;
@@ -259,7 +252,7 @@ class Encoder {
     BitVector covered_;  // triangles that have a slot
     // The ring being written: how it is read, how many sides are stored, and what their slots hold.
     RingWalk walk_;
-    std::uint32_t sides_ = 2;
+    Sides sides_ = 2;
     std::array<std::vector<CornerId>, 2> tip_;  // null where the slot is free
     std::array<std::vector<bool>, 2> wart_;
     std::vector<TriangleId> paired_;

@@ -1,6 +1,6 @@
-// LR 2011, sections 4.4 to 4.6 and 5. The ring decides every slot; a triangle is irregular where what the operators infer
-// across an edge is not what the corner table says. That is the paper's Ti, next to a T0, and also the rare triangle at an
-// edge that shares both its ends with another.
+// LR 2011, sections 4.4 to 4.6 and 5. The ring decides every slot; a triangle is irregular where what the operators
+// infer across an edge is not what the corner table says. That is the paper's Ti, next to a T0, and also the rare
+// triangle at an edge that shares both its ends with another.
 
 #include <fmt/format.h>
 
@@ -49,8 +49,8 @@ class Builder {
     }
 
   private:
-    /// Sets the slots of one ring, whose vertices are numbered from `base`. The ring is turned so that its last edge has
-    /// the first copy of a T2 on its left, which no wart takes: that slot holds the ring's first vertex.
+    /// Sets the slots of one ring, whose vertices are numbered from `base`. The ring is turned so that its last edge
+    /// has the first copy of a T2 on its left, which no wart takes: that slot holds the ring's first vertex.
     void place_ring(std::span<const RingEdge> ring, std::uint32_t base) {
         const RingWalk walk(ring);
         const std::size_t size = walk.size();
@@ -123,7 +123,8 @@ class Builder {
         out_.statistics.t0 = static_cast<std::uint32_t>(t0_.size());
     }
 
-    /// Numbers the vertices off the rings: those of triangles first. All triangles of such a vertex are T0, in warts or not.
+    /// Numbers the vertices off the rings: those of triangles first. All triangles of such a vertex are T0, in warts or
+    /// not.
     void number_isolated() {
         std::vector<bool> used(table_.vertex_count, false);
         for (const TriangleId t : t0_) {
@@ -227,11 +228,11 @@ class Builder {
     const CornerTable& table_;
     const Rings& rings_;
     const LrOptions& options_;
-    BitVector rung_;  // triangles with a ring edge, or taken by a wart
+    BitVector rung_;                                 // triangles with a ring edge, or taken by a wart
     std::vector<std::uint32_t> number_;              // LR number of each vertex
     std::vector<std::uint32_t> number_of_triangle_;  // LR number of each triangle: its slot, or 2 m_r + i for T0 i
     std::vector<CornerId> tip_corner_;               // of each slot, null where it has no triangle of its own
-    std::vector<CornerId> wart_[2];                  // of one ring: the T0's corner across the T2 whose first copy is here
+    std::vector<CornerId> wart_[2];  // of one ring: the T0's corner across the T2 whose first copy is here
     std::vector<TriangleId> t0_;
     std::vector<std::uint32_t> wart_slots_;
     LrTable out_;
@@ -244,7 +245,12 @@ Result<LrTable> build_lr(const CornerTable& table, const Rings& rings, const LrO
         return Error{ErrorCode::too_large,
                      fmt::format("{} vertices; LR tables number at most {}", table.vertex_count, word::kTip)};
     }
-    return Builder(table, rings, options).build(map);
+    LrTable out = Builder(table, rings, options).build(map);
+    if (std::uint64_t{8} * out.ring_vertices + std::uint64_t{4} * (out.vo.size() / 6) > UINT32_MAX) {
+        return Error{ErrorCode::too_large, "more corners than 32 bits number"};
+    }
+    if (out.star.size() > word::kTip) return Error{ErrorCode::too_large, "VO* outgrows its 28-bit index"};
+    return out;
 }
 
 }  // namespace lr

@@ -12,7 +12,7 @@ class Packer {
     Result<CompactLrTable> pack() {
         for (out_.unit = 2;; out_.unit *= 2) {  // almost always once
             if (pack_all()) return std::move(out_);
-            if (out_.unit > 1024) return Error{ErrorCode::too_large, "VO* outgrows its index"};
+            if (out_.unit >= 8) return Error{ErrorCode::too_large, "VO* outgrows its index"};
         }
     }
 
@@ -27,7 +27,8 @@ class Packer {
         for (std::uint32_t v = 0; v < lr_.ring_vertices; ++v) {
             const std::uint32_t left = lr_.lr[2 * v], right = lr_.lr[2 * v + 1];
             std::uint32_t a = 0, b = 0;
-            // Two warts cannot meet at one edge, for the T2 beside each would be one triangle twice; a soup may still do it.
+            // Two warts cannot meet at one edge, for the T2 beside each would be one triangle twice; a soup may still
+            // do it.
             if (short_form(v, 0, a) && short_form(v, 1, b) && (a & b & 0x8000) == 0) {
                 out_.lr.push_back(a << 16 | b);
                 continue;
@@ -67,7 +68,8 @@ class Packer {
             half = 0;
             return true;
         }
-        if (kind == word::kClosing || ((w & word::kSpecial) == 0 && (w & (word::kFlip | word::kIrregular)) != 0)) return false;
+        if (kind == word::kClosing || ((w & word::kSpecial) == 0 && (w & (word::kFlip | word::kIrregular)) != 0))
+            return false;
         const std::uint32_t tip = w & word::kTip;
         if (tip >= lr_.ring_vertices) return false;
         const std::int64_t ring = lr_.ring_vertices;
@@ -94,6 +96,8 @@ class Packer {
 
 }  // namespace
 
-Result<CompactLrTable> build_compact_lr(const LrView& lr) { return Packer(lr).pack(); }
+Result<CompactLrTable> build_compact_lr(const LrView& lr) {
+    return Packer(lr).pack();
+}
 
 }  // namespace lr

@@ -1,9 +1,9 @@
 #pragma once
 // The bit-efficient Laced Ring representation. Paper: LR 2011, section 6 and Figure 9.
 //
-// One 32-bit word per ring vertex, its left half in the upper 16 bits: a wart bit and a 15-bit signed offset from v to the
-// tip, modulo m_r, on either side. Both wart bits together cannot be: they say that the other 30 bits are four flags and a
-// 26-bit index of a record in VO* (in units of `unit` entries, two unless the table outgrows the index):
+// One 32-bit word per ring vertex, its left half in the upper 16 bits: a wart bit and a 15-bit signed offset from v to
+// the tip, modulo m_r, on either side. Both wart bits together cannot be: they say that the other 30 bits are four
+// flags and a 26-bit index of a record in VO* (in units of `unit` entries, two unless the table outgrows the index):
 //     v.l, v.r             as words of the standard representation (lr_format.h), each with its kind
 //     two more             the opposites of an irregular left triangle
 //     two more             the opposites of an irregular right triangle
@@ -11,9 +11,9 @@
 //     31    30-16         15    14-0            31   30   29   28   27   26-16      15   14-0
 //     L_w   left offset   R_w   right offset    1    L_w  R_w  L_i  R_i  index, hi  1    index, lo
 //
-// A short offset of 0 means a border and one of 2, without wart, a redundant T2: a triangle whose tip really is v or v+2, a
-// redundant T2 over a ring's end, a closing edge and a triangle that was turned round take a record. T0, isolated vertices
-// and all numbering are as in the standard representation.
+// A short offset of 0 means a border and one of 2, without wart, a redundant T2: a triangle whose tip really is v or
+// v+2, a redundant T2 over a ring's end, a closing edge and a triangle that was turned round take a record. T0,
+// isolated vertices and all numbering are as in the standard representation.
 
 #include <cstdint>
 #include <span>
@@ -42,9 +42,7 @@ struct CompactLrView {
     std::span<const std::uint32_t> c;     ///< a corner of each isolated vertex
 
     static bool is_long(std::uint32_t w) { return (w & compact::kLong) == compact::kLong; }
-    std::size_t record(std::uint32_t w) const {
-        return std::size_t{(w >> 16 & 0x7ff) << 15 | (w & 0x7fff)} * unit;
-    }
+    std::size_t record(std::uint32_t w) const { return std::size_t{(w >> 16 & 0x7ff) << 15 | (w & 0x7fff)} * unit; }
     static std::int32_t offset(std::uint32_t w, std::uint32_t side) {
         const std::uint32_t half = side == 0 ? w >> 16 : w;
         return static_cast<std::int32_t>(half << 17) >> 17;
@@ -95,7 +93,8 @@ struct CompactLrView {
     std::uint32_t t0_opposite(std::uint32_t i) const { return vo[i / 3 * 6 + 3 + i % 3]; }
     std::uint32_t isolated_corner(std::uint32_t i) const { return c[i]; }
 
-    /// Do the slots first .. first + count - 1 have the plain tip v? Four at most. `shift` chooses the half of the word.
+    /// Do the slots first .. first + count - 1 have the plain tip v? Four at most. `shift` chooses the half of the
+    /// word.
     bool run_has_tip(std::uint32_t first, std::uint32_t count, std::uint32_t v, std::uint32_t shift) const {
         if (count > 4 || std::uint64_t{first} + 3 >= ring_vertices) return false;
         const std::uint32_t* w = lr.data() + first;
@@ -122,7 +121,8 @@ struct CompactLrTable {
 };
 
 /// Packs standard tables. Vertices, triangles and corners keep their numbers. Cost: O(T).
-/// A VO* beyond 2^27 entries is indexed in larger units, its records padded. Errors: too_large (past 2^32 entries).
+/// A VO* beyond 2^27 entries is indexed in units of 4 or 8, its records padded; at 8 each record takes one unit.
+/// Errors: too_large (more than 2^26 records).
 Result<CompactLrTable> build_compact_lr(const LrView& lr);
 
 }  // namespace lr

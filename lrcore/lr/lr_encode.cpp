@@ -44,7 +44,8 @@ Result<EncodedLr> encode_lr(CornerTable table, const RingOptions& ring, bool war
     return out;
 }
 
-Result<EncodedLr> encode_compact_lr(CornerTable table, const RingOptions& ring, std::span<const std::uint32_t> periods) {
+Result<EncodedLr> encode_compact_lr(CornerTable table, const RingOptions& ring,
+                                    std::span<const std::uint32_t> periods) {
     const std::vector<VertexId> originals = split_fans(table);
     const Result<CompactChoice> best = smallest_compact_lr(table, ring, periods);
     if (!best) return best.error();

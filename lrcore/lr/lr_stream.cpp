@@ -31,7 +31,8 @@ std::vector<std::uint32_t> serialize_tables(const Table& table, std::uint32_t ma
                                         static_cast<std::uint32_t>(copies.size()),
                                         unit,
                                         0};
-    words.reserve(words.size() + table.lr.size() + table.vo.size() + table.star.size() + table.c.size() + 2 * copies.size());
+    words.reserve(words.size() + table.lr.size() + table.vo.size() + table.star.size() + table.c.size() +
+                  2 * copies.size());
     for (const auto* part : {&table.lr, &table.vo, &table.star, &table.c}) {
         words.insert(words.end(), part->begin(), part->end());
     }
@@ -40,13 +41,17 @@ std::vector<std::uint32_t> serialize_tables(const Table& table, std::uint32_t ma
     return words;
 }
 
-Error malformed(std::string message) { return {ErrorCode::malformed, "LR tables: " + std::move(message)}; }
+Error malformed(std::string message) {
+    return {ErrorCode::malformed, "LR tables: " + std::move(message)};
+}
 
 template <class View>
-Result<LrStream<View>> view_tables(std::span<const std::uint32_t> words, std::uint32_t magic, std::uint32_t per_vertex) {
+Result<LrStream<View>> view_tables(std::span<const std::uint32_t> words, std::uint32_t magic,
+                                   std::uint32_t per_vertex) {
     if (words.size() < kLrHeaderWords) return malformed("shorter than their header");
     if (words[kW_magic] != magic) return malformed("wrong magic number");
-    if (words[kW_version] != kVersion) return malformed(fmt::format("version {} is not {}", words[kW_version], kVersion));
+    if (words[kW_version] != kVersion)
+        return malformed(fmt::format("version {} is not {}", words[kW_version], kVersion));
     const std::uint64_t sizes[] = {std::uint64_t{words[kW_ring]} * per_vertex, std::uint64_t{words[kW_t0]} * 6,
                                    words[kW_star], words[kW_isolated], std::uint64_t{words[kW_copies]} * 2};
     std::uint64_t total = kLrHeaderWords;
@@ -77,7 +82,8 @@ std::string check_slots(const LrView& view) {
                       : kind != word::kBorder && tip >= view.used_vertices()) {
             return fmt::format("ring vertex {}: word {:#010x}", slot / 2, w);
         }
-        if (irregular && view.star[tip] >= view.used_vertices()) return fmt::format("ring vertex {}: VO* tip", slot / 2);
+        if (irregular && view.star[tip] >= view.used_vertices())
+            return fmt::format("ring vertex {}: VO* tip", slot / 2);
         if (kind == word::kClosing && slot % 2 == 1) return fmt::format("ring vertex {} closes on its right", slot / 2);
     }
     return {};
@@ -123,12 +129,14 @@ std::string check_rings(const View& view) {
     for (std::uint32_t v = 0; v < view.ring_vertices; ++v) {
         for (std::uint32_t side = 0; side < 2; ++side) {
             const std::uint32_t kind = view.kind(v, side);
-            if ((kind & word::kSpecial) != 0 && kind != word::kRedundant && kind != word::kBorder && kind != word::kClosing) {
+            if ((kind & word::kSpecial) != 0 && kind != word::kRedundant && kind != word::kBorder &&
+                kind != word::kClosing) {
                 return fmt::format("ring vertex {}: kind {:#x}", v, kind);
             }
         }
         if (!view.closes(v)) continue;
-        if (v - first < 2 || view.first(v) != first) return fmt::format("the ring from vertex {} does not close", first);
+        if (v - first < 2 || view.first(v) != first)
+            return fmt::format("the ring from vertex {} does not close", first);
         // Its first vertex finds its last by the tip of a triangle of its own.
         if ((view.kind(first, 0) & word::kSpecial) != 0 || view.tip(first, 0) != v) {
             return fmt::format("the ring from vertex {} does not find its end", first);
@@ -147,7 +155,8 @@ std::string check_rings(const View& view) {
             const bool third = !wart && ops.ring_next(nn) == v && (view.kind(nn, side) & word::kSpecial) == 0 &&
                                (view.kind(n, side) == word::kRedundant || view.kind(n, side) == word::kClosing);
             if (!second && !third) return fmt::format("ring vertex {}: a T2 without its second copy", v);
-            if (second && (view.kind(n, side) & word::kWart) != 0) return fmt::format("ring vertex {}: a wart in a wart", v);
+            if (second && (view.kind(n, side) & word::kWart) != 0)
+                return fmt::format("ring vertex {}: a wart in a wart", v);
             if (second && view.tip(n, side) != v) return fmt::format("ring vertex {}: a T2 that does not come back", v);
         }
     }
@@ -174,7 +183,8 @@ std::string check_operators(const View& view) {
             const CornerId c{4 * t + k}, o = ops.opposite(c);
             if (ops.vertex(c) == ops.vertex(ops.next(c))) return fmt::format("triangle {} is degenerate", t);
             if (o.is_null()) continue;
-            if (!exists(o) || o == c || ops.opposite(o) != c || ops.vertex(ops.next(c)) != ops.vertex(ops.previous(o)) ||
+            if (!exists(o) || o == c || ops.opposite(o) != c ||
+                ops.vertex(ops.next(c)) != ops.vertex(ops.previous(o)) ||
                 ops.vertex(ops.previous(c)) != ops.vertex(ops.next(o))) {
                 return fmt::format("corner {}: opposite {}", c.value, o.value);
             }
@@ -239,14 +249,18 @@ std::vector<std::uint32_t> serialize(const CompactLrTable& table, std::span<cons
     return serialize_tables(table, kCompactMagic, table.unit, copies);
 }
 
-Result<LrStream<LrView>> view_lr(std::span<const std::uint32_t> words) { return view_tables<LrView>(words, kMagic, 2); }
+Result<LrStream<LrView>> view_lr(std::span<const std::uint32_t> words) {
+    return view_tables<LrView>(words, kMagic, 2);
+}
 Result<LrStream<CompactLrView>> view_compact_lr(std::span<const std::uint32_t> words) {
     Result<LrStream<CompactLrView>> stream = view_tables<CompactLrView>(words, kCompactMagic, 1);
     if (stream) stream->view.unit = words[kW_unit];
     return stream;
 }
 
-Result<LrStream<LrView>> validate_lr(std::span<const std::uint32_t> words) { return validate_tables(words, view_lr(words)); }
+Result<LrStream<LrView>> validate_lr(std::span<const std::uint32_t> words) {
+    return validate_tables(words, view_lr(words));
+}
 Result<LrStream<CompactLrView>> validate_compact_lr(std::span<const std::uint32_t> words) {
     return validate_tables(words, view_compact_lr(words));
 }
@@ -254,14 +268,16 @@ Result<LrStream<CompactLrView>> validate_compact_lr(std::span<const std::uint32_
 std::vector<std::uint32_t> decode_lr(const LrStream<LrView>& stream) {
     const LrView& view = stream.view;
     return decode_tables(stream, [&](std::uint32_t t) {
-        return t < 2 * view.ring_vertices ? (view.lr[t] & word::kFlip) != 0
-                                          : (view.vo[std::size_t{6} * (t - 2 * view.ring_vertices)] & word::kT0Flip) != 0;
+        return t < 2 * view.ring_vertices
+                   ? (view.lr[t] & word::kFlip) != 0
+                   : (view.vo[std::size_t{6} * (t - 2 * view.ring_vertices)] & word::kT0Flip) != 0;
     });
 }
 std::vector<std::uint32_t> decode_lr(const LrStream<CompactLrView>& stream) {
     const CompactLrView& view = stream.view;
     return decode_tables(stream, [&](std::uint32_t t) {
-        if (t >= 2 * view.ring_vertices) return (view.vo[std::size_t{6} * (t - 2 * view.ring_vertices)] & word::kT0Flip) != 0;
+        if (t >= 2 * view.ring_vertices)
+            return (view.vo[std::size_t{6} * (t - 2 * view.ring_vertices)] & word::kT0Flip) != 0;
         const std::uint32_t w = view.lr[t / 2];
         return CompactLrView::is_long(w) && (view.star[view.record(w) + t % 2] & word::kFlip) != 0;
     });

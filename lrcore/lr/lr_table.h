@@ -1,9 +1,9 @@
 #pragma once
 // The standard Laced Ring representation: L, R, VO, VO* and C. Paper: LR 2011, sections 4 and 5.
 //
-// Vertices 0 .. ring_vertices-1 lie along the rings, ring after ring; isolated vertices follow, then those of no triangle.
-// Triangle 2v is (v, L[v], v.n), triangle 2v+1 is (v.n, R[v], v), triangles from 2 ring_vertices on are T0. Corners are 8v+0,
-// 1, 2 (left: v, v.l, v.n) and 8v+4, 5, 6 (right: v.n, v.r, v); T0 triangle t has 4t, 4t+1, 4t+2.
+// Vertices 0 .. ring_vertices-1 lie along the rings, ring after ring; isolated vertices follow, then those of no
+// triangle. Triangle 2v is (v, L[v], v.n), triangle 2v+1 is (v.n, R[v], v), triangles from 2 ring_vertices on are T0.
+// Corners are 8v+0, 1, 2 (left: v, v.l, v.n) and 8v+4, 5, 6 (right: v.n, v.r, v); T0 triangle t has 4t, 4t+1, 4t+2.
 
 #include <cstdint>
 #include <span>
@@ -19,12 +19,13 @@ namespace lr {
 
 /// The arrays, wherever they are: in an LrTable, or in a memory-mapped file. Holds no copy.
 struct LrView {
-    std::uint32_t vertices = 0;           ///< all: on rings, isolated, and of no triangle
-    std::uint32_t ring_vertices = 0;      ///< m_r
-    std::span<const std::uint32_t> lr;    ///< 2 m_r words (lr_format.h)
-    std::span<const std::uint32_t> vo;    ///< 6 a T0: three vertices, three opposite corners
-    std::span<const std::uint32_t> star;  ///< VO*, 3 an irregular triangle: tip, opposites of the start and the end corner
-    std::span<const std::uint32_t> c;     ///< a corner of each isolated vertex
+    std::uint32_t vertices = 0;         ///< all: on rings, isolated, and of no triangle
+    std::uint32_t ring_vertices = 0;    ///< m_r
+    std::span<const std::uint32_t> lr;  ///< 2 m_r words (lr_format.h)
+    std::span<const std::uint32_t> vo;  ///< 6 a T0: three vertices, three opposite corners
+    std::span<const std::uint32_t>
+        star;                          ///< VO*, 3 an irregular triangle: tip, opposites of the start and the end corner
+    std::span<const std::uint32_t> c;  ///< a corner of each isolated vertex
 
     // What LrOperators asks of a representation. side: 0 left, 1 right.
     std::uint32_t kind(std::uint32_t v, std::uint32_t side) const { return lr[2 * v + side] & word::kKind; }
@@ -40,8 +41,8 @@ struct LrView {
         return star[(lr[2 * v + side] & word::kTip) + 1 + end];
     }
     static constexpr std::uint32_t kNoStep = UINT32_MAX;
-    /// The swing of ring corner c where nothing special is near, which is nearly always: no flag in any word looked at, so
-    /// no wart, copy, border, ring's end or irregular triangle. kNoStep where LrOperators has to look closer.
+    /// The swing of ring corner c where nothing special is near, which is nearly always: no flag in any word looked at,
+    /// so no wart, copy, border, ring's end or irregular triangle. kNoStep where LrOperators has to look closer.
     std::uint32_t fan_step(std::uint32_t corner) const {
         constexpr std::uint32_t kPlain = word::kTip;  // a word not above it has no flag
         const std::uint32_t v = corner / 8;
@@ -78,8 +79,8 @@ struct LrView {
     struct PlainFan {
         std::uint32_t left, left_count, right, right_count;
     };
-    /// Along a corridor v's tips run against v, so between L[v] and L[v.p] lie the slots that have v as their tip: their
-    /// number needs no walk, only a look at each. Constant time; false where LrOperators has to walk.
+    /// Along a corridor v's tips run against v, so between L[v] and L[v.p] lie the slots that have v as their tip:
+    /// their number needs no walk, only a look at each. Constant time; false where LrOperators has to walk.
     bool plain_fan(std::uint32_t v, PlainFan& fan) const {
         if (v < 2 || v + 1 >= ring_vertices) return false;
         const std::uint32_t* w = lr.data() + 2 * std::size_t{v};
@@ -121,9 +122,11 @@ struct LrTable {
 
 /// Which element of the corner table each element of the LR tables is.
 struct LrMap {
-    std::vector<VertexId> vertex;      ///< vertex[LR vertex] = corner table's
-    std::vector<TriangleId> triangle;  ///< triangle[LR triangle] = corner table's, null for redundant copies and borders
-    std::vector<std::uint32_t> start;  ///< start[LR triangle] = 0, 1, 2: which of its corners is the LR triangle's first
+    std::vector<VertexId> vertex;  ///< vertex[LR vertex] = corner table's
+    std::vector<TriangleId>
+        triangle;  ///< triangle[LR triangle] = corner table's, null for redundant copies and borders
+    std::vector<std::uint32_t>
+        start;  ///< start[LR triangle] = 0, 1, 2: which of its corners is the LR triangle's first
 };
 
 struct LrOptions {
@@ -134,6 +137,7 @@ struct LrOptions {
 /// (RingOptions::one_per_shell). Degenerate triangles take no part.
 /// Cost: O(T) time; 4 bytes a reference, and about 18 bytes a triangle while it runs. `map` may be null.
 /// Errors: too_large (2^28 vertices).
-Result<LrTable> build_lr(const CornerTable& table, const Rings& rings, const LrOptions& options = {}, LrMap* map = nullptr);
+Result<LrTable> build_lr(const CornerTable& table, const Rings& rings, const LrOptions& options = {},
+                         LrMap* map = nullptr);
 
 }  // namespace lr

@@ -28,7 +28,8 @@ class LrOperators {
     // Ring order (paper: v.n, v.p).
     std::uint32_t ring_next(std::uint32_t v) const { return s_.closes(v) ? s_.first(v) : v + 1; }
     std::uint32_t ring_previous(std::uint32_t v) const {
-        // The first vertex of a ring has a T2 on its left, between the ring's last edge and its first: its tip is the last.
+        // The first vertex of a ring has a T2 on its left, between the ring's last edge and its first: its tip is the
+        // last.
         return v == 0 || s_.closes(v - 1) ? s_.tip(v, 0) : v - 1;
     }
 
@@ -66,8 +67,10 @@ class LrOperators {
         if (is_t0(c)) return {s_.t0_vertex(t0_index(c))};
         const Slot slot = slot_of(c);
         switch (slot.role) {
-            case kStart: return {slot.v};
-            case kEnd: return {end(slot.v, slot.side)};
+            case kStart:
+                return {slot.v};
+            case kEnd:
+                return {end(slot.v, slot.side)};
             default: {
                 const std::uint32_t kind = s_.kind(slot.v, slot.side);
                 if (kind == word::kClosing) return {ring_next(s_.first(slot.v))};
@@ -92,9 +95,12 @@ class LrOperators {
             kind = s_.kind(slot.v, slot.side);
         }
         switch (slot.role) {
-            case kTip: return facing_tip(slot.v, slot.side, kind);
-            case kStart: return facing_start(slot.v, slot.side, kind);
-            default: return facing_end(slot.v, slot.side, kind);
+            case kTip:
+                return facing_tip(slot.v, slot.side, kind);
+            case kStart:
+                return facing_start(slot.v, slot.side, kind);
+            default:
+                return facing_end(slot.v, slot.side, kind);
         }
     }
 
@@ -191,8 +197,9 @@ class LrOperators {
   private:
     static constexpr bool kHasSteps = requires(const Store& store, std::uint32_t c) { store.fan_step(c); };
 
-    static constexpr bool kHasFans =
-        requires(const Store& store, typename Store::PlainFan& fan) { store.plain_fan(0, fan); };
+    static constexpr bool kHasFans = requires(const Store& store, typename Store::PlainFan& fan) {
+        store.plain_fan(0, fan);
+    };
 
     enum Role : std::uint32_t { kStart = 0, kTip = 1, kEnd = 2 };
     struct Slot {
@@ -248,7 +255,8 @@ class LrOperators {
     CornerId facing_start(std::uint32_t v, std::uint32_t side, std::uint32_t kind) const {
         const std::uint32_t p = ring_previous(v);
         const std::uint32_t before_kind = s_.kind(p, side);
-        if ((before_kind & (word::kSpecial | word::kWart)) == word::kWart) return at(p, side, kTip);  // v is a wart's tip
+        if ((before_kind & (word::kSpecial | word::kWart)) == word::kWart)
+            return at(p, side, kTip);  // v is a wart's tip
         if (precedes_t2(before_kind) && precedes_t2(s_.kind(ring_previous(p), side)) &&
             (s_.kind(ring_previous(p), side) & word::kSpecial) != 0) {
             return across_ring(ring_next(v), 1 - side);  // all three edges are ring edges

@@ -1,9 +1,9 @@
 // RING-EXPANDER (LR 2011, section 4.2), depth first.
 //
-// The invaded region is a tree of triangles; walking around it clockwise meets its boundary edges in ring order, so each
-// edge that cannot be crossed is emitted at once as the next ring edge. The paper walks back through the triangles with
-// flags on them as breadcrumbs; here the edges still to be looked at are on a stack instead, which reads each triangle
-// once and lets those on the way back be fetched ahead.
+// The invaded region is a tree of triangles; walking around it clockwise meets its boundary edges in ring order, so
+// each edge that cannot be crossed is emitted at once as the next ring edge. The paper walks back through the triangles
+// with flags on them as breadcrumbs; here the edges still to be looked at are on a stack instead, which reads each
+// triangle once and lets those on the way back be fetched ahead.
 
 #include <fmt/format.h>
 
@@ -150,11 +150,11 @@ class Expander {
     }
 
     const CornerTable& table_;
-    BitVector visited_;  // paper: v.m
+    BitVector visited_;     // paper: v.m
     BitVector invaded_{0};  // paper: t.m; of the region being grown
     std::vector<TriangleId> region_;
     std::vector<CornerId> queue_;
-    BitVector rung_;     // scratch of cost(): triangles with a ring edge; all clear between calls
+    BitVector rung_;  // scratch of cost(): triangles with a ring edge; all clear between calls
     std::vector<RingEdge> stack_;
     std::vector<TriangleId> paired_;
 };
@@ -192,8 +192,8 @@ Rings expand_rings(const CornerTable& table, const RingOptions& options) {
     Expander expander(table);
     std::uint64_t random = options.random_seed;
     std::vector<RingEdge> trial, region;
-    // With one_per_shell: which triangles belong to a shell that has its ring. Most meshes leave no vertices for another
-    // ring to begin at, so shells are flooded only once that is in question.
+    // With one_per_shell: which triangles belong to a shell that has its ring. Most meshes leave no vertices for
+    // another ring to begin at, so shells are flooded only once that is in question.
     BitVector in_shell(options.one_per_shell ? table.triangle_count() : 0);
     std::vector<TriangleId> stack;
     std::size_t flooded = 0;

@@ -13,7 +13,7 @@
 namespace lr {
 
 struct RingOptions {
-    std::uint32_t seeds = 1;     ///< seed corners tried per component; the one with the cheapest ring is kept
+    std::uint32_t seeds = 1;  ///< seed corners tried per component; the one with the cheapest ring is kept
     std::uint64_t random_seed = 1;
     std::uint32_t k = 0;         ///< 0: RING-EXPANDER; else HYBRID-RING-EXPANDER, breadth first every k triangles
     bool one_per_shell = false;  ///< never a further ring among vertices that a shell's ring left out
@@ -42,12 +42,12 @@ struct Rings {
     }
 };
 
-/// RING-EXPANDER, depth first (section 4.2), or with k HYBRID-RING-EXPANDER (section 6.1), over every component. A vertex is on at most one ring, once.
-/// Differs from the paper: the seed is a triangle whose three edges are all followed, borders are opposite(c) == null with
-/// no dummy triangles, ring edges are emitted while the invaded region is walked, and a component whose ring left three
-/// unvisited vertices in one triangle gets a further ring there.
-/// Cost: O(T) time per seed; 20 bytes a ring vertex for the result; while it runs V/8 + T/8 bytes and a stack of up to
-/// 20 bytes a ring vertex; with more seeds than one, 40 bytes a vertex of the largest component on top.
+/// RING-EXPANDER, depth first (section 4.2), or with k HYBRID-RING-EXPANDER (section 6.1), over every component. A
+/// vertex is on at most one ring, once. Differs from the paper: the seed is a triangle whose three edges are all
+/// followed, borders are opposite(c) == null with no dummy triangles, ring edges are emitted while the invaded region
+/// is walked, and a component whose ring left three unvisited vertices in one triangle gets a further ring there. Cost:
+/// O(T) time per seed; 20 bytes a ring vertex for the result; while it runs V/8 + T/8 bytes and a stack of up to 20
+/// bytes a ring vertex; with more seeds than one, 40 bytes a vertex of the largest component on top.
 Rings expand_rings(const CornerTable& table, const RingOptions& options = {});
 
 /// Checks that every ring is one cycle of mesh edges that visits no vertex twice. Empty if all is well.

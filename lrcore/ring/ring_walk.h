@@ -9,25 +9,21 @@
 
 namespace lr {
 
-/// A ring in its own direction, or backwards, where left and right change places. Holds no copy.
+/// A ring's edges and the triangles beside them. Holds no copy.
 class RingWalk {
   public:
     RingWalk() = default;
-    explicit RingWalk(std::span<const RingEdge> ring, bool backwards = false) : ring_(ring), backwards_(backwards) {}
+    explicit RingWalk(std::span<const RingEdge> ring) : ring_(ring) {}
 
     std::size_t size() const { return ring_.size(); }
     std::size_t after(std::size_t i) const { return i + 1 == size() ? 0 : i + 1; }
 
     /// Ring vertex at which edge i starts.
-    VertexId start(std::size_t i) const { return ring_[!backwards_ || i == 0 ? i : size() - i].start; }
+    VertexId start(std::size_t i) const { return ring_[i].start; }
 
     /// The corner facing edge i from side 0 (left) or 1 (right), null at a border; and its vertex, the tip.
-    CornerId face(std::uint32_t side, std::size_t i) const {
-        return (side == 0) != backwards_ ? edge(i).left : edge(i).right;
-    }
-    VertexId tip(std::uint32_t side, std::size_t i) const {
-        return (side == 0) != backwards_ ? edge(i).left_tip : edge(i).right_tip;
-    }
+    CornerId face(std::uint32_t side, std::size_t i) const { return side == 0 ? ring_[i].left : ring_[i].right; }
+    VertexId tip(std::uint32_t side, std::size_t i) const { return side == 0 ? ring_[i].left_tip : ring_[i].right_tip; }
 
     /// Is edge i's triangle that of the edge after it as well: the first copy of a T2?
     bool repeats(std::uint32_t side, std::size_t i) const {
@@ -45,10 +41,7 @@ class RingWalk {
     }
 
   private:
-    const RingEdge& edge(std::size_t i) const { return ring_[backwards_ ? size() - 1 - i : i]; }
-
     std::span<const RingEdge> ring_;
-    bool backwards_ = false;
 };
 
 }  // namespace lr
