@@ -163,7 +163,7 @@ Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool 
         set.absent.emplace_back("lr", lr.error().message);
     }
     std::vector<std::uint32_t> periods = ring_periods(choice, mesh.triangle_count());
-    if (paper) std::erase(periods, 0U);  // the hybrid, not the expander
+    if (paper && periods.size() > 1) std::erase(periods, 0U);  // the hybrid, not the expander
     if (Result<EncodedLr> compact = encode_compact_lr(*table, compact_ring_options(choice), periods)) {
         const auto stream = validate_compact_lr(compact->words);
         set.formats.push_back(lr_format("lr_compact", std::move(*compact), stream));

@@ -243,7 +243,7 @@ class Builder {
 Result<LrTable> build_lr(const CornerTable& table, const Rings& rings, const LrOptions& options, LrMap* map) {
     if (table.vertex_count >= word::kTip) {
         return Error{ErrorCode::too_large,
-                     fmt::format("{} vertices; LR tables number at most {}", table.vertex_count, word::kTip)};
+                     fmt::format("{} vertices; LR tables number at most {}", table.vertex_count, word::kTip - 1)};
     }
     LrTable out = Builder(table, rings, options).build(map);
     if (std::uint64_t{8} * out.ring_vertices + std::uint64_t{4} * (out.vo.size() / 6) > UINT32_MAX) {
