@@ -110,6 +110,25 @@ class RoundTrip(CliTest):
 
         in_parallel(check, [(k, n, s) for k in KINDS for n, s in ((1, 1), (50, 2), (400, 3), (12000, 4))])
 
+    def test_lr_tables(self):
+        def check(item):
+            kind, form = item
+            source = self.generate(kind, 3000, 2)
+            lr, out, ordered = (self.path(f"{kind}-{form}{end}") for end in (".lr", ".ply", "-ordered.ply"))
+            self.ok("encode", source, "-o", lr, "--format", form, "--keep-order", "--k", "40")
+            self.ok("decode", lr, "-o", out)
+            self.ok("decode", lr, "-o", ordered, "--original-order")
+            self.same_triangles(source, out, ordered)
+            self.ok("verify", lr)
+            self.assertEqual(self.json("info", lr, "--json")["vertices"], self.json("info", source, "--json")["vertices"])
+
+        in_parallel(check, [(k, f) for k in KINDS for f in ("lr", "lr-compact")])
+
+    def test_nothing_but_degenerate_triangles(self):
+        source = self.write("flat.ply", write.ply(POINTS, [(0, 0, 1), (2, 2, 2)]))
+        self.ok("verify", source)
+        self.assertEqual(self.json("stats", source, "--json")["meshes"][0]["degenerate_dropped"], 2)
+
     def test_large(self):
         self.round_trip(self.generate("blob", 200000, 1))
 
@@ -217,7 +236,8 @@ class Json(CliTest):
 
     def test_stats_options(self):
         path = self.generate("blob", 3000)
-        for options in (["--paper"], ["--ring", "expander"], ["--seeds", "3"], ["--weld"], ["--weld=position"]):
+        for options in (["--paper"], ["--ring", "expander"], ["--ring", "hybrid"], ["--ring", "hybrid", "--k", "50"],
+                        ["--k", "auto"], ["--paper", "--ring", "expander"], ["--seeds", "3"], ["--weld"], ["--weld=position"]):
             with self.subTest(options):
                 self.check_stats(self.json("stats", path, *options, "--json")["meshes"][0])
 
@@ -230,6 +250,19 @@ class Json(CliTest):
         path = self.generate("terrain", 500)
         for command in ("info", "stats", "verify"):
             self.assertIn("\n", self.ok(command, path).out)
+
+    def test_hybrid_ring(self):
+        formats = self.json("stats", self.generate("blob", 3000), "--ring", "hybrid", "--k", "50", "--json")["meshes"][0]["formats"]
+        for name in ("lean", "lr", "lr_compact"):
+            self.assertEqual((formats[name]["ring"], formats[name]["k"]), ("hybrid", 50), name)
+
+    def test_bench_operators(self):
+        mesh = self.json("bench", self.generate("genus", 2000), "--operators", "--rounds", "1", "--json")["meshes"][0]
+        self.assertEqual(set(mesh["operators"]), {"corner_table", "winged_edge", "squad", "lr", "lr_compact"})
+        for structure in mesh["operators"].values():
+            self.assertEqual(set(structure), {"vertex", "opposite", "valence", "normal", "contour"})
+            for entry in structure.values():
+                self.assertGreater(entry["ns_per_op"], 0)
 
     def test_bench(self):
         path = self.generate("blob", 2000)
