@@ -1,11 +1,15 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
 
 #include "lrcore/corner_table/split.h"
 #include "lrcore/lr/compact_lr.h"
 #include "lrcore/lr/lr_table.h"
 #include "lrcore/lr/operators.h"
+#include "lrcore/mesh/read.h"
+#include "lrcore/mesh/weld.h"
 #include "tests/lrcore/operator_oracle.h"
 #include "tests/support/meshes.h"
 
@@ -54,7 +58,30 @@ TEST_CASE("LR operators equal the corner table's on random soups") {
     for (std::uint64_t seed = 1; seed <= 400; ++seed) {
         CAPTURE(seed);
         const bool warts = seed % 3 != 0;
-        check(test::random_soup(4 + static_cast<std::uint32_t>(seed % 29), 1 + static_cast<std::uint32_t>(seed % 83), seed), {2, seed}, {warts});
-        check(test::random_gluing(10 + static_cast<std::uint32_t>(seed % 50), 150, seed), {1, seed, static_cast<std::uint32_t>(seed % 7)}, {warts});
+        check(test::random_soup(4 + static_cast<std::uint32_t>(seed % 29), 1 + static_cast<std::uint32_t>(seed % 83),
+                                seed),
+              {2, seed}, {warts});
+        check(test::random_gluing(10 + static_cast<std::uint32_t>(seed % 50), 150, seed),
+              {1, seed, static_cast<std::uint32_t>(seed % 7)}, {warts});
     }
+}
+
+TEST_CASE("LR operators equal the corner table's on the meshes of LACEDRING_MESHES, where that is set") {
+    const char* folder = std::getenv("LACEDRING_MESHES");
+    if (folder == nullptr) return;
+    std::size_t checked = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        const std::string extension = entry.path().extension();
+        if (extension == ".tsv" || extension == ".bin") continue;
+        CAPTURE(entry.path().string());
+        const Result<Mesh> mesh = read_mesh(entry.path());
+        REQUIRE(mesh);
+        for (const Weld mode : {Weld::none, Weld::position}) {
+            const Mesh welded = weld(*mesh, mode);
+            check(welded, {1, 1}, {});
+            check(welded, {1, 1, 50}, {.wart_skipping = false});
+        }
+        ++checked;
+    }
+    CHECK(checked > 0);
 }
