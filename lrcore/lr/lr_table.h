@@ -84,7 +84,12 @@ struct LrView {
     bool plain_fan(std::uint32_t v, PlainFan& fan) const {
         if (v < 2 || v + 1 >= ring_vertices) return false;
         const std::uint32_t* w = lr.data() + 2 * std::size_t{v};
-        if ((w[0] | w[1] | w[-1] | w[-2] | w[-3] | w[-4]) > word::kTip) return false;
+        if ((w[0] | w[1] | w[-1] | w[-2]) > word::kTip) return false;
+        // The slots two before may be anything but a wart, which would skip v.p.
+        if (((w[-3] & (word::kSpecial | word::kWart)) == word::kWart) |
+            ((w[-4] & (word::kSpecial | word::kWart)) == word::kWart)) {
+            return false;
+        }
         fan = {w[0], w[-2] - w[0], w[1], w[-1] - w[1]};
         return run_has_tip(fan.left, fan.left_count, v, 0) && run_has_tip(fan.right, fan.right_count, v, 1);
     }
