@@ -16,6 +16,8 @@
 namespace lr::app {
 namespace {
 
+constexpr std::size_t kNormal = 3;  // its place among what round() measures
+
 /// One structure and the vertex positions in its own order.
 template <class Ops>
 class Bench {
@@ -77,7 +79,7 @@ class Bench {
         time("normal", vertices, [&] {
             std::uint64_t up = 0;
             for (std::uint32_t v = 0; v < vertices; ++v) up += normal_z(v) > 0 ? 1 : 0;
-            return up == 0 ? 0.0 : 1.0;  // rounding depends on where the star begins
+            return static_cast<double>(up);
         });
         std::size_t met = 0;
         std::vector<bool> seen(triangles, false);
@@ -175,6 +177,10 @@ Result<std::vector<OperatorFigures>> measure_operators(const Mesh& mesh, CornerT
     const Result<CompactChoice> compact = smallest_compact_lr(table, {}, recommended_periods(triangles));
     if (!compact) return compact.error();
     table = {};
+    double border_vertices = 0;
+    for (std::uint32_t v = 0; v < corner_table.view().vertices; ++v) {
+        border_vertices += corner_table.view().is_border({v}) ? 1 : 0;
+    }
 
     const auto no_order = std::vector<VertexId>{};
     Bench a("corner_table", corner_table.view(), corner_table.view().references(), triangles, positions, no_order);
@@ -186,8 +192,11 @@ Result<std::vector<OperatorFigures>> measure_operators(const Mesh& mesh, CornerT
     for (int round = 0; round < rounds; ++round) {
         const std::vector<double> expected = a.round();
         for (const std::vector<double>& sums : {b.round(), c.round(), d.round(), e.round()}) {
-            // Contours may be cut differently by where their walk begins; the others are one number.
-            if (!std::equal(sums.begin(), sums.end() - 1, expected.begin())) {
+            for (std::size_t i = 0; i < sums.size(); ++i) {
+                // The sign of a normal near the horizon depends on where its star begins, and neighbours() gives those
+                // of a border vertex in no common order, which costs the same but is no normal. All else is exact.
+                const double allowed = i == kNormal ? 2 + expected[i] * 1e-3 + border_vertices : 0;
+                if (std::abs(sums[i] - expected[i]) <= allowed) continue;
                 return Error{ErrorCode::invalid_argument, "structures disagree on an operator"};
             }
         }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "lrcore/corner_table/swirl.h"
+
 namespace lr {
 namespace {
 
@@ -39,30 +41,6 @@ std::uint32_t count_components(const CornerTable& table) {
     return components;
 }
 
-std::uint32_t count_shells(const CornerTable& table) {
-    const std::uint32_t triangles = table.triangle_count();
-    std::vector<bool> reached(triangles, false);
-    std::vector<TriangleId> stack;
-    std::uint32_t shells = 0;
-    for (std::uint32_t seed = 0; seed < triangles; ++seed) {
-        if (reached[seed] || table.degenerate({seed})) continue;
-        ++shells;
-        reached[seed] = true;
-        stack.assign(1, TriangleId{seed});
-        while (!stack.empty()) {
-            const TriangleId t = stack.back();
-            stack.pop_back();
-            for (std::uint32_t k = 0; k < 3; ++k) {
-                const CornerId o = table.opposite(corner(t, k));
-                if (o.is_null() || reached[triangle(o).value]) continue;
-                reached[triangle(o).value] = true;
-                stack.push_back(triangle(o));
-            }
-        }
-    }
-    return shells;
-}
-
 }  // namespace
 
 TopologyReport report_topology(const CornerTable& table) {
@@ -70,7 +48,7 @@ TopologyReport report_topology(const CornerTable& table) {
     const auto corners = static_cast<std::uint32_t>(table.corners.size());
     report.triangles = table.triangle_count() - table.topology.degenerate;
     report.components = count_components(table);
-    report.shells = count_shells(table);
+    report.shells = swirl_shells(table, [](std::uint32_t, CornerId) {});
     report.orientable = table.topology.cut_edges == 0;
 
     // Fans: a corner begins one if nothing precedes it around its vertex; what is left then are closed cycles.
@@ -112,7 +90,8 @@ TopologyReport report_topology(const CornerTable& table) {
     report.closed = border_half_edges == 0;
     const std::int64_t edges = (std::int64_t{report.triangles} * 3 + static_cast<std::int64_t>(border_half_edges)) / 2;
     report.euler_characteristic = std::int64_t{report.fans} - edges + std::int64_t{report.triangles};
-    report.genus = (2 * std::int64_t{report.shells} - std::int64_t{report.border_loops} - report.euler_characteristic) / 2;
+    report.genus =
+        (2 * std::int64_t{report.shells} - std::int64_t{report.border_loops} - report.euler_characteristic) / 2;
     return report;
 }
 

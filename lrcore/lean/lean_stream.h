@@ -78,7 +78,7 @@ Result<LeanView> validate_lean(std::span<const std::uint32_t> words);
 /// Triangle 2v is (v, L[v], v.n), 2v+1 is (v.n, R[v], v). Cost: O(slots), no allocation.
 void decode_lean(const LeanView& view, std::span<std::uint32_t> indices);
 
-/// The triangle at one slot; constant time, at most six words read.
+/// The triangle at one slot; constant time, at most four words read.
 struct LeanTriangle {
     std::uint32_t v[3];
     bool degenerate() const { return v[0] == v[1]; }

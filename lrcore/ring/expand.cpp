@@ -8,8 +8,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "lrcore/base/bits.h"
+#include "lrcore/corner_table/swirl.h"
 #include "lrcore/ring/ring.h"
 #include "lrcore/ring/ring_walk.h"
 
@@ -166,26 +168,6 @@ std::uint32_t recommended_seeds(std::size_t triangles) {
     return static_cast<std::uint32_t>(std::clamp<std::size_t>(kBudget / std::max<std::size_t>(triangles, 1), 1, 64));
 }
 
-namespace {
-
-/// Marks the triangles connected to t.
-void flood(const CornerTable& table, TriangleId t, BitVector& reached, std::vector<TriangleId>& stack) {
-    reached.set(t.value);
-    stack.assign(1, t);
-    while (!stack.empty()) {
-        const TriangleId u = stack.back();
-        stack.pop_back();
-        for (std::uint32_t k = 0; k < 3; ++k) {
-            const CornerId o = table.opposite(corner(u, k));
-            if (o.is_null() || reached.test(triangle(o).value)) continue;
-            reached.set(triangle(o).value);
-            stack.push_back(triangle(o));
-        }
-    }
-}
-
-}  // namespace
-
 Rings expand_rings(const CornerTable& table, const RingOptions& options) {
     Rings rings;
     rings.edges.reserve(table.vertex_count);
@@ -193,17 +175,17 @@ Rings expand_rings(const CornerTable& table, const RingOptions& options) {
     std::uint64_t random = options.random_seed;
     std::vector<RingEdge> trial, region;
     // With one_per_shell: which triangles belong to a shell that has its ring. Most meshes leave no vertices for
-    // another ring to begin at, so shells are flooded only once that is in question.
-    BitVector in_shell(options.one_per_shell ? table.triangle_count() : 0);
-    std::vector<TriangleId> stack;
-    std::size_t flooded = 0;
+    // another ring to begin at, so shells are walked only once that is in question.
+    std::optional<Swirl> shells;
+    std::size_t swirled = 0;
     for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
         if (!expander.can_seed({t})) continue;
         if (options.one_per_shell) {
-            for (; flooded < rings.first.size(); ++flooded) {
-                flood(table, triangle(rings.edges[rings.first[flooded]].left), in_shell, stack);
+            if (!shells && !rings.first.empty()) shells.emplace(table);
+            for (; swirled < rings.first.size(); ++swirled) {
+                shells->run(rings.edges[rings.first[swirled]].left, [](CornerId) {});
             }
-            if (in_shell.test(t)) continue;
+            if (shells && shells->visited({t})) continue;
         }
         const std::size_t begin = rings.edges.size();
         rings.first.push_back(static_cast<std::uint32_t>(begin));
