@@ -10,7 +10,10 @@
 #include "app/commands.h"
 #include "app/measure.h"
 #include "lrcore/baseline/strips.h"
+#include "lrcore/corner_table/split.h"
 #include "lrcore/lean/lean_stream.h"
+#include "lrcore/lr/compact_lr.h"
+#include "lrcore/rivals/squad.h"
 #ifdef LACEDRING_GPU
 #include "app/bench_gpu.h"
 #include "app/gpu_options.h"
@@ -33,6 +36,8 @@ struct Options {
 #endif
     bool json = false;
 };
+
+constexpr std::uint32_t kHybridPeriod = 32;  // of Figure 8's middle picture
 
 struct Section {
     std::string name;
@@ -77,6 +82,20 @@ int run(const Options& options) {
         construct.candidates.push_back({"lean", whole, {}, {}});
         construct.candidates.push_back(
             {"strips", [&] { make_restart_strip(mesh->indices, mesh->vertex_count); }, {}, {}});
+        // From a corner table of a pseudo-manifold to the tables, ring included.
+        CornerTable split = *table;
+        split_fans(split);
+        const auto make_lr = [&](std::uint32_t k) {
+            return build_lr(split, expand_rings(split, {options.seeds, 1, k, true}));
+        };
+        const auto hybrid = [&] { expand_rings(*table, {options.seeds, 1, kHybridPeriod}); };
+        const auto compact = [&] {
+            if (const auto lr = make_lr(kHybridPeriod)) (void)build_compact_lr(lr->view());
+        };
+        construct.candidates.push_back({"ring_hybrid", hybrid, {}, {}});
+        construct.candidates.push_back({"lr", [&] { (void)make_lr(0); }, {}, {}});
+        construct.candidates.push_back({"lr_compact", compact, {}, {}});
+        construct.candidates.push_back({"squad", [&] { (void)build_squad(split); }, {}, {}});
         run_interleaved(construct.candidates, options.rounds);
 
         Section decode{"decode_cpu", {}};

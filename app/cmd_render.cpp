@@ -22,6 +22,8 @@ struct Options {
     std::string source = "lean";
     std::string path = "compute";
     std::string view = "smooth";
+    RingChoice ring;
+    bool no_warts = false;
     PictureSize size;
     std::uint32_t samples = 3;
     gpu::CameraOptions camera;
@@ -88,7 +90,9 @@ void add_camera(CLI::App& command, gpu::CameraOptions& camera) {
 int run(const Options& options) {
     const Result<Mesh> mesh = load(options.input);
     if (!mesh) return fail(options.input.path, mesh.error());
-    const Result<gpu::Model> model = gpu::make_model(*mesh);
+    const gpu::ModelOptions model_options{ring_options(options.ring, mesh->triangle_count()),
+                                          {.wart_skipping = !options.no_warts}};
+    const Result<gpu::Model> model = gpu::make_model(*mesh, model_options);
     if (!model) return fail(options.input.path, model.error());
     const Result<std::unique_ptr<gpu::Context>> context = gpu::Context::create(options.context);
     if (!context) return fail(options.input.path, context.error());
@@ -159,8 +163,10 @@ void add_render(CLI::App& program, Action& action) {
         ->check(CLI::IsMember({"compute"}))
         ->capture_default_str();
     command->add_option("--view", options->view, "what is shown")
-        ->check(CLI::IsMember({"smooth", "flat", "class", "ring", "wire"}))
+        ->check(CLI::IsMember({"smooth", "flat", "class", "ring", "wire", "offsets"}))
         ->capture_default_str();
+    add_ring_options(*command, options->ring);
+    command->add_flag("--no-warts", options->no_warts, "no wart skipping: the classes as they are before it");
     add_size(*command, options->size);
     command->add_option("--samples", options->samples, "samples a pixel along each side")
         ->check(CLI::Range(1, 8))

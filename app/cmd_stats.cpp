@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
-#include "app/formats.h"
+#include "app/paper_tables.h"
 #include "lrcore/baseline/strips.h"
 
 namespace lr::app {
@@ -19,6 +19,7 @@ struct Options {
     std::string weld;
     RingChoice ring;
     bool paper = false;
+    std::string table = "sizes";
     bool json = false;
 };
 
@@ -62,6 +63,10 @@ Json to_json(const std::string& path, const Mesh& mesh, const FormatSet& set) {
                       {"t2", set.lr.t2},
                       {"irregular", set.lr.t1_irregular + set.lr.t2_irregular},
                       {"isolated", set.lr.isolated}};
+    out["lr_compact_ring"] = {
+        {"t0", set.lr_compact.t0},     {"t0_wart", set.lr_compact.t0_wart},
+        {"t2", set.lr_compact.t2},     {"irregular", set.lr_compact.t1_irregular + set.lr_compact.t2_irregular},
+        {"long", set.lr_compact_long}, {"isolated", set.lr_compact.isolated}};
     for (const auto& [name, reason] : set.absent) out["absent"][name] = reason;
     return out;
 }
@@ -89,25 +94,73 @@ void print(const std::string& path, const Mesh& mesh, const FormatSet& set) {
     fmt::print("\n");
 }
 
+/// Every format, and the rows of size tables. Returns an Exit.
+int add_sizes(const Options& options, const std::string& path, const Mesh& mesh, Json& meshes,
+              std::vector<MeshRow>& rows) {
+    const Result<FormatSet> set = make_formats(mesh, options.ring, options.paper);
+    if (!set) return fail(path, set.error());
+    for (const Format& format : set->formats) {
+        if (format.invalid.empty()) continue;
+        fmt::print(stderr, "lacedring: {}: {}: {}\n", path, format.name, format.invalid);
+        return check_failed;
+    }
+    if (options.json) {
+        meshes.push_back(to_json(path, mesh, *set));
+    } else if (options.table == "sizes") {
+        print(path, mesh, *set);
+    } else {
+        MeshRow& row = rows.emplace_back(MeshRow{path, {}});
+        for (const Column& column : size_table(options.table)) row.values.push_back(column.value(mesh, *set));
+    }
+    return done;
+}
+
+/// What more rings show, as text or into the mesh's JSON. Returns an Exit.
+int add_ring_figures(const Options& options, const std::string& path, const Mesh& mesh, Json* json,
+                     std::vector<SeedRow>& rows) {
+    const RingOptions ring = compact_ring_options(options.ring);
+    if (options.table == "seeds") {
+        const Result<SeedRow> row = figures_by_seeds(path, mesh, ring);
+        if (!row) return fail(path, row.error());
+        if (json != nullptr) (*json)["by_seeds"] = to_json(*row);
+        rows.push_back(*row);
+        return done;
+    }
+    const bool figure8 = options.table == "offsets";
+    const auto periods =
+        figures_by_period(mesh, ring, figure8 ? std::span<const std::uint32_t>(kFigure8Periods) : kPeriods);
+    if (!periods) return fail(path, periods.error());
+    if (json != nullptr) {
+        (*json)["by_period"] = to_json(*periods);
+    } else {
+        (figure8 ? print_offsets : print_periods)(path, mesh, *periods);
+    }
+    return done;
+}
+
 int run(const Options& options) {
     Json meshes = Json::array();
+    std::vector<MeshRow> mesh_rows;
+    std::vector<SeedRow> seed_rows;
+    const bool rings = options.table == "offsets" || options.table == "periods" || options.table == "seeds";
     for (const std::string& path : options.paths) {
         const Result<Mesh> mesh = load({path, options.weld});
         if (!mesh) return fail(path, mesh.error());
-        const Result<FormatSet> set = make_formats(*mesh, options.ring, options.paper);
-        if (!set) return fail(path, set.error());
-        for (const Format& format : set->formats) {
-            if (format.invalid.empty()) continue;
-            fmt::print(stderr, "lacedring: {}: {}: {}\n", path, format.name, format.invalid);
-            return check_failed;
+        if (options.json || !rings) {
+            if (const int exit = add_sizes(options, path, *mesh, meshes, mesh_rows); exit != done) return exit;
         }
-        if (options.json) {
-            meshes.push_back(to_json(path, *mesh, *set));
-        } else {
-            print(path, *mesh, *set);
+        if (rings) {
+            Json* json = options.json ? &meshes.back() : nullptr;
+            if (const int exit = add_ring_figures(options, path, *mesh, json, seed_rows); exit != done) return exit;
         }
     }
-    if (options.json) print_json(Json{{"schema", 1}, {"meshes", std::move(meshes)}});
+    if (options.json) {
+        print_json(Json{{"schema", 1}, {"meshes", std::move(meshes)}});
+    } else if (!mesh_rows.empty()) {
+        print(size_table(options.table), mesh_rows);
+    } else if (!seed_rows.empty()) {
+        print(seed_rows);
+    }
     return done;
 }
 
@@ -122,6 +175,9 @@ void add_stats(CLI::App& program, Action& action) {
     command->add_flag(
         "--paper", options->paper,
         "the paper's procedures alone: ring-expander, and for lr_compact the hybrid with the best k (the default)");
+    command->add_option("--table", options->table, "what is printed; the others than sizes as Markdown")
+        ->check(CLI::IsMember({"sizes", "table1", "lean", "storage", "offsets", "periods", "seeds"}))
+        ->capture_default_str();
     command->add_flag("--json", options->json, "one JSON document on standard output");
     command->callback([options, &action] { action = [options] { return run(*options); }; });
 }

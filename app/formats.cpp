@@ -5,6 +5,7 @@
 #include "lrcore/baseline/strips.h"
 #include "lrcore/corner_table/split.h"
 #include "lrcore/lr/lr_encode.h"
+#include "lrcore/lr/offsets.h"
 #include "lrcore/rivals/corner_table_c.h"
 #include "lrcore/rivals/squad.h"
 #include "lrcore/rivals/winged_edge.h"
@@ -165,7 +166,9 @@ Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool 
     std::vector<std::uint32_t> periods = ring_periods(choice, mesh.triangle_count());
     if (paper && periods.size() > 1) std::erase(periods, 0U);  // the hybrid, not the expander
     if (Result<EncodedLr> compact = encode_compact_lr(*table, compact_ring_options(choice), periods)) {
+        set.lr_compact = compact->statistics;
         const auto stream = validate_compact_lr(compact->words);
+        if (stream) set.lr_compact_long = count_long_tips(stream->view);
         set.formats.push_back(lr_format("lr_compact", std::move(*compact), stream));
     } else {
         set.absent.emplace_back("lr_compact", compact.error().message);

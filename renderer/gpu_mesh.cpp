@@ -125,7 +125,7 @@ Result<GpuMesh> upload_plain(Context& context, Transfer& transfer, const Model& 
     for (std::uint32_t i = 0; i < rings; ++i) rank[model.lean.vertex_order[i]] = i;
     LR_TRY(
         upload_vertices(transfer, mesh, model, identity, [&](std::uint32_t v) { return ring_place(rank[v], rings); }));
-    const std::vector<std::uint8_t> by_slot = slot_classes(lean);
+    const std::vector<std::uint8_t> by_slot = options.offsets ? slot_offset_bits(lean) : slot_classes(lean);
     std::vector<std::uint8_t> classes(mesh.slots, LR_CLASS_NONE);
     for (std::uint32_t slot = 0; slot < by_slot.size(); ++slot) {
         const std::uint32_t t = model.lean.slot_triangle[slot];
@@ -163,7 +163,9 @@ Result<GpuMesh> upload_lean(Context& context, Transfer& transfer, const Model& m
         transfer, mesh, model, [&](std::uint32_t v) { return stream.vertex_order[v]; },
         [&](std::uint32_t v) { return ring_place(v, rings); }));
     LR_TRY(upload_lines(context, transfer, mesh, model, lean, options.lines));
-    if (options.ring) LR_TRY(upload_classes(context, transfer, mesh, slot_classes(lean)));
+    if (options.ring) {
+        LR_TRY(upload_classes(context, transfer, mesh, options.offsets ? slot_offset_bits(lean) : slot_classes(lean)));
+    }
     return mesh;
 }
 

@@ -18,7 +18,8 @@ struct UploadOptions {
     /// Bytes that one storage descriptor may cover: larger buffers are worked on in parts. 0: the device's
     /// maxStorageBufferRange. At least 2048; a test makes it small.
     std::uint64_t max_range = 0;
-    bool ring = false;  ///< triangle classes, and the vertices' places on the rings
+    bool ring = false;     ///< triangle classes, and the vertices' places on the rings
+    bool offsets = false;  ///< significant bits of the triangles' offsets instead of their classes
     enum class Lines { none, ring, edges } lines = Lines::none;  ///< drawn over the surface
 };
 
@@ -38,7 +39,7 @@ struct GpuMesh {
     Buffer commands;       ///< lean: VkDrawIndexedIndirectCommand, written by the device
     Buffer slot_triangle;  ///< lean: the mesh's triangle of each slot
     Buffer vertex_order;   ///< lean: the mesh's vertex of each vertex
-    Buffer classes;        ///< LR_CLASS_*, one byte a slot; only if asked for
+    Buffer classes;        ///< LR_CLASS_*, or bits of offsets, one byte a slot; only if asked for
     Buffer lines;          ///< u32, 2 a line; only if asked for
     std::uint32_t line_indices = 0;
 

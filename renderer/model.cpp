@@ -65,7 +65,7 @@ double mean_edge(const Model& model) {
 
 }  // namespace
 
-Result<Model> make_model(const Mesh& mesh) {
+Result<Model> make_model(const Mesh& mesh, const ModelOptions& options) {
     if (mesh.indices.empty()) return Error{ErrorCode::unsupported, "the mesh has no triangles to draw"};
     Model model;
     model.indices = mesh.indices;
@@ -74,7 +74,7 @@ Result<Model> make_model(const Mesh& mesh) {
     LR_TRY(normalise(model));
     model.mean_edge = mean_edge(model);
     LR_ASSIGN(const CornerTable table, build_corner_table(mesh.indices, mesh.vertex_count));
-    model.lean = encode_lean(table, expand_rings(table));
+    model.lean = encode_lean(table, expand_rings(table, options.ring), options.lean);
     return model;
 }
 

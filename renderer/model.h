@@ -27,8 +27,13 @@ struct Model {
     std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(indices.size() / 3); }
 };
 
+struct ModelOptions {
+    RingOptions ring{};
+    LeanOptions lean{};
+};
+
 /// Normalises, and encodes the lean stream (corner table, ring, stream). Cost: O(V + T).
 /// Errors: unsupported (no triangles, extent zero or past f32), and build_corner_table's.
-Result<Model> make_model(const Mesh& mesh);
+Result<Model> make_model(const Mesh& mesh, const ModelOptions& options = {});
 
 }  // namespace lr::gpu

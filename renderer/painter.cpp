@@ -18,7 +18,7 @@ namespace lr::gpu {
 namespace {
 
 bool has_ring(View view) {
-    return view == View::triangle_class || view == View::ring;
+    return view == View::triangle_class || view == View::ring || view == View::offsets;
 }
 bool has_lines(View view) {
     return has_ring(view) || view == View::wire;
@@ -27,11 +27,12 @@ bool has_lines(View view) {
 }  // namespace
 
 std::optional<View> view_named(std::string_view name) {
-    constexpr std::array<std::pair<std::string_view, View>, 5> kViews{{{"smooth", View::smooth},
+    constexpr std::array<std::pair<std::string_view, View>, 6> kViews{{{"smooth", View::smooth},
                                                                        {"flat", View::flat},
                                                                        {"class", View::triangle_class},
                                                                        {"ring", View::ring},
-                                                                       {"wire", View::wire}}};
+                                                                       {"wire", View::wire},
+                                                                       {"offsets", View::offsets}}};
     for (const auto& [text, view] : kViews) {
         if (text == name) return view;
     }
@@ -41,6 +42,7 @@ std::optional<View> view_named(std::string_view name) {
 UploadOptions upload_options(View view) {
     UploadOptions options;
     options.ring = has_ring(view);
+    options.offsets = view == View::offsets;
     if (options.ring) options.lines = UploadOptions::Lines::ring;
     if (view == View::wire) options.lines = UploadOptions::Lines::edges;
     return options;
@@ -144,8 +146,8 @@ void Painter::set_frame(const Model& model, const Camera& camera) {
         frame.line_colour = {0.07F, 0.08F, 0.10F, static_cast<float>(0.13 + 0.57 * strength)};
         line_width_ = static_cast<float>(0.6 + 0.6 * strength) * static_cast<float>(samples_);
     } else {
-        // In the ring view the line only helps: the colours say the order.
-        const double opacity = view_ == View::ring ? 0.10 + 0.80 * strength : 0.22 + 0.76 * strength;
+        // Colours of the order and of offsets are worth more than the line.
+        const double opacity = view_ == View::triangle_class ? 0.22 + 0.76 * strength : 0.10 + 0.80 * strength;
         const double closer = std::clamp((pixels - 10.0) / 40.0, 0.0, 1.0);
         frame.line_colour = {0.03F, 0.03F, 0.03F, static_cast<float>(opacity)};
         line_width_ = static_cast<float>(0.7 + 1.5 * strength + 1.3 * closer) * static_cast<float>(samples_);

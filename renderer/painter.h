@@ -18,10 +18,11 @@ enum class View : std::uint32_t {
     triangle_class = LR_VIEW_CLASS,  ///< what each triangle is to the ring, and the ring
     ring = LR_VIEW_RING,             ///< the vertices' order along the ring, and the ring
     wire = LR_VIEW_WIRE,             ///< flat, and the triangles' edges
+    offsets = LR_VIEW_OFFSETS,       ///< significant bits of each triangle's offset along the ring, and the ring
 };
 /// What a view needs on the device beside the triangles.
 UploadOptions upload_options(View view);
-/// "smooth", "flat", "class", "ring", "wire"
+/// "smooth", "flat", "class", "ring", "wire", "offsets"
 std::optional<View> view_named(std::string_view name);
 
 /// A mesh ready to be drawn: one descriptor set a draw command.

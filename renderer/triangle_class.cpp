@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "lrcore/lean/lean_format.h"
+#include "lrcore/lr/offsets.h"
 #include "shaders/shared.h"
 
 namespace lr::gpu {
@@ -64,6 +65,22 @@ std::vector<std::uint8_t> slot_classes(const LeanView& lean) {
         const std::uint32_t skipped = next[two ? slot / 2 : slot - lean.rings2];
         const std::uint32_t t2 = two ? 2 * skipped + slot % 2 : skipped + lean.rings2;
         if (out[t2] == LR_CLASS_T2) out[t2] = LR_CLASS_T2_WART;
+    }
+    return out;
+}
+
+std::vector<std::uint8_t> slot_offset_bits(const LeanView& lean) {
+    const std::uint32_t rings = lean.rings2 + lean.rings1;
+    std::vector<std::uint8_t> out(lean.slots(), LR_OFFSET_NONE);
+    for (std::uint32_t slot = 0; slot < lean.slots(); ++slot) {
+        const bool two = slot < 2 * lean.rings2;
+        const std::uint32_t v = two ? slot / 2 : slot - lean.rings2;
+        if (decode_lean_slot(lean, slot).degenerate()) continue;
+        if (slot >= lean.ring_slots()) {
+            out[slot] = LR_OFFSET_T0;
+        } else if (const std::uint32_t tip = lean.payload[slot] & LR_LEAN_TIP_MASK; tip < rings) {
+            out[slot] = static_cast<std::uint8_t>(offset_bits(v, tip, rings));
+        }
     }
     return out;
 }

@@ -12,6 +12,10 @@ namespace lr::gpu {
 /// LR_CLASS_* (shaders/shared.h), one byte a slot. Cost: O(slots). The stream must be valid.
 std::vector<std::uint8_t> slot_classes(const LeanView& lean);
 
+/// Significant bits of each slot's offset along the rings (lrcore/lr/offsets.h), or LR_OFFSET_*. Paper: section 6.1 and
+/// Figure 8. Cost: O(slots). The stream must be valid.
+std::vector<std::uint8_t> slot_offset_bits(const LeanView& lean);
+
 /// Every edge of the triangles once, as pairs (smaller vertex, larger vertex), sorted. Cost: O(T log T), 24 bytes a
 /// triangle.
 std::vector<std::uint32_t> mesh_edges(std::span<const std::uint32_t> indices);

@@ -52,6 +52,7 @@ struct DrawConstants {
 #define LR_VIEW_CLASS 2u
 #define LR_VIEW_RING 3u
 #define LR_VIEW_WIRE 4u
+#define LR_VIEW_OFFSETS 5u
 
 // The picture of triangle numbers: 0 is the background, else the original triangle + 1 and which side of it is seen.
 #define LR_FRONT_FLAG 0x80000000u
@@ -64,6 +65,10 @@ struct DrawConstants {
 #define LR_CLASS_T2 4u       // two ring edges, or three
 #define LR_CLASS_T0_WART 5u  // a T0 that is stored in the redundant copy of a T2
 #define LR_CLASS_T2_WART 6u  // that T2
+
+// In the view of offsets a slot's byte is the significant bits of its offset along the ring, 1 to 31, or one of these.
+#define LR_OFFSET_NONE 0u  // degenerate, or a tip on no ring
+#define LR_OFFSET_T0 255u  // verbatim
 
 #ifdef __cplusplus
 }  // namespace lr::gpu

@@ -16,15 +16,32 @@ layout(location = 2) in vec3 in_ring_colour;
 layout(location = 0) out vec4 out_colour;
 layout(location = 1) out uint out_triangle;
 
-vec3 class_colour() {
+// The byte of this triangle.
+uint slot_class() {
     uint i = uint(gl_PrimitiveID);
-    uint c = (classes[i / 4u] >> (8u * (i % 4u))) & 0xffu;
+    return (classes[i / 4u] >> (8u * (i % 4u))) & 0xffu;
+}
+
+vec3 class_colour() {
+    uint c = slot_class();
     if (c == LR_CLASS_T0) return vec3(0.13, 0.42, 0.10);
     if (c == LR_CLASS_T1_LEFT) return vec3(0.82, 0.70, 0.44);
     if (c == LR_CLASS_T1_RIGHT) return vec3(0.84, 0.31, 0.055);
     if (c == LR_CLASS_T2) return vec3(0.06, 0.20, 0.58);
     if (c == LR_CLASS_T0_WART) return vec3(0.58, 0.03, 0.03);
     return vec3(0.30);
+}
+
+// Yellow over red to violet for 1 to 16 bits and more; T0 green.
+vec3 offset_colour() {
+    uint bits = slot_class();
+    if (bits == LR_OFFSET_T0) return vec3(0.13, 0.42, 0.10);
+    if (bits == LR_OFFSET_NONE) return vec3(0.30);
+    const vec3 stops[4] = vec3[](vec3(0.96, 0.84, 0.36), vec3(0.86, 0.30, 0.07), vec3(0.42, 0.03, 0.16),
+                                 vec3(0.10, 0.02, 0.28));
+    float x = min(float(bits - 1u) / 5.0, 3.0);
+    int i = min(int(x), 2);
+    return mix(stops[i], stops[i + 1], x - float(i));
 }
 
 float srgb(float x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055; }
@@ -54,6 +71,9 @@ void main() {
     float gloss = 1.0;
     if (view == LR_VIEW_CLASS) {
         albedo = class_colour();
+        gloss = 0.25;
+    } else if (view == LR_VIEW_OFFSETS) {
+        albedo = offset_colour();
         gloss = 0.25;
     } else if (view == LR_VIEW_RING) {
         albedo = in_ring_colour;

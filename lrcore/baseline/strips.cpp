@@ -40,10 +40,17 @@ std::vector<std::uint32_t> unstrip(std::span<const std::uint32_t> strip, bool re
     return indices;
 }
 
-CacheFigures analyze_fifo32(std::span<const std::uint32_t> indices, std::size_t vertex_count) {
+CacheFigures analyze_fifo(std::span<const std::uint32_t> indices, std::size_t vertex_count, std::uint32_t cache_size) {
     if (indices.empty()) return {};
-    const auto figures = meshopt_analyzeVertexCache(indices.data(), indices.size(), vertex_count, 32, 0, 0);
-    return {static_cast<double>(figures.acmr), static_cast<double>(figures.atvr)};
+    const auto figures = meshopt_analyzeVertexCache(indices.data(), indices.size(), vertex_count, cache_size, 0, 0);
+    std::size_t triangles = 0;
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+        const std::uint32_t a = indices[i], b = indices[i + 1], c = indices[i + 2];
+        triangles += a != b && b != c && c != a ? 1 : 0;
+    }
+    if (triangles == 0) return {};
+    return {static_cast<double>(figures.vertices_transformed) / static_cast<double>(triangles),
+            static_cast<double>(figures.atvr)};
 }
 
 }  // namespace lr

@@ -23,11 +23,15 @@ std::vector<std::uint32_t> make_restart_strip(std::span<const std::uint32_t> ind
 /// The triangles of a strip list as an index list (meshopt_unstripify). With `restart`, kStripRestart separates strips.
 std::vector<std::uint32_t> unstrip(std::span<const std::uint32_t> strip, bool restart);
 
-/// Transformed vertices per triangle and per vertex, for a FIFO cache of 32 (meshopt_analyzeVertexCache).
+/// Transformed vertices per triangle and per vertex, for a FIFO cache (meshopt_analyzeVertexCache). Degenerate
+/// triangles pass through the cache, but are not triangles to divide by.
 struct CacheFigures {
     double acmr = 0;
     double atvr = 0;
 };
-CacheFigures analyze_fifo32(std::span<const std::uint32_t> indices, std::size_t vertex_count);
+CacheFigures analyze_fifo(std::span<const std::uint32_t> indices, std::size_t vertex_count, std::uint32_t cache_size);
+inline CacheFigures analyze_fifo32(std::span<const std::uint32_t> indices, std::size_t vertex_count) {
+    return analyze_fifo(indices, vertex_count, 32);
+}
 
 }  // namespace lr

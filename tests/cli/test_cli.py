@@ -279,6 +279,8 @@ class Json(CliTest):
                 self.assertGreater(entry["seconds"], 0, name)
                 self.assertGreater(entry["mtri_per_s"], 0, name)
         self.assertTrue(mesh["peak_bytes"])
+        self.assertEqual(set(mesh["construct"]), {"corner_table", "ring", "lean_encode", "lean", "strips", "ring_hybrid",
+                                                  "lr", "lr_compact", "squad"})
 
 
 class Pictures(CliTest):

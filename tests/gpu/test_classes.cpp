@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "lrcore/lr/offsets.h"
 #include "renderer/triangle_class.h"
 #include "shaders/shared.h"
 #include "tests/gpu/gpu_test.h"
@@ -26,6 +27,28 @@ TEST_CASE("triangle classes add up to the encoder's statistics") {
         CHECK(count[LR_CLASS_T2] + count[LR_CLASS_T2_WART] == s.t2);
         CHECK(count[LR_CLASS_T2_WART] == s.t0_wart);
         CHECK(count[LR_CLASS_NONE] == view->slots() - view->triangles);
+    }
+}
+
+TEST_CASE("offsets of the picture are those of the ring's tips") {
+    for (const std::uint32_t k : {0U, 32U}) {
+        CAPTURE(k);
+        const Mesh mesh = generated("blob", 5000, 4);
+        const Result<gpu::Model> model = gpu::make_model(mesh, {.ring = {1, 1, k}});
+        REQUIRE(model);
+        const Result<LeanView> view = view_lean(model->lean.words);
+        REQUIRE(view);
+        const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
+        REQUIRE(table);
+        const Result<LrTable> lr = build_lr(*table, expand_rings(*table, {1, 1, k, true}));
+        REQUIRE(lr);
+        REQUIRE(lr->ring_vertices == view->rings2);  // one ring: the lean one is the same, turned to begin elsewhere
+        const OffsetCounts expected = count_offsets(lr->view());
+        std::array<std::uint32_t, 256> count{};
+        for (const std::uint8_t bits : gpu::slot_offset_bits(*view)) ++count[bits];
+        CHECK(count[LR_OFFSET_T0] == expected.t0);
+        CHECK(count[LR_OFFSET_NONE] == view->slots() - view->triangles + expected.off_ring);
+        for (std::size_t b = 1; b < expected.bits.size(); ++b) CHECK(count[b] == expected.bits[b]);
     }
 }
 

@@ -1,0 +1,138 @@
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "lrcore/base/bits.h"
+#include "lrcore/corner_table/split.h"
+#include "lrcore/lean/lean_stream.h"
+#include "lrcore/lr/lr_table.h"
+#include "lrcore/mesh/read.h"
+#include "lrcore/mesh/weld.h"
+#include "lrcore/ring/optimize.h"
+#include "lrcore/ring/ring_walk.h"
+#include "tests/support/meshes.h"
+
+using namespace lr;
+
+namespace {
+
+/// The cost, counted anew from the rings.
+std::int64_t cost_of(const CornerTable& table, const Rings& rings, const RingCost& cost) {
+    BitVector rung(table.triangle_count()), wart(table.triangle_count()), on_ring(table.vertex_count);
+    for (const RingEdge& edge : rings.edges) {
+        on_ring.set(edge.start.value);
+        rung.set(triangle(edge.left).value);
+        if (!edge.right.is_null()) rung.set(triangle(edge.right).value);
+    }
+    for (std::size_t r = 0; r < rings.count(); ++r) {
+        const RingWalk walk(rings.ring(r));
+        for (std::uint32_t side = 0; side < 2; ++side) {
+            for (std::size_t i = 0; i < walk.size(); ++i) {
+                if (!walk.repeats(side, i) || walk.is_t3(side)) continue;
+                const CornerId y = walk.across_t2(table, side, i);
+                if (!y.is_null()) wart.set(triangle(y).value);
+            }
+        }
+    }
+    std::int64_t sum = 0;
+    for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
+        if (!rung.test(t) && !table.degenerate({t})) sum += wart.test(t) ? cost.t0_wart : cost.t0;
+    }
+    for (std::uint32_t v = 0; v < table.vertex_count; ++v) sum += on_ring.test(v) ? 0 : cost.isolated;
+    return sum;
+}
+
+bool same(const Rings& a, const Rings& b) {
+    const auto equal = [](const RingEdge& x, const RingEdge& y) { return x.left == y.left; };
+    return a.first == b.first && std::equal(a.edges.begin(), a.edges.end(), b.edges.begin(), b.edges.end(), equal);
+}
+
+void check_lean(const Mesh& mesh, const CornerTable& table, const Rings& rings) {
+    const LeanStream stream = encode_lean(table, rings);
+    const Result<LeanView> view = validate_lean(stream.words);
+    REQUIRE(view);
+    std::vector<std::uint32_t> decoded(std::size_t{3} * view->slots());
+    decode_lean(*view, decoded);
+    for (std::uint32_t& v : decoded) v = stream.vertex_order[v];
+    CHECK(test::oriented_triangles(decoded) == test::oriented_triangles(mesh.indices));
+}
+
+void check(const Mesh& mesh, const RingOptions& ring_options, const OptimizeOptions& options) {
+    Result<CornerTable> made = build_corner_table(mesh.indices, mesh.vertex_count);
+    REQUIRE(made);
+    CornerTable& table = *made;
+    if (ring_options.one_per_shell) split_fans(table);
+    const Rings before = expand_rings(table, ring_options);
+    const Rings after = optimize_rings(table, before, options);
+    CHECK(validate(table, after) == "");
+    CHECK(after.count() == before.count());
+    CHECK(cost_of(table, after, options.cost) <= cost_of(table, before, options.cost));
+    CHECK(same(after, optimize_rings(table, before, options)));
+    if (ring_options.one_per_shell) {
+        CHECK(build_lr(table, after));
+    } else {
+        check_lean(mesh, table, after);
+    }
+}
+
+OptimizeOptions options_of(const RingCost& cost, std::uint32_t passes, std::uint64_t seed, bool anneal = true) {
+    OptimizeOptions options;
+    options.cost = cost;
+    options.passes = passes;
+    options.random_seed = seed;
+    options.anneal = anneal;
+    return options;
+}
+
+constexpr RingCost kCosts[] = {lean_ring_cost, lr_ring_cost, packed_ring_cost, {1, 0, -5}, {2, 2, 0}};
+
+}  // namespace
+
+TEST_CASE("optimised rings of named meshes") {
+    for (const auto& [name, mesh] : test::named_meshes()) {
+        CAPTURE(name);
+        for (const RingCost& cost : kCosts) check(mesh, {}, options_of(cost, 12, 1));
+        check(mesh, {}, options_of(lean_ring_cost, 5, 2, false));
+        RingOptions per_shell;
+        per_shell.one_per_shell = true;
+        check(mesh, per_shell, options_of(lr_ring_cost, 12, 3));
+    }
+}
+
+TEST_CASE("optimised rings of random soups") {
+    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+        CAPTURE(seed);
+        const RingCost& cost = kCosts[seed % std::size(kCosts)];
+        const auto n = static_cast<std::uint32_t>(seed);
+        RingOptions ring;
+        ring.k = n % 4;
+        ring.one_per_shell = seed % 3 == 0;
+        check(test::random_soup(4 + n % 23, 1 + n % 71, seed), ring, options_of(cost, 20, seed));
+        check(test::random_gluing(5 + n % 40, 120, seed), ring, options_of(cost, 20, seed));
+    }
+}
+
+TEST_CASE("optimising stops when told to, and never in a worse state") {
+    const Mesh mesh = test::random_gluing(300, 600, 5);
+    const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
+    REQUIRE(table);
+    const Rings before = expand_rings(*table);
+    CHECK(same(optimize_rings(*table, before, options_of(lean_ring_cost, 0, 1)), before));
+    std::int64_t last = cost_of(*table, before, lean_ring_cost);
+    for (std::uint32_t stop = 1; stop <= 20; ++stop) {
+        std::uint32_t calls = 0;
+        OptimizeOptions options = options_of(lean_ring_cost, 20, 1);
+        options.progress = [&](std::uint32_t done) {
+            CHECK(done == ++calls);
+            return done < stop;
+        };
+        const Rings after = optimize_rings(*table, before, options);
+        CHECK(calls == stop);
+        CHECK(validate(*table, after) == "");
+        const std::int64_t cost = cost_of(*table, after, lean_ring_cost);
+        CHECK(cost <= last);
+        last = cost;
+    }
+    CHECK(last < cost_of(*table, before, lean_ring_cost));
+}
