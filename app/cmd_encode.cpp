@@ -8,6 +8,7 @@
 #include "lrcore/file/lr_file.h"
 #include "lrcore/lean/lean_stream.h"
 #include "lrcore/lr/lr_encode.h"
+#include "lrcore/packed/packed_stream.h"
 
 namespace lr::app {
 namespace {
@@ -27,6 +28,11 @@ Result<LrFile> encode(const Options& options, const Mesh& mesh, CornerTable tabl
         LeanStream lean = encode_lean(table, expand_rings(table, ring), {.wart_skipping = !options.no_warts});
         return make_lr_file(mesh, Connectivity::lean, std::move(lean.words), std::move(lean.vertex_order),
                             std::move(lean.slot_triangle), options.keep_order);
+    }
+    if (options.format == "packed") {
+        PackedStream packed = encode_packed(table, expand_rings(table, ring));
+        return make_lr_file(mesh, Connectivity::packed, std::move(packed.words), std::move(packed.vertex_order),
+                            std::move(packed.triangle_order), options.keep_order);
     }
     const bool compact = options.format == "lr-compact";
     Result<EncodedLr> lr = compact ? encode_compact_lr(std::move(table), compact_ring_options(options.ring),
@@ -65,7 +71,7 @@ void add_encode(CLI::App& program, Action& action) {
     command->add_option("MESH", options->input.path, "mesh file")->required();
     command->add_option("-o,--output", options->output, "the .lr file")->required();
     command->add_option("--format", options->format, "stream format")
-        ->check(CLI::IsMember({"lean", "lr", "lr-compact"}))
+        ->check(CLI::IsMember({"lean", "packed", "lr", "lr-compact"}))
         ->capture_default_str();
     add_weld(*command, options->input.weld);
     add_ring_options(*command, options->ring);

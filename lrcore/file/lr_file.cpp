@@ -15,6 +15,7 @@
 #include "lrcore/base/file.h"
 #include "lrcore/lean/lean_stream.h"
 #include "lrcore/lr/lr_stream.h"
+#include "lrcore/packed/packed_stream.h"
 
 namespace lr {
 namespace {
@@ -24,7 +25,15 @@ static_assert(std::endian::native == std::endian::little, ".lr files are little-
 constexpr std::uint32_t kMagic = 0x4c46524c;  // "LRFL"
 constexpr std::uint32_t kVersion = 1;
 
-enum Kind : std::uint32_t { kLean = 1, kAttribute = 2, kVertexOrder = 3, kTriangleOrder = 4, kLr = 5, kLrCompact = 6 };
+enum Kind : std::uint32_t {
+    kLean = 1,
+    kAttribute = 2,
+    kVertexOrder = 3,
+    kTriangleOrder = 4,
+    kLr = 5,
+    kLrCompact = 6,
+    kPacked = 7
+};
 
 struct FileHeader {
     std::uint32_t magic, version, sections, vertices, input_triangles, reserved;
@@ -72,6 +81,14 @@ Result<Decoded> decode(const LrFile& file, bool untrusted) {
     if (file.format == Connectivity::lr) return from_tables(untrusted ? validate_lr(words) : view_lr(words));
     if (file.format == Connectivity::lr_compact) {
         return from_tables(untrusted ? validate_compact_lr(words) : view_compact_lr(words));
+    }
+    if (file.format == Connectivity::packed) {
+        const Result<PackedView> view = untrusted ? validate_packed(words) : view_packed(words);
+        if (!view) return view.error();
+        out.vertices = view->vertices;
+        out.indices.resize(std::size_t{3} * view->triangles);
+        decode_packed(*view, out.indices);
+        return out;
     }
     const Result<LeanView> view = untrusted ? validate_lean(words) : view_lean(words);
     if (!view) return view.error();
@@ -151,7 +168,8 @@ class Reader {
         switch (section.kind) {
             case kLean:
             case kLr:
-            case kLrCompact: file_.format = Connectivity{section.kind}; return read_words(contents, file_.words);
+            case kLrCompact:
+            case kPacked: file_.format = Connectivity{section.kind}; return read_words(contents, file_.words);
             case kVertexOrder: return read_words(contents, file_.vertex_order);
             case kTriangleOrder: return read_words(contents, file_.triangle_order);
             case kAttribute: return read_attribute(section, contents);
@@ -337,7 +355,13 @@ Result<ConnectivityWords> connectivity_in(std::span<const std::byte> bytes) {
     bool found = false;
     const Result<FileHeader> header = visit_sections(
         bytes, [&](const FileHeader&, const Section& section, std::span<const std::byte> contents) -> std::string {
-            if (section.kind != kLean && section.kind != kLr && section.kind != kLrCompact) return {};
+            switch (section.kind) {
+                case kLean:
+                case kLr:
+                case kLrCompact:
+                case kPacked: break;
+                default: return {};
+            }
             if (found) return "occurs twice";
             if (contents.size() % 4 != 0) return "no whole number of words";
             found = true;

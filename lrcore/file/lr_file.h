@@ -1,5 +1,5 @@
 #pragma once
-// The .lr file: a mesh's connectivity as a lean stream or as LR tables, the vertex attributes in ring order and, on
+// The .lr file: a mesh's connectivity as a lean or packed stream or as LR tables, the vertex attributes in ring order and, on
 // request, the way back to the input's order.
 // docs/lr-file.md has the format to the byte.
 
@@ -15,13 +15,13 @@
 namespace lr {
 
 /// What a file's connectivity is. The values are the section kinds.
-enum class Connectivity : std::uint32_t { lean = 1, lr = 5, lr_compact = 6 };
+enum class Connectivity : std::uint32_t { lean = 1, lr = 5, lr_compact = 6, packed = 7 };
 
 struct LrFile {
     std::uint32_t vertex_count = 0;     ///< of the connectivity: with LR tables, copies of non-manifold vertices included
     std::uint32_t input_triangles = 0;  ///< of the mesh it was made from, degenerate ones included
     Connectivity format = Connectivity::lean;
-    std::vector<std::uint32_t> words;   ///< the connectivity, its own header included (lean_format.h, lr_stream.h)
+    std::vector<std::uint32_t> words;   ///< the connectivity, its own header included (lean_format.h, lr_stream.h, packed_format.h)
     std::vector<Attribute> attributes;  ///< in ring order, one value for each of vertex_count
     std::vector<std::uint32_t> vertex_order;    ///< vertex_order[new] = old; empty unless kept
     std::vector<std::uint32_t> triangle_order;  ///< triangle_order[i] = input triangle of the i-th decoded; empty unless kept
@@ -47,7 +47,7 @@ Result<LrFile> read_lr(const std::filesystem::path& path);
 bool is_lr(const std::filesystem::path& path);
 
 /// The connectivity's words where they lie in a file's bytes (memory-mapped, at an address that is a multiple of 8), for
-/// view_lean, view_lr or view_compact_lr. Checks the structure of the file, not the words: validate them, or trust them.
+/// view_lean, view_packed, view_lr or view_compact_lr. Checks the structure of the file, not the words: validate them, or trust them.
 /// Errors: malformed. Untrusted input: safe. Cost: O(1) in the size of the mesh.
 struct ConnectivityWords {
     Connectivity format;

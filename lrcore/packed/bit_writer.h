@@ -1,0 +1,61 @@
+#pragma once
+// Bits, the first one lowest, into bytes.
+
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+namespace lr {
+
+class BitWriter {
+  public:
+    /// The lowest `count` (at most 32) bits of `value`.
+    void put(std::uint32_t value, std::uint32_t count) {
+        if (count == 0) return;
+        window_ |= static_cast<std::uint64_t>(value & (UINT32_MAX >> (32 - count))) << fill_;
+        fill_ += count;
+        bits_ += count;
+        for (; fill_ >= 8; fill_ -= 8, window_ >>= 8) bytes_.push_back(static_cast<std::uint8_t>(window_));
+    }
+    /// So many ones, and a zero.
+    void put_unary(std::uint32_t ones) {
+        for (; ones >= 16; ones -= 16) put(0xffff, 16);
+        put((1U << ones) - 1, ones + 1);
+    }
+    /// Golomb-Rice: value >> low in ones, then the low bits.
+    void put_rice(std::uint32_t value, std::uint32_t low) {
+        put_unary(value >> low);
+        put(value, low);
+    }
+    /// Exp-Golomb of an order.
+    void put_golomb(std::uint32_t value, std::uint32_t order) {
+        const std::uint32_t x = value + (1U << order);
+        const auto width = static_cast<std::uint32_t>(std::bit_width(x));
+        put_unary(width - 1 - order);
+        put(x, width - 1);
+    }
+    static std::uint32_t golomb_bits(std::uint32_t value, std::uint32_t order) {
+        return 2 * static_cast<std::uint32_t>(std::bit_width(value + (1U << order))) - 1 - order;
+    }
+
+    std::size_t bits() const { return bits_; }
+    /// All bytes, the last one filled up with ones.
+    std::vector<std::uint8_t>& finish() {
+        if (fill_ > 0) put(0xff, 8 - fill_);
+        return bytes_;
+    }
+    void clear() {
+        bytes_.clear();
+        window_ = 0;
+        fill_ = 0;
+        bits_ = 0;
+    }
+
+  private:
+    std::vector<std::uint8_t> bytes_;
+    std::uint64_t window_ = 0;
+    std::uint32_t fill_ = 0;
+    std::size_t bits_ = 0;
+};
+
+}  // namespace lr

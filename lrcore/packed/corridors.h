@@ -1,0 +1,35 @@
+#pragma once
+// The order in which the packed stream visits triangles: the polygons on either side of each ring, depth first.
+
+#include <cstdint>
+#include <vector>
+
+#include "lrcore/corner_table/corner_table.h"
+#include "lrcore/ring/ring.h"
+
+namespace lr {
+
+/// One triangle visited: entered across the edge (a, b) that `corner` faces. Seen from there its other edges are (a, x)
+/// and (x, b), x being the corner's vertex.
+struct CorridorStep {
+    enum Flag : std::uint8_t {
+        kRight = 1,   ///< on the right of its ring: a is the vertex of previous(corner), else of next(corner)
+        kEnterA = 2,  ///< what lies across (a, x) is visited from here
+        kEnterB = 4,  ///< what lies across (x, b)
+        kFirstA = 8,  ///< of both, (a, x) at once and (x, b) after all that lies behind; else the other way round
+    };
+};
+
+struct Corridors {
+    std::vector<std::uint32_t> vertex_order;  ///< vertex_order[new] = old; ring vertices first, in ring order
+    std::vector<CornerId> corners;            ///< of each step
+    std::vector<std::uint8_t> flags;          ///< of each step
+    std::uint32_t ring_vertices = 0;
+    std::uint32_t splits = 0;  ///< steps with both kEnterA and kEnterB
+};
+
+/// Visits every triangle of the table that is not degenerate, once.
+/// Cost: O(T) time; 5 bytes a triangle and 4 a vertex for the result; while it runs 4 bits a triangle, 4 bytes a vertex.
+Corridors walk_corridors(const CornerTable& table, const Rings& rings);
+
+}  // namespace lr

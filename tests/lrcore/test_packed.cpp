@@ -1,0 +1,191 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+
+#include "lrcore/mesh/read.h"
+#include "lrcore/mesh/weld.h"
+#include "lrcore/packed/packed_format.h"
+#include "lrcore/packed/packed_stream.h"
+#include "lrcore/packed/record.h"
+#include "tests/support/meshes.h"
+
+using namespace lr;
+
+namespace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+Triangle leading_smallest(Triangle t) {
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    return t;
+}
+
+/// Encodes and checks everything there is to check.
+PackedStream check(const Mesh& mesh, const RingOptions& ring) {
+    const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
+    REQUIRE(table);
+    PackedStream stream = encode_packed(*table, expand_rings(*table, ring));
+
+    // The stream alone, in a buffer of exactly its size, so that a sanitizer sees any read beyond it.
+    const auto exact = std::make_unique<std::uint32_t[]>(stream.words.size());
+    std::copy(stream.words.begin(), stream.words.end(), exact.get());
+    const Result<PackedView> view = validate_packed(std::span<const std::uint32_t>(exact.get(), stream.words.size()));
+    REQUIRE_MESSAGE(view, view.error().message);
+    CHECK(view->triangles == table->triangle_count() - table->topology.degenerate);
+    CHECK(view->bytes() <= std::size_t{12} * view->triangles + 72);  // never above a plain list and a fixed header
+
+    const std::size_t size = std::size_t{3} * view->triangles;
+    const auto indices = std::make_unique<std::uint32_t[]>(size);
+    const std::span<std::uint32_t> decoded(indices.get(), size);
+    decode_packed(*view, decoded);
+    REQUIRE(stream.triangle_order.size() == view->triangles);
+    REQUIRE(stream.vertex_order.size() == mesh.vertex_count);
+    std::vector<std::uint32_t> sorted = stream.vertex_order;
+    std::sort(sorted.begin(), sorted.end());
+    for (std::uint32_t v = 0; v < sorted.size(); ++v) REQUIRE(sorted[v] == v);
+    for (std::uint32_t i = 0; i < view->triangles; ++i) {
+        const PackedTriangle one = decode_packed_triangle(*view, i);
+        Triangle got{}, want{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            REQUIRE(one.v[k] == decoded[std::size_t{3} * i + k]);
+            got[k] = stream.vertex_order[one.v[k]];
+            want[k] = mesh.indices[std::size_t{3} * stream.triangle_order[i] + k];
+        }
+        REQUIRE(leading_smallest(got) == leading_smallest(want));
+    }
+    std::vector<std::uint32_t> threaded(size);
+    decode_packed(*view, threaded, 3);
+    CHECK(std::equal(threaded.begin(), threaded.end(), decoded.begin()));
+    for (std::uint32_t block = 0; block < view->blocks(); ++block) {
+        const std::size_t first = std::size_t{3} * LR_PACKED_BLOCK * block;
+        const auto part = std::make_unique<std::uint32_t[]>(std::min<std::size_t>(3 * LR_PACKED_BLOCK, size - first));
+        decode_packed_block(*view, block, {part.get(), std::min<std::size_t>(3 * LR_PACKED_BLOCK, size - first)});
+        CHECK(std::equal(part.get(), part.get() + std::min<std::size_t>(3 * LR_PACKED_BLOCK, size - first),
+                         decoded.begin() + static_cast<std::ptrdiff_t>(first)));
+    }
+    for (std::uint32_t& v : threaded) v = stream.vertex_order[v];
+    CHECK(test::oriented_triangles(threaded) == test::oriented_triangles(mesh.indices));
+    return stream;
+}
+
+/// Decodes every triangle from a copy of the stream in which all is poison but what its block needs.
+void check_random_access(const PackedStream& stream) {
+    const Result<PackedView> view = view_packed(stream.words);
+    REQUIRE(view);
+    std::vector<std::uint32_t> indices(std::size_t{3} * view->triangles);
+    decode_packed(*view, indices);
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(stream.words.data());
+    for (std::uint32_t block = 0; block < view->blocks(); ++block) {
+        std::vector<std::uint32_t> poisoned(stream.words.size(), 0xa5c3f10fU);
+        const auto keep = [&](std::size_t first, std::size_t count) {
+            count = std::min(count, stream.words.size() - first);
+            std::copy_n(stream.words.begin() + static_cast<std::ptrdiff_t>(first), count,
+                        poisoned.begin() + static_cast<std::ptrdiff_t>(first));
+        };
+        keep(0, LR_PACKED_HEADER_WORDS);
+        keep(LR_PACKED_HEADER_WORDS + std::size_t{block} * LR_PACKED_BLOCK_WORDS, LR_PACKED_BLOCK_WORDS);
+        const std::size_t group = view->directory_word() + std::size_t{block / LR_PACKED_GROUP} * LR_PACKED_GROUP_WORDS;
+        keep(group, LR_PACKED_GROUP_WORDS);
+        const PackedRecord record = find_record(*view, block * LR_PACKED_BLOCK);
+        const std::uint32_t length =
+            stream.words[group + 1 + block % LR_PACKED_GROUP / 4] >> (8 * (block % 4)) & 0xff;
+        const bool parted = length > LR_PACKED_MAX_RECORD && length < LR_PACKED_PLAIN;
+        const auto begin = static_cast<std::size_t>(record.record - bytes) - (parted ? LR_PACKED_PARTS : 0);
+        const std::size_t size =
+            block_bytes(length, std::min(view->triangles - block * LR_PACKED_BLOCK, LR_PACKED_BLOCK), view->vertex_bits);
+        std::copy_n(bytes + begin, size, reinterpret_cast<std::uint8_t*>(poisoned.data()) + begin);
+        // What a triangle reads: turns, directory, lengths of parts, record with the bytes loaded behind it.
+        if (length <= LR_PACKED_MAX_RECORD) CHECK(8 + 5 + (record.length + 3 + 8 + 3) / 4 <= 64);
+
+        const Result<PackedView> far = view_packed(poisoned);
+        REQUIRE(far);
+        for (std::uint32_t t = block * LR_PACKED_BLOCK; t < std::min((block + 1) * LR_PACKED_BLOCK, view->triangles); ++t) {
+            const PackedTriangle got = decode_packed_triangle(*far, t);
+            for (std::size_t k = 0; k < 3; ++k) REQUIRE(got.v[k] == indices[std::size_t{3} * t + k]);
+        }
+    }
+}
+
+}  // namespace
+
+TEST_CASE("packed streams of named meshes") {
+    for (const auto& [name, mesh] : test::named_meshes()) {
+        CAPTURE(name);
+        check_random_access(check(mesh, {}));
+        check(mesh, {.seeds = 3, .random_seed = 2, .k = 7});
+    }
+}
+
+TEST_CASE("packed streams of random soups") {
+    std::uint32_t parted = 0, plain = 0;
+    for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+        CAPTURE(seed);
+        const auto n = static_cast<std::uint32_t>(seed);
+        const PackedStream soup = check(test::random_soup(4 + n % 29, 1 + n % 83, seed), {});
+        const PackedStream glued = check(test::random_gluing(10 + n % 50, 150 + 10 * (n % 30), seed), {.k = n % 3});
+        check_random_access(glued);
+        const PackedStream dense = check(test::random_soup(300, 300, seed, false), {});
+        parted += soup.statistics.parted_blocks + glued.statistics.parted_blocks + dense.statistics.parted_blocks;
+        plain += soup.statistics.plain_blocks + glued.statistics.plain_blocks + dense.statistics.plain_blocks;
+    }
+    CHECK(parted > 10);  // both kinds of crowded blocks occur
+    CHECK(plain > 10);
+}
+
+TEST_CASE("packed streams of real meshes, LACEDRING_MESHES") {
+    const char* folder = std::getenv("LACEDRING_MESHES");
+    if (folder == nullptr) return;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        const Result<Mesh> mesh = read_mesh(entry.path());
+        if (!mesh) continue;  // not a mesh
+        CAPTURE(entry.path().filename().string());
+        for (const Weld mode : {Weld::none, Weld::position}) check_random_access(check(weld(*mesh, mode), {}));
+    }
+}
+
+TEST_CASE("damaged packed streams are refused or harmless") {
+    const std::uint64_t seed = 20261124;
+    INFO("seed ", seed);
+    std::uint64_t state = seed;
+    const auto random = [&](std::uint32_t below) {
+        state = state * 6364136223846793005U + 1442695040888963407U;
+        return static_cast<std::uint32_t>((state >> 33) % below);
+    };
+    std::size_t accepted = 0, refused = 0;
+    for (std::uint64_t shape = 1; shape <= 30; ++shape) {
+        const Mesh mesh = test::random_gluing(60, 80 + 30 * static_cast<std::uint32_t>(shape), shape);
+        const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
+        REQUIRE(table);
+        const std::vector<std::uint32_t> good = encode_packed(*table, expand_rings(*table)).words;
+        for (std::size_t size = 0; size < good.size(); ++size) CHECK_FALSE(validate_packed(std::span(good).first(size)));
+        std::vector<std::uint32_t> longer = good;
+        longer.push_back(0);
+        CHECK_FALSE(validate_packed(longer));
+        for (int trial = 0; trial < 1000; ++trial) {
+            std::vector<std::uint32_t> bad = good;
+            for (std::uint32_t k = 0; k <= random(3); ++k) {
+                std::uint32_t& word = bad[random(static_cast<std::uint32_t>(bad.size()))];
+                word = random(3) != 0 ? word ^ 1U << random(32) : static_cast<std::uint32_t>(state);
+            }
+            if (bad == good) continue;
+            CHECK_FALSE(validate_packed(bad));  // the checksum
+            bad[LR_PACKED_WORD_CHECKSUM] = packed_checksum(bad);
+            const auto exact = std::make_unique<std::uint32_t[]>(bad.size());
+            std::copy(bad.begin(), bad.end(), exact.get());
+            const Result<PackedView> view = validate_packed(std::span<const std::uint32_t>(exact.get(), bad.size()));
+            if (!view) {
+                ++refused;
+                continue;
+            }
+            ++accepted;  // another mesh, then: whatever it is, decoding stays in bounds
+            std::vector<std::uint32_t> indices(std::size_t{3} * view->triangles);
+            decode_packed(*view, indices);
+            for (const std::uint32_t v : indices) CHECK(v < view->vertices);
+        }
+    }
+    CHECK(accepted > 100);
+    CHECK(refused > 100);
+}
