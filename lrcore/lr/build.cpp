@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "lrcore/base/bits.h"
 #include "lrcore/lr/lr_table.h"
@@ -14,72 +15,84 @@
 namespace lr {
 namespace {
 
-constexpr std::uint32_t kAhead = 24;  // slots for which memory is fetched before their turn
+constexpr std::uint32_t kAhead = 24;  // elements for which memory is fetched before their turn
 
 class Builder {
   public:
     Builder(const CornerTable& table, const Rings& rings, const LrOptions& options)
-        : table_(table), rings_(rings), options_(options), rung_(table.triangle_count()) {}
+        : table_(table),
+          rings_(rings),
+          options_(options),
+          rung_(table.triangle_count()),
+          number_(table.vertex_count, UINT32_MAX),
+          place_(std::make_unique_for_overwrite<std::uint32_t[]>(table.triangle_count())) {}
 
     LrTable build(LrMap* map) {
         out_.vertices = table_.vertex_count;
         out_.ring_vertices = static_cast<std::uint32_t>(rings_.edges.size());
-        number_.assign(table_.vertex_count, UINT32_MAX);
-        number_of_triangle_.assign(table_.triangle_count(), UINT32_MAX);
-        tip_corner_.assign(2 * rings_.edges.size(), null_corner);
         out_.lr.resize(2 * rings_.edges.size());
-        for (const RingEdge& edge : rings_.edges) {
-            rung_.set(triangle(edge.left).value);
-            if (!edge.right.is_null()) rung_.set(triangle(edge.right).value);
-        }
+        first_edge_.reserve(rings_.count());
         for (std::size_t r = 0; r < rings_.count(); ++r) place_ring(rings_.ring(r), rings_.first[r]);
-        out_.statistics.t0_wart = static_cast<std::uint32_t>(wart_slots_.size());
+        out_.statistics.t0_wart = static_cast<std::uint32_t>(warts_.size());
         number_t0();
         number_isolated();
-        // Until now words hold the corner table's vertices.
+        // Until here words hold the corner table's vertices.
         for (std::size_t i = 0; i < out_.lr.size(); ++i) {
             if (i + kAhead < out_.lr.size()) __builtin_prefetch(number_.data() + (out_.lr[i + kAhead] & word::kTip));
             std::uint32_t& w = out_.lr[i];
             if ((w & word::kKind) != word::kBorder) w = (w & ~word::kTip) | number_[w & word::kTip];
         }
         fill_t0();
-        find_irregular();
+        mark_irregular();
+        fill_irregular();
         if (map != nullptr) fill(*map);
         return std::move(out_);
     }
 
   private:
+    /// An edge with the first copy of a T2 beside it, and the corner of the T0 that takes that slot, or null.
+    struct DeadEnd {
+        std::uint32_t edge;
+        CornerId wart;
+        VertexId tip;  // that corner's vertex
+    };
+    /// A slot and its triangle's tip corner in the corner table.
+    struct Slot {
+        std::uint32_t slot;
+        CornerId tip;
+    };
+
     /// Sets the slots of one ring, whose vertices are numbered from `base`. The ring is turned so that its last edge
     /// has the first copy of a T2 on its left, which no wart takes: that slot holds the ring's first vertex.
     void place_ring(std::span<const RingEdge> ring, std::uint32_t base) {
         const RingWalk walk(ring);
-        const std::size_t size = walk.size();
-        wart_[0].assign(size, null_corner);
-        wart_[1].assign(size, null_corner);
-        for (std::uint32_t side = 0; side < 2 && options_.wart_skipping; ++side) {
-            for (std::size_t i = 0; i < size; ++i) {
-                if (!walk.repeats(side, i) || walk.is_t3(side)) continue;
-                const CornerId y = walk.across_t2(table_, side, i);
-                if (y.is_null() || rung_.test(triangle(y).value)) continue;
-                rung_.set(triangle(y).value);
-                wart_[side][i] = y;
-            }
-        }
-        std::size_t closing = size;
-        for (std::size_t i = 0; i < size; ++i) {
-            if (!walk.repeats(0, i)) continue;
-            if (closing == size || !wart_[0][closing].is_null()) closing = i;
-            if (wart_[0][i].is_null()) break;
-        }
-        if (CornerId& wart = wart_[0][closing]; !wart.is_null()) {  // every dead end is a wart: give one up
-            rung_.clear(triangle(wart).value);
-            wart = null_corner;
-        }
+        const auto size = static_cast<std::uint32_t>(ring.size());
+        find_dead_ends(walk);
         const bool t3[2] = {walk.is_t3(0), walk.is_t3(1)};
-        std::uint32_t v = base;
-        std::size_t i = closing;
-        do {
-            i = walk.after(i);
+        for (std::uint32_t side = 0; side < 2 && options_.wart_skipping; ++side) {
+            if (!t3[side]) take_warts(walk, side);
+        }
+        std::vector<DeadEnd>& left = dead_ends_[0];
+        auto closing = std::find_if(left.begin(), left.end(), [](const DeadEnd& end) { return end.wart.is_null(); });
+        if (closing == left.end()) {  // every dead end is a wart: give one up
+            --closing;
+            rung_.clear(triangle(closing->wart).value);
+            closing->wart = null_corner;
+        }
+        const std::uint32_t last = closing->edge;
+        first_edge_.push_back(last + 1 == size ? 0 : last + 1);
+        const DeadEnd* dead[2];  // the next on each side; behind a side's last is one that no edge meets
+        for (std::uint32_t side = 0; side < 2; ++side) {
+            dead_ends_[side].push_back({UINT32_MAX, null_corner, null_vertex});
+            dead[side] = dead_ends_[side].data();
+            while (dead[side]->edge <= last) ++dead[side];
+        }
+        std::uint32_t i = last;
+        for (std::uint32_t v = base; v < base + size; ++v) {
+            if (++i == size) {
+                i = 0;
+                for (std::uint32_t side = 0; side < 2; ++side) dead[side] = dead_ends_[side].data();
+            }
             number_[walk.start(i).value] = v;
             for (std::uint32_t side = 0; side < 2; ++side) {
                 const std::uint32_t slot = 2 * v + side;
@@ -90,35 +103,76 @@ class Builder {
                     out_.lr[slot] = word::kBorder | word::kTip;
                     continue;
                 }
-                if (t3[side] ? v != base : walk.repeats(side, i)) {
+                const bool dead_end = i == dead[side]->edge;
+                if (dead_end) ++dead[side];
+                if (t3[side] ? v != base : dead_end) {
                     if (!t3[side] || v == base + 1) ++out_.statistics.t2;
-                    if (wart_[side][i].is_null()) {
-                        const std::size_t after = walk.after(walk.after(i));
-                        out_.lr[slot] = i == closing && side == 0 ? word::kClosing | walk.start(walk.after(i)).value
-                                                                  : word::kRedundant | walk.start(after).value;
+                    const DeadEnd& end = dead[side][-1];
+                    if (end.wart.is_null()) {
+                        const std::size_t n = walk.after(i);
+                        out_.lr[slot] = i == last && side == 0 ? word::kClosing | walk.start(n).value
+                                                               : word::kRedundant | walk.start(walk.after(n)).value;
                         continue;
                     }
-                    c = wart_[side][i];
-                    tip = table_.vertex(c);
+                    c = end.wart;
+                    tip = end.tip;
                     flags = word::kWart;
-                    wart_slots_.push_back(slot);
+                    warts_.push_back({slot, c});
                 }
                 if (table_.flipped(triangle(c))) flags |= word::kFlip;
                 out_.lr[slot] = flags | tip.value;
-                tip_corner_[slot] = c;
-                number_of_triangle_[triangle(c).value] = slot;
+                place_[triangle(c).value] = 4 * slot + c.value % 3;
             }
-            ++v;
-        } while (i != closing);
+        }
+    }
+
+    /// Marks the triangles at the ring's edges and lists those that are at two.
+    void find_dead_ends(const RingWalk& walk) {
+        const auto size = static_cast<std::uint32_t>(walk.size());
+        for (std::uint32_t side = 0; side < 2; ++side) {
+            dead_ends_[side].clear();
+            CornerId here = walk.face(side, 0);
+            for (std::uint32_t i = 0; i < size; ++i) {
+                const CornerId there = walk.face(side, walk.after(i));
+                if (!here.is_null()) {
+                    rung_.set(triangle(here).value);
+                    if (triangle(here) == triangle(there)) dead_ends_[side].push_back({i, null_corner, null_vertex});
+                }
+                here = there;
+            }
+        }
+    }
+
+    /// Gives dead ends the T0 across, each to the first that asks.
+    void take_warts(const RingWalk& walk, std::uint32_t side) {
+        std::vector<DeadEnd>& ends = dead_ends_[side];
+        for (std::size_t i = 0; i < ends.size(); ++i) {
+            if (i + kAhead < ends.size()) fetch(walk.face(side, ends[i + kAhead].edge));
+            ends[i].wart = walk.across_t2(table_, side, ends[i].edge);
+        }
+        for (std::size_t i = 0; i < ends.size(); ++i) {
+            if (i + kAhead < ends.size()) fetch(ends[i + kAhead].wart);
+            CornerId& wart = ends[i].wart;
+            if (wart.is_null()) continue;
+            if (rung_.test(triangle(wart).value)) {
+                wart = null_corner;
+                continue;
+            }
+            rung_.set(triangle(wart).value);
+            ends[i].tip = table_.vertex(wart);
+        }
+    }
+    void fetch(CornerId c) const {
+        if (!c.is_null()) __builtin_prefetch(&table_.corners[c.value]);
     }
 
     /// Numbers the triangles without a slot.
     void number_t0() {
         std::uint32_t number = 2 * out_.ring_vertices;
         for (std::uint32_t t = 0; t < table_.triangle_count(); ++t) {
-            if (number_of_triangle_[t] != UINT32_MAX || table_.degenerate({t})) continue;
+            if (rung_.test(t) || table_.degenerate({t})) continue;
             t0_.push_back({t});
-            number_of_triangle_[t] = number++;
+            place_[t] = 4 * number++;
         }
         out_.statistics.t0 = static_cast<std::uint32_t>(t0_.size());
     }
@@ -126,24 +180,30 @@ class Builder {
     /// Numbers the vertices off the rings: those of triangles first. All triangles of such a vertex are T0, in warts or
     /// not.
     void number_isolated() {
-        std::vector<bool> used(table_.vertex_count, false);
+        BitVector used(table_.vertex_count);
         for (const TriangleId t : t0_) {
-            for (std::uint32_t k = 0; k < 3; ++k) used[table_.vertex(corner(t, k)).value] = true;
+            for (std::uint32_t k = 0; k < 3; ++k) used.set(table_.vertex(corner(t, k)).value);
         }
-        for (const std::uint32_t slot : wart_slots_) used[out_.lr[slot] & word::kTip] = true;
-        std::uint32_t next_number = out_.ring_vertices;
+        for (const Slot& wart : warts_) used.set(table_.vertex(wart.tip).value);
+        std::uint32_t number = out_.ring_vertices;
         for (const bool wanted : {true, false}) {
-            for (std::uint32_t v = 0; v < table_.vertex_count; ++v) {
-                if (number_[v] == UINT32_MAX && used[v] == wanted) number_[v] = next_number++;
+            for (std::uint32_t v = 0; v < table_.vertex_count && number < table_.vertex_count; ++v) {
+                if (number_[v] == UINT32_MAX && used.test(v) == wanted) number_[v] = number++;
             }
-            if (wanted) out_.c.assign(next_number - out_.ring_vertices, UINT32_MAX);
+            if (wanted) out_.c.assign(number - out_.ring_vertices, UINT32_MAX);
         }
         out_.statistics.isolated = static_cast<std::uint32_t>(out_.c.size());
     }
 
     void fill_t0() {
         out_.vo.reserve(t0_.size() * 6);
-        for (const TriangleId t : t0_) {
+        for (std::size_t i = 0; i < t0_.size(); ++i) {
+            for (std::uint32_t k = 0; k < 3 && i + kAhead < t0_.size(); ++k) {
+                const CornerId c = corner(t0_[i + kAhead], k);
+                __builtin_prefetch(&number_[table_.vertex(c).value]);
+                fetch_place(table_.opposite(c));
+            }
+            const TriangleId t = t0_[i];
             for (std::uint32_t k = 0; k < 3; ++k) {
                 const std::uint32_t v = number_[table_.vertex(corner(t, k)).value];
                 out_.vo.push_back(v | (k == 0 && table_.flipped(t) ? word::kT0Flip : 0));
@@ -151,90 +211,128 @@ class Builder {
             }
             for (std::uint32_t k = 0; k < 3; ++k) out_.vo.push_back(lr_corner(table_.opposite(corner(t, k))).value);
         }
-        for (const std::uint32_t slot : wart_slots_) {
-            const std::uint32_t v = out_.lr[slot] & word::kTip;
-            if (v >= out_.ring_vertices) out_.c[v - out_.ring_vertices] = lr_corner(tip_corner_[slot]).value;
+        for (const Slot& wart : warts_) {
+            const std::uint32_t v = out_.lr[wart.slot] & word::kTip;
+            if (v >= out_.ring_vertices) out_.c[v - out_.ring_vertices] = lr_corner(wart.tip).value;
         }
     }
 
-    void find_irregular() {
-        std::vector<std::uint32_t> irregular;
-        {
-            const LrOperators<LrView> ops(out_.view());
-            for (std::uint32_t slot = 0; slot < out_.lr.size(); ++slot) {
-                if (slot + kAhead < out_.lr.size() && !tip_corner_[slot + kAhead].is_null()) {
-                    __builtin_prefetch(&table_.corners[tip_corner_[slot + kAhead].value]);
-                }
-                const CornerId c = tip_corner_[slot];
-                if (c.is_null()) continue;
-                const std::uint32_t v = slot / 2, side = slot % 2;
-                const CornerId start{8 * v + (side == 0 ? 0 : 6)}, end{8 * v + (side == 0 ? 2 : 4)};
-                if (table_corner(ops.opposite(start)) != table_.opposite(side == 0 ? previous(c) : next(c)) ||
-                    table_corner(ops.opposite(end)) != table_.opposite(side == 0 ? next(c) : previous(c))) {
-                    irregular.push_back(slot);
-                }
+    /// Sets kIrregular, tips as they are.
+    void mark_irregular() {
+        const auto mark = [&](CornerId c) {
+            if (!c.is_null() && c.value < 8 * out_.ring_vertices) out_.lr[c.value / 4] |= word::kIrregular;
+        };
+        // Where two vertices have no more than one edge, two triangles by the ring that face each other are found from
+        // each other; only there is nothing to find next to a T0. Joined edges are the pairs of vertices of one or two
+        // triangles, those named below apart.
+        const Topology& topology = table_.topology;
+        if (topology.nonmanifold_edges == 0 && topology.cut_edges == 0) {
+            for (std::size_t i = 0; i < out_.vo.size(); i += 6) {
+                for (std::size_t k = 3; k < 6; ++k) mark({out_.vo[i + k]});
             }
+            return;
         }
+        std::vector<CornerId> irregular;
+        const LrOperators<LrView> ops(out_.view());
+        for_slots([](std::uint32_t) { return true; },
+                  [&](std::uint32_t slot, CornerId tip) {
+                      const CornerId start = start_corner(slot, tip), end = end_corner(slot, tip);
+                      if (ops.opposite(lr_corner(start)) != lr_corner(table_.opposite(start)) ||
+                          ops.opposite(lr_corner(end)) != lr_corner(table_.opposite(end))) {
+                          irregular.push_back(lr_corner(tip));
+                      }
+                  });
+        for (const CornerId c : irregular) mark(c);
+    }
+
+    void fill_irregular() {
+        std::vector<Slot> irregular;
+        for_slots([](std::uint32_t w) { return (w & word::kIrregular) != 0; },
+                  [&](std::uint32_t slot, CornerId tip) {
+                      irregular.push_back({slot, tip});
+                  });
         out_.star.reserve(irregular.size() * 3);
-        for (const std::uint32_t slot : irregular) {
-            const CornerId c = tip_corner_[slot];
-            const std::uint32_t w = out_.lr[slot];
+        for (std::size_t i = 0; i < irregular.size(); ++i) {
+            if (i + kAhead < irregular.size()) fetch(irregular[i + kAhead].tip);
+            const auto [slot, tip] = irregular[i];
+            std::uint32_t& w = out_.lr[slot];
             const bool t2 = slot >= 2 && precedes_t2(slot - 2);
             ++(t2 ? out_.statistics.t2_irregular : out_.statistics.t1_irregular);
-            out_.lr[slot] = (w & ~word::kTip) | word::kIrregular | static_cast<std::uint32_t>(out_.star.size());
             out_.star.push_back(w & word::kTip);
-            out_.star.push_back(lr_corner(table_.opposite(slot % 2 == 0 ? previous(c) : next(c))).value);
-            out_.star.push_back(lr_corner(table_.opposite(slot % 2 == 0 ? next(c) : previous(c))).value);
+            w = (w & ~word::kTip) | static_cast<std::uint32_t>(3 * i);
+            out_.star.push_back(table_.opposite(start_corner(slot, tip)).value);
+            out_.star.push_back(table_.opposite(end_corner(slot, tip)).value);
         }
+        for (std::size_t i = 0; i < out_.star.size(); i += 3) {  // until here, corners of the corner table
+            for (const std::size_t k : {i + 1, i + 2}) {
+                if (k + kAhead < out_.star.size()) fetch_place({out_.star[k + kAhead]});
+                out_.star[k] = lr_corner({out_.star[k]}).value;
+            }
+        }
+    }
+    void fetch_place(CornerId c) const {
+        if (!c.is_null()) __builtin_prefetch(&place_[triangle(c).value]);
     }
     bool precedes_t2(std::uint32_t slot) const {
         const std::uint32_t kind = out_.lr[slot] & word::kKind;
         return (kind & word::kWart) != 0 || kind == word::kRedundant;
     }
 
+    /// Calls visit(slot, its tip corner in the corner table) for every slot that has a triangle of its own and whose
+    /// word is wanted, in order.
+    template <class Wanted, class Visit>
+    void for_slots(Wanted wanted, Visit visit) const {
+        auto wart = warts_.begin();
+        for (std::size_t r = 0; r < rings_.count(); ++r) {
+            const RingWalk walk(rings_.ring(r));
+            std::size_t i = first_edge_[r];
+            for (std::uint32_t slot = 2 * rings_.first[r]; slot < 2 * rings_.first[r + 1]; ++slot) {
+                const std::uint32_t w = out_.lr[slot];
+                const bool own = (w & word::kSpecial) == 0, is_wart = own && (w & word::kWart) != 0;
+                if (own && wanted(w)) visit(slot, is_wart ? wart->tip : walk.face(slot % 2, i));
+                if (is_wart) ++wart;
+                if (slot % 2 == 1) i = walk.after(i);
+            }
+        }
+    }
+    static CornerId start_corner(std::uint32_t slot, CornerId tip) { return slot % 2 == 0 ? previous(tip) : next(tip); }
+    static CornerId end_corner(std::uint32_t slot, CornerId tip) { return slot % 2 == 0 ? next(tip) : previous(tip); }
+
     /// The LR number of a corner of the corner table.
     CornerId lr_corner(CornerId c) const {
         if (c.is_null()) return c;
-        const std::uint32_t t = number_of_triangle_[triangle(c).value];
-        if (t >= 2 * out_.ring_vertices) return {4 * t + c.value % 3};
-        const CornerId tip = tip_corner_[t];
-        if (c == tip) return {4 * t + 1};
-        const bool after_tip = c == next(tip);
+        const std::uint32_t place = place_[triangle(c).value], first = place & ~3U;
+        if (first >= 8 * out_.ring_vertices) return {first + c.value % 3};
+        const CornerId tip{c.value - c.value % 3 + place % 4};
         // After the tip comes the end on the left (8v+2), the start on the right (8v+6).
-        return {4 * t + (after_tip ? 2U : 0U)};
-    }
-
-    /// The corner table's number of a canonical ring corner.
-    CornerId table_corner(CornerId c) const {
-        if (c.is_null()) return c;
-        const CornerId tip = tip_corner_[c.value / 4];
-        const std::uint32_t k = c.value % 4;
-        return k == 1 ? tip : k == 0 ? previous(tip) : next(tip);
+        return {first + (c == tip ? 1U : c == next(tip) ? 2U : 0U)};
     }
 
     void fill(LrMap& map) const {
         map.vertex.resize(out_.vertices);
         for (std::uint32_t v = 0; v < out_.vertices; ++v) map.vertex[number_[v]] = {v};
-        map.triangle.assign(2 * out_.ring_vertices + t0_.size(), null_triangle);
+        const std::uint32_t slots = 2 * out_.ring_vertices;
+        map.triangle.assign(slots + t0_.size(), null_triangle);
         map.start.assign(map.triangle.size(), 0);
-        for (std::uint32_t slot = 0; slot < tip_corner_.size(); ++slot) {
-            if (tip_corner_[slot].is_null()) continue;
-            map.triangle[slot] = triangle(tip_corner_[slot]);
-            map.start[slot] = previous(tip_corner_[slot]).value % 3;  // corner 4t is the one before the tip
-        }
-        std::copy(t0_.begin(), t0_.end(), map.triangle.begin() + static_cast<std::ptrdiff_t>(tip_corner_.size()));
+        for_slots([](std::uint32_t) { return true; },
+                  [&](std::uint32_t slot, CornerId tip) {
+                      map.triangle[slot] = triangle(tip);
+                      map.start[slot] = previous(tip).value % 3;  // corner 4t is the one before the tip
+                  });
+        std::copy(t0_.begin(), t0_.end(), map.triangle.begin() + slots);
     }
 
     const CornerTable& table_;
     const Rings& rings_;
     const LrOptions& options_;
-    BitVector rung_;                                 // triangles with a ring edge, or taken by a wart
-    std::vector<std::uint32_t> number_;              // LR number of each vertex
-    std::vector<std::uint32_t> number_of_triangle_;  // LR number of each triangle: its slot, or 2 m_r + i for T0 i
-    std::vector<CornerId> tip_corner_;               // of each slot, null where it has no triangle of its own
-    std::vector<CornerId> wart_[2];  // of one ring: the T0's corner across the T2 whose first copy is here
+    BitVector rung_;                     // triangles with a ring edge, or taken by a wart
+    std::vector<std::uint32_t> number_;  // LR number of each vertex
+    std::unique_ptr<std::uint32_t[]>
+        place_;                              // of each triangle: 4 slot + its tip corner % 3, or 4 (2 m_r + i) for T0 i
+    std::vector<std::uint32_t> first_edge_;  // of each ring: the edge at its first vertex
+    std::vector<DeadEnd> dead_ends_[2];      // of one ring, left and right
     std::vector<TriangleId> t0_;
-    std::vector<std::uint32_t> wart_slots_;
+    std::vector<Slot> warts_;  // in order
     LrTable out_;
 };
 

@@ -67,6 +67,17 @@ struct CompactLrView {
         if (t < ring_vertices) return t;
         return offset(w, side) < 0 ? t + ring_vertices : t - ring_vertices;
     }
+    /// The slot as a word of the standard representation, its tip the vertex.
+    std::uint32_t word(std::uint32_t v, std::uint32_t side) const {
+        const std::uint32_t w = lr[v];
+        if (is_long(w)) return star[record(w) + side];
+        const std::uint32_t half = side == 0 ? w >> 16 : w & 0xffff;
+        const auto o = static_cast<std::uint32_t>(static_cast<std::int32_t>(half << 17) >> 17);
+        std::uint32_t t = v + o;  // wraps below zero
+        if (t >= ring_vertices) t += o >> 31 != 0 ? ring_vertices : 0U - ring_vertices;
+        return (half & 0x8000) << 16 | (half == 0 ? word::kBorder : half == 2 ? word::kRedundant : 0) | t;
+    }
+    static std::uint32_t tip(std::uint32_t w) { return w & word::kTip; }
     std::uint32_t star_opposite(std::uint32_t v, std::uint32_t side, std::uint32_t end) const {
         const std::uint32_t w = lr[v];
         const bool behind_left = side == 1 && (w & compact::kLongLeftIrregular) != 0;
@@ -77,7 +88,7 @@ struct CompactLrView {
     bool plain_fan(std::uint32_t v, PlainFan& fan) const {
         if (v < 2 || v + 1 >= ring_vertices) return false;
         const std::uint32_t a = lr[v], b = lr[v - 1];
-        if (((a | b | lr[v - 2]) & compact::kLong) != 0) return false;
+        if (((a | b | lr[v - 2]) & compact::kLong) != 0) return plain_long_fan(v, fan);
         const std::int32_t la = offset(a, 0), ra = offset(a, 1), lb = offset(b, 0), rb = offset(b, 1);
         // 0 is a border and 2 a copy: with that bit cleared, either is nothing.
         if (((la & ~2) == 0) | ((ra & ~2) == 0) | ((lb & ~2) == 0) | ((rb & ~2) == 0)) return false;
@@ -86,18 +97,35 @@ struct CompactLrView {
         fan.right = at(v, ra);
         fan.left_count = at(v - 1, lb) - fan.left;
         fan.right_count = at(v - 1, rb) - fan.right;
-        return run_has_tip(fan.left, fan.left_count, v, 16) && run_has_tip(fan.right, fan.right_count, v, 0);
+        return run_has_tip(fan.left, fan.left_count, v, 0) && run_has_tip(fan.right, fan.right_count, v, 1);
+    }
+    /// The same where some of the words are long.
+    bool plain_long_fan(std::uint32_t v, PlainFan& fan) const {
+        const std::uint32_t l = word(v, 0), r = word(v, 1), pl = word(v - 1, 0), pr = word(v - 1, 1);
+        const std::uint32_t ppl = word(v - 2, 0);
+        if ((l | r | pl | pr) > word::kTip || LrView::skips(ppl) || LrView::closing(ppl) ||
+            LrView::skips(word(v - 2, 1)))
+            return false;
+        fan = {l, pl - l, r, pr - r};
+        const auto row = [&](std::uint32_t first, std::uint32_t count, std::uint32_t side) {
+            if (count > 4 || std::uint64_t{first} + 3 >= ring_vertices) return false;
+            bool all = true;
+            for (std::uint32_t i = 0; i < count; ++i) all &= word(first + i, side) == v;
+            return all;
+        };
+        return row(l, fan.left_count, 0) && row(r, fan.right_count, 1);
     }
 
     std::uint32_t t0_vertex(std::uint32_t i) const { return vo[i / 3 * 6 + i % 3] & ~word::kT0Flip; }
     std::uint32_t t0_opposite(std::uint32_t i) const { return vo[i / 3 * 6 + 3 + i % 3]; }
     std::uint32_t isolated_corner(std::uint32_t i) const { return c[i]; }
 
-    /// Do the slots first .. first + count - 1 have the plain tip v? Four at most. `shift` chooses the half of the
-    /// word.
-    bool run_has_tip(std::uint32_t first, std::uint32_t count, std::uint32_t v, std::uint32_t shift) const {
+    /// Do the slots first .. first + count - 1 have the plain tip v? Four at most. False where one of their words
+    /// is long.
+    bool run_has_tip(std::uint32_t first, std::uint32_t count, std::uint32_t v, std::uint32_t side) const {
         if (count > 4 || std::uint64_t{first} + 3 >= ring_vertices) return false;
         const std::uint32_t* w = lr.data() + first;
+        const std::uint32_t shift = side == 0 ? 16 : 0;
         const std::uint32_t o = v - first;  // of the first; one less of each after it; 2 would be a copy
         const auto is = [&](std::uint32_t i) {
             return ((w[i] >> shift & 0xffff) == ((o - i) & 0x7fff)) & (o - i + (1U << 14) < 1U << 15) & (o - i != 2);

@@ -31,47 +31,42 @@ struct LrView {
     std::uint32_t kind(std::uint32_t v, std::uint32_t side) const { return lr[2 * v + side] & word::kKind; }
     bool closes(std::uint32_t v) const { return kind(v, 0) == word::kClosing; }
     std::uint32_t first(std::uint32_t v) const { return lr[2 * v] & word::kTip; }
-    std::uint32_t tip(std::uint32_t v, std::uint32_t side) const {
-        const std::uint32_t w = lr[2 * v + side];
-        const std::uint32_t i = w & word::kTip;
-        return (w & (word::kSpecial | word::kIrregular)) == word::kIrregular ? star[i] : i;
-    }
+    std::uint32_t tip(std::uint32_t v, std::uint32_t side) const { return tip(lr[2 * v + side]); }
     /// Of an irregular triangle, the opposite of its start corner (end = 0) or end corner (end = 1).
     std::uint32_t star_opposite(std::uint32_t v, std::uint32_t side, std::uint32_t end) const {
         return star[(lr[2 * v + side] & word::kTip) + 1 + end];
     }
-    static constexpr std::uint32_t kNoStep = UINT32_MAX;
-    /// The swing of ring corner c where nothing special is near, which is nearly always: no flag in any word looked at,
-    /// so no wart, copy, border, ring's end or irregular triangle. kNoStep where LrOperators has to look closer.
-    std::uint32_t fan_step(std::uint32_t corner) const {
-        constexpr std::uint32_t kPlain = word::kTip;  // a word not above it has no flag
-        const std::uint32_t v = corner / 8;
-        if (v < 2 || v + 1 >= ring_vertices) return kNoStep;
-        const std::uint32_t* w = lr.data() + 2 * std::size_t{v};  // w[0], w[1]: v.l, v.r; w[-2], w[-1]: those of v.p
-        switch (corner % 8) {
-            case 0:  // at the start on the left: over the ring edge
-                return (w[0] | w[1]) <= kPlain ? corner + 6 : kNoStep;
-            case 4:  // at the end on the right: likewise
-                return (w[0] | w[1]) <= kPlain ? corner - 2 : kNoStep;
-            case 1:  // at the tip on the left: the edge before, while it has the same tip
-                return w[0] == w[-2] && (w[0] | w[-4]) <= kPlain ? corner - 8 : kNoStep;
-            case 5:  // at the tip on the right: the edge after
-                return w[1] == w[3] && (w[1] | w[0] | w[-1] | w[-2]) <= kPlain ? corner + 8 : kNoStep;
-            case 2: {  // at the end on the left: the slot that starts here, or the one that ends at the tip
-                const std::uint32_t u = w[0];
-                if ((u | w[-2] | w[2]) > kPlain) return kNoStep;
-                if (w[2] == u) return 8 * (v + 1);
-                if (u < 2 || u >= ring_vertices) return kNoStep;
-                const std::uint32_t* before = lr.data() + 2 * std::size_t{u};
-                return before[-2] == v + 1 && before[-4] <= kPlain ? 8 * (u - 1) + 1 : kNoStep;
-            }
-            default: {  // at the start on the right: the slot that ends here, or the one that starts at the tip
-                const std::uint32_t u = w[1];
-                if ((u | w[-1] | w[-2] | w[-3] | w[-4]) > kPlain) return kNoStep;
-                if (w[-1] == u) return 8 * (v - 1) + 4;
-                return u < ring_vertices && lr[2 * std::size_t{u} + 1] == v ? 8 * u + 5 : kNoStep;
-            }
+    /// A slot's word, and the tip that such a word tells.
+    std::uint32_t word(std::uint32_t v, std::uint32_t side) const { return lr[2 * v + side]; }
+    std::uint32_t tip(std::uint32_t w) const {
+        const std::uint32_t i = w & word::kTip;
+        return (w & (word::kSpecial | word::kIrregular)) == word::kIrregular ? star[i] : i;
+    }
+
+    static constexpr std::uint32_t kNotPlain = UINT32_MAX;
+    /// The opposite of a ring corner where nothing special is near: no wart, copy, border, ring's end or irregular
+    /// triangle. kNotPlain where LrOperators has to look closer.
+    std::uint32_t plain_opposite(std::uint32_t corner) const {
+        const std::uint32_t v = corner / 8, side = corner / 4 % 2;
+        if (v < 2 || v + 1 >= ring_vertices) return kNotPlain;
+        const std::uint32_t* left = lr.data() + 2 * std::size_t{v};  // left[-2]: that of v.p
+        if (corner % 4 == 1) return (left[0] | left[1]) <= word::kTip ? corner ^ 4 : kNotPlain;
+        const std::uint32_t* w = left + side;
+        const std::uint32_t u = w[0];
+        if ((u | w[-2]) > word::kTip || closing(left[0])) return kNotPlain;
+        if (corner % 8 % 6 == 0) {  // at v: the slot that starts at v.n, or the one that ends at the tip
+            if (w[2] > word::kTip) return kNotPlain;
+            if (w[2] == u) return corner + 8 + (side == 0 ? 2 : 0U - 2);
+            if (u < 2 || u >= ring_vertices) return kNotPlain;
+            const std::uint32_t* far = lr.data() + 2 * std::size_t{u - 1};
+            return far[side] == v + 1 && !skips(far[std::ptrdiff_t{side} - 2]) && !closing(far[0])
+                       ? 8 * (u - 1) + corner % 8
+                       : kNotPlain;
         }
+        // At v.n: the slot that ends at v, or the one that starts at the tip.
+        if (skips(w[-4]) || closing(left[-2]) || closing(left[-4])) return kNotPlain;
+        if (w[-2] == u) return corner - 8 + (side == 0 ? 0U - 2 : 2);
+        return u < ring_vertices && lr[2 * std::size_t{u} + side] == v ? 8 * u + corner % 8 : kNotPlain;
     }
 
     /// The neighbours of ring vertex v where its triangles are two runs of T1, one a side, which is nearly always: v.n,
@@ -85,14 +80,14 @@ struct LrView {
         if (v < 2 || v + 1 >= ring_vertices) return false;
         const std::uint32_t* w = lr.data() + 2 * std::size_t{v};
         if ((w[0] | w[1] | w[-1] | w[-2]) > word::kTip) return false;
-        // The slots two before may be anything but a wart, which would skip v.p.
-        if (((w[-3] & (word::kSpecial | word::kWart)) == word::kWart) |
-            ((w[-4] & (word::kSpecial | word::kWart)) == word::kWart)) {
-            return false;
-        }
+        // The slots two before may be anything but a wart, which would skip v.p, or another ring's end.
+        if (skips(w[-3]) | skips(w[-4]) | closing(w[-4])) return false;
         fan = {w[0], w[-2] - w[0], w[1], w[-1] - w[1]};
         return run_has_tip(fan.left, fan.left_count, v, 0) && run_has_tip(fan.right, fan.right_count, v, 1);
     }
+
+    static bool skips(std::uint32_t w) { return (w & (word::kSpecial | word::kWart)) == word::kWart; }
+    static bool closing(std::uint32_t w) { return (w & word::kKind) == word::kClosing; }
 
     std::uint32_t t0_vertex(std::uint32_t i) const { return vo[i / 3 * 6 + i % 3] & ~word::kT0Flip; }
     std::uint32_t t0_opposite(std::uint32_t i) const { return vo[i / 3 * 6 + 3 + i % 3]; }
@@ -140,7 +135,7 @@ struct LrOptions {
 
 /// Builds the tables from a pseudo-manifold corner table (split_fans) and its rings, one per shell
 /// (RingOptions::one_per_shell). Degenerate triangles take no part.
-/// Cost: O(T) time; 4 bytes a reference, and about 18 bytes a triangle while it runs. `map` may be null.
+/// Cost: O(T) time; 4 bytes a reference, and about 8 bytes a triangle while it runs. `map` may be null.
 /// Errors: too_large (2^28 vertices).
 Result<LrTable> build_lr(const CornerTable& table, const Rings& rings, const LrOptions& options = {},
                          LrMap* map = nullptr);

@@ -14,6 +14,7 @@
 #include <cstdint>
 
 #include "lrcore/base/ids.h"
+#include "lrcore/lr/fan.h"
 #include "lrcore/lr/lr_format.h"
 
 namespace lr {
@@ -82,9 +83,9 @@ class LrOperators {
     /// c.o: canonical, or null across a border.
     CornerId opposite(CornerId c) const {
         if (is_t0(c)) return {s_.t0_opposite(t0_index(c))};
-        if constexpr (kHasSteps) {  // c.o = c.p.s.p
-            const std::uint32_t step = s_.fan_step(previous(c).value);
-            if (step != Store::kNoStep) return previous(CornerId{step});
+        if constexpr (kHasOpposites) {
+            const std::uint32_t plain = s_.plain_opposite(c.value);
+            if (plain != Store::kNotPlain) return {plain};
         }
         Slot slot = slot_of(c);
         std::uint32_t kind = s_.kind(slot.v, slot.side);
@@ -110,12 +111,6 @@ class LrOperators {
     CornerId right(CornerId c) const { return opposite(previous(c)); }
     /// c.s: the next corner around c's vertex, null at a border.
     CornerId swing(CornerId c) const {
-        if constexpr (kHasSteps) {
-            if (!is_t0(c)) {
-                const std::uint32_t step = s_.fan_step(c.value);
-                if (step != Store::kNoStep) return {step};
-            }
-        }
         const CornerId l = left(c);
         return l.is_null() ? l : next(l);
     }
@@ -141,25 +136,25 @@ class LrOperators {
         return !first.is_null();
     }
 
-    /// Calls visit(corner) for every triangle around v: in swing order, from the border where there is one. O(valence).
+    /// Calls visit(corner) for every triangle around v in swing order: from v.c, or from the border where there is one.
+    /// O(valence).
     template <class Visit>
     void star(VertexId v, Visit visit) const {
-        const CornerId first = corner(v);
-        if (first.is_null()) return;
-        CornerId c = first;
-        do {
+        const CornerId first = star_begin(v);
+        for (CornerId c = first; !c.is_null();) {
             visit(c);
             c = swing(c);
-        } while (!c.is_null() && c != first);
-        if (!c.is_null()) return;
-        for (c = swing_back(first); !c.is_null(); c = swing_back(c)) visit(c);
+            if (c == first) return;
+        }
     }
 
     /// Edges at v: its triangles, and one more on a border. O(valence), constant where LrView::plain_fan sees it.
     std::uint32_t valence(VertexId v) const {
         if constexpr (kHasFans) {
             typename Store::PlainFan fan;
-            if (v.value < ring_ && s_.plain_fan(v.value, fan)) return 4 + fan.left_count + fan.right_count;
+            if (s_.plain_fan(v.value, fan)) return 4 + fan.left_count + fan.right_count;
+            FanSide<Store> left, right;
+            if (find_sides(v.value, left, right)) return left.size + right.size + 2;
         }
         const CornerId first = corner(v);
         if (first.is_null()) return 0;
@@ -174,12 +169,13 @@ class LrOperators {
         return count + 1;
     }
 
-    /// Calls visit(vertex) for every neighbour of v once, around an interior vertex in swing order. O(valence).
+    /// Calls visit(vertex) for every neighbour of v once, in the order of star: of each triangle that of next, and on a
+    /// border at last the other end. O(valence).
     template <class Visit>
     void neighbours(VertexId v, Visit visit) const {
         if constexpr (kHasFans) {
             typename Store::PlainFan fan;
-            if (v.value < ring_ && s_.plain_fan(v.value, fan)) {
+            if (s_.plain_fan(v.value, fan)) {
                 visit(VertexId{fan.left});
                 visit(VertexId{v.value + 1});
                 for (std::uint32_t i = 0; i <= fan.right_count; ++i) visit(VertexId{fan.right + i});
@@ -187,19 +183,66 @@ class LrOperators {
                 for (std::uint32_t i = fan.left_count; i > 0; --i) visit(VertexId{fan.left + i});
                 return;
             }
+            FanSide<Store> left, right;
+            if (find_sides(v.value, left, right)) {
+                // The first triangle of a star is that of v's left slot; with a T0w there, its T2w comes last.
+                std::uint32_t first = 0;
+                if (left.size == 0) {
+                    visit(VertexId{v.value - 1});
+                } else {
+                    first = skips(v.value, 0) ? 1 : 0;
+                    for (std::uint32_t i = first + 1; i-- > 0;) visit(VertexId{left.vertex[i]});
+                }
+                visit(VertexId{v.value + 1});
+                for (std::uint32_t i = 0; i < right.size; ++i) visit(VertexId{right.vertex[i]});
+                if (left.size == 0) return;
+                visit(VertexId{v.value - 1});
+                for (std::uint32_t i = left.size - 1; i > first; --i) visit(VertexId{left.vertex[i]});
+                return;
+            }
         }
+        CornerId last = null_corner;
         star(v, [&](CornerId c) {
             visit(vertex(next(c)));
-            if (left(c).is_null()) visit(vertex(previous(c)));  // the last edge, before the border
+            last = c;
         });
+        if (!last.is_null() && left(last).is_null()) visit(vertex(previous(last)));
     }
 
   private:
-    static constexpr bool kHasSteps = requires(const Store& store, std::uint32_t c) { store.fan_step(c); };
+    // What the representation answers itself where nothing special is near.
+    static constexpr bool kHasOpposites = requires(const Store& store) { store.plain_opposite(0); };
 
     static constexpr bool kHasFans = requires(const Store& store, typename Store::PlainFan& fan) {
         store.plain_fan(0, fan);
     };
+
+    /// v.c, or if v is on a border the corner that no swing leads to.
+    CornerId star_begin(VertexId v) const {
+        const CornerId first = corner(v);
+        if constexpr (kHasFans) {  // with neighbours on all sides
+            typename Store::PlainFan fan;
+            FanSide<Store> left, right;
+            if (v.value < ring_ && (s_.plain_fan(v.value, fan) || find_sides(v.value, left, right))) return first;
+        }
+        for (CornerId c = first; !c.is_null();) {
+            const CornerId back = swing_back(c);
+            if (back.is_null()) return c;
+            if (back == first) break;
+            c = back;
+        }
+        return first;
+    }
+
+    /// Lists the neighbours on both sides; false where v is not well inside a ring, or not all were found.
+    bool find_sides(std::uint32_t v, FanSide<Store>& left, FanSide<Store>& right) const {
+        if (v < 2 || v + 1 >= ring_) return false;
+        const std::uint32_t w = s_.word(v, 0), p = s_.word(v - 1, 0), pp = s_.word(v - 2, 0);
+        const auto closes = [](std::uint32_t x) { return (x & word::kKind) == word::kClosing; };
+        if (closes(w) || closes(p) || closes(pp)) return false;
+        return left.template find<0>(s_, v, w, p, pp) &&
+               right.template find<1>(s_, v, s_.word(v, 1), s_.word(v - 1, 1), s_.word(v - 2, 1));
+    }
 
     enum Role : std::uint32_t { kStart = 0, kTip = 1, kEnd = 2 };
     struct Slot {

@@ -53,6 +53,7 @@ class Expander {
                 if (!visited_.test(edge.right_tip.value)) {  // invade c's triangle, to the right first
                     visited_.set(edge.right_tip.value);
                     stack_.push_back(facing(next(c)));
+                    fetch(stack_.back().right);  // often the next to be popped
                     edge = facing(previous(c));
                     continue;
                 }
@@ -61,10 +62,7 @@ class Expander {
             if (stack_.empty()) return;
             edge = stack_.back();
             stack_.pop_back();
-            if (stack_.size() >= kAhead) {
-                const CornerId later = stack_[stack_.size() - kAhead].right;
-                if (!later.is_null()) __builtin_prefetch(&table_.corners[later.value]);
-            }
+            if (stack_.size() >= kAhead) fetch(stack_[stack_.size() - kAhead].right);
         }
     }
 
@@ -80,12 +78,16 @@ class Expander {
         while (front < queue_.size()) {
             const bool breadth = region_.size() % k == 0;
             const CornerId c = breadth ? queue_[front++] : queue_.back();
-            if (!breadth) queue_.pop_back();
+            if (!breadth) {
+                queue_.pop_back();
+                if (queue_.size() >= kAhead) fetch(queue_[queue_.size() - kAhead]);
+            }
             if (c.is_null() || visited_.test(table_.vertex(c).value)) continue;
             visited_.set(table_.vertex(c).value);
             invaded_.set(triangle(c).value);
             region_.push_back(triangle(c));
             queue_.push_back(table_.left(c));
+            fetch(queue_.back());
             queue_.push_back(table_.right(c));
         }
         stack_.assign({facing(next(seed)), facing(previous(seed))});
@@ -95,6 +97,7 @@ class Expander {
             // The region is a tree of triangles: what is invaded across an edge not yet walked was invaded through it.
             if (!c.is_null() && invaded_.test(triangle(c).value)) {
                 stack_.push_back(facing(next(c)));
+                fetch(stack_.back().right);
                 edge = facing(previous(c));
                 continue;
             }
@@ -103,6 +106,7 @@ class Expander {
             if (stack_.empty()) break;
             edge = stack_.back();
             stack_.pop_back();
+            if (stack_.size() >= kAhead) fetch(stack_[stack_.size() - kAhead].right);
         }
         for (const TriangleId t : region_) invaded_.clear(t.value);
     }
@@ -146,6 +150,9 @@ class Expander {
 
   private:
     bool visited(TriangleId t, std::uint32_t k) const { return visited_.test(table_.vertex(corner(t, k)).value); }
+    void fetch(CornerId c) const {
+        if (!c.is_null()) __builtin_prefetch(&table_.corners[c.value]);
+    }
     /// The edge that corner x faces, x's triangle being invaded.
     RingEdge facing(CornerId x) const {
         return {table_.vertex(previous(x)), x, table_.opposite(x), table_.vertex(x), null_vertex};

@@ -6,7 +6,8 @@
 
 INPUT is OBJ, PLY, OFF, STL, glTF or GLB. Compared are the multisets of oriented triangles, each as the bits of its three
 positions, rotated so that the least comes first; triangles that repeat a vertex of INPUT are dropped. With
---weld=position those that repeat a position are dropped too, as `encode --weld=position` does.
+--weld=position those that repeat a position are dropped too, as `encode --weld=position` does. Where FILE.lr keeps the
+order of triangles, that is compared, too, and of LR tables every c.o is checked (lr_corners.py).
 Shares no code with lrcore. Prints one line; exits 0 if the multisets are equal, 1 if not or if a file cannot be read.
 """
 
@@ -68,6 +69,15 @@ def compare(wanted, got):
             f"{turned} of them turned round")
 
 
+def in_order(mesh, decoded):
+    """Is each triangle that the .lr file has the number of, up to rotation, the mesh's triangle of that number?"""
+    for i, t in enumerate(decoded.triangle_order):
+        a, b, c = (decoded.positions[v] for v in decoded.indices[3 * i:3 * i + 3])
+        if tuple(mesh.positions[v] for v in mesh.indices[3 * t:3 * t + 3]) not in ((a, b, c), (b, c, a), (c, a, b)):
+            return f"triangle {i} is not number {t} of the input"
+    return None
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("input")
@@ -81,12 +91,16 @@ def main():
     path = options.input
     try:
         numbers = {}
-        wanted, count, dropped = multiset(read(path), numbers, options.weld == "position")
+        mesh = read(path)
+        wanted, count, dropped = multiset(mesh, numbers, options.weld == "position")
         for path in filter(None, (options.output, options.lr)):
-            got, _, repeated = multiset(read(path), numbers)
+            decoded = read(path)
+            got, _, repeated = multiset(decoded, numbers)
             why = compare(wanted, got)
             if why is None and repeated and not options.allow_degenerate:
                 why = f"{repeated} degenerate triangles"
+            if why is None and decoded.triangle_order is not None:
+                why = in_order(mesh, decoded)
             if why is not None:
                 print(f"FAIL {options.input}: {path}: {why}")
                 return 1

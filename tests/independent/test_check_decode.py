@@ -10,7 +10,7 @@ import unittest
 import zlib
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-import lr_reader
+from lean_reader import decode_lean
 from mesh_readers import BadFile, floats_of_words
 from mesh_writers import decoded, flat, gltf, ply, stl, stl_text
 
@@ -109,31 +109,29 @@ class CheckDecode(unittest.TestCase):
     def test_lean(self):
         C, F, W = 1 << 30, 1 << 29, 1 << 31
         # A two-sided ring of 0..3 around the tetrahedron-like quad, a one-sided ring of 4..6, one verbatim triangle.
-        payload = [2, 1 | F, 3 | W, 2, 0, 2, 0 | C, 0, 5, 5 | F, 4 | C, 6, 5, 4]
+        payload = [2, 1, 1, 2, 0, 3, 0 | C, 0, 4, 5, 4 | C, 6, 5, 4]
 
         def stream(payload, rings2=4, rings1=3, triangles=None):
             head = [0x4E4C524C, 1, 7, rings2, rings1, 1, triangles]
             head.append(zlib.crc32(array.array("I", payload).tobytes(), zlib.crc32(array.array("I", head).tobytes())))
             return array.array("I", head + payload)
 
-        # 0: (0,2,1); 1: tip 1 == next: degenerate; 2: wart (1, 3, next(2) = 3): degenerate; 3: (2,2,1): degenerate;
-        # 4: (2,0,3); 5: (3,2,2): degenerate; 6 closes; 7: (0,0,3): degenerate; 8: (4,5,5): degenerate;
-        # 9: (5,5,6) degenerate; 10 closes; the verbatim one
-        _, out = lr_reader.decode_lean(stream(payload, triangles=3))
+        # 0: (0,2,1); 1, 2, 3: free; 4: (2,0,3); 5: free; 6 closes; 7, 8, 9: free; 10 closes; the verbatim one
+        _, out = decode_lean(stream(payload, triangles=3))
         self.assertEqual(out, [0, 2, 1, 2, 0, 3, 6, 5, 4])
         payload[1] = 3 | F  # right of 0: (1, 3, 0), turned
         payload[2] = 0 | W  # wart at 1: (1, 0, 3)
         payload[7] = 1      # right of 3: (0, 1, 3), next through the left word's CLOSE
         payload[8] = 6 | F  # one-sided: (4, 6, 5) turned
-        _, out = lr_reader.decode_lean(stream(payload, triangles=7))
+        _, out = decode_lean(stream(payload, triangles=7))
         self.assertEqual(out, [0, 2, 1, 0, 3, 1, 1, 0, 3, 2, 0, 3, 0, 1, 3, 5, 6, 4, 6, 5, 4])
         for damaged in (stream(payload, triangles=6), stream(payload, rings1=2, triangles=7)):
             with self.assertRaises(BadFile):
-                lr_reader.decode_lean(damaged)
+                decode_lean(damaged)
         damaged = stream(payload, triangles=7)
         damaged[9] ^= 1
         with self.assertRaises(BadFile):
-            lr_reader.decode_lean(damaged)
+            decode_lean(damaged)
 
 
 if __name__ == "__main__":

@@ -17,6 +17,35 @@ using namespace lr;
 
 namespace {
 
+/// Around a border vertex star() and neighbours() begin at the border, and go on in the order of swing.
+template <class Operators>
+void check_border_order(const CornerTable& table, const Operators& ops, const LrMap& map) {
+    std::vector<CornerId> begin(table.vertex_count, null_corner);  // the corner that no swing leads to
+    for (std::uint32_t i = 0; i < table.corners.size(); ++i) {
+        const CornerId c{i};
+        if (!table.degenerate(triangle(c)) && table.right(c).is_null()) begin[table.vertex(c).value] = c;
+    }
+    for (std::uint32_t v = 0; v < map.vertex.size(); ++v) {
+        CornerId c = begin[map.vertex[v].value];
+        if (c.is_null()) continue;
+        CAPTURE(v);
+        std::vector<CornerId> star, expected_star;
+        std::vector<VertexId> neighbours, expected_neighbours;
+        for (CornerId last; !c.is_null(); c = table.swing(last)) {
+            last = c;
+            expected_star.push_back(c);
+            expected_neighbours.push_back(table.vertex(next(c)));
+            if (table.left(c).is_null()) expected_neighbours.push_back(table.vertex(previous(c)));
+        }
+        ops.star({v}, [&](CornerId x) {
+            star.push_back(corner(map.triangle[x.value / 4], (map.start[x.value / 4] + x.value % 4) % 3));
+        });
+        ops.neighbours({v}, [&](VertexId u) { neighbours.push_back(map.vertex[u.value]); });
+        REQUIRE(star == expected_star);
+        REQUIRE(neighbours == expected_neighbours);
+    }
+}
+
 void check(const Mesh& mesh, const RingOptions& rings_options, const LrOptions& options) {
     Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
     REQUIRE(table);
@@ -33,12 +62,14 @@ void check(const Mesh& mesh, const RingOptions& rings_options, const LrOptions& 
     CHECK(lr->view().references() == std::size_t{2} * lr->ring_vertices + std::size_t{6} * s.t0 +
                                          std::size_t{3} * (s.t1_irregular + s.t2_irregular) + s.isolated);
     test::check_operators(*table, LrOperators<LrView>(lr->view()), map);
+    check_border_order(*table, LrOperators<LrView>(lr->view()), map);
 
     const Result<CompactLrTable> compact = build_compact_lr(lr->view());
     REQUIRE(compact);
     CHECK(compact->view().bytes() == 4 * (std::size_t{compact->ring_vertices} + std::size_t{6} * s.t0 +
                                           std::size_t{3} * compact->irregular + compact->long_tips + s.isolated));
     test::check_operators(*table, LrOperators<CompactLrView>(compact->view()), map);
+    check_border_order(*table, LrOperators<CompactLrView>(compact->view()), map);
 }
 
 }  // namespace

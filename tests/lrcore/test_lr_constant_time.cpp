@@ -15,7 +15,7 @@ using namespace lr;
 
 namespace {
 
-/// A store that counts its reads. It has no fan_step or plain_fan, so the operators take their general way.
+/// A store that counts its reads. It answers nothing itself, so the operators take their general way.
 template <class View>
 struct Counting {
     const View* view;

@@ -5,6 +5,7 @@
 
 #include "lrcore/base/bits.h"
 #include "lrcore/corner_table/split.h"
+#include "lrcore/generate/generate.h"
 #include "lrcore/lean/lean_stream.h"
 #include "lrcore/lr/lr_table.h"
 #include "lrcore/mesh/read.h"
@@ -135,4 +136,36 @@ TEST_CASE("optimising stops when told to, and never in a worse state") {
         last = cost;
     }
     CHECK(last < cost_of(*table, before, lean_ring_cost));
+}
+
+TEST_CASE("optimising halves the T0 left after wart skipping") {
+    for (const char* kind : {"blob", "terrain"}) {
+        CAPTURE(kind);
+        const Result<Mesh> mesh = generate(kind, 20000, 3);
+        REQUIRE(mesh);
+        const Result<CornerTable> table = build_corner_table(mesh->indices, mesh->vertex_count);
+        REQUIRE(table);
+        Rings rings = expand_rings(*table);
+        const std::uint32_t before = encode_lean(*table, rings).statistics.t0;
+        const std::uint32_t after = encode_lean(*table, optimize_rings(*table, std::move(rings))).statistics.t0;
+        CAPTURE(before);
+        CAPTURE(after);
+        CHECK(2 * after <= before);
+    }
+}
+
+TEST_CASE("optimised rings of the meshes of LACEDRING_MESHES, where that is set") {
+    const char* folder = std::getenv("LACEDRING_MESHES");
+    if (folder == nullptr) return;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        const std::string extension = entry.path().extension();
+        if (extension == ".tsv" || extension == ".bin") continue;
+        CAPTURE(entry.path().string());
+        const Result<Mesh> mesh = read_mesh(entry.path());
+        REQUIRE(mesh);
+        check(weld(*mesh, Weld::none), {}, options_of(packed_ring_cost, 4, 1));
+        RingOptions per_shell;
+        per_shell.one_per_shell = true;
+        check(weld(*mesh, Weld::position), per_shell, options_of(lr_ring_cost, 4, 1));
+    }
 }
