@@ -70,7 +70,7 @@ def compare(wanted, got):
 
 
 def in_order(mesh, decoded):
-    """Is each triangle that the .lr file has the number of, up to rotation, the mesh's triangle of that number?"""
+    """Is each triangle of the .lr file, up to rotation, the mesh's triangle of the number that the file gives?"""
     for i, t in enumerate(decoded.triangle_order):
         a, b, c = (decoded.positions[v] for v in decoded.indices[3 * i:3 * i + 3])
         if tuple(mesh.positions[v] for v in mesh.indices[3 * t:3 * t + 3]) not in ((a, b, c), (b, c, a), (c, a, b)):

@@ -89,7 +89,7 @@ class Corners:
 
 
 def check_corners(tables):
-    """Does c.o, for all corners, say which triangles are neighbours, does each vertex have one fan, and C its corner?"""
+    """Do c.o, for all corners, say which triangles are neighbours; has each vertex one fan; is C right?"""
     corners = Corners(tables)
     vertex = {4 * t + i: v for t, triangle, _ in tables.triangles() for i, v in enumerate(triangle)}
     opposite = {c: corners.opposite(c) for c in vertex}

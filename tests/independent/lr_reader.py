@@ -20,7 +20,7 @@ def tables_in(words, compact):
     return out
 
 
-# Each takes all words of a stream and returns its vertices, its triangles, flat, and a dict of copies to their originals.
+# Each takes all words of a stream and returns its vertices, its triangles, flat, and a dict from copies to originals.
 DECODERS = {1: lambda words: (*decode_lean(words), {}), 5: lambda words: tables_in(words, False),
             6: lambda words: tables_in(words, True), 7: lambda words: (*decode_packed(words), {})}
 

@@ -78,7 +78,8 @@ class Tables:
         if len(pair) < 2:
             raise BadFile(f"ring vertex {v} has no record")
         at += 2
-        for entry, wart, irregular in ((pair[0], word >> 30 & 1, word >> 28 & 1), (pair[1], word >> 29 & 1, word >> 27 & 1)):
+        for side, entry in enumerate(pair):
+            wart, irregular = word >> 30 - side & 1, word >> 28 - side & 1
             flags = 0 if entry & SPECIAL else entry & (IRREGULAR | WART)
             if flags != wart << 31 | irregular << 30:
                 raise BadFile(f"ring vertex {v} and its record differ in flags")
@@ -115,12 +116,13 @@ class Tables:
                 raise BadFile(f"slot {s} is redundant, and its tip is not two further")
 
     def check_pairs(self):
-        """Behind a first copy of a T2, or a T0w in its place, is the second copy, but for a ring of three edges of one."""
+        """Behind a first copy of a T2, or a T0w in its place, is the second copy, or a ring of three is all copies."""
         for s, kind in enumerate(self.kind):
             if kind == REDUNDANT or (kind == TRIANGLE and self.flags[s] & WART):
                 v, behind = s >> 1, 2 * self.next[s >> 1] + s % 2
                 third = 2 * self.next[behind >> 1] + s % 2
-                if kind == self.kind[behind] == REDUNDANT and self.kind[third] == TRIANGLE and self.next[third >> 1] == v:
+                whole = kind == self.kind[behind] == REDUNDANT and self.next[third >> 1] == v
+                if whole and self.kind[third] == TRIANGLE:
                     continue
                 if self.kind[behind] != TRIANGLE or self.flags[behind] & WART or self.tip[behind] != v:
                     raise BadFile(f"behind slot {s} is not the second copy of a T2")

@@ -5,7 +5,7 @@ import zlib
 from mesh_readers import BadFile
 
 WORD = 0xFFFFFFFF
-WART, SPLIT, RESUME, START, FAR, JUMP, END, TURN = range(8)
+WART, SPLIT, BESIDE, START, FAR, JUMP, END, TURN = range(8)
 
 
 class EndOfRecord(Exception):
@@ -72,9 +72,12 @@ class Walk:
         if event == TURN:
             self.reversed ^= 1
             return
-        if event == RESUME:
-            bit, step, other = self.bits.take(1), self.bits.golomb(4), self.bits.take(self.width)
-            self.begin(*((other, self.a - step) if bit else (self.b + step, other)), self.reversed)
+        if event == BESIDE:
+            turned, place, folded = self.bits.take(1), self.bits.take(2), self.bits.golomb(1)
+            step, other = -(folded + 1 >> 1) if folded & 1 else folded >> 1, self.bits.take(self.width)
+            near = (self.b, self.a, self.begun[0], self.begun[1])[place] + step
+            self.begin(*((near, other) if place in (0, 2) else (other, near)), self.reversed ^ turned)
+            self.stack = []
         elif event == START:
             kind = self.bits.unary(3)
             a, b, was_reversed = self.begun
@@ -169,7 +172,7 @@ def walk_record(record, turns, header, out):
     for i, turn in enumerate(turns):
         own = None
         while event is not None and at == i:
-            if event[1] in (RESUME, START, END, TURN):
+            if event[1] in (BESIDE, START, END, TURN):
                 if own is not None:
                     raise BadFile("an event is behind the one that says where its triangle is")
                 walk.before(event[1])

