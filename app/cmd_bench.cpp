@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
 
 #include "app/bench_operators.h"
+#include "app/bench_resident.h"
 #include "app/commands.h"
 #include "app/measure.h"
 #include "lrcore/baseline/strips.h"
@@ -31,6 +34,8 @@ struct Options {
     std::uint32_t seeds = 1;
     bool no_gpu = false;
     bool operators = false;
+    bool resident = false;
+    ResidentOptions limits;
 #ifdef LACEDRING_GPU
     gpu::ContextOptions context;
 #endif
@@ -116,6 +121,15 @@ int run(const Options& options) {
             }
         }
 
+        std::optional<ResidentFigures> resident;
+        if (options.resident) {
+            ResidentOptions limits = options.limits;
+            limits.rounds = options.rounds;
+            Result<ResidentFigures> measured = measure_resident(*mesh, *table, limits);
+            if (!measured) return fail(path, measured.error());
+            resident = std::move(*measured);
+        }
+
         Section decode_gpu{"decode_gpu (wall)", {}}, draw{"draw (wall)", {}};
         std::string device, gpu_skipped = "built without Vulkan";
         Json peak = Json::object();
@@ -148,6 +162,7 @@ int run(const Options& options) {
                               {"device", device},
                               {"gpu_skipped", gpu_skipped},
                               {"operators", operators_json},
+                              {"resident", resident ? to_json(*resident) : Json::object()},
                               {"peak_bytes", peak}});
             continue;
         }
@@ -170,6 +185,7 @@ int run(const Options& options) {
             for (const auto& row : structure.rows) fmt::print("{:>10.2f}", row.ns_per_op());
             fmt::print("\n");
         }
+        if (resident) print_resident(*resident);
         fmt::print("  lean is built {:.2f} times as fast as strips\n  peak memory beyond the input\n", ratio);
         for (const auto& [name, bytes] : peak.items()) {
             fmt::print("    {:<24}{:>11.1f} MB{:>10.1f} bytes a triangle\n", name, bytes.get<double>() / 1e6,
@@ -195,6 +211,24 @@ void add_bench(CLI::App& program, Action& action) {
         ->capture_default_str();
     command->add_flag("--operators", options->operators,
                       "also time the corner operators on LR and on what it is compared with");
+    CLI::Option* resident = command->add_flag("--resident", options->resident,
+                                              "also time them with resident memory limited, on memory-mapped files");
+    command->add_option("--scratch", options->limits.scratch, "folder for the memory-mapped files; else the system's")
+        ->needs(resident);
+    command
+        ->add_option("--page", options->limits.page_kib,
+                     "KiB that are read at a time; 0: by the mesh's size, mostly 32")
+        ->check(CLI::IsMember(std::set<std::size_t>{0, 4, 8, 16, 32, 64, 128, 256, 512, 1024}))
+        ->needs(resident);
+    command->add_option("--sample", options->limits.sample, "elements that a random-order visit takes")
+        ->check(CLI::Range(1, 100000000))
+        ->capture_default_str()
+        ->needs(resident);
+    command->add_option("--levels", options->limits.levels, "limits, as shares of the corner table's size, with commas")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(CLI::Range(0.0, 1000.0))
+        ->needs(resident);
 #ifdef LACEDRING_GPU
     command->add_flag("--no-gpu", options->no_gpu, "leave the device out");
     add_device_options(*command, options->context);

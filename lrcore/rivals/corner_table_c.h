@@ -21,7 +21,8 @@ struct CornerTableCView : CornerWalks<CornerTableCView> {
     std::uint32_t vertices = 0;
     std::span<const std::uint32_t> vertex_of;    ///< V, 3 a triangle
     std::span<const std::uint32_t> opposite_of;  ///< O, 3 a triangle; UINT32_MAX across a border
-    std::span<const std::uint32_t> corner_of;    ///< C, 1 a vertex; UINT32_MAX where a vertex has no triangle
+    std::span<const std::uint32_t> corner_of;    ///< C, 1 a vertex: at a border the first in swing order;
+                                                 ///< UINT32_MAX where a vertex has no triangle
 
     /// c.t
     static TriangleId triangle(CornerId c) { return lr::triangle(c); }

@@ -9,7 +9,8 @@ namespace lr {
 
 /// Base of a structure `Self` with next(c), previous(c), opposite(c), vertex(c), corner(v): the other operators, with
 /// the names, the meanings and the order of visits of LrOperators (lrcore/lr/operators.h), so that one template runs on
-/// all.
+/// all. Where corner(v) may be another than the first in swing order at a
+/// border, `Self` has its own star_begin.
 template <class Self>
 class CornerWalks {
   public:
@@ -43,44 +44,51 @@ class CornerWalks {
         return !first.is_null();
     }
 
-    /// Calls visit(corner) for every triangle around v. O(valence).
+    /// Where stars begin: at v.c, which at a border is the first corner there in swing order; null: of no triangle.
+    CornerId star_begin(VertexId v) const { return store().corner(v); }
+
+    // The loops below have two ways out each: with one, the compiler has the next step wait for which it is.
+
+    /// Calls visit(corner) for every triangle around v, in swing order from star_begin. O(valence).
     template <class Visit>
     void star(VertexId v, Visit visit) const {
-        const CornerId first = store().corner(v);
+        const CornerId first = store().star_begin(v);
         if (first.is_null()) return;
-        CornerId c = first;
-        do {
+        for (CornerId c = first;;) {
             visit(c);
-            c = store().swing(c);
-        } while (!c.is_null() && c != first);
-        if (!c.is_null()) return;
-        for (c = store().swing_back(first); !c.is_null(); c = store().swing_back(c)) visit(c);
+            const CornerId l = store().left(c);
+            if (l.is_null()) return;
+            c = store().next(l);
+            if (c == first) return;
+        }
     }
 
     /// Edges at v: its triangles, and one more on a border. O(valence).
     std::uint32_t valence(VertexId v) const {
-        const CornerId first = store().corner(v);
+        const CornerId first = store().star_begin(v);
         if (first.is_null()) return 0;
-        std::uint32_t count = 0;
-        CornerId c = first;
-        do {
-            ++count;
-            c = store().swing(c);
-        } while (!c.is_null() && c != first);
-        if (!c.is_null()) return count;
-        for (c = store().swing_back(first); !c.is_null(); c = store().swing_back(c)) ++count;
-        return count + 1;
+        std::uint32_t count = 1;
+        for (CornerId c = first;; ++count) {
+            const CornerId l = store().left(c);
+            if (l.is_null()) return count + 1;
+            c = store().next(l);
+            if (c == first) return count;
+        }
     }
 
-    /// Calls visit(vertex) for every neighbour of v once, border neighbours included. O(valence), times the cost of
-    /// c.v.
+    /// Calls visit(vertex) for every neighbour of v once, in swing order: on a border from one border neighbour to the
+    /// other. O(valence), times the cost of c.v.
     template <class Visit>
     void neighbours(VertexId v, Visit visit) const {
-        store().star(v, [&](CornerId c) {
+        const CornerId first = store().star_begin(v);
+        if (first.is_null()) return;
+        for (CornerId c = first;;) {
             visit(store().vertex(store().next(c)));
-            if (store().left(c).is_null())
-                visit(store().vertex(store().previous(c)));  // the last edge, before the border
-        });
+            const CornerId l = store().left(c);
+            if (l.is_null()) return visit(store().vertex(store().previous(c)));  // beyond the last triangle
+            c = store().next(l);
+            if (c == first) return;
+        }
     }
 };
 

@@ -15,7 +15,8 @@
 //        v = 0 ------- 1           Corner 8r+4k+i, when it leaves, leaves by word 4r+k+i; 8r+4 leaves by 4r.
 //
 // A record of one triangle has kSingle in its fourth word; triangle 2r+1 does not exist then. Along a border the swing
-// past the last triangle of a fan wraps to its first and says so (kWrap), so every star is one cycle of S.
+// past the last triangle of a fan wraps to its first and says so (kWrap), so every star is one cycle of S; and the
+// first word of a vertex's record says that the vertex is on a border (kBorder), so that a walk knows where to begin.
 //
 // c.v follows S around the unknown vertex until it comes to a corner 8v with v < matched: O(valence); on bunny 1.4
 // words on average and 8 at most. The few vertices that got no triangle (there are some where vertices outnumber
@@ -43,7 +44,8 @@ namespace lr {
 struct SquadView : CornerWalks<SquadView> {
     static constexpr std::uint32_t kWrap = 0x80000000;        ///< in S: across a border, back to the fan's first corner
     static constexpr std::uint32_t kSingle = 0xffffffff;      ///< in S, a record's fourth word: it holds one triangle
-    static constexpr std::uint32_t kMaxRecords = 0x10000000;  ///< 2^28: a corner is 31 bits
+    static constexpr std::uint32_t kBorder = 0x40000000;      ///< in S, word 4v: vertex v is on a border
+    static constexpr std::uint32_t kMaxRecords = 0x08000000;  ///< 2^27: a corner is 30 bits
 
     std::uint32_t vertices = 0;              ///< all: matched, unmatched, and of no triangle, in this order
     std::uint32_t matched = 0;               ///< vertices with a record of their own
@@ -63,10 +65,10 @@ struct SquadView : CornerWalks<SquadView> {
     VertexId vertex(CornerId c) const {
         std::uint32_t x = c.value % 4 == 0 ? c.value & ~4U : c.value;          // both triangles begin at point 0
         if (const std::uint32_t v = std::rotr(x, 3); v < matched) return {v};  // x = 8v
-        const std::uint32_t begin = x = leave(x) & ~kWrap;
+        const std::uint32_t begin = x = follow(x);
         for (;;) {
             if (const std::uint32_t v = std::rotr(x, 3); v < matched) return {v};
-            x = leave(x) & ~kWrap;
+            x = follow(x);
             if (x == begin) return unmatched_vertex(begin);
         }
     }
@@ -74,7 +76,7 @@ struct SquadView : CornerWalks<SquadView> {
     /// c.s: the next corner around c's vertex, null at a border.
     CornerId swing(CornerId c) const {
         const std::uint32_t x = around(c.value);
-        return (x & kWrap) != 0 ? null_corner : CornerId{x};
+        return (x & kWrap) != 0 ? null_corner : CornerId{x & ~kBorder};
     }
     /// c.o: null across a border.
     CornerId opposite(CornerId c) const {
@@ -105,22 +107,36 @@ struct SquadView : CornerWalks<SquadView> {
     /// Is the vertex on a border? O(valence).
     bool is_border(VertexId v) const {
         bool border = false;
-        cycle(v, [&](std::uint32_t, std::uint32_t, bool wraps) { border |= wraps; });
+        cycle(corner(v), [&](std::uint32_t, std::uint32_t, bool wraps) { border |= wraps; });
         return border;
     }
-    /// Calls visit(corner) for every triangle around v, in swing order from v.c, past the border if it has one.
-    /// O(valence).
+    /// v.c, or at a border the first corner in swing order: O(valence) there. The walks around v begin with it.
+    CornerId star_begin(VertexId v) const {
+        if (v.value < matched && (swings[4 * v.value] & kBorder) == 0) return corner(v);
+        return fan_begin(v);
+    }
+    /// Calls visit(corner) for every triangle around v, in swing order from star_begin. O(valence).
     template <class Visit>
     void star(VertexId v, Visit visit) const {
-        cycle(v, [&](std::uint32_t c, std::uint32_t second, bool) {
+        cycle(star_begin(v), [&](std::uint32_t c, std::uint32_t second, bool) {
             visit(CornerId{c});
             if (second != c) visit(CornerId{second});
+        });
+    }
+    /// Calls visit(vertex) for every neighbour of v once, in swing order: on a border from one border neighbour to the
+    /// other. O(valence), times the cost of c.v.
+    template <class Visit>
+    void neighbours(VertexId v, Visit visit) const {
+        cycle(star_begin(v), [&](std::uint32_t c, std::uint32_t second, bool wraps) {
+            visit(vertex(next(CornerId{c})));
+            if (second != c) visit(vertex(next(CornerId{second})));
+            if (wraps) visit(vertex(previous(CornerId{second})));  // beyond the last triangle
         });
     }
     /// Edges at v: its triangles, and one more on a border. O(valence).
     std::uint32_t valence(VertexId v) const {
         std::uint32_t count = 0;
-        cycle(v, [&](std::uint32_t c, std::uint32_t second, bool wraps) {
+        cycle(corner(v), [&](std::uint32_t c, std::uint32_t second, bool wraps) {
             count += 1 + std::uint32_t{second != c} + std::uint32_t{wraps};
         });
         return count;
@@ -138,7 +154,9 @@ struct SquadView : CornerWalks<SquadView> {
     /// The word by which the star of corner c leaves c's record. Not for c = 8r+4: give 8r.
     std::uint32_t leave(std::uint32_t c) const { return swings[c / 8 * 4 + c / 4 % 2 + c % 4]; }
 
-    /// The next corner in the cycle around c's vertex, with kWrap if that is across a border.
+    std::uint32_t follow(std::uint32_t c) const { return leave(c) & ~(kWrap | kBorder); }
+
+    /// The next corner in the cycle around c's vertex, with kWrap if that is across a border; kBorder means nothing.
     std::uint32_t around(std::uint32_t c) const {
         switch (c % 8) {
             case 0:
@@ -152,24 +170,36 @@ struct SquadView : CornerWalks<SquadView> {
         }
     }
 
-    /// Goes around v by the records there: visit(the corner at which the star enters the record, the second corner that
-    /// it has there or again the first, does it end at a border).
-    template <class Visit>
-    void cycle(VertexId v, Visit visit) const {
+    /// v.c, or at a border the first corner in swing order.
+    CornerId fan_begin(VertexId v) const {
         const CornerId first = corner(v);
+        if (first.is_null()) return first;
+        std::uint32_t c = first.value;
+        bool wraps = false;
+        do {
+            wraps = (leave(c) & kWrap) != 0;
+            c = follow(c);
+        } while (c != first.value && !wraps);
+        return {c};
+    }
+
+    /// Goes around a vertex by the records there, from `first`, where one is entered: visit(the corner at which the
+    /// star enters the record, the second corner that it has there or again the first, does it end at a border).
+    template <class Visit>
+    void cycle(CornerId first, Visit visit) const {
         if (first.is_null()) return;
         std::uint32_t c = first.value;
         do {
             const std::uint32_t word = leave(c);
             const std::uint32_t role = c % 8;
             visit(c, role == 5 ? c - 3 : role == 0 && is_quad(c / 8) ? c + 4 : c, (word & kWrap) != 0);
-            c = word & ~kWrap;
+            c = word & ~(kWrap | kBorder);
         } while (c != first.value);
     }
 
     VertexId unmatched_vertex(std::uint32_t begin) const {
         std::uint32_t smallest = begin;
-        for (std::uint32_t x = leave(begin) & ~kWrap; x != begin; x = leave(x) & ~kWrap) {
+        for (std::uint32_t x = follow(begin); x != begin; x = follow(x)) {
             smallest = std::min(smallest, x);
         }
         const auto at = std::lower_bound(corners.begin(), corners.end(), smallest);
@@ -205,7 +235,7 @@ struct SquadOptions {
 /// Builds S from a pseudo-manifold corner table (split_fans) and a matching of its own (squad_match.h). Degenerate
 /// triangles take no part. The result does not say which triangles the input had the other way round.
 /// Cost: O(T) time. `map` may be null; its triangle numbers are 2r and 2r+1.
-/// Errors: too_large (more than 2^28 records; a triangle is in one).
+/// Errors: too_large (more than 2^27 records; a triangle is in one).
 Result<Squad> build_squad(const CornerTable& table, const SquadOptions& options = {}, LrMap* map = nullptr);
 
 }  // namespace lr

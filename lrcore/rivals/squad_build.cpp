@@ -28,6 +28,9 @@ class Builder {
         out_.matched = matching_.matched;
         out_.swings.resize(4 * matching_.records.size());
         for (std::uint32_t r = 0; r < matching_.records.size(); ++r) fill(r);
+        for (std::uint32_t v = 0; v < out_.matched; ++v) {
+            if (out_.view().is_border({v})) out_.swings[4 * std::size_t{v}] |= SquadView::kBorder;
+        }
         sort_unmatched();
         count();
         if (map != nullptr) fill(*map);

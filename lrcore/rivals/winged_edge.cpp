@@ -15,6 +15,12 @@ WingedEdge build_winged_edge(const CornerTable& table) {
             if (!degenerate) out.half_edge_at[start.value] = c;
         }
     }
+    for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
+        for (std::uint32_t i = 0; i < 3 && !table.degenerate({t}); ++i) {  // v.c is the corner after half-edge c
+            const CornerId c = corner(TriangleId{t}, i);
+            if (table.opposite(c).is_null()) out.half_edge_at[table.vertex(next(c)).value] = c;
+        }
+    }
     return out;
 }
 

@@ -31,7 +31,8 @@ struct HalfEdge {
 struct WingedEdgeView : CornerWalks<WingedEdgeView> {
     std::uint32_t vertices = 0;
     std::span<const HalfEdge> half_edges;    ///< 3 a triangle
-    std::span<const CornerId> half_edge_at;  ///< 1 a vertex: a half-edge that starts there; null: of no triangle
+    std::span<const CornerId> half_edge_at;  ///< 1 a vertex: a half-edge that starts there, at a border the one
+                                             ///< on it; null: of no triangle
 
     /// c.t
     static TriangleId triangle(CornerId c) { return lr::triangle(c); }

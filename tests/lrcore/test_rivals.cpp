@@ -32,6 +32,31 @@ LrMap identity(const CornerTable& table) {
     return map;
 }
 
+/// Stars and neighbours in swing order; at a border from one border neighbour to the other.
+template <class Ops>
+void check_order(const Ops& ops) {
+    for (std::uint32_t v = 0; v < ops.vertices; ++v) {
+        CAPTURE(v);
+        std::vector<CornerId> star;
+        std::vector<VertexId> neighbours, expected;
+        ops.star({v}, [&](CornerId c) { star.push_back(c); });
+        ops.neighbours({v}, [&](VertexId u) { neighbours.push_back(u); });
+        for (std::size_t i = 0; i < star.size(); ++i) {
+            expected.push_back(ops.vertex(ops.next(star[i])));
+            const CornerId after = i + 1 < star.size() ? star[i + 1] : ops.is_border({v}) ? null_corner : star[0];
+            REQUIRE(ops.swing(star[i]) == after);
+        }
+        if (star.empty()) continue;
+        if (ops.is_border({v})) {
+            REQUIRE(ops.swing_back(star[0]).is_null());
+            expected.push_back(ops.vertex(ops.previous(star.back())));
+        } else {
+            REQUIRE(star[0] == ops.corner(VertexId{v}));
+        }
+        REQUIRE(neighbours == expected);
+    }
+}
+
 struct Counts {
     std::uint32_t triangles = 0, used_vertices = 0;
 };
@@ -61,6 +86,7 @@ Squad check_squad(const CornerTable& table, const SquadOptions& options) {
     CHECK(view.references() == std::size_t{4} * records + s.unmatched);
     CHECK(view.triangle_numbers() == 2 * records);
     test::check_operators(table, view, map);
+    check_order(view);
     return std::move(*squad);
 }
 
@@ -69,9 +95,11 @@ void check(const Mesh& mesh) {
     const CornerTableC with_c = build_corner_table_c(table);
     CHECK(with_c.view().references() == std::size_t{6} * table.triangle_count() + table.vertex_count);
     test::check_operators(table, with_c.view(), identity(table), 3);
+    check_order(with_c.view());
     const WingedEdge winged = build_winged_edge(table);
     CHECK(winged.view().references() == std::size_t{9} * table.triangle_count() + table.vertex_count);
     test::check_operators(table, winged.view(), identity(table), 3);
+    check_order(winged.view());
     const Squad squad = check_squad(table, {});
     const Squad greedy = check_squad(table, {.renumber = false, .reach = 0});
     CHECK(squad.view().references() <= greedy.view().references());
