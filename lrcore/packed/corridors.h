@@ -1,5 +1,5 @@
 #pragma once
-// The order in which the packed stream visits triangles: the polygons on either side of each ring, depth first.
+// The orders in which packed streams visit triangles.
 
 #include <cstdint>
 #include <vector>
@@ -14,9 +14,9 @@ namespace lr {
 struct CorridorStep {
     enum Flag : std::uint8_t {
         kRight = 1,   ///< on the right of its ring: a is the vertex of previous(corner), else of next(corner)
-        kEnterA = 2,  ///< what lies across (a, x) is visited from here
-        kEnterB = 4,  ///< what lies across (x, b)
-        kFirstA = 8,  ///< of both, (a, x) at once and (x, b) after all that lies behind; else the other way round
+        kEnterA = 2,  ///< something across (a, x) can be visited from here
+        kEnterB = 4,  ///< across (x, b)
+        kFirstA = 8,  ///< of both, (a, x) is next and (x, b) after all that lies behind; else the other way round
     };
 };
 
@@ -25,11 +25,16 @@ struct Corridors {
     std::vector<CornerId> corners;            ///< of each step
     std::vector<std::uint8_t> flags;          ///< of each step
     std::uint32_t ring_vertices = 0;
-    std::uint32_t splits = 0;  ///< steps with both kEnterA and kEnterB
+    std::uint32_t events = 0;  ///< steps that a stream needs more than a turn bit for, about
 };
 
-/// Visits every triangle of the table that is not degenerate, once.
-/// Cost: O(T) time; 5 bytes a triangle and 4 a vertex for the result; while it runs 4 bits a triangle, 4 bytes a vertex.
+/// Visits every triangle of the table that is not degenerate, once: the polygons on either side of each ring, depth first.
+/// The fewest bits. Cost: O(T) time; 5 bytes a triangle and 4 a vertex for the result; while it runs 4 bits a triangle,
+/// 4 bytes a vertex.
 Corridors walk_corridors(const CornerTable& table, const Rings& rings);
+
+/// Visits them in short pieces of corridors, each beside the one before: the vertices of a FIFO cache of 32 are mostly
+/// still there. Cost: about ten times that of walk_corridors; 4 bytes a vertex more.
+Corridors walk_pieces(const CornerTable& table, const Rings& rings);
 
 }  // namespace lr

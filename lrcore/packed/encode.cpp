@@ -2,6 +2,7 @@
 // and says in events whatever the next triangle needs and that state does not give.
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -35,7 +36,7 @@ class Encoder {
         vertex_bits_ = std::max<std::uint32_t>(1, static_cast<std::uint32_t>(std::bit_width(table_.vertex_count - 1)));
         if (table_.vertex_count == 0) vertex_bits_ = 1;
         // The best low part of a gap is about its mean times ln 2.
-        const double gap = 0.69 * triangles / (1.0 + corridors_.splits);
+        const double gap = 0.69 * triangles / (1.0 + corridors_.events);
         gap_bits_ = static_cast<std::uint32_t>(std::clamp(std::lround(std::log2(std::max(gap, 1.0))), long{LR_PACKED_MIN_GAP_BITS}, 7L));
 
         const std::uint32_t turn_words = (triangles + 31) / 32;
@@ -211,39 +212,41 @@ class Encoder {
         const auto golomb = BitWriter::golomb_bits;
         const bool r = reversed(i), ascends = wanted.b >= wanted.a + 2;
         const std::uint32_t size = wanted.b - wanted.a - 2, step = wanted.a - begun_.b;
-        const bool behind = wanted.a >= now_.b;
-        const std::uint32_t resume_step = behind ? wanted.a - now_.b : now_.a - wanted.b;
-        std::uint32_t bits[5] = {
+        const std::array<std::uint32_t, 4> starts{
             wanted == begun_ && r != begun_reversed_ ? 5 : kNever,
             step == 1 && ascends && !r ? 6 + golomb(size, LR_PACKED_SIZE_ORDER) : kNever,
             wanted.a >= begun_.b && ascends && r == begun_reversed_
                 ? 7 + golomb(step, LR_PACKED_SIZE_ORDER) + golomb(size, LR_PACKED_SIZE_ORDER)
                 : kNever,
             7 + 2 * vertex_bits_ + 1,
-            stack_.empty() && (behind || wanted.b <= now_.a)
-                ? 4 + golomb(resume_step, LR_PACKED_RESUME_ORDER) + vertex_bits_ + (r == reversed_ ? 0 : 7)
-                : kNever,
         };
-        const auto best = static_cast<std::uint32_t>(std::min_element(bits, bits + 5) - bits);
-        if (best == 4) {
-            event(i, LR_PACKED_RESUME);
-            bits_.put(behind ? 0 : 1, 1);
-            bits_.put_golomb(resume_step, LR_PACKED_RESUME_ORDER);
-            bits_.put(behind ? wanted.b : wanted.a, vertex_bits_);
-            begun_ = wanted;
-            begun_reversed_ = reversed_;
-            return;
-        }
-        event(i, LR_PACKED_START);
-        if (best == LR_PACKED_START_ANY) {
-            bits_.put(0x7, 3);
-            bits_.put(wanted.a, vertex_bits_);
-            bits_.put(wanted.b, vertex_bits_);
-            bits_.put(r ? 1 : 0, 1);
+        // In the order of LR_PACKED_BESIDE_*; a step back is folded in between the steps forward.
+        std::array<std::uint32_t, 4> beside{wanted.a - now_.b, wanted.b - now_.a, wanted.a - begun_.a,
+                                            wanted.b - begun_.b};
+        for (std::uint32_t& s : beside) s = s >> 31 != 0 ? ~s << 1 | 1 : s << 1;
+        const auto nearest = std::min_element(beside.begin(), beside.end());
+        const auto kind = std::min_element(starts.begin(), starts.end());
+        if (3 + 1 + 2 + golomb(*nearest, LR_PACKED_BESIDE_ORDER) + vertex_bits_ < *kind) {
+            event(i, LR_PACKED_BESIDE);
+            const auto from = static_cast<std::uint32_t>(nearest - beside.begin());
+            bits_.put(r == reversed_ ? 0 : 1, 1);
+            bits_.put(from, 2);
+            bits_.put_golomb(*nearest, LR_PACKED_BESIDE_ORDER);
+            bits_.put(from == LR_PACKED_BESIDE_NOW_B || from == LR_PACKED_BESIDE_BEGUN_A ? wanted.b : wanted.a,
+                      vertex_bits_);
         } else {
-            bits_.put_unary(best);
-            if (best == LR_PACKED_START_NEAR) bits_.put_golomb(step, LR_PACKED_SIZE_ORDER);
-            if (best != LR_PACKED_START_OTHER) bits_.put_golomb(size, LR_PACKED_SIZE_ORDER);
+            event(i, LR_PACKED_START);
+            if (*kind == starts[LR_PACKED_START_ANY]) {
+                bits_.put(0x7, 3);
+                bits_.put(wanted.a, vertex_bits_);
+                bits_.put(wanted.b, vertex_bits_);
+                bits_.put(r ? 1 : 0, 1);
+            } else {
+                const auto code = static_cast<std::uint32_t>(kind - starts.begin());
+                bits_.put_unary(code);
+                if (code == LR_PACKED_START_NEAR) bits_.put_golomb(step, LR_PACKED_SIZE_ORDER);
+                if (code != LR_PACKED_START_OTHER) bits_.put_golomb(size, LR_PACKED_SIZE_ORDER);
+            }
         }
         begun_ = wanted;
         reversed_ = begun_reversed_ = r;
@@ -347,8 +350,9 @@ class Encoder {
 
 }  // namespace
 
-PackedStream encode_packed(const CornerTable& table, const Rings& rings) {
-    Corridors corridors = walk_corridors(table, rings);
+PackedStream encode_packed(const CornerTable& table, const Rings& rings, PackedProfile profile) {
+    Corridors corridors =
+        profile == PackedProfile::small ? walk_corridors(table, rings) : walk_pieces(table, rings);
     PackedStream out;
     out = Encoder(table, corridors).encode(std::move(out));
     out.statistics.ring_vertices = corridors.ring_vertices;

@@ -44,7 +44,7 @@
 // Event codes: so many ones before the zero. The last code has no zero.
 #define LR_PACKED_WART 0u    // at its triangle: a T0 with a T2 beside it
 #define LR_PACKED_SPLIT 1u   // at its triangle: a T0 with a longer corridor beside it
-#define LR_PACKED_RESUME 2u  // before its triangle: the second corridor of a T0 of an earlier block
+#define LR_PACKED_BESIDE 2u  // before its triangle: a corridor that begins where the one before began or ended
 #define LR_PACKED_START 3u   // before its triangle: another corridor
 #define LR_PACKED_FAR 4u     // at its triangle: any third vertex
 #define LR_PACKED_JUMP 5u    // at its triangle: a third vertex on the chain, and no corridor up to it
@@ -57,10 +57,16 @@
 #define LR_PACKED_START_NEAR 2u   // a polygon that begins little behind where that one did
 #define LR_PACKED_START_ANY 3u    // any
 
+// Which vertex the next field is counted from, where a corridor begins beside another.
+#define LR_PACKED_BESIDE_NOW_B 0u    // a, from the b where that one ended
+#define LR_PACKED_BESIDE_NOW_A 1u    // b, from the a where it ended
+#define LR_PACKED_BESIDE_BEGUN_A 2u  // a, from the a where it began
+#define LR_PACKED_BESIDE_BEGUN_B 3u  // b, from the b where it began
+
 // Orders of the Exp-Golomb codes.
 #define LR_PACKED_SPLIT_ORDER 2u
 #define LR_PACKED_JUMP_ORDER 1u
 #define LR_PACKED_SIZE_ORDER 2u
-#define LR_PACKED_RESUME_ORDER 4u
+#define LR_PACKED_BESIDE_ORDER 1u
 
 #endif

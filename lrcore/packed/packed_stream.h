@@ -33,9 +33,14 @@ struct PackedStream {
     PackedStatistics statistics;
 };
 
+enum class PackedProfile {
+    small,  ///< the fewest bits
+    cache,  ///< an order nearly as good for the vertex cache as the best, in about one bit and a half more
+};
+
 /// Encodes every triangle of the table that is not degenerate.
 /// Cost: O(T) time; beside the result 5 bytes a triangle, 5 a vertex and 4 bits a triangle while it runs.
-PackedStream encode_packed(const CornerTable& table, const Rings& rings);
+PackedStream encode_packed(const CornerTable& table, const Rings& rings, PackedProfile profile = PackedProfile::small);
 
 /// A packed stream somewhere in memory, its header read. Holds no copy.
 struct PackedView {

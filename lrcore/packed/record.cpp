@@ -151,7 +151,7 @@ class Expander {
 
   private:
     static constexpr bool is_before(std::uint32_t code) {
-        return code == LR_PACKED_START || code == LR_PACKED_RESUME || code >= LR_PACKED_END;
+        return code == LR_PACKED_START || code == LR_PACKED_BESIDE || code >= LR_PACKED_END;
     }
     bool turn(std::uint32_t i) const { return (turns_[i / 32] >> (i % 32) & 1) != 0; }
 
@@ -183,21 +183,27 @@ class Expander {
             now_ = pop();
             return true;
         }
-        if (code_ == LR_PACKED_RESUME) {
-            const bool back = bits_.take(1) != 0;
-            const std::uint32_t step = bits_.golomb(LR_PACKED_RESUME_ORDER), other = bits_.take(width_);
-            begun_ = back ? Edge{other, now_.a - step} : Edge{now_.b + step, other};
-        } else {
-            start();
-        }
+        depth_ = 0;
+        code_ == LR_PACKED_BESIDE ? beside() : start();
         now_ = begun_;
         begun_reversed_ = reversed_;
         return true;
     }
 
+    void beside() {
+        if (bits_.take(1) != 0) reversed_ = !reversed_;
+        const std::uint32_t from = bits_.take(2), folded = bits_.golomb(LR_PACKED_BESIDE_ORDER);
+        const std::uint32_t step = (folded & 1) != 0 ? ~(folded >> 1) : folded >> 1, other = bits_.take(width_);
+        switch (from) {
+            case LR_PACKED_BESIDE_NOW_B: begun_ = {now_.b + step, other}; break;
+            case LR_PACKED_BESIDE_NOW_A: begun_ = {other, now_.a + step}; break;
+            case LR_PACKED_BESIDE_BEGUN_A: begun_ = {begun_.a + step, other}; break;
+            default: begun_ = {other, begun_.b + step};
+        }
+    }
+
     void start() {
         const std::uint32_t kind = bits_.unary(LR_PACKED_START_ANY);
-        depth_ = 0;
         if (kind == LR_PACKED_START_OTHER) {
             reversed_ = !begun_reversed_;
         } else if (kind == LR_PACKED_START_ANY) {
