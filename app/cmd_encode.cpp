@@ -17,6 +17,7 @@ struct Options {
     MeshInput input;
     std::string output;
     std::string format = "lean";
+    std::string profile = "small";
     RingChoice ring;
     bool no_warts = false;
     bool keep_order = false;
@@ -25,12 +26,16 @@ struct Options {
 Result<LrFile> encode(const Options& options, const Mesh& mesh, CornerTable table) {
     const RingOptions ring = ring_options(options.ring, mesh.triangle_count());
     if (options.format == "lean") {
-        LeanStream lean = encode_lean(table, expand_rings(table, ring), {.wart_skipping = !options.no_warts});
+        const Rings rings = optimize_rings(table, expand_rings(table, ring), optimize_options(options.ring, lean_ring_cost));
+        LeanStream lean = encode_lean(table, rings, {.wart_skipping = !options.no_warts});
         return make_lr_file(mesh, Connectivity::lean, std::move(lean.words), std::move(lean.vertex_order),
                             std::move(lean.slot_triangle), options.keep_order);
     }
     if (options.format == "packed") {
-        PackedStream packed = encode_packed(table, expand_rings(table, ring));
+        const Rings rings =
+            optimize_rings(table, expand_rings(table, ring), optimize_options(options.ring, packed_ring_cost));
+        PackedStream packed =
+            encode_packed(table, rings, options.profile == "cache" ? PackedProfile::cache : PackedProfile::small);
         return make_lr_file(mesh, Connectivity::packed, std::move(packed.words), std::move(packed.vertex_order),
                             std::move(packed.triangle_order), options.keep_order);
     }
@@ -72,6 +77,9 @@ void add_encode(CLI::App& program, Action& action) {
     command->add_option("-o,--output", options->output, "the .lr file")->required();
     command->add_option("--format", options->format, "stream format")
         ->check(CLI::IsMember({"lean", "packed", "lr", "lr-compact"}))
+        ->capture_default_str();
+    command->add_option("--profile", options->profile, "of packed: the fewest bits, or an order for the vertex cache")
+        ->check(CLI::IsMember({"small", "cache"}))
         ->capture_default_str();
     add_weld(*command, options->input.weld);
     add_ring_options(*command, options->ring);

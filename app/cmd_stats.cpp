@@ -7,7 +7,9 @@
 
 #include "app/commands.h"
 #include "app/paper_tables.h"
+#include "lrcore/baseline/codecs.h"
 #include "lrcore/baseline/strips.h"
+#include "lrcore/packed/packed_format.h"
 
 namespace lr::app {
 namespace {
@@ -51,10 +53,11 @@ Json to_json(const std::string& path, const Mesh& mesh, const FormatSet& set) {
                       {"references_per_triangle", static_cast<double>(format.references) / triangles},
                       {"acmr_fifo32", cache.acmr},
                       {"atvr_fifo32", cache.atvr}};
+        if (format.deflated != 0) entry["bytes_deflated"] = format.deflated;
         if (format.ring != nullptr) {
             entry["ring"] = format.ring;
             entry["k"] = format.k == 0 ? Json(nullptr) : Json(format.k);  // null: depth first
-            entry["passes"] = 0;
+            entry["passes"] = format.passes;
         }
         out["formats"][format.name] = std::move(entry);
     }
@@ -68,6 +71,13 @@ Json to_json(const std::string& path, const Mesh& mesh, const FormatSet& set) {
         {"t2", set.lr_compact.t2},     {"irregular", set.lr_compact.t1_irregular + set.lr_compact.t2_irregular},
         {"long", set.lr_compact_long}, {"isolated", set.lr_compact.isolated}};
     for (const auto& [name, reason] : set.absent) out["absent"][name] = reason;
+    const CacheFigures best = analyze_fifo32(best_cache_order(mesh.indices, mesh.vertex_count), mesh.vertex_count);
+    out["best_order"] = {{"acmr_fifo32", best.acmr}, {"atvr_fifo32", best.atvr}};
+    out["packed"] = {{"ring_vertices", set.packed.ring_vertices},
+                     {"warts", set.packed.events[LR_PACKED_WART]},
+                     {"splits", set.packed.events[LR_PACKED_SPLIT]},
+                     {"parted_blocks", set.packed.parted_blocks},
+                     {"plain_blocks", set.packed.plain_blocks}};
     return out;
 }
 
@@ -82,15 +92,21 @@ void print(const std::string& path, const Mesh& mesh, const FormatSet& set) {
     fmt::print("\n  ring: {} vertices on it, {} isolated; T0 {:.2f} %, in warts {:.2f} %, T2 {:.2f} %\n\n",
                set.lean.ring_vertices, set.lean.isolated, share(set.lean.t0), share(set.lean.t0_wart),
                share(set.lean.t2));
-    fmt::print("  {:<18}{:>12}{:>12}{:>12}{:>10}{:>10}\n", "format", "bytes", "bits/tri", "refs/tri", "of u32",
-               "ACMR(32)");
+    const CacheFigures best =
+        analyze_fifo32(best_cache_order(mesh.indices, mesh.vertex_count), mesh.vertex_count);
+    fmt::print("  {:<20}{:>11}{:>10}{:>10}{:>10}{:>10}{:>10}{:>11}\n", "format", "bytes", "bits/tri", "refs/tri", "of u32",
+               "ACMR(32)", "ATVR(32)", "deflated");
     const auto base = static_cast<double>(set.formats.front().bytes);
     for (const Format& format : set.formats) {
         const auto bytes = static_cast<double>(format.bytes);
-        fmt::print("  {:<18}{:>12}{:>12.2f}{:>12.3f}{:>8.1f} %{:>10.3f}\n", format.name, format.bytes,
-                   8 * bytes / triangles, static_cast<double>(format.references) / triangles,
-                   base > 0 ? 100 * bytes / base : 0.0, analyze_fifo32(format.indices, format.vertex_count(mesh)).acmr);
+        const CacheFigures cache = analyze_fifo32(format.indices, format.vertex_count(mesh));
+        fmt::print("  {:<20}{:>11}{:>10.2f}{:>10}{:>8.1f} %{:>10.3f}{:>10.3f}{:>11}\n", format.name, format.bytes,
+                   8 * bytes / triangles,
+                   format.references == 0 ? "" : fmt::format("{:.3f}", static_cast<double>(format.references) / triangles),
+                   base > 0 ? 100 * bytes / base : 0.0, cache.acmr, cache.atvr,
+                   format.deflated == 0 ? "" : fmt::format("{}", format.deflated));
     }
+    fmt::print("  meshoptimizer's best order for the vertex cache: ACMR(32) {:.3f}, ATVR(32) {:.3f}\n", best.acmr, best.atvr);
     fmt::print("\n");
 }
 

@@ -37,6 +37,15 @@ void add_ring_options(CLI::App& command, RingChoice& choice) {
         ->check(CLI::Range(0, 100000))
         ->capture_default_str();
     command.add_option("--random-seed", choice.random_seed, "for the choice of seed corners")->capture_default_str();
+    command
+        .add_option("--optimize", choice.optimize, "passes of the ring optimiser: a number, 0 for none, or auto")
+        ->check([](const std::string& text) {
+            std::uint32_t passes = 0;
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), passes);
+            const bool number = error == std::errc() && end == text.data() + text.size() && passes <= 100000;
+            return number || text == "auto" ? std::string() : "passes are a number up to 100000, or auto";
+        })
+        ->capture_default_str();
 }
 
 namespace {
@@ -72,6 +81,18 @@ std::vector<std::uint32_t> ring_periods(const RingChoice& choice, std::size_t tr
     std::vector<std::uint32_t> periods = recommended_periods(triangles);
     if (choice.ring == "hybrid") std::erase(periods, 0U);  // that is the expander
     return periods;
+}
+
+OptimizeOptions optimize_options(const RingChoice& choice, const RingCost& cost) {
+    OptimizeOptions options;
+    options.cost = cost;
+    options.random_seed = choice.random_seed;
+    if (choice.optimize != "auto") {
+        std::from_chars(choice.optimize.data(), choice.optimize.data() + choice.optimize.size(), options.passes);
+    } else if (!choice.ring.empty() || choice.k != "auto") {
+        options.passes = 0;
+    }
+    return options;
 }
 
 Result<Mesh> load(const MeshInput& input) {

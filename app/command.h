@@ -9,6 +9,7 @@
 
 #include "lrcore/base/result.h"
 #include "lrcore/mesh/mesh.h"
+#include "lrcore/ring/optimize.h"
 #include "lrcore/ring/ring.h"
 
 namespace lr::app {
@@ -34,6 +35,7 @@ struct RingChoice {
     std::string k = "auto";   ///< of the hybrid: a number, or the best of recommended_periods
     std::uint32_t seeds = 0;  ///< 0: recommended_seeds
     std::uint64_t random_seed = 1;
+    std::string optimize = "auto";  ///< passes of the optimiser: a number, or as many as optimize_rings recommends
 };
 void add_ring_options(CLI::App& command, RingChoice& choice);
 /// For a format that is best with the ring-expander. With --ring hybrid, --k auto means the paper's median, 100.
@@ -41,6 +43,10 @@ RingOptions ring_options(const RingChoice& choice, std::size_t triangles);
 /// For one that is best with the hybrid: the options beside the period, and the periods to try.
 RingOptions compact_ring_options(const RingChoice& choice);
 std::vector<std::uint32_t> ring_periods(const RingChoice& choice, std::size_t triangles);
+
+/// How rings are to be optimised for a format whose ring costs what `cost` says. Not at all where --ring or --k says
+/// which ring it is to be, unless --optimize does.
+OptimizeOptions optimize_options(const RingChoice& choice, const RingCost& cost);
 
 /// Reads and welds. The input may also be an .lr file, which is validated and decoded.
 Result<Mesh> load(const MeshInput& input);

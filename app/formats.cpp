@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "lrcore/baseline/codecs.h"
 #include "lrcore/baseline/strips.h"
 #include "lrcore/corner_table/split.h"
 #include "lrcore/lr/lr_encode.h"
 #include "lrcore/lr/offsets.h"
+#include "lrcore/packed/packed_stream.h"
 #include "lrcore/rivals/corner_table_c.h"
 #include "lrcore/rivals/squad.h"
 #include "lrcore/rivals/winged_edge.h"
@@ -23,12 +27,17 @@ std::vector<std::uint32_t> without_degenerate(const std::vector<std::uint32_t>& 
     return out;
 }
 
+void set_ring(Format& format, std::uint32_t k, std::uint32_t passes) {
+    format.ring = passes != 0 ? "optimized" : k != 0 ? "hybrid" : "expander";
+    format.k = k;
+    format.passes = passes;
+}
+
 /// The lean stream, decoded twice: as a whole, and slot by slot.
-Format lean_format(const char* name, std::uint32_t k, LeanStream stream) {
+Format lean_format(const char* name, std::uint32_t k, std::uint32_t passes, LeanStream stream) {
     Format format;
     format.name = name;
-    format.ring = k == 0 ? "expander" : "hybrid";
-    format.k = k;
+    set_ring(format, k, passes);
     const Result<LeanView> view = validate_lean(stream.words);
     if (!view) {
         format.invalid = view.error().message;
@@ -52,11 +61,10 @@ Format lean_format(const char* name, std::uint32_t k, LeanStream stream) {
 
 /// LR tables, as the words that a file holds, validated and decoded.
 template <class Stream>
-Format lr_format(const char* name, EncodedLr encoded, const Result<Stream>& stream) {
+Format lr_format(const char* name, std::uint32_t passes, EncodedLr encoded, const Result<Stream>& stream) {
     Format format;
     format.name = name;
-    format.ring = encoded.k == 0 ? "expander" : "hybrid";
-    format.k = encoded.k;
+    set_ring(format, encoded.k, passes);
     format.bytes = encoded.words.size() * sizeof(std::uint32_t);
     format.references = encoded.words.size() - kLrHeaderWords;
     if (!stream) {
@@ -67,6 +75,57 @@ Format lr_format(const char* name, EncodedLr encoded, const Result<Stream>& stre
     format.order = std::move(encoded.vertex_order);
     format.copies = encoded.copies;
     return format;
+}
+
+/// The packed stream, decoded twice: as a whole, and some triangles of each block alone.
+Format packed_format(const char* name, std::uint32_t k, std::uint32_t passes, PackedStream stream) {
+    Format format;
+    format.name = name;
+    set_ring(format, k, passes);
+    format.bytes = 4 * stream.words.size();
+    format.deflated = deflated_size(std::as_bytes(std::span(stream.words)));
+    const Result<PackedView> view = validate_packed(stream.words);
+    if (!view) {
+        format.invalid = view.error().message;
+        return format;
+    }
+    format.indices.resize(std::size_t{3} * view->triangles);
+    decode_packed(*view, format.indices);
+    for (std::uint32_t t = 0; t < view->triangles; t += 37) {
+        const PackedTriangle triangle = decode_packed_triangle(*view, t);
+        if (!std::equal(triangle.v, triangle.v + 3, format.indices.begin() + std::ptrdiff_t{3} * t)) {
+            format.invalid = fmt::format("triangle {} decoded on its own differs", t);
+        }
+    }
+    format.order = std::move(stream.vertex_order);
+    return format;
+}
+
+void add_packed(FormatSet& set, const CornerTable& table, const RingChoice& choice, bool paper) {
+    OptimizeOptions optimize = optimize_options(choice, packed_ring_cost);
+    if (paper) optimize.passes = 0;
+    const Rings rings = optimize_rings(table, expand_rings(table, set.ring), optimize);
+    PackedStream packed = encode_packed(table, rings, PackedProfile::small);
+    set.packed = packed.statistics;
+    set.formats.push_back(packed_format("packed", set.ring.k, optimize.passes, std::move(packed)));
+    set.formats.push_back(packed_format("packed_cache", set.ring.k, optimize.passes,
+                                        encode_packed(table, rings, PackedProfile::cache)));
+}
+
+/// The formats of meshoptimizer that are no index buffers.
+void add_codecs(FormatSet& set, const Mesh& mesh, const std::vector<std::uint32_t>& triangles) {
+    CodedIndices coded = encode_meshopt_indices(triangles, mesh.vertex_count);
+    Format codec{.name = "meshopt_index_codec", .bytes = coded.bytes.size(), .indices = {}, .order = {}, .invalid = {}};
+    codec.deflated = deflated_size(std::as_bytes(std::span(coded.bytes)));
+    codec.indices = std::move(coded.indices);
+    codec.order = std::move(coded.order);
+    set.formats.push_back(std::move(codec));
+    Meshlets meshlets = make_meshlets(triangles, positions_f32(mesh));
+    set.formats.push_back({.name = "meshlets",
+                           .bytes = meshlets.bytes,
+                           .indices = std::move(meshlets.indices),
+                           .order = {},
+                           .invalid = {}});
 }
 
 /// A structure that answers the corner operators, read back triangle by triangle. Arrays alone: these have no file.
@@ -137,7 +196,12 @@ Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool 
     const auto add_list = [&](const char* name, std::size_t width, const std::vector<std::uint32_t>& references,
                               std::vector<std::uint32_t> indices) {
         set.formats.push_back(
-            {name, references.size() * width, references.size(), std::move(indices), {}, nullptr, 0, 0, {}});
+            {.name = name,
+             .bytes = references.size() * width,
+             .references = references.size(),
+             .indices = std::move(indices),
+             .order = {},
+             .invalid = {}});
     };
     add_list("index_u32", 4, triangles, triangles);
     if (mesh.vertex_count <= 65536) {
@@ -150,16 +214,18 @@ Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool 
         add_list("strip_restart", 4, strips.restart, unstrip(strips.restart, true));
         add_list("strip_degenerate", 4, strips.degenerate, unstrip(strips.degenerate, false));
     }
-    const Rings rings = expand_rings(*table, set.ring);
+    OptimizeOptions optimize = optimize_options(choice, lean_ring_cost);
+    if (paper) optimize.passes = 0;
+    const Rings rings = optimize_rings(*table, expand_rings(*table, set.ring), optimize);
     LeanStream lean = encode_lean(*table, rings);
     set.lean = lean.statistics;
-    set.formats.push_back(lean_format("lean", set.ring.k, std::move(lean)));
+    set.formats.push_back(lean_format("lean", set.ring.k, optimize.passes, std::move(lean)));
     set.formats.push_back(
-        lean_format("lean_no_warts", set.ring.k, encode_lean(*table, rings, {.wart_skipping = false})));
+        lean_format("lean_no_warts", set.ring.k, optimize.passes, encode_lean(*table, rings, {.wart_skipping = false})));
     if (Result<EncodedLr> lr = encode_lr(*table, set.ring)) {
         set.lr = lr->statistics;
         const auto stream = validate_lr(lr->words);
-        set.formats.push_back(lr_format("lr", std::move(*lr), stream));
+        set.formats.push_back(lr_format("lr", 0, std::move(*lr), stream));
     } else {
         set.absent.emplace_back("lr", lr.error().message);
     }
@@ -169,14 +235,13 @@ Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool 
         set.lr_compact = compact->statistics;
         const auto stream = validate_compact_lr(compact->words);
         if (stream) set.lr_compact_long = count_long_tips(stream->view);
-        set.formats.push_back(lr_format("lr_compact", std::move(*compact), stream));
+        set.formats.push_back(lr_format("lr_compact", 0, std::move(*compact), stream));
     } else {
         set.absent.emplace_back("lr_compact", compact.error().message);
     }
+    add_packed(set, *table, choice, paper);
+    add_codecs(set, mesh, triangles);
     add_rivals(set, std::move(*table), mesh.vertex_count);
-    for (const char* name : {"packed", "packed_cache", "meshopt_index_codec", "meshlets"}) {
-        set.absent.emplace_back(name, "not in this version");
-    }
     return set;
 }
 

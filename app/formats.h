@@ -9,6 +9,7 @@
 #include "lrcore/corner_table/report.h"
 #include "lrcore/lean/lean_stream.h"
 #include "lrcore/lr/lr_table.h"
+#include "lrcore/packed/packed_stream.h"
 
 namespace lr::app {
 
@@ -20,8 +21,9 @@ struct Format {
     std::vector<std::uint32_t> indices;  ///< numbered as `order` says
     std::vector<std::uint32_t>
         order;                   ///< order[new] = vertex of the mesh; empty if the format keeps the mesh's numbers
-    const char* ring = nullptr;  ///< "expander" or "hybrid"; null for a format without one
+    const char* ring = nullptr;  ///< "expander", "hybrid" or "optimized"; null for a format without one
     std::uint32_t k = 0;         ///< of the hybrid
+    std::uint32_t passes = 0;    ///< of the optimiser
     std::size_t copies = 0;      ///< of non-manifold vertices: entries of `order` beyond the mesh's vertices
     std::string invalid;         ///< what the format's own validation found wrong; empty if nothing
 

@@ -1,0 +1,79 @@
+#include "lrcore/baseline/codecs.h"
+
+#include <meshoptimizer.h>
+#include <zlib.h>
+
+#include <algorithm>
+
+namespace lr {
+namespace {
+
+CodedIndices encode(std::vector<std::uint32_t> ordered, std::uint32_t vertex_count) {
+    CodedIndices out;
+    std::vector<std::uint32_t> number(vertex_count);
+    const std::size_t used =
+        meshopt_optimizeVertexFetchRemap(number.data(), ordered.data(), ordered.size(), vertex_count);
+    std::uint32_t behind = static_cast<std::uint32_t>(used);
+    out.order.resize(vertex_count);
+    for (std::uint32_t v = 0; v < vertex_count; ++v) {
+        if (number[v] == UINT32_MAX) number[v] = behind++;  // of no triangle
+        out.order[number[v]] = v;
+    }
+    for (std::uint32_t& v : ordered) v = number[v];
+    out.bytes.resize(meshopt_encodeIndexBufferBound(ordered.size(), vertex_count));
+    out.bytes.resize(meshopt_encodeIndexBuffer(out.bytes.data(), out.bytes.size(), ordered.data(), ordered.size()));
+    out.indices.resize(ordered.size());
+    if (meshopt_decodeIndexBuffer(out.indices.data(), ordered.size(), out.bytes.data(), out.bytes.size()) != 0) {
+        out.indices.clear();
+    }
+    return out;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> best_cache_order(std::span<const std::uint32_t> indices, std::uint32_t vertex_count) {
+    std::vector<std::uint32_t> ordered(indices.size());
+    if (!indices.empty()) {
+        meshopt_optimizeVertexCache(ordered.data(), indices.data(), indices.size(), vertex_count);
+    }
+    return ordered;
+}
+
+CodedIndices encode_meshopt_indices(std::span<const std::uint32_t> indices, std::uint32_t vertex_count) {
+    if (indices.empty()) return encode({}, vertex_count);
+    CodedIndices cache = encode(best_cache_order(indices, vertex_count), vertex_count);
+    std::vector<std::uint32_t> ordered(indices.size());
+    meshopt_optimizeVertexCacheStrip(ordered.data(), indices.data(), indices.size(), vertex_count);
+    CodedIndices strip = encode(std::move(ordered), vertex_count);
+    return strip.bytes.size() < cache.bytes.size() ? strip : cache;
+}
+
+Meshlets make_meshlets(std::span<const std::uint32_t> indices, std::span<const float> positions) {
+    constexpr std::size_t kVertices = 64, kTriangles = 124;
+    Meshlets out;
+    if (indices.empty()) return out;
+    const std::size_t most = meshopt_buildMeshletsBound(indices.size(), kVertices, kTriangles);
+    std::vector<meshopt_Meshlet> meshlets(most);
+    std::vector<unsigned int> vertices(most * kVertices);
+    std::vector<unsigned char> corners(most * kTriangles * 3);
+    meshlets.resize(meshopt_buildMeshlets(meshlets.data(), vertices.data(), corners.data(), indices.data(),
+                                          indices.size(), positions.data(), positions.size() / 3, 3 * sizeof(float),
+                                          kVertices, kTriangles, 0));
+    for (const meshopt_Meshlet& m : meshlets) {
+        out.bytes += sizeof m + sizeof(std::uint32_t) * m.vertex_count + (std::size_t{3} * m.triangle_count + 3) / 4 * 4;
+        for (unsigned i = 0; i < 3 * m.triangle_count; ++i) {
+            out.indices.push_back(vertices[m.vertex_offset + corners[m.triangle_offset + i]]);
+        }
+    }
+    return out;
+}
+
+std::size_t deflated_size(std::span<const std::byte> bytes) {
+    uLongf size = compressBound(static_cast<uLong>(bytes.size()));
+    std::vector<Bytef> out(size);
+    const int done = compress2(out.data(), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+                               static_cast<uLong>(bytes.size()), Z_BEST_COMPRESSION);
+    return done == Z_OK ? size : bytes.size();
+}
+
+}  // namespace lr

@@ -1,0 +1,36 @@
+#pragma once
+// meshoptimizer's compressed index formats, and deflate.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lr {
+
+/// A mesh's triangles in an order of the rival's choosing, and what they are stored in. `order[new] = old` vertex.
+struct CodedIndices {
+    std::vector<std::uint8_t> bytes;
+    std::vector<std::uint32_t> indices;  ///< as they are decoded again, in the new numbers
+    std::vector<std::uint32_t> order;
+};
+
+/// meshopt_encodeIndexBuffer, in the better of meshopt_optimizeVertexCache's order and that for strips, vertices in the
+/// order in which they are used. Decoding starts at the first triangle. `indices` has no degenerate triangles.
+CodedIndices encode_meshopt_indices(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);
+
+/// The triangles in the order that meshopt_optimizeVertexCache thinks best.
+std::vector<std::uint32_t> best_cache_order(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);
+
+/// meshopt_buildMeshlets, 64 vertices and 124 triangles each, as a mesh shader reads them: 16 bytes a meshlet, 4 for
+/// each of its vertices, 3 for each triangle, filled up to 4. `positions` has three a vertex.
+struct Meshlets {
+    std::size_t bytes = 0;
+    std::vector<std::uint32_t> indices;  ///< as they come out, in the mesh's numbers
+};
+Meshlets make_meshlets(std::span<const std::uint32_t> indices, std::span<const float> positions);
+
+/// Bytes that zlib's deflate makes of `bytes`, at its best.
+std::size_t deflated_size(std::span<const std::byte> bytes);
+
+}  // namespace lr
