@@ -42,7 +42,8 @@ Result<LrFile> encode(const Options& options, const Mesh& mesh, CornerTable tabl
     const bool compact = options.format == "lr-compact";
     Result<EncodedLr> lr = compact ? encode_compact_lr(std::move(table), compact_ring_options(options.ring),
                                                        ring_periods(options.ring, mesh.triangle_count()))
-                                   : encode_lr(std::move(table), ring, !options.no_warts);
+                                   : encode_lr(std::move(table), ring, optimize_options(options.ring, lr_ring_cost),
+                                               !options.no_warts);
     if (!lr) return lr.error();
     return make_lr_file(mesh, compact ? Connectivity::lr_compact : Connectivity::lr, std::move(lr->words),
                         std::move(lr->vertex_order), std::move(lr->triangle_order), options.keep_order);

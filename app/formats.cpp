@@ -115,17 +115,13 @@ void add_packed(FormatSet& set, const CornerTable& table, const RingChoice& choi
 /// The formats of meshoptimizer that are no index buffers.
 void add_codecs(FormatSet& set, const Mesh& mesh, const std::vector<std::uint32_t>& triangles) {
     CodedIndices coded = encode_meshopt_indices(triangles, mesh.vertex_count);
-    Format codec{.name = "meshopt_index_codec", .bytes = coded.bytes.size(), .indices = {}, .order = {}, .invalid = {}};
+    Format codec{.name = "meshopt_index_codec", .bytes = coded.bytes.size()};
     codec.deflated = deflated_size(std::as_bytes(std::span(coded.bytes)));
     codec.indices = std::move(coded.indices);
     codec.order = std::move(coded.order);
     set.formats.push_back(std::move(codec));
     Meshlets meshlets = make_meshlets(triangles, positions_f32(mesh));
-    set.formats.push_back({.name = "meshlets",
-                           .bytes = meshlets.bytes,
-                           .indices = std::move(meshlets.indices),
-                           .order = {},
-                           .invalid = {}});
+    set.formats.push_back({.name = "meshlets", .bytes = meshlets.bytes, .indices = std::move(meshlets.indices)});
 }
 
 /// A structure that answers the corner operators, read back triangle by triangle. Arrays alone: these have no file.
@@ -196,12 +192,7 @@ Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool 
     const auto add_list = [&](const char* name, std::size_t width, const std::vector<std::uint32_t>& references,
                               std::vector<std::uint32_t> indices) {
         set.formats.push_back(
-            {.name = name,
-             .bytes = references.size() * width,
-             .references = references.size(),
-             .indices = std::move(indices),
-             .order = {},
-             .invalid = {}});
+            {.name = name, .bytes = references.size() * width, .references = references.size(), .indices = std::move(indices)});
     };
     add_list("index_u32", 4, triangles, triangles);
     if (mesh.vertex_count <= 65536) {
@@ -222,10 +213,12 @@ Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool 
     set.formats.push_back(lean_format("lean", set.ring.k, optimize.passes, std::move(lean)));
     set.formats.push_back(
         lean_format("lean_no_warts", set.ring.k, optimize.passes, encode_lean(*table, rings, {.wart_skipping = false})));
-    if (Result<EncodedLr> lr = encode_lr(*table, set.ring)) {
+    OptimizeOptions optimize_lr = optimize_options(choice, lr_ring_cost);
+    if (paper) optimize_lr.passes = 0;
+    if (Result<EncodedLr> lr = encode_lr(*table, set.ring, optimize_lr)) {
         set.lr = lr->statistics;
         const auto stream = validate_lr(lr->words);
-        set.formats.push_back(lr_format("lr", 0, std::move(*lr), stream));
+        set.formats.push_back(lr_format("lr", optimize_lr.passes, std::move(*lr), stream));
     } else {
         set.absent.emplace_back("lr", lr.error().message);
     }

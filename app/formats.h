@@ -17,15 +17,16 @@ namespace lr::app {
 struct Format {
     std::string name;
     std::size_t bytes = 0;
-    std::size_t references = 0;
-    std::vector<std::uint32_t> indices;  ///< numbered as `order` says
-    std::vector<std::uint32_t>
-        order;                   ///< order[new] = vertex of the mesh; empty if the format keeps the mesh's numbers
+    std::size_t references = 0;               ///< 0 where it has none
+    std::vector<std::uint32_t> indices = {};  ///< numbered as `order` says
+    /// order[new] = vertex of the mesh; empty if the format keeps the mesh's numbers
+    std::vector<std::uint32_t> order = {};
     const char* ring = nullptr;  ///< "expander", "hybrid" or "optimized"; null for a format without one
     std::uint32_t k = 0;         ///< of the hybrid
     std::uint32_t passes = 0;    ///< of the optimiser
     std::size_t copies = 0;      ///< of non-manifold vertices: entries of `order` beyond the mesh's vertices
-    std::string invalid;         ///< what the format's own validation found wrong; empty if nothing
+    std::size_t deflated = 0;    ///< bytes after zlib, of a format that is for transmission; else 0
+    std::string invalid = {};    ///< what the format's own validation found wrong; empty if nothing
 
     /// Numbers that `indices` may use.
     std::size_t vertex_count(const Mesh& mesh) const { return mesh.vertex_count + copies; }
@@ -38,7 +39,8 @@ struct FormatSet {
     LrStatistics lr;
     LrStatistics lr_compact;
     std::uint32_t lr_compact_long = 0;  ///< n_l of section 8
-    RingOptions ring;                   ///< lean's
+    PackedStatistics packed;
+    RingOptions ring;  ///< lean's
     std::vector<Format> formats;
     std::vector<std::pair<std::string, std::string>> absent;  ///< name, reason
 };

@@ -30,12 +30,14 @@ std::vector<VertexCopy> translate(const LrMap& map, const std::vector<VertexId>&
 
 }  // namespace
 
-Result<EncodedLr> encode_lr(CornerTable table, const RingOptions& ring, bool wart_skipping) {
+Result<EncodedLr> encode_lr(CornerTable table, const RingOptions& ring, const OptimizeOptions& optimize,
+                            bool wart_skipping) {
     const std::vector<VertexId> originals = split_fans(table);
     RingOptions one = ring;
     one.one_per_shell = true;
     LrMap map;
-    const Result<LrTable> lr = build_lr(table, expand_rings(table, one), {.wart_skipping = wart_skipping}, &map);
+    const Rings rings = optimize_rings(table, expand_rings(table, one), optimize);
+    const Result<LrTable> lr = build_lr(table, rings, {.wart_skipping = wart_skipping}, &map);
     if (!lr) return lr.error();
     EncodedLr out;
     out.words = serialize(*lr, translate(map, originals, out));

@@ -7,6 +7,7 @@
 
 #include "lrcore/base/result.h"
 #include "lrcore/lr/lr_stream.h"
+#include "lrcore/ring/optimize.h"
 
 namespace lr {
 
@@ -20,8 +21,9 @@ struct EncodedLr {
 };
 
 /// The standard tables. `table` is any corner table; it is split into a pseudo-manifold here, and one ring made per
-/// shell. Cost: O(T) per seed. Errors: those of build_lr.
-Result<EncodedLr> encode_lr(CornerTable table, const RingOptions& ring, bool wart_skipping = true);
+/// shell, optimised as `optimize` says. Cost: O(T) per seed and pass. Errors: those of build_lr.
+Result<EncodedLr> encode_lr(CornerTable table, const RingOptions& ring, const OptimizeOptions& optimize = {.passes = 0},
+                            bool wart_skipping = true);
 
 /// The bit-efficient tables, with the best of `periods` (smallest_compact_lr).
 Result<EncodedLr> encode_compact_lr(CornerTable table, const RingOptions& ring, std::span<const std::uint32_t> periods);
