@@ -32,10 +32,10 @@ Result<LrFile> encode(const Options& options, const Mesh& mesh, CornerTable tabl
                             std::move(lean.slot_triangle), options.keep_order);
     }
     if (options.format == "packed") {
-        const Rings rings =
-            optimize_rings(table, expand_rings(table, ring), optimize_options(options.ring, packed_ring_cost));
         PackedStream packed =
-            encode_packed(table, rings, options.profile == "cache" ? PackedProfile::cache : PackedProfile::small);
+            encode_smallest_packed(table, ring, optimize_options(options.ring, packed_ring_cost),
+                                   options.profile == "cache" ? PackedProfile::cache : PackedProfile::small)
+                .stream;
         return make_lr_file(mesh, Connectivity::packed, std::move(packed.words), std::move(packed.vertex_order),
                             std::move(packed.triangle_order), options.keep_order);
     }

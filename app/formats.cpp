@@ -104,12 +104,11 @@ Format packed_format(const char* name, std::uint32_t k, std::uint32_t passes, Pa
 void add_packed(FormatSet& set, const CornerTable& table, const RingChoice& choice, bool paper) {
     OptimizeOptions optimize = optimize_options(choice, packed_ring_cost);
     if (paper) optimize.passes = 0;
-    const Rings rings = optimize_rings(table, expand_rings(table, set.ring), optimize);
-    PackedStream packed = encode_packed(table, rings, PackedProfile::small);
-    set.packed = packed.statistics;
-    set.formats.push_back(packed_format("packed", set.ring.k, optimize.passes, std::move(packed)));
-    set.formats.push_back(packed_format("packed_cache", set.ring.k, optimize.passes,
-                                        encode_packed(table, rings, PackedProfile::cache)));
+    PackedChoice small = encode_smallest_packed(table, set.ring, optimize, PackedProfile::small);
+    set.packed = small.stream.statistics;
+    set.formats.push_back(packed_format("packed", set.ring.k, small.passes, std::move(small.stream)));
+    PackedChoice cache = encode_smallest_packed(table, set.ring, optimize, PackedProfile::cache);
+    set.formats.push_back(packed_format("packed_cache", set.ring.k, cache.passes, std::move(cache.stream)));
 }
 
 /// The formats of meshoptimizer that are no index buffers.

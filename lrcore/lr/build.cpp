@@ -177,14 +177,16 @@ class Builder {
         out_.statistics.t0 = static_cast<std::uint32_t>(t0_.size());
     }
 
-    /// Numbers the vertices off the rings: those of triangles first. All triangles of such a vertex are T0, in warts or
-    /// not.
+    /// Numbers the vertices off the rings: those of triangles first.
     void number_isolated() {
         BitVector used(table_.vertex_count);
+        // The tip of any slot may be off the rings, where they are not as expand_rings makes them.
+        for (std::size_t i = 0; i < out_.lr.size() && out_.ring_vertices < table_.vertex_count; ++i) {
+            if ((out_.lr[i] & word::kKind) != word::kBorder) used.set(out_.lr[i] & word::kTip);
+        }
         for (const TriangleId t : t0_) {
             for (std::uint32_t k = 0; k < 3; ++k) used.set(table_.vertex(corner(t, k)).value);
         }
-        for (const Slot& wart : warts_) used.set(table_.vertex(wart.tip).value);
         std::uint32_t number = out_.ring_vertices;
         for (const bool wanted : {true, false}) {
             for (std::uint32_t v = 0; v < table_.vertex_count && number < table_.vertex_count; ++v) {
@@ -211,9 +213,10 @@ class Builder {
             }
             for (std::uint32_t k = 0; k < 3; ++k) out_.vo.push_back(lr_corner(table_.opposite(corner(t, k))).value);
         }
-        for (const Slot& wart : warts_) {
-            const std::uint32_t v = out_.lr[wart.slot] & word::kTip;
-            if (v >= out_.ring_vertices) out_.c[v - out_.ring_vertices] = lr_corner(wart.tip).value;
+        for (std::uint32_t i = 0; i < out_.lr.size() && !out_.c.empty(); ++i) {
+            const std::uint32_t v = out_.lr[i] & word::kTip;
+            if ((out_.lr[i] & word::kKind) == word::kBorder || v < out_.ring_vertices) continue;
+            out_.c[v - out_.ring_vertices] = 4 * i + 1;
         }
     }
 

@@ -361,4 +361,14 @@ PackedStream encode_packed(const CornerTable& table, const Rings& rings, PackedP
     return out;
 }
 
+PackedChoice encode_smallest_packed(const CornerTable& table, const RingOptions& ring, const OptimizeOptions& optimize,
+                                    PackedProfile profile) {
+    Rings rings = expand_rings(table, ring);
+    PackedChoice out{encode_packed(table, rings, profile), 0};
+    if (optimize.passes == 0) return out;
+    PackedStream optimised = encode_packed(table, optimize_rings(table, std::move(rings), optimize), profile);
+    if (optimised.words.size() < out.stream.words.size()) out = {std::move(optimised), optimize.passes};
+    return out;
+}
+
 }  // namespace lr

@@ -12,6 +12,7 @@
 
 #include "lrcore/base/result.h"
 #include "lrcore/corner_table/corner_table.h"
+#include "lrcore/ring/optimize.h"
 #include "lrcore/ring/ring.h"
 
 namespace lr {
@@ -41,6 +42,14 @@ enum class PackedProfile {
 /// Encodes every triangle of the table that is not degenerate.
 /// Cost: O(T) time; beside the result 5 bytes a triangle, 5 a vertex and 4 bits a triangle while it runs.
 PackedStream encode_packed(const CornerTable& table, const Rings& rings, PackedProfile profile = PackedProfile::small);
+
+/// The smaller of two streams: over the rings of expand_rings, and over these optimised.
+struct PackedChoice {
+    PackedStream stream;
+    std::uint32_t passes = 0;  ///< of the optimiser; 0 where its rings were no better
+};
+PackedChoice encode_smallest_packed(const CornerTable& table, const RingOptions& ring, const OptimizeOptions& optimize,
+                                    PackedProfile profile = PackedProfile::small);
 
 /// A packed stream somewhere in memory, its header read. Holds no copy.
 struct PackedView {

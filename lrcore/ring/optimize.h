@@ -25,12 +25,12 @@ constexpr RingCost lr_ring_cost{15, 0, -1};
 constexpr RingCost packed_ring_cost{110, 66, 300};
 
 struct OptimizeOptions {
-    RingCost cost;
+    RingCost cost = {};
     std::uint32_t passes = 24;  ///< more give better rings; 0: none
     std::uint64_t random_seed = 1;
     bool anneal = true;  ///< else no change that raises the cost is made
     /// Called after each pass with how many are done; false: stop, the best rings so far are the result.
-    std::function<bool(std::uint32_t)> progress;
+    std::function<bool(std::uint32_t)> progress = {};
 };
 
 /// Rings over the same triangles whose cost is lower, or the same rings. There are as many rings as before, each one

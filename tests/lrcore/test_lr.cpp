@@ -10,6 +10,7 @@
 #include "lrcore/lr/operators.h"
 #include "lrcore/mesh/read.h"
 #include "lrcore/mesh/weld.h"
+#include "lrcore/ring/optimize.h"
 #include "tests/lrcore/operator_oracle.h"
 #include "tests/support/meshes.h"
 
@@ -46,14 +47,15 @@ void check_border_order(const CornerTable& table, const Operators& ops, const Lr
     }
 }
 
-void check(const Mesh& mesh, const RingOptions& rings_options, const LrOptions& options) {
+void check(const Mesh& mesh, const RingOptions& rings_options, const LrOptions& options,
+           const OptimizeOptions& optimize = {.passes = 0}) {
     Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
     REQUIRE(table);
     split_fans(*table);
     CHECK(validate(*table) == "");
     RingOptions one = rings_options;
     one.one_per_shell = true;
-    const Rings rings = expand_rings(*table, one);
+    const Rings rings = optimize_rings(*table, expand_rings(*table, one), optimize);
     REQUIRE(validate(*table, rings) == "");
     LrMap map;
     const Result<LrTable> lr = build_lr(*table, rings, options, &map);
@@ -85,6 +87,20 @@ TEST_CASE("LR operators equal the corner table's on named meshes") {
     }
 }
 
+TEST_CASE("LR operators equal the corner table's on optimised rings") {
+    for (const auto& [name, mesh] : test::named_meshes()) {
+        CAPTURE(name);
+        check(mesh, {}, {}, {.cost = lr_ring_cost, .passes = 6});
+        check(mesh, {.k = 9}, {.wart_skipping = false}, {.cost = lean_ring_cost, .passes = 3});
+    }
+    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+        CAPTURE(seed);
+        const auto n = static_cast<std::uint32_t>(seed);
+        check(test::random_gluing(10 + n % 50, 150, seed), {}, {.wart_skipping = n % 3 != 0},
+              {.cost = n % 2 == 0 ? lean_ring_cost : packed_ring_cost, .passes = 5, .random_seed = seed});
+    }
+}
+
 TEST_CASE("LR operators equal the corner table's on random soups") {
     for (std::uint64_t seed = 1; seed <= 400; ++seed) {
         CAPTURE(seed);
@@ -111,6 +127,7 @@ TEST_CASE("LR operators equal the corner table's on the meshes of LACEDRING_MESH
             const Mesh welded = weld(*mesh, mode);
             check(welded, {1, 1}, {});
             check(welded, {1, 1, 50}, {.wart_skipping = false});
+            check(welded, {}, {}, {.cost = lr_ring_cost, .passes = 4});
         }
         ++checked;
     }

@@ -24,10 +24,13 @@ Triangle leading_smallest(Triangle t) {
 }
 
 /// Encodes and checks everything there is to check.
-PackedStream check(const Mesh& mesh, const RingOptions& ring) {
+PackedStream check(const Mesh& mesh, const RingOptions& ring, PackedProfile profile = PackedProfile::small,
+                   std::uint32_t passes = 0) {
     const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
     REQUIRE(table);
-    PackedStream stream = encode_packed(*table, expand_rings(*table, ring));
+    const Rings rings =
+        optimize_rings(*table, expand_rings(*table, ring), {.cost = packed_ring_cost, .passes = passes});
+    PackedStream stream = encode_packed(*table, rings, profile);
 
     // The stream alone, in a buffer of exactly its size, so that a sanitizer sees any read beyond it.
     const auto exact = std::make_unique<std::uint32_t[]>(stream.words.size());
@@ -115,7 +118,9 @@ TEST_CASE("packed streams of named meshes") {
     for (const auto& [name, mesh] : test::named_meshes()) {
         CAPTURE(name);
         check_random_access(check(mesh, {}));
-        check(mesh, {.seeds = 3, .random_seed = 2, .k = 7});
+        check(mesh, {.seeds = 3, .random_seed = 2, .k = 7}, PackedProfile::small, 4);
+        check_random_access(check(mesh, {}, PackedProfile::cache));
+        check(mesh, {.k = 5}, PackedProfile::cache, 3);
     }
 }
 
@@ -127,6 +132,7 @@ TEST_CASE("packed streams of random soups") {
         const PackedStream soup = check(test::random_soup(4 + n % 29, 1 + n % 83, seed), {});
         const PackedStream glued = check(test::random_gluing(10 + n % 50, 150 + 10 * (n % 30), seed), {.k = n % 3});
         check_random_access(glued);
+        check(test::random_gluing(10 + n % 50, 150 + 10 * (n % 30), seed), {}, PackedProfile::cache, n % 2);
         const PackedStream dense = check(test::random_soup(300, 300, seed, false), {});
         parted += soup.statistics.parted_blocks + glued.statistics.parted_blocks + dense.statistics.parted_blocks;
         plain += soup.statistics.plain_blocks + glued.statistics.plain_blocks + dense.statistics.plain_blocks;
@@ -142,7 +148,10 @@ TEST_CASE("packed streams of real meshes, LACEDRING_MESHES") {
         const Result<Mesh> mesh = read_mesh(entry.path());
         if (!mesh) continue;  // not a mesh
         CAPTURE(entry.path().filename().string());
-        for (const Weld mode : {Weld::none, Weld::position}) check_random_access(check(weld(*mesh, mode), {}));
+        for (const Weld mode : {Weld::none, Weld::position}) {
+            check_random_access(check(weld(*mesh, mode), {}));
+            check_random_access(check(weld(*mesh, mode), {}, PackedProfile::cache, 2));
+        }
     }
 }
 
@@ -159,7 +168,8 @@ TEST_CASE("damaged packed streams are refused or harmless") {
         const Mesh mesh = test::random_gluing(60, 80 + 30 * static_cast<std::uint32_t>(shape), shape);
         const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
         REQUIRE(table);
-        const std::vector<std::uint32_t> good = encode_packed(*table, expand_rings(*table)).words;
+        const std::vector<std::uint32_t> good = 
+            encode_packed(*table, expand_rings(*table), shape % 2 == 0 ? PackedProfile::small : PackedProfile::cache).words;
         for (std::size_t size = 0; size < good.size(); ++size) CHECK_FALSE(validate_packed(std::span(good).first(size)));
         std::vector<std::uint32_t> longer = good;
         longer.push_back(0);
