@@ -104,25 +104,28 @@ class RoundTrip(CliTest):
                 self.assertIs(entry["ok"], True, f"{name}: {entry}")
             self.assertIn("why", entry)
             again = self.path(f"{kind}-{triangles}-{seed}-again.lr")
-            self.ok("encode", source, "-o", again, "--format", "lean", "--ring", "expander")
+            self.ok("encode", source, "-o", again, "--format", "lean", "--seeds", "0", "--optimize", "auto")
             with open(lr, "rb") as a, open(again, "rb") as b:
                 self.assertEqual(a.read(), b.read(), f"{kind}: encoding twice gives two files")
 
         in_parallel(check, [(k, n, s) for k in KINDS for n, s in ((1, 1), (50, 2), (400, 3), (12000, 4))])
 
-    def test_lr_tables(self):
+    def test_lr_tables_and_packed(self):
         def check(item):
-            kind, form = item
+            kind, form, *options = item
             source = self.generate(kind, 3000, 2)
-            lr, out, ordered = (self.path(f"{kind}-{form}{end}") for end in (".lr", ".ply", "-ordered.ply"))
-            self.ok("encode", source, "-o", lr, "--format", form, "--keep-order", "--k", "40")
+            name = "-".join(item)
+            lr, out, ordered = (self.path(name + end) for end in (".lr", ".ply", "-ordered.ply"))
+            self.ok("encode", source, "-o", lr, "--format", form, "--keep-order", *options)
             self.ok("decode", lr, "-o", out)
             self.ok("decode", lr, "-o", ordered, "--original-order")
             self.same_triangles(source, out, ordered)
             self.ok("verify", lr)
             self.assertEqual(self.json("info", lr, "--json")["vertices"], self.json("info", source, "--json")["vertices"])
 
-        in_parallel(check, [(k, f) for k in KINDS for f in ("lr", "lr-compact")])
+        in_parallel(check, [(k, *f) for k in KINDS for f in (
+            ("lr",), ("lr", "--k", "40"), ("lr-compact", "--k", "40"), ("lr-compact",), ("packed",), ("packed", "--ring", "expander"),
+            ("packed", "--profile", "cache"), ("packed", "--profile", "cache", "--optimize", "2"))])
 
     def test_nothing_but_degenerate_triangles(self):
         source = self.write("flat.ply", write.ply(POINTS, [(0, 0, 1), (2, 2, 2)]))
