@@ -17,7 +17,7 @@ Candidate candidate(const char* name, const gpu::Times& times) {
 }  // namespace
 
 Result<GpuFigures> measure_gpu(const Mesh& mesh, const gpu::ContextOptions& options, int rounds) {
-    const Result<gpu::Model> model = gpu::make_model(mesh);
+    const Result<gpu::Model> model = gpu::make_model(mesh, {.packed = true});
     if (!model) return model.error();
     const Result<std::unique_ptr<gpu::Context>> context = gpu::Context::create(options);
     if (!context) return context.error();
@@ -27,9 +27,12 @@ Result<GpuFigures> measure_gpu(const Mesh& mesh, const gpu::ContextOptions& opti
     if (!times) return times.error();
     GpuFigures figures;
     figures.device = (*context)->info().name;
-    figures.decode = {candidate("lean", times->decode), candidate("copy", times->copy)};
-    figures.draw = {candidate("plain", times->draw_plain), candidate("lean", times->draw_lean),
-                    candidate("lean_decode_every_frame", times->decode_and_draw)};
+    figures.decode = {candidate("lean", times->lean.decode), candidate("packed", times->packed.decode),
+                      candidate("copy", times->copy)};
+    figures.draw = {candidate("plain", times->draw_plain), candidate("lean", times->lean.draw),
+                    candidate("packed", times->packed.draw),
+                    candidate("lean_decode_every_frame", times->lean.decode_and_draw),
+                    candidate("packed_decode_every_frame", times->packed.decode_and_draw)};
     figures.device_bytes = times->device_bytes;
     return figures;
 }

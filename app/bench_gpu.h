@@ -10,8 +10,8 @@ namespace lr::app {
 
 struct GpuFigures {
     std::string device;
-    std::vector<Candidate> decode;  ///< "lean", "copy": wall and GPU seconds
-    std::vector<Candidate> draw;    ///< "plain", "lean", "lean_decode_every_frame"
+    std::vector<Candidate> decode;  ///< "lean", "packed", "copy": wall and GPU seconds
+    std::vector<Candidate> draw;    ///< "plain", and "lean", "packed", also with "_decode_every_frame"
     std::uint64_t device_bytes = 0;
 };
 

@@ -1,10 +1,13 @@
-// lacedring compare MESH: the mesh's own index list against its lean stream, pixel by pixel.
+// lacedring compare MESH: the mesh's own index list against its streams, pixel by pixel.
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "app/commands.h"
 #include "app/gpu_options.h"
@@ -21,26 +24,36 @@ struct Options {
     bool json = false;
 };
 
-nlohmann::ordered_json to_json(const Options& options, const gpu::DeviceInfo& info, const gpu::Comparison& c,
+struct Compared {
+    const char* name;
+    gpu::Source source;
+    gpu::Comparison comparison;
+};
+
+nlohmann::ordered_json to_json(const Options& options, const gpu::DeviceInfo& info, std::span<const Compared> all,
                                std::size_t messages, const std::string& diff) {
     nlohmann::ordered_json out = {{"schema", 1},
                                   {"file", options.input.path},
                                   {"device", {{"name", info.name}, {"driver", info.driver}, {"api", info.api}}},
                                   {"size", {options.size.width, options.size.height}},
-                                  {"views", c.views}};
-    out["results"] = nlohmann::ordered_json::array({{{"source", "lean"},
-                                                     {"path", "compute"},
-                                                     {"pixels_different", c.pixels_different},
-                                                     {"max_channel_difference", c.max_channel_difference},
-                                                     {"triangle_ids_different", c.triangle_ids_different},
-                                                     {"indices_equal_cpu", c.indices_equal_cpu},
-                                                     {"raw_pixels_different", c.raw_pixels_different},
-                                                     {"raw_max_channel_difference", c.raw_max_channel_difference},
-                                                     {"raw_pixels_beyond_one", c.raw_pixels_beyond_one},
-                                                     {"covered_pixels", c.covered_pixels},
-                                                     {"distinct_ids", c.distinct_ids},
-                                                     {"blank", c.blank},
-                                                     {"validation_messages", messages}}});
+                                  {"views", all[0].comparison.views}};
+    out["results"] = nlohmann::ordered_json::array();
+    for (const Compared& compared : all) {
+        const gpu::Comparison& c = compared.comparison;
+        out["results"].push_back({{"source", compared.name},
+                                  {"path", "compute"},
+                                  {"pixels_different", c.pixels_different},
+                                  {"max_channel_difference", c.max_channel_difference},
+                                  {"triangle_ids_different", c.triangle_ids_different},
+                                  {"indices_equal_cpu", c.indices_equal_cpu},
+                                  {"raw_pixels_different", c.raw_pixels_different},
+                                  {"raw_max_channel_difference", c.raw_max_channel_difference},
+                                  {"raw_pixels_beyond_one", c.raw_pixels_beyond_one},
+                                  {"covered_pixels", c.covered_pixels},
+                                  {"distinct_ids", c.distinct_ids},
+                                  {"blank", c.blank},
+                                  {"validation_messages", messages}});
+    }
     out["skipped"] = nlohmann::ordered_json::array();
     for (const char* path : {"geometry", "pull", "mesh"}) {
         out["skipped"].push_back({{"path", path}, {"reason", "not built yet"}});
@@ -49,54 +62,75 @@ nlohmann::ordered_json to_json(const Options& options, const gpu::DeviceInfo& in
     return out;
 }
 
-void print_table(const Options& options, const gpu::DeviceInfo& info, const gpu::Comparison& c, std::size_t messages) {
-    const double raw_share = c.covered_pixels == 0 ? 0
-                                                   : 100 * static_cast<double>(c.raw_pixels_different) /
-                                                         static_cast<double>(c.covered_pixels);
-    fmt::print("{}: plain against lean, {} views of {}x{} on {}\n", options.input.path, c.views, options.size.width,
-               options.size.height, info.name);
-    fmt::print("  {:<30}{:>12}\n", "pixels that differ", c.pixels_different);
-    fmt::print("  {:<30}{:>12}\n", "largest difference, of 255", c.max_channel_difference);
-    fmt::print("  {:<30}{:>12}\n", "triangle numbers that differ", c.triangle_ids_different);
-    fmt::print("  {:<30}{:>12}\n", "indices as the CPU decodes", c.indices_equal_cpu ? "yes" : "NO");
-    fmt::print("  {:<30}{:>12}  {:.4f} % of those covered; {} by more than 1/255, at most {}/255\n",
-               "raw pixels that differ", c.raw_pixels_different, raw_share, c.raw_pixels_beyond_one,
-               c.raw_max_channel_difference);
-    fmt::print("  {:<30}{:>12}{}\n", "pixels covered", c.covered_pixels, c.blank ? "  BLANK" : "");
-    fmt::print("  {:<30}{:>12}\n", "triangles seen", c.distinct_ids);
-    if (options.context.validation) fmt::print("  {:<30}{:>12}\n", "validation messages", messages);
+void print_table(const Options& options, const gpu::DeviceInfo& info, std::span<const Compared> all,
+                 std::size_t messages) {
+    fmt::print("{}: plain against streams, {} views of {}x{} on {}\n", options.input.path, all[0].comparison.views,
+               options.size.width, options.size.height, info.name);
+    fmt::print("  {:<40}", "");
+    for (const Compared& compared : all) fmt::print("{:>12}", compared.name);
+    const auto row = [&](const char* what, const auto& value) {
+        fmt::print("\n  {:<40}", what);
+        for (const Compared& compared : all) fmt::print("{:>12}", value(compared.comparison));
+    };
+    row("pixels that differ", [](const gpu::Comparison& c) { return c.pixels_different; });
+    row("largest difference, of 255", [](const gpu::Comparison& c) { return c.max_channel_difference; });
+    row("triangle numbers that differ", [](const gpu::Comparison& c) { return c.triangle_ids_different; });
+    row("indices as the CPU decodes", [](const gpu::Comparison& c) { return c.indices_equal_cpu ? "yes" : "NO"; });
+    row("raw pixels that differ", [](const gpu::Comparison& c) { return c.raw_pixels_different; });
+    row("  in % of those covered", [](const gpu::Comparison& c) {
+        return fmt::format("{:.4f}", 100 * static_cast<double>(c.raw_pixels_different) /
+                                         static_cast<double>(std::max<std::uint64_t>(1, c.covered_pixels)));
+    });
+    row("  by more than 1/255", [](const gpu::Comparison& c) { return c.raw_pixels_beyond_one; });
+    row("  at most, of 255", [](const gpu::Comparison& c) { return c.raw_max_channel_difference; });
+    row("pixels covered",
+        [](const gpu::Comparison& c) { return fmt::format("{}{}", c.blank ? "BLANK " : "", c.covered_pixels); });
+    row("triangles seen", [](const gpu::Comparison& c) { return c.distinct_ids; });
+    if (options.context.validation) fmt::print("\n  {:<40}{:>12}", "validation messages", messages);
+    fmt::print("\n");
 }
 
 int run(const Options& options) {
     const Result<Mesh> mesh = load(options.input);
     if (!mesh) return fail(options.input.path, mesh.error());
-    const Result<gpu::Model> model = gpu::make_model(*mesh);
+    const Result<gpu::Model> model = gpu::make_model(*mesh, {.packed = true});
     if (!model) return fail(options.input.path, model.error());
     const Result<std::unique_ptr<gpu::Context>> context = gpu::Context::create(options.context);
     if (!context) return fail(options.input.path, context.error());
-    gpu::CompareOptions compare_options;
-    compare_options.width = options.size.width;
-    compare_options.height = options.size.height;
-    const Result<gpu::Comparison> comparison = gpu::compare(**context, *model, compare_options);
+    std::array<Compared, 2> all{{{"lean", gpu::Source::lean, {}}, {"packed", gpu::Source::packed, {}}}};
+    for (Compared& compared : all) {
+        gpu::CompareOptions compare_options;
+        compare_options.source = compared.source;
+        compare_options.width = options.size.width;
+        compare_options.height = options.size.height;
+        Result<gpu::Comparison> comparison = gpu::compare(**context, *model, compare_options);
+        if (!comparison) {
+            print_validation(**context);
+            return fail(options.input.path, comparison.error());
+        }
+        compared.comparison = std::move(*comparison);
+    }
     const std::size_t messages = print_validation(**context);
-    if (!comparison) return fail(options.input.path, comparison.error());
 
     // Where anything differs there is always a picture of it; beside the working folder's files, named after the mesh.
+    const auto* other =
+        std::find_if(all.begin(), all.end(), [](const Compared& compared) { return !compared.comparison.same(); });
+    const bool same = other == all.end();
     std::string diff = options.diff;
-    if (diff.empty() && !comparison->same())
-        diff = std::filesystem::path(options.input.path).stem().string() + ".diff.png";
+    if (diff.empty() && !same) diff = std::filesystem::path(options.input.path).stem().string() + ".diff.png";
     if (!diff.empty()) {
-        if (const Result<void> written = gpu::write_png(diff, comparison->picture); !written) {
+        const Compared& shown = same ? all.front() : *other;
+        if (const Result<void> written = gpu::write_png(diff, shown.comparison.picture); !written) {
             return fail(diff, written.error());
         }
     }
-    const bool passed = comparison->same() && messages == 0;
+    const bool passed = same && messages == 0;
     if (options.json) {
-        print_json(to_json(options, (*context)->info(), *comparison, messages, diff));
+        print_json(to_json(options, (*context)->info(), all, messages, diff));
     } else {
-        print_table(options, (*context)->info(), *comparison, messages);
+        print_table(options, (*context)->info(), all, messages);
         if (!diff.empty()) fmt::print("  differences drawn in {}\n", diff);
-        fmt::print("{}\n", passed ? "the same picture" : "DIFFERENT");
+        fmt::print("{}\n", passed ? "the same pictures" : "DIFFERENT");
     }
     return passed ? done : check_failed;
 }
@@ -106,7 +140,7 @@ int run(const Options& options) {
 void add_compare(CLI::App& program, Action& action) {
     auto options = std::make_shared<Options>();
     CLI::App* command =
-        program.add_subcommand("compare", "draw a mesh plain and from its stream, and compare the pixels");
+        program.add_subcommand("compare", "draw a mesh plain and from its streams, and compare the pixels");
     command->add_option("MESH", options->input.path, "mesh file")->required();
     add_weld(*command, options->input.weld);
     add_size(*command, options->size);

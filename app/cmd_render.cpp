@@ -91,7 +91,8 @@ int run(const Options& options) {
     const Result<Mesh> mesh = load(options.input);
     if (!mesh) return fail(options.input.path, mesh.error());
     const gpu::ModelOptions model_options{ring_options(options.ring, mesh->triangle_count()),
-                                          {.wart_skipping = !options.no_warts}};
+                                          {.wart_skipping = !options.no_warts},
+                                          options.source == "packed"};
     const Result<gpu::Model> model = gpu::make_model(*mesh, model_options);
     if (!model) return fail(options.input.path, model.error());
     const Result<std::unique_ptr<gpu::Context>> context = gpu::Context::create(options.context);
@@ -108,7 +109,9 @@ int run(const Options& options) {
     Result<gpu::Picture> drawn = [&]() -> Result<gpu::Picture> {
         Result<gpu::Renderer> renderer = gpu::Renderer::create(**context, renderer_options);
         if (!renderer) return renderer.error();
-        const gpu::Source source = options.source == "plain" ? gpu::Source::plain : gpu::Source::lean;
+        const gpu::Source source = options.source == "plain"    ? gpu::Source::plain
+                                   : options.source == "packed" ? gpu::Source::packed
+                                                                : gpu::Source::lean;
         Result<gpu::Drawable> drawable = renderer->upload(*model, source);
         if (!drawable) return drawable.error();
         const Result<gpu::Camera> camera =
@@ -157,7 +160,7 @@ void add_render(CLI::App& program, Action& action) {
     command->add_option("-o,--output", options->output, "the PNG file")->required();
     add_weld(*command, options->input.weld);
     command->add_option("--source", options->source, "what the triangles come from")
-        ->check(CLI::IsMember({"plain", "lean"}))
+        ->check(CLI::IsMember({"plain", "lean", "packed"}))
         ->capture_default_str();
     command->add_option("--path", options->path, "how the device expands the source")
         ->check(CLI::IsMember({"compute"}))

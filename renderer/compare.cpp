@@ -69,11 +69,16 @@ void note_seen(std::vector<bool>& seen, const Picture& picture) {
     }
 }
 
-Result<bool> indices_equal_cpu(Renderer& renderer, Drawable& lean, const Model& model) {
-    LR_ASSIGN(const LeanView view, view_lean(model.lean.words));
-    LR_ASSIGN(const std::vector<std::uint32_t> device, renderer.read_indices(lean));
+Result<bool> indices_equal_cpu(Renderer& renderer, Drawable& drawable, const Model& model) {
+    LR_ASSIGN(const std::vector<std::uint32_t> device, renderer.read_indices(drawable));
     std::vector<std::uint32_t> host(device.size());
-    decode_lean(view, host);
+    if (drawable.mesh.source == Source::lean) {
+        LR_ASSIGN(const LeanView view, view_lean(model.lean.words));
+        decode_lean(view, host);
+    } else {
+        LR_ASSIGN(const PackedView view, view_packed(model.packed.words));
+        decode_packed(view, host);
+    }
     return device == host;
 }
 
@@ -87,7 +92,7 @@ Result<Comparison> compare(Context& context, const Model& model, const CompareOp
     renderer_options.omit_decode_barrier = options.omit_decode_barrier;
     LR_ASSIGN(Renderer renderer, Renderer::create(context, renderer_options));
     LR_ASSIGN(Drawable plain, renderer.upload(model, Source::plain));
-    LR_ASSIGN(Drawable lean, renderer.upload(model, Source::lean));
+    LR_ASSIGN(Drawable stream, renderer.upload(model, options.source));
 
     std::array<Camera, kViews> cameras;
     for (std::uint32_t v = 0; v < kViews; ++v) {
@@ -99,8 +104,8 @@ Result<Comparison> compare(Context& context, const Model& model, const CompareOp
     out.views = kViews;
     std::array<Marks, kViews> marks;
     for (std::uint32_t v = 0; v < kViews; ++v) {
-        // The first picture of the lean mesh decodes it, in the same submission.
-        LR_ASSIGN(const Picture b, renderer.draw(lean, model, cameras[v], false));
+        // The first picture of the stream decodes it, in the same submission.
+        LR_ASSIGN(const Picture b, renderer.draw(stream, model, cameras[v], false));
         LR_ASSIGN(const Picture a, renderer.draw(plain, model, cameras[v], false));
         const Difference d = difference(a, b);
         out.raw_pixels_different += d.pixels;
@@ -109,7 +114,7 @@ Result<Comparison> compare(Context& context, const Model& model, const CompareOp
         marks[v].assign(a.pixels(), 0);
         mark(marks[v], a, b, 2);
     }
-    LR_ASSIGN(out.indices_equal_cpu, indices_equal_cpu(renderer, lean, model));
+    LR_ASSIGN(out.indices_equal_cpu, indices_equal_cpu(renderer, stream, model));
 
     std::vector<bool> seen(model.triangle_count());
     out.picture.width = kColumns * options.width;
@@ -117,7 +122,7 @@ Result<Comparison> compare(Context& context, const Model& model, const CompareOp
     out.picture.rgba.resize(4 * out.picture.pixels());
     for (std::uint32_t v = 0; v < kViews; ++v) {
         LR_ASSIGN(const Picture a, renderer.draw(plain, model, cameras[v], true));
-        LR_ASSIGN(const Picture b, renderer.draw(lean, model, cameras[v], true));
+        LR_ASSIGN(const Picture b, renderer.draw(stream, model, cameras[v], true));
         const Difference d = difference(a, b);
         out.pixels_different += d.pixels;
         out.max_channel_difference = std::max(out.max_channel_difference, d.channel);

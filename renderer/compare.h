@@ -1,16 +1,18 @@
 #pragma once
-// Is the picture that the lean stream gives the picture that the mesh's own index list gives?
+// Is the picture that a stream gives the picture that the mesh's own index list gives?
 
 #include <cstdint>
 
 #include "lrcore/base/result.h"
 #include "renderer/context.h"
+#include "renderer/gpu_mesh.h"
 #include "renderer/model.h"
 #include "renderer/picture.h"
 
 namespace lr::gpu {
 
 struct CompareOptions {
+    Source source = Source::lean;  ///< that the mesh's own index list is compared with
     std::uint32_t width = 1280;
     std::uint32_t height = 720;
     std::uint64_t max_range = 0;       ///< see UploadOptions
@@ -23,7 +25,7 @@ struct Comparison {
     std::uint64_t pixels_different = 0;
     std::uint32_t max_channel_difference = 0;  ///< of 255
     std::uint64_t triangle_ids_different = 0;  ///< pixels that show another triangle, or its other side
-    bool indices_equal_cpu = false;            ///< the index buffer that the device wrote is decode_lean's
+    bool indices_equal_cpu = false;            ///< the index buffer that the device wrote is the CPU's
     std::uint64_t raw_pixels_different = 0;    ///< without rotating triangles and without breaking ties
     std::uint32_t raw_max_channel_difference = 0;
     std::uint64_t raw_pixels_beyond_one = 0;  ///< of these, by more than 1/255: another triangle was nearer, or first
@@ -35,9 +37,9 @@ struct Comparison {
     bool same() const { return pixels_different == 0 && triangle_ids_different == 0 && indices_equal_cpu && !blank; }
 };
 
-/// Draws the mesh plain and from its lean stream, from six sides, with smooth normals: first as the index buffers are,
-/// then exactly (docs/renderer.md). The stream and its maps are taken from model.lean as they are: a wrong one is drawn
-/// and found out, as long as its vertices and ring ends are in range (validate_lean).
+/// Draws the mesh plain and from a stream of it, from six sides, with smooth normals: first as the index buffers are,
+/// then exactly (docs/renderer.md). The stream and its maps are taken from the model as they are: a wrong one is drawn
+/// and found out, as long as it is in range (validate_lean, validate_packed).
 Result<Comparison> compare(Context& context, const Model& model, const CompareOptions& options);
 
 }  // namespace lr::gpu

@@ -44,6 +44,9 @@ DeviceInfo describe(const DeviceChoice& choice) {
     VkPhysicalDeviceDriverProperties driver{};
     driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
     driver.pNext = &p13;
+    VkPhysicalDeviceSubgroupProperties subgroups{};
+    subgroups.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
+    p13.pNext = &subgroups;
     VkPhysicalDeviceProperties2 properties{};
     properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
     properties.pNext = &driver;
@@ -58,6 +61,7 @@ DeviceInfo describe(const DeviceChoice& choice) {
     info.driver = std::string(driver.driverName) + (driver.driverInfo[0] != '\0' ? " " : "") + driver.driverInfo;
     info.api = version(properties.properties.apiVersion);
     info.software = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    info.subgroup_size = subgroups.subgroupSize;
     info.limits = properties.properties.limits;
     info.max_buffer_size = p13.maxBufferSize;
     info.max_line_width = choice.wide_lines ? info.limits.lineWidthRange[1] : 1.0F;

@@ -25,6 +25,7 @@ struct DeviceInfo {
     bool software = false;
     bool timestamps = false;  ///< the queue has timestamps
     float max_line_width = 1.0F;
+    std::uint32_t subgroup_size = 1;
     VkPhysicalDeviceLimits limits{};
     std::uint64_t max_buffer_size = 0;
     std::uint32_t max_index = 0;  ///< largest vertex number that an index buffer may hold

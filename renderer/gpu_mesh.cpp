@@ -11,19 +11,19 @@
 namespace lr::gpu {
 namespace {
 
-constexpr std::uint64_t kSmallestRange = 2048;
-constexpr std::uint64_t kSlotStep = 256;  // in bytes, the coarsest alignment of a descriptor that Vulkan allows
+constexpr std::uint64_t kSmallestRange = 4096;  // a packed block's indices, or its record with alignment, fit
+constexpr std::uint64_t kSlotStep = 256;        // in bytes, the coarsest alignment of a descriptor that Vulkan allows
 
 std::uint64_t padded_slots(std::uint32_t slots) {
     constexpr std::uint64_t kStep = LR_TRIANGLES_PER_INVOCATION;
     return (std::uint64_t{slots} + kStep - 1) / kStep * kStep;
 }
 
-/// What both sources need.
+/// What every source needs.
 Result<GpuMesh> prepare(Context& context, const Model& model, std::uint64_t slots, const UploadOptions& options) {
     GpuMesh mesh;
     mesh.max_range = options.max_range == 0 ? context.limits().maxStorageBufferRange : options.max_range;
-    if (mesh.max_range < kSmallestRange) return Error{ErrorCode::invalid_argument, "descriptor range below 2048 bytes"};
+    if (mesh.max_range < kSmallestRange) return Error{ErrorCode::invalid_argument, "descriptor range below 4096 bytes"};
     if (slots == 0) return Error{ErrorCode::unsupported, "the mesh has no triangles to draw"};
     if (slots > UINT32_MAX / 3) return Error{ErrorCode::too_large, "more than 2^32 indices"};
     if (model.vertex_count() - 1 > context.info().max_index) {
@@ -63,33 +63,42 @@ Result<void> upload_vertices(Transfer& transfer, const GpuMesh& mesh, const Mode
                            });
 }
 
-Result<void> upload_classes(Context& context, Transfer& transfer, GpuMesh& mesh,
-                            std::span<const std::uint8_t> classes) {
-    // The shader reads whole words.
-    const std::uint64_t bytes = (classes.size() + 3) / 4 * 4;
-    LR_ASSIGN(mesh.classes, Buffer::create(context, "triangle classes", bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT));
-    return transfer.upload(mesh.classes, classes);
+/// One byte a slot, of the triangle that `triangle_of(slot)` says.
+template <class TriangleOf>
+Result<void> upload_classes(Context& context, Transfer& transfer, GpuMesh& mesh, const Model& model,
+                            const LeanView& lean, bool offsets, const TriangleOf& triangle_of) {
+    const std::vector<std::uint8_t> by_slot = offsets ? slot_offset_bits(lean) : slot_classes(lean);
+    std::vector<std::uint8_t> by_triangle(model.triangle_count(), LR_CLASS_NONE);
+    for (std::uint32_t slot = 0; slot < by_slot.size(); ++slot) {
+        const std::uint32_t t = model.lean.slot_triangle[slot];
+        if (t < by_triangle.size()) by_triangle[t] = by_slot[slot];
+    }
+    std::vector<std::uint8_t> classes((mesh.slots + 3) / 4 * 4, LR_CLASS_NONE);  // the shader reads whole words
+    for (std::uint32_t slot = 0; slot < mesh.slots; ++slot) {
+        const std::uint32_t t = triangle_of(slot);
+        if (t < by_triangle.size()) classes[slot] = by_triangle[t];
+    }
+    LR_ASSIGN(mesh.classes,
+              Buffer::create(context, "triangle classes", classes.size(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT));
+    return transfer.upload(mesh.classes, std::span<const std::uint8_t>(classes));
 }
 
-/// The lines in the vertex numbers of `mesh`. They come in the same order and direction for both sources, so that they
-/// are drawn alike.
+/// The lines in the vertex numbers of a source: `order` is its vertex order, empty for the mesh's own. They come in the
+/// same order and direction for all sources, so that they are drawn alike.
 Result<void> upload_lines(Context& context, Transfer& transfer, GpuMesh& mesh, const Model& model, const LeanView& lean,
-                          UploadOptions::Lines kind) {
+                          UploadOptions::Lines kind, std::span<const std::uint32_t> order) {
     if (kind == UploadOptions::Lines::none) return {};
     std::vector<std::uint32_t> lines;
-    const std::vector<std::uint32_t>& order = model.lean.vertex_order;
     if (kind == UploadOptions::Lines::ring) {
         lines = ring_lines(lean);
-        if (mesh.source == Source::plain) {
-            for (std::uint32_t& v : lines) v = order[v];
-        }
+        for (std::uint32_t& v : lines) v = model.lean.vertex_order[v];
     } else {
         lines = mesh_edges(model.indices);
-        if (mesh.source == Source::lean) {
-            std::vector<std::uint32_t> place(order.size());
-            for (std::uint32_t i = 0; i < order.size(); ++i) place[order[i]] = i;
-            for (std::uint32_t& v : lines) v = place[v];
-        }
+    }
+    if (!order.empty()) {
+        std::vector<std::uint32_t> place(order.size());
+        for (std::uint32_t i = 0; i < order.size(); ++i) place[order[i]] = i;
+        for (std::uint32_t& v : lines) v = place[v];
     }
     if (lines.size() > UINT32_MAX) return Error{ErrorCode::too_large, "more than 2^31 lines"};
     LR_ASSIGN(mesh.lines, Buffer::create(context, "lines", 4 * lines.size(), VK_BUFFER_USAGE_INDEX_BUFFER_BIT));
@@ -97,8 +106,50 @@ Result<void> upload_lines(Context& context, Transfer& transfer, GpuMesh& mesh, c
     return transfer.upload(mesh.lines, std::span<const std::uint32_t>(lines));
 }
 
-float ring_place(std::uint32_t rank, std::uint32_t rings) {
-    return rank < rings ? static_cast<float>(rank) / static_cast<float>(rings) : -1.0F;
+/// What is drawn beside the triangles, and the vertices. `original(i)` is the mesh's vertex at place i.
+template <class Original, class TriangleOf>
+Result<void> upload_rest(Context& context, Transfer& transfer, GpuMesh& mesh, const Model& model,
+                         const UploadOptions& options, std::span<const std::uint32_t> order, const Original& original,
+                         const TriangleOf& triangle_of) {
+    LR_ASSIGN(const LeanView lean, view_lean(model.lean.words));
+    LR_TRY(upload_lines(context, transfer, mesh, model, lean, options.lines, order));
+    if (!options.ring) return upload_vertices(transfer, mesh, model, original, [](std::uint32_t) { return -1.0F; });
+    const std::uint32_t rings = lean.rings2 + lean.rings1;
+    std::vector<float> ring(mesh.vertex_count, -1.0F);
+    for (std::uint32_t i = 0; i < rings; ++i) {
+        ring[model.lean.vertex_order[i]] = static_cast<float>(i) / static_cast<float>(rings);
+    }
+    LR_TRY(upload_vertices(transfer, mesh, model, original, [&](std::uint32_t v) { return ring[original(v)]; }));
+    return upload_classes(context, transfer, mesh, model, lean, options.offsets, triangle_of);
+}
+
+/// A stream, its vertex order and the mesh's triangle of each slot.
+struct Stream {
+    Source source;
+    std::span<const std::uint32_t> words, vertex_order, slot_triangle;
+};
+
+Result<GpuMesh> upload_stream(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options,
+                              const Stream& stream) {
+    LR_ASSIGN(GpuMesh mesh, prepare(context, model, stream.slot_triangle.size(), options));
+    mesh.source = stream.source;
+    constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    // The lean decoder loads a few words past the ones that it needs.
+    LR_ASSIGN(mesh.stream, Buffer::create(context, "stream", stream.words.size_bytes() + 64, kStorage));
+    LR_TRY(transfer.upload(mesh.stream, stream.words));
+    LR_ASSIGN(mesh.commands,
+              Buffer::create(context, "draw commands", mesh.draws * std::uint64_t{sizeof(VkDrawIndexedIndirectCommand)},
+                             kStorage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT));
+    LR_ASSIGN(mesh.slot_triangle,
+              Buffer::create(context, "slot triangles", stream.slot_triangle.size_bytes(), kStorage));
+    LR_TRY(transfer.upload(mesh.slot_triangle, stream.slot_triangle));
+    LR_ASSIGN(mesh.vertex_order, Buffer::create(context, "vertex order", stream.vertex_order.size_bytes(), kStorage));
+    LR_TRY(transfer.upload(mesh.vertex_order, stream.vertex_order));
+    LR_TRY(upload_rest(
+        context, transfer, mesh, model, options, stream.vertex_order,
+        [&](std::uint32_t i) { return stream.vertex_order[i]; },
+        [&](std::uint32_t slot) { return stream.slot_triangle[slot]; }));
+    return mesh;
 }
 
 }  // namespace
@@ -113,60 +164,32 @@ Result<GpuMesh> upload_plain(Context& context, Transfer& transfer, const Model& 
             std::memset(to + real, 0, size - real);
         }));
     mesh.decoded = true;
-    const auto identity = [](std::uint32_t v) { return v; };
-    LR_ASSIGN(const LeanView lean, view_lean(model.lean.words));
-    LR_TRY(upload_lines(context, transfer, mesh, model, lean, options.lines));
-    if (!options.ring) {
-        LR_TRY(upload_vertices(transfer, mesh, model, identity, [](std::uint32_t) { return -1.0F; }));
-        return mesh;
-    }
-    const std::uint32_t rings = lean.rings2 + lean.rings1;
-    std::vector<std::uint32_t> rank(mesh.vertex_count, UINT32_MAX);
-    for (std::uint32_t i = 0; i < rings; ++i) rank[model.lean.vertex_order[i]] = i;
-    LR_TRY(
-        upload_vertices(transfer, mesh, model, identity, [&](std::uint32_t v) { return ring_place(rank[v], rings); }));
-    const std::vector<std::uint8_t> by_slot = options.offsets ? slot_offset_bits(lean) : slot_classes(lean);
-    std::vector<std::uint8_t> classes(mesh.slots, LR_CLASS_NONE);
-    for (std::uint32_t slot = 0; slot < by_slot.size(); ++slot) {
-        const std::uint32_t t = model.lean.slot_triangle[slot];
-        if (t < mesh.slots) classes[t] = by_slot[slot];
-    }
-    LR_TRY(upload_classes(context, transfer, mesh, classes));
+    const auto itself = [](std::uint32_t i) { return i; };
+    LR_TRY(upload_rest(context, transfer, mesh, model, options, {}, itself, itself));
     return mesh;
 }
 
 Result<GpuMesh> upload_lean(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options) {
     const LeanStream& stream = model.lean;
-    LR_ASSIGN(const LeanView lean, view_lean(stream.words));
-    if (lean.vertices != model.vertex_count() || stream.vertex_order.size() != lean.vertices ||
-        stream.slot_triangle.size() != lean.slots()) {
+    LR_ASSIGN(const LeanView view, view_lean(stream.words));
+    if (view.vertices != model.vertex_count() || stream.vertex_order.size() != view.vertices ||
+        stream.slot_triangle.size() != view.slots()) {
         return Error{ErrorCode::invalid_argument, "the lean stream is not of this mesh"};
     }
-    LR_ASSIGN(GpuMesh mesh, prepare(context, model, lean.slots(), options));
-    mesh.source = Source::lean;
-    constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-    const std::uint64_t bytes = stream.words.size() * sizeof(std::uint32_t);
-    // The decoder loads a few words past the ones that it needs.
-    LR_ASSIGN(mesh.stream, Buffer::create(context, "lean stream", bytes + 64, kStorage));
-    LR_TRY(transfer.upload(mesh.stream, std::span<const std::uint32_t>(stream.words)));
-    LR_ASSIGN(mesh.commands,
-              Buffer::create(context, "draw commands", mesh.draws * std::uint64_t{sizeof(VkDrawIndexedIndirectCommand)},
-                             kStorage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT));
-    LR_ASSIGN(mesh.slot_triangle,
-              Buffer::create(context, "slot triangles", stream.slot_triangle.size() * sizeof(std::uint32_t), kStorage));
-    LR_TRY(transfer.upload(mesh.slot_triangle, std::span<const std::uint32_t>(stream.slot_triangle)));
-    LR_ASSIGN(mesh.vertex_order,
-              Buffer::create(context, "vertex order", stream.vertex_order.size() * sizeof(std::uint32_t), kStorage));
-    LR_TRY(transfer.upload(mesh.vertex_order, std::span<const std::uint32_t>(stream.vertex_order)));
-    const std::uint32_t rings = lean.rings2 + lean.rings1;
-    LR_TRY(upload_vertices(
-        transfer, mesh, model, [&](std::uint32_t v) { return stream.vertex_order[v]; },
-        [&](std::uint32_t v) { return ring_place(v, rings); }));
-    LR_TRY(upload_lines(context, transfer, mesh, model, lean, options.lines));
-    if (options.ring) {
-        LR_TRY(upload_classes(context, transfer, mesh, options.offsets ? slot_offset_bits(lean) : slot_classes(lean)));
+    return upload_stream(context, transfer, model, options,
+                         {Source::lean, stream.words, stream.vertex_order, stream.slot_triangle});
+}
+
+Result<GpuMesh> upload_packed(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options) {
+    const PackedStream& stream = model.packed;
+    if (stream.words.empty()) return Error{ErrorCode::invalid_argument, "the model was made without a packed stream"};
+    LR_ASSIGN(const PackedView view, view_packed(stream.words));
+    if (view.vertices != model.vertex_count() || stream.vertex_order.size() != view.vertices ||
+        stream.triangle_order.size() != view.triangles) {
+        return Error{ErrorCode::invalid_argument, "the packed stream is not of this mesh"};
     }
-    return mesh;
+    return upload_stream(context, transfer, model, options,
+                         {Source::packed, stream.words, stream.vertex_order, stream.triangle_order});
 }
 
 }  // namespace lr::gpu

@@ -9,22 +9,25 @@
 
 namespace lr::gpu {
 
+/// Of a stream the device makes the index buffer and the draw commands.
 enum class Source {
-    plain,  ///< the mesh's own index list and vertex order
-    lean,   ///< the lean stream; vertices in ring order; the device makes the index buffer and the draw commands
+    plain,   ///< the mesh's own index list and vertex order
+    lean,    ///< the lean stream, with its vertex order
+    packed,  ///< the packed stream, with its vertex order
 };
 
 struct UploadOptions {
     /// Bytes that one storage descriptor may cover: larger buffers are worked on in parts. 0: the device's
-    /// maxStorageBufferRange. At least 2048; a test makes it small.
+    /// maxStorageBufferRange. At least 4096; a test makes it small.
     std::uint64_t max_range = 0;
     bool ring = false;     ///< triangle classes, and the vertices' places on the rings
     bool offsets = false;  ///< significant bits of the triangles' offsets instead of their classes
     enum class Lines { none, ring, edges } lines = Lines::none;  ///< drawn over the surface
 };
 
-/// Triangles are numbered by slot: for Source::plain that is the mesh's own order. Buffers of one value a slot are
-/// bound at the first slot of each draw command, so that none needs to fit one descriptor.
+/// Triangles are numbered by slot: for Source::plain that is the mesh's own order, for Source::packed the stream's.
+/// Buffers of one value a slot are bound at the first slot of each draw command, so that none needs to fit one
+/// descriptor.
 struct GpuMesh {
     Source source = Source::plain;
     std::uint32_t vertex_count = 0;
@@ -33,14 +36,16 @@ struct GpuMesh {
     std::uint32_t draws = 0;       ///< draw commands
     std::uint64_t max_range = 0;   ///< bytes a descriptor covers
 
-    Buffer vertices;       ///< Vertex
-    Buffer indices;        ///< u32, 3 a slot, padded to whole invocations; lean: written by the device
-    Buffer stream;         ///< lean: the stream
-    Buffer commands;       ///< lean: VkDrawIndexedIndirectCommand, written by the device
-    Buffer slot_triangle;  ///< lean: the mesh's triangle of each slot
-    Buffer vertex_order;   ///< lean: the mesh's vertex of each vertex
-    Buffer classes;        ///< LR_CLASS_*, or bits of offsets, one byte a slot; only if asked for
-    Buffer lines;          ///< u32, 2 a line; only if asked for
+    Buffer vertices;  ///< Vertex
+    Buffer indices;   ///< u32, 3 a slot, padded to whole invocations; of a stream: written by the device
+    // Of a stream only:
+    Buffer stream;
+    Buffer commands;       ///< VkDrawIndexedIndirectCommand, written by the device
+    Buffer slot_triangle;  ///< the mesh's triangle of each slot
+    Buffer vertex_order;   ///< the mesh's vertex of each vertex
+    // Only if asked for:
+    Buffer classes;  ///< LR_CLASS_*, or bits of offsets, one byte a slot
+    Buffer lines;    ///< u32, 2 a line
     std::uint32_t line_indices = 0;
 
     bool decoded = false;  ///< the index buffer holds the triangles
@@ -59,5 +64,7 @@ struct Vertex {
 Result<GpuMesh> upload_plain(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options);
 /// The model's stream must be valid, as encode_lean makes it.
 Result<GpuMesh> upload_lean(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options);
+/// Likewise. invalid_argument, too, where the model was made without one.
+Result<GpuMesh> upload_packed(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options);
 
 }  // namespace lr::gpu

@@ -11,8 +11,7 @@
 namespace lr::gpu {
 namespace {
 
-constexpr VkDeviceSize kAlignment = 256;  // no device wants more of a descriptor's offset
-constexpr std::uint64_t kSlotStep = 64;   // 64 slots are 768 bytes of the index buffer: aligned
+constexpr std::uint64_t kSlotStep = 64;  // 64 slots are 768 bytes of the index buffer: aligned
 
 std::uint32_t in_groups(std::uint64_t triangles) {
     constexpr std::uint64_t kPerGroup = std::uint64_t{LR_COMPUTE_GROUP} * LR_TRIANGLES_PER_INVOCATION;
@@ -48,7 +47,7 @@ Result<DecodePlan> LeanDecoder::plan(Descriptors& descriptors, const GpuMesh& me
     DecodePlan plan;
     for (std::uint64_t first = 0; first < mesh.slots; first += step) {
         const std::uint64_t slots = std::min(step, mesh.slots - first);
-        const VkDeviceSize begin = word_of(first) * sizeof(std::uint32_t) / kAlignment * kAlignment;
+        const VkDeviceSize begin = word_of(first) * sizeof(std::uint32_t) / kDescriptorAlignment * kDescriptorAlignment;
         const VkDeviceSize end = std::min(word_of(first + slots) * sizeof(std::uint32_t) + 32, mesh.stream.size());
         const VkDeviceSize out_bytes = std::min(12 * ((slots + 3) / 4 * 4), mesh.indices.size() - 12 * first);
         DecodePlan::Dispatch dispatch;
@@ -57,33 +56,15 @@ Result<DecodePlan> LeanDecoder::plan(Descriptors& descriptors, const GpuMesh& me
         descriptors.write(dispatch.set, 1, kStorage, {&mesh.stream, begin, end - begin});
         descriptors.write(dispatch.set, 2, kStorage, {&mesh.indices, 12 * first, out_bytes});
         descriptors.write(dispatch.set, 3, kStorage, {&mesh.commands});
-        dispatch.constants = {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(slots),
-                              static_cast<std::uint32_t>(begin / sizeof(std::uint32_t)), first == 0 ? mesh.draws : 0,
-                              mesh.draw_slots};
+        dispatch.constants.first_slot = static_cast<std::uint32_t>(first);
+        dispatch.constants.slots = static_cast<std::uint32_t>(slots);
+        dispatch.constants.draws = first == 0 ? mesh.draws : 0;
+        dispatch.constants.draw_slots = mesh.draw_slots;
+        dispatch.constants.first_word = static_cast<std::uint32_t>(begin / sizeof(std::uint32_t));
         dispatch.groups = in_groups(slots);
         plan.dispatches.push_back(dispatch);
     }
     return plan;
-}
-
-void LeanDecoder::record(VkCommandBuffer commands, const DecodePlan& plan) const {
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
-    for (const DecodePlan::Dispatch& dispatch : plan.dispatches) {
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.pipeline(), 0, 1, &dispatch.set, 0,
-                                nullptr);
-        vkCmdPushConstants(commands, layout_.pipeline(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(DecodeConstants),
-                           &dispatch.constants);
-        vkCmdDispatch(commands, dispatch.groups, 1, 1);
-    }
-}
-
-void decode_barrier(VkCommandBuffer commands) {
-    memory_barrier(
-        commands, {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
-        {VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT |
-             VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
-         VK_ACCESS_2_INDEX_READ_BIT | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
-             VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_READ_BIT});
 }
 
 }  // namespace lr::gpu

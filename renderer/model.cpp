@@ -74,7 +74,9 @@ Result<Model> make_model(const Mesh& mesh, const ModelOptions& options) {
     LR_TRY(normalise(model));
     model.mean_edge = mean_edge(model);
     LR_ASSIGN(const CornerTable table, build_corner_table(mesh.indices, mesh.vertex_count));
-    model.lean = encode_lean(table, expand_rings(table, options.ring), options.lean);
+    const Rings rings = expand_rings(table, options.ring);
+    model.lean = encode_lean(table, rings, options.lean);
+    if (options.packed) model.packed = encode_packed(table, rings);
     return model;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// A mesh made ready to draw, from its own index list and from its lean stream.
+// A mesh made ready to draw, from its own index list and from its streams.
 
 #include <array>
 #include <cstdint>
@@ -9,16 +9,18 @@
 #include "lrcore/base/result.h"
 #include "lrcore/lean/lean_stream.h"
 #include "lrcore/mesh/mesh.h"
+#include "lrcore/packed/packed_stream.h"
 
 namespace lr::gpu {
 
 /// Positions are moved and scaled so that the used vertices fill the unit sphere: f32 depth and derivatives then mean
-/// the same for every mesh, and both sources draw exactly the same numbers.
+/// the same for every mesh, and all sources draw exactly the same numbers.
 struct Model {
     std::span<const std::uint32_t> indices;  ///< of the mesh, which must outlive the model; 3 a triangle
     std::vector<float> positions;            ///< 3 a vertex, in the mesh's own vertex order
     std::vector<float> normals;              ///< 3 a vertex, unit
     LeanStream lean;
+    PackedStream packed;             ///< of the same rings; empty unless asked for
     std::array<double, 3> centre{};  ///< of the unit sphere, in the mesh's coordinates
     double radius = 1;               ///< likewise
     double mean_edge = 0;            ///< mean length of the triangles' edges, of the unit sphere
@@ -30,9 +32,10 @@ struct Model {
 struct ModelOptions {
     RingOptions ring{};
     LeanOptions lean{};
+    bool packed = false;  ///< the packed stream too
 };
 
-/// Normalises, and encodes the lean stream (corner table, ring, stream). Cost: O(V + T).
+/// Normalises, and encodes the streams (corner table, ring, streams). Cost: O(V + T).
 /// Errors: unsupported (no triangles, extent zero or past f32), and build_corner_table's.
 Result<Model> make_model(const Mesh& mesh, const ModelOptions& options = {});
 

@@ -165,12 +165,12 @@ void Painter::draw_triangles(VkCommandBuffer commands, VkPipeline pipeline, cons
     vkCmdBindIndexBuffer(commands, mesh.indices.handle(), 0, VK_INDEX_TYPE_UINT32);
     for (std::uint32_t draw = 0; draw < mesh.draws; ++draw) {
         const std::uint32_t first = draw * mesh.draw_slots;
-        const DrawConstants constants{first, mesh.source == Source::lean ? 1U : 0U};
+        const DrawConstants constants{first, mesh.source == Source::plain ? 0U : 1U};
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.pipeline(), 0, 1, &plan.sets[draw],
                                 0, nullptr);
         vkCmdPushConstants(commands, layout_.pipeline(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(constants),
                            &constants);
-        if (mesh.source == Source::lean) {
+        if (mesh.commands) {
             constexpr std::uint32_t kStride = sizeof(VkDrawIndexedIndirectCommand);
             vkCmdDrawIndexedIndirect(commands, mesh.commands.handle(), std::uint64_t{draw} * kStride, 1, kStride);
         } else {

@@ -29,6 +29,19 @@ VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, const Sh
     return info;
 }
 
+/// Constants 0, 1, ... Holds no copy of them.
+struct Specialization {
+    explicit Specialization(std::span<const std::uint32_t> constants) {
+        for (std::uint32_t i = 0; i < constants.size(); ++i) entries.push_back({i, 4 * i, 4});
+        info = {static_cast<std::uint32_t>(entries.size()), entries.data(), constants.size_bytes(), constants.data()};
+    }
+    Specialization(const Specialization&) = delete;
+    Specialization& operator=(const Specialization&) = delete;
+    ~Specialization() = default;
+    std::vector<VkSpecializationMapEntry> entries;
+    VkSpecializationInfo info{};
+};
+
 }  // namespace
 
 Result<Layout> Layout::create(Context& context, const std::string& name, std::span<const Binding> bindings,
@@ -114,11 +127,13 @@ void Descriptors::write_image(VkDescriptorSet set, std::uint32_t number, VkImage
 }
 
 Result<PipelineHandle> create_compute(Context& context, const std::string& name, const Layout& layout,
-                                      std::span<const std::uint32_t> spirv) {
+                                      std::span<const std::uint32_t> spirv, std::span<const std::uint32_t> constants) {
     LR_ASSIGN(const ShaderModuleHandle shader, create_module(context, spirv));
+    const Specialization specialization(constants);
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
     info.stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, shader);
+    info.stage.pSpecializationInfo = &specialization.info;
     info.layout = layout.pipeline();
     VkPipeline pipeline = VK_NULL_HANDLE;
     LR_TRY_VK(vkCreateComputePipelines(context.device(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline));
@@ -130,14 +145,11 @@ Result<PipelineHandle> create_graphics(Context& context, const Layout& layout, c
     LR_ASSIGN(const ShaderModuleHandle vertex, create_module(context, info.vertex));
     std::vector<VkPipelineShaderStageCreateInfo> stages{stage_info(VK_SHADER_STAGE_VERTEX_BIT, vertex)};
     ShaderModuleHandle fragment;
-    std::vector<VkSpecializationMapEntry> entries;
-    for (std::uint32_t i = 0; i < info.constants.size(); ++i) entries.push_back({i, 4 * i, 4});
-    const VkSpecializationInfo constants{static_cast<std::uint32_t>(entries.size()), entries.data(),
-                                         4 * info.constants.size(), info.constants.data()};
+    const Specialization specialization(info.constants);
     if (!info.fragment.empty()) {
         LR_ASSIGN(fragment, create_module(context, info.fragment));
         stages.push_back(stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, fragment));
-        stages.back().pSpecializationInfo = &constants;
+        stages.back().pSpecializationInfo = &specialization.info;
     }
 
     VkPipelineVertexInputStateCreateInfo input{};

@@ -65,8 +65,10 @@ class Descriptors {
     std::vector<DescriptorPoolHandle> pools_;  // the last one may have room
 };
 
+/// `constants`: the shader's specialization constants 0, 1, ...
 Result<PipelineHandle> create_compute(Context& context, const std::string& name, const Layout& layout,
-                                      std::span<const std::uint32_t> spirv);
+                                      std::span<const std::uint32_t> spirv,
+                                      std::span<const std::uint32_t> constants = {});
 
 /// What differs between the graphics pipelines. Viewport and scissor are dynamic, and the line width where lines are
 /// drawn.

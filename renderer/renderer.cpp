@@ -12,7 +12,8 @@ Result<Renderer> Renderer::create(Context& context, const RendererOptions& optio
     LR_ASSIGN(out.transfer_, Transfer::create(context));
     LR_ASSIGN(out.target_, Target::create(context, {options.width, options.height}));
     LR_ASSIGN(out.painter_, Painter::create(context, options.view, options.samples));
-    LR_ASSIGN(out.decoder_, LeanDecoder::create(context));
+    LR_ASSIGN(out.lean_, LeanDecoder::create(context));
+    LR_ASSIGN(out.packed_, PackedDecoder::create(context));
     LR_ASSIGN(out.rotator_, Rotator::create(context));
     return out;
 }
@@ -24,7 +25,11 @@ Result<Drawable> Renderer::upload(const Model& model, Source source) {
     out.descriptors = Descriptors(*context_);
     if (source == Source::lean) {
         LR_ASSIGN(out.mesh, upload_lean(*context_, *transfer_, model, options));
-        LR_ASSIGN(out.decode, decoder_.plan(out.descriptors, out.mesh));
+        LR_ASSIGN(out.decode, lean_.plan(out.descriptors, out.mesh));
+    } else if (source == Source::packed) {
+        LR_ASSIGN(out.mesh, upload_packed(*context_, *transfer_, model, options));
+        LR_ASSIGN(const PackedView view, view_packed(model.packed.words));
+        LR_ASSIGN(out.decode, packed_.plan(out.descriptors, out.mesh, view));
     } else {
         LR_ASSIGN(out.mesh, upload_plain(*context_, *transfer_, model, options));
     }
@@ -35,7 +40,8 @@ Result<Drawable> Renderer::upload(const Model& model, Source source) {
 
 void Renderer::decode(VkCommandBuffer commands, Drawable& drawable) const {
     if (drawable.mesh.decoded) return;
-    decoder_.record(commands, drawable.decode);
+    const Decoder& decoder = drawable.mesh.source == Source::lean ? static_cast<const Decoder&>(lean_) : packed_;
+    decoder.record(commands, drawable.decode);
     if (!options_.omit_decode_barrier) decode_barrier(commands);
     drawable.mesh.decoded = true;
     drawable.mesh.rotated = false;

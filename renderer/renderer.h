@@ -3,6 +3,7 @@
 
 #include "renderer/context.h"
 #include "renderer/lean_decoder.h"
+#include "renderer/packed_decoder.h"
 #include "renderer/painter.h"
 #include "renderer/rotator.h"
 
@@ -32,11 +33,11 @@ class Renderer {
 
     Result<Drawable> upload(const Model& model, Source source);
 
-    /// Records the decoding of a lean mesh and what makes it visible, if that has not been done.
+    /// Records the decoding of a stream and what makes it visible, if that has not been done.
     void decode(VkCommandBuffer commands, Drawable& drawable) const;
 
     /// One picture. `exact`: triangles rotated to begin with their smallest vertex, and ties broken by number, so that
-    /// both sources give the same bits; a drawable stays rotated after it. Otherwise as the index buffer is.
+    /// all sources give the same bits; a drawable stays rotated after it. Otherwise as the index buffer is.
     Result<Picture> draw(Drawable& drawable, const Model& model, const Camera& camera, bool exact);
 
     /// The first 3 * slots indices, as they are on the device. Decodes first if need be.
@@ -47,7 +48,6 @@ class Renderer {
     Transfer& transfer() { return *transfer_; }
     const Target& target() const { return target_; }
     Painter& painter() { return painter_; }
-    const LeanDecoder& decoder() const { return decoder_; }
 
   private:
     Renderer() = default;
@@ -58,7 +58,8 @@ class Renderer {
     std::optional<Transfer> transfer_;
     Target target_;
     Painter painter_;
-    LeanDecoder decoder_;
+    LeanDecoder lean_;
+    PackedDecoder packed_;
     Rotator rotator_;
 };
 

@@ -23,17 +23,17 @@ Result<Rotator> Rotator::create(Context& context) {
 
 Result<RotatePlan> Rotator::plan(Descriptors& descriptors, const GpuMesh& mesh) const {
     constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    const bool lean = mesh.source == Source::lean;
+    const bool ordered = mesh.source != Source::plain;
     // Windows start at multiples of 256 bytes.
     const std::uint64_t window = std::min<std::uint64_t>(mesh.max_range, std::uint64_t{1} << 32) / 256 * 64;
-    if (lean && mesh.vertex_count > LR_ORDER_WINDOWS * window) {
+    if (ordered && mesh.vertex_count > LR_ORDER_WINDOWS * window) {
         return Error{ErrorCode::too_large, std::to_string(mesh.vertex_count) + " vertices; " +
                                                std::to_string(LR_ORDER_WINDOWS * window) +
                                                " is the most that this device's descriptors cover here"};
     }
     std::array<BufferRange, LR_ORDER_WINDOWS> order;
     for (std::uint64_t w = 0; w < LR_ORDER_WINDOWS; ++w) {
-        const bool used = lean && w * window < mesh.vertex_count;
+        const bool used = ordered && w * window < mesh.vertex_count;
         order[w] = {&nothing_};
         if (used) order[w] = {&mesh.vertex_order, 4 * w * window, 4 * std::min(window, mesh.vertex_count - w * window)};
     }
@@ -48,7 +48,7 @@ Result<RotatePlan> Rotator::plan(Descriptors& descriptors, const GpuMesh& mesh) 
         LR_ASSIGN(dispatch.set, descriptors.allocate(layout_));
         descriptors.write(dispatch.set, 0, kStorage, {&mesh.indices, 12 * first, bytes});
         descriptors.write(dispatch.set, 1, kStorage, order);
-        dispatch.constants = {static_cast<std::uint32_t>(triangles), lean ? 1U : 0U,
+        dispatch.constants = {static_cast<std::uint32_t>(triangles), ordered ? 1U : 0U,
                               static_cast<std::uint32_t>(std::min<std::uint64_t>(window, UINT32_MAX))};
         constexpr std::uint64_t kPerGroup = std::uint64_t{LR_COMPUTE_GROUP} * LR_TRIANGLES_PER_INVOCATION;
         dispatch.groups = static_cast<std::uint32_t>((triangles + kPerGroup - 1) / kPerGroup);

@@ -13,32 +13,18 @@ layout(std430, binding = 1) readonly buffer Words { uint words[]; };
 layout(std430, binding = 1) readonly buffer WordQuads { uvec4 word_quads[]; };
 layout(std430, binding = 2) writeonly buffer Indices { uvec4 indices[]; };
 
-struct DrawIndexedIndirectCommand {
-    uint index_count;
-    uint instance_count;
-    uint first_index;
-    int vertex_offset;
-    uint first_instance;
-};
-layout(std430, binding = 3) writeonly buffer Commands { DrawIndexedIndirectCommand commands[]; };
+#define LR_BINDING_COMMANDS 3
+#include "shaders/draw_commands.glsl"
 
 #define LR_LEAN_WORD(i) words[(i) + LR_LEAN_HEADER_WORDS - push.first_word]
 #include "shaders/lean_decode.glsl"
-
-void write_commands(uint slots) {
-    for (uint draw = 0u; draw < push.draws; ++draw) {
-        uint first = min(draw * push.draw_slots, slots);
-        uint count = min(slots - first, push.draw_slots);
-        commands[draw] = DrawIndexedIndirectCommand(3u * count, 1u, 3u * first, 0, 0u);
-    }
-}
 
 void main() {
     LrLeanLayout lean =
         LrLeanLayout(header[LR_LEAN_WORD_RINGS2], header[LR_LEAN_WORD_RINGS1], header[LR_LEAN_WORD_VERBATIM]);
     uint slots = lr_lean_slots(lean);
     uint invocation = gl_GlobalInvocationID.x;
-    if (invocation == 0u && push.draws != 0u) write_commands(slots);
+    if (invocation == 0u) write_commands(push.draws, push.draw_slots, slots);
 
     uint local = invocation * LR_TRIANGLES_PER_INVOCATION;
     if (local >= push.slots) return;

@@ -1,88 +1,93 @@
-// Random access to the packed stream: any triangle of a block, or a block corridor by corridor.
+// Random access to the packed stream: any triangle of a block; or a block in steps, event by event.
 // Format: lrcore/packed/packed_format.h, the only other file that an engine needs with this one; docs/packed-format.md.
 //
 // Before including it, say where the stream's words are:
 //     #define LR_PACKED_WORD(i) words[i]
-// Then, for triangle in [0, triangles):
+// (or, of a stream that no one descriptor covers, LR_PACKED_HEADER, LR_PACKED_TURNS, LR_PACKED_DIRECTORY and
+// LR_PACKED_RECORDS, all with i counted from the stream's first word). Then, for triangle in [0, triangles):
 //     uvec3 indices = lr_packed_triangle(lr_packed_layout(), triangle);
-// The stream must be valid (lr::validate_packed).
+// The stream must be valid (lr::validate_packed). On any other every loop still ends.
 #ifndef LACEDRING_PACKED_DECODE_GLSL
 #define LACEDRING_PACKED_DECODE_GLSL
 
 #include "lrcore/packed/packed_format.h"
 
+#ifdef LR_PACKED_WORD
+#define LR_PACKED_HEADER(i) LR_PACKED_WORD(i)
+#define LR_PACKED_TURNS(i) LR_PACKED_WORD(i)
+#define LR_PACKED_DIRECTORY(i) LR_PACKED_WORD(i)
+#define LR_PACKED_RECORDS(i) LR_PACKED_WORD(i)
+#endif
+
 struct LrPackedLayout {
     uint triangles;
     uint directory;  // first word of it
-    uint records;    // first byte of them
+    uint records;    // first word of them
     uint vertex_bits;
     uint gap_bits;
 };
 
 LrPackedLayout lr_packed_layout() {
     LrPackedLayout p;
-    p.triangles = LR_PACKED_WORD(LR_PACKED_WORD_TRIANGLES);
-    p.directory = LR_PACKED_HEADER_WORDS + (p.triangles + 31u) / 32u;
-    uint blocks = (p.triangles + LR_PACKED_BLOCK - 1u) / LR_PACKED_BLOCK;
+    p.triangles = LR_PACKED_HEADER(LR_PACKED_WORD_TRIANGLES);
+    p.directory = LR_PACKED_HEADER_WORDS + p.triangles / 32u + (p.triangles % 32u == 0u ? 0u : 1u);
+    uint blocks = p.triangles / LR_PACKED_BLOCK + (p.triangles % LR_PACKED_BLOCK == 0u ? 0u : 1u);
     uint rest = blocks % LR_PACKED_GROUP;
-    p.records = 4u * (p.directory + blocks / LR_PACKED_GROUP * LR_PACKED_GROUP_WORDS +
-                      (rest == 0u ? 0u : 1u + (rest + 3u) / 4u));
-    p.vertex_bits = LR_PACKED_WORD(LR_PACKED_WORD_WIDTHS) & 0xffu;
-    p.gap_bits = LR_PACKED_WORD(LR_PACKED_WORD_WIDTHS) >> 8;
+    p.records = p.directory + blocks / LR_PACKED_GROUP * LR_PACKED_GROUP_WORDS + (rest == 0u ? 0u : 1u + (rest + 3u) / 4u);
+    p.vertex_bits = LR_PACKED_HEADER(LR_PACKED_WORD_WIDTHS) & 31u;
+    p.gap_bits = LR_PACKED_HEADER(LR_PACKED_WORD_WIDTHS) >> 8 & 7u;
     return p;
 }
 
-// A record and what its reader knows. `at` and `end` are bits of the stream.
+// A block and what its reader knows. Triangles, where it does not say of the mesh, count from the block's first.
 struct LrPackedReader {
-    uint at, end;
-    uint first, triangles;  // of the mesh, in the record
+    uint first;    // of the mesh: the block's first triangle
+    uint i, stop;  // the next triangle, and the end of the record's
+    uint ups;      // turns before i that are 1
     bool plain;
+    uint word;     // of the stream, in which the block's records begin
+    uint at, end;  // the next bit, and the end of the record, from there
+    uvec2 bits;    // from `at` on, what lr_packed_fill has loaded
     uint a, b, begun_a, begun_b;
     bool reversed, begun_reversed, finished;
-    uint event, code;  // the next event's triangle, from the record's first
+    bool jumped;       // (a, b) or the orientation do not come from the triangle before by its turn
+    uint event, code;  // the next event's triangle
     uint top, depth;
-    uvec2 stack[LR_PACKED_STACK];
 };
+uvec2 lr_packed_stack[LR_PACKED_STACK];
 
-// Triangles that belong together: from the i-th of the record `count` that turn, or (kind) one with its third vertex, or
-// a wart's two.
-#define LR_PACKED_RUN 0u
-#define LR_PACKED_ONE 1u
-#define LR_PACKED_PAIR 2u
-struct LrPackedPiece {
-    uint kind, count;
-    uint a, b, x;
+// `run` triangles from `first` on, by their turns alone, with (a, b) entered; then as `kind` says.
+#define LR_PACKED_NONE 0u
+#define LR_PACKED_THIRD 1u  // one whose third vertex is x
+#define LR_PACKED_PAIR 2u   // a wart's T0 and its T2, if that is in the record
+struct LrPackedStep {
+    uint first, run;
+    uint kind, x;
+    uint a, b;
     bool reversed;
+    bool jumped;  // see LrPackedReader
 };
 
-uint lr_packed_record_bytes(LrPackedLayout p, uint length) {
-    if (length <= LR_PACKED_MAX_RECORD) return length;
-    if (length < LR_PACKED_PLAIN) return 8u * (length - LR_PACKED_MAX_RECORD);
-    return 3u * LR_PACKED_BLOCK / 8u * p.vertex_bits;
+// 64 bits from r.at on, ones behind the record.
+void lr_packed_fill(inout LrPackedReader r) {
+    uint at = min(r.at, r.end), left = r.end - at, shift = at & 31u;
+    uint word = r.word + (at >> 5);
+    uint w0 = LR_PACKED_RECORDS(word), w1 = LR_PACKED_RECORDS(word + 1u), w2 = LR_PACKED_RECORDS(word + 2u);
+    r.bits = uvec2(w0 >> shift | w1 << 1 << (31u - shift), w1 >> shift | w2 << 1 << (31u - shift));
+    if (left < 32u) r.bits.x |= 0xffffffffu << left;
+    if (left < 64u) r.bits.y |= left <= 32u ? 0xffffffffu : 0xffffffffu << (left - 32u);
 }
-
-// 32 bits from bit `at` on.
-uint lr_packed_bits(uint at) {
-    uint word = at >> 5, shift = at & 31u;
-    uint low = LR_PACKED_WORD(word) >> shift;
-    return shift == 0u ? low : low | LR_PACKED_WORD(word + 1u) << (32u - shift);
-}
-// The same, with ones behind the record.
-uint lr_packed_window(LrPackedReader r) {
-    uint left = r.end - min(r.at, r.end);
-    uint bits = lr_packed_bits(min(r.at, r.end));
-    return left < 32u ? bits | 0xffffffffu << left : bits;
-}
-uint lr_packed_ones(uint window) { return window == 0xffffffffu ? 32u : uint(findLSB(~window)); }
-
+// Of the bits loaded: the next `count`, at most 31.
 uint lr_packed_take(inout LrPackedReader r, uint count) {
-    uint value = lr_packed_window(r) & ((1u << count) - 1u);
+    uint value = r.bits.x & ((1u << count) - 1u);
+    r.bits = uvec2(r.bits.x >> count | r.bits.y << 1 << (31u - count), r.bits.y >> count);
     r.at += count;
     return value;
 }
+uint lr_packed_ones(uint bits) { return bits == 0xffffffffu ? 32u : uint(findLSB(~bits)); }
 uint lr_packed_unary(inout LrPackedReader r, uint limit) {
-    uint ones = min(lr_packed_ones(lr_packed_window(r)), limit);
-    r.at += ones + (ones < limit ? 1u : 0u);
+    uint ones = min(lr_packed_ones(r.bits.x), limit);
+    lr_packed_take(r, ones + (ones < limit ? 1u : 0u));
     return ones;
 }
 uint lr_packed_golomb(inout LrPackedReader r, uint order) {
@@ -91,222 +96,246 @@ uint lr_packed_golomb(inout LrPackedReader r, uint order) {
 }
 
 void lr_packed_next_event(LrPackedLayout p, inout LrPackedReader r) {
-    uint high = lr_packed_ones(lr_packed_window(r));
-    if (high > LR_PACKED_BLOCK >> LR_PACKED_MIN_GAP_BITS || r.at + high >= r.end) {
+    lr_packed_fill(r);
+    uint high = lr_packed_ones(r.bits.x);
+    if (high > 31u) {
         r.event = 0xffffffffu;
         r.code = LR_PACKED_TURN;
         return;
     }
-    r.at += high + 1u;
-    uint window = lr_packed_window(r);
-    r.event += (high << p.gap_bits) + (window & ((1u << p.gap_bits) - 1u));
-    r.code = min(lr_packed_ones(window >> p.gap_bits), LR_PACKED_TURN);
-    r.at += p.gap_bits + r.code + (r.code < LR_PACKED_TURN ? 1u : 0u);
+    lr_packed_take(r, high);
+    r.event += (high << p.gap_bits) + (lr_packed_take(r, 1u + p.gap_bits) >> 1);
+    r.code = lr_packed_unary(r, LR_PACKED_TURN);
 }
 
-// The record that holds a triangle of the mesh.
-LrPackedReader lr_packed_open(LrPackedLayout p, uint triangle) {
-    LrPackedReader r;
-    uint block = triangle / LR_PACKED_BLOCK, member = block % LR_PACKED_GROUP;
+uint lr_packed_turn_word(uint triangle) { return LR_PACKED_TURNS(LR_PACKED_HEADER_WORDS + triangle / 32u); }
+bool lr_packed_turn(uint triangle) { return (lr_packed_turn_word(triangle) >> (triangle & 31u) & 1u) != 0u; }
+
+// Turns that are 1 of the block's first i triangles. A program that has tables of them says so.
+#ifndef LR_PACKED_UPS
+uint lr_packed_ups(uint first, uint i) {
+    uint ups = 0u;
+    for (uint k = 0u; k < i; k += 32u) {
+        ups += uint(bitCount(bitfieldExtract(lr_packed_turn_word(first + k), 0, int(min(i - k, 32u)))));
+    }
+    return ups;
+}
+#define LR_PACKED_UPS(first, i) lr_packed_ups(first, i)
+#endif
+
+// Begins the record that holds triangle r.first + i.
+void lr_packed_open(LrPackedLayout p, inout LrPackedReader r, uint i) {
+    uint block = r.first / LR_PACKED_BLOCK, member = block % LR_PACKED_GROUP;
     uint group = p.directory + block / LR_PACKED_GROUP * LR_PACKED_GROUP_WORDS;
-    uint offset = LR_PACKED_WORD(group);
+    uint byte = LR_PACKED_DIRECTORY(group);
     uint lengths = 0u, length = 0u;
-    for (uint i = 0u; i <= member; ++i) {
-        if (i % 4u == 0u) lengths = LR_PACKED_WORD(group + 1u + i / 4u);
-        offset += length;
-        length = lengths >> (8u * (i % 4u)) & 0xffu;
-        if (i < member) length = lr_packed_record_bytes(p, length);
+    for (uint k = 0u; k <= member; ++k) {
+        byte += length <= LR_PACKED_MAX_RECORD ? length
+                : length < LR_PACKED_PLAIN     ? 8u * (length - LR_PACKED_MAX_RECORD)
+                                               : 3u * LR_PACKED_BLOCK / 8u * p.vertex_bits;
+        if (k % 4u == 0u) lengths = LR_PACKED_DIRECTORY(group + 1u + k / 4u);
+        length = lengths & 0xffu;
+        lengths >>= 8;
     }
-    uint byte = p.records + offset;
+    r.i = 0u;
+    r.stop = min(p.triangles - r.first, LR_PACKED_BLOCK);
     r.plain = length == LR_PACKED_PLAIN;
-    r.first = block * LR_PACKED_BLOCK;
-    r.triangles = min(p.triangles - r.first, LR_PACKED_BLOCK);
-    if (length > LR_PACKED_MAX_RECORD && !r.plain) {
-        uint parts = lr_packed_bits(8u * byte);
-        byte += LR_PACKED_PARTS;
-        uint part = triangle % LR_PACKED_BLOCK / LR_PACKED_PART;
-        for (uint i = 0u; i < part; ++i) byte += parts >> (8u * i) & 0xffu;
-        length = parts >> (8u * part) & 0xffu;
-        r.first += part * LR_PACKED_PART;
-        r.triangles = min(p.triangles - r.first, LR_PACKED_PART);
-    }
-    r.at = 8u * byte;
+    r.word = p.records + byte / 4u;
+    r.at = 8u * (byte % 4u);
     r.end = r.at + 8u * length;
-    r.top = 0u;
-    r.depth = 0u;
+    if (length > LR_PACKED_MAX_RECORD && !r.plain) {
+        lr_packed_fill(r);
+        uint parts = r.bits.x, part = i / LR_PACKED_PART;
+        r.at += 8u * LR_PACKED_PARTS;
+        for (uint k = 0u; k < part; ++k) r.at += 8u * (parts >> (8u * k) & 0xffu);
+        r.end = r.at + 8u * (parts >> (8u * part) & 0xffu);
+        r.i = part * LR_PACKED_PART;
+        r.stop = min(r.stop, r.i + LR_PACKED_PART);
+    }
+    if (r.plain) return;
+    r.ups = LR_PACKED_UPS(r.first, r.i);
+    lr_packed_fill(r);
+    r.a = r.begun_a = lr_packed_take(r, p.vertex_bits);
+    r.b = r.begun_b = lr_packed_take(r, p.vertex_bits);
+    r.reversed = r.begun_reversed = lr_packed_take(r, 1u) != 0u;
     r.finished = false;
-    r.event = 0u;
-    if (r.plain) return r;
-    r.a = lr_packed_take(r, p.vertex_bits);
-    r.b = lr_packed_take(r, p.vertex_bits);
-    r.reversed = lr_packed_take(r, 1u) != 0u;
-    r.begun_a = r.a;
-    r.begun_b = r.b;
-    r.begun_reversed = r.reversed;
+    r.jumped = true;
+    r.top = r.depth = 0u;
+    r.event = r.i;
     lr_packed_next_event(p, r);
-    return r;
-}
-
-uvec3 lr_packed_plain(LrPackedLayout p, LrPackedReader r, uint triangle) {
-    uint mask = (1u << p.vertex_bits) - 1u, at = r.at + 3u * p.vertex_bits * (triangle - r.first);
-    return uvec3(lr_packed_bits(at) & mask, lr_packed_bits(at + p.vertex_bits) & mask,
-                 lr_packed_bits(at + 2u * p.vertex_bits) & mask);
 }
 
 void lr_packed_pop(inout LrPackedReader r) {
     --r.depth;
-    uvec2 edge = r.stack[--r.top % LR_PACKED_STACK];
+    uvec2 edge = lr_packed_stack[--r.top % LR_PACKED_STACK];
     r.a = edge.x;
     r.b = edge.y;
 }
 
-// What an event says about the triangle that follows.
-void lr_packed_before(LrPackedLayout p, inout LrPackedReader r) {
-    if (r.code == LR_PACKED_TURN) {
-        r.reversed = !r.reversed;
-        return;
-    }
-    r.finished = false;
-    if (r.code == LR_PACKED_END) {
-        lr_packed_pop(r);
-        return;
-    }
-    if (r.code == LR_PACKED_RESUME) {
-        bool back = lr_packed_take(r, 1u) != 0u;
-        uint step = lr_packed_golomb(r, LR_PACKED_RESUME_ORDER);
-        uint other = lr_packed_take(r, p.vertex_bits);
-        r.begun_a = back ? other : r.b + step;
-        r.begun_b = back ? r.a - step : other;
+// What r.code says, and its next event. Everything is read in the same place whatever the code is, so that invocations
+// with other events wait little for each other; 64 bits are enough for what is taken between two fills.
+void lr_packed_event(LrPackedLayout p, inout LrPackedReader r, inout LrPackedStep s) {
+    bool split = r.code == LR_PACKED_SPLIT, jump = r.code == LR_PACKED_JUMP, far = r.code == LR_PACKED_FAR;
+    bool start = r.code == LR_PACKED_START, beside = r.code == LR_PACKED_BESIDE;
+    uint small;
+    lr_packed_fill(r);
+    if (start) {
+        small = lr_packed_unary(r, LR_PACKED_START_ANY);
     } else {
-        uint kind = lr_packed_unary(r, LR_PACKED_START_ANY);
-        r.depth = 0u;
-        if (kind == LR_PACKED_START_OTHER) {
-            r.reversed = !r.begun_reversed;
-        } else if (kind == LR_PACKED_START_ANY) {
-            r.begun_a = lr_packed_take(r, p.vertex_bits);
-            r.begun_b = lr_packed_take(r, p.vertex_bits);
-            r.reversed = lr_packed_take(r, 1u) != 0u;
+        small = lr_packed_take(r, far ? 2u : beside ? 3u : 0u);
+    }
+    bool next = start && small == LR_PACKED_START_NEXT, near = start && small == LR_PACKED_START_NEAR;
+    bool any = start && small == LR_PACKED_START_ANY;
+    uint order = split    ? LR_PACKED_SPLIT_ORDER
+                 : jump   ? LR_PACKED_JUMP_ORDER
+                 : beside ? LR_PACKED_BESIDE_ORDER
+                          : LR_PACKED_SIZE_ORDER;
+    uint size = 0u, size2 = 0u, v = 0u, v2 = 0u;
+    if (split || jump || beside || next || near) size = lr_packed_golomb(r, order);
+    lr_packed_fill(r);
+    if (near) size2 = lr_packed_golomb(r, LR_PACKED_SIZE_ORDER);
+    if (far || beside || any) v = lr_packed_take(r, p.vertex_bits);
+    if (any) v2 = lr_packed_take(r, p.vertex_bits);
+
+    bool up = lr_packed_turn(r.first + r.i);
+    if (r.code == LR_PACKED_WART) {
+        uint count = min(2u, r.stop - r.i);
+        s.kind = LR_PACKED_PAIR;
+        if (up) {
+            r.a += 2u;
+            r.ups += count;
         } else {
-            uint step = 1u;
-            if (kind != LR_PACKED_START_NEXT) step = lr_packed_golomb(r, LR_PACKED_SIZE_ORDER);
-            r.begun_a = r.begun_b + step;
-            r.begun_b = r.begun_a + 2u + lr_packed_golomb(r, LR_PACKED_SIZE_ORDER);
-            r.reversed = kind != LR_PACKED_START_NEXT && r.begun_reversed;
+            r.b -= 2u;
+        }
+        r.i += count;
+        r.jumped = false;
+    } else if (split || jump || far) {
+        s.kind = LR_PACKED_THIRD;
+        uint away = size + (split ? 3u : 2u);
+        s.x = far ? v : up ? r.a + away : r.b - away;
+        uint enters = far ? small : split ? 3u : up ? 2u : 1u;
+        if (enters == 3u) {
+            lr_packed_stack[r.top++ % LR_PACKED_STACK] = up ? uvec2(s.x, r.b) : uvec2(r.a, s.x);
+            r.depth = min(r.depth + 1u, LR_PACKED_STACK);
+        }
+        if (enters == 3u ? !up : enters == 2u) {
+            r.a = s.x;
+        } else {
+            r.b = s.x;
+        }
+        r.finished = enters == 0u;
+        r.ups += up ? 1u : 0u;
+        ++r.i;
+        r.jumped = true;
+    } else {
+        r.jumped = true;
+        if (r.code == LR_PACKED_TURN) {
+            r.reversed = !r.reversed;
+        } else if (r.code == LR_PACKED_END) {
+            lr_packed_pop(r);
+            r.finished = false;
+        } else {
+            if (beside) {
+                if ((small & 1u) != 0u) r.reversed = !r.reversed;
+                uint from = small >> 1, step = (size & 1u) != 0u ? ~(size >> 1) : size >> 1;
+                bool is_a = from == LR_PACKED_BESIDE_NOW_B || from == LR_PACKED_BESIDE_BEGUN_A;  // that is counted
+                uint near_to = from == LR_PACKED_BESIDE_NOW_B     ? r.b
+                               : from == LR_PACKED_BESIDE_NOW_A   ? r.a
+                               : from == LR_PACKED_BESIDE_BEGUN_A ? r.begun_a
+                                                                  : r.begun_b;
+                r.begun_a = is_a ? near_to + step : v;
+                r.begun_b = is_a ? v : near_to + step;
+            } else if (any) {
+                r.begun_a = v;
+                r.begun_b = v2;
+                r.reversed = lr_packed_take(r, 1u) != 0u;
+            } else if (next || near) {
+                r.begun_a = r.begun_b + (next ? 1u : size);
+                r.begun_b = r.begun_a + 2u + (next ? size : size2);
+                r.reversed = near && r.begun_reversed;
+            } else {
+                r.reversed = !r.begun_reversed;
+            }
+            r.depth = 0u;
+            r.begun_reversed = r.reversed;
+            r.a = r.begun_a;
+            r.b = r.begun_b;
+            r.finished = false;
         }
     }
-    r.a = r.begun_a;
-    r.b = r.begun_b;
-    r.begun_reversed = r.reversed;
+    lr_packed_next_event(p, r);
 }
 
-// Turns of triangles [first, first + count) of the mesh that are 1.
-uint lr_packed_ups(uint first, uint count) {
-    uint ups = 0u;
-    while (count > 0u) {
-        uint n = min(count, 32u - (first & 31u));
-        ups += uint(bitCount(LR_PACKED_WORD(LR_PACKED_HEADER_WORDS + first / 32u) >> (first & 31u) << (32u - n)));
-        first += n;
-        count -= n;
-    }
-    return ups;
-}
-bool lr_packed_turn(uint triangle) {
-    return (LR_PACKED_WORD(LR_PACKED_HEADER_WORDS + triangle / 32u) >> (triangle & 31u) & 1u) != 0u;
-}
-
-// The triangles from the record's i-th on, as many as belong together.
-LrPackedPiece lr_packed_step(LrPackedLayout p, inout LrPackedReader r, uint i) {
-    while (r.event == i && r.code != LR_PACKED_WART && r.code != LR_PACKED_SPLIT && r.code != LR_PACKED_FAR &&
-           r.code != LR_PACKED_JUMP) {
-        lr_packed_before(p, r);
-        lr_packed_next_event(p, r);
-    }
-    if (r.finished) {
+// The triangles up to the next event or the corridor's end, and that event. While r.i < r.stop; each step reads an event
+// or makes a triangle.
+LrPackedStep lr_packed_step(LrPackedLayout p, inout LrPackedReader r) {
+    bool before = r.code == LR_PACKED_START || r.code == LR_PACKED_BESIDE || r.code >= LR_PACKED_END;
+    if (r.finished && !(before && r.event == r.i)) {
         if (r.depth > 0u) {
             lr_packed_pop(r);
         } else {
             uint size = r.begun_b - r.begun_a;
-            r.begun_a = r.begun_b + 1u;
-            r.begun_b = r.begun_a + size;
-            r.a = r.begun_a;
-            r.b = r.begun_b;
+            r.a = r.begun_a = r.begun_b + 1u;
+            r.b = r.begun_b = r.begun_a + size;
         }
         r.finished = false;
+        r.jumped = true;
     }
-    LrPackedPiece piece = LrPackedPiece(LR_PACKED_RUN, 0u, r.a, r.b, 0u, r.reversed);
-    if (r.event != i) {
-        uint left = r.b - r.a == 1u ? 1u : r.b - r.a - 1u;
-        piece.count = min(min(r.triangles - i, r.event - i), left);
-        uint ups = lr_packed_ups(r.first + i, piece.count);
+    uint left = r.b - r.a == 1u ? 1u : r.b - r.a - 1u;
+    LrPackedStep s;
+    s.first = r.i;
+    s.run = min(min(r.stop - r.i, left), r.event - r.i);
+    s.kind = LR_PACKED_NONE;
+    s.x = 0u;
+    s.a = r.a;
+    s.b = r.b;
+    s.reversed = r.reversed;
+    s.jumped = r.jumped;
+    if (s.run > 0u) {
+        r.i += s.run;
+        uint ups = LR_PACKED_UPS(r.first, r.i) - r.ups;
+        r.ups += ups;
         r.a += ups;
-        r.b -= piece.count - ups;
+        r.b -= s.run - ups;
         r.finished = r.b - r.a == 1u;
-        return piece;
+        r.jumped = false;
     }
-    bool along_a = lr_packed_turn(r.first + i);
-    if (r.code == LR_PACKED_WART) {
-        piece.kind = LR_PACKED_PAIR;
-        piece.count = min(2u, r.triangles - i);
-        piece.x = along_a ? r.a + 2u : r.b - 2u;
-        if (along_a) {
-            r.a += 2u;
-        } else {
-            r.b -= 2u;
-        }
-        lr_packed_next_event(p, r);
-        return piece;
-    }
-    piece.kind = LR_PACKED_ONE;
-    piece.count = 1u;
-    uint enters = along_a ? 2u : 1u;
-    if (r.code == LR_PACKED_FAR) {
-        enters = lr_packed_take(r, 2u);
-        piece.x = lr_packed_take(r, p.vertex_bits);
-    } else {
-        bool split = r.code == LR_PACKED_SPLIT;
-        uint size = lr_packed_golomb(r, split ? LR_PACKED_SPLIT_ORDER : LR_PACKED_JUMP_ORDER) + (split ? 3u : 2u);
-        piece.x = along_a ? r.a + size : r.b - size;
-        if (split) enters = 3u;
-    }
-    if (enters == 3u) {
-        r.stack[r.top++ % LR_PACKED_STACK] = along_a ? uvec2(piece.x, r.b) : uvec2(r.a, piece.x);
-        r.depth = min(r.depth + 1u, LR_PACKED_STACK);
-    }
-    bool high = enters == 3u ? !along_a : enters == 2u;
-    if (high) {
-        r.a = piece.x;
-    } else {
-        r.b = piece.x;
-    }
-    r.finished = enters == 0u;
-    lr_packed_next_event(p, r);
-    return piece;
+    if (r.event == r.i && r.i < r.stop && (before || !r.finished)) lr_packed_event(p, r, s);
+    return s;
+}
+
+// Triangle i of a plain block.
+uvec3 lr_packed_plain(LrPackedLayout p, LrPackedReader r, uint i) {
+    uvec3 v;
+    r.end = 0xffffffffu;
+    r.at += 3u * p.vertex_bits * i;
+    lr_packed_fill(r);
+    v.x = lr_packed_take(r, p.vertex_bits);
+    v.y = lr_packed_take(r, p.vertex_bits);
+    lr_packed_fill(r);
+    v.z = lr_packed_take(r, p.vertex_bits);
+    return v;
 }
 
 uvec3 lr_packed_oriented(uint a, uint x, uint b, bool reversed) { return reversed ? uvec3(a, x, b) : uvec3(a, b, x); }
 
 uvec3 lr_packed_triangle(LrPackedLayout p, uint triangle) {
-    LrPackedReader r = lr_packed_open(p, triangle);
-    if (r.plain) return lr_packed_plain(p, r, triangle);
-    uint wanted = triangle - r.first, i = 0u;
-    LrPackedPiece piece = lr_packed_step(p, r, 0u);
-    while (i + piece.count <= wanted) {
-        i += piece.count;
-        piece = lr_packed_step(p, r, i);
-    }
-    uint a = piece.a, b = piece.b, x = piece.x;
+    LrPackedReader r;
+    r.first = triangle / LR_PACKED_BLOCK * LR_PACKED_BLOCK;
+    uint i = triangle - r.first;
+    lr_packed_open(p, r, i);
+    if (r.plain) return lr_packed_plain(p, r, i);
+    LrPackedStep s = lr_packed_step(p, r);
+    while (r.i <= i && r.i < r.stop) s = lr_packed_step(p, r);
+    uint run = min(i - s.first, s.run);
+    uint ups = LR_PACKED_UPS(r.first, s.first + run) - LR_PACKED_UPS(r.first, s.first);
+    uint a = s.a + ups, b = s.b - (run - ups);
     bool up = lr_packed_turn(triangle);
-    if (piece.kind == LR_PACKED_RUN) {
-        uint ups = lr_packed_ups(r.first + i, wanted - i);
-        a += ups;
-        b -= wanted - i - ups;
-        x = up ? a + 1u : b - 1u;
-    } else if (wanted > i) {  // a wart's T2
-        a = up ? a : b - 2u;
-        b = a + 2u;
-        x = a + 1u;
-    }
-    return lr_packed_oriented(a, x, b, piece.reversed);
+    if (i < s.first + s.run) return lr_packed_oriented(a, up ? a + 1u : b - 1u, b, s.reversed);
+    if (s.kind == LR_PACKED_THIRD) return lr_packed_oriented(a, s.x, b, s.reversed);
+    uint inner = up ? a : b - 2u;
+    if (i == s.first + s.run) return lr_packed_oriented(a, up ? a + 2u : b - 2u, b, s.reversed);
+    return lr_packed_oriented(inner, inner + 1u, inner + 2u, s.reversed);
 }
 
 #endif

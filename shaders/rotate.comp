@@ -11,7 +11,7 @@ layout(std430, binding = 0) buffer Indices { uvec4 indices[]; };
 layout(std430, binding = 1) readonly buffer Order { uint original[]; } order[LR_ORDER_WINDOWS];
 
 uint original(uint v) {
-    if (push.lean == 0u) return v;
+    if (push.ordered == 0u) return v;
     // Constant subscripts: a vertex is nothing uniform, and descriptor indexing is not asked for.
     uint window = v / push.order_window;
     uint i = v - window * push.order_window;

@@ -15,20 +15,24 @@ using mat4 = std::array<float, 16>;  // column-major
 #define LR_TRIANGLES_PER_INVOCATION 4u
 #define LR_COMPUTE_GROUP 64u
 
-// lean_decode.comp: one dispatch expands `slots` slots from `first_slot`, through descriptors that cover only them.
+// lean_decode.comp, packed_decode.comp: one dispatch expands `slots` slots from `first_slot`, through descriptors that
+// cover only what these need.
+#define LR_BLOCKS_PER_GROUP 4u  // packed
 struct DecodeConstants {
-    uint first_slot;  // a multiple of LR_TRIANGLES_PER_INVOCATION
+    uint first_slot;  // a multiple of LR_TRIANGLES_PER_INVOCATION; packed: of LR_PACKED_BLOCK
     uint slots;       // slots of this dispatch
-    uint first_word;  // word of the stream (header included) at which its descriptor begins; a multiple of 4
     uint draws;       // draw commands to write: 0 in every dispatch but one
     uint draw_slots;  // slots of each draw command but the last
+    uint first_word;  // word of the stream (header included) at which its descriptor begins; packed: that of the turns
+    uint directory;   // packed: of the directory
+    uint records;     // packed: of the records
 };
 
 // rotate.comp: the window of the index buffer is the descriptor's.
 #define LR_ORDER_WINDOWS 4
 struct RotateConstants {
     uint triangles;     // in this dispatch
-    uint lean;          // 0: vertices have their original numbers; 1: vertex_order has them
+    uint ordered;       // 0: vertices have their original numbers; 1: vertex_order has them
     uint order_window;  // vertices that each of the LR_ORDER_WINDOWS descriptors of vertex_order covers
 };
 
@@ -44,7 +48,7 @@ struct FrameConstants {
 // One draw command. All per-triangle buffers are bound at the draw's first slot.
 struct DrawConstants {
     uint first_triangle;  // plain: original triangle of the draw's first one
-    uint lean;            // 1: slot_triangle has the original triangle of each slot
+    uint ordered;         // 1: slot_triangle has the original triangle of each slot
 };
 
 #define LR_VIEW_SMOOTH 0u

@@ -36,14 +36,17 @@ inline Mesh generated(std::string_view kind, std::uint64_t triangles, std::uint6
 }
 
 inline gpu::Model model_of(const Mesh& mesh) {
-    Result<gpu::Model> model = gpu::make_model(mesh);
+    Result<gpu::Model> model = gpu::make_model(mesh, {.packed = true});
     REQUIRE_MESSAGE(model, model.error().message);
     return std::move(model).value();
 }
 
+/// The smallest descriptor range.
+constexpr std::uint64_t kSmallRange = 4096;
+
 /// The smallest descriptor range with which this mesh can be worked on: many parts.
 inline std::uint64_t small_range(const Mesh& mesh) {
-    return std::max<std::uint64_t>(2048, (std::uint64_t{mesh.vertex_count} + 255) / 256 * 256);
+    return std::max<std::uint64_t>(kSmallRange, (std::uint64_t{mesh.vertex_count} + 255) / 256 * 256);
 }
 
 }  // namespace lr::test

@@ -1,4 +1,4 @@
-// The lean path's pictures are the plain path's, bit for bit, and a blank picture is no proof of it.
+// The streams' pictures are the plain path's, bit for bit, and a blank picture is no proof of it.
 
 #include <cstring>
 
@@ -10,8 +10,12 @@ using namespace lr::test;
 
 namespace {
 
-gpu::Comparison compared(gpu::Context& context, const gpu::Model& model, std::uint64_t max_range = 0) {
+constexpr gpu::Source kStreams[] = {gpu::Source::lean, gpu::Source::packed};
+
+gpu::Comparison compared(gpu::Context& context, const gpu::Model& model, gpu::Source source = gpu::Source::lean,
+                         std::uint64_t max_range = 0) {
     gpu::CompareOptions options;
+    options.source = source;
     options.width = 160;
     options.height = 120;
     options.max_range = max_range;
@@ -48,11 +52,13 @@ TEST_CASE_FIXTURE(GpuTest, "every generated mesh gives the same pictures") {
         const gpu::Model model = model_of(mesh);
         for (const std::uint64_t range : {std::uint64_t{0}, small_range(mesh)}) {
             CAPTURE(range);
-            const gpu::Comparison c = compared(*context, model, range);
-            check_same(c);
-            CHECK(!c.blank);
-            CHECK(c.distinct_ids > 1000);
-            CHECK(c.covered_pixels > 6 * 160 * 120 / 20);
+            for (const gpu::Source source : kStreams) {
+                const gpu::Comparison c = compared(*context, model, source, range);
+                check_same(c);
+                CHECK(!c.blank);
+                CHECK(c.distinct_ids > 1000);
+                CHECK(c.covered_pixels > 6 * 160 * 120 / 20);
+            }
         }
     }
 }
@@ -71,9 +77,9 @@ TEST_CASE_FIXTURE(GpuTest, "meshes of every local shape give the same pictures")
     for (const NamedMesh& named : named_meshes()) {
         if (named.mesh.triangle_count() > 400) continue;
         CAPTURE(named.name);
-        const Result<gpu::Model> model = gpu::make_model(named.mesh);
+        const Result<gpu::Model> model = gpu::make_model(named.mesh, {.packed = true});
         if (!model || model->lean.slot_triangle.empty()) continue;
-        check_same(compared(*context, *model));
+        for (const gpu::Source source : kStreams) check_same(compared(*context, *model, source));
     }
 }
 
@@ -88,11 +94,14 @@ TEST_CASE_FIXTURE(GpuTest, "triangles in the same place, in any order and rotati
         for (const std::size_t k : {std::size_t{2}, std::size_t{1}, std::size_t{0}})
             mesh.indices.push_back(once[i + k]);
     }
-    const gpu::Comparison c = compared(*context, model_of(mesh));
-    check_same(c);
-    // The smallest number wins, so only the first copy of each is ever seen.
-    CHECK(c.distinct_ids <= once.size() / 3);
-    CHECK(!c.blank);
+    const gpu::Model model = model_of(mesh);
+    for (const gpu::Source source : kStreams) {
+        const gpu::Comparison c = compared(*context, model, source);
+        check_same(c);
+        // The smallest number wins, so only the first copy of each is ever seen.
+        CHECK(c.distinct_ids <= once.size() / 3);
+        CHECK(!c.blank);
+    }
 }
 
 TEST_CASE_FIXTURE(GpuTest, "a mesh far from the origin, tiny or large, gives the same pictures") {
@@ -126,7 +135,14 @@ TEST_CASE_FIXTURE(GpuTest, "nothing to draw is an error") {
     CHECK(no_model(from_points({0, 0, 0}, {})));
     CHECK(no_model(from_points({1, 1, 1}, {0, 0, 0})));
     const Mesh degenerate = from_points({0, 0, 0, 1, 0, 0, 1, 1, 0}, {0, 1, 1, 2, 1, 2});
-    const auto c = gpu::compare(*context, model_of(degenerate), {});
-    REQUIRE(!c);
-    CHECK(c.error().code == ErrorCode::unsupported);
+    for (const gpu::Source source : kStreams) {
+        const auto c = gpu::compare(*context, model_of(degenerate), {.source = source});
+        REQUIRE(!c);
+        CHECK(c.error().code == ErrorCode::unsupported);
+    }
+    const auto without = gpu::make_model(generated("sphere", 100));
+    REQUIRE(without);
+    const auto none = gpu::compare(*context, *without, {.source = gpu::Source::packed});
+    REQUIRE(!none);
+    CHECK(none.error().code == ErrorCode::invalid_argument);
 }

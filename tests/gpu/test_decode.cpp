@@ -1,4 +1,5 @@
-// The device's index buffer is decode_lean's, integer for integer; its draw commands cover it; rotating is rotating.
+// The device's index buffers are decode_lean's and decode_packed's, integer for integer; its draw commands cover them;
+// rotating is rotating.
 
 #include <algorithm>
 #include <array>
@@ -12,27 +13,34 @@ using namespace lr::test;
 
 namespace {
 
-void check_decode(gpu::Context& context, const Mesh& mesh, std::uint64_t max_range) {
-    const Result<gpu::Model> model = gpu::make_model(mesh);
-    if (!model || model->lean.slot_triangle.empty()) return;  // nothing to draw: test_compare has that
-    gpu::RendererOptions options;
-    options.width = options.height = 8;
-    options.max_range = max_range;
-    Result<gpu::Renderer> renderer = gpu::Renderer::create(context, options);
-    REQUIRE_MESSAGE(renderer, renderer.error().message);
-    Result<gpu::Drawable> drawable = renderer->upload(*model, gpu::Source::lean);
+std::vector<std::uint32_t> decoded_by_cpu(const gpu::Model& model, gpu::Source source) {
+    std::vector<std::uint32_t> out;
+    if (source == gpu::Source::lean) {
+        const Result<LeanView> view = validate_lean(model.lean.words);
+        REQUIRE_MESSAGE(view, view.error().message);
+        out.resize(std::size_t{3} * view->slots());
+        decode_lean(*view, out);
+    } else {
+        const Result<PackedView> view = validate_packed(model.packed.words);
+        REQUIRE_MESSAGE(view, view.error().message);
+        out.resize(std::size_t{3} * view->triangles);
+        decode_packed(*view, out);
+    }
+    return out;
+}
+
+void check_decode(gpu::Renderer& renderer, const gpu::Model& model, gpu::Source source, std::uint64_t max_range) {
+    CAPTURE(static_cast<int>(source));
+    Result<gpu::Drawable> drawable = renderer.upload(model, source);
     REQUIRE_MESSAGE(drawable, drawable.error().message);
-    const auto indices = renderer->read_indices(*drawable);
+    const auto indices = renderer.read_indices(*drawable);
     REQUIRE_MESSAGE(indices, indices.error().message);
-    const Result<LeanView> view = validate_lean(model->lean.words);
-    REQUIRE_MESSAGE(view, view.error().message);
-    std::vector<std::uint32_t> expected(std::size_t{3} * view->slots());
-    decode_lean(*view, expected);
+    const std::vector<std::uint32_t> expected = decoded_by_cpu(model, source);
     REQUIRE(indices->size() == expected.size());
     CHECK(*indices == expected);
 
     std::vector<VkDrawIndexedIndirectCommand> commands(drawable->mesh.draws);
-    REQUIRE(renderer->transfer().read(drawable->mesh.commands, 0, std::as_writable_bytes(std::span(commands))));
+    REQUIRE(renderer.transfer().read(drawable->mesh.commands, 0, std::as_writable_bytes(std::span(commands))));
     std::uint64_t covered = 0;
     for (const VkDrawIndexedIndirectCommand& command : commands) {
         CHECK(command.firstIndex == covered);
@@ -43,6 +51,24 @@ void check_decode(gpu::Context& context, const Mesh& mesh, std::uint64_t max_ran
     }
     CHECK(covered == expected.size());
     if (max_range != 0 && expected.size() * 4 > 2 * max_range) CHECK(drawable->decode.dispatches.size() > 1);
+}
+
+/// Both streams. `blocks`, if asked for, counts the packed stream's parted and plain ones.
+void check_decode(gpu::Context& context, const Mesh& mesh, std::uint64_t max_range,
+                  std::array<std::uint32_t, 2>* blocks = nullptr) {
+    const Result<gpu::Model> model = gpu::make_model(mesh, {.packed = true});
+    if (!model || model->packed.triangle_order.empty()) return;  // nothing to draw: test_compare has that
+    gpu::RendererOptions options;
+    options.width = options.height = 8;
+    options.max_range = max_range;
+    Result<gpu::Renderer> renderer = gpu::Renderer::create(context, options);
+    REQUIRE_MESSAGE(renderer, renderer.error().message);
+    check_decode(*renderer, *model, gpu::Source::lean, max_range);
+    check_decode(*renderer, *model, gpu::Source::packed, max_range);
+    if (blocks != nullptr) {
+        (*blocks)[0] += model->packed.statistics.parted_blocks;
+        (*blocks)[1] += model->packed.statistics.plain_blocks;
+    }
 }
 
 }  // namespace
@@ -62,12 +88,17 @@ TEST_CASE_FIXTURE(GpuTest, "every small mesh decodes as on the CPU through many 
 }
 
 TEST_CASE_FIXTURE(GpuTest, "random soups decode as on the CPU") {
+    std::array<std::uint32_t, 2> blocks{};
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         CAPTURE(seed);
         const auto size = static_cast<std::uint32_t>(seed * 7);
-        check_decode(*context, random_soup(size + 2, 3 * size, seed), seed % 2 == 0 ? 0 : 2048);
-        check_decode(*context, random_gluing(size + 2, 3 * size, seed), seed % 2 == 0 ? 2048 : 0);
+        check_decode(*context, random_soup(size + 2, 3 * size, seed), seed % 2 == 0 ? 0 : kSmallRange, &blocks);
+        check_decode(*context, random_gluing(size + 2, 3 * size, seed), seed % 2 == 0 ? kSmallRange : 0, &blocks);
+        check_decode(*context, random_gluing(10 + size, 150 + 20 * size, seed), seed % 3 == 0 ? kSmallRange : 0,
+                     &blocks);
     }
+    CHECK(blocks[0] > 10);
+    CHECK(blocks[1] > 10);
 }
 
 TEST_CASE_FIXTURE(GpuTest, "larger generated meshes decode as on the CPU") {
@@ -94,7 +125,7 @@ TEST_CASE_FIXTURE(GpuTest, "an exact picture leaves every triangle rotated to it
         std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
         return t;
     };
-    for (const gpu::Source source : {gpu::Source::plain, gpu::Source::lean}) {
+    for (const gpu::Source source : {gpu::Source::plain, gpu::Source::lean, gpu::Source::packed}) {
         Result<gpu::Drawable> drawable = renderer->upload(model, source);
         REQUIRE(drawable);
         REQUIRE(renderer->draw(*drawable, model, *camera, true));
@@ -105,9 +136,10 @@ TEST_CASE_FIXTURE(GpuTest, "an exact picture leaves every triangle rotated to it
             std::array<std::uint32_t, 3> t{(*indices)[3 * slot], (*indices)[3 * slot + 1], (*indices)[3 * slot + 2]};
             if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
             std::uint32_t original = static_cast<std::uint32_t>(slot);
-            if (source == gpu::Source::lean) {
-                for (std::uint32_t& v : t) v = model.lean.vertex_order[v];
-                original = model.lean.slot_triangle[slot];
+            if (source != gpu::Source::plain) {
+                const bool lean = source == gpu::Source::lean;
+                for (std::uint32_t& v : t) v = (lean ? model.lean.vertex_order : model.packed.vertex_order)[v];
+                original = (lean ? model.lean.slot_triangle : model.packed.triangle_order)[slot];
             }
             const std::size_t at = std::size_t{3} * original;
             REQUIRE(t == rotated(mesh.indices[at], mesh.indices[at + 1], mesh.indices[at + 2]));
@@ -122,14 +154,16 @@ TEST_CASE_FIXTURE(GpuTest, "an exact picture leaves every triangle rotated to it
 TEST_CASE_FIXTURE(GpuTest, "ranges too small to work with are refused") {
     const Mesh mesh = generated("sphere", 20000);
     const gpu::Model model = model_of(mesh);
-    for (const std::uint64_t range : {std::uint64_t{1}, std::uint64_t{2047}, std::uint64_t{4096}}) {
+    for (const std::uint64_t range : {std::uint64_t{1}, kSmallRange - 1, kSmallRange}) {
         gpu::RendererOptions options;
         options.width = options.height = 8;
         options.max_range = range;
         Result<gpu::Renderer> renderer = gpu::Renderer::create(*context, options);
         REQUIRE(renderer);
-        const auto drawable = renderer->upload(model, gpu::Source::lean);
-        REQUIRE(!drawable);
-        CHECK(drawable.error().code == (range < 2048 ? ErrorCode::invalid_argument : ErrorCode::too_large));
+        for (const gpu::Source source : {gpu::Source::lean, gpu::Source::packed}) {
+            const auto drawable = renderer->upload(model, source);
+            REQUIRE(!drawable);
+            CHECK(drawable.error().code == (range < kSmallRange ? ErrorCode::invalid_argument : ErrorCode::too_large));
+        }
     }
 }

@@ -80,6 +80,9 @@ TEST_CASE_FIXTURE(GpuTest, "golden pictures") {
         const gpu::Difference d = gpu::difference(plain, lean);
         CHECK(d.pixels == 0);
         CHECK(d.triangles == 0);
+        const gpu::Difference packed = gpu::difference(plain, drawn(*context, model, golden.view, gpu::Source::packed));
+        CHECK(packed.pixels == 0);
+        CHECK(packed.triangles == 0);
         CHECK(d.covered * 20 > plain.pixels());
 
         const gpu::Picture picture = gpu::finish(lean, kSamples);

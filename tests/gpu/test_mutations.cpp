@@ -1,15 +1,19 @@
 // Tests of the tests: what must not pass does not pass.
 
 #include "lrcore/lean/lean_format.h"
+#include "lrcore/packed/packed_format.h"
+#include "lrcore/packed/record.h"
 #include "tests/gpu/gpu_test.h"
+#include "tests/support/meshes.h"
 
 using namespace lr;
 using namespace lr::test;
 
 namespace {
 
-gpu::Comparison compared(gpu::Context& context, const gpu::Model& model) {
+gpu::Comparison compared(gpu::Context& context, const gpu::Model& model, gpu::Source source = gpu::Source::lean) {
     gpu::CompareOptions options;
+    options.source = source;
     options.width = 320;
     options.height = 240;
     Result<gpu::Comparison> out = gpu::compare(context, model, options);
@@ -32,8 +36,8 @@ std::vector<std::uint32_t> slots_where(const gpu::Model& model, std::size_t coun
     return out;
 }
 
-void check_found(gpu::Context& context, const gpu::Model& model) {
-    const gpu::Comparison c = compared(context, model);
+void check_found(gpu::Context& context, const gpu::Model& model, gpu::Source source = gpu::Source::lean) {
+    const gpu::Comparison c = compared(context, model, source);
     CHECK(!c.same());
     CHECK(c.indices_equal_cpu);  // both decode the wrong stream alike: it is the picture that tells
     CHECK(c.pixels_different > 0);
@@ -108,6 +112,133 @@ TEST_CASE_FIXTURE(GpuTest, "one wrong word of the stream is seen") {
         const auto slots = slots_where(good, 2, [](const LeanView&, std::uint32_t) { return true; });
         std::swap(bad.lean.slot_triangle[slots[0]], bad.lean.slot_triangle[slots[1]]);
         CHECK(!compared(*context, bad).same());
+    }
+}
+
+namespace {
+
+std::vector<std::uint32_t> decoded(const gpu::Model& model) {
+    const Result<PackedView> view = view_packed(model.packed.words);
+    REQUIRE(view);
+    std::vector<std::uint32_t> out(std::size_t{3} * view->triangles);
+    decode_packed(*view, out);
+    return out;
+}
+
+/// Flips single bits in words [begin, end) of the packed stream that leave it valid, as some other mesh: `flips` of
+/// them, spread over those words. Each must be seen. `one_index`: only bits that change a single vertex of a single
+/// triangle.
+void check_flips_found(gpu::Context& context, const Mesh& mesh, std::size_t begin, std::size_t end, std::size_t flips,
+                       bool one_index = false) {
+    gpu::Model model = model_of(mesh);
+    const std::vector<std::uint32_t> good = decoded(model);
+    std::vector<std::uint32_t>& words = model.packed.words;
+    const auto fits = [&] {
+        words[LR_PACKED_WORD_CHECKSUM] = packed_checksum(words);
+        if (!validate_packed(words)) return false;
+        const std::vector<std::uint32_t> bad = decoded(model);
+        std::size_t different = 0;
+        for (std::size_t i = 0; i < good.size(); ++i) different += good[i] != bad[i] ? 1 : 0;
+        return one_index ? different == 1 : different > 0;
+    };
+    std::size_t found = 0, bit = 0;
+    for (std::size_t part = 0; part < flips; ++part) {
+        for (bit = std::max(bit, 32 * (begin + (end - begin) * part / flips)); bit < 32 * end; ++bit) {
+            CAPTURE(bit);
+            words[bit / 32] ^= 1U << (bit % 32);
+            const bool chosen = fits();
+            if (chosen) {
+                const gpu::Comparison c = compared(context, model, gpu::Source::packed);
+                CHECK(!c.same());
+                CHECK(c.indices_equal_cpu);
+                CHECK(c.triangle_ids_different > 0);  // colours do not tell a triangle from its other side
+            }
+            words[bit / 32] ^= 1U << (bit % 32);
+            if (chosen) break;
+        }
+        if (bit++ < 32 * end) ++found;
+    }
+    CHECK(found == flips);
+}
+
+}  // namespace
+
+TEST_CASE_FIXTURE(GpuTest, "one wrong bit of the packed stream is seen") {
+    const Mesh mesh = generated("blob", 6000, 5);
+    const gpu::Model good = model_of(mesh);
+    REQUIRE(compared(*context, good, gpu::Source::packed).same());
+    const Result<PackedView> view = view_packed(good.packed.words);
+    REQUIRE(view);
+    const std::size_t turns = LR_PACKED_HEADER_WORDS, records = view->records_word();
+
+    SUBCASE("a turn") {
+        check_flips_found(*context, mesh, turns, view->directory_word(), 5);
+    }
+    SUBCASE("an event") {  // gaps, sizes, starts: whatever leaves a record valid
+        check_flips_found(*context, mesh, records, records + view->record_bytes / 4, 12);
+    }
+    SUBCASE("a record's first edge") {
+        const PackedRecord record = find_record(*view, 0);
+        REQUIRE(!record.plain);
+        const auto word =
+            static_cast<std::size_t>(record.record - reinterpret_cast<const std::uint8_t*>(good.packed.words.data())) /
+            4;
+        gpu::Model bad = model_of(mesh);
+        std::vector<std::uint32_t>& words = bad.packed.words;
+        REQUIRE(record.record == reinterpret_cast<const std::uint8_t*>(&good.packed.words[word]));
+        words[word] += 1U + (1U << view->vertex_bits);  // both vertices by one
+        check_found(*context, bad, gpu::Source::packed);
+    }
+    SUBCASE("the directory") {  // the second group's blocks read the first's records
+        gpu::Model bad = model_of(mesh);
+        std::vector<std::uint32_t>& words = bad.packed.words;
+        words[view->directory_word() + LR_PACKED_GROUP_WORDS] = words[view->directory_word()];
+        CHECK(!compared(*context, bad, gpu::Source::packed).same());
+    }
+    SUBCASE("the order of the vertices") {
+        gpu::Model bad = model_of(mesh);
+        std::swap(bad.packed.vertex_order[100], bad.packed.vertex_order[900]);
+        CHECK(!compared(*context, bad, gpu::Source::packed).same());
+    }
+    SUBCASE("the order of the triangles") {
+        gpu::Model bad = model_of(mesh);
+        std::swap(bad.packed.triangle_order[1000], bad.packed.triangle_order[4000]);
+        CHECK(!compared(*context, bad, gpu::Source::packed).same());
+    }
+}
+
+TEST_CASE_FIXTURE(GpuTest, "a wrong far vertex of a packed stream is seen") {
+    const Mesh mesh = generated("terrain", 6000, 5);
+    const gpu::Model good = model_of(mesh);
+    REQUIRE(good.packed.statistics.events[LR_PACKED_FAR] > 10);
+    REQUIRE(compared(*context, good, gpu::Source::packed).same());
+    const Result<PackedView> view = view_packed(good.packed.words);
+    REQUIRE(view);
+    check_flips_found(*context, mesh, view->records_word(), view->records_word() + view->record_bytes / 4, 3, true);
+}
+
+TEST_CASE_FIXTURE(GpuTest, "damaged packed streams neither hang nor write beyond their triangles") {
+    std::uint64_t state = 20261124;
+    INFO("seed ", state);
+    const auto random = [&](std::uint32_t below) {
+        state = state * 6364136223846793005U + 1442695040888963407U;
+        return static_cast<std::uint32_t>((state >> 33) % below);
+    };
+    gpu::RendererOptions options;
+    options.width = options.height = 8;
+    Result<gpu::Renderer> renderer = gpu::Renderer::create(*context, options);
+    REQUIRE(renderer);
+    for (int trial = 0; trial < 200; ++trial) {
+        CAPTURE(trial);
+        gpu::Model model = model_of(random_gluing(60, 100 + random(900), static_cast<std::uint64_t>(trial)));
+        std::vector<std::uint32_t>& words = model.packed.words;
+        const std::size_t body = LR_PACKED_HEADER_WORDS;
+        for (std::uint32_t k = 0; k <= random(20); ++k) {
+            words[body + random(static_cast<std::uint32_t>(words.size() - body))] ^= 1U << random(32);
+        }
+        Result<gpu::Drawable> drawable = renderer->upload(model, gpu::Source::packed);
+        REQUIRE_MESSAGE(drawable, drawable.error().message);
+        REQUIRE(renderer->read_indices(*drawable));
     }
 }
 

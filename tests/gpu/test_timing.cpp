@@ -12,7 +12,8 @@ TEST_CASE_FIXTURE(GpuTest, "device times are measured, once a repetition") {
     const auto times = gpu::measure_device(*context, model_of(mesh), options);
     REQUIRE_MESSAGE(times, times.error().message);
     for (const gpu::Times* t :
-         {&times->decode, &times->copy, &times->draw_plain, &times->draw_lean, &times->decode_and_draw}) {
+         {&times->lean.decode, &times->lean.draw, &times->lean.decode_and_draw, &times->packed.decode,
+          &times->packed.draw, &times->packed.decode_and_draw, &times->copy, &times->draw_plain}) {
         REQUIRE(t->size() == 3);
         for (const gpu::Elapsed& e : *t) {
             CHECK(e.wall > 0);

@@ -1,0 +1,97 @@
+#include "renderer/packed_decoder.h"
+
+#include <algorithm>
+#include <array>
+
+#include "lrcore/packed/packed_format.h"
+#include "lrcore/packed/record.h"
+#include "renderer/context.h"
+#include "renderer/try.h"
+#include "spirv/packed_decode_comp.h"
+
+namespace lr::gpu {
+namespace {
+
+constexpr std::uint64_t kWord = sizeof(std::uint32_t);
+
+/// Word of the stream in which the records of `block` begin; for the last block + 1, the one in which all end.
+std::uint64_t record_word(const PackedView& view, std::uint64_t block) {
+    std::uint64_t byte = view.record_bytes;
+    if (block < view.blocks()) {
+        const std::uint32_t* group =
+            view.words.data() + view.directory_word() + block / LR_PACKED_GROUP * LR_PACKED_GROUP_WORDS;
+        byte = group[0];
+        for (std::uint32_t i = 0; i < block % LR_PACKED_GROUP; ++i) {
+            byte += block_bytes(group[1 + i / 4] >> (8 * (i % 4)) & 0xff, LR_PACKED_BLOCK, view.vertex_bits);
+        }
+    }
+    return view.records_word() + std::min<std::uint64_t>(byte, view.record_bytes) / kWord;
+}
+
+/// Words [begin, end) of the stream, and what a descriptor's alignment puts before them.
+struct Window {
+    std::uint64_t begin, end;
+    Window(std::uint64_t first, std::uint64_t last, const PackedView& view)
+        : begin(first / (kDescriptorAlignment / kWord) * (kDescriptorAlignment / kWord)),
+          end(std::clamp<std::uint64_t>(last, first + 1, view.words.size())) {}
+    std::uint64_t bytes() const { return kWord * (end - begin); }
+};
+
+}  // namespace
+
+Result<PackedDecoder> PackedDecoder::create(Context& context) {
+    PackedDecoder out;
+    out.context_ = &context;
+    const std::array<Binding, 6> bindings{{{0}, {1}, {2}, {3}, {4}, {5}}};
+    LR_ASSIGN(out.layout_,
+              Layout::create(context, "packed decode", bindings, VK_SHADER_STAGE_COMPUTE_BIT, sizeof(DecodeConstants)));
+    // Four blocks are read by four invocations: a larger group than a subgroup would have more of them wait.
+    out.group_ = std::clamp(context.info().subgroup_size, 8U, 64U);
+    LR_ASSIGN(out.pipeline_, create_compute(context, "packed decode", out.layout_, spirv_packed_decode_comp,
+                                            std::span(&out.group_, 1)));
+    return out;
+}
+
+Result<DecodePlan> PackedDecoder::plan(Descriptors& descriptors, const GpuMesh& mesh, const PackedView& view) const {
+    constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    const std::uint64_t most =
+        std::min(mesh.max_range / (12 * LR_PACKED_BLOCK),
+                 std::uint64_t{context_->limits().maxComputeWorkGroupCount[0]} * LR_BLOCKS_PER_GROUP);
+    DecodePlan plan;
+    for (std::uint64_t block = 0, blocks = 0; block < view.blocks(); block += blocks) {
+        const auto records = [&] {  // and the words behind that a reader loads
+            return Window(record_word(view, block), record_word(view, block + blocks) + 1 + LR_PACKED_TAIL_WORDS, view);
+        };
+        blocks = std::min(most, view.blocks() - block);
+        while (blocks > 1 && records().bytes() > mesh.max_range) blocks /= 2;
+        const std::uint64_t first = block * LR_PACKED_BLOCK;
+        const std::uint64_t triangles = std::min(blocks * LR_PACKED_BLOCK, view.triangles - first);
+        const std::uint64_t turn = LR_PACKED_HEADER_WORDS + block * LR_PACKED_BLOCK_WORDS;
+        const Window turns(turn, turn + (triangles + 31) / 32, view);
+        const std::uint64_t groups = view.directory_word();
+        const Window directory(
+            groups + block / LR_PACKED_GROUP * LR_PACKED_GROUP_WORDS,
+            groups + (block + blocks + LR_PACKED_GROUP - 1) / LR_PACKED_GROUP * LR_PACKED_GROUP_WORDS, view);
+        DecodePlan::Dispatch dispatch;
+        LR_ASSIGN(dispatch.set, descriptors.allocate(layout_));
+        const auto bind = [&](std::uint32_t number, const Window& window) {
+            descriptors.write(dispatch.set, number, kStorage, {&mesh.stream, kWord * window.begin, window.bytes()});
+            return static_cast<std::uint32_t>(window.begin);
+        };
+        bind(0, {0, LR_PACKED_HEADER_WORDS, view});
+        dispatch.constants.first_word = bind(1, turns);
+        dispatch.constants.directory = bind(2, directory);
+        dispatch.constants.records = bind(3, records());
+        descriptors.write(dispatch.set, 4, kStorage, {&mesh.indices, 12 * first, 12 * ((triangles + 3) / 4 * 4)});
+        descriptors.write(dispatch.set, 5, kStorage, {&mesh.commands});
+        dispatch.constants.first_slot = static_cast<std::uint32_t>(first);
+        dispatch.constants.slots = static_cast<std::uint32_t>(triangles);
+        dispatch.constants.draws = block == 0 ? mesh.draws : 0;
+        dispatch.constants.draw_slots = mesh.draw_slots;
+        dispatch.groups = static_cast<std::uint32_t>((blocks + LR_BLOCKS_PER_GROUP - 1) / LR_BLOCKS_PER_GROUP);
+        plan.dispatches.push_back(dispatch);
+    }
+    return plan;
+}
+
+}  // namespace lr::gpu

@@ -1,0 +1,21 @@
+#pragma once
+// The compute pass that expands a packed stream into an index buffer and draw commands.
+
+#include "lrcore/packed/packed_stream.h"
+#include "renderer/decoder.h"
+
+namespace lr::gpu {
+
+class PackedDecoder : public Decoder {
+  public:
+    static Result<PackedDecoder> create(Context& context);
+
+    /// Splits the stream, which `view` is of, and the index buffer so that no descriptor covers more than
+    /// mesh.max_range bytes.
+    Result<DecodePlan> plan(Descriptors& descriptors, const GpuMesh& mesh, const PackedView& view) const;
+
+  private:
+    std::uint32_t group_ = 0;  // invocations of a workgroup
+};
+
+}  // namespace lr::gpu

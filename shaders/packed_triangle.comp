@@ -1,0 +1,20 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Every triangle of a packed stream by random access: how a program of its own uses packed_decode.glsl, and its test.
+layout(local_size_x = 64) in;
+
+layout(std430, binding = 0) readonly buffer Words { uint words[]; };
+layout(std430, binding = 1) writeonly buffer Indices { uint indices[]; };
+
+#define LR_PACKED_WORD(i) words[i]
+#include "shaders/packed_decode.glsl"
+
+void main() {
+    LrPackedLayout p = lr_packed_layout();
+    uint triangle = gl_GlobalInvocationID.x;
+    if (triangle >= p.triangles) return;
+    uvec3 v = lr_packed_triangle(p, triangle);
+    indices[3u * triangle] = v.x;
+    indices[3u * triangle + 1u] = v.y;
+    indices[3u * triangle + 2u] = v.z;
+}
