@@ -12,10 +12,13 @@
 #include "app/bench_resident.h"
 #include "app/commands.h"
 #include "app/measure.h"
+#include "lrcore/baseline/codecs.h"
 #include "lrcore/baseline/strips.h"
 #include "lrcore/corner_table/split.h"
 #include "lrcore/lean/lean_stream.h"
 #include "lrcore/lr/compact_lr.h"
+#include "lrcore/packed/packed_stream.h"
+#include "lrcore/ring/optimize.h"
 #include "lrcore/rivals/squad.h"
 #ifdef LACEDRING_GPU
 #include "app/bench_gpu.h"
@@ -101,12 +104,39 @@ int run(const Options& options) {
         construct.candidates.push_back({"lr", [&] { (void)make_lr(0); }, {}, {}});
         construct.candidates.push_back({"lr_compact", compact, {}, {}});
         construct.candidates.push_back({"squad", [&] { (void)build_squad(split); }, {}, {}});
+        // The optimiser alone, at its default, and from index list to packed stream with it.
+        const OptimizeOptions optimize{.cost = packed_ring_cost};
+        const auto whole_packed = [&] {
+            const Result<CornerTable> t = build();
+            (void)encode_packed(*t, optimize_rings(*t, expand_rings(*t, ring_choice), optimize));
+        };
+        construct.candidates.push_back({"optimize", [&] { (void)optimize_rings(*table, rings, optimize); }, {}, {}});
+        construct.candidates.push_back({"packed_encode", [&] { (void)encode_packed(*table, rings); }, {}, {}});
+        construct.candidates.push_back(
+            {"packed_cache_encode", [&] { (void)encode_packed(*table, rings, PackedProfile::cache); }, {}, {}});
+        construct.candidates.push_back({"packed", whole_packed, {}, {}});
         run_interleaved(construct.candidates, options.rounds);
 
         Section decode{"decode_cpu", {}};
         std::vector<std::uint32_t> indices(std::size_t{3} * view->slots()), copy(indices.size());
         decode.candidates.push_back({"lean", [&] { decode_lean(*view, indices); }, {}, {}});
         decode.candidates.push_back({"copy", [&] { std::copy(indices.begin(), indices.end(), copy.begin()); }, {}, {}});
+        const Rings optimised = optimize_rings(*table, rings, optimize);
+        const PackedStream small = encode_packed(*table, optimised),
+                           cache = encode_packed(*table, optimised, PackedProfile::cache);
+        const Result<PackedView> packed = view_packed(small.words), packed_cache = view_packed(cache.words);
+        if (!packed || !packed_cache) return fail(path, packed ? packed_cache.error() : packed.error());
+        std::vector<std::uint32_t> unpacked(std::size_t{3} * packed->triangles), decoded(unpacked.size());
+        std::vector<std::uint32_t> proper;  // the rival takes no degenerate triangles
+        for (const std::uint32_t t : small.triangle_order) {
+            for (std::size_t k = 0; k < 3; ++k) proper.push_back(mesh->indices[std::size_t{3} * t + k]);
+        }
+        const CodedIndices codec = encode_meshopt_indices(proper, mesh->vertex_count);
+        decode.candidates.push_back({"packed", [&] { decode_packed(*packed, unpacked); }, {}, {}});
+        decode.candidates.push_back({"packed_2_threads", [&] { decode_packed(*packed, unpacked, 2); }, {}, {}});
+        decode.candidates.push_back({"packed_cache", [&] { decode_packed(*packed_cache, unpacked); }, {}, {}});
+        decode.candidates.push_back(
+            {"meshopt_index_codec", [&] { (void)decode_meshopt_indices(codec.bytes, decoded); }, {}, {}});
         run_interleaved(decode.candidates, options.rounds * 3);
 
         std::vector<OperatorFigures> operators;
@@ -149,6 +179,7 @@ int run(const Options& options) {
         }
 #endif
         peak.update(Json{{"lean", peak_bytes(whole)},
+                         {"packed", peak_bytes(whole_packed)},
                          {"strips", peak_bytes([&] { make_restart_strip(mesh->indices, mesh->vertex_count); })}});
         const double ratio = construct.candidates[4].median() / construct.candidates[3].median();
         if (options.json) {

@@ -26,7 +26,8 @@ struct Options {
 Result<LrFile> encode(const Options& options, const Mesh& mesh, CornerTable table) {
     const RingOptions ring = ring_options(options.ring, mesh.triangle_count());
     if (options.format == "lean") {
-        const Rings rings = optimize_rings(table, expand_rings(table, ring), optimize_options(options.ring, lean_ring_cost));
+        const Rings rings =
+            optimize_rings(table, expand_rings(table, ring), optimize_options(options.ring, lean_ring_cost));
         LeanStream lean = encode_lean(table, rings, {.wart_skipping = !options.no_warts});
         return make_lr_file(mesh, Connectivity::lean, std::move(lean.words), std::move(lean.vertex_order),
                             std::move(lean.slot_triangle), options.keep_order);
@@ -40,10 +41,10 @@ Result<LrFile> encode(const Options& options, const Mesh& mesh, CornerTable tabl
                             std::move(packed.triangle_order), options.keep_order);
     }
     const bool compact = options.format == "lr-compact";
-    Result<EncodedLr> lr = compact ? encode_compact_lr(std::move(table), compact_ring_options(options.ring),
-                                                       ring_periods(options.ring, mesh.triangle_count()))
-                                   : encode_lr(std::move(table), ring, optimize_options(options.ring, lr_ring_cost),
-                                               !options.no_warts);
+    Result<EncodedLr> lr =
+        compact ? encode_compact_lr(std::move(table), compact_ring_options(options.ring),
+                                    ring_periods(options.ring, mesh.triangle_count()))
+                : encode_lr(std::move(table), ring, optimize_options(options.ring, lr_ring_cost), !options.no_warts);
     if (!lr) return lr.error();
     return make_lr_file(mesh, compact ? Connectivity::lr_compact : Connectivity::lr, std::move(lr->words),
                         std::move(lr->vertex_order), std::move(lr->triangle_order), options.keep_order);

@@ -92,21 +92,22 @@ void print(const std::string& path, const Mesh& mesh, const FormatSet& set) {
     fmt::print("\n  ring: {} vertices on it, {} isolated; T0 {:.2f} %, in warts {:.2f} %, T2 {:.2f} %\n\n",
                set.lean.ring_vertices, set.lean.isolated, share(set.lean.t0), share(set.lean.t0_wart),
                share(set.lean.t2));
-    const CacheFigures best =
-        analyze_fifo32(best_cache_order(mesh.indices, mesh.vertex_count), mesh.vertex_count);
-    fmt::print("  {:<20}{:>11}{:>10}{:>10}{:>10}{:>10}{:>10}{:>11}\n", "format", "bytes", "bits/tri", "refs/tri", "of u32",
-               "ACMR(32)", "ATVR(32)", "deflated");
+    const CacheFigures best = analyze_fifo32(best_cache_order(mesh.indices, mesh.vertex_count), mesh.vertex_count);
+    fmt::print("  {:<20}{:>11}{:>10}{:>10}{:>10}{:>10}{:>10}{:>11}\n", "format", "bytes", "bits/tri", "refs/tri",
+               "of u32", "ACMR(32)", "ATVR(32)", "deflated");
     const auto base = static_cast<double>(set.formats.front().bytes);
     for (const Format& format : set.formats) {
         const auto bytes = static_cast<double>(format.bytes);
         const CacheFigures cache = analyze_fifo32(format.indices, format.vertex_count(mesh));
-        fmt::print("  {:<20}{:>11}{:>10.2f}{:>10}{:>8.1f} %{:>10.3f}{:>10.3f}{:>11}\n", format.name, format.bytes,
-                   8 * bytes / triangles,
-                   format.references == 0 ? "" : fmt::format("{:.3f}", static_cast<double>(format.references) / triangles),
-                   base > 0 ? 100 * bytes / base : 0.0, cache.acmr, cache.atvr,
-                   format.deflated == 0 ? "" : fmt::format("{}", format.deflated));
+        fmt::print(
+            "  {:<20}{:>11}{:>10.2f}{:>10}{:>8.1f} %{:>10.3f}{:>10.3f}{:>11}\n", format.name, format.bytes,
+            8 * bytes / triangles,
+            format.references == 0 ? "" : fmt::format("{:.3f}", static_cast<double>(format.references) / triangles),
+            base > 0 ? 100 * bytes / base : 0.0, cache.acmr, cache.atvr,
+            format.deflated == 0 ? "" : fmt::format("{}", format.deflated));
     }
-    fmt::print("  meshoptimizer's best order for the vertex cache: ACMR(32) {:.3f}, ATVR(32) {:.3f}\n", best.acmr, best.atvr);
+    fmt::print("  meshoptimizer's best order for the vertex cache: ACMR(32) {:.3f}, ATVR(32) {:.3f}\n", best.acmr,
+               best.atvr);
     fmt::print("\n");
 }
 

@@ -37,8 +37,7 @@ void add_ring_options(CLI::App& command, RingChoice& choice) {
         ->check(CLI::Range(0, 100000))
         ->capture_default_str();
     command.add_option("--random-seed", choice.random_seed, "for the choice of seed corners")->capture_default_str();
-    command
-        .add_option("--optimize", choice.optimize, "passes of the ring optimiser: a number, 0 for none, or auto")
+    command.add_option("--optimize", choice.optimize, "passes of the ring optimiser: a number, 0 for none, or auto")
         ->check([](const std::string& text) {
             std::uint32_t passes = 0;
             const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), passes);

@@ -190,8 +190,10 @@ Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool 
     const std::vector<std::uint32_t> triangles = without_degenerate(mesh.indices);
     const auto add_list = [&](const char* name, std::size_t width, const std::vector<std::uint32_t>& references,
                               std::vector<std::uint32_t> indices) {
-        set.formats.push_back(
-            {.name = name, .bytes = references.size() * width, .references = references.size(), .indices = std::move(indices)});
+        set.formats.push_back({.name = name,
+                               .bytes = references.size() * width,
+                               .references = references.size(),
+                               .indices = std::move(indices)});
     };
     add_list("index_u32", 4, triangles, triangles);
     if (mesh.vertex_count <= 65536) {
@@ -210,8 +212,8 @@ Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool 
     LeanStream lean = encode_lean(*table, rings);
     set.lean = lean.statistics;
     set.formats.push_back(lean_format("lean", set.ring.k, optimize.passes, std::move(lean)));
-    set.formats.push_back(
-        lean_format("lean_no_warts", set.ring.k, optimize.passes, encode_lean(*table, rings, {.wart_skipping = false})));
+    set.formats.push_back(lean_format("lean_no_warts", set.ring.k, optimize.passes,
+                                      encode_lean(*table, rings, {.wart_skipping = false})));
     OptimizeOptions optimize_lr = optimize_options(choice, lr_ring_cost);
     if (paper) optimize_lr.passes = 0;
     if (Result<EncodedLr> lr = encode_lr(*table, set.ring, optimize_lr)) {

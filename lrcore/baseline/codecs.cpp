@@ -23,9 +23,7 @@ CodedIndices encode(std::vector<std::uint32_t> ordered, std::uint32_t vertex_cou
     out.bytes.resize(meshopt_encodeIndexBufferBound(ordered.size(), vertex_count));
     out.bytes.resize(meshopt_encodeIndexBuffer(out.bytes.data(), out.bytes.size(), ordered.data(), ordered.size()));
     out.indices.resize(ordered.size());
-    if (meshopt_decodeIndexBuffer(out.indices.data(), ordered.size(), out.bytes.data(), out.bytes.size()) != 0) {
-        out.indices.clear();
-    }
+    if (!decode_meshopt_indices(out.bytes, out.indices)) out.indices.clear();
     return out;
 }
 
@@ -37,6 +35,10 @@ std::vector<std::uint32_t> best_cache_order(std::span<const std::uint32_t> indic
         meshopt_optimizeVertexCache(ordered.data(), indices.data(), indices.size(), vertex_count);
     }
     return ordered;
+}
+
+bool decode_meshopt_indices(std::span<const std::uint8_t> bytes, std::span<std::uint32_t> indices) {
+    return meshopt_decodeIndexBuffer(indices.data(), indices.size(), bytes.data(), bytes.size()) == 0;
 }
 
 CodedIndices encode_meshopt_indices(std::span<const std::uint32_t> indices, std::uint32_t vertex_count) {
@@ -60,7 +62,8 @@ Meshlets make_meshlets(std::span<const std::uint32_t> indices, std::span<const f
                                           indices.size(), positions.data(), positions.size() / 3, 3 * sizeof(float),
                                           kVertices, kTriangles, 0));
     for (const meshopt_Meshlet& m : meshlets) {
-        out.bytes += sizeof m + sizeof(std::uint32_t) * m.vertex_count + (std::size_t{3} * m.triangle_count + 3) / 4 * 4;
+        out.bytes +=
+            sizeof m + sizeof(std::uint32_t) * m.vertex_count + (std::size_t{3} * m.triangle_count + 3) / 4 * 4;
         for (unsigned i = 0; i < 3 * m.triangle_count; ++i) {
             out.indices.push_back(vertices[m.vertex_offset + corners[m.triangle_offset + i]]);
         }

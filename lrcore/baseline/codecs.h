@@ -19,6 +19,9 @@ struct CodedIndices {
 /// order in which they are used. Decoding starts at the first triangle. `indices` has no degenerate triangles.
 CodedIndices encode_meshopt_indices(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);
 
+/// meshopt_decodeIndexBuffer. False if `bytes` are no such stream of so many indices.
+bool decode_meshopt_indices(std::span<const std::uint8_t> bytes, std::span<std::uint32_t> indices);
+
 /// The triangles in the order that meshopt_optimizeVertexCache thinks best.
 std::vector<std::uint32_t> best_cache_order(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);
 

@@ -78,6 +78,8 @@ class Walker {
 
 }  // namespace
 
-Corridors walk_corridors(const CornerTable& table, const Rings& rings) { return Walker(table, rings).walk(); }
+Corridors walk_corridors(const CornerTable& table, const Rings& rings) {
+    return Walker(table, rings).walk();
+}
 
 }  // namespace lr

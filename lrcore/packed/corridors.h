@@ -28,9 +28,9 @@ struct Corridors {
     std::uint32_t events = 0;  ///< steps that a stream needs more than a turn bit for, about
 };
 
-/// Visits every triangle of the table that is not degenerate, once: the polygons on either side of each ring, depth first.
-/// The fewest bits. Cost: O(T) time; 5 bytes a triangle and 4 a vertex for the result; while it runs 4 bits a triangle,
-/// 4 bytes a vertex.
+/// Visits every triangle of the table that is not degenerate, once: the polygons on either side of each ring, depth
+/// first. The fewest bits. Cost: O(T) time; 5 bytes a triangle and 4 a vertex for the result; while it runs 4 bits a
+/// triangle, 4 bytes a vertex.
 Corridors walk_corridors(const CornerTable& table, const Rings& rings);
 
 /// Visits them in short pieces of corridors, each beside the one before: the vertices of a FIFO cache of 32 are mostly

@@ -1,5 +1,5 @@
-// Writes the steps of walk_corridors as turn bits and events. The writer keeps the state that a reader of the block has,
-// and says in events whatever the next triangle needs and that state does not give.
+// Writes the steps of walk_corridors as turn bits and events. The writer keeps the state that a reader of the block
+// has, and says in events whatever the next triangle needs and that state does not give.
 
 #include <algorithm>
 #include <array>
@@ -37,7 +37,8 @@ class Encoder {
         if (table_.vertex_count == 0) vertex_bits_ = 1;
         // The best low part of a gap is about its mean times ln 2.
         const double gap = 0.69 * triangles / (1.0 + corridors_.events);
-        gap_bits_ = static_cast<std::uint32_t>(std::clamp(std::lround(std::log2(std::max(gap, 1.0))), long{LR_PACKED_MIN_GAP_BITS}, 7L));
+        gap_bits_ = static_cast<std::uint32_t>(
+            std::clamp(std::lround(std::log2(std::max(gap, 1.0))), long{LR_PACKED_MIN_GAP_BITS}, 7L));
 
         const std::uint32_t turn_words = (triangles + 31) / 32;
         const std::uint32_t groups = (blocks + LR_PACKED_GROUP - 1) / LR_PACKED_GROUP;
@@ -57,8 +58,9 @@ class Encoder {
             group[1 + member / 4] |= length << (8 * (member % 4));
         }
         words.resize(words.size() + (records.size() + 3) / 4 + LR_PACKED_TAIL_WORDS, 0);
-        std::copy(records.begin(), records.end(),
-                  reinterpret_cast<std::uint8_t*>(words.data() + LR_PACKED_HEADER_WORDS + turn_words + directory_words));
+        std::copy(
+            records.begin(), records.end(),
+            reinterpret_cast<std::uint8_t*>(words.data() + LR_PACKED_HEADER_WORDS + turn_words + directory_words));
 
         words[LR_PACKED_WORD_MAGIC] = LR_PACKED_MAGIC;
         words[LR_PACKED_WORD_VERSION] = LR_PACKED_VERSION;
@@ -351,8 +353,7 @@ class Encoder {
 }  // namespace
 
 PackedStream encode_packed(const CornerTable& table, const Rings& rings, PackedProfile profile) {
-    Corridors corridors =
-        profile == PackedProfile::small ? walk_corridors(table, rings) : walk_pieces(table, rings);
+    Corridors corridors = profile == PackedProfile::small ? walk_corridors(table, rings) : walk_pieces(table, rings);
     PackedStream out;
     out = Encoder(table, corridors).encode(std::move(out));
     out.statistics.ring_vertices = corridors.ring_vertices;

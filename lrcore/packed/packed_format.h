@@ -2,7 +2,8 @@
 //
 // A stream is LR_PACKED_HEADER_WORDS header words, and then, all little-endian u32:
 //     turn bits    one bit a triangle, LR_PACKED_BLOCK_WORDS words a block, the last block's cut short
-//     directory    for each group of LR_PACKED_GROUP blocks: the byte at which its records begin, and the length in bytes
+//     directory    for each group of LR_PACKED_GROUP blocks: the byte at which its records begin, and the length in
+//     bytes
 //                  of each record, four to a word
 //     records      one for each block, of whole bytes, the first bit lowest; zeros up to a whole word at the end
 //     tail         LR_PACKED_TAIL_WORDS zeros, so that a reader may load eight bytes anywhere in a record
@@ -29,14 +30,14 @@
 #define LR_PACKED_GROUP 16u       // blocks of a directory group
 #define LR_PACKED_GROUP_WORDS 5u  // its words; the last group's are cut short
 
-// A record's length as the directory has it: up to LR_PACKED_MAX_RECORD bytes of events; or LR_PACKED_PLAIN, three vertices
-// a triangle as they are; or between these, LR_PACKED_PARTS records of so many triangles each, behind a word with their
-// lengths, 8 * (length - LR_PACKED_MAX_RECORD) bytes in all.
+// A record's length as the directory has it: up to LR_PACKED_MAX_RECORD bytes of events; or LR_PACKED_PLAIN, three
+// vertices a triangle as they are; or between these, LR_PACKED_PARTS records of so many triangles each, behind a word
+// with their lengths, 8 * (length - LR_PACKED_MAX_RECORD) bytes in all.
 #define LR_PACKED_MAX_RECORD 160u
 #define LR_PACKED_PLAIN 255u
 #define LR_PACKED_PARTS 4u
-#define LR_PACKED_PART 64u        // triangles of a part
-#define LR_PACKED_PART_WORDS 2u   // their turn bits
+#define LR_PACKED_PART 64u       // triangles of a part
+#define LR_PACKED_PART_WORDS 2u  // their turn bits
 
 // Corridors put aside in a record; the one put aside first is forgotten where there are more.
 #define LR_PACKED_STACK 16u

@@ -2,9 +2,9 @@
 // The packed stream: connectivity in little more than one bit a triangle, any block of 256 triangles on its own.
 //
 // Where the ring is a cycle, each side of it is a polygon cut into triangles, and walking the polygon from edge to edge
-// needs a *turn bit* a triangle: with the edge (a, b) entered, the third vertex is a+1 or b-1, and is the new a or b. What
-// a turn bit cannot say are *events*: a T0, whose third vertex lies further along and which splits the polygon in two,
-// and the rare start of another polygon. docs/packed-format.md has all of it to the bit. Beyond the paper.
+// needs a *turn bit* a triangle: with the edge (a, b) entered, the third vertex is a+1 or b-1, and is the new a or b.
+// What a turn bit cannot say are *events*: a T0, whose third vertex lies further along and which splits the polygon in
+// two, and the rare start of another polygon. docs/packed-format.md has all of it to the bit. Beyond the paper.
 
 #include <cstdint>
 #include <span>
@@ -19,11 +19,11 @@ namespace lr {
 
 struct PackedStatistics {
     std::uint32_t ring_vertices = 0;
-    std::uint32_t isolated = 0;       ///< vertices used by triangles, but on no ring
-    std::uint32_t events[8] = {};     ///< by code (packed_format.h)
-    std::uint64_t event_bits[8] = {}; ///< with their gaps
-    std::uint32_t parted_blocks = 0;  ///< whose events are too many for one record
-    std::uint32_t plain_blocks = 0;   ///< stored as three vertices a triangle
+    std::uint32_t isolated = 0;        ///< vertices used by triangles, but on no ring
+    std::uint32_t events[8] = {};      ///< by code (packed_format.h)
+    std::uint64_t event_bits[8] = {};  ///< with their gaps
+    std::uint32_t parted_blocks = 0;   ///< whose events are too many for one record
+    std::uint32_t plain_blocks = 0;    ///< stored as three vertices a triangle
 };
 
 /// A packed stream and how it maps to the mesh that it was made from.
@@ -84,7 +84,8 @@ void decode_packed(const PackedView& view, std::span<std::uint32_t> indices, uns
 /// Expands one block: triangles [256 * block, ...), 3 * 256 entries or what the last block has.
 void decode_packed_block(const PackedView& view, std::uint32_t block, std::span<std::uint32_t> indices);
 
-/// One triangle. Reads at most 8 words of turn bits, 5 of the directory and 41 of the block's record, beside the header.
+/// One triangle. Reads at most 8 words of turn bits, 5 of the directory and 41 of the block's record, beside the
+/// header.
 struct PackedTriangle {
     std::uint32_t v[3];
 };

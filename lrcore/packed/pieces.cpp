@@ -1,6 +1,6 @@
-// The order for the vertex cache. A corridor is a strip of triangles between two chains of ring vertices; a long one brings
-// a new vertex with every triangle. Beside it, across the ring edges of either chain, lie other corridors: the next
-// piece is taken there, along the same vertices, so that it brings only those of its other chain.
+// The order for the vertex cache. A corridor is a strip of triangles between two chains of ring vertices; a long one
+// brings a new vertex with every triangle. Beside it, across the ring edges of either chain, lie other corridors: the
+// next piece is taken there, along the same vertices, so that it brings only those of its other chain.
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,8 @@ namespace lr {
 namespace {
 
 constexpr std::uint32_t kCache = 32;
-constexpr std::size_t kPiece = 32;   // triangles of a piece, or a few more: one of its chains and the next fill the cache
+constexpr std::size_t kPiece =
+    32;  // triangles of a piece, or a few more: one of its chains and the next fill the cache
 constexpr std::uint32_t kWhole = 8;  // what would be left of a corridor, or a part of a T0, of so many is taken along
 constexpr double kStart = 8;         // a piece's start costs as much as so many vertices
 
@@ -96,8 +97,10 @@ class Walker {
         sorted.corners.reserve(out_.corners.size());
         sorted.flags.reserve(out_.flags.size());
         for (const std::uint32_t p : order) {
-            sorted.corners.insert(sorted.corners.end(), out_.corners.begin() + begins_[p], out_.corners.begin() + begins_[p + 1]);
-            sorted.flags.insert(sorted.flags.end(), out_.flags.begin() + begins_[p], out_.flags.begin() + begins_[p + 1]);
+            sorted.corners.insert(sorted.corners.end(), out_.corners.begin() + begins_[p],
+                                  out_.corners.begin() + begins_[p + 1]);
+            sorted.flags.insert(sorted.flags.end(), out_.flags.begin() + begins_[p],
+                                out_.flags.begin() + begins_[p + 1]);
         }
         out_.corners = std::move(sorted.corners);
         out_.flags = std::move(sorted.flags);

@@ -51,38 +51,43 @@ class RecordBits {
     std::uint32_t bits_, at_ = 0;
 };
 
-/// Four turns at once: what to add to a, or to b where the mask is set, for each of twelve indices.
-struct Nibbles {
-    alignas(16) std::uint32_t mask[16][12];
-    alignas(16) std::uint32_t add[16][12];
-    std::uint32_t ups[16];
+using Lanes = std::uint32_t __attribute__((vector_size(16)));
+
+/// Four turns at once: twelve indices, each a or (where the mask is set) b with something added; then a and b move on.
+/// b - a becomes smaller by four whatever the turns.
+struct alignas(128) Nibble {
+    std::uint32_t mask[12], add[12], ups[4];
 };
 
-consteval Nibbles make_nibbles(bool reversed) {
-    Nibbles out{};
+consteval std::array<Nibble, 16> make_nibbles(bool reversed) {
+    std::array<Nibble, 16> out{};
     for (std::uint32_t bits = 0; bits < 16; ++bits) {
         std::uint32_t a = 0, b = 0;  // relative to the first edge's
         for (std::uint32_t k = 0; k < 4; ++k) {
             const bool up = (bits >> k & 1) != 0;
             const std::uint32_t ia = 3 * k, ix = 3 * k + (reversed ? 1 : 2), ib = 3 * k + (reversed ? 2 : 1);
-            out.add[bits][ia] = a;
-            out.add[bits][ib] = b;
-            out.mask[bits][ib] = UINT32_MAX;
+            out[bits].add[ia] = a;
+            out[bits].add[ib] = b;
+            out[bits].mask[ib] = UINT32_MAX;
             if (up) {
-                out.add[bits][ix] = ++a;
+                out[bits].add[ix] = ++a;
             } else {
-                out.add[bits][ix] = --b;
-                out.mask[bits][ix] = UINT32_MAX;
+                out[bits].add[ix] = --b;
+                out[bits].mask[ix] = UINT32_MAX;
             }
         }
-        out.ups[bits] = a;
+        for (std::uint32_t& ups : out[bits].ups) ups = a;
     }
     return out;
 }
 
-constexpr Nibbles kNibbles[2] = {make_nibbles(false), make_nibbles(true)};
+constexpr std::array<Nibble, 16> kNibbles[2] = {make_nibbles(false), make_nibbles(true)};
 
-using Lanes = std::uint32_t __attribute__((vector_size(16)));
+Lanes load(const std::uint32_t* from) {
+    Lanes out;
+    std::memcpy(&out, from, sizeof out);
+    return out;
+}
 
 struct Edge {
     std::uint32_t a, b;
@@ -195,10 +200,17 @@ class Expander {
         const std::uint32_t from = bits_.take(2), folded = bits_.golomb(LR_PACKED_BESIDE_ORDER);
         const std::uint32_t step = (folded & 1) != 0 ? ~(folded >> 1) : folded >> 1, other = bits_.take(width_);
         switch (from) {
-            case LR_PACKED_BESIDE_NOW_B: begun_ = {now_.b + step, other}; break;
-            case LR_PACKED_BESIDE_NOW_A: begun_ = {other, now_.a + step}; break;
-            case LR_PACKED_BESIDE_BEGUN_A: begun_ = {begun_.a + step, other}; break;
-            default: begun_ = {other, begun_.b + step};
+            case LR_PACKED_BESIDE_NOW_B:
+                begun_ = {now_.b + step, other};
+                break;
+            case LR_PACKED_BESIDE_NOW_A:
+                begun_ = {other, now_.a + step};
+                break;
+            case LR_PACKED_BESIDE_BEGUN_A:
+                begun_ = {begun_.a + step, other};
+                break;
+            default:
+                begun_ = {other, begun_.b + step};
         }
     }
 
@@ -257,33 +269,42 @@ class Expander {
         out[2] = reversed_ ? b : x;
     }
 
-    /// Triangles [i, end), by their turns alone. Whole nibbles where there is room: what is too much is written again.
+    /// Triangles [i, end), by their turns alone. The last nibble too is written whole where there is room: what is too
+    /// much is written again.
     void run(std::uint32_t i, std::uint32_t end) {
-        const Nibbles& table = kNibbles[reversed_ ? 1 : 0];
-        auto [a, b] = now_;
-        for (; i < end && i + 4 <= count_; i += 4) {
-            std::uint32_t bits = turns_[i / 32] >> (i % 32);
-            if (i % 32 > 28) bits |= turns_[i / 32 + 1] << (32 - i % 32);
-            bits &= 15;
-            const std::uint32_t span = b - a;
-            for (std::uint32_t k = 0; k < 12; k += 4) {
-                Lanes mask, add;
-                std::memcpy(&mask, table.mask[bits] + k, sizeof mask);
-                std::memcpy(&add, table.add[bits] + k, sizeof add);
-                add += (mask & span) + a;
-                std::memcpy(out_ + std::size_t{3} * i + k, &add, sizeof add);
+        const std::array<Nibble, 16>& table = kNibbles[reversed_ ? 1 : 0];
+        const std::uint32_t span = now_.b - now_.a, first = i;
+        Lanes a = Lanes{} + now_.a, width = Lanes{} + span;
+        while (i < end && i + 4 <= count_) {
+            // Behind the turns there are records, so eight bytes can be loaded.
+            std::uint64_t turns;
+            std::memcpy(&turns, reinterpret_cast<const std::uint8_t*>(turns_) + i / 8, sizeof turns);
+            turns >>= i % 8;
+            const std::uint32_t stop = std::min({i + 56, (end + 3 - i) / 4 * 4 + i, count_ - (count_ - i) % 4});
+            for (; i < stop; i += 4, turns >>= 4) {
+                const Nibble& nibble = table[turns & 15];
+                std::uint32_t* out = out_ + std::size_t{3} * i;
+                for (std::uint32_t k = 0; k < 12; k += 4) {
+                    const Lanes indices = a + load(nibble.add + k) + (width & load(nibble.mask + k));
+                    std::memcpy(out + k, &indices, sizeof indices);
+                }
+                a += load(nibble.ups);
+                width -= 4;
             }
-            const std::uint32_t used = std::min(end - i, 4U), ups = table.ups[bits & ((1U << used) - 1)];
-            a += ups;
-            b -= used - ups;
         }
+        if (i > end) {  // take back what is too much
+            std::uint32_t turns = 0;
+            for (std::uint32_t k = end; k < i; ++k) turns += turn(k) ? 1 : 0;
+            a -= turns;
+            i = end;
+        }
+        now_ = {a[0], a[0] + span - (i - first)};
         for (; i < end; ++i) {
             const bool up = turn(i);
-            const std::uint32_t x = up ? a + 1 : b - 1;
-            store(i, a, x, b);
-            (up ? a : b) = x;
+            const std::uint32_t x = up ? now_.a + 1 : now_.b - 1;
+            store(i, now_.a, x, now_.b);
+            (up ? now_.a : now_.b) = x;
         }
-        now_ = {a, b};
     }
 
     /// Makes triangle i of a run the T0 of a wart, and the next one its T2.
@@ -291,6 +312,7 @@ class Expander {
         std::uint32_t* out = out_ + std::size_t{3} * i;
         const bool along_a = turn(i);
         const std::uint32_t a = out[0], b = out[reversed_ ? 2 : 1];
+        if (b - a < 4) return false;  // its polygon would be finished, or never have been one
         const Edge inner = along_a ? Edge{a, a + 2} : Edge{b - 2, b};
         out[reversed_ ? 1 : 2] = along_a ? inner.b : inner.a;
         if (i + 1 == count_) return true;

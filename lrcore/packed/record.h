@@ -10,10 +10,10 @@ namespace lr {
 
 /// Where the record lies that holds a triangle, and which triangles it holds.
 struct PackedRecord {
-    const std::uint32_t* turns;   ///< of its first triangle on
+    const std::uint32_t* turns;  ///< of its first triangle on
     const std::uint8_t* record;
-    std::uint32_t length;         ///< in bytes, where it is not plain
-    std::uint32_t first;          ///< triangle of the mesh
+    std::uint32_t length;  ///< in bytes, where it is not plain
+    std::uint32_t first;   ///< triangle of the mesh
     std::uint32_t triangles;
     bool plain;
 };

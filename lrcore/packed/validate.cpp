@@ -10,7 +10,9 @@
 namespace lr {
 namespace {
 
-Error malformed(std::string message) { return {ErrorCode::malformed, "packed stream: " + std::move(message)}; }
+Error malformed(std::string message) {
+    return {ErrorCode::malformed, "packed stream: " + std::move(message)};
+}
 
 std::uint32_t directory_length(const PackedView& view, std::uint32_t block) {
     const std::size_t group = view.directory_word() + std::size_t{block / LR_PACKED_GROUP} * LR_PACKED_GROUP_WORDS;
@@ -20,8 +22,12 @@ std::uint32_t directory_length(const PackedView& view, std::uint32_t block) {
 /// Are the turns of a plain block zero, and what fills up the records of a parted one?
 bool unused_bits_clear(const PackedView& view, std::uint32_t block, std::uint32_t length, std::uint32_t triangles) {
     if (length == LR_PACKED_PLAIN) {
-        const std::uint32_t* turns = view.words.data() + LR_PACKED_HEADER_WORDS + std::size_t{block} * LR_PACKED_BLOCK_WORDS;
-        return std::all_of(turns, turns + (triangles + 31) / 32, [](std::uint32_t word) { return word == 0; });
+        const std::uint32_t* turns =
+            view.words.data() + LR_PACKED_HEADER_WORDS + std::size_t{block} * LR_PACKED_BLOCK_WORDS;
+        const std::uint32_t bits = 3 * triangles * view.vertex_bits;
+        const std::uint8_t* record = find_record(view, block * LR_PACKED_BLOCK).record;
+        return std::all_of(turns, turns + (triangles + 31) / 32, [](std::uint32_t word) { return word == 0; }) &&
+               (bits % 8 == 0 || record[bits / 8] >> (bits % 8) == 0xff >> (bits % 8));
     }
     if (length <= LR_PACKED_MAX_RECORD) return true;
     const PackedRecord record = find_record(view, block * LR_PACKED_BLOCK);
@@ -48,9 +54,15 @@ Layout layout(std::uint32_t triangles) {
 
 }  // namespace
 
-std::uint32_t PackedView::blocks() const { return triangles / LR_PACKED_BLOCK + (triangles % LR_PACKED_BLOCK == 0 ? 0 : 1); }
-std::size_t PackedView::directory_word() const { return LR_PACKED_HEADER_WORDS + layout(triangles).turn_words; }
-std::size_t PackedView::records_word() const { return directory_word() + layout(triangles).directory_words; }
+std::uint32_t PackedView::blocks() const {
+    return triangles / LR_PACKED_BLOCK + (triangles % LR_PACKED_BLOCK == 0 ? 0 : 1);
+}
+std::size_t PackedView::directory_word() const {
+    return LR_PACKED_HEADER_WORDS + layout(triangles).turn_words;
+}
+std::size_t PackedView::records_word() const {
+    return directory_word() + layout(triangles).directory_words;
+}
 
 std::uint32_t packed_checksum(std::span<const std::uint32_t> words) {
     const std::uint32_t header = crc32(std::as_bytes(words.first(LR_PACKED_WORD_CHECKSUM)));
@@ -71,12 +83,14 @@ Result<PackedView> view_packed(std::span<const std::uint32_t> words) {
     view.vertex_bits = words[LR_PACKED_WORD_WIDTHS] & 0xff;
     view.gap_bits = words[LR_PACKED_WORD_WIDTHS] >> 8;
     if (view.triangles > UINT32_MAX / 3) return malformed("too many triangles");
-    if (view.vertex_bits < 1 || view.vertex_bits > 31 || view.gap_bits < LR_PACKED_MIN_GAP_BITS || view.gap_bits > 7 || words[LR_PACKED_WORD_RESERVED] != 0) {
+    if (view.vertex_bits < 1 || view.vertex_bits > 31 || view.gap_bits < LR_PACKED_MIN_GAP_BITS || view.gap_bits > 7 ||
+        words[LR_PACKED_WORD_RESERVED] != 0) {
         return malformed("widths");
     }
     const std::size_t record_words = (std::size_t{view.record_bytes} + 3) / 4 + LR_PACKED_TAIL_WORDS;
     if (words.size() != view.records_word() + record_words) {
-        return malformed(fmt::format("{} words, where the header says {}", words.size(), view.records_word() + record_words));
+        return malformed(
+            fmt::format("{} words, where the header says {}", words.size(), view.records_word() + record_words));
     }
     return view;
 }
@@ -90,7 +104,8 @@ Result<PackedView> validate_packed(std::span<const std::uint32_t> words) {
     for (std::uint32_t block = 0; block < view->blocks(); ++block) {
         const auto bad = [&](const char* what) { return malformed(fmt::format("block {}: {}", block, what)); };
         if (block % LR_PACKED_GROUP == 0) {
-            const std::size_t group = view->directory_word() + std::size_t{block / LR_PACKED_GROUP} * LR_PACKED_GROUP_WORDS;
+            const std::size_t group =
+                view->directory_word() + std::size_t{block / LR_PACKED_GROUP} * LR_PACKED_GROUP_WORDS;
             if (words[group] != offset) return bad("its group begins elsewhere");
         }
         const std::uint32_t first = block * LR_PACKED_BLOCK, count = std::min(view->triangles - first, LR_PACKED_BLOCK);
@@ -98,7 +113,8 @@ Result<PackedView> validate_packed(std::span<const std::uint32_t> words) {
         const std::uint64_t begin = offset;
         offset += block_bytes(length, count, view->vertex_bits);
         if (offset > view->record_bytes) return bad("record lies outside the stream");
-        if (length > LR_PACKED_MAX_RECORD && !(length == LR_PACKED_PLAIN) && offset < begin + LR_PACKED_PARTS) return bad("record's length");
+        if (length > LR_PACKED_MAX_RECORD && !(length == LR_PACKED_PLAIN) && offset < begin + LR_PACKED_PARTS)
+            return bad("record's length");
         if (!unused_bits_clear(*view, block, length, count)) return bad("bits that mean nothing");
         for (std::uint32_t t = first; t < first + count;) {
             const PackedRecord record = find_record(*view, t);
@@ -121,6 +137,10 @@ Result<PackedView> validate_packed(std::span<const std::uint32_t> words) {
         }
     }
     if (offset != view->record_bytes) return malformed("bytes behind the last record");
+    if (const std::uint32_t rest = view->blocks() % 4;
+        rest != 0 && words[view->records_word() - 1] >> (8 * rest) != 0) {
+        return malformed("lengths of blocks that there are not");
+    }
     const std::size_t turn_words = layout(view->triangles).turn_words;
     if (view->triangles % 32 != 0 && words[LR_PACKED_HEADER_WORDS + turn_words - 1] >> (view->triangles % 32) != 0) {
         return malformed("turns of triangles that there are not");

@@ -93,19 +93,19 @@ void check_random_access(const PackedStream& stream) {
         const std::size_t group = view->directory_word() + std::size_t{block / LR_PACKED_GROUP} * LR_PACKED_GROUP_WORDS;
         keep(group, LR_PACKED_GROUP_WORDS);
         const PackedRecord record = find_record(*view, block * LR_PACKED_BLOCK);
-        const std::uint32_t length =
-            stream.words[group + 1 + block % LR_PACKED_GROUP / 4] >> (8 * (block % 4)) & 0xff;
+        const std::uint32_t length = stream.words[group + 1 + block % LR_PACKED_GROUP / 4] >> (8 * (block % 4)) & 0xff;
         const bool parted = length > LR_PACKED_MAX_RECORD && length < LR_PACKED_PLAIN;
         const auto begin = static_cast<std::size_t>(record.record - bytes) - (parted ? LR_PACKED_PARTS : 0);
-        const std::size_t size =
-            block_bytes(length, std::min(view->triangles - block * LR_PACKED_BLOCK, LR_PACKED_BLOCK), view->vertex_bits);
+        const std::size_t size = block_bytes(
+            length, std::min(view->triangles - block * LR_PACKED_BLOCK, LR_PACKED_BLOCK), view->vertex_bits);
         std::copy_n(bytes + begin, size, reinterpret_cast<std::uint8_t*>(poisoned.data()) + begin);
         // What a triangle reads: turns, directory, lengths of parts, record with the bytes loaded behind it.
         if (length <= LR_PACKED_MAX_RECORD) CHECK(8 + 5 + (record.length + 3 + 8 + 3) / 4 <= 64);
 
         const Result<PackedView> far = view_packed(poisoned);
         REQUIRE(far);
-        for (std::uint32_t t = block * LR_PACKED_BLOCK; t < std::min((block + 1) * LR_PACKED_BLOCK, view->triangles); ++t) {
+        for (std::uint32_t t = block * LR_PACKED_BLOCK; t < std::min((block + 1) * LR_PACKED_BLOCK, view->triangles);
+             ++t) {
             const PackedTriangle got = decode_packed_triangle(*far, t);
             for (std::size_t k = 0; k < 3; ++k) REQUIRE(got.v[k] == indices[std::size_t{3} * t + k]);
         }
@@ -168,9 +168,11 @@ TEST_CASE("damaged packed streams are refused or harmless") {
         const Mesh mesh = test::random_gluing(60, 80 + 30 * static_cast<std::uint32_t>(shape), shape);
         const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
         REQUIRE(table);
-        const std::vector<std::uint32_t> good = 
-            encode_packed(*table, expand_rings(*table), shape % 2 == 0 ? PackedProfile::small : PackedProfile::cache).words;
-        for (std::size_t size = 0; size < good.size(); ++size) CHECK_FALSE(validate_packed(std::span(good).first(size)));
+        const std::vector<std::uint32_t> good =
+            encode_packed(*table, expand_rings(*table), shape % 2 == 0 ? PackedProfile::small : PackedProfile::cache)
+                .words;
+        for (std::size_t size = 0; size < good.size(); ++size)
+            CHECK_FALSE(validate_packed(std::span(good).first(size)));
         std::vector<std::uint32_t> longer = good;
         longer.push_back(0);
         CHECK_FALSE(validate_packed(longer));
