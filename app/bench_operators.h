@@ -23,9 +23,9 @@ struct OperatorFigures {
     std::vector<Row> rows;
 };
 
-/// Times sequential loops over all corners (c.v; c.o, c.s for SQuad) and vertices (valence, normal), and the contours of a
-/// plane through the mesh's middle, per triangle met. Structures take turns; vertex positions are in each one's own order.
-/// Errors: invalid_argument if two structures disagree on a result.
+/// Times sequential loops over all corners (c.v; c.o, c.s for SQuad) and vertices (valence, normal), and the contours
+/// of a plane through the mesh's middle, per triangle met. Structures take turns; vertex positions are in each one's
+/// own order. Errors: invalid_argument if two structures disagree on a result.
 Result<std::vector<OperatorFigures>> measure_operators(const Mesh& mesh, CornerTable table, int rounds);
 
 }  // namespace lr::app

@@ -7,7 +7,6 @@
 
 #include "app/commands.h"
 #include "app/paper_tables.h"
-#include "lrcore/baseline/codecs.h"
 #include "lrcore/baseline/strips.h"
 #include "lrcore/packed/packed_format.h"
 
@@ -71,8 +70,7 @@ Json to_json(const std::string& path, const Mesh& mesh, const FormatSet& set) {
         {"t2", set.lr_compact.t2},     {"irregular", set.lr_compact.t1_irregular + set.lr_compact.t2_irregular},
         {"long", set.lr_compact_long}, {"isolated", set.lr_compact.isolated}};
     for (const auto& [name, reason] : set.absent) out["absent"][name] = reason;
-    const CacheFigures best = analyze_fifo32(best_cache_order(mesh.indices, mesh.vertex_count), mesh.vertex_count);
-    out["best_order"] = {{"acmr_fifo32", best.acmr}, {"atvr_fifo32", best.atvr}};
+    out["best_order"] = {{"acmr_fifo32", set.best_order.acmr}, {"atvr_fifo32", set.best_order.atvr}};
     out["packed"] = {{"ring_vertices", set.packed.ring_vertices},
                      {"warts", set.packed.events[LR_PACKED_WART]},
                      {"splits", set.packed.events[LR_PACKED_SPLIT]},
@@ -92,7 +90,6 @@ void print(const std::string& path, const Mesh& mesh, const FormatSet& set) {
     fmt::print("\n  ring: {} vertices on it, {} isolated; T0 {:.2f} %, in warts {:.2f} %, T2 {:.2f} %\n\n",
                set.lean.ring_vertices, set.lean.isolated, share(set.lean.t0), share(set.lean.t0_wart),
                share(set.lean.t2));
-    const CacheFigures best = analyze_fifo32(best_cache_order(mesh.indices, mesh.vertex_count), mesh.vertex_count);
     fmt::print("  {:<20}{:>11}{:>10}{:>10}{:>10}{:>10}{:>10}{:>11}\n", "format", "bytes", "bits/tri", "refs/tri",
                "of u32", "ACMR(32)", "ATVR(32)", "deflated");
     const auto base = static_cast<double>(set.formats.front().bytes);
@@ -106,8 +103,8 @@ void print(const std::string& path, const Mesh& mesh, const FormatSet& set) {
             base > 0 ? 100 * bytes / base : 0.0, cache.acmr, cache.atvr,
             format.deflated == 0 ? "" : fmt::format("{}", format.deflated));
     }
-    fmt::print("  meshoptimizer's best order for the vertex cache: ACMR(32) {:.3f}, ATVR(32) {:.3f}\n", best.acmr,
-               best.atvr);
+    fmt::print("  meshoptimizer's best order for the vertex cache: ACMR(32) {:.3f}, ATVR(32) {:.3f}\n",
+               set.best_order.acmr, set.best_order.atvr);
     fmt::print("\n");
 }
 
@@ -191,9 +188,9 @@ void add_stats(CLI::App& program, Action& action) {
     add_ring_options(*command, options->ring);
     command->add_flag(
         "--paper", options->paper,
-        "the paper's procedures alone: ring-expander, and for lr_compact the hybrid with the best k (the default)");
+        "the paper's procedures alone: no optimiser, ring-expander, and for lr_compact the hybrid with the best k");
     command->add_option("--table", options->table, "what is printed; the others than sizes as Markdown")
-        ->check(CLI::IsMember({"sizes", "table1", "lean", "storage", "offsets", "periods", "seeds"}))
+        ->check(CLI::IsMember({"sizes", "packed", "table1", "lean", "storage", "offsets", "periods", "seeds"}))
         ->capture_default_str();
     command->add_flag("--json", options->json, "one JSON document on standard output");
     command->callback([options, &action] { action = [options] { return run(*options); }; });

@@ -113,6 +113,7 @@ void add_packed(FormatSet& set, const CornerTable& table, const RingChoice& choi
 
 /// The formats of meshoptimizer that are no index buffers.
 void add_codecs(FormatSet& set, const Mesh& mesh, const std::vector<std::uint32_t>& triangles) {
+    set.best_order = analyze_fifo32(best_cache_order(triangles, mesh.vertex_count), mesh.vertex_count);
     CodedIndices coded = encode_meshopt_indices(triangles, mesh.vertex_count);
     Format codec{.name = "meshopt_index_codec", .bytes = coded.bytes.size()};
     codec.deflated = deflated_size(std::as_bytes(std::span(coded.bytes)));

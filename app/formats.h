@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/command.h"
+#include "lrcore/baseline/strips.h"
 #include "lrcore/corner_table/report.h"
 #include "lrcore/lean/lean_stream.h"
 #include "lrcore/lr/lr_table.h"
@@ -40,7 +41,8 @@ struct FormatSet {
     LrStatistics lr_compact;
     std::uint32_t lr_compact_long = 0;  ///< n_l of section 8
     PackedStatistics packed;
-    RingOptions ring;  ///< lean's
+    CacheFigures best_order;  ///< meshoptimizer's order for the vertex cache
+    RingOptions ring;         ///< lean's
     std::vector<Format> formats;
     std::vector<std::pair<std::string, std::string>> absent;  ///< name, reason
 };

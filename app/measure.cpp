@@ -52,7 +52,9 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-double Candidate::median() const { return app::median(seconds); }
+double Candidate::median() const {
+    return app::median(seconds);
+}
 
 void run_interleaved(std::vector<Candidate>& candidates, int rounds) {
     for (int round = 0; round < rounds; ++round) {

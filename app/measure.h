@@ -13,8 +13,8 @@ namespace lr::app {
 /// Wall seconds of one call.
 double seconds(const std::function<void()>& work);
 
-/// Bytes by which the process's resident memory rose above where it was, at most, during one call. 0 where the system does
-/// not tell (it needs /proc/self/clear_refs).
+/// Bytes by which the process's resident memory rose above where it was, at most, during one call. 0 where the system
+/// does not tell (it needs /proc/self/clear_refs).
 std::size_t peak_bytes(const std::function<void()>& work);
 
 /// Something to time, run in turn with others.

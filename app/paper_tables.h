@@ -17,7 +17,7 @@ struct Column {
     int decimals;  ///< counts have none, and no mean
     double (*value)(const Mesh&, const FormatSet&);
 };
-/// "table1", "lean" (section 8) or "storage" (section 1); empty for any other name.
+/// "packed", "table1", "lean" (section 8) or "storage" (section 1); empty for any other name.
 std::span<const Column> size_table(std::string_view name);
 
 struct MeshRow {

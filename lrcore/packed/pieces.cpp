@@ -26,14 +26,18 @@ class Walker {
         out_.ring_vertices = static_cast<std::uint32_t>(rings_.edges.size());
         out_.corners.reserve(table_.triangle_count() - table_.topology.degenerate);
         out_.flags.reserve(out_.corners.capacity());
-        for (const RingEdge& edge : rings_.edges) {
-            if (!polygons_.visited(triangle(edge.left))) sweep(next(edge.left), 0);
-            if (!edge.right.is_null() && !polygons_.visited(triangle(edge.right))) {
-                sweep(previous(edge.right), CorridorStep::kRight);
+        for (std::size_t r = 0; r < rings_.count(); ++r) {
+            const std::span<const RingEdge> ring = rings_.ring(r);
+            const RingEdge& closing = ring[polygons_.closing(r)];  // where small components need no start
+            sweep(closing.left, 0);
+            sweep(closing.right, CorridorStep::kRight);
+            for (const RingEdge& edge : ring) {
+                sweep(next(edge.left), 0);
+                if (!edge.right.is_null()) sweep(previous(edge.right), CorridorStep::kRight);
             }
         }
         for (std::uint32_t t = 0; t < table_.triangle_count(); ++t) {
-            if (!polygons_.visited({t}) && !table_.degenerate({t})) sweep(corner({t}, 0), 0);
+            if (!table_.degenerate({t})) sweep(corner({t}, 0), 0);
         }
         out_.vertex_order = std::move(polygons_.vertex_order());
         spread_scraps();
@@ -55,6 +59,7 @@ class Walker {
 
     /// Piece after piece, each beside the last, until there is none.
     void sweep(CornerId c, std::uint8_t side) {
+        if (c.is_null() || polygons_.visited(triangle(c))) return;
         Start start{c, side};
         while (!start.corner.is_null()) {
             grow(start, best_);
