@@ -283,7 +283,10 @@ class Json(CliTest):
                 self.assertGreater(entry["mtri_per_s"], 0, name)
         self.assertTrue(mesh["peak_bytes"])
         self.assertEqual(set(mesh["construct"]), {"corner_table", "ring", "lean_encode", "lean", "strips", "ring_hybrid",
-                                                  "lr", "lr_compact", "squad"})
+                                                  "lr", "lr_compact", "squad", "optimize", "packed_encode",
+                                                  "packed_cache_encode", "packed"})
+        self.assertEqual(set(mesh["decode_cpu"]), {"lean", "copy", "packed", "packed_2_threads", "packed_cache",
+                                                   "meshopt_index_codec"})
 
 
 class Pictures(CliTest):
