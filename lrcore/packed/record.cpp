@@ -275,27 +275,33 @@ class Expander {
         const std::array<Nibble, 16>& table = kNibbles[reversed_ ? 1 : 0];
         const std::uint32_t span = now_.b - now_.a, first = i;
         Lanes a = Lanes{} + now_.a, width = Lanes{} + span;
-        while (i < end && i + 4 <= count_) {
-            // Behind the turns there are records, so eight bytes can be loaded.
+        const auto nibble = [&](std::uint64_t turns) {
+            const Nibble& n = table[turns & 15];
+            std::uint32_t* out = out_ + std::size_t{3} * i;
+            for (std::uint32_t k = 0; k < 12; k += 4) {
+                const Lanes indices = a + load(n.add + k) + (width & load(n.mask + k));
+                std::memcpy(out + k, &indices, sizeof indices);
+            }
+            a += load(n.ups);
+            width -= 4;
+            i += 4;
+        };
+        while (i < end && i + 8 <= count_) {
             std::uint64_t turns;
             std::memcpy(&turns, reinterpret_cast<const std::uint8_t*>(turns_) + i / 8, sizeof turns);
             turns >>= i % 8;
-            const std::uint32_t stop = std::min({i + 56, (end + 3 - i) / 4 * 4 + i, count_ - (count_ - i) % 4});
-            for (; i < stop; i += 4, turns >>= 4) {
-                const Nibble& nibble = table[turns & 15];
-                std::uint32_t* out = out_ + std::size_t{3} * i;
-                for (std::uint32_t k = 0; k < 12; k += 4) {
-                    const Lanes indices = a + load(nibble.add + k) + (width & load(nibble.mask + k));
-                    std::memcpy(out + k, &indices, sizeof indices);
-                }
-                a += load(nibble.ups);
-                width -= 4;
-            }
+            nibble(turns);
+            nibble(turns >> 4);
+        }
+        while (i < end && i + 4 <= count_) {
+            std::uint64_t turns;
+            std::memcpy(&turns, reinterpret_cast<const std::uint8_t*>(turns_) + i / 8, sizeof turns);
+            nibble(turns >> (i % 8));
         }
         if (i > end) {  // take back what is too much
-            std::uint32_t turns = 0;
-            for (std::uint32_t k = end; k < i; ++k) turns += turn(k) ? 1 : 0;
-            a -= turns;
+            std::uint32_t turns;
+            std::memcpy(&turns, reinterpret_cast<const std::uint8_t*>(turns_) + end / 8, sizeof turns);
+            a -= static_cast<std::uint32_t>(std::popcount(turns >> (end % 8) & ((1U << (i - end)) - 1)));
             i = end;
         }
         now_ = {a[0], a[0] + span - (i - first)};
