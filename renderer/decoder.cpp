@@ -5,8 +5,8 @@
 namespace lr::gpu {
 
 void Decoder::record(VkCommandBuffer commands, const DecodePlan& plan) const {
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
     for (const DecodePlan::Dispatch& dispatch : plan.dispatches) {
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_[dispatch.pipeline].get());
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.pipeline(), 0, 1, &dispatch.set, 0,
                                 nullptr);
         vkCmdPushConstants(commands, layout_.pipeline(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(DecodeConstants),

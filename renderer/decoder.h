@@ -15,6 +15,7 @@ struct DecodePlan {
         VkDescriptorSet set = VK_NULL_HANDLE;
         DecodeConstants constants{};
         std::uint32_t groups = 0;
+        std::uint32_t pipeline = 0;
     };
     std::vector<Dispatch> dispatches;
 };
@@ -27,7 +28,7 @@ class Decoder {
   protected:
     Context* context_ = nullptr;
     Layout layout_;
-    PipelineHandle pipeline_;
+    std::vector<PipelineHandle> pipelines_;
 };
 
 /// What a decoder's writes are for: indices, commands, the rotating pass, reading back.

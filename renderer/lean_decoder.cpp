@@ -26,16 +26,18 @@ Result<LeanDecoder> LeanDecoder::create(Context& context) {
     const std::array<Binding, 4> bindings{{{0}, {1}, {2}, {3}}};
     LR_ASSIGN(out.layout_,
               Layout::create(context, "lean decode", bindings, VK_SHADER_STAGE_COMPUTE_BIT, sizeof(DecodeConstants)));
-    LR_ASSIGN(out.pipeline_, create_compute(context, "lean decode", out.layout_, spirv_lean_decode_comp));
+    out.pipelines_.resize(2);
+    for (const std::uint32_t two_sided : {VK_FALSE, VK_TRUE}) {
+        LR_ASSIGN(out.pipelines_[two_sided], create_compute(context, "lean decode", out.layout_, spirv_lean_decode_comp,
+                                                            std::span(&two_sided, 1)));
+    }
     return out;
 }
 
-Result<DecodePlan> LeanDecoder::plan(Descriptors& descriptors, const GpuMesh& mesh) const {
+Result<DecodePlan> LeanDecoder::plan(Descriptors& descriptors, const GpuMesh& mesh, const LeanView& view) const {
     constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    // The host needs the header's counts to cut the stream; it has them in the sizes that it allocated.
-    const std::uint64_t payload = (mesh.stream.size() - 64) / sizeof(std::uint32_t) - LR_LEAN_HEADER_WORDS;
-    const std::uint64_t verbatim = (payload - mesh.slots) / 2;  // a slot is one word, a verbatim one three
-    const std::uint64_t ring_slots = mesh.slots - verbatim;
+    const std::uint64_t two_sided = std::uint64_t{2} * view.rings2 / kSlotStep * kSlotStep,
+                        ring_slots = view.ring_slots();
     const auto word_of = [&](std::uint64_t slot) {
         return LR_LEAN_HEADER_WORDS + (slot <= ring_slots ? slot : ring_slots + 3 * (slot - ring_slots));
     };
@@ -45,8 +47,8 @@ Result<DecodePlan> LeanDecoder::plan(Descriptors& descriptors, const GpuMesh& me
         std::uint64_t{context_->limits().maxComputeWorkGroupCount[0]} * LR_COMPUTE_GROUP * LR_TRIANGLES_PER_INVOCATION;
     const std::uint64_t step = std::min(by_range, by_groups / kSlotStep * kSlotStep);
     DecodePlan plan;
-    for (std::uint64_t first = 0; first < mesh.slots; first += step) {
-        const std::uint64_t slots = std::min(step, mesh.slots - first);
+    for (std::uint64_t first = 0, slots = 0; first < mesh.slots; first += slots) {
+        slots = std::min(step, (first < two_sided ? two_sided : mesh.slots) - first);
         const VkDeviceSize begin = word_of(first) * sizeof(std::uint32_t) / kDescriptorAlignment * kDescriptorAlignment;
         const VkDeviceSize end = std::min(word_of(first + slots) * sizeof(std::uint32_t) + 32, mesh.stream.size());
         const VkDeviceSize out_bytes = std::min(12 * ((slots + 3) / 4 * 4), mesh.indices.size() - 12 * first);
@@ -62,6 +64,7 @@ Result<DecodePlan> LeanDecoder::plan(Descriptors& descriptors, const GpuMesh& me
         dispatch.constants.draw_slots = mesh.draw_slots;
         dispatch.constants.first_word = static_cast<std::uint32_t>(begin / sizeof(std::uint32_t));
         dispatch.groups = in_groups(slots);
+        dispatch.pipeline = first < two_sided ? VK_TRUE : VK_FALSE;
         plan.dispatches.push_back(dispatch);
     }
     return plan;

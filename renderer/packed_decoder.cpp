@@ -47,8 +47,9 @@ Result<PackedDecoder> PackedDecoder::create(Context& context) {
               Layout::create(context, "packed decode", bindings, VK_SHADER_STAGE_COMPUTE_BIT, sizeof(DecodeConstants)));
     // Four blocks are read by four invocations: a larger group than a subgroup would have more of them wait.
     out.group_ = std::clamp(context.info().subgroup_size, 8U, 64U);
-    LR_ASSIGN(out.pipeline_, create_compute(context, "packed decode", out.layout_, spirv_packed_decode_comp,
-                                            std::span(&out.group_, 1)));
+    out.pipelines_.resize(1);
+    LR_ASSIGN(out.pipelines_[0], create_compute(context, "packed decode", out.layout_, spirv_packed_decode_comp,
+                                                std::span(&out.group_, 1)));
     return out;
 }
 

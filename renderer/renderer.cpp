@@ -25,7 +25,8 @@ Result<Drawable> Renderer::upload(const Model& model, Source source) {
     out.descriptors = Descriptors(*context_);
     if (source == Source::lean) {
         LR_ASSIGN(out.mesh, upload_lean(*context_, *transfer_, model, options));
-        LR_ASSIGN(out.decode, lean_.plan(out.descriptors, out.mesh));
+        LR_ASSIGN(const LeanView view, view_lean(model.lean.words));
+        LR_ASSIGN(out.decode, lean_.plan(out.descriptors, out.mesh, view));
     } else if (source == Source::packed) {
         LR_ASSIGN(out.mesh, upload_packed(*context_, *transfer_, model, options));
         LR_ASSIGN(const PackedView view, view_packed(model.packed.words));

@@ -5,6 +5,10 @@
 
 layout(local_size_x = LR_COMPUTE_GROUP) in;
 
+// All slots of the dispatch are of two-sided rings. A pipeline of its own, not a branch: lavapipe runs through both sides
+// of a branch, and three quarters of the time would go to the other.
+layout(constant_id = 0) const bool two_sided = true;
+
 layout(push_constant) uniform Push { DecodeConstants push; };
 
 // The stream's header, and the window of the stream that this dispatch needs: as words, and the same as 16-byte loads.
@@ -31,7 +35,7 @@ void main() {
     uint slot = push.first_slot + local;
 
     uvec3 t0, t1, t2, t3;
-    if (slot + LR_TRIANGLES_PER_INVOCATION <= 2u * lean.rings2) {
+    if (two_sided) {
         // Two vertices of two-sided rings: their four words in one load, and those of the vertex behind for a wart.
         uint quad = (slot + LR_LEAN_HEADER_WORDS - push.first_word) / 4u;
         uvec4 w = word_quads[quad];

@@ -3,8 +3,12 @@
 // Expands a packed stream into an index buffer, and writes the commands that draw it.
 //
 // A workgroup has LR_BLOCKS_PER_GROUP blocks. One invocation a block reads its events and writes pieces of corridors into
-// shared memory; then all of them expand four triangles at a time, whatever piece they are of, in the same few steps.
-// A workgroup is as large as a subgroup, where it can be: none waits for another at the barrier.
+// shared memory (13.5 KiB); then all of them expand four triangles at a time, whatever piece they are of, in the same few
+// steps. A workgroup is as large as a subgroup, where it can be: none waits for another at the barrier.
+//
+// What lavapipe wants: it runs through both sides of a branch, and once through a `while` that has nothing to do, so what
+// is rare is kept out of loops and loops end at their end. But in 22.3, invocations that leave a loop at its end before
+// others do have wrong values after it, unless there is a second way out of it: hence the breaks that never happen.
 #include "lrcore/packed/packed_format.h"
 #include "shaders/shared.h"
 
@@ -12,11 +16,11 @@ layout(local_size_x_id = 0) in;
 
 layout(push_constant) uniform Push { DecodeConstants push; };
 
-layout(std430, binding = 0) readonly buffer Header { uint header[]; };
-layout(std430, binding = 1) readonly buffer Turns { uint turns[]; };
-layout(std430, binding = 2) readonly buffer Directory { uint directory[]; };
-layout(std430, binding = 3) readonly buffer Records { uint records[]; };
-layout(std430, binding = 4) writeonly buffer Indices { uvec4 indices[]; };
+layout(std430, binding = 0) restrict readonly buffer Header { uint header[]; };
+layout(std430, binding = 1) restrict readonly buffer Turns { uint turns[]; };
+layout(std430, binding = 2) restrict readonly buffer Directory { uint directory[]; };
+layout(std430, binding = 3) restrict readonly buffer Records { uint records[]; };
+layout(std430, binding = 4) restrict writeonly buffer Indices { uvec4 indices[]; };
 #define LR_BINDING_COMMANDS 5
 #include "shaders/draw_commands.glsl"
 
@@ -28,8 +32,8 @@ const uint kQuads = LR_PACKED_BLOCK / LR_TRIANGLES_PER_INVOCATION;
 shared uint ups[kBlocks * kWords];     // turns before it that are 1
 shared uint starts[kBlocks * kWords];  // triangles that begin a piece
 shared uint before[kBlocks * kWords];  // pieces begun before it
-shared uint thirds[kBlocks * kWords];  // triangles whose third vertex the piece has, and T2 of warts
-shared uint warts[kBlocks * kWords];   // T0 and T2 of warts
+shared uint thirds[kBlocks * kWords];  // triangles whose third vertex the piece has
+shared uint warts[kBlocks * kWords];   // T0 of warts
 // Of each piece (a, b) as if entered at the block's first triangle, and a third vertex with LR_REVERSED.
 shared uint piece_a[kBlocks * LR_PACKED_BLOCK];
 shared uint piece_b[kBlocks * LR_PACKED_BLOCK];
@@ -42,10 +46,13 @@ uint bits_below(uint word, uint count) { return uint(bitCount(bitfieldExtract(wo
 uint turn_word(uint triangle) {
     return turns[min(LR_PACKED_HEADER_WORDS + triangle / 32u - push.first_word, uint(turns.length()) - 1u)];
 }
+// Where the tables have triangle i of the block that begins at `first`.
+uint table_word(uint first, uint i) {
+    return (first - push.first_slot) % (kBlocks * LR_PACKED_BLOCK) / 32u + min(i / 32u, kWords - 1u);
+}
 uint ups_before(uint first, uint i) {
-    uint word = min(i / 32u, kWords - 1u);
-    return ups[(first - push.first_slot) % (kBlocks * LR_PACKED_BLOCK) / 32u + word] +
-           bits_below(turn_word(first + 32u * word), i - 32u * word);
+    uint begin = 32u * min(i / 32u, kWords - 1u);
+    return ups[table_word(first, i)] + bits_below(turn_word(first + begin), i - begin);
 }
 
 // Nothing is read past a descriptor, whatever the stream says.
@@ -54,6 +61,7 @@ uint ups_before(uint first, uint i) {
 #define LR_PACKED_DIRECTORY(i) directory[min((i) - push.directory, uint(directory.length()) - 1u)]
 #define LR_PACKED_RECORDS(i) records[min((i) - push.records, uint(records.length()) - 1u)]
 #define LR_PACKED_UPS(first, i) ups_before(first, i)
+#define LR_PACKED_SEE_WART(r, i) warts[table_word(r.first, i)] |= 1u << ((i) & 31u)
 #include "shaders/packed_decode.glsl"
 
 // The tables of block k of the workgroup, whose first triangle is `first`.
@@ -62,42 +70,33 @@ void read_block(LrPackedLayout p, uint k, uint first) {
     for (uint word = k * kWords, i = first; word < (k + 1u) * kWords; ++word, i += 32u) {
         ups[word] = count;
         count += uint(bitCount(turn_word(i)));
-        starts[word] = thirds[word] = warts[word] = 0u;
     }
-    uint end = min(p.triangles - first, LR_PACKED_BLOCK), piece = k * LR_PACKED_BLOCK - 1u;
+    uint end = min(p.triangles - first, LR_PACKED_BLOCK), piece = k * LR_PACKED_BLOCK;
     LrPackedReader r;
     r.first = first;
     r.stop = 0u;
-    while (r.stop < end) {  // records
+    do {  // records
         lr_packed_open(p, r, r.stop);
         if (r.plain) {
             atomicOr(plain_blocks, 1u << k);
             break;
         }
-        while (r.i < r.stop) {
+        for (;;) {
+            if (piece == (k + 1u) * LR_PACKED_BLOCK) break;  // never
             uint ups_here = r.ups;
             LrPackedStep s = lr_packed_step(p, r);
-            uint i = s.first + s.run, word = k * kWords + i / 32u, bit = 1u << (i & 31u);
-            if (s.jumped && r.i > s.first) {
+            bool begins = s.jumped && r.i > s.first;
+            if (begins) {
                 starts[k * kWords + s.first / 32u] |= 1u << (s.first & 31u);
-                ++piece;
                 piece_a[piece] = s.a - ups_here;
                 piece_b[piece] = s.b + s.first - ups_here;
-                piece_x[piece] = s.reversed ? LR_REVERSED : 0u;
+                ++piece;
             }
-            if (s.kind == LR_PACKED_THIRD) {
-                thirds[word] |= bit;
-                piece_x[piece] |= s.x;
-            } else if (s.kind == LR_PACKED_PAIR) {
-                warts[word] |= bit;
-                uint next = k * kWords + (i + 1u) / 32u, next_bit = 1u << ((i + 1u) & 31u);
-                if (r.i == i + 2u) {
-                    warts[next] |= next_bit;
-                    thirds[next] |= next_bit;
-                }
-            }
+            if (begins || s.third) piece_x[piece - 1u] = s.x | (s.reversed ? LR_REVERSED : 0u);
+            if (s.third) thirds[k * kWords + (r.i - 1u) / 32u] |= 1u << ((r.i - 1u) & 31u);
+            if (r.i >= r.stop) break;
         }
-    }
+    } while (r.stop < end);
     count = k * LR_PACKED_BLOCK;
     for (uint word = k * kWords; word < (k + 1u) * kWords; ++word) {
         before[word] = count;
@@ -113,21 +112,34 @@ void store(uint at, uvec3 t0, uvec3 t1, uvec3 t2, uvec3 t3) {
 
 bvec4 nibble(uint word, uint shift) { return notEqual(uvec4(word >> shift) & uvec4(1u, 2u, 4u, 8u), uvec4(0u)); }
 
-// Four triangles from the quad's first on, of which the first `left` are there.
-void expand_quad(uint quad, uint triangle, uint left) {
-    uint word = quad / 8u, shift = quad % 8u * 4u;
-    uint turn = turn_word(triangle), start = starts[word], third = thirds[word], wart = warts[word];
-    uint u = ups[word] + bits_below(turn, shift);
-    uint next = (start >> shift & 14u) | 16u;
-    uint piece = before[word] + bits_below(start, shift + 1u) - 1u;
+// What the tables have of 32 triangles.
+struct Word {
+    uint turns, starts, thirds, warts, t2s;
+    uint ups, before;
+};
+Word load_word(uint word, uint triangle) {
+    Word w = Word(turn_word(triangle), starts[word], thirds[word], warts[word], 0u, ups[word], before[word]);
+    uint wart_before = word % kWords == 0u ? 0u : warts[word - 1u] >> 31;
+    w.t2s = (w.warts << 1 | wart_before) & ~w.starts;  // where a record ends at the T0, there is none
+    return w;
+}
 
-    bvec4 up = nibble(turn, shift), is_third = nibble(third, shift), is_wart = nibble(wart, shift);
+// Four triangles from the quad's first on, of which the first `left` are there.
+void expand_quad(Word w, uint quad, uint triangle, uint left) {
+    uint shift = quad % 8u * 4u;
+    uint u = w.ups + bits_below(w.turns, shift);
+    uint next = (w.starts >> shift & 14u) | 16u;
+    uint piece = w.before + bits_below(w.starts, shift + 1u) - 1u;
+
+    bvec4 up = nibble(w.turns, shift), is_third = nibble(w.thirds, shift), is_wart = nibble(w.warts, shift);
+    bvec4 t2 = nibble(w.t2s, shift);
     uvec4 ones = uvec4(up);
     uvec4 to_a = u + uvec4(0u, ones.x, ones.x + ones.y, ones.x + ones.y + ones.z);
     uvec4 to_b = to_a - (quad % kQuads * 4u + uvec4(0u, 1u, 2u, 3u));
     uvec4 a, b, x;
     uint from = 0u;
-    while (from < 4u) {
+    for (;;) {
+        if (piece >= kBlocks * LR_PACKED_BLOCK) break;  // never
         bvec4 fresh = greaterThanEqual(uvec4(0u, 1u, 2u, 3u), uvec4(from));
         a = mix(a, piece_a[piece] + to_a, fresh);
         b = mix(b, piece_b[piece] + to_b, fresh);
@@ -135,13 +147,13 @@ void expand_quad(uint quad, uint triangle, uint left) {
         ++piece;
         from = uint(findLSB(next));
         next &= next - 1u;
+        if (from >= 4u) break;
     }
 
     bvec4 reversed = notEqual(x & LR_REVERSED, uvec4(0u));
     uvec4 tip = mix(b - 1u, a + 1u, up);
     uvec4 far = mix(b - 2u, a + 2u, up);
     uvec4 inner = mix(b, a, up);  // a wart's T2 is (inner - 1, inner, inner + 1)
-    bvec4 t2 = bvec4(uvec4(is_third) & uvec4(is_wart));
     tip = mix(mix(tip, x & ~LR_REVERSED, is_third), far, is_wart);
     tip = mix(tip, inner, t2);
     a = mix(a, inner - 1u, t2);
@@ -172,19 +184,27 @@ void main() {
     uint first = push.first_slot + gl_WorkGroupID.x * kBlocks * LR_PACKED_BLOCK;
     uint end = min(p.triangles, push.first_slot + push.slots);
     if (id == 0u) plain_blocks = 0u;
+    for (uint word = id; word < kBlocks * kWords; word += size) starts[word] = thirds[word] = warts[word] = 0u;
     barrier();
     for (uint k = id; k < kBlocks; k += size) {
         if (first + k * LR_PACKED_BLOCK < end) read_block(p, k, first + k * LR_PACKED_BLOCK);
     }
     barrier();
     uint quads = (min(end - first, kBlocks * LR_PACKED_BLOCK) + 3u) / 4u;
-    for (uint quad = id; quad < quads; quad += size) {
-        if ((plain_blocks >> quad / kQuads & 1u) == 0u) expand_quad(quad, first + 4u * quad, end - first - 4u * quad);
-    }
+    uint quad = 2u * id;
+    do {
+        if (quad < quads && (plain_blocks >> quad / kQuads & 1u) == 0u) {
+            uint triangle = first + 4u * quad;
+            Word w = load_word(quad / 8u, triangle);
+            expand_quad(w, quad, triangle, end - triangle);
+            if (quad + 1u < quads) expand_quad(w, quad + 1u, triangle + 4u, end - triangle - 4u);
+        }
+        quad += 2u * size;
+    } while (quad < quads);
     for (uint rest = plain_blocks; rest != 0u; rest &= rest - 1u) {
         uint begin = uint(findLSB(rest)) * kQuads;
-        for (uint quad = begin + id; quad < min(begin + kQuads, quads); quad += size) {
-            expand_plain(p, quad, first + 4u * quad, end - first - 4u * quad);
+        for (uint q = begin + id; q < min(begin + kQuads, quads); q += size) {
+            expand_plain(p, q, first + 4u * q, end - first - 4u * q);
         }
     }
 }

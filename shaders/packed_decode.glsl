@@ -51,18 +51,18 @@ struct LrPackedReader {
     uint a, b, begun_a, begun_b;
     bool reversed, begun_reversed, finished;
     bool jumped;       // (a, b) or the orientation do not come from the triangle before by its turn
+    uint seek, wart;   // the last T0 of a wart that is not behind triangle `seek`
     uint event, code;  // the next event's triangle
     uint top, depth;
 };
 uvec2 lr_packed_stack[LR_PACKED_STACK];
 
-// `run` triangles from `first` on, by their turns alone, with (a, b) entered; then as `kind` says.
-#define LR_PACKED_NONE 0u
-#define LR_PACKED_THIRD 1u  // one whose third vertex is x
-#define LR_PACKED_PAIR 2u   // a wart's T0 and its T2, if that is in the record
+// `run` triangles from `first` on, by their turns and warts alone, with (a, b) entered; then, where `third` says so, one
+// whose third vertex is x.
 struct LrPackedStep {
     uint first, run;
-    uint kind, x;
+    bool third;
+    uint x;
     uint a, b;
     bool reversed;
     bool jumped;  // see LrPackedReader
@@ -70,8 +70,8 @@ struct LrPackedStep {
 
 // 64 bits from r.at on, ones behind the record.
 void lr_packed_fill(inout LrPackedReader r) {
-    uint at = min(r.at, r.end), left = r.end - at, shift = at & 31u;
-    uint word = r.word + (at >> 5);
+    uint at = min(r.at, r.end - 1u), left = r.end - min(r.at, r.end), shift = at & 31u;
+    uint word = r.word + (at >> 5);  // and two more: a stream has as many behind its last record
     uint w0 = LR_PACKED_RECORDS(word), w1 = LR_PACKED_RECORDS(word + 1u), w2 = LR_PACKED_RECORDS(word + 2u);
     r.bits = uvec2(w0 >> shift | w1 << 1 << (31u - shift), w1 >> shift | w2 << 1 << (31u - shift));
     if (left < 32u) r.bits.x |= 0xffffffffu << left;
@@ -95,19 +95,6 @@ uint lr_packed_golomb(inout LrPackedReader r, uint order) {
     return (lr_packed_take(r, low) | 1u << low) - (1u << order);
 }
 
-void lr_packed_next_event(LrPackedLayout p, inout LrPackedReader r) {
-    lr_packed_fill(r);
-    uint high = lr_packed_ones(r.bits.x);
-    if (high > 31u) {
-        r.event = 0xffffffffu;
-        r.code = LR_PACKED_TURN;
-        return;
-    }
-    lr_packed_take(r, high);
-    r.event += (high << p.gap_bits) + (lr_packed_take(r, 1u + p.gap_bits) >> 1);
-    r.code = lr_packed_unary(r, LR_PACKED_TURN);
-}
-
 uint lr_packed_turn_word(uint triangle) { return LR_PACKED_TURNS(LR_PACKED_HEADER_WORDS + triangle / 32u); }
 bool lr_packed_turn(uint triangle) { return (lr_packed_turn_word(triangle) >> (triangle & 31u) & 1u) != 0u; }
 
@@ -122,6 +109,29 @@ uint lr_packed_ups(uint first, uint i) {
 }
 #define LR_PACKED_UPS(first, i) lr_packed_ups(first, i)
 #endif
+
+// What is done at a wart's T0, triangle i of the block. A program that makes a table of them says so.
+#ifndef LR_PACKED_SEE_WART
+#define LR_PACKED_SEE_WART(r, i) r.wart = (i) <= r.seek ? (i) : r.wart
+#endif
+
+// The next event that is not a wart. Warts on the way are seen: they do not change how (a, b) goes on.
+void lr_packed_next_event(LrPackedLayout p, inout LrPackedReader r) {
+    for (;;) {
+        lr_packed_fill(r);
+        uint high = lr_packed_ones(r.bits.x);
+        if (high > 31u) {
+            r.event = 0xffffffffu;
+            r.code = LR_PACKED_TURN;
+            break;
+        }
+        lr_packed_take(r, high);
+        r.event += (high << p.gap_bits) + (lr_packed_take(r, 1u + p.gap_bits) >> 1);
+        r.code = lr_packed_unary(r, LR_PACKED_TURN);
+        if (r.code != LR_PACKED_WART) break;
+        if (r.event < r.stop) LR_PACKED_SEE_WART(r, r.event);
+    }
+}
 
 // Begins the record that holds triangle r.first + i.
 void lr_packed_open(LrPackedLayout p, inout LrPackedReader r, uint i) {
@@ -153,6 +163,7 @@ void lr_packed_open(LrPackedLayout p, inout LrPackedReader r, uint i) {
         r.stop = min(r.stop, r.i + LR_PACKED_PART);
     }
     if (r.plain) return;
+    r.wart = 0xfffffffeu;
     r.ups = LR_PACKED_UPS(r.first, r.i);
     lr_packed_fill(r);
     r.a = r.begun_a = lr_packed_take(r, p.vertex_bits);
@@ -165,14 +176,7 @@ void lr_packed_open(LrPackedLayout p, inout LrPackedReader r, uint i) {
     lr_packed_next_event(p, r);
 }
 
-void lr_packed_pop(inout LrPackedReader r) {
-    --r.depth;
-    uvec2 edge = lr_packed_stack[--r.top % LR_PACKED_STACK];
-    r.a = edge.x;
-    r.b = edge.y;
-}
-
-// What r.code says, and its next event. Everything is read in the same place whatever the code is, so that invocations
+// What r.code says, and the event after it. Everything is read in the same place whatever the code is, so that invocations
 // with other events wait little for each other; 64 bits are enough for what is taken between two fills.
 void lr_packed_event(LrPackedLayout p, inout LrPackedReader r, inout LrPackedStep s) {
     bool split = r.code == LR_PACKED_SPLIT, jump = r.code == LR_PACKED_JUMP, far = r.code == LR_PACKED_FAR;
@@ -198,19 +202,8 @@ void lr_packed_event(LrPackedLayout p, inout LrPackedReader r, inout LrPackedSte
     if (any) v2 = lr_packed_take(r, p.vertex_bits);
 
     bool up = lr_packed_turn(r.first + r.i);
-    if (r.code == LR_PACKED_WART) {
-        uint count = min(2u, r.stop - r.i);
-        s.kind = LR_PACKED_PAIR;
-        if (up) {
-            r.a += 2u;
-            r.ups += count;
-        } else {
-            r.b -= 2u;
-        }
-        r.i += count;
-        r.jumped = false;
-    } else if (split || jump || far) {
-        s.kind = LR_PACKED_THIRD;
+    if (split || jump || far) {
+        s.third = true;
         uint away = size + (split ? 3u : 2u);
         s.x = far ? v : up ? r.a + away : r.b - away;
         uint enters = far ? small : split ? 3u : up ? 2u : 1u;
@@ -231,10 +224,7 @@ void lr_packed_event(LrPackedLayout p, inout LrPackedReader r, inout LrPackedSte
         r.jumped = true;
         if (r.code == LR_PACKED_TURN) {
             r.reversed = !r.reversed;
-        } else if (r.code == LR_PACKED_END) {
-            lr_packed_pop(r);
-            r.finished = false;
-        } else {
+        } else if (r.code != LR_PACKED_END) {
             if (beside) {
                 if ((small & 1u) != 0u) r.reversed = !r.reversed;
                 uint from = small >> 1, step = (size & 1u) != 0u ? ~(size >> 1) : size >> 1;
@@ -270,9 +260,13 @@ void lr_packed_event(LrPackedLayout p, inout LrPackedReader r, inout LrPackedSte
 // or makes a triangle.
 LrPackedStep lr_packed_step(LrPackedLayout p, inout LrPackedReader r) {
     bool before = r.code == LR_PACKED_START || r.code == LR_PACKED_BESIDE || r.code >= LR_PACKED_END;
-    if (r.finished && !(before && r.event == r.i)) {
+    bool end = r.code == LR_PACKED_END && r.event == r.i;
+    if (end || (r.finished && !(before && r.event == r.i))) {
         if (r.depth > 0u) {
-            lr_packed_pop(r);
+            --r.depth;
+            uvec2 edge = lr_packed_stack[--r.top % LR_PACKED_STACK];
+            r.a = edge.x;
+            r.b = edge.y;
         } else {
             uint size = r.begun_b - r.begun_a;
             r.a = r.begun_a = r.begun_b + 1u;
@@ -285,7 +279,7 @@ LrPackedStep lr_packed_step(LrPackedLayout p, inout LrPackedReader r) {
     LrPackedStep s;
     s.first = r.i;
     s.run = min(min(r.stop - r.i, left), r.event - r.i);
-    s.kind = LR_PACKED_NONE;
+    s.third = false;
     s.x = 0u;
     s.a = r.a;
     s.b = r.b;
@@ -300,7 +294,8 @@ LrPackedStep lr_packed_step(LrPackedLayout p, inout LrPackedReader r) {
         r.finished = r.b - r.a == 1u;
         r.jumped = false;
     }
-    if (r.event == r.i && r.i < r.stop && (before || !r.finished)) lr_packed_event(p, r, s);
+    bool next = r.event == r.i && r.i < r.stop && (before || !r.finished);
+    if (next && (end || r.code != LR_PACKED_END)) lr_packed_event(p, r, s);
     return s;
 }
 
@@ -321,6 +316,7 @@ uvec3 lr_packed_oriented(uint a, uint x, uint b, bool reversed) { return reverse
 
 uvec3 lr_packed_triangle(LrPackedLayout p, uint triangle) {
     LrPackedReader r;
+    r.seek = triangle % LR_PACKED_BLOCK;
     r.first = triangle / LR_PACKED_BLOCK * LR_PACKED_BLOCK;
     uint i = triangle - r.first;
     lr_packed_open(p, r, i);
@@ -331,11 +327,11 @@ uvec3 lr_packed_triangle(LrPackedLayout p, uint triangle) {
     uint ups = LR_PACKED_UPS(r.first, s.first + run) - LR_PACKED_UPS(r.first, s.first);
     uint a = s.a + ups, b = s.b - (run - ups);
     bool up = lr_packed_turn(triangle);
-    if (i < s.first + s.run) return lr_packed_oriented(a, up ? a + 1u : b - 1u, b, s.reversed);
-    if (s.kind == LR_PACKED_THIRD) return lr_packed_oriented(a, s.x, b, s.reversed);
-    uint inner = up ? a : b - 2u;
-    if (i == s.first + s.run) return lr_packed_oriented(a, up ? a + 2u : b - 2u, b, s.reversed);
-    return lr_packed_oriented(inner, inner + 1u, inner + 2u, s.reversed);
+    if (i == s.first + s.run) return lr_packed_oriented(a, s.x, b, s.reversed);
+    uint inner = up ? a : b;
+    if (r.wart + 1u == i) return lr_packed_oriented(inner - 1u, inner, inner + 1u, s.reversed);
+    uint by = r.wart == i ? 2u : 1u;
+    return lr_packed_oriented(a, up ? a + by : b - by, b, s.reversed);
 }
 
 #endif

@@ -56,7 +56,7 @@ void check_decode(gpu::Renderer& renderer, const gpu::Model& model, gpu::Source 
 /// Both streams. `blocks`, if asked for, counts the packed stream's parted and plain ones.
 void check_decode(gpu::Context& context, const Mesh& mesh, std::uint64_t max_range,
                   std::array<std::uint32_t, 2>* blocks = nullptr) {
-    const Result<gpu::Model> model = gpu::make_model(mesh, {.packed = true});
+    Result<gpu::Model> model = gpu::make_model(mesh, {.packed = true});
     if (!model || model->packed.triangle_order.empty()) return;  // nothing to draw: test_compare has that
     gpu::RendererOptions options;
     options.width = options.height = 8;
@@ -69,6 +69,11 @@ void check_decode(gpu::Context& context, const Mesh& mesh, std::uint64_t max_ran
         (*blocks)[0] += model->packed.statistics.parted_blocks;
         (*blocks)[1] += model->packed.statistics.plain_blocks;
     }
+    const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
+    REQUIRE(table);
+    const Rings optimised = optimize_rings(*table, expand_rings(*table), {.passes = 2});
+    model->packed = encode_packed(*table, optimised, PackedProfile::cache);
+    check_decode(*renderer, *model, gpu::Source::packed, max_range);
 }
 
 }  // namespace
