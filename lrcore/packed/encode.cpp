@@ -11,6 +11,7 @@
 #include "lrcore/packed/corridors.h"
 #include "lrcore/packed/packed_format.h"
 #include "lrcore/packed/packed_stream.h"
+#include "lrcore/packed/record.h"
 
 namespace lr {
 namespace {
@@ -30,9 +31,11 @@ class Encoder {
         for (std::uint32_t v = 0; v < table.vertex_count; ++v) number_[corridors.vertex_order[v]] = v;
     }
 
-    PackedStream encode(PackedStream out) {
+    PackedStream encode() {
+        PackedStream out;
         const auto triangles = static_cast<std::uint32_t>(corridors_.corners.size());
-        const std::uint32_t blocks = (triangles + LR_PACKED_BLOCK - 1) / LR_PACKED_BLOCK;
+        PackedView view;
+        view.triangles = triangles;
         vertex_bits_ = std::max<std::uint32_t>(1, static_cast<std::uint32_t>(std::bit_width(table_.vertex_count - 1)));
         if (table_.vertex_count == 0) vertex_bits_ = 1;
         // The best low part of a gap is about its mean times ln 2.
@@ -40,17 +43,12 @@ class Encoder {
         gap_bits_ = static_cast<std::uint32_t>(
             std::clamp(std::lround(std::log2(std::max(gap, 1.0))), long{LR_PACKED_MIN_GAP_BITS}, 7L));
 
-        const std::uint32_t turn_words = (triangles + 31) / 32;
-        const std::uint32_t groups = (blocks + LR_PACKED_GROUP - 1) / LR_PACKED_GROUP;
-        const std::uint32_t in_last = blocks - (groups - 1) * LR_PACKED_GROUP;
-        const std::uint32_t directory_words =
-            groups == 0 ? 0 : (groups - 1) * LR_PACKED_GROUP_WORDS + 1 + (in_last + 3) / 4;
         std::vector<std::uint32_t>& words = out.words;
-        words.assign(LR_PACKED_HEADER_WORDS + turn_words + directory_words, 0);
+        words.assign(view.records_word(), 0);
         turns_ = words.data() + LR_PACKED_HEADER_WORDS;
-        std::uint32_t* directory = turns_ + turn_words;
+        std::uint32_t* directory = words.data() + view.directory_word();
         std::vector<std::uint8_t> records;
-        for (std::uint32_t block = 0; block < blocks; ++block) {
+        for (std::uint32_t block = 0; block < view.blocks(); ++block) {
             std::uint32_t* group = directory + std::size_t{block / LR_PACKED_GROUP} * LR_PACKED_GROUP_WORDS;
             const std::uint32_t member = block % LR_PACKED_GROUP;
             if (member == 0) group[0] = static_cast<std::uint32_t>(records.size());
@@ -58,9 +56,7 @@ class Encoder {
             group[1 + member / 4] |= length << (8 * (member % 4));
         }
         words.resize(words.size() + (records.size() + 3) / 4 + LR_PACKED_TAIL_WORDS, 0);
-        std::copy(
-            records.begin(), records.end(),
-            reinterpret_cast<std::uint8_t*>(words.data() + LR_PACKED_HEADER_WORDS + turn_words + directory_words));
+        std::copy(records.begin(), records.end(), reinterpret_cast<std::uint8_t*>(words.data() + view.records_word()));
 
         words[LR_PACKED_WORD_MAGIC] = LR_PACKED_MAGIC;
         words[LR_PACKED_WORD_VERSION] = LR_PACKED_VERSION;
@@ -100,7 +96,7 @@ class Encoder {
             return static_cast<std::uint32_t>(whole.size());
         }
         const std::size_t begin = records.size();
-        std::size_t plain = (std::size_t{3} * (end - first) * vertex_bits_ + 7) / 8;
+        const std::uint32_t plain = block_bytes(LR_PACKED_PLAIN, end - first, vertex_bits_);
         statistics = before;
         records.resize(begin + LR_PACKED_PARTS);
         bool fits = true;
@@ -354,8 +350,7 @@ class Encoder {
 
 PackedStream encode_packed(const CornerTable& table, const Rings& rings, PackedProfile profile) {
     Corridors corridors = profile == PackedProfile::small ? walk_corridors(table, rings) : walk_pieces(table, rings);
-    PackedStream out;
-    out = Encoder(table, corridors).encode(std::move(out));
+    PackedStream out = Encoder(table, corridors).encode();
     out.statistics.ring_vertices = corridors.ring_vertices;
     for (const CornerId c : corridors.corners) out.triangle_order.push_back(triangle(c).value);
     out.vertex_order = std::move(corridors.vertex_order);

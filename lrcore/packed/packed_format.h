@@ -2,9 +2,8 @@
 //
 // A stream is LR_PACKED_HEADER_WORDS header words, and then, all little-endian u32:
 //     turn bits    one bit a triangle, LR_PACKED_BLOCK_WORDS words a block, the last block's cut short
-//     directory    for each group of LR_PACKED_GROUP blocks: the byte at which its records begin, and the length in
-//     bytes
-//                  of each record, four to a word
+//     directory    for each group of LR_PACKED_GROUP blocks: the byte at which its records begin, and the length of each
+//                  record in bytes, four to a word
 //     records      one for each block, of whole bytes, the first bit lowest; zeros up to a whole word at the end
 //     tail         LR_PACKED_TAIL_WORDS zeros, so that a reader may load eight bytes anywhere in a record
 #ifndef LACEDRING_PACKED_FORMAT_H

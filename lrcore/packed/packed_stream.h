@@ -19,7 +19,6 @@ namespace lr {
 
 struct PackedStatistics {
     std::uint32_t ring_vertices = 0;
-    std::uint32_t isolated = 0;        ///< vertices used by triangles, but on no ring
     std::uint32_t events[8] = {};      ///< by code (packed_format.h)
     std::uint64_t event_bits[8] = {};  ///< with their gaps
     std::uint32_t parted_blocks = 0;   ///< whose events are too many for one record
@@ -84,8 +83,7 @@ void decode_packed(const PackedView& view, std::span<std::uint32_t> indices, uns
 /// Expands one block: triangles [256 * block, ...), 3 * 256 entries or what the last block has.
 void decode_packed_block(const PackedView& view, std::uint32_t block, std::span<std::uint32_t> indices);
 
-/// One triangle. Reads at most 8 words of turn bits, 5 of the directory and 41 of the block's record, beside the
-/// header.
+/// One triangle. Reads at most 8 words of turn bits, 5 of the directory and 43 of the record, beside the header.
 struct PackedTriangle {
     std::uint32_t v[3];
 };
