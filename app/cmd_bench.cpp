@@ -122,13 +122,14 @@ int run(const Options& options) {
         decode.candidates.push_back({"lean", [&] { decode_lean(*view, indices); }, {}, {}});
         decode.candidates.push_back({"copy", [&] { std::copy(indices.begin(), indices.end(), copy.begin()); }, {}, {}});
         const Rings optimised = optimize_rings(*table, rings, optimize);
-        const PackedStream small = encode_packed(*table, optimised),
-                           cache = encode_packed(*table, optimised, PackedProfile::cache);
-        const Result<PackedView> packed = view_packed(small.words), packed_cache = view_packed(cache.words);
+        const Result<PackedStream> small = encode_packed(*table, optimised),
+                                   cache = encode_packed(*table, optimised, PackedProfile::cache);
+        if (!small || !cache) return fail(path, small ? cache.error() : small.error());
+        const Result<PackedView> packed = view_packed(small->words), packed_cache = view_packed(cache->words);
         if (!packed || !packed_cache) return fail(path, packed ? packed_cache.error() : packed.error());
         std::vector<std::uint32_t> unpacked(std::size_t{3} * packed->triangles), decoded(unpacked.size());
         std::vector<std::uint32_t> proper;  // the rival takes no degenerate triangles
-        for (const std::uint32_t t : small.triangle_order) {
+        for (const std::uint32_t t : small->triangle_order) {
             for (std::size_t k = 0; k < 3; ++k) proper.push_back(mesh->indices[std::size_t{3} * t + k]);
         }
         const CodedIndices codec = encode_meshopt_indices(proper, mesh->vertex_count);

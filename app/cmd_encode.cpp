@@ -33,10 +33,11 @@ Result<LrFile> encode(const Options& options, const Mesh& mesh, CornerTable tabl
                             std::move(lean.slot_triangle), options.keep_order);
     }
     if (options.format == "packed") {
-        PackedStream packed =
+        Result<PackedChoice> choice =
             encode_smallest_packed(table, ring, optimize_options(options.ring, packed_ring_cost),
-                                   options.profile == "cache" ? PackedProfile::cache : PackedProfile::small)
-                .stream;
+                                   options.profile == "cache" ? PackedProfile::cache : PackedProfile::small);
+        if (!choice) return choice.error();
+        PackedStream& packed = choice->stream;
         return make_lr_file(mesh, Connectivity::packed, std::move(packed.words), std::move(packed.vertex_order),
                             std::move(packed.triangle_order), options.keep_order);
     }

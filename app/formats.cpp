@@ -101,14 +101,17 @@ Format packed_format(const char* name, std::uint32_t k, std::uint32_t passes, Pa
     return format;
 }
 
-void add_packed(FormatSet& set, const CornerTable& table, const RingChoice& choice, bool paper) {
+Result<void> add_packed(FormatSet& set, const CornerTable& table, const RingChoice& choice, bool paper) {
     OptimizeOptions optimize = optimize_options(choice, packed_ring_cost);
     if (paper) optimize.passes = 0;
-    PackedChoice small = encode_smallest_packed(table, set.ring, optimize, PackedProfile::small);
-    set.packed = small.stream.statistics;
-    set.formats.push_back(packed_format("packed", set.ring.k, small.passes, std::move(small.stream)));
-    PackedChoice cache = encode_smallest_packed(table, set.ring, optimize, PackedProfile::cache);
-    set.formats.push_back(packed_format("packed_cache", set.ring.k, cache.passes, std::move(cache.stream)));
+    Result<PackedChoice> small = encode_smallest_packed(table, set.ring, optimize, PackedProfile::small);
+    if (!small) return small.error();
+    set.packed = small->stream.statistics;
+    set.formats.push_back(packed_format("packed", set.ring.k, small->passes, std::move(small->stream)));
+    Result<PackedChoice> cache = encode_smallest_packed(table, set.ring, optimize, PackedProfile::cache);
+    if (!cache) return cache.error();
+    set.formats.push_back(packed_format("packed_cache", set.ring.k, cache->passes, std::move(cache->stream)));
+    return {};
 }
 
 /// The formats of meshoptimizer that are no index buffers.
@@ -234,7 +237,7 @@ Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool 
     } else {
         set.absent.emplace_back("lr_compact", compact.error().message);
     }
-    add_packed(set, *table, choice, paper);
+    if (const Result<void> added = add_packed(set, *table, choice, paper); !added) return added.error();
     add_codecs(set, mesh, triangles);
     add_rivals(set, std::move(*table), mesh.vertex_count);
     return set;

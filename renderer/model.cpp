@@ -76,7 +76,9 @@ Result<Model> make_model(const Mesh& mesh, const ModelOptions& options) {
     LR_ASSIGN(const CornerTable table, build_corner_table(mesh.indices, mesh.vertex_count));
     const Rings rings = expand_rings(table, options.ring);
     model.lean = encode_lean(table, rings, options.lean);
-    if (options.packed) model.packed = encode_packed(table, rings);
+    if (options.packed) {
+        LR_ASSIGN(model.packed, encode_packed(table, rings));
+    }
     return model;
 }
 

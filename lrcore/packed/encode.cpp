@@ -31,7 +31,7 @@ class Encoder {
         for (std::uint32_t v = 0; v < table.vertex_count; ++v) number_[corridors.vertex_order[v]] = v;
     }
 
-    PackedStream encode() {
+    Result<PackedStream> encode() {
         PackedStream out;
         const auto triangles = static_cast<std::uint32_t>(corridors_.corners.size());
         PackedView view;
@@ -54,6 +54,7 @@ class Encoder {
             if (member == 0) group[0] = static_cast<std::uint32_t>(records.size());
             const std::uint32_t length = write_block(block * LR_PACKED_BLOCK, triangles, records, out.statistics);
             group[1 + member / 4] |= length << (8 * (member % 4));
+            if (records.size() > UINT32_MAX) return Error{ErrorCode::too_large, "packed stream: records of 4 GiB"};
         }
         words.resize(words.size() + (records.size() + 3) / 4 + LR_PACKED_TAIL_WORDS, 0);
         std::copy(records.begin(), records.end(), reinterpret_cast<std::uint8_t*>(words.data() + view.records_word()));
@@ -348,22 +349,27 @@ class Encoder {
 
 }  // namespace
 
-PackedStream encode_packed(const CornerTable& table, const Rings& rings, PackedProfile profile) {
+Result<PackedStream> encode_packed(const CornerTable& table, const Rings& rings, PackedProfile profile) {
     Corridors corridors = profile == PackedProfile::small ? walk_corridors(table, rings) : walk_pieces(table, rings);
-    PackedStream out = Encoder(table, corridors).encode();
+    Result<PackedStream> encoded = Encoder(table, corridors).encode();
+    if (!encoded) return encoded;
+    PackedStream& out = *encoded;
     out.statistics.ring_vertices = corridors.ring_vertices;
     for (const CornerId c : corridors.corners) out.triangle_order.push_back(triangle(c).value);
     out.vertex_order = std::move(corridors.vertex_order);
-    return out;
+    return encoded;
 }
 
-PackedChoice encode_smallest_packed(const CornerTable& table, const RingOptions& ring, const OptimizeOptions& optimize,
+Result<PackedChoice> encode_smallest_packed(const CornerTable& table, const RingOptions& ring, const OptimizeOptions& optimize,
                                     PackedProfile profile) {
     Rings rings = expand_rings(table, ring);
-    PackedChoice out{encode_packed(table, rings, profile), 0};
+    Result<PackedStream> plain = encode_packed(table, rings, profile);
+    if (!plain) return plain.error();
+    PackedChoice out{std::move(*plain), 0};
     if (optimize.passes == 0) return out;
-    PackedStream optimised = encode_packed(table, optimize_rings(table, std::move(rings), optimize), profile);
-    if (optimised.words.size() < out.stream.words.size()) out = {std::move(optimised), optimize.passes};
+    Result<PackedStream> optimised = encode_packed(table, optimize_rings(table, std::move(rings), optimize), profile);
+    if (!optimised) return optimised.error();
+    if (optimised->words.size() < out.stream.words.size()) out = {std::move(*optimised), optimize.passes};
     return out;
 }
 

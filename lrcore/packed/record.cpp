@@ -189,15 +189,21 @@ class Expander {
             return true;
         }
         depth_ = 0;
-        code_ == LR_PACKED_BESIDE ? beside() : start();
+        if (code_ == LR_PACKED_BESIDE) {
+            if (!beside()) return false;
+        } else {
+            start();
+        }
         now_ = begun_;
         begun_reversed_ = reversed_;
         return true;
     }
 
-    void beside() {
+    /// False for a step that leads past all vertices: readers with fewer bits at hand need not take it.
+    bool beside() {
         if (bits_.take(1) != 0) reversed_ = !reversed_;
         const std::uint32_t from = bits_.take(2), folded = bits_.golomb(LR_PACKED_BESIDE_ORDER);
+        if (folded >> 30 != 0) return false;
         const std::uint32_t step = (folded & 1) != 0 ? ~(folded >> 1) : folded >> 1, other = bits_.take(width_);
         switch (from) {
             case LR_PACKED_BESIDE_NOW_B:
@@ -212,6 +218,7 @@ class Expander {
             default:
                 begun_ = {other, begun_.b + step};
         }
+        return true;
     }
 
     void start() {

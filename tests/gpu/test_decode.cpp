@@ -72,7 +72,7 @@ void check_decode(gpu::Context& context, const Mesh& mesh, std::uint64_t max_ran
     const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
     REQUIRE(table);
     const Rings optimised = optimize_rings(*table, expand_rings(*table), {.passes = 2});
-    model->packed = encode_packed(*table, optimised, PackedProfile::cache);
+    model->packed = encode_packed(*table, optimised, PackedProfile::cache).value();
     check_decode(*renderer, *model, gpu::Source::packed, max_range);
 }
 

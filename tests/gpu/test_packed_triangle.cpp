@@ -52,7 +52,9 @@ struct RandomAccess : GpuTest {
     void check(const Mesh& mesh) {
         const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
         REQUIRE(table);
-        const PackedStream stream = encode_packed(*table, expand_rings(*table));
+        const Result<PackedStream> encoded = encode_packed(*table, expand_rings(*table));
+        REQUIRE(encoded);
+        const PackedStream& stream = *encoded;
         const Result<PackedView> view = validate_packed(stream.words);
         REQUIRE(view);
         if (view->triangles == 0) return;

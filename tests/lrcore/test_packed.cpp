@@ -30,7 +30,9 @@ PackedStream check(const Mesh& mesh, const RingOptions& ring, PackedProfile prof
     REQUIRE(table);
     const Rings rings =
         optimize_rings(*table, expand_rings(*table, ring), {.cost = packed_ring_cost, .passes = passes});
-    PackedStream stream = encode_packed(*table, rings, profile);
+    Result<PackedStream> encoded = encode_packed(*table, rings, profile);
+    REQUIRE(encoded);
+    PackedStream& stream = *encoded;
 
     // The stream alone, in a buffer of exactly its size, so that a sanitizer sees any read beyond it.
     const auto exact = std::make_unique<std::uint32_t[]>(stream.words.size());
@@ -71,7 +73,7 @@ PackedStream check(const Mesh& mesh, const RingOptions& ring, PackedProfile prof
     }
     for (std::uint32_t& v : threaded) v = stream.vertex_order[v];
     CHECK(test::oriented_triangles(threaded) == test::oriented_triangles(mesh.indices));
-    return stream;
+    return std::move(*encoded);
 }
 
 /// Decodes every triangle from a copy of the stream in which all is poison but what its block needs.
@@ -168,9 +170,10 @@ TEST_CASE("damaged packed streams are refused or harmless") {
         const Mesh mesh = test::random_gluing(60, 80 + 30 * static_cast<std::uint32_t>(shape), shape);
         const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
         REQUIRE(table);
-        const std::vector<std::uint32_t> good =
-            encode_packed(*table, expand_rings(*table), shape % 2 == 0 ? PackedProfile::small : PackedProfile::cache)
-                .words;
+        const Result<PackedStream> encoded =
+            encode_packed(*table, expand_rings(*table), shape % 2 == 0 ? PackedProfile::small : PackedProfile::cache);
+        REQUIRE(encoded);
+        const std::vector<std::uint32_t>& good = encoded->words;
         for (std::size_t size = 0; size < good.size(); ++size)
             CHECK_FALSE(validate_packed(std::span(good).first(size)));
         std::vector<std::uint32_t> longer = good;
