@@ -20,12 +20,12 @@ layout(std430, binding = 2) writeonly buffer Indices { uvec4 indices[]; };
 #define LR_BINDING_COMMANDS 3
 #include "shaders/draw_commands.glsl"
 
-#define LR_LEAN_WORD(i) words[(i) + LR_LEAN_HEADER_WORDS - push.first_word]
-#include "shaders/lean_decode.glsl"
+#define LR_LEAN_HEADER(i) header[i]
+#define LR_LEAN_SLOTS(i) words[(i) - push.first_word]
+#include "shaders/lacedring.glsl"
 
 void main() {
-    LrLeanLayout lean =
-        LrLeanLayout(header[LR_LEAN_WORD_RINGS2], header[LR_LEAN_WORD_RINGS1], header[LR_LEAN_WORD_VERBATIM]);
+    LrLeanLayout lean = lr_lean_layout();
     uint slots = lr_lean_slots(lean);
     uint invocation = gl_GlobalInvocationID.x;
     if (invocation == 0u) write_commands(push.draws, push.draw_slots, slots);

@@ -62,7 +62,7 @@ uint ups_before(uint first, uint i) {
 #define LR_PACKED_RECORDS(i) records[min((i) - push.records, uint(records.length()) - 1u)]
 #define LR_PACKED_UPS(first, i) ups_before(first, i)
 #define LR_PACKED_SEE_WART(r, i) warts[table_word(r.first, i)] |= 1u << ((i) & 31u)
-#include "shaders/packed_decode.glsl"
+#include "shaders/lacedring.glsl"
 
 // The tables of block k of the workgroup, whose first triangle is `first`.
 void read_block(LrPackedLayout p, uint k, uint first) {

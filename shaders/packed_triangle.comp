@@ -7,7 +7,7 @@ layout(std430, binding = 0) readonly buffer Words { uint words[]; };
 layout(std430, binding = 1) writeonly buffer Indices { uint indices[]; };
 
 #define LR_PACKED_WORD(i) words[i]
-#include "shaders/packed_decode.glsl"
+#include "shaders/lacedring.glsl"
 
 void main() {
     LrPackedLayout p = lr_packed_layout();

@@ -1,16 +1,166 @@
-// Random access to the packed stream: any triangle of a block; or a block in steps, event by event.
-// Format: lrcore/packed/packed_format.h, the only other file that an engine needs with this one; docs/packed-format.md.
+// LacedRing in one file: any triangle of a lean or a packed stream, in any shader stage. Take this file alone.
 //
-// Before including it, say where the stream's words are:
+// Say where the stream's words are, include it, ask:
+//     layout(std430, binding = 0) readonly buffer Stream { uint words[]; };  // or a buffer reference
+//     #define LR_LEAN_WORD(i) words[i]
+//     #include "lacedring.glsl"
+//     ...
+//     uvec3 v = lr_lean_triangle(lr_lean_layout(), slot);  // slot < lr_lean_slots(lr_lean_layout())
+// Of a packed stream:
 //     #define LR_PACKED_WORD(i) words[i]
-// (or, of a stream that no one descriptor covers, LR_PACKED_HEADER, LR_PACKED_TURNS, LR_PACKED_DIRECTORY and
-// LR_PACKED_RECORDS, all with i counted from the stream's first word). Then, for triangle in [0, triangles):
-//     uvec3 indices = lr_packed_triangle(lr_packed_layout(), triangle);
-// The stream must be valid (lr::validate_packed). On any other every loop still ends.
-#ifndef LACEDRING_PACKED_DECODE_GLSL
-#define LACEDRING_PACKED_DECODE_GLSL
+//     uvec3 v = lr_packed_triangle(lr_packed_layout(), t);  // t < lr_packed_layout().triangles
+// v are vertices in the stream's order (its vertex_order). A lean triangle whose first two are equal is degenerate: it
+// covers nothing, draw it or skip it. A stream must be valid (lr::validate_lean, lr::validate_packed); on any other, every
+// loop still ends. docs/engine-guide.md has an example of every stage.
+//
+// The constants are those of lrcore/lean/lean_format.h and lrcore/packed/packed_format.h, which say what they mean. A C++
+// file may include this one behind them: the compiler then checks that they are the same.
+#ifndef LACEDRING_GLSL
+#define LACEDRING_GLSL
 
-#include "lrcore/packed/packed_format.h"
+#define LR_LEAN_MAGIC 0x4e4c524cu
+#define LR_LEAN_VERSION 1u
+#define LR_LEAN_HEADER_WORDS 8u
+#define LR_LEAN_WORD_MAGIC 0u
+#define LR_LEAN_WORD_VERSION 1u
+#define LR_LEAN_WORD_VERTICES 2u
+#define LR_LEAN_WORD_RINGS2 3u
+#define LR_LEAN_WORD_RINGS1 4u
+#define LR_LEAN_WORD_VERBATIM 5u
+#define LR_LEAN_WORD_TRIANGLES 6u
+#define LR_LEAN_WORD_CHECKSUM 7u
+#define LR_LEAN_TIP_MASK 0x1fffffffu
+#define LR_LEAN_WART_FLAG 0x80000000u
+#define LR_LEAN_CLOSE_FLAG 0x40000000u
+#define LR_LEAN_FLIP_FLAG 0x20000000u
+
+#define LR_PACKED_MAGIC 0x4b50524cu
+#define LR_PACKED_VERSION 1u
+#define LR_PACKED_HEADER_WORDS 8u
+#define LR_PACKED_WORD_MAGIC 0u
+#define LR_PACKED_WORD_VERSION 1u
+#define LR_PACKED_WORD_VERTICES 2u
+#define LR_PACKED_WORD_TRIANGLES 3u
+#define LR_PACKED_WORD_RECORD_BYTES 4u
+#define LR_PACKED_WORD_WIDTHS 5u
+#define LR_PACKED_WORD_RESERVED 6u
+#define LR_PACKED_WORD_CHECKSUM 7u
+#define LR_PACKED_BLOCK 256u
+#define LR_PACKED_BLOCK_WORDS 8u
+#define LR_PACKED_TAIL_WORDS 2u
+#define LR_PACKED_MIN_GAP_BITS 3u
+#define LR_PACKED_GROUP 16u
+#define LR_PACKED_GROUP_WORDS 5u
+#define LR_PACKED_MAX_RECORD 160u
+#define LR_PACKED_PLAIN 255u
+#define LR_PACKED_PARTS 4u
+#define LR_PACKED_PART 64u
+#define LR_PACKED_PART_WORDS 2u
+#define LR_PACKED_STACK 16u
+#define LR_PACKED_WART 0u
+#define LR_PACKED_SPLIT 1u
+#define LR_PACKED_BESIDE 2u
+#define LR_PACKED_START 3u
+#define LR_PACKED_FAR 4u
+#define LR_PACKED_JUMP 5u
+#define LR_PACKED_END 6u
+#define LR_PACKED_TURN 7u
+#define LR_PACKED_START_OTHER 0u
+#define LR_PACKED_START_NEXT 1u
+#define LR_PACKED_START_NEAR 2u
+#define LR_PACKED_START_ANY 3u
+#define LR_PACKED_BESIDE_NOW_B 0u
+#define LR_PACKED_BESIDE_NOW_A 1u
+#define LR_PACKED_BESIDE_BEGUN_A 2u
+#define LR_PACKED_BESIDE_BEGUN_B 3u
+#define LR_PACKED_SPLIT_ORDER 2u
+#define LR_PACKED_JUMP_ORDER 1u
+#define LR_PACKED_SIZE_ORDER 2u
+#define LR_PACKED_BESIDE_ORDER 1u
+
+#ifndef __cplusplus
+
+// Lean: random access in constant time, at most four words read. Paper: LR 2011, section 7. A shader that has header and
+// slots in different places says LR_LEAN_HEADER(i) and LR_LEAN_SLOTS(i), both with i counted from the stream's first word.
+
+#ifdef LR_LEAN_WORD
+#define LR_LEAN_HEADER(i) LR_LEAN_WORD(i)
+#define LR_LEAN_SLOTS(i) LR_LEAN_WORD(i)
+#endif
+
+struct LrLeanLayout {
+    uint rings2;
+    uint rings1;
+    uint verbatim;
+};
+
+#ifdef LR_LEAN_HEADER
+LrLeanLayout lr_lean_layout() {
+    return LrLeanLayout(LR_LEAN_HEADER(LR_LEAN_WORD_RINGS2), LR_LEAN_HEADER(LR_LEAN_WORD_RINGS1),
+                        LR_LEAN_HEADER(LR_LEAN_WORD_VERBATIM));
+}
+#endif
+
+uint lr_lean_slots(LrLeanLayout lean) { return 2u * lean.rings2 + lean.rings1 + lean.verbatim; }
+
+// v.n of vertex v of a two-sided ring, whose left and right words these are.
+uint lr_lean_next(uint v, uint left, uint right) {
+    if ((left & LR_LEAN_CLOSE_FLAG) != 0u) return left & LR_LEAN_TIP_MASK;
+    if ((right & LR_LEAN_CLOSE_FLAG) != 0u) return right & LR_LEAN_TIP_MASK;
+    return v + 1u;
+}
+
+// v.n of vertex v of a one-sided ring.
+uint lr_lean_next(uint v, uint word) {
+    return (word & LR_LEAN_CLOSE_FLAG) != 0u ? word & LR_LEAN_TIP_MASK : v + 1u;
+}
+
+// The triangle of a ring slot: `word` is the slot's, next = v.n, skip = v.n.n (looked at for a wart only). A free slot's
+// tip is one of its edge's own vertices, and so is a right closing slot's: the triangle comes out degenerate by itself.
+uvec3 lr_lean_ring_triangle(uint word, uint v, uint next, uint skip, bool right) {
+    bool closes = (word & LR_LEAN_CLOSE_FLAG) != 0u;
+    uint tip = closes && !right ? v : word & LR_LEAN_TIP_MASK;
+    uint end = (word & LR_LEAN_WART_FLAG) != 0u ? skip : next;
+    bool flip = (word & LR_LEAN_FLIP_FLAG) != 0u;
+    return right != flip ? uvec3(end, tip, v) : uvec3(v, tip, end);
+}
+
+#ifdef LR_LEAN_SLOTS
+uint lr_lean_word(uint i) { return LR_LEAN_SLOTS(LR_LEAN_HEADER_WORDS + i); }
+
+uvec3 lr_lean_triangle(LrLeanLayout lean, uint slot) {
+    uint two_sided = 2u * lean.rings2;
+    uint ring_slots = two_sided + lean.rings1;
+    if (slot >= ring_slots) {
+        uint i = ring_slots + 3u * (slot - ring_slots);
+        return uvec3(lr_lean_word(i), lr_lean_word(i + 1u), lr_lean_word(i + 2u));
+    }
+    // v.n.n needs no third look: behind a closing edge comes the ring's first edge, which never closes.
+    if (slot < two_sided) {
+        uint v = slot >> 1;
+        uint left = lr_lean_word(2u * v);
+        uint right = lr_lean_word(2u * v + 1u);
+        bool is_right = (slot & 1u) != 0u;
+        uint word = is_right ? right : left;
+        uint next = lr_lean_next(v, left, right);
+        uint skip = next + 1u;
+        if ((word & LR_LEAN_WART_FLAG) != 0u && next == v + 1u) {
+            skip = lr_lean_next(next, lr_lean_word(2u * next), lr_lean_word(2u * next + 1u));
+        }
+        return lr_lean_ring_triangle(word, v, next, skip, is_right);
+    }
+    uint v = slot - lean.rings2;
+    uint word = lr_lean_word(slot);
+    uint next = lr_lean_next(v, word);
+    uint skip = next + 1u;
+    if ((word & LR_LEAN_WART_FLAG) != 0u && next == v + 1u) skip = lr_lean_next(next, lr_lean_word(slot + 1u));
+    return lr_lean_ring_triangle(word, v, next, skip, false);
+}
+#endif
+
+// Packed: any triangle of a block, or a block in steps, event by event (as shaders/packed_decode.comp does). A stream
+// that no one descriptor covers has LR_PACKED_HEADER, LR_PACKED_TURNS, LR_PACKED_DIRECTORY and LR_PACKED_RECORDS instead
+// of LR_PACKED_WORD, all with i counted from the stream's first word. A shader without any of them has no packed part.
 
 #ifdef LR_PACKED_WORD
 #define LR_PACKED_HEADER(i) LR_PACKED_WORD(i)
@@ -18,6 +168,7 @@
 #define LR_PACKED_DIRECTORY(i) LR_PACKED_WORD(i)
 #define LR_PACKED_RECORDS(i) LR_PACKED_WORD(i)
 #endif
+#ifdef LR_PACKED_HEADER
 
 struct LrPackedLayout {
     uint triangles;
@@ -334,4 +485,6 @@ uvec3 lr_packed_triangle(LrPackedLayout p, uint triangle) {
     return lr_packed_oriented(a, up ? a + by : b - by, b, s.reversed);
 }
 
-#endif
+#endif  // LR_PACKED_HEADER
+#endif  // __cplusplus
+#endif  // LACEDRING_GLSL
