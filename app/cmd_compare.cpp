@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <span>
+#include <vector>
 
 #include "app/commands.h"
 #include "app/gpu_options.h"
@@ -19,19 +20,27 @@ namespace {
 struct Options {
     MeshInput input;
     std::string diff;
+    std::set<std::string> paths;  ///< empty: all
     PictureSize size;
     gpu::ContextOptions context;
     bool json = false;
 };
 
 struct Compared {
-    const char* name;
-    gpu::Source source;
+    const char* source;
+    const char* path;
+    gpu::Subject subject;
     gpu::Comparison comparison;
 };
 
+/// A path that was not tried, and why.
+struct Skipped {
+    const char* path;
+    std::string reason;
+};
+
 nlohmann::ordered_json to_json(const Options& options, const gpu::DeviceInfo& info, std::span<const Compared> all,
-                               std::size_t messages, const std::string& diff) {
+                               std::span<const Skipped> skipped, std::size_t messages, const std::string& diff) {
     nlohmann::ordered_json out = {{"schema", 1},
                                   {"file", options.input.path},
                                   {"device", {{"name", info.name}, {"driver", info.driver}, {"api", info.api}}},
@@ -40,8 +49,8 @@ nlohmann::ordered_json to_json(const Options& options, const gpu::DeviceInfo& in
     out["results"] = nlohmann::ordered_json::array();
     for (const Compared& compared : all) {
         const gpu::Comparison& c = compared.comparison;
-        out["results"].push_back({{"source", compared.name},
-                                  {"path", "compute"},
+        out["results"].push_back({{"source", compared.source},
+                                  {"path", compared.path},
                                   {"pixels_different", c.pixels_different},
                                   {"max_channel_difference", c.max_channel_difference},
                                   {"triangle_ids_different", c.triangle_ids_different},
@@ -55,9 +64,7 @@ nlohmann::ordered_json to_json(const Options& options, const gpu::DeviceInfo& in
                                   {"validation_messages", messages}});
     }
     out["skipped"] = nlohmann::ordered_json::array();
-    for (const char* path : {"geometry", "pull", "mesh"}) {
-        out["skipped"].push_back({{"path", path}, {"reason", "not built yet"}});
-    }
+    for (const Skipped& s : skipped) out["skipped"].push_back({{"path", s.path}, {"reason", s.reason}});
     if (!diff.empty()) out["diff"] = diff;
     return out;
 }
@@ -67,10 +74,12 @@ void print_table(const Options& options, const gpu::DeviceInfo& info, std::span<
     fmt::print("{}: plain against streams, {} views of {}x{} on {}\n", options.input.path, all[0].comparison.views,
                options.size.width, options.size.height, info.name);
     fmt::print("  {:<40}", "");
-    for (const Compared& compared : all) fmt::print("{:>12}", compared.name);
+    for (const Compared& compared : all) fmt::print("{:>10}", compared.source);
+    fmt::print("\n  {:<40}", "");
+    for (const Compared& compared : all) fmt::print("{:>10}", compared.path);
     const auto row = [&](const char* what, const auto& value) {
         fmt::print("\n  {:<40}", what);
-        for (const Compared& compared : all) fmt::print("{:>12}", value(compared.comparison));
+        for (const Compared& compared : all) fmt::print("{:>10}", value(compared.comparison));
     };
     row("pixels that differ", [](const gpu::Comparison& c) { return c.pixels_different; });
     row("largest difference, of 255", [](const gpu::Comparison& c) { return c.max_channel_difference; });
@@ -86,7 +95,7 @@ void print_table(const Options& options, const gpu::DeviceInfo& info, std::span<
     row("pixels covered",
         [](const gpu::Comparison& c) { return fmt::format("{}{}", c.blank ? "BLANK " : "", c.covered_pixels); });
     row("triangles seen", [](const gpu::Comparison& c) { return c.distinct_ids; });
-    if (options.context.validation) fmt::print("\n  {:<40}{:>12}", "validation messages", messages);
+    if (options.context.validation) fmt::print("\n  {:<40}{:>10}", "validation messages", messages);
     fmt::print("\n");
 }
 
@@ -97,23 +106,36 @@ int run(const Options& options) {
     if (!model) return fail(options.input.path, model.error());
     const Result<std::unique_ptr<gpu::Context>> context = gpu::Context::create(options.context);
     if (!context) return fail(options.input.path, context.error());
-    std::array<Compared, 2> all{{{"lean", gpu::Source::lean, {}}, {"packed", gpu::Source::packed, {}}}};
-    for (Compared& compared : all) {
-        gpu::CompareOptions compare_options;
-        compare_options.source = compared.source;
-        compare_options.width = options.size.width;
-        compare_options.height = options.size.height;
-        Result<gpu::Comparison> comparison = gpu::compare(**context, *model, compare_options);
-        if (!comparison) {
-            print_validation(**context);
-            return fail(options.input.path, comparison.error());
+    std::vector<Compared> all;
+    std::vector<Skipped> skipped;
+    for (const auto& [path_name, path] : gpu::kPaths) {
+        if (path == gpu::Path::mesh && (*context)->info().max_mesh_groups == 0) {
+            skipped.push_back({path_name, "the device has no mesh shaders (VK_EXT_mesh_shader)"});
+            continue;
         }
-        compared.comparison = std::move(*comparison);
+        if (!options.paths.empty() && !options.paths.contains(path_name)) {
+            skipped.push_back({path_name, "--path"});
+            continue;
+        }
+        all.push_back({"lean", path_name, {gpu::Source::lean, path}, {}});
+        all.push_back({"packed", path_name, {gpu::Source::packed, path}, {}});
     }
+    if (all.empty()) return fail(options.input.path, Error{ErrorCode::no_device, skipped.back().reason});
+    gpu::CompareOptions compare_options;
+    compare_options.width = options.size.width;
+    compare_options.height = options.size.height;
+    std::vector<gpu::Subject> subjects;
+    for (const Compared& compared : all) subjects.push_back(compared.subject);
+    Result<std::vector<gpu::Comparison>> comparisons = gpu::compare(**context, *model, subjects, compare_options);
+    if (!comparisons) {
+        print_validation(**context);
+        return fail(options.input.path, comparisons.error());
+    }
+    for (std::size_t i = 0; i < all.size(); ++i) all[i].comparison = std::move((*comparisons)[i]);
     const std::size_t messages = print_validation(**context);
 
     // Where anything differs there is always a picture of it; beside the working folder's files, named after the mesh.
-    const auto* other =
+    const auto other =
         std::find_if(all.begin(), all.end(), [](const Compared& compared) { return !compared.comparison.same(); });
     const bool same = other == all.end();
     std::string diff = options.diff;
@@ -126,9 +148,10 @@ int run(const Options& options) {
     }
     const bool passed = same && messages == 0;
     if (options.json) {
-        print_json(to_json(options, (*context)->info(), all, messages, diff));
+        print_json(to_json(options, (*context)->info(), all, skipped, messages, diff));
     } else {
         print_table(options, (*context)->info(), all, messages);
+        for (const Skipped& s : skipped) fmt::print("  {} not compared: {}\n", s.path, s.reason);
         if (!diff.empty()) fmt::print("  differences drawn in {}\n", diff);
         fmt::print("{}\n", passed ? "the same pictures" : "DIFFERENT");
     }
@@ -144,6 +167,9 @@ void add_compare(CLI::App& program, Action& action) {
     command->add_option("MESH", options->input.path, "mesh file")->required();
     add_weld(*command, options->input.weld);
     add_size(*command, options->size);
+    command->add_option("--path", options->paths, "compute, pull, geometry or mesh, with commas; all of them unless told")
+        ->delimiter(',')
+        ->check(CLI::IsMember(std::set<std::string>{"compute", "pull", "geometry", "mesh"}));
     command->add_option("--diff", options->diff, "write a picture of the differences, even if there are none")
         ->type_name("FILE.png");
     add_device_options(*command, options->context);

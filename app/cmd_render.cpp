@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <memory>
@@ -112,7 +113,9 @@ int run(const Options& options) {
         const gpu::Source source = options.source == "plain"    ? gpu::Source::plain
                                    : options.source == "packed" ? gpu::Source::packed
                                                                 : gpu::Source::lean;
-        Result<gpu::Drawable> drawable = renderer->upload(*model, source);
+        const auto* path = std::find_if(gpu::kPaths.begin(), gpu::kPaths.end(),
+                                        [&](const gpu::NamedPath& named) { return options.path == named.name; });
+        Result<gpu::Drawable> drawable = renderer->upload(*model, source, path->path);
         if (!drawable) return drawable.error();
         const Result<gpu::Camera> camera =
             gpu::make_camera(*model, options.camera, renderer_options.width, renderer_options.height);
@@ -163,7 +166,7 @@ void add_render(CLI::App& program, Action& action) {
         ->check(CLI::IsMember({"plain", "lean", "packed"}))
         ->capture_default_str();
     command->add_option("--path", options->path, "how the device expands the source")
-        ->check(CLI::IsMember({"compute"}))
+        ->check(CLI::IsMember({"compute", "pull", "geometry", "mesh"}))
         ->capture_default_str();
     command->add_option("--view", options->view, "what is shown")
         ->check(CLI::IsMember({"smooth", "flat", "class", "ring", "wire", "offsets"}))

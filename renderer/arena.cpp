@@ -68,8 +68,12 @@ bool Arena::carve(std::uint32_t index, const VkMemoryRequirements& requirements,
 }
 
 Result<std::uint32_t> Arena::add_block(std::uint32_t type, VkDeviceSize size, Tiling tiling) {
+    VkMemoryAllocateFlagsInfo flags{};
+    flags.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO;
+    flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
     VkMemoryAllocateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+    if (tiling == Tiling::buffer) info.pNext = &flags;
     info.allocationSize = size;
     info.memoryTypeIndex = type;
     Block block;

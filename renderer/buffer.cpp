@@ -37,6 +37,12 @@ Result<Buffer> Buffer::create(Context& context, const std::string& name, VkDevic
     out.allocation_ = *allocation;
     LR_TRY_VK(vkBindBufferMemory(context.device(), buffer, allocation->memory, allocation->offset));
     context.name(VK_OBJECT_TYPE_BUFFER, buffer, name);
+    if ((usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) != 0) {
+        VkBufferDeviceAddressInfo address{};
+        address.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO;
+        address.buffer = buffer;
+        out.address_ = vkGetBufferDeviceAddress(context.device(), &address);
+    }
     return out;
 }
 
@@ -44,6 +50,7 @@ Buffer::Buffer(Buffer&& other) noexcept
     : context_(other.context_),
       buffer_(std::exchange(other.buffer_, VK_NULL_HANDLE)),
       size_(other.size_),
+      address_(other.address_),
       allocation_(other.allocation_) {}
 
 Buffer& Buffer::operator=(Buffer&& other) noexcept {
@@ -52,6 +59,7 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
         context_ = other.context_;
         buffer_ = std::exchange(other.buffer_, VK_NULL_HANDLE);
         size_ = other.size_;
+        address_ = other.address_;
         allocation_ = other.allocation_;
     }
     return *this;

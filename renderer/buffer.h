@@ -26,6 +26,8 @@ class Buffer {
 
     VkBuffer handle() const { return buffer_; }
     VkDeviceSize size() const { return size_; }
+    /// What shaders see it at; 0 unless it was made with VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT.
+    VkDeviceAddress address() const { return address_; }
     /// The buffer's bytes; null for Memory::gpu on most devices.
     std::byte* mapped() const { return allocation_.mapped; }
     explicit operator bool() const { return buffer_ != VK_NULL_HANDLE; }
@@ -36,6 +38,7 @@ class Buffer {
     Context* context_ = nullptr;
     VkBuffer buffer_ = VK_NULL_HANDLE;
     VkDeviceSize size_ = 0;
+    VkDeviceAddress address_ = 0;
     Allocation allocation_;
 };
 

@@ -82,62 +82,93 @@ Result<bool> indices_equal_cpu(Renderer& renderer, Drawable& drawable, const Mod
     return device == host;
 }
 
+/// The mesh's own pictures, from all sides.
+struct Reference {
+    std::array<Camera, kViews> cameras;
+    std::array<Picture, kViews> raw, exact;
+    std::uint64_t covered = 0, distinct_ids = 0;
+};
+
+Result<Reference> draw_reference(Renderer& renderer, const Model& model, const CompareOptions& options) {
+    Reference out;
+    LR_ASSIGN(Drawable plain, renderer.upload(model, Source::plain));
+    for (std::uint32_t v = 0; v < kViews; ++v) {
+        CameraOptions camera;
+        camera.direction = kDirections[v];
+        LR_ASSIGN(out.cameras[v], make_camera(model, camera, options.width, options.height));
+    }
+    for (const bool exact : {false, true}) {
+        for (std::uint32_t v = 0; v < kViews; ++v) {
+            LR_ASSIGN((exact ? out.exact : out.raw)[v], renderer.draw(plain, model, out.cameras[v], exact));
+        }
+    }
+    std::vector<bool> seen(model.triangle_count());
+    for (const Picture& picture : out.exact) {
+        note_seen(seen, picture);
+        for (const std::uint32_t id : picture.triangles) out.covered += id != 0 ? 1 : 0;
+    }
+    out.distinct_ids = static_cast<std::uint64_t>(std::count(seen.begin(), seen.end(), true));
+    return out;
+}
+
+Result<Comparison> compare_one(Renderer& renderer, const Model& model, const CompareOptions& options,
+                               const Reference& reference, const Subject& subject) {
+    LR_ASSIGN(Drawable stream, renderer.upload(model, subject.source, subject.path));
+    Comparison out;
+    out.views = kViews;
+    out.covered_pixels = reference.covered;
+    out.distinct_ids = reference.distinct_ids;
+    const bool same_rasterizing = subject.path == Path::compute || subject.path == Path::pull;
+    out.tolerated = same_rasterizing ? 0 : reference.covered / 10000;
+    std::array<Marks, kViews> marks;
+    for (std::uint32_t v = 0; v < kViews; ++v) {
+        // The first picture of the stream decodes it, in the same submission.
+        LR_ASSIGN(const Picture picture, renderer.draw(stream, model, reference.cameras[v], false));
+        const Difference d = difference(reference.raw[v], picture);
+        out.raw_pixels_different += d.pixels;
+        out.raw_pixels_beyond_one += d.beyond_one;
+        out.raw_max_channel_difference = std::max(out.raw_max_channel_difference, d.channel);
+        marks[v].assign(picture.pixels(), 0);
+        mark(marks[v], reference.raw[v], picture, 2);
+    }
+    LR_ASSIGN(out.indices_equal_cpu, indices_equal_cpu(renderer, stream, model));
+
+    out.picture.width = kColumns * options.width;
+    out.picture.height = kViews / kColumns * options.height;
+    out.picture.rgba.resize(4 * out.picture.pixels());
+    for (std::uint32_t v = 0; v < kViews; ++v) {
+        LR_ASSIGN(const Picture picture, renderer.draw(stream, model, reference.cameras[v], true));
+        const Difference d = difference(reference.exact[v], picture);
+        out.pixels_different += d.pixels;
+        out.max_channel_difference = std::max(out.max_channel_difference, d.channel);
+        out.triangle_ids_different += d.triangles;
+        mark(marks[v], reference.exact[v], picture, 1);
+        paste(out.picture, reference.exact[v], marks[v], v);
+    }
+    // A mesh may hide most of its triangles, and a needle covers little: the bars are low, but nothing drawn, or all
+    // drawn as one, does not pass. The cameras fit the mesh to the picture, so a thousandth is less than a needle.
+    const std::uint64_t pixels = std::uint64_t{options.width} * options.height * kViews;
+    const std::uint64_t visible = std::min<std::uint64_t>(model.triangle_count(), out.covered_pixels);
+    out.blank = out.covered_pixels * 1000 < pixels || out.distinct_ids < std::max<std::uint64_t>(1, visible / 1000);
+    return out;
+}
+
 }  // namespace
 
-Result<Comparison> compare(Context& context, const Model& model, const CompareOptions& options) {
+Result<std::vector<Comparison>> compare(Context& context, const Model& model, std::span<const Subject> subjects,
+                                        const CompareOptions& options) {
     RendererOptions renderer_options;
     renderer_options.width = options.width;
     renderer_options.height = options.height;
     renderer_options.max_range = options.max_range;
     renderer_options.omit_decode_barrier = options.omit_decode_barrier;
     LR_ASSIGN(Renderer renderer, Renderer::create(context, renderer_options));
-    LR_ASSIGN(Drawable plain, renderer.upload(model, Source::plain));
-    LR_ASSIGN(Drawable stream, renderer.upload(model, options.source));
-
-    std::array<Camera, kViews> cameras;
-    for (std::uint32_t v = 0; v < kViews; ++v) {
-        CameraOptions camera;
-        camera.direction = kDirections[v];
-        LR_ASSIGN(cameras[v], make_camera(model, camera, options.width, options.height));
+    LR_ASSIGN(const Reference reference, draw_reference(renderer, model, options));
+    std::vector<Comparison> out;
+    for (const Subject& subject : subjects) {
+        LR_ASSIGN(Comparison comparison, compare_one(renderer, model, options, reference, subject));
+        out.push_back(std::move(comparison));
     }
-    Comparison out;
-    out.views = kViews;
-    std::array<Marks, kViews> marks;
-    for (std::uint32_t v = 0; v < kViews; ++v) {
-        // The first picture of the stream decodes it, in the same submission.
-        LR_ASSIGN(const Picture b, renderer.draw(stream, model, cameras[v], false));
-        LR_ASSIGN(const Picture a, renderer.draw(plain, model, cameras[v], false));
-        const Difference d = difference(a, b);
-        out.raw_pixels_different += d.pixels;
-        out.raw_pixels_beyond_one += d.beyond_one;
-        out.raw_max_channel_difference = std::max(out.raw_max_channel_difference, d.channel);
-        marks[v].assign(a.pixels(), 0);
-        mark(marks[v], a, b, 2);
-    }
-    LR_ASSIGN(out.indices_equal_cpu, indices_equal_cpu(renderer, stream, model));
-
-    std::vector<bool> seen(model.triangle_count());
-    out.picture.width = kColumns * options.width;
-    out.picture.height = kViews / kColumns * options.height;
-    out.picture.rgba.resize(4 * out.picture.pixels());
-    for (std::uint32_t v = 0; v < kViews; ++v) {
-        LR_ASSIGN(const Picture a, renderer.draw(plain, model, cameras[v], true));
-        LR_ASSIGN(const Picture b, renderer.draw(stream, model, cameras[v], true));
-        const Difference d = difference(a, b);
-        out.pixels_different += d.pixels;
-        out.max_channel_difference = std::max(out.max_channel_difference, d.channel);
-        out.triangle_ids_different += d.triangles;
-        out.covered_pixels += d.covered;
-        note_seen(seen, a);
-        mark(marks[v], a, b, 1);
-        paste(out.picture, a, marks[v], v);
-    }
-    out.distinct_ids = static_cast<std::uint64_t>(std::count(seen.begin(), seen.end(), true));
-    // A mesh may hide most of its triangles, and a needle covers little: the bars are low, but nothing drawn, or all
-    // drawn as one, does not pass. The cameras fit the mesh to the picture, so a thousandth is less than a needle.
-    const std::uint64_t pixels = std::uint64_t{options.width} * options.height * kViews;
-    const std::uint64_t visible = std::min<std::uint64_t>(model.triangle_count(), out.covered_pixels);
-    out.blank = out.covered_pixels * 1000 < pixels || out.distinct_ids < std::max<std::uint64_t>(1, visible / 1000);
     return out;
 }
 

@@ -66,6 +66,8 @@ DeviceInfo describe(const DeviceChoice& choice) {
     info.max_buffer_size = p13.maxBufferSize;
     info.max_line_width = choice.wide_lines ? info.limits.lineWidthRange[1] : 1.0F;
     info.timestamps = families[choice.queue_family].timestampValidBits != 0 && info.limits.timestampPeriod > 0.0F;
+    info.statistics = choice.statistics;
+    info.max_mesh_groups = choice.max_mesh_groups;
     info.max_index = choice.full_index_range ? UINT32_MAX - 1 : info.limits.maxDrawIndexedIndexValue;
     return info;
 }
@@ -104,13 +106,14 @@ Result<void> Context::create_instance(const ContextOptions& options) {
     application.pApplicationName = "LacedRing";
     application.apiVersion = VK_API_VERSION_1_3;
     VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_info(validation_);
-    constexpr VkValidationFeatureEnableEXT kSynchronization =
-        VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+    const VkValidationFeatureEnableEXT feature = options.gpu_assisted
+                                                     ? VK_VALIDATION_FEATURE_ENABLE_GPU_ASSISTED_EXT
+                                                     : VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
     VkValidationFeaturesEXT features{};
     features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
     features.pNext = &messenger;  // so that messages about the instance itself are kept too
     features.enabledValidationFeatureCount = 1;
-    features.pEnabledValidationFeatures = &kSynchronization;
+    features.pEnabledValidationFeatures = &feature;
     VkInstanceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
     info.pNext = options.validation ? &features : nullptr;
@@ -138,8 +141,16 @@ Result<void> Context::create_device(const ContextOptions& options) {
     info_ = describe(choice);
     queue_family_ = choice.queue_family;
 
+    VkPhysicalDeviceMeshShaderFeaturesEXT mesh{};
+    mesh.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_FEATURES_EXT;
+    mesh.meshShader = VK_TRUE;
+    VkPhysicalDeviceVulkan12Features f12{};
+    f12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+    f12.bufferDeviceAddress = VK_TRUE;
+    if (info_.max_mesh_groups != 0) f12.pNext = &mesh;
     VkPhysicalDeviceVulkan13Features f13{};
     f13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+    f13.pNext = &f12;
     f13.dynamicRendering = VK_TRUE;
     f13.synchronization2 = VK_TRUE;
     f13.maintenance4 = VK_TRUE;
@@ -148,6 +159,7 @@ Result<void> Context::create_device(const ContextOptions& options) {
     features.pNext = &f13;
     features.features.geometryShader = VK_TRUE;
     features.features.fragmentStoresAndAtomics = VK_TRUE;
+    features.features.pipelineStatisticsQuery = info_.statistics ? VK_TRUE : VK_FALSE;
     features.features.wideLines = choice.wide_lines ? VK_TRUE : VK_FALSE;
     features.features.fullDrawIndexUint32 = choice.full_index_range ? VK_TRUE : VK_FALSE;
     const float priority = 1.0F;
@@ -161,8 +173,15 @@ Result<void> Context::create_device(const ContextOptions& options) {
     info.pNext = &features;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
+    const char* extension = VK_EXT_MESH_SHADER_EXTENSION_NAME;
+    info.enabledExtensionCount = info_.max_mesh_groups != 0 ? 1 : 0;
+    info.ppEnabledExtensionNames = &extension;
     LR_TRY_VK(vkCreateDevice(choice.device, &info, nullptr, &device_));
     vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
+    if (info_.max_mesh_groups != 0) {
+        draw_mesh_tasks_ =
+            reinterpret_cast<PFN_vkCmdDrawMeshTasksEXT>(vkGetDeviceProcAddr(device_, "vkCmdDrawMeshTasksEXT"));
+    }
     if (debug_utils_) {
         set_name_ = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(
             vkGetDeviceProcAddr(device_, "vkSetDebugUtilsObjectNameEXT"));

@@ -16,6 +16,9 @@ namespace lr::gpu {
 struct ContextOptions {
     std::string device;       ///< part of a device's name; empty: the best one
     bool validation = false;  ///< VK_LAYER_KHRONOS_validation with synchronization validation
+    /// GPU-assisted validation instead of synchronization validation: accesses past what is bound, as shaders make them.
+    /// Slow. Only with `validation`.
+    bool gpu_assisted = false;
 };
 
 struct DeviceInfo {
@@ -29,6 +32,9 @@ struct DeviceInfo {
     VkPhysicalDeviceLimits limits{};
     std::uint64_t max_buffer_size = 0;
     std::uint32_t max_index = 0;  ///< largest vertex number that an index buffer may hold
+    bool statistics = false;      ///< pipelineStatisticsQuery
+    /// Workgroups of mesh shaders in one draw command; 0 where VK_EXT_mesh_shader is missing or too small for Path::mesh.
+    std::uint32_t max_mesh_groups = 0;
 };
 
 class Context {
@@ -46,6 +52,8 @@ class Context {
     const VkPhysicalDeviceLimits& limits() const { return info_.limits; }
     Arena& arena() { return *arena_; }
     ValidationLog& validation() { return validation_; }
+    /// vkCmdDrawMeshTasksEXT; null where info().max_mesh_groups is 0.
+    PFN_vkCmdDrawMeshTasksEXT draw_mesh_tasks() const { return draw_mesh_tasks_; }
     bool validating() const { return validating_; }
 
     /// Gives a Vulkan object a name, which validation messages and debuggers show.
@@ -67,6 +75,7 @@ class Context {
     VkQueue queue_ = VK_NULL_HANDLE;
     std::uint32_t queue_family_ = 0;
     PFN_vkSetDebugUtilsObjectNameEXT set_name_ = nullptr;
+    PFN_vkCmdDrawMeshTasksEXT draw_mesh_tasks_ = nullptr;
     DeviceInfo info_;
     std::unique_ptr<Arena> arena_;
     bool debug_utils_ = false;

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstring>
 #include <optional>
 
 #include "renderer/try.h"
+#include "shaders/shared.h"
 
 namespace lr::gpu {
 namespace {
@@ -48,6 +50,35 @@ int rank(VkPhysicalDeviceType type) {
     }
 }
 
+/// Workgroups of surface.mesh that a draw command may have.
+std::uint32_t mesh_groups(VkPhysicalDevice device) {
+    std::uint32_t count = 0;
+    if (vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr) != VK_SUCCESS) return 0;
+    std::vector<VkExtensionProperties> extensions(count);
+    if (vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data()) != VK_SUCCESS) return 0;
+    if (std::none_of(extensions.begin(), extensions.end(), [](const VkExtensionProperties& e) {
+            return std::strcmp(e.extensionName, VK_EXT_MESH_SHADER_EXTENSION_NAME) == 0;
+        })) {
+        return 0;
+    }
+    VkPhysicalDeviceMeshShaderFeaturesEXT mesh{};
+    mesh.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_FEATURES_EXT;
+    VkPhysicalDeviceFeatures2 features{};
+    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    features.pNext = &mesh;
+    vkGetPhysicalDeviceFeatures2(device, &features);
+    VkPhysicalDeviceMeshShaderPropertiesEXT limits{};
+    limits.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_PROPERTIES_EXT;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    properties.pNext = &limits;
+    vkGetPhysicalDeviceProperties2(device, &properties);
+    const bool fits = mesh.meshShader == VK_TRUE && limits.maxMeshOutputVertices >= 3 * LR_MESH_TRIANGLES &&
+                      limits.maxMeshOutputPrimitives >= LR_MESH_TRIANGLES &&
+                      limits.maxMeshWorkGroupInvocations >= LR_MESH_TRIANGLES;
+    return fits ? std::min(limits.maxMeshWorkGroupCount[0], limits.maxMeshWorkGroupTotalCount) : 0;
+}
+
 std::string join(const std::vector<std::string>& parts, const char* between) {
     std::string out;
     for (const std::string& part : parts) out += (out.empty() ? "" : between) + part;
@@ -65,8 +96,11 @@ std::vector<std::string> missing_features(VkPhysicalDevice device) {
                           std::to_string(VK_API_VERSION_MINOR(properties.apiVersion)) + ")");
         return missing;  // the structs below may be unknown to it
     }
+    VkPhysicalDeviceVulkan12Features f12{};
+    f12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
     VkPhysicalDeviceVulkan13Features f13{};
     f13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+    f13.pNext = &f12;
     VkPhysicalDeviceFeatures2 f{};
     f.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
     f.pNext = &f13;
@@ -74,6 +108,7 @@ std::vector<std::string> missing_features(VkPhysicalDevice device) {
     const auto need = [&](VkBool32 has, const char* what) {
         if (has != VK_TRUE) missing.emplace_back(what);
     };
+    need(f12.bufferDeviceAddress, "bufferDeviceAddress");
     need(f13.dynamicRendering, "dynamicRendering");
     need(f13.synchronization2, "synchronization2");
     need(f13.maintenance4, "maintenance4 (workgroup sizes as SPIR-V 1.6 gives them)");
@@ -136,7 +171,8 @@ Result<DeviceChoice> choose_device(VkInstance instance, const std::string& name)
     VkPhysicalDeviceFeatures features{};
     vkGetPhysicalDeviceFeatures(best, &features);
     return DeviceChoice{best, *graphics_compute_family(best), features.wideLines == VK_TRUE,
-                        features.fullDrawIndexUint32 == VK_TRUE};
+                        features.fullDrawIndexUint32 == VK_TRUE, features.pipelineStatisticsQuery == VK_TRUE,
+                        mesh_groups(best)};
 }
 
 }  // namespace lr::gpu

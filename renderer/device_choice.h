@@ -16,6 +16,8 @@ struct DeviceChoice {
     std::uint32_t queue_family = 0;  ///< graphics and compute
     bool wide_lines = false;
     bool full_index_range = false;  ///< indices past 2^24
+    bool statistics = false;        ///< pipeline statistics queries
+    std::uint32_t max_mesh_groups = 0;  ///< of a draw command; 0: no mesh shaders, or too small ones
 };
 
 /// What a device lacks of what the renderer needs: names of features, formats and versions. Empty: usable.

@@ -14,6 +14,8 @@ namespace {
 constexpr std::uint64_t kSmallestRange = 4096;  // a packed block's indices, or its record with alignment, fit
 constexpr std::uint64_t kSlotStep = 256;        // in bytes, the coarsest alignment of a descriptor that Vulkan allows
 
+constexpr VkBufferUsageFlags kAddress = VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+
 std::uint64_t padded_slots(std::uint32_t slots) {
     constexpr std::uint64_t kStep = LR_TRIANGLES_PER_INVOCATION;
     return (std::uint64_t{slots} + kStep - 1) / kStep * kStep;
@@ -31,14 +33,24 @@ Result<GpuMesh> prepare(Context& context, const Model& model, std::uint64_t slot
                                                " vertices; the device's indices go to " +
                                                std::to_string(context.info().max_index)};
     }
+    mesh.path = options.path;
+    if (mesh.path == Path::mesh && context.info().max_mesh_groups == 0) {
+        return Error{ErrorCode::unsupported, "the device has no mesh shaders (VK_EXT_mesh_shader)"};
+    }
     mesh.vertex_count = model.vertex_count();
     mesh.slots = static_cast<std::uint32_t>(slots);
     mesh.draw_slots = static_cast<std::uint32_t>(
         std::min<std::uint64_t>(mesh.max_range / sizeof(std::uint32_t), std::uint64_t{1} << 30) / kSlotStep *
         kSlotStep);
+    if (mesh.path == Path::mesh) {
+        const std::uint64_t most = std::uint64_t{context.info().max_mesh_groups} * LR_MESH_TRIANGLES;
+        mesh.draw_slots =
+            static_cast<std::uint32_t>(std::min<std::uint64_t>(mesh.draw_slots, most / kSlotStep * kSlotStep));
+    }
     mesh.draws = (mesh.slots + mesh.draw_slots - 1) / mesh.draw_slots;
     LR_ASSIGN(mesh.vertices, Buffer::create(context, "vertices", sizeof(Vertex) * std::uint64_t{mesh.vertex_count},
-                                            VK_BUFFER_USAGE_VERTEX_BUFFER_BIT));
+                                            VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | kAddress));
+    if (mesh.path != Path::compute) return mesh;
     LR_ASSIGN(mesh.indices, Buffer::create(context, "indices", 12 * padded_slots(mesh.slots),
                                            VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT));
     return mesh;
@@ -127,23 +139,28 @@ Result<void> upload_rest(Context& context, Transfer& transfer, GpuMesh& mesh, co
 struct Stream {
     Source source;
     std::span<const std::uint32_t> words, vertex_order, slot_triangle;
+    std::array<std::uint32_t, 4> layout;
 };
 
 Result<GpuMesh> upload_stream(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options,
                               const Stream& stream) {
     LR_ASSIGN(GpuMesh mesh, prepare(context, model, stream.slot_triangle.size(), options));
     mesh.source = stream.source;
+    mesh.stream_layout = stream.layout;
     constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     // The lean decoder loads a few words past the ones that it needs.
-    LR_ASSIGN(mesh.stream, Buffer::create(context, "stream", stream.words.size_bytes() + 64, kStorage));
+    LR_ASSIGN(mesh.stream, Buffer::create(context, "stream", stream.words.size_bytes() + 64, kStorage | kAddress));
     LR_TRY(transfer.upload(mesh.stream, stream.words));
-    LR_ASSIGN(mesh.commands,
-              Buffer::create(context, "draw commands", mesh.draws * std::uint64_t{sizeof(VkDrawIndexedIndirectCommand)},
-                             kStorage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT));
+    if (mesh.path == Path::compute) {
+        LR_ASSIGN(mesh.commands,
+                  Buffer::create(context, "draw commands",
+                                 mesh.draws * std::uint64_t{sizeof(VkDrawIndexedIndirectCommand)},
+                                 kStorage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT));
+    }
     LR_ASSIGN(mesh.slot_triangle,
               Buffer::create(context, "slot triangles", stream.slot_triangle.size_bytes(), kStorage));
     LR_TRY(transfer.upload(mesh.slot_triangle, stream.slot_triangle));
-    LR_ASSIGN(mesh.vertex_order, Buffer::create(context, "vertex order", stream.vertex_order.size_bytes(), kStorage));
+    LR_ASSIGN(mesh.vertex_order, Buffer::create(context, "vertex order", stream.vertex_order.size_bytes(), kStorage | kAddress));
     LR_TRY(transfer.upload(mesh.vertex_order, stream.vertex_order));
     LR_TRY(upload_rest(
         context, transfer, mesh, model, options, stream.vertex_order,
@@ -155,6 +172,7 @@ Result<GpuMesh> upload_stream(Context& context, Transfer& transfer, const Model&
 }  // namespace
 
 Result<GpuMesh> upload_plain(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options) {
+    if (options.path != Path::compute) return Error{ErrorCode::invalid_argument, "an index list has Path::compute only"};
     LR_ASSIGN(GpuMesh mesh, prepare(context, model, model.triangle_count(), options));
     const auto indices = std::as_bytes(model.indices);
     LR_TRY(transfer.upload(
@@ -177,7 +195,11 @@ Result<GpuMesh> upload_lean(Context& context, Transfer& transfer, const Model& m
         return Error{ErrorCode::invalid_argument, "the lean stream is not of this mesh"};
     }
     return upload_stream(context, transfer, model, options,
-                         {Source::lean, stream.words, stream.vertex_order, stream.slot_triangle});
+                         {Source::lean,
+                          stream.words,
+                          stream.vertex_order,
+                          stream.slot_triangle,
+                          {view.rings2, view.rings1, view.verbatim}});
 }
 
 Result<GpuMesh> upload_packed(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options) {
@@ -189,7 +211,12 @@ Result<GpuMesh> upload_packed(Context& context, Transfer& transfer, const Model&
         return Error{ErrorCode::invalid_argument, "the packed stream is not of this mesh"};
     }
     return upload_stream(context, transfer, model, options,
-                         {Source::packed, stream.words, stream.vertex_order, stream.triangle_order});
+                         {Source::packed,
+                          stream.words,
+                          stream.vertex_order,
+                          stream.triangle_order,
+                          {view.triangles, static_cast<std::uint32_t>(view.directory_word()),
+                           static_cast<std::uint32_t>(view.records_word()), view.vertex_bits | view.gap_bits << 8}});
 }
 
 }  // namespace lr::gpu

@@ -1,6 +1,7 @@
 #pragma once
 // A mesh on the device: what its picture is drawn from.
 
+#include <array>
 #include <cstdint>
 
 #include "renderer/buffer.h"
@@ -16,7 +17,24 @@ enum class Source {
     packed,  ///< the packed stream, with its vertex order
 };
 
+/// How triangles come from a stream into a picture. Source::plain is always drawn by Path::compute.
+enum class Path {
+    compute,   ///< a compute shader expands the stream to an index buffer, which is drawn
+    pull,      ///< the vertex shader decodes the triangle of its vertex; no index buffer, no vertex buffer bound
+    geometry,  ///< a geometry shader decodes two slots a point
+    mesh,      ///< a mesh shader decodes 64 slots a workgroup (VK_EXT_mesh_shader)
+};
+
+/// By their names on the command line.
+struct NamedPath {
+    const char* name;
+    Path path;
+};
+constexpr std::array<NamedPath, 4> kPaths{
+    {{"compute", Path::compute}, {"pull", Path::pull}, {"geometry", Path::geometry}, {"mesh", Path::mesh}}};
+
 struct UploadOptions {
+    Path path = Path::compute;
     /// Bytes that one storage descriptor may cover: larger buffers are worked on in parts. 0: the device's
     /// maxStorageBufferRange. At least 4096; a test makes it small.
     std::uint64_t max_range = 0;
@@ -30,6 +48,7 @@ struct UploadOptions {
 /// descriptor.
 struct GpuMesh {
     Source source = Source::plain;
+    Path path = Path::compute;
     std::uint32_t vertex_count = 0;
     std::uint32_t slots = 0;       ///< triangles of the index buffer, degenerate ones too
     std::uint32_t draw_slots = 0;  ///< slots of every draw command but the last: a multiple of 256
@@ -37,10 +56,11 @@ struct GpuMesh {
     std::uint64_t max_range = 0;   ///< bytes a descriptor covers
 
     Buffer vertices;  ///< Vertex
-    Buffer indices;   ///< u32, 3 a slot, padded to whole invocations; of a stream: written by the device
+    Buffer indices;   ///< u32, 3 a slot, padded to whole invocations; of a stream: written by the device. Path::compute
     // Of a stream only:
     Buffer stream;
-    Buffer commands;       ///< VkDrawIndexedIndirectCommand, written by the device
+    std::array<std::uint32_t, 4> stream_layout{};  ///< DrawConstants::stream_layout
+    Buffer commands;       ///< VkDrawIndexedIndirectCommand, written by the device. Path::compute
     Buffer slot_triangle;  ///< the mesh's triangle of each slot
     Buffer vertex_order;   ///< the mesh's vertex of each vertex
     // Only if asked for:
@@ -59,7 +79,7 @@ struct Vertex {
     float ring;  ///< place along the rings in [0, 1]; -1 off the rings
 };
 
-/// Errors: too_large (indices past the device's, or a buffer), invalid_argument (max_range), unsupported (only
+/// Errors: unsupported (Path::mesh where the device has none), too_large (indices past the device's, or a buffer), invalid_argument (max_range), unsupported (only
 /// degenerate triangles), and Vulkan's.
 Result<GpuMesh> upload_plain(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options);
 /// The model's stream must be valid, as encode_lean makes it.

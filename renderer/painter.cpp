@@ -5,48 +5,14 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <utility>
 
 #include "renderer/context.h"
 #include "renderer/try.h"
-#include "spirv/claim_frag.h"
 #include "spirv/line_frag.h"
 #include "spirv/line_vert.h"
-#include "spirv/surface_frag.h"
-#include "spirv/surface_vert.h"
 
 namespace lr::gpu {
-namespace {
-
-bool has_ring(View view) {
-    return view == View::triangle_class || view == View::ring || view == View::offsets;
-}
-bool has_lines(View view) {
-    return has_ring(view) || view == View::wire;
-}
-
-}  // namespace
-
-std::optional<View> view_named(std::string_view name) {
-    constexpr std::array<std::pair<std::string_view, View>, 6> kViews{{{"smooth", View::smooth},
-                                                                       {"flat", View::flat},
-                                                                       {"class", View::triangle_class},
-                                                                       {"ring", View::ring},
-                                                                       {"wire", View::wire},
-                                                                       {"offsets", View::offsets}}};
-    for (const auto& [text, view] : kViews) {
-        if (text == name) return view;
-    }
-    return std::nullopt;
-}
-
-UploadOptions upload_options(View view) {
-    UploadOptions options;
-    options.ring = has_ring(view);
-    options.offsets = view == View::offsets;
-    if (options.ring) options.lines = UploadOptions::Lines::ring;
-    if (view == View::wire) options.lines = UploadOptions::Lines::edges;
-    return options;
-}
 
 Result<Painter> Painter::create(Context& context, View view, std::uint32_t samples) {
     Painter out;
@@ -54,56 +20,20 @@ Result<Painter> Painter::create(Context& context, View view, std::uint32_t sampl
     out.view_ = view;
     out.samples_ = samples;
     constexpr VkShaderStageFlags kFragment = VK_SHADER_STAGE_FRAGMENT_BIT;
-    const std::array<Binding, 4> bindings{
-        {{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_SHADER_STAGE_VERTEX_BIT | kFragment},
-         {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kFragment},
-         {2, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kFragment},
-         {3, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, kFragment}}};
-    LR_ASSIGN(out.layout_, Layout::create(context, "draw", bindings, kFragment, sizeof(DrawConstants)));
-
-    GraphicsInfo base;
-    base.vertex = spirv_surface_vert;
-    base.vertex_binding = {0, sizeof(Vertex), VK_VERTEX_INPUT_RATE_VERTEX};
-    base.vertex_attributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Vertex, position)},
-                              {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Vertex, normal)},
-                              {2, 0, VK_FORMAT_R32_SFLOAT, offsetof(Vertex, ring)}};
-    base.push_back = has_lines(view);
-
-    GraphicsInfo depth = base;
-    depth.name = "depth";
-    LR_ASSIGN(out.depth_, create_graphics(context, out.layout_, depth));
-
-    GraphicsInfo claim = base;
-    claim.name = "claim";
-    claim.fragment = spirv_claim_frag;
-    claim.depth_compare = VK_COMPARE_OP_EQUAL;
-    claim.depth_write = false;
-    LR_ASSIGN(out.claim_, create_graphics(context, out.layout_, claim));
-
-    GraphicsInfo resolve = base;
-    resolve.name = "resolve";
-    resolve.fragment = spirv_surface_frag;
-    resolve.constants = {static_cast<std::uint32_t>(view), VK_TRUE};
-    resolve.depth_compare = VK_COMPARE_OP_EQUAL;
-    resolve.depth_write = false;
-    resolve.colours = {Target::kColour, Target::kTriangles};
-    LR_ASSIGN(out.resolve_, create_graphics(context, out.layout_, resolve));
-
-    GraphicsInfo single = base;
-    single.name = "single pass";
-    single.fragment = spirv_surface_frag;
-    single.constants = {static_cast<std::uint32_t>(view), VK_FALSE};
-    single.colours = {Target::kColour, Target::kTriangles};
-    LR_ASSIGN(out.single_, create_graphics(context, out.layout_, single));
-
+    const VkShaderStageFlags stages = surface_stages(context);
+    const std::array<Binding, 4> bindings{{{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, stages},
+                                           {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kFragment},
+                                           {2, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kFragment},
+                                           {3, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, kFragment}}};
+    LR_ASSIGN(out.layout_, Layout::create(context, "draw", bindings, stages, sizeof(DrawConstants)));
     if (has_lines(view)) {
-        GraphicsInfo lines = base;
+        GraphicsInfo lines;
         lines.name = "lines";
         lines.vertex = spirv_line_vert;
+        lines.vertex_binding = {0, sizeof(Vertex), VK_VERTEX_INPUT_RATE_VERTEX};
+        lines.vertex_attributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Vertex, position)}};
         lines.fragment = spirv_line_frag;
-        lines.vertex_attributes.resize(1);
         lines.topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST;
-        lines.push_back = false;
         lines.depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL;
         lines.depth_write = false;
         lines.blend = true;
@@ -116,7 +46,11 @@ Result<Painter> Painter::create(Context& context, View view, std::uint32_t sampl
     return out;
 }
 
-Result<DrawPlan> Painter::plan(Descriptors& descriptors, const GpuMesh& mesh, const Target& target) const {
+Result<DrawPlan> Painter::plan(Descriptors& descriptors, const GpuMesh& mesh, const Target& target) {
+    if (!surfaces_.contains({mesh.source, mesh.path})) {
+        LR_ASSIGN(Surface surface, Surface::create(*context_, layout_, view_, mesh.source, mesh.path));
+        surfaces_.emplace(std::pair(mesh.source, mesh.path), std::move(surface));
+    }
     DrawPlan plan;
     for (std::uint32_t draw = 0; draw < mesh.draws; ++draw) {
         const std::uint64_t first = std::uint64_t{draw} * mesh.draw_slots;
@@ -134,10 +68,15 @@ Result<DrawPlan> Painter::plan(Descriptors& descriptors, const GpuMesh& mesh, co
     return plan;
 }
 
-void Painter::set_frame(const Model& model, const Camera& camera) {
+void Painter::set_frame(const Model& model, const Camera& camera, const Target& target) {
     FrameConstants frame{};
     frame.view_from_world = camera.view_from_world;
     frame.clip_from_view = camera.clip_from_view;
+    const auto side = static_cast<float>(target.viewport_side());
+    for (std::size_t column = 0; column < 4; ++column) {
+        frame.clip_from_view[4 * column] *= static_cast<float>(target.extent().width) / side;
+        frame.clip_from_view[4 * column + 1] *= static_cast<float>(target.extent().height) / side;
+    }
     frame.line_lift = 0.0012F;
     // Where edges are only a few pixels long, lines fade instead of painting the mesh black.
     const double pixels = model.mean_edge * camera.pixels_per_unit / samples_;
@@ -156,30 +95,6 @@ void Painter::set_frame(const Model& model, const Camera& camera) {
     std::memcpy(frame_.mapped(), &frame, sizeof(frame));
 }
 
-void Painter::draw_triangles(VkCommandBuffer commands, VkPipeline pipeline, const GpuMesh& mesh,
-                             const DrawPlan& plan) const {
-    const VkBuffer vertices = mesh.vertices.handle();
-    const VkDeviceSize zero = 0;
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-    vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &zero);
-    vkCmdBindIndexBuffer(commands, mesh.indices.handle(), 0, VK_INDEX_TYPE_UINT32);
-    for (std::uint32_t draw = 0; draw < mesh.draws; ++draw) {
-        const std::uint32_t first = draw * mesh.draw_slots;
-        const DrawConstants constants{first, mesh.source == Source::plain ? 0U : 1U};
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.pipeline(), 0, 1, &plan.sets[draw],
-                                0, nullptr);
-        vkCmdPushConstants(commands, layout_.pipeline(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(constants),
-                           &constants);
-        if (mesh.commands) {
-            constexpr std::uint32_t kStride = sizeof(VkDrawIndexedIndirectCommand);
-            vkCmdDrawIndexedIndirect(commands, mesh.commands.handle(), std::uint64_t{draw} * kStride, 1, kStride);
-        } else {
-            const std::uint32_t slots = std::min(mesh.draw_slots, mesh.slots - first);
-            vkCmdDrawIndexed(commands, 3 * slots, 1, 3 * first, 0, 0);
-        }
-    }
-}
-
 void Painter::draw_lines(VkCommandBuffer commands, const GpuMesh& mesh, const DrawPlan& plan) const {
     if (mesh.line_indices == 0) return;
     const VkBuffer vertices = mesh.vertices.handle();
@@ -195,18 +110,19 @@ void Painter::draw_lines(VkCommandBuffer commands, const GpuMesh& mesh, const Dr
 
 void Painter::record(VkCommandBuffer commands, const GpuMesh& mesh, const DrawPlan& plan, const Target& target,
                      Ties ties) const {
+    const Surface& triangles = surfaces_.at({mesh.source, mesh.path});
     target.prepare(commands);
     Target::Use surface{.colour = true, .triangles = true, .clear_colour = true, .clear_depth = true};
     if (ties == Ties::by_number) {
         target.begin(commands, {.clear_depth = true});
-        draw_triangles(commands, depth_.get(), mesh, plan);
-        draw_triangles(commands, claim_.get(), mesh, plan);
+        triangles.draw(commands, Surface::depth, mesh, plan);
+        triangles.draw(commands, Surface::claim, mesh, plan);
         Target::end(commands);
         Target::between(commands);
         surface.clear_depth = false;
     }
     target.begin(commands, surface);
-    draw_triangles(commands, ties == Ties::by_number ? resolve_.get() : single_.get(), mesh, plan);
+    triangles.draw(commands, ties == Ties::by_number ? Surface::resolve : Surface::single, mesh, plan);
     Target::end(commands);
     if (lines_) {
         Target::between(commands);

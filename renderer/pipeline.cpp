@@ -142,19 +142,25 @@ Result<PipelineHandle> create_compute(Context& context, const std::string& name,
 }
 
 Result<PipelineHandle> create_graphics(Context& context, const Layout& layout, const GraphicsInfo& info) {
-    LR_ASSIGN(const ShaderModuleHandle vertex, create_module(context, info.vertex));
-    std::vector<VkPipelineShaderStageCreateInfo> stages{stage_info(VK_SHADER_STAGE_VERTEX_BIT, vertex)};
-    ShaderModuleHandle fragment;
+    std::vector<VkPipelineShaderStageCreateInfo> stages;
+    std::vector<ShaderModuleHandle> modules;
     const Specialization specialization(info.constants);
-    if (!info.fragment.empty()) {
-        LR_ASSIGN(fragment, create_module(context, info.fragment));
-        stages.push_back(stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, fragment));
+    const std::array<std::pair<VkShaderStageFlagBits, std::span<const std::uint32_t>>, 4> code{
+        {{VK_SHADER_STAGE_VERTEX_BIT, info.vertex},
+         {VK_SHADER_STAGE_GEOMETRY_BIT, info.geometry},
+         {VK_SHADER_STAGE_MESH_BIT_EXT, info.mesh},
+         {VK_SHADER_STAGE_FRAGMENT_BIT, info.fragment}}};
+    for (const auto& [stage, spirv] : code) {
+        if (spirv.empty()) continue;
+        LR_ASSIGN(ShaderModuleHandle shader, create_module(context, spirv));
+        stages.push_back(stage_info(stage, shader));
         stages.back().pSpecializationInfo = &specialization.info;
+        modules.push_back(std::move(shader));
     }
 
     VkPipelineVertexInputStateCreateInfo input{};
     input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
-    input.vertexBindingDescriptionCount = 1;
+    input.vertexBindingDescriptionCount = info.vertex_attributes.empty() ? 0 : 1;
     input.pVertexBindingDescriptions = &info.vertex_binding;
     input.vertexAttributeDescriptionCount = static_cast<std::uint32_t>(info.vertex_attributes.size());
     input.pVertexAttributeDescriptions = info.vertex_attributes.data();
@@ -216,8 +222,10 @@ Result<PipelineHandle> create_graphics(Context& context, const Layout& layout, c
     create.pNext = &rendering;
     create.stageCount = static_cast<std::uint32_t>(stages.size());
     create.pStages = stages.data();
-    create.pVertexInputState = &input;
-    create.pInputAssemblyState = &assembly;
+    if (info.mesh.empty()) {
+        create.pVertexInputState = &input;
+        create.pInputAssemblyState = &assembly;
+    }
     create.pViewportState = &viewport;
     create.pRasterizationState = &raster;
     create.pMultisampleState = &multisample;

@@ -74,16 +74,18 @@ Result<PipelineHandle> create_compute(Context& context, const std::string& name,
 /// drawn.
 struct GraphicsInfo {
     std::string name;
-    std::span<const std::uint32_t> vertex;
+    std::span<const std::uint32_t> vertex;    ///< or empty, where `mesh` makes the vertices
+    std::span<const std::uint32_t> geometry;  ///< may be empty
+    std::span<const std::uint32_t> mesh;
     std::span<const std::uint32_t> fragment;  ///< empty: depth only
-    std::vector<std::uint32_t> constants;     ///< the fragment shader's specialization constants 0, 1, ...
+    std::vector<std::uint32_t> constants;     ///< specialization constants 0, 1, ... of all stages
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     VkCompareOp depth_compare = VK_COMPARE_OP_LESS;
     bool depth_write = true;
     bool push_back = false;  ///< triangles a little away from the eye, for lines on top
     bool blend = false;      ///< over, with the source's opacity; result premultiplied
     std::vector<VkFormat> colours;
-    VkVertexInputBindingDescription vertex_binding{};
+    VkVertexInputBindingDescription vertex_binding{};  ///< where there are attributes
     std::vector<VkVertexInputAttributeDescription> vertex_attributes;
 };
 

@@ -15,32 +15,40 @@ Result<Renderer> Renderer::create(Context& context, const RendererOptions& optio
     LR_ASSIGN(out.lean_, LeanDecoder::create(context));
     LR_ASSIGN(out.packed_, PackedDecoder::create(context));
     LR_ASSIGN(out.rotator_, Rotator::create(context));
+    LR_ASSIGN(out.slots_, SlotReader::create(context));
     return out;
 }
 
-Result<Drawable> Renderer::upload(const Model& model, Source source) {
+Result<Drawable> Renderer::upload(const Model& model, Source source, Path path) {
     UploadOptions options = upload_options(options_.view);
+    options.path = path;
     options.max_range = options_.max_range;
     Drawable out;
     out.descriptors = Descriptors(*context_);
     if (source == Source::lean) {
         LR_ASSIGN(out.mesh, upload_lean(*context_, *transfer_, model, options));
-        LR_ASSIGN(const LeanView view, view_lean(model.lean.words));
-        LR_ASSIGN(out.decode, lean_.plan(out.descriptors, out.mesh, view));
+        if (path == Path::compute) {
+            LR_ASSIGN(const LeanView view, view_lean(model.lean.words));
+            LR_ASSIGN(out.decode, lean_.plan(out.descriptors, out.mesh, view));
+        }
     } else if (source == Source::packed) {
         LR_ASSIGN(out.mesh, upload_packed(*context_, *transfer_, model, options));
-        LR_ASSIGN(const PackedView view, view_packed(model.packed.words));
-        LR_ASSIGN(out.decode, packed_.plan(out.descriptors, out.mesh, view));
+        if (path == Path::compute) {
+            LR_ASSIGN(const PackedView view, view_packed(model.packed.words));
+            LR_ASSIGN(out.decode, packed_.plan(out.descriptors, out.mesh, view));
+        }
     } else {
         LR_ASSIGN(out.mesh, upload_plain(*context_, *transfer_, model, options));
     }
-    LR_ASSIGN(out.rotate, rotator_.plan(out.descriptors, out.mesh));
+    if (path == Path::compute) {
+        LR_ASSIGN(out.rotate, rotator_.plan(out.descriptors, out.mesh));
+    }
     LR_ASSIGN(out.draw, painter_.plan(out.descriptors, out.mesh, target_));
     return out;
 }
 
 void Renderer::decode(VkCommandBuffer commands, Drawable& drawable) const {
-    if (drawable.mesh.decoded) return;
+    if (drawable.mesh.decoded || drawable.mesh.path != Path::compute) return;
     const Decoder& decoder = drawable.mesh.source == Source::lean ? static_cast<const Decoder&>(lean_) : packed_;
     decoder.record(commands, drawable.decode);
     if (!options_.omit_decode_barrier) decode_barrier(commands);
@@ -52,10 +60,10 @@ Result<Picture> Renderer::draw(Drawable& drawable, const Model& model, const Cam
     if (!exact && drawable.mesh.rotated) {
         return Error{ErrorCode::invalid_argument, "the triangles are rotated already: draw the raw pictures first"};
     }
-    painter_.set_frame(model, camera);
+    painter_.set_frame(model, camera, target_);
     LR_ASSIGN(const VkCommandBuffer commands, commands_->begin());
     decode(commands, drawable);
-    if (exact && !drawable.mesh.rotated) {
+    if (exact && !drawable.mesh.rotated && drawable.mesh.path == Path::compute) {
         rotator_.record(commands, drawable.rotate);
         decode_barrier(commands);
         drawable.mesh.rotated = true;
@@ -68,6 +76,7 @@ Result<Picture> Renderer::draw(Drawable& drawable, const Model& model, const Cam
 }
 
 Result<std::vector<std::uint32_t>> Renderer::read_indices(Drawable& drawable) {
+    if (drawable.mesh.path != Path::compute) return slots_.read(*commands_, *transfer_, drawable.mesh);
     LR_ASSIGN(const VkCommandBuffer commands, commands_->begin());
     decode(commands, drawable);
     LR_TRY(commands_->run());

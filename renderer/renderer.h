@@ -6,6 +6,7 @@
 #include "renderer/packed_decoder.h"
 #include "renderer/painter.h"
 #include "renderer/rotator.h"
+#include "renderer/slot_reader.h"
 
 namespace lr::gpu {
 
@@ -22,8 +23,8 @@ struct RendererOptions {
 struct Drawable {
     GpuMesh mesh;
     Descriptors descriptors;
-    DecodePlan decode;  ///< empty for Source::plain
-    RotatePlan rotate;
+    DecodePlan decode;  ///< empty for Source::plain, and where no path but compute is taken
+    RotatePlan rotate;  ///< likewise for the other paths
     DrawPlan draw;
 };
 
@@ -31,7 +32,7 @@ class Renderer {
   public:
     static Result<Renderer> create(Context& context, const RendererOptions& options);
 
-    Result<Drawable> upload(const Model& model, Source source);
+    Result<Drawable> upload(const Model& model, Source source, Path path = Path::compute);
 
     /// Records the decoding of a stream and what makes it visible, if that has not been done.
     void decode(VkCommandBuffer commands, Drawable& drawable) const;
@@ -40,7 +41,8 @@ class Renderer {
     /// all sources give the same bits; a drawable stays rotated after it. Otherwise as the index buffer is.
     Result<Picture> draw(Drawable& drawable, const Model& model, const Camera& camera, bool exact);
 
-    /// The first 3 * slots indices, as they are on the device. Decodes first if need be.
+    /// 3 * slots indices as the device decodes them: of Path::compute what is in the index buffer, decoded first if need
+    /// be; of the others what their shaders get, slot by slot.
     Result<std::vector<std::uint32_t>> read_indices(Drawable& drawable);
 
     Context& context() { return *context_; }
@@ -61,6 +63,7 @@ class Renderer {
     LeanDecoder lean_;
     PackedDecoder packed_;
     Rotator rotator_;
+    SlotReader slots_;
 };
 
 }  // namespace lr::gpu

@@ -1,6 +1,7 @@
 #include "renderer/target.h"
 
 #include <array>
+#include <bit>
 #include <cstring>
 
 #include "renderer/commands.h"
@@ -55,6 +56,10 @@ void Target::prepare(VkCommandBuffer commands) const {
     memory_barrier(commands, kClear, kClaim);
 }
 
+std::uint32_t Target::viewport_side() const {
+    return std::bit_ceil(std::max(extent_.width, extent_.height));
+}
+
 void Target::begin(VkCommandBuffer commands, const Use& use) const {
     const auto attachment = [](const Image& image, VkImageLayout layout, bool clear) {
         VkRenderingAttachmentInfo info{};
@@ -78,9 +83,10 @@ void Target::begin(VkCommandBuffer commands, const Use& use) const {
     info.pColorAttachments = colours.data();
     info.pDepthAttachment = &depth;
     vkCmdBeginRendering(commands, &info);
-    // Upside down, as Vulkan's clip space has y down.
+    // Upside down, as Vulkan's clip space has y down; around the picture (viewport_side).
     const auto width = static_cast<float>(extent_.width), height = static_cast<float>(extent_.height);
-    const VkViewport viewport{0, height, width, -height, 0, 1};
+    const auto side = static_cast<float>(viewport_side());
+    const VkViewport viewport{(width - side) / 2, (height + side) / 2, side, -side, 0, 1};
     const VkRect2D scissor{{0, 0}, extent_};
     vkCmdSetViewport(commands, 0, 1, &viewport);
     vkCmdSetScissor(commands, 0, 1, &scissor);

@@ -16,6 +16,10 @@ class Target {
     static Result<Target> create(Context& context, VkExtent2D extent);
 
     VkExtent2D extent() const { return extent_; }
+    /// Side of the square viewport that the picture is the middle of, in pixels: a power of two. Scaling to it is then
+    /// exact, so that vertices land on the same point of a pixel whether a driver fuses it with the translation or not
+    /// (lavapipe does for vertex shaders alone, and not behind geometry shaders).
+    std::uint32_t viewport_side() const;
     const Image& winner() const { return winner_; }
 
     /// Brings every image to its layout and drops what it held; clears the claims.

@@ -46,7 +46,7 @@ Result<DeviceTimes> measure_device(Context& context, const Model& model, const T
         LR_ASSIGN(packed, renderer.upload(model, Source::packed));
     }
     LR_ASSIGN(const Camera camera, make_camera(model, {}, options.width, options.height));
-    renderer.painter().set_frame(model, camera);
+    renderer.painter().set_frame(model, camera, renderer.target());
     DeviceTimes out;
     out.index_bytes = std::uint64_t{12} * lean.mesh.slots;
     LR_ASSIGN(const Buffer copy, Buffer::create(context, "copy of the indices", out.index_bytes, 0));

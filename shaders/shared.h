@@ -7,6 +7,8 @@
 #include <cstdint>
 namespace lr::gpu {
 using uint = std::uint32_t;
+using uvec2 = std::array<std::uint32_t, 2>;
+using uvec4 = std::array<std::uint32_t, 4>;
 using vec4 = std::array<float, 4>;
 using mat4 = std::array<float, 16>;  // column-major
 #endif
@@ -47,9 +49,26 @@ struct FrameConstants {
 
 // One draw command. All per-triangle buffers are bound at the draw's first slot.
 struct DrawConstants {
-    uint first_triangle;  // plain: original triangle of the draw's first one
-    uint ordered;         // 1: slot_triangle has the original triangle of each slot
+    uint first_slot;  // of the draw; plain: the original triangle of the draw's first one
+    uint ordered;     // 1: slot_triangle has the original triangle of each slot
+    uint slots;       // of the draw
+    uint unused;
+    // Where shaders decode by themselves, the addresses of:
+    uvec2 stream;
+    uvec2 vertices;
+    uvec2 vertex_order;
+    uvec2 unused2;
+    uvec4 stream_layout;  // lean: LrLeanLayout; packed: LrPackedLayout, with the two widths in one, gap bits << 8
 };
+
+// Specialization constants of the shaders that decode by themselves (0 and 1 are surface.frag's).
+#define LR_CONSTANT_PACKED 2  // of a packed stream
+#define LR_CONSTANT_ROTATE 3  // triangles begin with their smallest original vertex
+
+// Floats of a vertex: position, normal, place along the rings.
+#define LR_VERTEX_FLOATS 7u
+// Triangles of a workgroup of surface.mesh; three times as many vertices, and both are within what Vulkan promises.
+#define LR_MESH_TRIANGLES 64u
 
 #define LR_VIEW_SMOOTH 0u
 #define LR_VIEW_FLAT 1u

@@ -8,5 +8,5 @@ layout(push_constant) uniform Push { DrawConstants push; };
 
 uint original_triangle() {
     uint i = uint(gl_PrimitiveID);
-    return push.ordered != 0u ? slot_triangle[i] : push.first_triangle + i;
+    return push.ordered != 0u ? slot_triangle[i] : push.first_slot + i;
 }

@@ -15,11 +15,10 @@ constexpr gpu::Source kStreams[] = {gpu::Source::lean, gpu::Source::packed};
 gpu::Comparison compared(gpu::Context& context, const gpu::Model& model, gpu::Source source = gpu::Source::lean,
                          std::uint64_t max_range = 0) {
     gpu::CompareOptions options;
-    options.source = source;
     options.width = 160;
     options.height = 120;
     options.max_range = max_range;
-    Result<gpu::Comparison> out = gpu::compare(context, model, options);
+    Result<gpu::Comparison> out = gpu::compare(context, model, {source}, options);
     REQUIRE_MESSAGE(out, out.error().message);
     return std::move(out).value();
 }
@@ -136,13 +135,14 @@ TEST_CASE_FIXTURE(GpuTest, "nothing to draw is an error") {
     CHECK(no_model(from_points({1, 1, 1}, {0, 0, 0})));
     const Mesh degenerate = from_points({0, 0, 0, 1, 0, 0, 1, 1, 0}, {0, 1, 1, 2, 1, 2});
     for (const gpu::Source source : kStreams) {
-        const auto c = gpu::compare(*context, model_of(degenerate), {.source = source});
+        const auto c = gpu::compare(*context, model_of(degenerate), {source}, {});
         REQUIRE(!c);
         CHECK(c.error().code == ErrorCode::unsupported);
     }
-    const auto without = gpu::make_model(generated("sphere", 100));
+    const Mesh sphere = generated("sphere", 100);
+    const auto without = gpu::make_model(sphere);
     REQUIRE(without);
-    const auto none = gpu::compare(*context, *without, {.source = gpu::Source::packed});
+    const auto none = gpu::compare(*context, *without, {gpu::Source::packed}, {});
     REQUIRE(!none);
     CHECK(none.error().code == ErrorCode::invalid_argument);
 }

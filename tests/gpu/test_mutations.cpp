@@ -13,10 +13,9 @@ namespace {
 
 gpu::Comparison compared(gpu::Context& context, const gpu::Model& model, gpu::Source source = gpu::Source::lean) {
     gpu::CompareOptions options;
-    options.source = source;
     options.width = 320;
     options.height = 240;
-    Result<gpu::Comparison> out = gpu::compare(context, model, options);
+    Result<gpu::Comparison> out = gpu::compare(context, model, {source}, options);
     REQUIRE_MESSAGE(out, out.error().message);
     return std::move(out).value();
 }
@@ -250,10 +249,10 @@ TEST_CASE("validation sees a missing barrier between the decoder and the draw") 
     gpu::CompareOptions options;
     options.width = 160;
     options.height = 120;
-    REQUIRE(gpu::compare(**context, model, options));
+    REQUIRE(gpu::compare(**context, model, gpu::Subject{}, options));
     REQUIRE((*context)->validation().count() == 0);
     options.omit_decode_barrier = true;
-    REQUIRE(gpu::compare(**context, model, options));
+    REQUIRE(gpu::compare(**context, model, gpu::Subject{}, options));
     const std::vector<std::string> messages = (*context)->validation().messages();
     REQUIRE(!messages.empty());
     CHECK(messages[0].find("SYNC-HAZARD") != std::string::npos);

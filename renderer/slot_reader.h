@@ -1,0 +1,28 @@
+#pragma once
+// What the shaders that decode by themselves decode, read back: the proof that it is what the CPU does.
+
+#include <array>
+#include <vector>
+
+#include "renderer/commands.h"
+#include "renderer/gpu_mesh.h"
+#include "renderer/pipeline.h"
+#include "renderer/transfer.h"
+
+namespace lr::gpu {
+
+class SlotReader {
+  public:
+    static Result<SlotReader> create(Context& context);
+
+    /// 3 indices a slot of a mesh that has a stream, by shaders/slot_source.glsl. The pipelines are made when they are
+    /// first needed. Device memory: up to 16 MiB while it runs.
+    Result<std::vector<std::uint32_t>> read(Commands& commands, Transfer& transfer, const GpuMesh& mesh);
+
+  private:
+    Context* context_ = nullptr;
+    Layout layout_;
+    std::array<PipelineHandle, 2> pipelines_;  // lean, packed
+};
+
+}  // namespace lr::gpu

@@ -1,0 +1,3 @@
+#version 460
+// A point for every two slots: surface.geom does the rest (paper: LR 2011, section 7).
+void main() {}
