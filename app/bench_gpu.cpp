@@ -5,8 +5,8 @@
 namespace lr::app {
 namespace {
 
-Candidate candidate(const char* name, const gpu::Times& times) {
-    Candidate c{name, {}, {}, {}};
+Candidate candidate(std::string name, const gpu::Times& times) {
+    Candidate c{std::move(name), {}, {}, {}};
     for (const gpu::Elapsed& elapsed : times) {
         c.seconds.push_back(elapsed.wall);
         if (elapsed.gpu) c.gpu_seconds.push_back(*elapsed.gpu);
@@ -17,7 +17,7 @@ Candidate candidate(const char* name, const gpu::Times& times) {
 }  // namespace
 
 Result<GpuFigures> measure_gpu(const Mesh& mesh, const gpu::ContextOptions& options, int rounds) {
-    const Result<gpu::Model> model = gpu::make_model(mesh, {.packed = true});
+    const Result<gpu::Model> model = gpu::make_model(mesh, {.packed = true, .passes = OptimizeOptions{}.passes});
     if (!model) return model.error();
     const Result<std::unique_ptr<gpu::Context>> context = gpu::Context::create(options);
     if (!context) return context.error();
@@ -27,12 +27,16 @@ Result<GpuFigures> measure_gpu(const Mesh& mesh, const gpu::ContextOptions& opti
     if (!times) return times.error();
     GpuFigures figures;
     figures.device = (*context)->info().name;
-    figures.decode = {candidate("lean", times->lean.decode), candidate("packed", times->packed.decode),
-                      candidate("copy", times->copy)};
-    figures.draw = {candidate("plain", times->draw_plain), candidate("lean", times->lean.draw),
-                    candidate("packed", times->packed.draw),
-                    candidate("lean_decode_every_frame", times->lean.decode_and_draw),
-                    candidate("packed_decode_every_frame", times->packed.decode_and_draw)};
+    for (const gpu::Way& way : times->ways) {
+        figures.draw.push_back(candidate(way.name, way.draw));
+        figures.cost.push_back({way.connectivity_bytes, way.bytes_read, way.vertex_invocations});
+        if (way.decode.empty()) continue;
+        figures.decode.push_back(candidate(way.name, way.decode));
+        const std::uint64_t stream = 4 * (way.source == gpu::Source::lean ? model->lean.words : model->packed.words).size();
+        figures.draw.push_back(candidate(way.name + "_decode_every_frame", way.decode_and_draw));
+        figures.cost.push_back({way.connectivity_bytes + stream, way.bytes_read + stream, way.vertex_invocations});
+    }
+    figures.decode.push_back(candidate("copy", times->copy));
     figures.device_bytes = times->device_bytes;
     return figures;
 }

@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "app/measure.h"
@@ -8,14 +10,22 @@
 
 namespace lr::app {
 
+/// A way of drawing, beside its times: see gpu::Way.
+struct DrawCost {
+    std::uint64_t connectivity_bytes = 0;
+    std::uint64_t bytes_read = 0;
+    std::optional<std::uint64_t> vertex_invocations;
+};
+
 struct GpuFigures {
     std::string device;
     std::vector<Candidate> decode;  ///< "lean", "packed", "copy": wall and GPU seconds
-    std::vector<Candidate> draw;    ///< "plain", and "lean", "packed", also with "_decode_every_frame"
+    std::vector<Candidate> draw;    ///< gpu::Way's names, and "lean_decode_every_frame", "packed_decode_every_frame"
+    std::vector<DrawCost> cost;     ///< of each of `draw`
     std::uint64_t device_bytes = 0;
 };
 
-/// Errors: no_device, and those of the renderer.
+/// With the streams that the program recommends, optimised. Errors: no_device, and those of the renderer.
 Result<GpuFigures> measure_gpu(const Mesh& mesh, const gpu::ContextOptions& options, int rounds);
 
 }  // namespace lr::app

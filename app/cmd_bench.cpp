@@ -64,6 +64,35 @@ Json to_json(const Section& section, double triangles) {
     return out;
 }
 
+#ifdef LACEDRING_GPU
+void add_costs(Json& draw, const GpuFigures& figures) {
+    for (std::size_t i = 0; i < figures.draw.size(); ++i) {
+        Json& entry = draw[figures.draw[i].name];
+        entry["connectivity_bytes"] = figures.cost[i].connectivity_bytes;
+        entry["connectivity_bytes_read"] = figures.cost[i].bytes_read;
+        if (figures.cost[i].vertex_invocations) entry["vertex_invocations"] = *figures.cost[i].vertex_invocations;
+    }
+}
+
+void print_draw(const GpuFigures& figures, double triangles) {
+    fmt::print("  draw (wall){:>27}{:>22}{:>10}{:>9}{:>10}{:>10}{:>9}\n", "ms", "min to max", "GPU ms", "plain", "resident",
+               "read", "VS runs");
+    const double plain = figures.draw[0].median();
+    for (std::size_t i = 0; i < figures.draw.size(); ++i) {
+        const Candidate& c = figures.draw[i];
+        const DrawCost& cost = figures.cost[i];
+        const auto [low, high] = std::minmax_element(c.seconds.begin(), c.seconds.end());
+        const auto a_triangle = [&](std::uint64_t n) { return static_cast<double>(n) / triangles; };
+        fmt::print("    {:<25}{:>9.2f}{:>22}{:>10}{:>8.2f}x{:>10.3f}{:>10.2f}{:>9}\n", c.name, c.median() * 1e3,
+                   fmt::format("{:.2f} to {:.2f}", *low * 1e3, *high * 1e3),
+                   c.gpu_seconds.empty() ? "-" : fmt::format("{:.2f}", median(c.gpu_seconds) * 1e3),
+                   c.median() / plain, a_triangle(cost.connectivity_bytes), a_triangle(cost.bytes_read),
+                   cost.vertex_invocations ? fmt::format("{:.2f}", a_triangle(*cost.vertex_invocations)) : "-");
+    }
+    fmt::print("    resident, read: bytes of connectivity a triangle; VS runs: vertex shader runs a triangle\n");
+}
+#endif
+
 int run(const Options& options) {
     Json meshes = Json::array();
     for (const std::string& path : options.paths) {
@@ -161,17 +190,20 @@ int run(const Options& options) {
             resident = std::move(*measured);
         }
 
-        Section decode_gpu{"decode_gpu (wall)", {}}, draw{"draw (wall)", {}};
+        Section decode_gpu{"decode_gpu (wall)", {}};
+        Json draw = Json::object();
         std::string device, gpu_skipped = "built without Vulkan";
         Json peak = Json::object();
 #ifdef LACEDRING_GPU
+        Result<GpuFigures> gpu = Error{ErrorCode::no_device, ""};
         if (options.no_gpu) {
             gpu_skipped = "--no-gpu";
-        } else if (Result<GpuFigures> gpu = measure_gpu(*mesh, options.context, options.rounds)) {
+        } else if (gpu = measure_gpu(*mesh, options.context, options.rounds); gpu) {
             gpu_skipped.clear();
             device = gpu->device;
-            decode_gpu.candidates = std::move(gpu->decode);
-            draw.candidates = std::move(gpu->draw);
+            decode_gpu.candidates = gpu->decode;
+            draw = to_json({"", gpu->draw}, triangles);
+            add_costs(draw, *gpu);
             peak["gpu"] = gpu->device_bytes;
         } else if (gpu.error().code == ErrorCode::no_device && options.context.device.empty()) {
             gpu_skipped = gpu.error().message;
@@ -190,7 +222,7 @@ int run(const Options& options) {
                               {"construct_ratio", {{"strips_over_lean", ratio}}},
                               {"decode_cpu", to_json(decode, triangles)},
                               {"decode_gpu", to_json(decode_gpu, triangles)},
-                              {"draw", to_json(draw, triangles)},
+                              {"draw", draw},
                               {"device", device},
                               {"gpu_skipped", gpu_skipped},
                               {"operators", operators_json},
@@ -199,7 +231,7 @@ int run(const Options& options) {
             continue;
         }
         fmt::print("{}: {} triangles; medians of {} rounds\n", path, mesh->triangle_count(), options.rounds);
-        for (const Section& section : {construct, decode, decode_gpu, draw}) {
+        for (const Section& section : {construct, decode, decode_gpu}) {
             if (section.candidates.empty()) continue;
             fmt::print("  {}\n", section.name);
             for (const Candidate& c : section.candidates) {
@@ -207,6 +239,9 @@ int run(const Options& options) {
                            triangles / c.median() / 1e6);
             }
         }
+#ifdef LACEDRING_GPU
+        if (gpu) print_draw(*gpu, triangles);
+#endif
         fmt::print("  {}\n", gpu_skipped.empty() ? "drawn at 1280x720 on " + device : "not drawn: " + gpu_skipped);
         if (!operators.empty()) {
             fmt::print("  operators, ns each{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "refs/tri", "c.v", "c.o, c.s",

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "lrcore/corner_table/corner_table.h"
+#include "lrcore/ring/optimize.h"
 #include "lrcore/ring/ring.h"
 #include "renderer/try.h"
 
@@ -75,9 +76,12 @@ Result<Model> make_model(const Mesh& mesh, const ModelOptions& options) {
     model.mean_edge = mean_edge(model);
     LR_ASSIGN(const CornerTable table, build_corner_table(mesh.indices, mesh.vertex_count));
     const Rings rings = expand_rings(table, options.ring);
-    model.lean = encode_lean(table, rings, options.lean);
+    const auto optimised = [&](const RingCost& cost) {
+        return options.passes == 0 ? rings : optimize_rings(table, rings, {.cost = cost, .passes = options.passes});
+    };
+    model.lean = encode_lean(table, optimised(lean_ring_cost), options.lean);
     if (options.packed) {
-        LR_ASSIGN(model.packed, encode_packed(table, rings));
+        LR_ASSIGN(model.packed, encode_packed(table, optimised(packed_ring_cost)));
     }
     return model;
 }

@@ -32,7 +32,8 @@ struct Model {
 struct ModelOptions {
     RingOptions ring{};
     LeanOptions lean{};
-    bool packed = false;  ///< the packed stream too
+    bool packed = false;       ///< the packed stream too
+    std::uint32_t passes = 0;  ///< of the optimiser (optimize_rings), for each stream's own cost
 };
 
 /// Normalises, and encodes the streams (corner table, ring, streams). Cost: O(V + T).

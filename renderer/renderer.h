@@ -45,6 +45,14 @@ class Renderer {
     /// be; of the others what their shaders get, slot by slot.
     Result<std::vector<std::uint32_t>> read_indices(Drawable& drawable);
 
+    /// Words of its stream that decoding every slot by itself loads: what a picture by Path::geometry or mesh reads, and a
+    /// third of what one by Path::pull does.
+    Result<std::uint64_t> words_read(const Drawable& drawable);
+
+    /// Runs of vertex shaders for one picture in one pass, as the device counts them. What draws it must be decoded.
+    /// Errors: unsupported (DeviceInfo::statistics).
+    Result<std::uint64_t> vertex_invocations(Drawable& drawable);
+
     Context& context() { return *context_; }
     Commands& commands() { return *commands_; }
     Transfer& transfer() { return *transfer_; }

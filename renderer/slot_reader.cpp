@@ -6,6 +6,7 @@
 #include "renderer/surface.h"
 #include "renderer/try.h"
 #include "spirv/slot_indices_comp.h"
+#include "spirv/slot_words_comp.h"
 
 namespace lr::gpu {
 
@@ -18,22 +19,24 @@ Result<SlotReader> SlotReader::create(Context& context) {
     return out;
 }
 
-Result<std::vector<std::uint32_t>> SlotReader::read(Commands& commands, Transfer& transfer, const GpuMesh& mesh) {
+template <class Done>
+Result<void> SlotReader::run(Commands& commands, const GpuMesh& mesh, Task task, const Done& done) {
     if (mesh.source == Source::plain) return Error{ErrorCode::invalid_argument, "an index list has no stream"};
     const bool packed = mesh.source == Source::packed;
-    PipelineHandle& pipeline = pipelines_[packed ? 1 : 0];
+    PipelineHandle& pipeline = pipelines_[2 * static_cast<std::size_t>(task) + (packed ? 1 : 0)];
     if (!pipeline) {
         const std::array<std::uint32_t, 4> constants{0, 0, packed ? 1U : 0U, 0};  // the triangles as they are
-        LR_ASSIGN(pipeline, create_compute(*context_, "slot indices", layout_, spirv_slot_indices_comp, constants));
+        std::span<const std::uint32_t> code = spirv_slot_indices_comp;
+        if (task == Task::words) code = spirv_slot_words_comp;
+        LR_ASSIGN(pipeline, create_compute(*context_, "slots", layout_, code, constants));
     }
     constexpr std::uint32_t kSlots = 1U << 20;
     const std::uint32_t step = std::min({kSlots, mesh.slots, static_cast<std::uint32_t>(mesh.max_range / 12)});
-    LR_ASSIGN(const Buffer indices, Buffer::create(*context_, "slot indices", std::uint64_t{12} * step,
-                                                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT));
+    LR_ASSIGN(const Buffer out,
+              Buffer::create(*context_, "slots", std::uint64_t{12} * step, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT));
     Descriptors descriptors(*context_);
     LR_ASSIGN(const VkDescriptorSet set, descriptors.allocate(layout_));
-    descriptors.write(set, 0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, {&indices});
-    std::vector<std::uint32_t> out(std::size_t{3} * mesh.slots);
+    descriptors.write(set, 0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, {&out});
     for (std::uint32_t first = 0; first < mesh.slots; first += step) {
         const std::uint32_t slots = std::min(step, mesh.slots - first);
         const DrawConstants constants = draw_constants(mesh, first, slots);
@@ -43,10 +46,31 @@ Result<std::vector<std::uint32_t>> SlotReader::read(Commands& commands, Transfer
         vkCmdPushConstants(buffer, layout_.pipeline(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants), &constants);
         vkCmdDispatch(buffer, (slots + LR_COMPUTE_GROUP - 1) / LR_COMPUTE_GROUP, 1, 1);
         LR_TRY(commands.run());
-        const auto part = std::span(out).subspan(std::size_t{3} * first, std::size_t{3} * slots);
-        LR_TRY(transfer.read(indices, 0, std::as_writable_bytes(part)));
+        LR_TRY(done(first, slots, out));
     }
+    return {};
+}
+
+Result<std::vector<std::uint32_t>> SlotReader::read(Commands& commands, Transfer& transfer, const GpuMesh& mesh) {
+    std::vector<std::uint32_t> out(std::size_t{3} * mesh.slots);
+    LR_TRY(run(commands, mesh, Task::indices, [&](std::uint32_t first, std::uint32_t slots, const Buffer& part) {
+        return transfer.read(part, 0,
+                             std::as_writable_bytes(
+                                 std::span(out).subspan(std::size_t{3} * first, std::size_t{3} * slots)));
+    }));
     return out;
+}
+
+Result<std::uint64_t> SlotReader::words_read(Commands& commands, Transfer& transfer, const GpuMesh& mesh) {
+    std::uint64_t sum = 0;
+    std::vector<std::uint32_t> words;
+    LR_TRY(run(commands, mesh, Task::words, [&](std::uint32_t, std::uint32_t slots, const Buffer& part) {
+        words.resize(slots);
+        Result<void> read = transfer.read(part, 0, std::as_writable_bytes(std::span(words)));
+        for (const std::uint32_t count : words) sum += count;
+        return read;
+    }));
+    return sum;
 }
 
 }  // namespace lr::gpu

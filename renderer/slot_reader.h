@@ -19,10 +19,18 @@ class SlotReader {
     /// first needed. Device memory: up to 16 MiB while it runs.
     Result<std::vector<std::uint32_t>> read(Commands& commands, Transfer& transfer, const GpuMesh& mesh);
 
+    /// Words of the stream that decoding every slot once, each by itself, loads.
+    Result<std::uint64_t> words_read(Commands& commands, Transfer& transfer, const GpuMesh& mesh);
+
   private:
+    enum class Task { indices, words };
+    /// Dispatches a task over all slots in parts; `done(first, slots, buffer)` reads what each part has written.
+    template <class Done>
+    Result<void> run(Commands& commands, const GpuMesh& mesh, Task task, const Done& done);
+
     Context* context_ = nullptr;
     Layout layout_;
-    std::array<PipelineHandle, 2> pipelines_;  // lean, packed
+    std::array<PipelineHandle, 4> pipelines_;  // lean, packed; of each task
 };
 
 }  // namespace lr::gpu

@@ -1,9 +1,10 @@
 #include "renderer/timing.h"
 
 #include <functional>
-#include <optional>
+#include <list>
 #include <span>
 
+#include "lrcore/baseline/codecs.h"
 #include "renderer/renderer.h"
 #include "renderer/try.h"
 
@@ -32,6 +33,61 @@ Result<void> run_in_turns(Commands& commands, std::uint32_t repeats, std::span<c
     return {};
 }
 
+/// A model whose index list is in the rival's best order, and vertices in the order of their use.
+struct BestOrder {
+    std::vector<std::uint32_t> indices;
+    Model model;
+
+    explicit BestOrder(const Model& from) : indices(best_cache_order(from.indices, from.vertex_count())) {
+        std::vector<std::uint32_t> number(from.vertex_count(), UINT32_MAX);
+        std::uint32_t next = 0;
+        model.positions.resize(from.positions.size());
+        model.normals.resize(from.normals.size());
+        const auto move = [&](std::uint32_t v) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                model.positions[3 * std::size_t{next} + k] = from.positions[3 * std::size_t{v} + k];
+                model.normals[3 * std::size_t{next} + k] = from.normals[3 * std::size_t{v} + k];
+            }
+            number[v] = next++;
+        };
+        for (std::uint32_t& v : indices) {
+            if (number[v] == UINT32_MAX) move(v);
+            v = number[v];
+        }
+        for (std::uint32_t v = 0; v < number.size(); ++v) {
+            if (number[v] == UINT32_MAX) move(v);
+        }
+        model.indices = indices;
+        model.lean = from.lean;  // uploads look at it for what is drawn over the surface: nothing here
+    }
+};
+
+/// A way, and what it is drawn from.
+struct Uploaded {
+    Way way;
+    Drawable drawable;
+    Uploaded(std::string name, Drawable d) : drawable(std::move(d)) {
+        way.name = std::move(name);
+        way.source = drawable.mesh.source;
+        way.path = drawable.mesh.path;
+    }
+};
+
+Result<void> count_bytes(Renderer& renderer, Uploaded& uploaded, std::size_t stream_bytes) {
+    Way& way = uploaded.way;
+    const GpuMesh& mesh = uploaded.drawable.mesh;
+    const std::uint64_t index_bytes = std::uint64_t{12} * mesh.slots;
+    if (way.path == Path::compute) {
+        way.connectivity_bytes = index_bytes;  // the stream may go once it is decoded
+        way.bytes_read = index_bytes;
+        return {};
+    }
+    LR_ASSIGN(const std::uint64_t words, renderer.words_read(uploaded.drawable));
+    way.connectivity_bytes = stream_bytes;
+    way.bytes_read = sizeof(std::uint32_t) * words * (way.path == Path::pull ? 3 : 1);
+    return {};
+}
+
 }  // namespace
 
 Result<DeviceTimes> measure_device(Context& context, const Model& model, const TimingOptions& options) {
@@ -39,17 +95,26 @@ Result<DeviceTimes> measure_device(Context& context, const Model& model, const T
     renderer_options.width = options.width;
     renderer_options.height = options.height;
     LR_ASSIGN(Renderer renderer, Renderer::create(context, renderer_options));
-    LR_ASSIGN(Drawable plain, renderer.upload(model, Source::plain));
-    LR_ASSIGN(Drawable lean, renderer.upload(model, Source::lean));
-    std::optional<Drawable> packed;
-    if (!model.packed.words.empty()) {
-        LR_ASSIGN(packed, renderer.upload(model, Source::packed));
+    std::list<Uploaded> all;  // their places are kept
+    const auto add = [&](std::string name, const Model& of, Source source, Path path,
+                         std::size_t stream_bytes) -> Result<void> {
+        LR_ASSIGN(Drawable drawable, renderer.upload(of, source, path));
+        all.emplace_back(std::move(name), std::move(drawable));
+        return count_bytes(renderer, all.back(), stream_bytes);
+    };
+    LR_TRY(add("plain", model, Source::plain, Path::compute, 0));
+    const BestOrder best(model);
+    LR_TRY(add("plain_best_order", best.model, Source::plain, Path::compute, 0));
+    for (const auto& [path_name, path] : kPaths) {
+        if (path == Path::mesh && context.info().max_mesh_groups == 0) continue;
+        const std::string suffix = path == Path::compute ? "" : std::string("_") + path_name;
+        LR_TRY(add("lean" + suffix, model, Source::lean, path, model.lean.words.size() * sizeof(std::uint32_t)));
+        if (model.packed.words.empty()) continue;
+        LR_TRY(add("packed" + suffix, model, Source::packed, path, model.packed.words.size() * sizeof(std::uint32_t)));
     }
     LR_ASSIGN(const Camera camera, make_camera(model, {}, options.width, options.height));
     renderer.painter().set_frame(model, camera, renderer.target());
-    DeviceTimes out;
-    out.index_bytes = std::uint64_t{12} * lean.mesh.slots;
-    LR_ASSIGN(const Buffer copy, Buffer::create(context, "copy of the indices", out.index_bytes, 0));
+
     const auto draw = [&](VkCommandBuffer buffer, const Drawable& drawable) {
         renderer.painter().record(buffer, drawable.mesh, drawable.draw, renderer.target(), Painter::Ties::first_drawn);
     };
@@ -57,23 +122,37 @@ Result<DeviceTimes> measure_device(Context& context, const Model& model, const T
         drawable.mesh.decoded = false;
         renderer.decode(buffer, drawable);
     };
+    DeviceTimes out;
     std::vector<Work> works;
-    const auto add = [&](Drawable& stream, DeviceTimes::Stream& times) {
-        works.push_back({&times.decode, [&](VkCommandBuffer buffer) { decode(buffer, stream); }});
-        works.push_back({&times.draw, [&](VkCommandBuffer buffer) { draw(buffer, stream); }});
-        works.push_back({&times.decode_and_draw, [&](VkCommandBuffer buffer) {
-                             decode(buffer, stream);
-                             draw(buffer, stream);
-                         }});
-    };
-    add(lean, out.lean);
-    if (packed) add(*packed, out.packed);
-    works.push_back({&out.draw_plain, [&](VkCommandBuffer buffer) { draw(buffer, plain); }});
+    const Buffer* lean_indices = nullptr;
+    for (Uploaded& uploaded : all) {
+        Drawable& drawable = uploaded.drawable;
+        Way& way = uploaded.way;
+        if (way.path == Path::compute && way.source != Source::plain) {
+            works.push_back({&way.decode, [&](VkCommandBuffer buffer) { decode(buffer, drawable); }});
+            works.push_back({&way.decode_and_draw, [&](VkCommandBuffer buffer) {
+                                 decode(buffer, drawable);
+                                 draw(buffer, drawable);
+                             }});
+        }
+        works.push_back({&way.draw, [&](VkCommandBuffer buffer) { draw(buffer, drawable); }});
+        if (way.name == "lean") {
+            lean_indices = &drawable.mesh.indices;
+            out.index_bytes = std::uint64_t{12} * drawable.mesh.slots;
+        }
+    }
+    LR_ASSIGN(const Buffer copy, Buffer::create(context, "copy of the indices", out.index_bytes, 0));
     works.push_back({&out.copy, [&](VkCommandBuffer buffer) {
                          const VkBufferCopy region{0, 0, out.index_bytes};
-                         vkCmdCopyBuffer(buffer, lean.mesh.indices.handle(), copy.handle(), 1, &region);
+                         vkCmdCopyBuffer(buffer, lean_indices->handle(), copy.handle(), 1, &region);
                      }});
     LR_TRY(run_in_turns(renderer.commands(), options.repeats, works));
+    for (Uploaded& uploaded : all) {
+        if (uploaded.way.path != Path::mesh && context.info().statistics) {
+            LR_ASSIGN(uploaded.way.vertex_invocations, renderer.vertex_invocations(uploaded.drawable));
+        }
+        out.ways.push_back(std::move(uploaded.way));
+    }
     out.device_bytes = context.arena().peak();
     return out;
 }

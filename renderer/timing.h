@@ -1,10 +1,14 @@
 #pragma once
 // How long the device takes. For `lacedring bench`.
 
+#include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "renderer/commands.h"
 #include "renderer/context.h"
+#include "renderer/gpu_mesh.h"
 #include "renderer/model.h"
 
 namespace lr::gpu {
@@ -18,23 +22,31 @@ struct TimingOptions {
     std::uint32_t height = 720;
 };
 
+/// One way to draw the model.
+struct Way {
+    std::string name;  ///< "plain", "plain_best_order", "lean", "lean_pull", "packed_mesh", ...
+    Source source = Source::plain;
+    Path path = Path::compute;
+    Times draw;             ///< of Path::compute: decoded before
+    Times decode;           ///< to index buffer and draw commands. Path::compute of a stream only, as is the next
+    Times decode_and_draw;  ///< both, each time
+    std::uint64_t connectivity_bytes = 0;  ///< that must stay on the device to draw again: index buffer, or stream, or both
+    std::uint64_t bytes_read = 0;          ///< of these, by shaders or as indices, for one picture
+    /// Vertex shader runs for one picture, where the device counts them; not of Path::mesh.
+    std::optional<std::uint64_t> vertex_invocations;
+};
+
 struct DeviceTimes {
-    /// Of one stream.
-    struct Stream {
-        Times decode;           ///< to index buffer and draw commands
-        Times draw;             ///< indexed indirect, decoded before
-        Times decode_and_draw;  ///< both, each time
-    };
-    Stream lean;
-    Stream packed;                   ///< empty where the model has none
+    std::vector<Way> ways;
     Times copy;                      ///< vkCmdCopyBuffer of lean's index buffer. Trust its wall time only on lavapipe
-    Times draw_plain;                ///< indexed, the mesh's own order
     std::uint64_t index_bytes = 0;   ///< of lean's index buffer
     std::uint64_t device_bytes = 0;  ///< device memory held at most
 };
 
-/// Pictures are drawn in one pass with smooth normals, from the default camera, and not read back.
-/// Every repetition is one submission, waited for; all kinds take turns.
+/// Every source and path that model and device have, and the index list again in the order that meshoptimizer thinks
+/// best for the vertex cache, vertices in the order of their use. Pictures are drawn in one pass with smooth normals,
+/// from the default camera, and not read back. Every repetition is one submission, waited for; all kinds take turns.
+/// Device memory: all of them at the same time.
 Result<DeviceTimes> measure_device(Context& context, const Model& model, const TimingOptions& options = {});
 
 }  // namespace lr::gpu

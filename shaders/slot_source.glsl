@@ -11,8 +11,18 @@ layout(push_constant) uniform Push { DrawConstants push; };
 layout(constant_id = LR_CONSTANT_PACKED) const bool packed_stream = false;
 layout(constant_id = LR_CONSTANT_ROTATE) const bool rotate = false;
 
+#ifdef LR_COUNT_WORDS
+uint words_read = 0u;
+uint stream_word(uint i) {
+    ++words_read;
+    return Words(push.stream).at[i];
+}
+#define LR_LEAN_WORD(i) stream_word(i)
+#define LR_PACKED_WORD(i) stream_word(i)
+#else
 #define LR_LEAN_WORD(i) Words(push.stream).at[i]
 #define LR_PACKED_WORD(i) Words(push.stream).at[i]
+#endif
 #include "shaders/lacedring.glsl"
 
 // As rotate.comp turns the triangles of an index buffer.
