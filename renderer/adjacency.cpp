@@ -1,0 +1,177 @@
+#include "renderer/adjacency.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+#include "lrcore/lr/lr_stream.h"
+#include "renderer/context.h"
+#include "renderer/try.h"
+#include "shaders/adjacency_shared.h"
+#include "spirv/silhouette_frag.h"
+#include "spirv/silhouette_vert.h"
+#include "spirv/vertex_normals_comp.h"
+
+namespace lr::gpu {
+namespace {
+
+constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+constexpr VkBufferUsageFlags kStorageUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+
+Result<void> check_range(const char* what, std::uint64_t bytes, std::uint64_t range) {
+    if (bytes <= range) return {};
+    return Error{ErrorCode::too_large, std::string(what) + " of " + std::to_string(bytes) + " bytes; " +
+                                           std::to_string(range) + " is the most that a descriptor covers here"};
+}
+
+}  // namespace
+
+Result<Adjacency> upload_adjacency(Context& context, Transfer& transfer, const EncodedLr& tables,
+                                   std::span<const float> positions, std::uint64_t max_range) {
+    LR_ASSIGN(const LrStream<LrView> stream, view_lr(tables.words));
+    const std::uint64_t limit = context.limits().maxStorageBufferRange;
+    const std::uint64_t range = max_range == 0 ? limit : std::min(max_range, limit);
+    const std::uint64_t position_bytes = std::uint64_t{3} * sizeof(float) * tables.vertex_order.size();
+    LR_TRY(check_range("LR tables", tables.words.size() * sizeof(std::uint32_t), range));
+    LR_TRY(check_range("positions", position_bytes, range));
+    Adjacency out;
+    out.vertices = stream.view.vertices;
+    out.triangle_numbers = stream.view.triangle_numbers();
+    out.vertex_order = tables.vertex_order;
+    LR_ASSIGN(out.tables,
+              Buffer::create(context, "LR tables", tables.words.size() * sizeof(std::uint32_t), kStorageUsage));
+    LR_ASSIGN(out.positions, Buffer::create(context, "positions in LR order", position_bytes, kStorageUsage));
+    LR_TRY(transfer.upload(out.tables, std::span<const std::uint32_t>(tables.words)));
+    constexpr std::size_t kUnit = 3 * sizeof(float);
+    LR_TRY(transfer.upload(out.positions, 0, position_bytes, kUnit,
+                           [&](std::byte* to, std::size_t from, std::size_t size) {
+                               for (std::size_t v = from / kUnit; v < (from + size) / kUnit; ++v, to += kUnit) {
+                                   std::memcpy(to, &positions[3 * std::size_t{out.vertex_order[v]}], kUnit);
+                               }
+                           }));
+    return out;
+}
+
+Result<Adjacency> upload_adjacency(Context& context, Transfer& transfer, const Model& model,
+                                   const AdjacencyOptions& options) {
+    LR_ASSIGN(CornerTable table, build_corner_table(model.indices, model.vertex_count()));
+    LR_ASSIGN(const EncodedLr tables, encode_lr(std::move(table), options.ring, {.passes = 0}, options.wart_skipping));
+    return upload_adjacency(context, transfer, tables, model.positions, options.max_range);
+}
+
+Result<VertexNormals> VertexNormals::create(Context& context) {
+    VertexNormals out;
+    out.context_ = &context;
+    const std::array<Binding, 3> bindings{{{0}, {1}, {2}}};
+    LR_ASSIGN(out.layout_, Layout::create(context, "vertex normals", bindings, VK_SHADER_STAGE_COMPUTE_BIT,
+                                          sizeof(NormalConstants)));
+    LR_ASSIGN(out.pipeline_, create_compute(context, "vertex normals", out.layout_, spirv_vertex_normals_comp));
+    return out;
+}
+
+Result<Buffer> VertexNormals::compute(Commands& commands, const Adjacency& adjacency) const {
+    LR_ASSIGN(Buffer normals, Buffer::create(*context_, "normals", adjacency.positions.size(), kStorageUsage));
+    Descriptors descriptors(*context_);
+    LR_ASSIGN(const VkDescriptorSet set, descriptors.allocate(layout_));
+    descriptors.write(set, 0, kStorage, {&adjacency.tables});
+    descriptors.write(set, 1, kStorage, {&adjacency.positions});
+    descriptors.write(set, 2, kStorage, {&normals});
+    LR_ASSIGN(const VkCommandBuffer buffer, commands.begin());
+    vkCmdBindPipeline(buffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
+    vkCmdBindDescriptorSets(buffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.pipeline(), 0, 1, &set, 0, nullptr);
+    const std::uint64_t step = std::uint64_t{context_->limits().maxComputeWorkGroupCount[0]} * LR_COMPUTE_GROUP;
+    for (std::uint64_t first = 0; first < adjacency.vertices; first += step) {
+        const std::uint64_t end = std::min<std::uint64_t>(first + step, adjacency.vertices);
+        const NormalConstants constants{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(end)};
+        vkCmdPushConstants(buffer, layout_.pipeline(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants), &constants);
+        vkCmdDispatch(buffer, static_cast<std::uint32_t>((end - first + LR_COMPUTE_GROUP - 1) / LR_COMPUTE_GROUP), 1,
+                      1);
+    }
+    memory_barrier(buffer, {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
+                   {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT});
+    LR_TRY(commands.run());
+    return normals;
+}
+
+Result<Silhouettes> Silhouettes::create(Context& context, std::uint32_t lines_per_draw) {
+    Silhouettes out;
+    out.context_ = &context;
+    out.lines_per_draw_ = std::clamp(lines_per_draw, 1U, 1U << 29);  // gl_VertexIndex is signed
+    constexpr VkShaderStageFlags kVertex = VK_SHADER_STAGE_VERTEX_BIT;
+    const std::array<Binding, 3> bindings{
+        {{0, kStorage, kVertex},
+         {1, kStorage, kVertex},
+         {2, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kVertex | VK_SHADER_STAGE_FRAGMENT_BIT}}};
+    LR_ASSIGN(out.layout_, Layout::create(context, "silhouettes", bindings, kVertex, sizeof(SilhouetteConstants)));
+    GraphicsInfo info;
+    info.name = "silhouettes";
+    info.vertex = spirv_silhouette_vert;
+    info.fragment = spirv_silhouette_frag;
+    info.topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST;
+    info.depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL;
+    info.depth_write = false;
+    info.blend = true;
+    info.colours = {Target::kColour};
+    LR_ASSIGN(out.pipeline_, create_graphics(context, out.layout_, info));
+    LR_ASSIGN(out.frame_,
+              Buffer::create(context, "silhouette frame", sizeof(SilhouetteFrame),
+                             VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, Memory::upload));
+    return out;
+}
+
+Result<SilhouettePlan> Silhouettes::plan(Descriptors& descriptors, const Adjacency& adjacency) const {
+    SilhouettePlan plan;
+    plan.lines = 3 * adjacency.triangle_numbers;
+    LR_ASSIGN(plan.set, descriptors.allocate(layout_));
+    descriptors.write(plan.set, 0, kStorage, {&adjacency.tables});
+    descriptors.write(plan.set, 1, kStorage, {&adjacency.positions});
+    descriptors.write(plan.set, 2, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, {&frame_});
+    return plan;
+}
+
+std::array<float, 3> eye_of(const Camera& camera) {
+    const mat4& m = camera.view_from_world;  // a rotation, and the eye at the origin behind it
+    std::array<float, 3> eye{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        double sum = 0;
+        for (std::size_t row = 0; row < 3; ++row) sum -= double{m[4 * i + row]} * double{m[12 + row]};
+        eye[i] = static_cast<float>(sum);
+    }
+    return eye;
+}
+
+void Silhouettes::set_frame(const Camera& camera, const SilhouetteStyle& style) {
+    SilhouetteFrame frame{};
+    frame.view_from_world = camera.view_from_world;
+    frame.clip_from_view = camera.clip_from_view;
+    const std::array<float, 3> eye = eye_of(camera);
+    frame.eye = {eye[0], eye[1], eye[2], 1};
+    frame.colour = style.colour;
+    frame.lift = 0.0012F;
+    std::memcpy(frame_.mapped(), &frame, sizeof(frame));
+    line_width_ = std::clamp(style.width, 1.0F, context_->info().max_line_width);
+    // Below -1 is no cosine, rounded or not.
+    crease_cos_ = style.crease >= 180 ? -2.0F : static_cast<float>(std::cos(style.crease * std::numbers::pi / 180));
+}
+
+void Silhouettes::record(VkCommandBuffer commands, const SilhouettePlan& plan, const Target& target) const {
+    Target::between(commands);
+    target.begin(commands, {.colour = true});
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.get());
+    vkCmdSetLineWidth(commands, line_width_);
+    // Every pipeline has a binding for vertices; this one takes nothing from it, but validation wants something there.
+    const VkBuffer nothing = frame_.handle();
+    const VkDeviceSize zero = 0;
+    vkCmdBindVertexBuffers(commands, 0, 1, &nothing, &zero);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.pipeline(), 0, 1, &plan.set, 0, nullptr);
+    for (std::uint64_t first = 0; first < plan.lines; first += lines_per_draw_) {
+        const SilhouetteConstants constants{static_cast<std::uint32_t>(first), crease_cos_};
+        vkCmdPushConstants(commands, layout_.pipeline(), VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof(constants), &constants);
+        const std::uint64_t lines = std::min<std::uint64_t>(lines_per_draw_, plan.lines - first);
+        vkCmdDraw(commands, static_cast<std::uint32_t>(2 * lines), 1, 0, 0);
+    }
+    Target::end(commands);
+}
+
+}  // namespace lr::gpu

@@ -1,0 +1,25 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Two vertices a corner, and no vertex or index buffer: the LR tables are asked whether the edge across from that corner
+// is to be drawn. One that is not goes outside the picture, both ends to the same point.
+#include "shaders/adjacency_shared.h"
+
+layout(push_constant) uniform Push { SilhouetteConstants push; };
+layout(std430, binding = 0) readonly buffer Tables { uint words[]; };
+layout(std430, binding = 1) readonly buffer Positions { float positions[]; };
+layout(binding = 2) uniform Frame { SilhouetteFrame frame; };
+
+#define LR_TABLE_WORD(i) words[i]
+#include "shaders/lacedring_operators.glsl"
+vec3 lr_position(uint v) { return vec3(positions[3u * v], positions[3u * v + 1u], positions[3u * v + 2u]); }
+#include "shaders/silhouette.glsl"
+
+void main() {
+    uint line = push.first_line + uint(gl_VertexIndex) / 2u;
+    LrEdge edge = lr_edge(lr_op_layout(), line / 3u, line % 3u, frame.eye.xyz, push.crease_cos);
+    gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+    if (edge.kind == 0u) return;
+    vec3 world = lr_position((gl_VertexIndex & 1) == 0 ? edge.from : edge.to);
+    vec3 view = (frame.view_from_world * vec4(world, 1.0)).xyz;
+    gl_Position = frame.clip_from_view * vec4(view * (1.0 - frame.lift), 1.0);
+}
