@@ -1,0 +1,20 @@
+// What every shader here that reads a stream begins with: where its words are, and the include.
+layout(std430, binding = 0) readonly buffer Stream { uint words[]; };
+
+#ifdef PACKED
+#define LR_PACKED_WORD(i) words[i]
+#include "lacedring.glsl"
+uvec3 stream_triangle(uint t) { return lr_packed_triangle(lr_packed_layout(), t); }
+uint stream_triangles() { return lr_packed_layout().triangles; }
+#else
+#define LR_LEAN_WORD(i) words[i]
+#include "lacedring.glsl"
+uvec3 stream_triangle(uint t) { return lr_lean_triangle(lr_lean_layout(), t); }
+uint stream_triangles() { return lr_lean_slots(lr_lean_layout()); }
+#endif
+
+// For the comparison only: pixels depend, in their last bit, on which corner a triangle begins with.
+uvec3 smallest_first(uvec3 v) {
+    if (v.y < v.x && v.y < v.z) return v.yzx;
+    return v.z < v.x && v.z < v.y ? v.zxy : v;
+}
