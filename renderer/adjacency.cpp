@@ -16,32 +16,21 @@
 namespace lr::gpu {
 namespace {
 
-constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-constexpr VkBufferUsageFlags kStorageUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-
-Result<void> check_range(const char* what, std::uint64_t bytes, std::uint64_t range) {
-    if (bytes <= range) return {};
-    return Error{ErrorCode::too_large, std::string(what) + " of " + std::to_string(bytes) + " bytes; " +
-                                           std::to_string(range) + " is the most that a descriptor covers here"};
-}
+constexpr VkBufferUsageFlags kAddress = VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
 
 }  // namespace
 
 Result<Adjacency> upload_adjacency(Context& context, Transfer& transfer, const EncodedLr& tables,
-                                   std::span<const float> positions, std::uint64_t max_range) {
+                                   std::span<const float> positions) {
     LR_ASSIGN(const LrStream<LrView> stream, view_lr(tables.words));
-    const std::uint64_t limit = context.limits().maxStorageBufferRange;
-    const std::uint64_t range = max_range == 0 ? limit : std::min(max_range, limit);
     const std::uint64_t position_bytes = std::uint64_t{3} * sizeof(float) * tables.vertex_order.size();
-    LR_TRY(check_range("LR tables", tables.words.size() * sizeof(std::uint32_t), range));
-    LR_TRY(check_range("positions", position_bytes, range));
     Adjacency out;
     out.vertices = stream.view.vertices;
     out.triangle_numbers = stream.view.triangle_numbers();
     out.vertex_order = tables.vertex_order;
     LR_ASSIGN(out.tables,
-              Buffer::create(context, "LR tables", tables.words.size() * sizeof(std::uint32_t), kStorageUsage));
-    LR_ASSIGN(out.positions, Buffer::create(context, "positions in LR order", position_bytes, kStorageUsage));
+              Buffer::create(context, "LR tables", tables.words.size() * sizeof(std::uint32_t), kAddress));
+    LR_ASSIGN(out.positions, Buffer::create(context, "positions in LR order", position_bytes, kAddress));
     LR_TRY(transfer.upload(out.tables, std::span<const std::uint32_t>(tables.words)));
     constexpr std::size_t kUnit = 3 * sizeof(float);
     LR_TRY(transfer.upload(out.positions, 0, position_bytes, kUnit,
@@ -57,33 +46,28 @@ Result<Adjacency> upload_adjacency(Context& context, Transfer& transfer, const M
                                    const AdjacencyOptions& options) {
     LR_ASSIGN(CornerTable table, build_corner_table(model.indices, model.vertex_count()));
     LR_ASSIGN(const EncodedLr tables, encode_lr(std::move(table), options.ring, {.passes = 0}, options.wart_skipping));
-    return upload_adjacency(context, transfer, tables, model.positions, options.max_range);
+    return upload_adjacency(context, transfer, tables, model.positions);
 }
 
 Result<VertexNormals> VertexNormals::create(Context& context) {
     VertexNormals out;
     out.context_ = &context;
-    const std::array<Binding, 3> bindings{{{0}, {1}, {2}}};
-    LR_ASSIGN(out.layout_, Layout::create(context, "vertex normals", bindings, VK_SHADER_STAGE_COMPUTE_BIT,
-                                          sizeof(NormalConstants)));
+    LR_ASSIGN(out.layout_,
+              Layout::create(context, "vertex normals", {}, VK_SHADER_STAGE_COMPUTE_BIT, sizeof(NormalConstants)));
     LR_ASSIGN(out.pipeline_, create_compute(context, "vertex normals", out.layout_, spirv_vertex_normals_comp));
     return out;
 }
 
 Result<Buffer> VertexNormals::compute(Commands& commands, const Adjacency& adjacency) const {
-    LR_ASSIGN(Buffer normals, Buffer::create(*context_, "normals", adjacency.positions.size(), kStorageUsage));
-    Descriptors descriptors(*context_);
-    LR_ASSIGN(const VkDescriptorSet set, descriptors.allocate(layout_));
-    descriptors.write(set, 0, kStorage, {&adjacency.tables});
-    descriptors.write(set, 1, kStorage, {&adjacency.positions});
-    descriptors.write(set, 2, kStorage, {&normals});
+    LR_ASSIGN(Buffer normals, Buffer::create(*context_, "normals", adjacency.positions.size(), kAddress));
     LR_ASSIGN(const VkCommandBuffer buffer, commands.begin());
     vkCmdBindPipeline(buffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
-    vkCmdBindDescriptorSets(buffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.pipeline(), 0, 1, &set, 0, nullptr);
     const std::uint64_t step = std::uint64_t{context_->limits().maxComputeWorkGroupCount[0]} * LR_COMPUTE_GROUP;
     for (std::uint64_t first = 0; first < adjacency.vertices; first += step) {
         const std::uint64_t end = std::min<std::uint64_t>(first + step, adjacency.vertices);
-        const NormalConstants constants{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(end)};
+        const NormalConstants constants{adjacency.tables.address_words(), adjacency.positions.address_words(),
+                                        normals.address_words(), static_cast<std::uint32_t>(first),
+                                        static_cast<std::uint32_t>(end)};
         vkCmdPushConstants(buffer, layout_.pipeline(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants), &constants);
         vkCmdDispatch(buffer, static_cast<std::uint32_t>((end - first + LR_COMPUTE_GROUP - 1) / LR_COMPUTE_GROUP), 1,
                       1);
@@ -99,11 +83,9 @@ Result<Silhouettes> Silhouettes::create(Context& context, std::uint32_t lines_pe
     out.context_ = &context;
     out.lines_per_draw_ = std::clamp(lines_per_draw, 1U, 1U << 29);  // gl_VertexIndex is signed
     constexpr VkShaderStageFlags kVertex = VK_SHADER_STAGE_VERTEX_BIT;
-    const std::array<Binding, 3> bindings{
-        {{0, kStorage, kVertex},
-         {1, kStorage, kVertex},
-         {2, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kVertex | VK_SHADER_STAGE_FRAGMENT_BIT}}};
-    LR_ASSIGN(out.layout_, Layout::create(context, "silhouettes", bindings, kVertex, sizeof(SilhouetteConstants)));
+    const Binding frame{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kVertex | VK_SHADER_STAGE_FRAGMENT_BIT};
+    LR_ASSIGN(out.layout_, Layout::create(context, "silhouettes", std::span(&frame, 1), kVertex,
+                                          sizeof(SilhouetteConstants)));
     GraphicsInfo info;
     info.name = "silhouettes";
     info.vertex = spirv_silhouette_vert;
@@ -115,19 +97,12 @@ Result<Silhouettes> Silhouettes::create(Context& context, std::uint32_t lines_pe
     info.colours = {Target::kColour};
     LR_ASSIGN(out.pipeline_, create_graphics(context, out.layout_, info));
     LR_ASSIGN(out.frame_,
-              Buffer::create(context, "silhouette frame", sizeof(SilhouetteFrame),
-                             VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, Memory::upload));
+              Buffer::create(context, "silhouette frame", sizeof(SilhouetteFrame), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                             Memory::upload));
+    out.descriptors_ = Descriptors(context);
+    LR_ASSIGN(out.set_, out.descriptors_.allocate(out.layout_));
+    out.descriptors_.write(out.set_, 0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, {&out.frame_});
     return out;
-}
-
-Result<SilhouettePlan> Silhouettes::plan(Descriptors& descriptors, const Adjacency& adjacency) const {
-    SilhouettePlan plan;
-    plan.lines = 3 * adjacency.triangle_numbers;
-    LR_ASSIGN(plan.set, descriptors.allocate(layout_));
-    descriptors.write(plan.set, 0, kStorage, {&adjacency.tables});
-    descriptors.write(plan.set, 1, kStorage, {&adjacency.positions});
-    descriptors.write(plan.set, 2, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, {&frame_});
-    return plan;
 }
 
 std::array<float, 3> eye_of(const Camera& camera) {
@@ -141,10 +116,10 @@ std::array<float, 3> eye_of(const Camera& camera) {
     return eye;
 }
 
-void Silhouettes::set_frame(const Camera& camera, const SilhouetteStyle& style) {
+void Silhouettes::set_frame(const Camera& camera, const Target& target, const SilhouetteStyle& style) {
     SilhouetteFrame frame{};
     frame.view_from_world = camera.view_from_world;
-    frame.clip_from_view = camera.clip_from_view;
+    frame.clip_from_view = target.clip_from_view(camera);
     const std::array<float, 3> eye = eye_of(camera);
     frame.eye = {eye[0], eye[1], eye[2], 1};
     frame.colour = style.colour;
@@ -155,20 +130,19 @@ void Silhouettes::set_frame(const Camera& camera, const SilhouetteStyle& style) 
     crease_cos_ = style.crease >= 180 ? -2.0F : static_cast<float>(std::cos(style.crease * std::numbers::pi / 180));
 }
 
-void Silhouettes::record(VkCommandBuffer commands, const SilhouettePlan& plan, const Target& target) const {
+void Silhouettes::record(VkCommandBuffer commands, const Adjacency& adjacency, const Target& target) const {
     Target::between(commands);
     target.begin(commands, {.colour = true});
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.get());
     vkCmdSetLineWidth(commands, line_width_);
-    // Every pipeline has a binding for vertices; this one takes nothing from it, but validation wants something there.
-    const VkBuffer nothing = frame_.handle();
-    const VkDeviceSize zero = 0;
-    vkCmdBindVertexBuffers(commands, 0, 1, &nothing, &zero);
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.pipeline(), 0, 1, &plan.set, 0, nullptr);
-    for (std::uint64_t first = 0; first < plan.lines; first += lines_per_draw_) {
-        const SilhouetteConstants constants{static_cast<std::uint32_t>(first), crease_cos_};
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.pipeline(), 0, 1, &set_, 0, nullptr);
+    // Three a triangle number: each edge from both sides, and those of numbers that no triangle has.
+    const std::uint64_t all = std::uint64_t{3} * adjacency.triangle_numbers;
+    for (std::uint64_t first = 0; first < all; first += lines_per_draw_) {
+        const SilhouetteConstants constants{adjacency.tables.address_words(), adjacency.positions.address_words(),
+                                            static_cast<std::uint32_t>(first), crease_cos_};
         vkCmdPushConstants(commands, layout_.pipeline(), VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof(constants), &constants);
-        const std::uint64_t lines = std::min<std::uint64_t>(lines_per_draw_, plan.lines - first);
+        const std::uint64_t lines = std::min<std::uint64_t>(lines_per_draw_, all - first);
         vkCmdDraw(commands, static_cast<std::uint32_t>(2 * lines), 1, 0, 0);
     }
     Target::end(commands);

@@ -19,8 +19,6 @@ namespace lr::gpu {
 struct AdjacencyOptions {
     RingOptions ring{};
     bool wart_skipping = true;
-    /// Bytes that one storage descriptor may cover. 0: the device's maxStorageBufferRange.
-    std::uint64_t max_range = 0;
 };
 
 /// LR tables and positions of a mesh on the device, some 4 bytes a reference and 12 a vertex.
@@ -33,14 +31,13 @@ struct Adjacency {
 };
 
 /// Of the model's own triangles (corner table, ring, tables), in its unit sphere. Cost: O(V + T).
-/// Errors: too_large (tables or positions that no one descriptor covers, and those of encode_lr), build_corner_table's,
-/// and Vulkan's.
+/// Errors: build_corner_table's, encode_lr's and Vulkan's.
 Result<Adjacency> upload_adjacency(Context& context, Transfer& transfer, const Model& model,
                                    const AdjacencyOptions& options = {});
 /// Of tables that are there already, and must be valid (as encode_lr makes them). `positions`: 3 floats a vertex of the
-/// mesh that they were made from. Errors: malformed (the header), too_large as above.
+/// mesh that they were made from. Errors: malformed (the header), and Vulkan's.
 Result<Adjacency> upload_adjacency(Context& context, Transfer& transfer, const EncodedLr& tables,
-                                   std::span<const float> positions, std::uint64_t max_range = 0);
+                                   std::span<const float> positions);
 
 /// Smooth normals from positions and tables alone.
 class VertexNormals {
@@ -65,12 +62,6 @@ struct SilhouetteStyle {
     float width = 1.5F;  ///< pixels, those of supersampling included
 };
 
-/// A mesh ready to have its outline drawn.
-struct SilhouettePlan {
-    VkDescriptorSet set = VK_NULL_HANDLE;
-    std::uint32_t lines = 0;  ///< three a triangle number: each edge from both sides, and those of no triangle
-};
-
 /// Draws borders, edges between a triangle that faces the eye and one that does not, and creases, over a surface.
 /// The vertex shader asks the tables at every corner; there is no list of edges, and the host does nothing an edge.
 class Silhouettes {
@@ -78,14 +69,12 @@ class Silhouettes {
     /// `lines_per_draw`: longer meshes take several draws; a test makes it small.
     static Result<Silhouettes> create(Context& context, std::uint32_t lines_per_draw = 1U << 29);
 
-    Result<SilhouettePlan> plan(Descriptors& descriptors, const Adjacency& adjacency) const;
-
-    /// What the next pictures are taken with. Not while one is being drawn.
-    void set_frame(const Camera& camera, const SilhouetteStyle& style);
+    /// What the next pictures of that target are taken with. Not while one is being drawn.
+    void set_frame(const Camera& camera, const Target& target, const SilhouetteStyle& style);
 
     /// Records a rendering instance of its own, after the surface's: colours and depth of `target` must hold it, pushed
     /// back (GraphicsInfo::push_back), or triangles seen from the side cover their own outline.
-    void record(VkCommandBuffer commands, const SilhouettePlan& plan, const Target& target) const;
+    void record(VkCommandBuffer commands, const Adjacency& adjacency, const Target& target) const;
 
   private:
     Context* context_ = nullptr;
@@ -95,6 +84,8 @@ class Silhouettes {
     Layout layout_;
     PipelineHandle pipeline_;
     Buffer frame_;
+    Descriptors descriptors_;
+    VkDescriptorSet set_ = VK_NULL_HANDLE;
 };
 
 /// Where the camera is, in the world.

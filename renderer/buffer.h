@@ -1,6 +1,8 @@
 #pragma once
 #include <vulkan/vulkan.h>
 
+#include <array>
+#include <cstdint>
 #include <string>
 
 #include "lrcore/base/result.h"
@@ -28,6 +30,10 @@ class Buffer {
     VkDeviceSize size() const { return size_; }
     /// What shaders see it at; 0 unless it was made with VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT.
     VkDeviceAddress address() const { return address_; }
+    /// The address, its low half first, as GL_EXT_buffer_reference_uvec2 takes it.
+    std::array<std::uint32_t, 2> address_words() const {
+        return {static_cast<std::uint32_t>(address_), static_cast<std::uint32_t>(address_ >> 32)};
+    }
     /// The buffer's bytes; null for Memory::gpu on most devices.
     std::byte* mapped() const { return allocation_.mapped; }
     explicit operator bool() const { return buffer_ != VK_NULL_HANDLE; }

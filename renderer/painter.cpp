@@ -71,12 +71,7 @@ Result<DrawPlan> Painter::plan(Descriptors& descriptors, const GpuMesh& mesh, co
 void Painter::set_frame(const Model& model, const Camera& camera, const Target& target) {
     FrameConstants frame{};
     frame.view_from_world = camera.view_from_world;
-    frame.clip_from_view = camera.clip_from_view;
-    const auto side = static_cast<float>(target.viewport_side());
-    for (std::size_t column = 0; column < 4; ++column) {
-        frame.clip_from_view[4 * column] *= static_cast<float>(target.extent().width) / side;
-        frame.clip_from_view[4 * column + 1] *= static_cast<float>(target.extent().height) / side;
-    }
+    frame.clip_from_view = target.clip_from_view(camera);
     frame.line_lift = 0.0012F;
     // Where edges are only a few pixels long, lines fade instead of painting the mesh black.
     const double pixels = model.mean_edge * camera.pixels_per_unit / samples_;

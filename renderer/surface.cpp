@@ -43,10 +43,6 @@ GraphicsInfo vertex_stages(Path path) {
     return info;
 }
 
-std::array<std::uint32_t, 2> halves(VkDeviceAddress address) {
-    return {static_cast<std::uint32_t>(address), static_cast<std::uint32_t>(address >> 32)};
-}
-
 }  // namespace
 
 VkShaderStageFlags surface_stages(const Context& context) {
@@ -121,9 +117,9 @@ DrawConstants draw_constants(const GpuMesh& mesh, std::uint32_t first, std::uint
     constants.first_slot = first;
     constants.ordered = mesh.source == Source::plain ? 0 : 1;
     constants.slots = slots;
-    constants.stream = halves(mesh.stream.address());
-    constants.vertices = halves(mesh.vertices.address());
-    constants.vertex_order = halves(mesh.vertex_order.address());
+    constants.stream = mesh.stream.address_words();
+    constants.vertices = mesh.vertices.address_words();
+    constants.vertex_order = mesh.vertex_order.address_words();
     constants.stream_layout = mesh.stream_layout;
     return constants;
 }

@@ -1,5 +1,6 @@
 #include "renderer/target.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
@@ -60,6 +61,16 @@ std::uint32_t Target::viewport_side() const {
     return std::bit_ceil(std::max(extent_.width, extent_.height));
 }
 
+mat4 Target::clip_from_view(const Camera& camera) const {
+    mat4 out = camera.clip_from_view;
+    const auto side = static_cast<float>(viewport_side());
+    for (std::size_t column = 0; column < 4; ++column) {
+        out[4 * column] *= static_cast<float>(extent_.width) / side;
+        out[4 * column + 1] *= static_cast<float>(extent_.height) / side;
+    }
+    return out;
+}
+
 void Target::begin(VkCommandBuffer commands, const Use& use) const {
     const auto attachment = [](const Image& image, VkImageLayout layout, bool clear) {
         VkRenderingAttachmentInfo info{};
@@ -83,7 +94,7 @@ void Target::begin(VkCommandBuffer commands, const Use& use) const {
     info.pColorAttachments = colours.data();
     info.pDepthAttachment = &depth;
     vkCmdBeginRendering(commands, &info);
-    // Upside down, as Vulkan's clip space has y down; around the picture (viewport_side).
+    // Upside down, as Vulkan's clip space has y down; around the picture (clip_from_view).
     const auto width = static_cast<float>(extent_.width), height = static_cast<float>(extent_.height);
     const auto side = static_cast<float>(viewport_side());
     const VkViewport viewport{(width - side) / 2, (height + side) / 2, side, -side, 0, 1};

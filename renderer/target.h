@@ -2,6 +2,7 @@
 // What is drawn into, offscreen: colour, triangle numbers, depth, and which triangle claimed each pixel.
 
 #include "renderer/buffer.h"
+#include "renderer/camera.h"
 #include "renderer/image.h"
 #include "renderer/picture.h"
 
@@ -16,10 +17,10 @@ class Target {
     static Result<Target> create(Context& context, VkExtent2D extent);
 
     VkExtent2D extent() const { return extent_; }
-    /// Side of the square viewport that the picture is the middle of, in pixels: a power of two. Scaling to it is then
-    /// exact, so that vertices land on the same point of a pixel whether a driver fuses it with the translation or not
-    /// (lavapipe does for vertex shaders alone, and not behind geometry shaders).
-    std::uint32_t viewport_side() const;
+    /// The camera's projection, for the viewport that begin() sets. That is a square around the picture whose side is a
+    /// power of two: scaling to it is then exact, so that vertices land on the same point of a pixel whether a driver
+    /// fuses it with the translation or not (lavapipe does for vertex shaders alone, and not behind geometry shaders).
+    mat4 clip_from_view(const Camera& camera) const;
     const Image& winner() const { return winner_; }
 
     /// Brings every image to its layout and drops what it held; clears the claims.
@@ -42,6 +43,8 @@ class Target {
     Picture picture() const;
 
   private:
+    std::uint32_t viewport_side() const;
+
     VkExtent2D extent_{};
     Image colour_, triangles_, winner_, depth_;
     Buffer colour_bytes_, triangle_bytes_;

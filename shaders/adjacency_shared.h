@@ -8,10 +8,14 @@
 namespace lr::gpu {
 #endif
 
-// Every pass has the tables at binding 0 and the positions, 3 floats an LR vertex, at binding 1.
+// Addresses of the tables and of positions and normals, 3 floats an LR vertex: no descriptor needs to cover them. The
+// shaders of tests have the first two at bindings 0 and 1 instead.
 
 // vertex_normals.comp: one dispatch, from a vertex on.
 struct NormalConstants {
+    uvec2 tables;
+    uvec2 positions;
+    uvec2 normals;
     uint first_vertex;
     uint end_vertex;
 };
@@ -28,6 +32,8 @@ struct SilhouetteFrame {
 
 // One draw, or one dispatch of silhouette_edges.comp. Line 3t + k is the edge across from corner 4t + k.
 struct SilhouetteConstants {
+    uvec2 tables;
+    uvec2 positions;
     uint first_line;
     float crease_cos;  // an edge is a crease if its triangles' normals have a smaller cosine than this
 };

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/adjacency_shared.h"
 
-layout(binding = 2) uniform Frame { SilhouetteFrame frame; };
+layout(binding = 0) uniform Frame { SilhouetteFrame frame; };
 layout(location = 0) out vec4 out_colour;
 
 void main() { out_colour = frame.colour; }

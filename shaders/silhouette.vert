@@ -1,17 +1,23 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
 // Two vertices a corner, and no vertex or index buffer: the LR tables are asked whether the edge across from that corner
 // is to be drawn. One that is not goes outside the picture, both ends to the same point.
 #include "shaders/adjacency_shared.h"
 
 layout(push_constant) uniform Push { SilhouetteConstants push; };
-layout(std430, binding = 0) readonly buffer Tables { uint words[]; };
-layout(std430, binding = 1) readonly buffer Positions { float positions[]; };
-layout(binding = 2) uniform Frame { SilhouetteFrame frame; };
+layout(binding = 0) uniform Frame { SilhouetteFrame frame; };
 
-#define LR_TABLE_WORD(i) words[i]
+layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Words { uint at[]; };
+layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Floats { float at[]; };
+
+#define LR_TABLE_WORD(i) Words(push.tables).at[i]
 #include "shaders/lacedring_operators.glsl"
-vec3 lr_position(uint v) { return vec3(positions[3u * v], positions[3u * v + 1u], positions[3u * v + 2u]); }
+vec3 lr_position(uint v) {
+    Floats positions = Floats(push.positions);
+    return vec3(positions.at[3u * v], positions.at[3u * v + 1u], positions.at[3u * v + 2u]);
+}
 #include "shaders/silhouette.glsl"
 
 void main() {

@@ -1,5 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
 // Smooth normals from positions and LR tables alone: of each vertex, the sum over its star of the cross products of the
 // triangles' sides, so weighted by area, as vertex_normals of lrcore/corner_table/geometry.h has it.
 //
@@ -13,11 +15,10 @@
 layout(local_size_x = LR_COMPUTE_GROUP) in;
 
 layout(push_constant) uniform Push { NormalConstants push; };
-layout(std430, binding = 0) readonly buffer Tables { uint words[]; };
-layout(std430, binding = 1) readonly buffer Positions { float positions[]; };
-layout(std430, binding = 2) writeonly buffer Normals { float normals[]; };
+layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Words { uint at[]; };
+layout(buffer_reference, std430, buffer_reference_align = 4) buffer Floats { float at[]; };
 
-#define LR_TABLE_WORD(i) words[i]
+#define LR_TABLE_WORD(i) Words(push.tables).at[i]
 #include "shaders/lacedring_operators.glsl"
 
 struct Vec3x2 {
@@ -27,7 +28,10 @@ struct Vec3x2 {
 // Lengths up to 2^33 and down to 2^-38, once multiplied by kScale, have products that neither overflow nor lose bits to
 // denormals: in units of a mesh in the unit sphere, down to 2^-68.
 const float kScale = 1073741824.0;
-vec3 position(uint v) { return kScale * vec3(positions[3u * v], positions[3u * v + 1u], positions[3u * v + 2u]); }
+vec3 position(uint v) {
+    Floats positions = Floats(push.positions);
+    return kScale * vec3(positions.at[3u * v], positions.at[3u * v + 1u], positions.at[3u * v + 2u]);
+}
 
 Vec3x2 sum_of(vec3 a, vec3 b) {
     precise vec3 hi = a + b;
@@ -82,7 +86,8 @@ void main() {
     vec3 n = sum.hi, size = abs(n);
     float most = max(size.x, max(size.y, size.z));
     n = most > 0.0 ? normalize(n / most) : vec3(0.0, 0.0, 1.0);
-    normals[3u * v] = n.x;
-    normals[3u * v + 1u] = n.y;
-    normals[3u * v + 2u] = n.z;
+    Floats normals = Floats(push.normals);
+    normals.at[3u * v] = n.x;
+    normals.at[3u * v + 1u] = n.y;
+    normals.at[3u * v + 2u] = n.z;
 }

@@ -25,7 +25,7 @@ struct EdgeTest : AdjacencyTest {
             struct {
                 gpu::SilhouetteConstants constants;
                 std::array<float, 3> eye;
-            } push{{first, static_cast<float>(std::cos(crease * std::numbers::pi / 180))}, eye};
+            } push{{{}, {}, first, static_cast<float>(std::cos(crease * std::numbers::pi / 180))}, eye};
             run(edges, {&adjacency.tables, &adjacency.positions, &out, &out}, &push, sizeof(push),
                 std::min(kBatch, lines - first));
         }
@@ -127,16 +127,13 @@ gpu::Picture outlined(gpu::Context& context, const gpu::Model& model, const gpu:
     auto silhouettes = gpu::Silhouettes::create(context, lines_per_draw);
     REQUIRE((drawable && adjacency && silhouettes));
     drawable->mesh.line_indices = 0;
-    gpu::Descriptors descriptors(context);
-    const auto plan = silhouettes->plan(descriptors, *adjacency);
-    REQUIRE(plan);
-    renderer->painter().set_frame(model, camera);
-    silhouettes->set_frame(camera, {.crease = crease, .colour = {1, 0, 0, 1}, .width = 1});
+    renderer->painter().set_frame(model, camera, renderer->target());
+    silhouettes->set_frame(camera, renderer->target(), {.crease = crease, .colour = {1, 0, 0, 1}, .width = 1});
     const auto commands = renderer->commands().begin();
     REQUIRE(commands);
     renderer->painter().record(*commands, drawable->mesh, drawable->draw, renderer->target(),
                                gpu::Painter::Ties::first_drawn);
-    silhouettes->record(*commands, *plan, renderer->target());
+    silhouettes->record(*commands, *adjacency, renderer->target());
     renderer->target().record_read(*commands);
     REQUIRE(renderer->commands().run());
     return renderer->target().picture();
@@ -219,28 +216,17 @@ TEST_CASE_FIXTURE(EdgeTest, "an outline needs no surface before it") {
     auto silhouettes = gpu::Silhouettes::create(*context);
     const auto target = gpu::Target::create(*context, {kSide, kSide});
     REQUIRE((camera && adjacency && silhouettes && target));
-    gpu::Descriptors descriptors(*context);
-    const auto plan = silhouettes->plan(descriptors, *adjacency);
-    REQUIRE(plan);
-    silhouettes->set_frame(*camera, {.crease = 180, .colour = {1, 0, 0, 1}, .width = 1});
+    silhouettes->set_frame(*camera, *target, {.crease = 180, .colour = {1, 0, 0, 1}, .width = 1});
     const auto recording = commands->begin();
     REQUIRE(recording);
     target->prepare(*recording);
     target->begin(*recording, {.colour = true, .triangles = true, .clear_colour = true, .clear_depth = true});
     gpu::Target::end(*recording);
-    silhouettes->record(*recording, *plan, *target);
+    silhouettes->record(*recording, *adjacency, *target);
     target->record_read(*recording);
     REQUIRE(commands->run());
     const gpu::Picture picture = target->picture();
     std::size_t drawn = 0;
     for (std::size_t i = 0; i < picture.pixels(); ++i) drawn += red(picture, i) ? 1 : 0;
     CHECK(drawn > kSide);  // its border is longer than the picture is wide
-}
-
-TEST_CASE_FIXTURE(EdgeTest, "tables that no descriptor covers are an error") {
-    const Mesh mesh = generated("blob", 5000);
-    const gpu::Model model = model_of(mesh);
-    const auto adjacency = gpu::upload_adjacency(*context, *transfer, model, {.max_range = kSmallRange});
-    REQUIRE_FALSE(adjacency);
-    CHECK(adjacency.error().code == ErrorCode::too_large);
 }
