@@ -65,7 +65,7 @@ struct Measured {
 struct AdjacencyTest : GpuTest {
     AdjacencyTest() {
         const std::array<gpu::Binding, 4> bindings{{{0}, {1}, {2}, {3}}};
-        auto made = gpu::Layout::create(*context, "operators", bindings, VK_SHADER_STAGE_COMPUTE_BIT, 32);
+        auto made = gpu::Layout::create(*context, "operators", bindings, VK_SHADER_STAGE_COMPUTE_BIT, 64);
         auto t = gpu::Transfer::create(*context);
         auto c = gpu::Commands::create(*context);
         REQUIRE((made && t && c));
