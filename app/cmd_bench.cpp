@@ -75,8 +75,8 @@ void add_costs(Json& draw, const GpuFigures& figures) {
 }
 
 void print_draw(const GpuFigures& figures, double triangles) {
-    fmt::print("  draw (wall){:>27}{:>22}{:>10}{:>9}{:>10}{:>10}{:>9}\n", "ms", "min to max", "GPU ms", "plain", "resident",
-               "read", "VS runs");
+    fmt::print("  draw (wall){:>27}{:>22}{:>10}{:>9}{:>10}{:>10}{:>9}\n", "ms", "min to max", "GPU ms", "plain",
+               "resident", "read", "VS runs");
     const double plain = figures.draw[0].median();
     for (std::size_t i = 0; i < figures.draw.size(); ++i) {
         const Candidate& c = figures.draw[i];
@@ -85,8 +85,8 @@ void print_draw(const GpuFigures& figures, double triangles) {
         const auto a_triangle = [&](std::uint64_t n) { return static_cast<double>(n) / triangles; };
         fmt::print("    {:<25}{:>9.2f}{:>22}{:>10}{:>8.2f}x{:>10.3f}{:>10.2f}{:>9}\n", c.name, c.median() * 1e3,
                    fmt::format("{:.2f} to {:.2f}", *low * 1e3, *high * 1e3),
-                   c.gpu_seconds.empty() ? "-" : fmt::format("{:.2f}", median(c.gpu_seconds) * 1e3),
-                   c.median() / plain, a_triangle(cost.connectivity_bytes), a_triangle(cost.bytes_read),
+                   c.gpu_seconds.empty() ? "-" : fmt::format("{:.2f}", median(c.gpu_seconds) * 1e3), c.median() / plain,
+                   a_triangle(cost.connectivity_bytes), a_triangle(cost.bytes_read),
                    cost.vertex_invocations ? fmt::format("{:.2f}", a_triangle(*cost.vertex_invocations)) : "-");
     }
     fmt::print("    resident, read: bytes of connectivity a triangle; VS runs: vertex shader runs a triangle\n");

@@ -167,7 +167,8 @@ void add_compare(CLI::App& program, Action& action) {
     command->add_option("MESH", options->input.path, "mesh file")->required();
     add_weld(*command, options->input.weld);
     add_size(*command, options->size);
-    command->add_option("--path", options->paths, "compute, pull, geometry or mesh, with commas; all of them unless told")
+    command
+        ->add_option("--path", options->paths, "compute, pull, geometry or mesh, with commas; all of them unless told")
         ->delimiter(',')
         ->check(CLI::IsMember(std::set<std::string>{"compute", "pull", "geometry", "mesh"}));
     command->add_option("--diff", options->diff, "write a picture of the differences, even if there are none")

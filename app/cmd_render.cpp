@@ -27,6 +27,7 @@ struct Options {
     bool no_warts = false;
     PictureSize size;
     std::uint32_t samples = 3;
+    double crease = 40;
     gpu::CameraOptions camera;
     gpu::ContextOptions context;
     bool json = false;
@@ -91,9 +92,13 @@ void add_camera(CLI::App& command, gpu::CameraOptions& camera) {
 int run(const Options& options) {
     const Result<Mesh> mesh = load(options.input);
     if (!mesh) return fail(options.input.path, mesh.error());
+    // Pictures show the ring as the paper makes it, unless the optimiser is asked for.
+    std::uint32_t passes = 0;
+    if (options.ring.optimize != "auto") passes = optimize_options(options.ring, lean_ring_cost).passes;
     const gpu::ModelOptions model_options{ring_options(options.ring, mesh->triangle_count()),
                                           {.wart_skipping = !options.no_warts},
-                                          options.source == "packed"};
+                                          options.source == "packed",
+                                          passes};
     const Result<gpu::Model> model = gpu::make_model(*mesh, model_options);
     if (!model) return fail(options.input.path, model.error());
     const Result<std::unique_ptr<gpu::Context>> context = gpu::Context::create(options.context);
@@ -105,6 +110,7 @@ int run(const Options& options) {
     std::uint32_t samples = options.samples;
     while (samples > 1 && std::max(options.size.width, options.size.height) * samples > largest) --samples;
     renderer_options.samples = samples;
+    renderer_options.crease = options.crease;
     renderer_options.width = options.size.width * samples;
     renderer_options.height = options.size.height * samples;
     Result<gpu::Picture> drawn = [&]() -> Result<gpu::Picture> {
@@ -169,7 +175,12 @@ void add_render(CLI::App& program, Action& action) {
         ->check(CLI::IsMember({"compute", "pull", "geometry", "mesh"}))
         ->capture_default_str();
     command->add_option("--view", options->view, "what is shown")
-        ->check(CLI::IsMember({"smooth", "flat", "class", "ring", "wire", "offsets"}))
+        ->check(CLI::IsMember({"smooth", "flat", "class", "ring", "wire", "offsets", "silhouette"}))
+        ->capture_default_str();
+    command
+        ->add_option("--crease", options->crease,
+                     "degrees between triangles from which on --view silhouette draws their edge")
+        ->check(CLI::Range(0.0, 180.0))
         ->capture_default_str();
     add_ring_options(*command, options->ring);
     command->add_flag("--no-warts", options->no_warts, "no wart skipping: the classes as they are before it");

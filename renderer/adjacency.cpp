@@ -28,8 +28,7 @@ Result<Adjacency> upload_adjacency(Context& context, Transfer& transfer, const E
     out.vertices = stream.view.vertices;
     out.triangle_numbers = stream.view.triangle_numbers();
     out.vertex_order = tables.vertex_order;
-    LR_ASSIGN(out.tables,
-              Buffer::create(context, "LR tables", tables.words.size() * sizeof(std::uint32_t), kAddress));
+    LR_ASSIGN(out.tables, Buffer::create(context, "LR tables", tables.words.size() * sizeof(std::uint32_t), kAddress));
     LR_ASSIGN(out.positions, Buffer::create(context, "positions in LR order", position_bytes, kAddress));
     LR_TRY(transfer.upload(out.tables, std::span<const std::uint32_t>(tables.words)));
     constexpr std::size_t kUnit = 3 * sizeof(float);
@@ -84,8 +83,8 @@ Result<Silhouettes> Silhouettes::create(Context& context, std::uint32_t lines_pe
     out.lines_per_draw_ = std::clamp(lines_per_draw, 1U, 1U << 29);  // gl_VertexIndex is signed
     constexpr VkShaderStageFlags kVertex = VK_SHADER_STAGE_VERTEX_BIT;
     const Binding frame{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kVertex | VK_SHADER_STAGE_FRAGMENT_BIT};
-    LR_ASSIGN(out.layout_, Layout::create(context, "silhouettes", std::span(&frame, 1), kVertex,
-                                          sizeof(SilhouetteConstants)));
+    LR_ASSIGN(out.layout_,
+              Layout::create(context, "silhouettes", std::span(&frame, 1), kVertex, sizeof(SilhouetteConstants)));
     GraphicsInfo info;
     info.name = "silhouettes";
     info.vertex = spirv_silhouette_vert;
@@ -96,9 +95,8 @@ Result<Silhouettes> Silhouettes::create(Context& context, std::uint32_t lines_pe
     info.blend = true;
     info.colours = {Target::kColour};
     LR_ASSIGN(out.pipeline_, create_graphics(context, out.layout_, info));
-    LR_ASSIGN(out.frame_,
-              Buffer::create(context, "silhouette frame", sizeof(SilhouetteFrame), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
-                             Memory::upload));
+    LR_ASSIGN(out.frame_, Buffer::create(context, "silhouette frame", sizeof(SilhouetteFrame),
+                                         VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, Memory::upload));
     out.descriptors_ = Descriptors(context);
     LR_ASSIGN(out.set_, out.descriptors_.allocate(out.layout_));
     out.descriptors_.write(out.set_, 0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, {&out.frame_});

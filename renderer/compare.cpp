@@ -89,13 +89,14 @@ struct Reference {
     std::uint64_t covered = 0, distinct_ids = 0;
 };
 
-Result<Reference> draw_reference(Renderer& renderer, const Model& model, const CompareOptions& options) {
+Result<Reference> draw_reference(Renderer& renderer, const Model& model) {
     Reference out;
+    const auto [width, height] = renderer.target().extent();
     LR_ASSIGN(Drawable plain, renderer.upload(model, Source::plain));
     for (std::uint32_t v = 0; v < kViews; ++v) {
         CameraOptions camera;
         camera.direction = kDirections[v];
-        LR_ASSIGN(out.cameras[v], make_camera(model, camera, options.width, options.height));
+        LR_ASSIGN(out.cameras[v], make_camera(model, camera, width, height));
     }
     for (const bool exact : {false, true}) {
         for (std::uint32_t v = 0; v < kViews; ++v) {
@@ -111,8 +112,9 @@ Result<Reference> draw_reference(Renderer& renderer, const Model& model, const C
     return out;
 }
 
-Result<Comparison> compare_one(Renderer& renderer, const Model& model, const CompareOptions& options,
-                               const Reference& reference, const Subject& subject) {
+Result<Comparison> compare_one(Renderer& renderer, const Model& model, const Reference& reference,
+                               const Subject& subject) {
+    const auto [width, height] = renderer.target().extent();
     LR_ASSIGN(Drawable stream, renderer.upload(model, subject.source, subject.path));
     Comparison out;
     out.views = kViews;
@@ -133,8 +135,8 @@ Result<Comparison> compare_one(Renderer& renderer, const Model& model, const Com
     }
     LR_ASSIGN(out.indices_equal_cpu, indices_equal_cpu(renderer, stream, model));
 
-    out.picture.width = kColumns * options.width;
-    out.picture.height = kViews / kColumns * options.height;
+    out.picture.width = kColumns * width;
+    out.picture.height = kViews / kColumns * height;
     out.picture.rgba.resize(4 * out.picture.pixels());
     for (std::uint32_t v = 0; v < kViews; ++v) {
         LR_ASSIGN(const Picture picture, renderer.draw(stream, model, reference.cameras[v], true));
@@ -147,7 +149,7 @@ Result<Comparison> compare_one(Renderer& renderer, const Model& model, const Com
     }
     // A mesh may hide most of its triangles, and a needle covers little: the bars are low, but nothing drawn, or all
     // drawn as one, does not pass. The cameras fit the mesh to the picture, so a thousandth is less than a needle.
-    const std::uint64_t pixels = std::uint64_t{options.width} * options.height * kViews;
+    const std::uint64_t pixels = std::uint64_t{width} * height * kViews;
     const std::uint64_t visible = std::min<std::uint64_t>(model.triangle_count(), out.covered_pixels);
     out.blank = out.covered_pixels * 1000 < pixels || out.distinct_ids < std::max<std::uint64_t>(1, visible / 1000);
     return out;
@@ -163,10 +165,14 @@ Result<std::vector<Comparison>> compare(Context& context, const Model& model, st
     renderer_options.max_range = options.max_range;
     renderer_options.omit_decode_barrier = options.omit_decode_barrier;
     LR_ASSIGN(Renderer renderer, Renderer::create(context, renderer_options));
-    LR_ASSIGN(const Reference reference, draw_reference(renderer, model, options));
+    return compare(renderer, model, subjects);
+}
+
+Result<std::vector<Comparison>> compare(Renderer& renderer, const Model& model, std::span<const Subject> subjects) {
+    LR_ASSIGN(const Reference reference, draw_reference(renderer, model));
     std::vector<Comparison> out;
     for (const Subject& subject : subjects) {
-        LR_ASSIGN(Comparison comparison, compare_one(renderer, model, options, reference, subject));
+        LR_ASSIGN(Comparison comparison, compare_one(renderer, model, reference, subject));
         out.push_back(std::move(comparison));
     }
     return out;

@@ -10,6 +10,7 @@
 #include "renderer/gpu_mesh.h"
 #include "renderer/model.h"
 #include "renderer/picture.h"
+#include "renderer/renderer.h"
 
 namespace lr::gpu {
 
@@ -32,8 +33,8 @@ struct Comparison {
     std::uint64_t pixels_different = 0;
     std::uint32_t max_channel_difference = 0;  ///< of 255
     std::uint64_t triangle_ids_different = 0;  ///< pixels that show another triangle, or its other side
-    bool indices_equal_cpu = false;            ///< what the device decodes (Renderer::read_indices) is what the CPU does
-    std::uint64_t raw_pixels_different = 0;    ///< without rotating triangles and without breaking ties
+    bool indices_equal_cpu = false;          ///< what the device decodes (Renderer::read_indices) is what the CPU does
+    std::uint64_t raw_pixels_different = 0;  ///< without rotating triangles and without breaking ties
     std::uint32_t raw_max_channel_difference = 0;
     std::uint64_t raw_pixels_beyond_one = 0;  ///< of these, by more than 1/255: another triangle was nearer, or first
     std::uint64_t covered_pixels = 0;         ///< of the mesh's own picture
@@ -41,8 +42,8 @@ struct Comparison {
     bool blank = false;                       ///< too little was seen for the rest to mean anything
     Picture picture;  ///< all views, pale; red where they differ, amber where only the raw ones do
 
-    /// Most pixels that may differ by 1/255. None, where vertices go to the rasterizer from a vertex shader; geometry and
-    /// mesh shaders send them there in other batches, clipped and interpolated by other code.
+    /// Most pixels that may differ by 1/255. None, where vertices go to the rasterizer from a vertex shader; geometry
+    /// and mesh shaders send them there in other batches, clipped and interpolated by other code.
     std::uint64_t tolerated = 0;
 
     bool same() const {
@@ -51,11 +52,14 @@ struct Comparison {
     }
 };
 
-/// Draws the mesh plain and from streams of it, one after the other, from six sides, with smooth normals: first as the index buffers are,
-/// then exactly (docs/renderer.md). The stream and its maps are taken from the model as they are: a wrong one is drawn
-/// and found out, as long as it is in range (validate_lean, validate_packed). Memory: twelve pictures.
+/// Draws the mesh plain and from streams of it, one after the other, from six sides, with smooth normals: first as the
+/// index buffers are, then exactly (docs/renderer.md). The stream and its maps are taken from the model as they are: a
+/// wrong one is drawn and found out, as long as it is in range (validate_lean, validate_packed). Memory: twelve
+/// pictures.
 Result<std::vector<Comparison>> compare(Context& context, const Model& model, std::span<const Subject> subjects,
                                         const CompareOptions& options);
+/// With a renderer that is there (view smooth), whose pipelines serve many models.
+Result<std::vector<Comparison>> compare(Renderer& renderer, const Model& model, std::span<const Subject> subjects);
 inline Result<Comparison> compare(Context& context, const Model& model, const Subject& subject,
                                   const CompareOptions& options) {
     Result<std::vector<Comparison>> all = compare(context, model, std::span(&subject, 1), options);

@@ -170,8 +170,11 @@ Result<DeviceChoice> choose_device(VkInstance instance, const std::string& name)
     }
     VkPhysicalDeviceFeatures features{};
     vkGetPhysicalDeviceFeatures(best, &features);
-    return DeviceChoice{best, *graphics_compute_family(best), features.wideLines == VK_TRUE,
-                        features.fullDrawIndexUint32 == VK_TRUE, features.pipelineStatisticsQuery == VK_TRUE,
+    return DeviceChoice{best,
+                        *graphics_compute_family(best),
+                        features.wideLines == VK_TRUE,
+                        features.fullDrawIndexUint32 == VK_TRUE,
+                        features.pipelineStatisticsQuery == VK_TRUE,
                         mesh_groups(best)};
 }
 

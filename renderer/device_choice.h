@@ -15,8 +15,8 @@ struct DeviceChoice {
     VkPhysicalDevice device = VK_NULL_HANDLE;
     std::uint32_t queue_family = 0;  ///< graphics and compute
     bool wide_lines = false;
-    bool full_index_range = false;  ///< indices past 2^24
-    bool statistics = false;        ///< pipeline statistics queries
+    bool full_index_range = false;      ///< indices past 2^24
+    bool statistics = false;            ///< pipeline statistics queries
     std::uint32_t max_mesh_groups = 0;  ///< of a draw command; 0: no mesh shaders, or too small ones
 };
 

@@ -58,8 +58,8 @@ Result<GpuMesh> prepare(Context& context, const Model& model, std::uint64_t slot
 
 /// `original(i)` is the mesh's vertex at place i, `ring(i)` its place on the rings.
 template <class Original, class Ring>
-Result<void> upload_vertices(Transfer& transfer, const GpuMesh& mesh, const Model& model, const Original& original,
-                             const Ring& ring) {
+Result<void> upload_vertices(Transfer& transfer, const GpuMesh& mesh, std::span<const float> positions,
+                             std::span<const float> normals, const Original& original, const Ring& ring) {
     return transfer.upload(mesh.vertices, 0, sizeof(Vertex) * std::size_t{mesh.vertex_count}, sizeof(Vertex),
                            [&](std::byte* to, std::size_t from, std::size_t size) {
                                const std::size_t first = from / sizeof(Vertex);
@@ -67,8 +67,8 @@ Result<void> upload_vertices(Transfer& transfer, const GpuMesh& mesh, const Mode
                                    const auto place = static_cast<std::uint32_t>(first + i);
                                    const std::size_t v = original(place);
                                    Vertex vertex;
-                                   std::memcpy(vertex.position, &model.positions[3 * v], sizeof(vertex.position));
-                                   std::memcpy(vertex.normal, &model.normals[3 * v], sizeof(vertex.normal));
+                                   std::memcpy(vertex.position, &positions[3 * v], sizeof(vertex.position));
+                                   std::memcpy(vertex.normal, &normals[3 * v], sizeof(vertex.normal));
                                    vertex.ring = ring(place);
                                    std::memcpy(to + i * sizeof(Vertex), &vertex, sizeof(Vertex));
                                }
@@ -125,13 +125,17 @@ Result<void> upload_rest(Context& context, Transfer& transfer, GpuMesh& mesh, co
                          const TriangleOf& triangle_of) {
     LR_ASSIGN(const LeanView lean, view_lean(model.lean.words));
     LR_TRY(upload_lines(context, transfer, mesh, model, lean, options.lines, order));
-    if (!options.ring) return upload_vertices(transfer, mesh, model, original, [](std::uint32_t) { return -1.0F; });
+    const std::span<const float> normals = options.normals.empty() ? model.normals : options.normals;
+    const auto vertices_with = [&](const auto& ring) {
+        return upload_vertices(transfer, mesh, model.positions, normals, original, ring);
+    };
+    if (!options.ring) return vertices_with([](std::uint32_t) { return -1.0F; });
     const std::uint32_t rings = lean.rings2 + lean.rings1;
     std::vector<float> ring(mesh.vertex_count, -1.0F);
     for (std::uint32_t i = 0; i < rings; ++i) {
         ring[model.lean.vertex_order[i]] = static_cast<float>(i) / static_cast<float>(rings);
     }
-    LR_TRY(upload_vertices(transfer, mesh, model, original, [&](std::uint32_t v) { return ring[original(v)]; }));
+    LR_TRY(vertices_with([&](std::uint32_t v) { return ring[original(v)]; }));
     return upload_classes(context, transfer, mesh, model, lean, options.offsets, triangle_of);
 }
 
@@ -152,15 +156,15 @@ Result<GpuMesh> upload_stream(Context& context, Transfer& transfer, const Model&
     LR_ASSIGN(mesh.stream, Buffer::create(context, "stream", stream.words.size_bytes() + 64, kStorage | kAddress));
     LR_TRY(transfer.upload(mesh.stream, stream.words));
     if (mesh.path == Path::compute) {
-        LR_ASSIGN(mesh.commands,
-                  Buffer::create(context, "draw commands",
-                                 mesh.draws * std::uint64_t{sizeof(VkDrawIndexedIndirectCommand)},
-                                 kStorage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT));
+        LR_ASSIGN(mesh.commands, Buffer::create(context, "draw commands",
+                                                mesh.draws * std::uint64_t{sizeof(VkDrawIndexedIndirectCommand)},
+                                                kStorage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT));
     }
     LR_ASSIGN(mesh.slot_triangle,
               Buffer::create(context, "slot triangles", stream.slot_triangle.size_bytes(), kStorage));
     LR_TRY(transfer.upload(mesh.slot_triangle, stream.slot_triangle));
-    LR_ASSIGN(mesh.vertex_order, Buffer::create(context, "vertex order", stream.vertex_order.size_bytes(), kStorage | kAddress));
+    LR_ASSIGN(mesh.vertex_order,
+              Buffer::create(context, "vertex order", stream.vertex_order.size_bytes(), kStorage | kAddress));
     LR_TRY(transfer.upload(mesh.vertex_order, stream.vertex_order));
     LR_TRY(upload_rest(
         context, transfer, mesh, model, options, stream.vertex_order,
@@ -172,7 +176,8 @@ Result<GpuMesh> upload_stream(Context& context, Transfer& transfer, const Model&
 }  // namespace
 
 Result<GpuMesh> upload_plain(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options) {
-    if (options.path != Path::compute) return Error{ErrorCode::invalid_argument, "an index list has Path::compute only"};
+    if (options.path != Path::compute)
+        return Error{ErrorCode::invalid_argument, "an index list has Path::compute only"};
     LR_ASSIGN(GpuMesh mesh, prepare(context, model, model.triangle_count(), options));
     const auto indices = std::as_bytes(model.indices);
     LR_TRY(transfer.upload(

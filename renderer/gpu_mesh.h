@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "renderer/buffer.h"
 #include "renderer/model.h"
@@ -38,8 +39,9 @@ struct UploadOptions {
     /// Bytes that one storage descriptor may cover: larger buffers are worked on in parts. 0: the device's
     /// maxStorageBufferRange. At least 4096; a test makes it small.
     std::uint64_t max_range = 0;
-    bool ring = false;     ///< triangle classes, and the vertices' places on the rings
-    bool offsets = false;  ///< significant bits of the triangles' offsets instead of their classes
+    std::span<const float> normals;  ///< 3 a vertex of the mesh, instead of the model's; must stay while uploading
+    bool ring = false;               ///< triangle classes, and the vertices' places on the rings
+    bool offsets = false;            ///< significant bits of the triangles' offsets instead of their classes
     enum class Lines { none, ring, edges } lines = Lines::none;  ///< drawn over the surface
 };
 
@@ -79,8 +81,8 @@ struct Vertex {
     float ring;  ///< place along the rings in [0, 1]; -1 off the rings
 };
 
-/// Errors: unsupported (Path::mesh where the device has none), too_large (indices past the device's, or a buffer), invalid_argument (max_range), unsupported (only
-/// degenerate triangles), and Vulkan's.
+/// Errors: unsupported (Path::mesh where the device has none), too_large (indices past the device's, or a buffer),
+/// invalid_argument (max_range), unsupported (only degenerate triangles), and Vulkan's.
 Result<GpuMesh> upload_plain(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options);
 /// The model's stream must be valid, as encode_lean makes it.
 Result<GpuMesh> upload_lean(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options);

@@ -26,7 +26,7 @@ Result<Painter> Painter::create(Context& context, View view, std::uint32_t sampl
                                            {2, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kFragment},
                                            {3, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, kFragment}}};
     LR_ASSIGN(out.layout_, Layout::create(context, "draw", bindings, stages, sizeof(DrawConstants)));
-    if (has_lines(view)) {
+    if (upload_options(view).lines != UploadOptions::Lines::none) {
         GraphicsInfo lines;
         lines.name = "lines";
         lines.vertex = spirv_line_vert;

@@ -1,5 +1,7 @@
 #include "renderer/renderer.h"
 
+#include <algorithm>
+
 #include "renderer/try.h"
 
 namespace lr::gpu {
@@ -16,6 +18,10 @@ Result<Renderer> Renderer::create(Context& context, const RendererOptions& optio
     LR_ASSIGN(out.packed_, PackedDecoder::create(context));
     LR_ASSIGN(out.rotator_, Rotator::create(context));
     LR_ASSIGN(out.slots_, SlotReader::create(context));
+    if (options.view == View::silhouette) {
+        LR_ASSIGN(out.silhouettes_, Silhouettes::create(context));
+        LR_ASSIGN(out.vertex_normals_, VertexNormals::create(context));
+    }
     return out;
 }
 
@@ -25,6 +31,12 @@ Result<Drawable> Renderer::upload(const Model& model, Source source, Path path) 
     options.max_range = options_.max_range;
     Drawable out;
     out.descriptors = Descriptors(*context_);
+    std::vector<float> normals;
+    if (vertex_normals_) {
+        LR_ASSIGN(out.adjacency, upload_adjacency(*context_, *transfer_, model));
+        LR_ASSIGN(normals, normals_of(*out.adjacency, model.vertex_count()));
+        options.normals = normals;
+    }
     if (source == Source::lean) {
         LR_ASSIGN(out.mesh, upload_lean(*context_, *transfer_, model, options));
         if (path == Path::compute) {
@@ -44,6 +56,17 @@ Result<Drawable> Renderer::upload(const Model& model, Source source, Path path) 
         LR_ASSIGN(out.rotate, rotator_.plan(out.descriptors, out.mesh));
     }
     LR_ASSIGN(out.draw, painter_.plan(out.descriptors, out.mesh, target_));
+    return out;
+}
+
+Result<std::vector<float>> Renderer::normals_of(const Adjacency& adjacency, std::uint32_t vertices) {
+    LR_ASSIGN(const Buffer buffer, vertex_normals_->compute(*commands_, adjacency));
+    std::vector<float> by_table(std::size_t{3} * adjacency.vertices);
+    LR_TRY(transfer_->read(buffer, 0, std::as_writable_bytes(std::span(by_table))));
+    std::vector<float> out(std::size_t{3} * vertices);
+    for (std::size_t v = adjacency.vertices; v-- > 0;) {
+        std::copy_n(&by_table[3 * v], 3, &out[3 * std::size_t{adjacency.vertex_order[v]}]);
+    }
     return out;
 }
 
@@ -70,6 +93,11 @@ Result<Picture> Renderer::draw(Drawable& drawable, const Model& model, const Cam
     }
     painter_.record(commands, drawable.mesh, drawable.draw, target_,
                     exact ? Painter::Ties::by_number : Painter::Ties::first_drawn);
+    if (silhouettes_) {
+        silhouettes_->set_frame(camera, target_,
+                                {.crease = options_.crease, .width = 1.5F * static_cast<float>(options_.samples)});
+        silhouettes_->record(commands, *drawable.adjacency, target_);
+    }
     target_.record_read(commands);
     LR_TRY(commands_->run());
     return target_.picture();

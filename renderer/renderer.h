@@ -1,6 +1,9 @@
 #pragma once
 // Everything that draws pictures of one model, put together.
 
+#include <optional>
+
+#include "renderer/adjacency.h"
 #include "renderer/context.h"
 #include "renderer/lean_decoder.h"
 #include "renderer/packed_decoder.h"
@@ -15,6 +18,7 @@ struct RendererOptions {
     std::uint32_t width = 1280;  ///< of what is drawn, supersampling included
     std::uint32_t height = 720;
     std::uint32_t samples = 1;         ///< lines get this much wider
+    double crease = 40;                ///< View::silhouette: see SilhouetteStyle
     std::uint64_t max_range = 0;       ///< see UploadOptions
     bool omit_decode_barrier = false;  ///< a bug on request: the test that validation sees it
 };
@@ -26,6 +30,7 @@ struct Drawable {
     DecodePlan decode;  ///< empty for Source::plain, and where no path but compute is taken
     RotatePlan rotate;  ///< likewise for the other paths
     DrawPlan draw;
+    std::optional<Adjacency> adjacency;  ///< View::silhouette
 };
 
 class Renderer {
@@ -41,12 +46,12 @@ class Renderer {
     /// all sources give the same bits; a drawable stays rotated after it. Otherwise as the index buffer is.
     Result<Picture> draw(Drawable& drawable, const Model& model, const Camera& camera, bool exact);
 
-    /// 3 * slots indices as the device decodes them: of Path::compute what is in the index buffer, decoded first if need
-    /// be; of the others what their shaders get, slot by slot.
+    /// 3 * slots indices as the device decodes them: of Path::compute what is in the index buffer, decoded first if
+    /// need be; of the others what their shaders get, slot by slot.
     Result<std::vector<std::uint32_t>> read_indices(Drawable& drawable);
 
-    /// Words of its stream that decoding every slot by itself loads: what a picture by Path::geometry or mesh reads, and a
-    /// third of what one by Path::pull does.
+    /// Words of its stream that decoding every slot by itself loads: what a picture by Path::geometry or mesh reads,
+    /// and a third of what one by Path::pull does.
     Result<std::uint64_t> words_read(const Drawable& drawable);
 
     /// Runs of vertex shaders for one picture in one pass, as the device counts them. What draws it must be decoded.
@@ -61,6 +66,9 @@ class Renderer {
 
   private:
     Renderer() = default;
+    /// Normals of the mesh's vertices, by the device, from positions and tables alone. Of a vertex in several fans:
+    /// that of the first.
+    Result<std::vector<float>> normals_of(const Adjacency& adjacency, std::uint32_t vertices);
 
     Context* context_ = nullptr;
     RendererOptions options_;
@@ -72,6 +80,8 @@ class Renderer {
     PackedDecoder packed_;
     Rotator rotator_;
     SlotReader slots_;
+    std::optional<Silhouettes> silhouettes_;  // these two for View::silhouette
+    std::optional<VertexNormals> vertex_normals_;
 };
 
 }  // namespace lr::gpu

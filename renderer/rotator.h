@@ -22,8 +22,6 @@ class Rotator {
   public:
     static Result<Rotator> create(Context& context);
 
-    /// Errors: too_large, if vertex_order needs more than LR_ORDER_WINDOWS descriptors of mesh.max_range bytes (2^27
-    /// vertices where the range is 128 MiB).
     Result<RotatePlan> plan(Descriptors& descriptors, const GpuMesh& mesh) const;
     /// Records the dispatches, without barriers: they read and write mesh.indices in the compute stage.
     void record(VkCommandBuffer commands, const RotatePlan& plan) const;
@@ -32,7 +30,6 @@ class Rotator {
     Context* context_ = nullptr;
     Layout layout_;
     PipelineHandle pipeline_;
-    Buffer nothing_;  // bound in place of windows that are not there
 };
 
 }  // namespace lr::gpu

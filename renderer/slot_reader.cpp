@@ -54,9 +54,8 @@ Result<void> SlotReader::run(Commands& commands, const GpuMesh& mesh, Task task,
 Result<std::vector<std::uint32_t>> SlotReader::read(Commands& commands, Transfer& transfer, const GpuMesh& mesh) {
     std::vector<std::uint32_t> out(std::size_t{3} * mesh.slots);
     LR_TRY(run(commands, mesh, Task::indices, [&](std::uint32_t first, std::uint32_t slots, const Buffer& part) {
-        return transfer.read(part, 0,
-                             std::as_writable_bytes(
-                                 std::span(out).subspan(std::size_t{3} * first, std::size_t{3} * slots)));
+        return transfer.read(
+            part, 0, std::as_writable_bytes(std::span(out).subspan(std::size_t{3} * first, std::size_t{3} * slots)));
     }));
     return out;
 }

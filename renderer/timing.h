@@ -30,8 +30,9 @@ struct Way {
     Times draw;             ///< of Path::compute: decoded before
     Times decode;           ///< to index buffer and draw commands. Path::compute of a stream only, as is the next
     Times decode_and_draw;  ///< both, each time
-    std::uint64_t connectivity_bytes = 0;  ///< that must stay on the device to draw again: index buffer, or stream, or both
-    std::uint64_t bytes_read = 0;          ///< of these, by shaders or as indices, for one picture
+    std::uint64_t connectivity_bytes =
+        0;                         ///< that must stay on the device to draw again: index buffer, or stream, or both
+    std::uint64_t bytes_read = 0;  ///< of these, by shaders or as indices, for one picture
     /// Vertex shader runs for one picture, where the device counts them; not of Path::mesh.
     std::optional<std::uint64_t> vertex_invocations;
 };

@@ -13,16 +13,17 @@ bool has_ring(View view) {
 }  // namespace
 
 bool has_lines(View view) {
-    return has_ring(view) || view == View::wire;
+    return has_ring(view) || view == View::wire || view == View::silhouette;
 }
 
 std::optional<View> view_named(std::string_view name) {
-    constexpr std::array<std::pair<std::string_view, View>, 6> kViews{{{"smooth", View::smooth},
+    constexpr std::array<std::pair<std::string_view, View>, 7> kViews{{{"smooth", View::smooth},
                                                                        {"flat", View::flat},
                                                                        {"class", View::triangle_class},
                                                                        {"ring", View::ring},
                                                                        {"wire", View::wire},
-                                                                       {"offsets", View::offsets}}};
+                                                                       {"offsets", View::offsets},
+                                                                       {"silhouette", View::silhouette}}};
     for (const auto& [text, view] : kViews) {
         if (text == name) return view;
     }

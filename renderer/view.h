@@ -11,19 +11,20 @@
 namespace lr::gpu {
 
 enum class View : std::uint32_t {
-    smooth = LR_VIEW_SMOOTH,         ///< interpolated normals
-    flat = LR_VIEW_FLAT,             ///< the triangles' own normals
-    triangle_class = LR_VIEW_CLASS,  ///< what each triangle is to the ring, and the ring
-    ring = LR_VIEW_RING,             ///< the vertices' order along the ring, and the ring
-    wire = LR_VIEW_WIRE,             ///< flat, and the triangles' edges
-    offsets = LR_VIEW_OFFSETS,       ///< significant bits of each triangle's offset along the ring, and the ring
+    smooth = LR_VIEW_SMOOTH,          ///< interpolated normals
+    flat = LR_VIEW_FLAT,              ///< the triangles' own normals
+    triangle_class = LR_VIEW_CLASS,   ///< what each triangle is to the ring, and the ring
+    ring = LR_VIEW_RING,              ///< the vertices' order along the ring, and the ring
+    wire = LR_VIEW_WIRE,              ///< flat, and the triangles' edges
+    offsets = LR_VIEW_OFFSETS,        ///< significant bits of each triangle's offset along the ring, and the ring
+    silhouette = LR_VIEW_SILHOUETTE,  ///< outline, creases and borders, over normals that the device computed
 };
 
 /// What a view needs on the device beside the triangles.
 UploadOptions upload_options(View view);
-/// Does it draw lines over the surface?
+/// Are lines drawn over the surface? It is pushed back a little then.
 bool has_lines(View view);
-/// "smooth", "flat", "class", "ring", "wire", "offsets"
+/// "smooth", "flat", "class", "ring", "wire", "offsets", "silhouette"
 std::optional<View> view_named(std::string_view name);
 
 }  // namespace lr::gpu

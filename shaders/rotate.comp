@@ -1,5 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
 // Turns every triangle of an index buffer so that the vertex with the smallest original number comes first. Two buffers
 // with the same triangles in other rotations then interpolate alike, to the last bit (docs/renderer.md).
 #include "shaders/shared.h"
@@ -8,18 +10,9 @@ layout(local_size_x = LR_COMPUTE_GROUP) in;
 
 layout(push_constant) uniform Push { RotateConstants push; };
 layout(std430, binding = 0) buffer Indices { uvec4 indices[]; };
-layout(std430, binding = 1) readonly buffer Order { uint original[]; } order[LR_ORDER_WINDOWS];
+layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Words { uint at[]; };
 
-uint original(uint v) {
-    if (push.ordered == 0u) return v;
-    // Constant subscripts: a vertex is nothing uniform, and descriptor indexing is not asked for.
-    uint window = v / push.order_window;
-    uint i = v - window * push.order_window;
-    if (window == 0u) return order[0].original[i];
-    if (window == 1u) return order[1].original[i];
-    if (window == 2u) return order[2].original[i];
-    return order[3].original[i];
-}
+uint original(uint v) { return push.ordered == 0u ? v : Words(push.vertex_order).at[v]; }
 
 uvec3 rotated(uvec3 t) {
     uint a = original(t.x);

@@ -31,11 +31,10 @@ struct DecodeConstants {
 };
 
 // rotate.comp: the window of the index buffer is the descriptor's.
-#define LR_ORDER_WINDOWS 4
 struct RotateConstants {
-    uint triangles;     // in this dispatch
-    uint ordered;       // 0: vertices have their original numbers; 1: vertex_order has them
-    uint order_window;  // vertices that each of the LR_ORDER_WINDOWS descriptors of vertex_order covers
+    uint triangles;      // in this dispatch
+    uint ordered;        // 0: vertices have their original numbers; 1: vertex_order has them
+    uvec2 vertex_order;  // its address
 };
 
 // One picture.
@@ -76,6 +75,7 @@ struct DrawConstants {
 #define LR_VIEW_RING 3u
 #define LR_VIEW_WIRE 4u
 #define LR_VIEW_OFFSETS 5u
+#define LR_VIEW_SILHOUETTE 6u
 
 // The picture of triangle numbers: 0 is the background, else the original triangle + 1 and which side of it is seen.
 #define LR_FRONT_FLAG 0x80000000u

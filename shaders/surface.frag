@@ -78,12 +78,15 @@ void main() {
     } else if (view == LR_VIEW_RING) {
         albedo = in_ring_colour;
         gloss = 0.35;
+    } else if (view == LR_VIEW_SILHOUETTE) {
+        albedo = vec3(0.80, 0.78, 0.74);
+        gloss = 0.1;
     } else if (view == LR_VIEW_WIRE) {
         albedo = vec3(0.66, 0.68, 0.70);
         gloss = 0.2;
     }
     vec3 colour;
-    if (view == LR_VIEW_SMOOTH || view == LR_VIEW_RING) {
+    if (view == LR_VIEW_SMOOTH || view == LR_VIEW_RING || view == LR_VIEW_SILHOUETTE) {
         // Both sides of the surface are lit, and which one this is comes from the normal, gradually: at a silhouette a
         // triangle that faces the eye and its neighbour that does not have nearly the same depth, and whichever is seen by
         // a rounding error must look the same.

@@ -360,8 +360,8 @@ Result<PackedStream> encode_packed(const CornerTable& table, const Rings& rings,
     return encoded;
 }
 
-Result<PackedChoice> encode_smallest_packed(const CornerTable& table, const RingOptions& ring, const OptimizeOptions& optimize,
-                                    PackedProfile profile) {
+Result<PackedChoice> encode_smallest_packed(const CornerTable& table, const RingOptions& ring,
+                                            const OptimizeOptions& optimize, PackedProfile profile) {
     Rings rings = expand_rings(table, ring);
     Result<PackedStream> plain = encode_packed(table, rings, profile);
     if (!plain) return plain.error();

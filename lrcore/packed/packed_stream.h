@@ -41,15 +41,17 @@ enum class PackedProfile {
 /// Encodes every triangle of the table that is not degenerate.
 /// Cost: O(T) time; beside the result 5 bytes a triangle, 5 a vertex and 4 bits a triangle while it runs.
 /// Errors: too_large (records of 4 GiB: at least 300 million triangles).
-Result<PackedStream> encode_packed(const CornerTable& table, const Rings& rings, PackedProfile profile = PackedProfile::small);
+Result<PackedStream> encode_packed(const CornerTable& table, const Rings& rings,
+                                   PackedProfile profile = PackedProfile::small);
 
 /// The smaller of two streams: over the rings of expand_rings, and over these optimised. Errors: encode_packed's.
 struct PackedChoice {
     PackedStream stream;
     std::uint32_t passes = 0;  ///< of the optimiser; 0 where its rings were no better
 };
-Result<PackedChoice> encode_smallest_packed(const CornerTable& table, const RingOptions& ring, const OptimizeOptions& optimize,
-                                    PackedProfile profile = PackedProfile::small);
+Result<PackedChoice> encode_smallest_packed(const CornerTable& table, const RingOptions& ring,
+                                            const OptimizeOptions& optimize,
+                                            PackedProfile profile = PackedProfile::small);
 
 /// A packed stream somewhere in memory, its header read. Holds no copy.
 struct PackedView {

@@ -44,9 +44,4 @@ inline gpu::Model model_of(const Mesh& mesh) {
 /// The smallest descriptor range.
 constexpr std::uint64_t kSmallRange = 4096;
 
-/// The smallest descriptor range with which this mesh can be worked on: many parts.
-inline std::uint64_t small_range(const Mesh& mesh) {
-    return std::max<std::uint64_t>(kSmallRange, (std::uint64_t{mesh.vertex_count} + 255) / 256 * 256);
-}
-
 }  // namespace lr::test

@@ -1,5 +1,6 @@
 // The streams' pictures are the plain path's, bit for bit, and a blank picture is no proof of it.
 
+#include <cstdlib>
 #include <cstring>
 
 #include "tests/gpu/gpu_test.h"
@@ -10,15 +11,31 @@ using namespace lr::test;
 
 namespace {
 
-constexpr gpu::Source kStreams[] = {gpu::Source::lean, gpu::Source::packed};
+constexpr std::uint32_t kWidth = 160, kHeight = 120;
 
-gpu::Comparison compared(gpu::Context& context, const gpu::Model& model, gpu::Source source = gpu::Source::lean,
-                         std::uint64_t max_range = 0) {
-    gpu::CompareOptions options;
-    options.width = 160;
-    options.height = 120;
+/// Every source by every path that the device has.
+std::vector<gpu::Subject> all_subjects(const gpu::Context& context) {
+    std::vector<gpu::Subject> out;
+    for (const gpu::NamedPath& named : gpu::kPaths) {
+        if (named.path == gpu::Path::mesh && context.info().max_mesh_groups == 0) continue;
+        for (const gpu::Source source : {gpu::Source::lean, gpu::Source::packed}) out.push_back({source, named.path});
+    }
+    return out;
+}
+
+/// Pipelines for many models: they take lavapipe long to make.
+gpu::Renderer small_renderer(gpu::Context& context, std::uint64_t max_range = 0) {
+    gpu::RendererOptions options;
+    options.width = kWidth;
+    options.height = kHeight;
     options.max_range = max_range;
-    Result<gpu::Comparison> out = gpu::compare(context, model, {source}, options);
+    Result<gpu::Renderer> out = gpu::Renderer::create(context, options);
+    REQUIRE_MESSAGE(out, out.error().message);
+    return std::move(out).value();
+}
+
+std::vector<gpu::Comparison> compared(gpu::Renderer& renderer, const gpu::Model& model) {
+    auto out = gpu::compare(renderer, model, all_subjects(renderer.context()));
     REQUIRE_MESSAGE(out, out.error().message);
     return std::move(out).value();
 }
@@ -29,6 +46,13 @@ void check_same(const gpu::Comparison& c) {
     CHECK(c.triangle_ids_different == 0);
     CHECK(c.indices_equal_cpu);
     CHECK(c.views >= 6);
+}
+
+void check_same(const std::vector<gpu::Comparison>& all) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        CAPTURE(i);  // of all_subjects
+        check_same(all[i]);
+    }
 }
 
 Mesh from_points(std::vector<float> points, std::vector<std::uint32_t> indices) {
@@ -44,41 +68,56 @@ Mesh from_points(std::vector<float> points, std::vector<std::uint32_t> indices) 
 
 }  // namespace
 
-TEST_CASE_FIXTURE(GpuTest, "every generated mesh gives the same pictures") {
+TEST_CASE_FIXTURE(GpuTest, "every generated mesh gives the same pictures by every path") {
+    gpu::Renderer renderer = small_renderer(*context);
     for (const GeneratorInfo& kind : generators()) {
         CAPTURE(kind.name);
         const Mesh mesh = generated(kind.name, 4000, 2);
         const gpu::Model model = model_of(mesh);
-        for (const std::uint64_t range : {std::uint64_t{0}, small_range(mesh)}) {
-            CAPTURE(range);
-            for (const gpu::Source source : kStreams) {
-                const gpu::Comparison c = compared(*context, model, source, range);
-                check_same(c);
-                CHECK(!c.blank);
-                CHECK(c.distinct_ids > 1000);
-                CHECK(c.covered_pixels > 6 * 160 * 120 / 20);
-            }
+        const std::vector<gpu::Comparison> all = compared(renderer, model);
+        check_same(all);
+        CHECK(!all[0].blank);
+        CHECK(all[0].distinct_ids > 1000);
+        CHECK(all[0].covered_pixels > 6 * kWidth * kHeight / 20);
+    }
+}
+
+TEST_CASE_FIXTURE(GpuTest, "meshes in many parts give the same pictures by every path") {
+    gpu::Renderer renderer = small_renderer(*context, kSmallRange);
+    for (const char* kind : {"blob", "parts", "terrain"}) {
+        CAPTURE(kind);
+        const Mesh mesh = generated(kind, 4000, 2);
+        check_same(compared(renderer, model_of(mesh)));
+    }
+}
+
+TEST_CASE("mesh shaders are there where they are asked for") {
+    if (std::getenv("LACEDRING_REQUIRE_MESH") == nullptr) return;
+    const auto context = gpu::Context::create({{}, true});
+    REQUIRE(context);
+    CHECK((*context)->info().max_mesh_groups > 0);
+}
+
+TEST_CASE_FIXTURE(GpuTest, "raw pictures of clean surfaces differ by the rounding of normals only") {
+    gpu::Renderer renderer = small_renderer(*context);
+    for (const char* kind : {"sphere", "torus", "genus", "blob"}) {
+        CAPTURE(kind);
+        const Mesh mesh = generated(kind, 4000, 1);
+        for (const gpu::Comparison& c : compared(renderer, model_of(mesh))) {
+            CHECK(c.raw_max_channel_difference <= 1);
+            CHECK(c.raw_pixels_different * 1000 <= c.covered_pixels);
         }
     }
 }
 
-TEST_CASE_FIXTURE(GpuTest, "raw pictures of clean surfaces differ by the rounding of normals only") {
-    for (const char* kind : {"sphere", "torus", "genus", "blob"}) {
-        CAPTURE(kind);
-        const Mesh mesh = generated(kind, 4000, 1);
-        const gpu::Comparison c = compared(*context, model_of(mesh));
-        CHECK(c.raw_max_channel_difference <= 1);
-        CHECK(c.raw_pixels_different * 1000 <= c.covered_pixels);
-    }
-}
-
 TEST_CASE_FIXTURE(GpuTest, "meshes of every local shape give the same pictures") {
+    gpu::Renderer renderer = small_renderer(*context);
     for (const NamedMesh& named : named_meshes()) {
         if (named.mesh.triangle_count() > 400) continue;
         CAPTURE(named.name);
         const Result<gpu::Model> model = gpu::make_model(named.mesh, {.packed = true});
         if (!model || model->lean.slot_triangle.empty()) continue;
-        for (const gpu::Source source : kStreams) check_same(compared(*context, *model, source));
+        check_same(compared(renderer, *model));
     }
 }
 
@@ -93,37 +132,38 @@ TEST_CASE_FIXTURE(GpuTest, "triangles in the same place, in any order and rotati
         for (const std::size_t k : {std::size_t{2}, std::size_t{1}, std::size_t{0}})
             mesh.indices.push_back(once[i + k]);
     }
-    const gpu::Model model = model_of(mesh);
-    for (const gpu::Source source : kStreams) {
-        const gpu::Comparison c = compared(*context, model, source);
-        check_same(c);
-        // The smallest number wins, so only the first copy of each is ever seen.
-        CHECK(c.distinct_ids <= once.size() / 3);
-        CHECK(!c.blank);
-    }
+    gpu::Renderer renderer = small_renderer(*context);
+    const std::vector<gpu::Comparison> all = compared(renderer, model_of(mesh));
+    check_same(all);
+    // The smallest number wins, so only the first copy of each is ever seen.
+    CHECK(all[0].distinct_ids <= once.size() / 3);
+    CHECK(!all[0].blank);
 }
 
 TEST_CASE_FIXTURE(GpuTest, "a mesh far from the origin, tiny or large, gives the same pictures") {
+    gpu::Renderer renderer = small_renderer(*context);
     for (const float scale : {1e-20F, 1e-3F, 1e15F}) {
         CAPTURE(scale);
         Mesh mesh = generated("torus", 1000);
         std::vector<float> p = positions_f32(mesh);
         for (float& x : p) x = x * scale + 5 * scale;
         std::memcpy(mesh.attributes[0].data.data(), p.data(), p.size() * sizeof(float));
-        const gpu::Comparison c = compared(*context, model_of(mesh));
-        check_same(c);
-        CHECK(!c.blank);
+        const std::vector<gpu::Comparison> all = compared(renderer, model_of(mesh));
+        check_same(all);
+        CHECK(!all[0].blank);
     }
 }
 
 TEST_CASE_FIXTURE(GpuTest, "a blank picture cannot pass") {
     // Triangles without area: nothing is drawn, and nothing differs.
     const Mesh mesh = from_points({0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0}, {0, 1, 2, 1, 3, 2});
-    const gpu::Comparison c = compared(*context, model_of(mesh));
-    CHECK(c.pixels_different == 0);
-    CHECK(c.covered_pixels == 0);
-    CHECK(c.blank);
-    CHECK(!c.same());
+    gpu::Renderer renderer = small_renderer(*context);
+    for (const gpu::Comparison& c : compared(renderer, model_of(mesh))) {
+        CHECK(c.pixels_different == 0);
+        CHECK(c.covered_pixels == 0);
+        CHECK(c.blank);
+        CHECK(!c.same());
+    }
 }
 
 TEST_CASE_FIXTURE(GpuTest, "nothing to draw is an error") {
@@ -134,8 +174,8 @@ TEST_CASE_FIXTURE(GpuTest, "nothing to draw is an error") {
     CHECK(no_model(from_points({0, 0, 0}, {})));
     CHECK(no_model(from_points({1, 1, 1}, {0, 0, 0})));
     const Mesh degenerate = from_points({0, 0, 0, 1, 0, 0, 1, 1, 0}, {0, 1, 1, 2, 1, 2});
-    for (const gpu::Source source : kStreams) {
-        const auto c = gpu::compare(*context, model_of(degenerate), {source}, {});
+    for (const gpu::Subject& subject : all_subjects(*context)) {
+        const auto c = gpu::compare(*context, model_of(degenerate), subject, {});
         REQUIRE(!c);
         CHECK(c.error().code == ErrorCode::unsupported);
     }

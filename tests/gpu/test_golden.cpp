@@ -61,10 +61,11 @@ struct Golden {
 };
 
 constexpr Golden kGoldens[] = {
-    {"genus-smooth", "genus", 3000, gpu::View::smooth},       {"moebius-smooth", "moebius", 600, gpu::View::smooth},
-    {"terrain-flat", "terrain", 800, gpu::View::flat},        {"blob-class", "blob", 600, gpu::View::triangle_class},
-    {"parts-class", "parts", 500, gpu::View::triangle_class}, {"torus-ring", "torus", 1000, gpu::View::ring},
-    {"sphere-wire", "sphere", 500, gpu::View::wire},          {"blob-offsets", "blob", 600, gpu::View::offsets}};
+    {"genus-smooth", "genus", 3000, gpu::View::smooth},        {"moebius-smooth", "moebius", 600, gpu::View::smooth},
+    {"terrain-flat", "terrain", 800, gpu::View::flat},         {"blob-class", "blob", 600, gpu::View::triangle_class},
+    {"parts-class", "parts", 500, gpu::View::triangle_class},  {"torus-ring", "torus", 1000, gpu::View::ring},
+    {"sphere-wire", "sphere", 500, gpu::View::wire},           {"blob-offsets", "blob", 600, gpu::View::offsets},
+    {"parts-silhouette", "parts", 2000, gpu::View::silhouette}};
 
 }  // namespace
 
