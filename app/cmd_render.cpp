@@ -113,6 +113,8 @@ int run(const Options& options) {
     renderer_options.crease = options.crease;
     renderer_options.width = options.size.width * samples;
     renderer_options.height = options.size.height * samples;
+    constexpr std::uint64_t kWorthSaying = std::uint64_t{1} << 30;
+    std::uint64_t device_bytes = 0;
     Result<gpu::Picture> drawn = [&]() -> Result<gpu::Picture> {
         Result<gpu::Renderer> renderer = gpu::Renderer::create(**context, renderer_options);
         if (!renderer) return renderer.error();
@@ -121,6 +123,11 @@ int run(const Options& options) {
                                                                 : gpu::Source::lean;
         const auto* path = std::find_if(gpu::kPaths.begin(), gpu::kPaths.end(),
                                         [&](const gpu::NamedPath& named) { return options.path == named.name; });
+        device_bytes = (*context)->arena().used() + renderer->device_bytes(*model, source, path->path);
+        if (device_bytes > kWorthSaying) {
+            fmt::print(stderr, "lacedring: drawing takes {:.1f} GB of device memory\n",
+                       static_cast<double>(device_bytes) / 1e9);
+        }
         Result<gpu::Drawable> drawable = renderer->upload(*model, source, path->path);
         if (!drawable) return drawable.error();
         const Result<gpu::Camera> camera =
@@ -150,6 +157,7 @@ int run(const Options& options) {
                                       {"view", options.view},
                                       {"triangles", model->triangle_count()},
                                       {"covered", share},
+                                      {"device_bytes", device_bytes},
                                       {"validation_messages", messages}};
         print_json(out);
     } else {

@@ -21,6 +21,12 @@ bool parse_size(const std::string& text, PictureSize& size) {
 
 void add_device_options(CLI::App& command, gpu::ContextOptions& options) {
     command.add_option("--device", options.device, "part of the name of the Vulkan device to use")->type_name("NAME");
+    command
+        .add_option_function<std::uint64_t>(
+            "--device-memory", [&options](const std::uint64_t& mebibytes) { options.memory = mebibytes << 20; },
+            "MiB of device memory to use at most")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 30))
+        ->type_name("MiB");
     command.add_flag("--validation", options.validation, "Vulkan validation layers, with synchronization validation");
 }
 

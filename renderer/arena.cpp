@@ -17,7 +17,7 @@ VkDeviceSize align_up(VkDeviceSize value, VkDeviceSize alignment) {
 
 }  // namespace
 
-Arena::Arena(VkPhysicalDevice physical, VkDevice device) : device_(device) {
+Arena::Arena(VkPhysicalDevice physical, VkDevice device, VkDeviceSize limit) : device_(device) {
     vkGetPhysicalDeviceMemoryProperties(physical, &properties_);
     VkPhysicalDeviceMaintenance3Properties limits{};
     limits.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
@@ -26,6 +26,9 @@ Arena::Arena(VkPhysicalDevice physical, VkDevice device) : device_(device) {
     properties.pNext = &limits;
     vkGetPhysicalDeviceProperties2(physical, &properties);
     max_allocation_ = limits.maxMemoryAllocationSize;
+    const std::uint32_t type = choose_type(UINT32_MAX, Memory::gpu);
+    limit_ = type == kNoType ? 0 : properties_.memoryHeaps[properties_.memoryTypes[type].heapIndex].size;
+    if (limit != 0) limit_ = std::min(limit_, limit);
 }
 
 Arena::~Arena() {
@@ -50,6 +53,18 @@ std::uint32_t Arena::choose_type(std::uint32_t allowed, Memory memory) const {
     return fallback;
 }
 
+Result<void> Arena::check_room(VkDeviceSize bytes, VkDeviceSize largest) const {
+    const auto mebibytes = [](VkDeviceSize n) { return std::to_string((n + (1U << 20) - 1) >> 20) + " MiB"; };
+    if (largest > max_allocation_) {
+        return Error{ErrorCode::too_large, "a buffer of " + mebibytes(largest) +
+                                               " is needed; the device gives at most " + mebibytes(max_allocation_)};
+    }
+    const VkDeviceSize room = limit_ - std::min(used_, limit_);
+    if (bytes <= room) return {};
+    return Error{ErrorCode::too_large,
+                 mebibytes(bytes) + " of device memory are needed; " + mebibytes(room) + " are left"};
+}
+
 bool Arena::carve(std::uint32_t index, const VkMemoryRequirements& requirements, Allocation& out) {
     Block& block = blocks_[index];
     for (auto it = block.free.begin(); it != block.free.end(); ++it) {
@@ -60,6 +75,7 @@ bool Arena::carve(std::uint32_t index, const VkMemoryRequirements& requirements,
         block.free.erase(it);
         if (offset > begin) block.free.emplace(begin, offset - begin);
         if (end < begin + size) block.free.emplace(end, begin + size - end);
+        used_ += requirements.size;
         out = {block.memory, offset, requirements.size, block.mapped == nullptr ? nullptr : block.mapped + offset,
                index};
         return true;
@@ -118,9 +134,13 @@ Result<Allocation> Arena::allocate(const VkMemoryRequirements& requirements, Mem
         if (carve(i, requirements, out)) return out;
     }
     // A small heap (the 256 MiB window of a GPU's memory, say) must not be taken in a few bites.
-    const VkDeviceSize heap = properties_.memoryHeaps[properties_.memoryTypes[type].heapIndex].size;
-    const VkDeviceSize usual = std::min({kBlockSize, max_allocation_, std::max(heap / 16, VkDeviceSize{1} << 20)});
-    LR_ASSIGN(const std::uint32_t index, add_block(type, std::max(usual, requirements.size), tiling));
+    const VkDeviceSize usual = std::min({kBlockSize, max_allocation_, std::max(limit_ / 16, VkDeviceSize{1} << 20)});
+    const VkDeviceSize room = limit_ - std::min(held_, limit_);
+    if (requirements.size > room) {
+        return Error{ErrorCode::too_large, std::to_string(requirements.size) + " bytes; " + std::to_string(room) +
+                                               " are left of the device memory that may be held"};
+    }
+    LR_ASSIGN(const std::uint32_t index, add_block(type, std::max(std::min(usual, room), requirements.size), tiling));
     const bool fits = carve(index, requirements, out);
     assert(fits);
     (void)fits;
@@ -128,6 +148,7 @@ Result<Allocation> Arena::allocate(const VkMemoryRequirements& requirements, Mem
 }
 
 void Arena::free(const Allocation& allocation) {
+    used_ -= allocation.size;
     Block& block = blocks_[allocation.block];
     auto [it, inserted] = block.free.emplace(allocation.offset, allocation.size);
     assert(inserted);

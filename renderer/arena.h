@@ -35,7 +35,8 @@ struct Allocation {
 /// large resource.
 class Arena {
   public:
-    Arena(VkPhysicalDevice physical, VkDevice device);
+    /// `limit`: bytes of device memory to hold at most; 0: as much as the device has.
+    Arena(VkPhysicalDevice physical, VkDevice device, VkDeviceSize limit);
     ~Arena();
     Arena(const Arena&) = delete;
     Arena& operator=(const Arena&) = delete;
@@ -44,6 +45,12 @@ class Arena {
     Result<Allocation> allocate(const VkMemoryRequirements& requirements, Memory memory, Tiling tiling);
     void free(const Allocation& allocation);
 
+    /// Is there room for resources of so many bytes in all, the largest of them of `largest`? too_large says what is
+    /// missing. Nothing is allocated; other programs may take the room meanwhile.
+    Result<void> check_room(VkDeviceSize bytes, VkDeviceSize largest) const;
+
+    /// Bytes that resources have now.
+    VkDeviceSize used() const { return used_; }
     /// Bytes of device memory held now, and at most so far.
     VkDeviceSize held() const { return held_; }
     VkDeviceSize peak() const { return peak_; }
@@ -67,6 +74,8 @@ class Arena {
     VkPhysicalDeviceMemoryProperties properties_{};
     VkDeviceSize max_allocation_ = 0;
     std::vector<Block> blocks_;
+    VkDeviceSize limit_ = 0;
+    VkDeviceSize used_ = 0;
     VkDeviceSize held_ = 0;
     VkDeviceSize peak_ = 0;
 };

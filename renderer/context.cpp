@@ -186,7 +186,7 @@ Result<void> Context::create_device(const ContextOptions& options) {
         set_name_ = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(
             vkGetDeviceProcAddr(device_, "vkSetDebugUtilsObjectNameEXT"));
     }
-    arena_ = std::make_unique<Arena>(choice.device, device_);
+    arena_ = std::make_unique<Arena>(choice.device, device_, options.memory);
     return {};
 }
 

@@ -16,9 +16,10 @@ namespace lr::gpu {
 struct ContextOptions {
     std::string device;       ///< part of a device's name; empty: the best one
     bool validation = false;  ///< VK_LAYER_KHRONOS_validation with synchronization validation
-    /// GPU-assisted validation instead of synchronization validation: accesses past what is bound, as shaders make them.
-    /// Slow. Only with `validation`.
+    /// GPU-assisted validation instead of synchronization validation: accesses past what is bound, as shaders make
+    /// them. Slow. Only with `validation`.
     bool gpu_assisted = false;
+    std::uint64_t memory = 0;  ///< bytes of device memory to hold at most; 0: as much as the device has
 };
 
 struct DeviceInfo {
@@ -33,7 +34,8 @@ struct DeviceInfo {
     std::uint64_t max_buffer_size = 0;
     std::uint32_t max_index = 0;  ///< largest vertex number that an index buffer may hold
     bool statistics = false;      ///< pipelineStatisticsQuery
-    /// Workgroups of mesh shaders in one draw command; 0 where VK_EXT_mesh_shader is missing or too small for Path::mesh.
+    /// Workgroups of mesh shaders in one draw command; 0 where VK_EXT_mesh_shader is missing or too small for
+    /// Path::mesh.
     std::uint32_t max_mesh_groups = 0;
 };
 

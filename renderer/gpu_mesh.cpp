@@ -21,9 +21,18 @@ std::uint64_t padded_slots(std::uint32_t slots) {
     return (std::uint64_t{slots} + kStep - 1) / kStep * kStep;
 }
 
+std::uint64_t slots_of(const Model& model, Source source) {
+    if (source == Source::plain) return model.triangle_count();
+    return source == Source::lean ? model.lean.slot_triangle.size() : model.packed.triangle_order.size();
+}
+
+constexpr std::uint64_t kStreamTail = 64;  // the lean decoder loads a few words past the ones that it needs
+
 /// What every source needs.
-Result<GpuMesh> prepare(Context& context, const Model& model, std::uint64_t slots, const UploadOptions& options) {
+Result<GpuMesh> prepare(Context& context, const Model& model, Source source, const UploadOptions& options) {
+    const std::uint64_t slots = slots_of(model, source);
     GpuMesh mesh;
+    mesh.source = source;
     mesh.max_range = options.max_range == 0 ? context.limits().maxStorageBufferRange : options.max_range;
     if (mesh.max_range < kSmallestRange) return Error{ErrorCode::invalid_argument, "descriptor range below 4096 bytes"};
     if (slots == 0) return Error{ErrorCode::unsupported, "the mesh has no triangles to draw"};
@@ -37,6 +46,8 @@ Result<GpuMesh> prepare(Context& context, const Model& model, std::uint64_t slot
     if (mesh.path == Path::mesh && context.info().max_mesh_groups == 0) {
         return Error{ErrorCode::unsupported, "the device has no mesh shaders (VK_EXT_mesh_shader)"};
     }
+    const MeshBytes bytes = mesh_bytes(model, source, options);
+    LR_TRY(context.arena().check_room(bytes.all, bytes.largest));
     mesh.vertex_count = model.vertex_count();
     mesh.slots = static_cast<std::uint32_t>(slots);
     mesh.draw_slots = static_cast<std::uint32_t>(
@@ -148,12 +159,11 @@ struct Stream {
 
 Result<GpuMesh> upload_stream(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options,
                               const Stream& stream) {
-    LR_ASSIGN(GpuMesh mesh, prepare(context, model, stream.slot_triangle.size(), options));
-    mesh.source = stream.source;
+    LR_ASSIGN(GpuMesh mesh, prepare(context, model, stream.source, options));
     mesh.stream_layout = stream.layout;
     constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-    // The lean decoder loads a few words past the ones that it needs.
-    LR_ASSIGN(mesh.stream, Buffer::create(context, "stream", stream.words.size_bytes() + 64, kStorage | kAddress));
+    LR_ASSIGN(mesh.stream,
+              Buffer::create(context, "stream", stream.words.size_bytes() + kStreamTail, kStorage | kAddress));
     LR_TRY(transfer.upload(mesh.stream, stream.words));
     if (mesh.path == Path::compute) {
         LR_ASSIGN(mesh.commands, Buffer::create(context, "draw commands",
@@ -175,10 +185,32 @@ Result<GpuMesh> upload_stream(Context& context, Transfer& transfer, const Model&
 
 }  // namespace
 
+MeshBytes mesh_bytes(const Model& model, Source source, const UploadOptions& options) {
+    constexpr std::uint64_t kWord = sizeof(std::uint32_t);
+    const std::uint64_t slots = slots_of(model, source);
+    MeshBytes out;
+    const auto add = [&](std::uint64_t bytes) {
+        out.all += bytes;
+        out.largest = std::max(out.largest, bytes);
+    };
+    add(sizeof(Vertex) * std::uint64_t{model.vertex_count()});
+    if (options.path == Path::compute) add(3 * kWord * padded_slots(static_cast<std::uint32_t>(slots)));
+    if (source != Source::plain) {
+        add(kWord * (source == Source::lean ? model.lean.words : model.packed.words).size() + kStreamTail);
+        add(kWord * slots);
+        add(kWord * model.vertex_count());
+        if (options.path == Path::compute) add(sizeof(VkDrawIndexedIndirectCommand) * (slots / kSlotStep + 1));
+    }
+    if (options.ring) add((slots + 3) / 4 * 4);
+    if (options.lines == UploadOptions::Lines::ring) add(2 * kWord * model.vertex_count());
+    if (options.lines == UploadOptions::Lines::edges) add(6 * kWord * model.triangle_count());
+    return out;
+}
+
 Result<GpuMesh> upload_plain(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options) {
     if (options.path != Path::compute)
         return Error{ErrorCode::invalid_argument, "an index list has Path::compute only"};
-    LR_ASSIGN(GpuMesh mesh, prepare(context, model, model.triangle_count(), options));
+    LR_ASSIGN(GpuMesh mesh, prepare(context, model, Source::plain, options));
     const auto indices = std::as_bytes(model.indices);
     LR_TRY(transfer.upload(
         mesh.indices, 0, mesh.indices.size(), 4, [&](std::byte* to, std::size_t from, std::size_t size) {

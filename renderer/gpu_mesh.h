@@ -74,6 +74,13 @@ struct GpuMesh {
     bool rotated = false;  ///< and each begins with its smallest original vertex
 };
 
+/// Device memory that a source of the model takes with these options, before alignment: all that an upload allocates.
+/// `largest`: the largest buffer of it. View::wire's lines are counted as if no two triangles shared an edge.
+struct MeshBytes {
+    std::uint64_t all = 0, largest = 0;
+};
+MeshBytes mesh_bytes(const Model& model, Source source, const UploadOptions& options);
+
 /// What the vertex shaders read.
 struct Vertex {
     float position[3];
@@ -81,8 +88,9 @@ struct Vertex {
     float ring;  ///< place along the rings in [0, 1]; -1 off the rings
 };
 
-/// Errors: unsupported (Path::mesh where the device has none), too_large (indices past the device's, or a buffer),
-/// invalid_argument (max_range), unsupported (only degenerate triangles), and Vulkan's.
+/// Errors: unsupported (Path::mesh where the device has none), too_large (indices past the device's; more memory than
+/// is left, found out before any is allocated), invalid_argument (max_range), unsupported (only degenerate triangles),
+/// and Vulkan's.
 Result<GpuMesh> upload_plain(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options);
 /// The model's stream must be valid, as encode_lean makes it.
 Result<GpuMesh> upload_lean(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options);

@@ -25,6 +25,12 @@ Result<Renderer> Renderer::create(Context& context, const RendererOptions& optio
     return out;
 }
 
+std::uint64_t Renderer::device_bytes(const Model& model, Source source, Path path) const {
+    UploadOptions options = upload_options(options_.view);
+    options.path = path;
+    return mesh_bytes(model, source, options).all;
+}
+
 Result<Drawable> Renderer::upload(const Model& model, Source source, Path path) {
     UploadOptions options = upload_options(options_.view);
     options.path = path;

@@ -38,6 +38,8 @@ class Renderer {
     static Result<Renderer> create(Context& context, const RendererOptions& options);
 
     Result<Drawable> upload(const Model& model, Source source, Path path = Path::compute);
+    /// Bytes of device memory that this takes beside what the renderer has already (context().arena().used()).
+    std::uint64_t device_bytes(const Model& model, Source source, Path path = Path::compute) const;
 
     /// Records the decoding of a stream and what makes it visible, if that has not been done.
     void decode(VkCommandBuffer commands, Drawable& drawable) const;

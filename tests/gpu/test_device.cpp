@@ -81,3 +81,45 @@ TEST_CASE_FIXTURE(GpuTest, "bytes survive the way to the device and back, in pie
     CHECK(back == values);
     CHECK(!transfer->read(*buffer, 8, std::as_writable_bytes(std::span(back))));
 }
+
+TEST_CASE("a mesh takes the device memory that was said, and none where there is too little") {
+    const Mesh mesh = generated("blob", 200000);
+    const gpu::Model model = model_of(mesh);
+    auto context = gpu::Context::create({{}, true});
+    REQUIRE(context);
+    gpu::RendererOptions options;
+    options.width = options.height = 16;
+    for (const gpu::View view : {gpu::View::smooth, gpu::View::triangle_class, gpu::View::wire}) {
+        options.view = view;
+        auto renderer = gpu::Renderer::create(**context, options);
+        REQUIRE(renderer);
+        for (const gpu::Source source : {gpu::Source::plain, gpu::Source::lean, gpu::Source::packed}) {
+            for (const gpu::Path path : {gpu::Path::compute, gpu::Path::pull}) {
+                if (source == gpu::Source::plain && path != gpu::Path::compute) continue;
+                const std::uint64_t said = renderer->device_bytes(model, source, path);
+                const std::uint64_t before = (*context)->arena().used();
+                const auto drawable = renderer->upload(model, source, path);
+                REQUIRE(drawable);
+                const std::uint64_t taken = (*context)->arena().used() - before;
+                CHECK(taken <= said + 8 * 256);                // each buffer rounded up
+                const bool bounded = view == gpu::View::wire;  // its lines are a bound
+                CHECK(said <= taken + (bounded ? 12 * mesh.triangle_count() + 4096 : 2 * mesh.vertex_count + 4096));
+            }
+        }
+    }
+    CHECK((*context)->validation().count() == 0);
+
+    auto small = gpu::Context::create({.device = {}, .validation = true, .gpu_assisted = false, .memory = 38U << 20});
+    REQUIRE(small);
+    options.view = gpu::View::smooth;
+    auto renderer = gpu::Renderer::create(**small, options);
+    REQUIRE_MESSAGE(renderer, renderer.error().message);
+    const std::uint64_t used = (*small)->arena().used(), held = (*small)->arena().held();
+    REQUIRE(used + renderer->device_bytes(model, gpu::Source::lean) > 38U << 20);
+    const auto drawable = renderer->upload(model, gpu::Source::lean);
+    REQUIRE_FALSE(drawable);
+    CHECK(drawable.error().code == ErrorCode::too_large);
+    CHECK(drawable.error().message.find("MiB") != std::string::npos);
+    CHECK((*small)->arena().used() == used);
+    CHECK((*small)->arena().held() == held);
+}
