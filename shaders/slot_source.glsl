@@ -47,3 +47,24 @@ uvec3 slot_triangle(uint slot) {
     }
     return rotate ? rotated(t) : t;
 }
+
+// The triangles of slots 2i and 2i + 1. Those of one ring edge of a lean stream need its two words once.
+void slot_pair(uint slot, out uvec3 t0, out uvec3 t1) {
+    LrLeanLayout lean = LrLeanLayout(push.stream_layout.x, push.stream_layout.y, push.stream_layout.z);
+    if (packed_stream || slot >= 2u * lean.rings2) {
+        t0 = slot_triangle(slot);
+        t1 = slot + 1u < push.first_slot + push.slots ? slot_triangle(slot + 1u) : uvec3(0u);
+        return;
+    }
+    uint v = slot >> 1, left = lr_lean_word(slot), right = lr_lean_word(slot + 1u);
+    uint next = lr_lean_next(v, left, right), skip = next + 1u;
+    if (((left | right) & LR_LEAN_WART_FLAG) != 0u && next == v + 1u) {
+        skip = lr_lean_next(next, lr_lean_word(2u * next), lr_lean_word(2u * next + 1u));
+    }
+    t0 = lr_lean_ring_triangle(left, v, next, skip, false);
+    t1 = lr_lean_ring_triangle(right, v, next, skip, true);
+    if (rotate) {
+        t0 = rotated(t0);
+        t1 = rotated(t1);
+    }
+}

@@ -24,11 +24,13 @@ void emit(uint vertex, uint local) {
 
 void main() {
     uint begin = 2u * uint(gl_PrimitiveIDIn);
-    for (uint local = begin; local < min(begin + 2u, push.slots); ++local) {
-        uvec3 t = slot_triangle(push.first_slot + local);
-        emit(t.x, local);
-        emit(t.y, local);
-        emit(t.z, local);
+    uvec3 t[2];
+    slot_pair(push.first_slot + begin, t[0], t[1]);
+    for (uint i = 0u; i < 2u; ++i) {
+        if (t[i].x == t[i].y) continue;  // degenerate
+        emit(t[i].x, begin + i);
+        emit(t[i].y, begin + i);
+        emit(t[i].z, begin + i);
         EndPrimitive();
     }
 }
