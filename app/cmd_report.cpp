@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <span>
 
@@ -32,19 +33,23 @@ struct Options {
 /// The command with the options that were given, positional arguments last.
 std::string command_line(const CLI::App& command) {
     std::string out = "lacedring " + command.get_name(), positional;
+    bool dashes = false;  // does a file look like an option?
     for (const CLI::Option* option : command.get_options()) {
         if (option->count() == 0) continue;
         const bool flag = option->get_items_expected_max() == 0;
         for (const std::string& value : option->results()) {
-            if (option->nonpositional()) {
-                const std::string name = option->get_name();
-                out += ' ' + (!flag ? name + ' ' + shell_word(value) : value == "true" ? name : name + '=' + value);
-            } else {
+            const bool dash = value.starts_with('-');
+            if (!option->nonpositional()) {
                 positional += ' ' + shell_word(value);
+                dashes = dashes || dash;
+            } else if (flag && value == "true") {
+                out += ' ' + option->get_name();
+            } else {
+                out += ' ' + option->get_name() + (flag || dash ? '=' : ' ') + shell_word(value);
             }
         }
     }
-    return out + (positional.find(" -") == std::string::npos ? "" : " --") + positional;
+    return out + (dashes ? " --" : "") + positional;
 }
 
 #ifdef LACEDRING_GPU
@@ -71,7 +76,7 @@ int run(const Options& options) {
 #ifdef LACEDRING_GPU
     skipped.clear();
     const Result<std::unique_ptr<gpu::Context>> device = open_device(options, skipped);
-    if (!device) return fail(options.output, device.error());
+    if (!device) return fail(options.paths.front(), device.error());
     gpu::Context* context = device->get();
     if (context != nullptr) {
         const gpu::DeviceInfo& info = context->info();
@@ -103,6 +108,10 @@ int run(const Options& options) {
     }
 #ifdef LACEDRING_GPU
     if (context != nullptr) messages = print_validation(*context);
+    if (std::ranges::all_of(meshes, [](const MeshReport& mesh) { return mesh.pictures.empty(); })) {
+        page.device.clear();
+        skipped = meshes.front().no_pictures;
+    }
 #endif
     page.meshes = meshes;
     const std::string text = report_page(page);

@@ -112,11 +112,12 @@ std::string size_table(const MeshReport& mesh, const std::string& title) {
         const FormatNote note = note_on(f.name);
         out += fmt::format(
             "<tr class=\"{}\"><th scope=\"row\">{}</th><td class=\"strong\">{}</td><td>{}</td><td>{}</td>"
-            "<td>{}\u00A0%</td><td>{}</td><td>{}</td><td>{}</td><td class=\"left\">{}</td>"
+            "<td>{}</td><td>{}</td><td>{}</td><td>{}</td><td class=\"left\">{}</td>"
             "<td class=\"left what\">{}{}</td></tr>\n",
             class_of(note.origin), escape_html(f.name), fixed(f.bits, 3), grouped(f.bytes),
-            f.references == 0 ? "" : fixed(f.references, 3), fixed(f.share, 1), fixed(f.cache.acmr, 3),
-            fixed(f.cache.atvr, 3), f.deflated == 0 ? "" : grouped(f.deflated), f.ring,
+            f.references == 0 ? "" : fixed(f.references, 3),
+            std::isfinite(f.share) ? fixed(f.share, 1) + "\u00A0%" : "", fixed(f.cache.acmr, 3), fixed(f.cache.atvr, 3),
+            f.deflated == 0 ? "" : grouped(f.deflated), f.ring,
             note.origin == Origin::baseline ? "<span class=\"tag\">baseline</span> " : "", note.what);
     }
     for (const auto& [name, reason] : mesh.absent) {

@@ -33,7 +33,7 @@ b { color: var(--text); }
 .facts + .note { margin: 4px 0 16px; }
 .wide { overflow-x: auto; margin: 6px 0; }
 .wide:focus-visible { outline: 2px solid var(--link); outline-offset: 2px; }
-table { border-collapse: collapse; font-size: .88rem; font-variant-numeric: tabular-nums; }
+table { border-collapse: separate; border-spacing: 0; font-size: .88rem; font-variant-numeric: tabular-nums; }
 table.sizes, table.overview { width: 100%; }
 th, td { padding: 4px 7px; text-align: right; white-space: nowrap; border-bottom: 1px solid var(--faint); }
 thead th { color: var(--soft); font-weight: 600; border-bottom: 1px solid var(--line); vertical-align: bottom; }
@@ -84,6 +84,7 @@ details { margin-top: 8px; } summary { cursor: pointer; color: var(--link); font
   background: linear-gradient(90deg, #3b52ba, #309bdb, #cce3dc, #f6b562, #c0282f); }
 footer { margin-top: 48px; padding-top: 12px; border-top: 2px solid var(--line); }
 .made dt { float: left; clear: left; min-width: 6.5em; } .made dd { margin: 0 0 2px 6.5em; }
+@media (max-width: 1180px) { td.what { white-space: nowrap; } }
 @media (max-width: 640px) {
   body { padding: 16px 14px 32px; }
   .chart { --name: 9.2rem; --value: 3.3rem; font-size: .8rem; }
@@ -99,7 +100,8 @@ footer { margin-top: 48px; padding-top: 12px; border-top: 2px solid var(--line);
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
   a { text-decoration: none; }
   .wide { overflow: visible; }
-  table { font-size: 7pt; } th, td { padding: 2px 4px; } td.what { min-width: 17em; }
+  table { font-size: 7pt; } th, td { padding: 2px 3px; } td.what { font-size: 6pt; }
+  .offsets th, .offsets td { padding: 0 4px; } table.sizes { break-inside: avoid; }
   tbody th { position: static; }
   .chart { --name: 13rem; } .chart li { height: 16px; } .chart .track i { height: 10px; }
   .panels, .pictures { grid-template-columns: repeat(3, 1fr); gap: 8px; }

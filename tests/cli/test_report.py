@@ -2,7 +2,7 @@
 """test_report.py LACEDRING: the page of report: whole, by itself, with the numbers of stats, and as a browser shows it."""
 
 import base64
-import glob
+import html
 import html.parser
 import os
 import re
@@ -12,6 +12,7 @@ import subprocess
 import tempfile
 import zlib
 
+import cli_support
 from cli_support import CliTest, NO_DEVICE, WRONG_USAGE, main, run
 
 VOID = {"meta", "img", "br", "wbr", "link", "hr", "input"}
@@ -26,7 +27,7 @@ class Page(html.parser.HTMLParser):
     def __init__(self, text):
         super().__init__(convert_charrefs=True)
         self.open, self.problems, self.tags, self.images, self.ids = [], [], [], [], []
-        self.tables, self.row, self.cell, self.sections = [], None, None, []
+        self.tables, self.cell = [], None
         self.text = []
         self.feed(text)
         self.close()
@@ -203,6 +204,22 @@ class Report(CliTest):
                 self.assertIn(" ".join(["lacedring report --output", self.path("out.html")]), words)
                 for option in options:
                     self.assertIn(option, words)
+
+    def test_its_command_makes_it_again(self):
+        path = self.path("-it's $(a) mesh.ply")
+        os.rename(self.generate("sphere", 100), path)
+        arguments = ["--no-gpu", "--weld", "--k", "5", "--ring=hybrid", "--output=-a page.html", "--", os.path.basename(path)]
+        command = [cli_support.program, "report", *arguments]
+        subprocess.run(command, cwd=self.folder, check=True, capture_output=True)
+        with open(self.path("-a page.html"), "rb") as file:
+            first = file.read()
+        os.remove(self.path("-a page.html"))
+        shown = re.search(r"<dt>Command</dt><dd><code><bdi>(.*?)</bdi>", first.decode()).group(1)
+        self.assertTrue(html.unescape(shown).startswith("lacedring report "))
+        subprocess.run(["sh", "-c", "lacedring() { \"$PROGRAM\" \"$@\"; }; " + html.unescape(shown)], cwd=self.folder,
+                       check=True, capture_output=True, env={**os.environ, "PROGRAM": cli_support.program})
+        with open(self.path("-a page.html"), "rb") as file:
+            self.assertEqual(file.read(), first)
 
     def test_several_meshes(self):
         paths = [self.generate("sphere", 500), self.generate("terrain", 700), self.generate("torus", 600)]
