@@ -12,12 +12,14 @@ void add_decode(CLI::App& program, Action& action);
 void add_verify(CLI::App& program, Action& action);
 void add_generate(CLI::App& program, Action& action);
 void add_bench(CLI::App& program, Action& action);
+void add_report(CLI::App& program, Action& action);
 void add_render(CLI::App& program, Action& action);   // cmd_render.cpp; with LACEDRING_GPU
 void add_compare(CLI::App& program, Action& action);  // cmd_compare.cpp; with LACEDRING_GPU
 
 inline void add_commands(CLI::App& program, Action& action) {
     add_info(program, action);
     add_stats(program, action);
+    add_report(program, action);
     add_encode(program, action);
     add_decode(program, action);
     add_verify(program, action);

@@ -1,17 +1,18 @@
 // PNG through stb.
 
+#include "renderer/png.h"
+
 #include <stb_image.h>
 #include <stb_image_write.h>
 
 #include <cstring>
 
 #include "lrcore/base/file.h"
-#include "renderer/picture.h"
 #include "renderer/try.h"
 
 namespace lr::gpu {
 
-Result<void> write_png(const std::filesystem::path& path, const Picture& picture) {
+Result<std::vector<std::byte>> encode_png(const Picture& picture) {
     std::vector<std::uint8_t> rgb(3 * picture.pixels());
     for (std::size_t i = 0; i < picture.pixels(); ++i) std::memcpy(&rgb[3 * i], &picture.rgba[4 * i], 3);
     std::vector<std::byte> encoded;
@@ -24,6 +25,11 @@ Result<void> write_png(const std::filesystem::path& path, const Picture& picture
                                rgb.data(), static_cast<int>(3 * picture.width)) == 0) {
         return Error{ErrorCode::cannot_write, "PNG encoder failed"};
     }
+    return encoded;
+}
+
+Result<void> write_png(const std::filesystem::path& path, const Picture& picture) {
+    LR_ASSIGN(const std::vector<std::byte> encoded, encode_png(picture));
     const std::span<const std::byte> part = encoded;
     return write_file(path, std::span(&part, 1));
 }

@@ -1,0 +1,148 @@
+// lacedring report MESH... -o OUT.html: figures, charts and pictures of meshes as one page.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <span>
+
+#include "app/commands.h"
+#include "app/report_html.h"
+#include "app/report_page.h"
+#include "lrcore/base/file.h"
+#ifdef LACEDRING_GPU
+#include "app/report_pictures.h"
+#endif
+
+namespace lr::app {
+namespace {
+
+struct Options {
+    std::vector<std::string> paths;
+    std::string output;
+    std::string weld;
+    RingChoice ring;
+    bool no_gpu = false;
+#ifdef LACEDRING_GPU
+    PictureSize size{960, 720};
+    gpu::ContextOptions context;
+#endif
+    std::string command;  ///< as it was given
+};
+
+/// The command with the options that were given, positional arguments last.
+std::string command_line(const CLI::App& command) {
+    std::string out = "lacedring " + command.get_name(), positional;
+    bool dashes = false;  // does a file look like an option?
+    for (const CLI::Option* option : command.get_options()) {
+        if (option->count() == 0) continue;
+        const bool flag = option->get_items_expected_max() == 0;
+        for (const std::string& value : option->results()) {
+            const bool dash = value.starts_with('-');
+            if (!option->nonpositional()) {
+                positional += ' ' + shell_word(value);
+                dashes = dashes || dash;
+            } else if (flag && value == "true") {
+                out += ' ' + option->get_name();
+            } else {
+                out += ' ' + option->get_name() + (flag || dash ? '=' : ' ') + shell_word(value);
+            }
+        }
+    }
+    return out + (dashes ? " --" : "") + positional;
+}
+
+#ifdef LACEDRING_GPU
+/// The device, unless there shall or can be none: then `skipped` says why. Errors: those of a device asked for.
+Result<std::unique_ptr<gpu::Context>> open_device(const Options& options, std::string& skipped) {
+    if (options.no_gpu) {
+        skipped = "--no-gpu";
+        return std::unique_ptr<gpu::Context>();
+    }
+    Result<std::unique_ptr<gpu::Context>> context = gpu::Context::create(options.context);
+    if (!context && context.error().code == ErrorCode::no_device && options.context.device.empty()) {
+        skipped = context.error().message;
+        return std::unique_ptr<gpu::Context>();
+    }
+    return context;
+}
+#endif
+
+int run(const Options& options) {
+    ReportPage page;
+    page.command = options.command;
+    page.version = LACEDRING_VERSION;
+    std::string skipped = "built without Vulkan";
+#ifdef LACEDRING_GPU
+    skipped.clear();
+    const Result<std::unique_ptr<gpu::Context>> device = open_device(options, skipped);
+    if (!device) return fail(options.paths.front(), device.error());
+    gpu::Context* context = device->get();
+    if (context != nullptr) {
+        const gpu::DeviceInfo& info = context->info();
+        page.device = fmt::format("{}, {}, Vulkan {}", info.name, info.driver, info.api);
+        const std::uint32_t samples = report_samples(*context, options.size);
+        page.samples = samples * samples;
+    }
+#endif
+    std::vector<MeshReport> meshes;
+    std::size_t messages = 0;
+    for (const std::string& path : options.paths) {
+        const Result<Mesh> mesh = load({path, options.weld});
+        if (!mesh) return fail(path, mesh.error());
+        std::string invalid;
+        Result<MeshReport> report = measure_mesh(path, *mesh, options.ring, invalid);
+        if (!report) return fail(path, report.error());
+        if (!invalid.empty()) {
+            fmt::print(stderr, "lacedring: {}: {}\n", path, invalid);
+            return check_failed;
+        }
+        report->no_pictures = skipped;
+#ifdef LACEDRING_GPU
+        if (context != nullptr) {
+            const Result<void> drawn = draw_pictures(*context, options.size, *mesh, options.ring, *report);
+            if (!drawn) return fail(path, drawn.error());
+        }
+#endif
+        meshes.push_back(std::move(*report));
+    }
+#ifdef LACEDRING_GPU
+    if (context != nullptr) messages = print_validation(*context);
+    if (std::ranges::all_of(meshes, [](const MeshReport& mesh) { return mesh.pictures.empty(); })) {
+        page.device.clear();
+        skipped = meshes.front().no_pictures;
+    }
+#endif
+    page.meshes = meshes;
+    const std::string text = report_page(page);
+    const std::span<const std::byte> part = std::as_bytes(std::span(text));
+    if (const Result<void> written = write_file(options.output, std::span(&part, 1)); !written) {
+        return fail(options.output, written.error());
+    }
+    fmt::print("{}: {}, {} bytes; {}\n", options.output, counted(meshes.size(), "mesh", "meshes"), text.size(),
+               skipped.empty() ? "drawn on " + page.device : "no pictures: " + skipped);
+    return messages == 0 ? done : check_failed;
+}
+
+}  // namespace
+
+void add_report(CLI::App& program, Action& action) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = program.add_subcommand("report", "figures, charts and pictures of meshes as one HTML page");
+    command->add_option("MESH", options->paths, "mesh files")->required();
+    command->add_option("-o,--output", options->output, "the HTML file")->required();
+    add_weld(*command, options->weld);
+    add_ring_options(*command, options->ring);
+    command->add_flag("--no-gpu", options->no_gpu, "no pictures");
+#ifdef LACEDRING_GPU
+    add_size(*command, options->size);
+    command->get_option("--size")->description("pixels of a picture, 960x720 unless told");
+    add_device_options(*command, options->context);
+#endif
+    command->callback([options, &action, command] {
+        options->command = command_line(*command);
+        action = [options] { return run(*options); };
+    });
+}
+
+}  // namespace lr::app

@@ -1,0 +1,91 @@
+#include "app/report_data.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "lrcore/baseline/strips.h"
+
+namespace lr::app {
+namespace {
+
+std::string ring_text(const Format& format) {
+    if (format.ring == nullptr) return {};
+    std::string out = format.k == 0 ? "expander" : fmt::format("hybrid, k = {}", format.k);
+    if (format.passes != 0) out += fmt::format(", {} pass{}", format.passes, format.passes == 1 ? "" : "es");
+    return out;
+}
+
+}  // namespace
+
+const FormatFigures* MeshReport::find(std::string_view name) const {
+    const auto found = std::ranges::find(formats, name, &FormatFigures::name);
+    return found == formats.end() ? nullptr : &*found;
+}
+
+FormatNote note_on(std::string_view format) {
+    struct Named {
+        std::string_view name;
+        FormatNote note;
+    };
+    static constexpr Named kNotes[] = {
+        {"index_u32", {Origin::baseline, "index list, 32-bit"}},
+        {"index_u16", {Origin::baseline, "index list, 16-bit"}},
+        {"strip_restart", {Origin::baseline, "meshoptimizer’s strips, with restart"}},
+        {"strip_degenerate", {Origin::baseline, "the same joined into one strip"}},
+        {"lean", {Origin::ours, "one reference a triangle"}},
+        {"lean_no_warts", {Origin::ours, "lean without wart skipping"}},
+        {"lr", {Origin::paper, "LR tables, all operators"}},
+        {"lr_compact", {Origin::paper, "bit-efficient LR tables, all operators"}},
+        {"packed", {Origin::ours, "blocks of 256 triangles that decode alone"}},
+        {"packed_cache", {Origin::ours, "the same, in an order for the vertex cache"}},
+        {"meshopt_index_codec", {Origin::baseline, "meshoptimizer’s codec, decoded from the front"}},
+        {"meshlets", {Origin::baseline, "of 64 vertices and 124 triangles"}},
+        {"winged_edge", {Origin::baseline, "all operators"}},
+        {"corner_table", {Origin::baseline, "V, O and C; all operators"}},
+        {"squad", {Origin::baseline, "SQuad, all operators"}},
+    };
+    const auto* found = std::ranges::find(kNotes, format, &Named::name);
+    return found == std::end(kNotes) ? FormatNote{Origin::baseline, ""} : found->note;
+}
+
+Result<MeshReport> measure_mesh(const std::string& path, const Mesh& mesh, const RingChoice& choice,
+                                std::string& invalid) {
+    MeshReport out;
+    out.path = path;
+    out.triangles = mesh.triangle_count();
+    out.vertices = mesh.vertex_count;
+    {
+        Result<FormatSet> set = make_formats(mesh, choice);
+        if (!set) return set.error();
+        const auto triangles = static_cast<double>(mesh.triangle_count());
+        const auto base = static_cast<double>(set->formats.front().bytes);
+        for (const Format& format : set->formats) {
+            if (invalid.empty() && !format.invalid.empty()) invalid = format.name + ": " + format.invalid;
+            FormatFigures& figures = out.formats.emplace_back();
+            const auto bytes = static_cast<double>(format.bytes);
+            figures.name = format.name;
+            figures.bytes = format.bytes;
+            figures.deflated = format.deflated;
+            figures.bits = 8 * bytes / triangles;
+            figures.references = static_cast<double>(format.references) / triangles;
+            figures.share = 100 * bytes / base;
+            figures.cache = analyze_fifo32(format.indices, format.vertex_count(mesh));
+            figures.ring = ring_text(format);
+        }
+        out.report = set->report;
+        out.topology = set->topology;
+        out.lean = set->lean;
+        out.best_order = set->best_order;
+        out.absent = std::move(set->absent);
+    }
+    if (!invalid.empty()) return out;
+    if (auto periods = figures_by_period(mesh, compact_ring_options(choice), kFigure8Periods)) {
+        out.periods = std::move(*periods);
+    } else {
+        out.no_periods = periods.error().message;
+    }
+    return out;
+}
+
+}  // namespace lr::app

@@ -1,0 +1,32 @@
+#pragma once
+// Pieces of HTML text: escaping, numbers, data URIs.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace lr::app {
+
+/// `text` as it may stand in an element or a quoted attribute. What HTML cannot hold (control characters, bytes that
+/// are no UTF-8) is replaced by something visible.
+std::string escape_html(std::string_view text);
+
+/// A file name: escaped, and kept from turning the text around it if it is written right to left.
+std::string name_html(std::string_view name);
+
+/// "28,944"
+std::string grouped(std::uint64_t number);
+/// "1.332"; a dash if there is none (NaN, infinity).
+std::string fixed(double number, int decimals);
+/// "1 vertex", "2,000 vertices"
+std::string counted(std::uint64_t number, std::string_view one, std::string_view many);
+
+/// "data:image/png;base64,..."
+std::string png_uri(std::span<const std::byte> png);
+
+/// One argument as a POSIX shell reads it back.
+std::string shell_word(std::string_view argument);
+
+}  // namespace lr::app

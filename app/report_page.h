@@ -1,0 +1,21 @@
+#pragma once
+// The page of `report`: one HTML document that needs nothing beside itself.
+
+#include <span>
+#include <string>
+
+#include "app/report_data.h"
+
+namespace lr::app {
+
+struct ReportPage {
+    std::string command;  ///< as it could be run again
+    std::string version;
+    std::string device;         ///< that drew; empty if none did
+    std::uint32_t samples = 0;  ///< a pixel
+    std::span<const MeshReport> meshes;
+};
+
+std::string report_page(const ReportPage& page);
+
+}  // namespace lr::app

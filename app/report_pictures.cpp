@@ -1,0 +1,74 @@
+#include "app/report_pictures.h"
+
+#include <algorithm>
+
+#include "app/report_html.h"
+#include "renderer/png.h"
+#include "renderer/renderer.h"
+
+namespace lr::app {
+namespace {
+
+/// The model, with the very stream that the size table is of.
+Result<gpu::Model> make_model(const Mesh& mesh, const RingChoice& choice) {
+    const RingOptions ring = ring_options(choice, mesh.triangle_count());
+    Result<gpu::Model> model = gpu::make_model(mesh, {.ring = ring});
+    const OptimizeOptions optimize = optimize_options(choice, lean_ring_cost);
+    if (!model || optimize.passes == 0) return model;
+    const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
+    if (!table) return table.error();
+    model->lean = encode_lean(*table, optimize_rings(*table, expand_rings(*table, ring), optimize));
+    return model;
+}
+
+Result<ReportPicture> draw(gpu::Context& context, const PictureSize& size, const gpu::Model& model, gpu::View view) {
+    gpu::RendererOptions options;
+    options.view = view;
+    options.samples = report_samples(context, size);
+    options.width = size.width * options.samples;
+    options.height = size.height * options.samples;
+    Result<gpu::Renderer> renderer = gpu::Renderer::create(context, options);
+    if (!renderer) return renderer.error();
+    Result<gpu::Drawable> drawable = renderer->upload(model, gpu::Source::lean);
+    if (!drawable) return drawable.error();
+    const Result<gpu::Camera> camera = gpu::make_camera(model, {}, options.width, options.height);
+    if (!camera) return camera.error();
+    const Result<gpu::Picture> drawn = renderer->draw(*drawable, model, *camera, true);
+    if (!drawn) return drawn.error();
+    const Result<std::vector<std::byte>> png = gpu::encode_png(gpu::finish(*drawn, options.samples));
+    if (!png) return png.error();
+    return ReportPicture{"", size.width, size.height, png_uri(*png)};
+}
+
+}  // namespace
+
+std::uint32_t report_samples(const gpu::Context& context, const PictureSize& size) {
+    const std::uint32_t largest = context.limits().maxImageDimension2D;
+    std::uint32_t samples = 3;
+    while (samples > 1 && std::max(size.width, size.height) * samples > largest) --samples;
+    return samples;
+}
+
+Result<void> draw_pictures(gpu::Context& context, const PictureSize& size, const Mesh& mesh, const RingChoice& choice,
+                           MeshReport& report) {
+    const Result<gpu::Model> model = make_model(mesh, choice);
+    if (!model) {
+        report.no_pictures = model.error().message;
+        return {};
+    }
+    for (const char* name : {"smooth", "class", "ring"}) {
+        Result<ReportPicture> picture = draw(context, size, *model, *gpu::view_named(name));
+        if (!picture) {
+            const ErrorCode code = picture.error().code;
+            if (code == ErrorCode::no_device || code == ErrorCode::device_failure) return picture.error();
+            report.pictures.clear();
+            report.no_pictures = picture.error().message;
+            return {};
+        }
+        picture->view = name;
+        report.pictures.push_back(std::move(*picture));
+    }
+    return {};
+}
+
+}  // namespace lr::app

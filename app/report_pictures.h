@@ -1,0 +1,17 @@
+#pragma once
+// The pictures of a report, by the renderer.
+
+#include "app/gpu_options.h"
+#include "app/report_data.h"
+
+namespace lr::app {
+
+/// Samples a pixel along each side: as many as `render` takes, fewer where the device's images are not large enough.
+std::uint32_t report_samples(const gpu::Context& context, const PictureSize& size);
+
+/// Draws the mesh smooth, with the ring of lean, and in ring order, into `report`. Where the mesh cannot be drawn,
+/// `report.no_pictures` says why. Errors: of the device.
+Result<void> draw_pictures(gpu::Context& context, const PictureSize& size, const Mesh& mesh, const RingChoice& choice,
+                           MeshReport& report);
+
+}  // namespace lr::app
