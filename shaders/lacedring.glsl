@@ -103,16 +103,11 @@ LrLeanLayout lr_lean_layout() {
 
 uint lr_lean_slots(LrLeanLayout lean) { return 2u * lean.rings2 + lean.rings1 + lean.verbatim; }
 
-// v.n of vertex v of a two-sided ring, whose left and right words these are.
+// v.n of ring vertex v, whose left and right words these are; of a one-sided ring, its one word twice.
 uint lr_lean_next(uint v, uint left, uint right) {
     if ((left & LR_LEAN_CLOSE_FLAG) != 0u) return left & LR_LEAN_TIP_MASK;
     if ((right & LR_LEAN_CLOSE_FLAG) != 0u) return right & LR_LEAN_TIP_MASK;
     return v + 1u;
-}
-
-// v.n of vertex v of a one-sided ring.
-uint lr_lean_next(uint v, uint word) {
-    return (word & LR_LEAN_CLOSE_FLAG) != 0u ? word & LR_LEAN_TIP_MASK : v + 1u;
 }
 
 // The triangle of a ring slot: `word` is the slot's, next = v.n, skip = v.n.n (looked at for a wart only). A free slot's
@@ -128,33 +123,24 @@ uvec3 lr_lean_ring_triangle(uint word, uint v, uint next, uint skip, bool right)
 #ifdef LR_LEAN_SLOTS
 uint lr_lean_word(uint i) { return LR_LEAN_SLOTS(LR_LEAN_HEADER_WORDS + i); }
 
+// Every kind of slot takes the same few loads in the same places, so that invocations wait little for each other.
 uvec3 lr_lean_triangle(LrLeanLayout lean, uint slot) {
-    uint two_sided = 2u * lean.rings2;
-    uint ring_slots = two_sided + lean.rings1;
-    if (slot >= ring_slots) {
-        uint i = ring_slots + 3u * (slot - ring_slots);
-        return uvec3(lr_lean_word(i), lr_lean_word(i + 1u), lr_lean_word(i + 2u));
-    }
+    uint two_sided = 2u * lean.rings2, ring_slots = two_sided + lean.rings1;
+    bool verbatim = slot >= ring_slots, one_sided = slot >= two_sided && !verbatim;
+    uint at = verbatim ? ring_slots + 3u * (slot - ring_slots) : one_sided ? slot : slot & ~1u;
+    uint first = lr_lean_word(at), second = lr_lean_word(one_sided ? at : at + 1u);
+    uint v = one_sided ? slot - lean.rings2 : slot >> 1;
+    bool right = slot < two_sided && (slot & 1u) != 0u;
+    uint word = right ? second : first;
+    uint next = lr_lean_next(v, first, second), skip = next + 1u;
     // v.n.n needs no third look: behind a closing edge comes the ring's first edge, which never closes.
-    if (slot < two_sided) {
-        uint v = slot >> 1;
-        uint left = lr_lean_word(2u * v);
-        uint right = lr_lean_word(2u * v + 1u);
-        bool is_right = (slot & 1u) != 0u;
-        uint word = is_right ? right : left;
-        uint next = lr_lean_next(v, left, right);
-        uint skip = next + 1u;
-        if ((word & LR_LEAN_WART_FLAG) != 0u && next == v + 1u) {
-            skip = lr_lean_next(next, lr_lean_word(2u * next), lr_lean_word(2u * next + 1u));
-        }
-        return lr_lean_ring_triangle(word, v, next, skip, is_right);
+    if (verbatim || ((word & LR_LEAN_WART_FLAG) != 0u && next == v + 1u)) {
+        uint far = verbatim ? at + 2u : one_sided ? slot + 1u : 2u * next;
+        uint third = lr_lean_word(far);
+        if (verbatim) return uvec3(first, second, third);
+        skip = lr_lean_next(next, third, lr_lean_word(one_sided ? far : far + 1u));
     }
-    uint v = slot - lean.rings2;
-    uint word = lr_lean_word(slot);
-    uint next = lr_lean_next(v, word);
-    uint skip = next + 1u;
-    if ((word & LR_LEAN_WART_FLAG) != 0u && next == v + 1u) skip = lr_lean_next(next, lr_lean_word(slot + 1u));
-    return lr_lean_ring_triangle(word, v, next, skip, false);
+    return lr_lean_ring_triangle(word, v, next, skip, right);
 }
 #endif
 

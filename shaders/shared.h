@@ -15,7 +15,7 @@ using mat4 = std::array<float, 16>;  // column-major
 
 // Four triangles an invocation: 12 indices, three 16-byte stores (wide stores are what makes the decoder fast).
 #define LR_TRIANGLES_PER_INVOCATION 4u
-#define LR_COMPUTE_GROUP 64u
+#define LR_COMPUTE_GROUP 128u  // as many as every device has
 
 // lean_decode.comp, packed_decode.comp: one dispatch expands `slots` slots from `first_slot`, through descriptors that
 // cover only what these need.

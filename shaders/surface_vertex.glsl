@@ -3,6 +3,7 @@
 #include "shaders/shared.h"
 
 layout(binding = 0) uniform Frame { FrameConstants frame; };
+layout(constant_id = 0) const uint view = LR_VIEW_SMOOTH;  // what no view needs is not fetched for it
 
 struct SurfaceVertex {
     vec4 clip;
@@ -24,11 +25,11 @@ vec3 ring_colour(float t) {
 // ring: place along the rings in [0, 1], or negative: on no ring
 SurfaceVertex surface_vertex(vec3 position, vec3 normal, float ring) {
     SurfaceVertex v;
-    precise vec4 view = frame.view_from_world * vec4(position, 1.0);
-    precise vec4 clip = frame.clip_from_view * view;
+    precise vec4 from_eye = frame.view_from_world * vec4(position, 1.0);
+    precise vec4 clip = frame.clip_from_view * from_eye;
     v.clip = clip;
-    v.position = view.xyz;
+    v.position = from_eye.xyz;
     v.normal = mat3(frame.view_from_world) * normal;
-    v.ring_colour = ring_colour(ring);
+    v.ring_colour = view == LR_VIEW_RING ? ring_colour(ring) : vec3(0.0);
     return v;
 }
