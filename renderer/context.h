@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "lrcore/base/result.h"
 #include "renderer/arena.h"
@@ -19,6 +20,8 @@ struct ContextOptions {
     /// GPU-assisted validation instead of synchronization validation: accesses past what is bound, as shaders make them.
     /// Slow. Only with `validation`.
     bool gpu_assisted = false;
+    /// To show pictures in a window: what its system needs, and VK_KHR_swapchain (renderer/swapchain.h).
+    std::vector<const char*> instance_extensions = {}, device_extensions = {};
 };
 
 struct DeviceInfo {
@@ -45,6 +48,8 @@ class Context {
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
 
+    VkInstance instance() const { return instance_; }
+    VkPhysicalDevice physical() const { return physical_; }
     VkDevice device() const { return device_; }
     VkQueue queue() const { return queue_; }
     std::uint32_t queue_family() const { return queue_family_; }
@@ -71,6 +76,7 @@ class Context {
     ValidationLog validation_;
     VkInstance instance_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+    VkPhysicalDevice physical_ = VK_NULL_HANDLE;
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
     std::uint32_t queue_family_ = 0;
