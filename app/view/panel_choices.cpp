@@ -63,7 +63,7 @@ void list_files(State& state, const std::vector<std::string>& files) {
 
 void draw_files(State& state) {
     if (!ImGui::BeginTabBar("files")) return;
-    const ImVec2 size{0, px(118)};
+    const ImVec2 size{0, std::max(px(80), ImGui::GetContentRegionAvail().y - px(6))};
     if (ImGui::BeginTabItem("Folder")) {
         ImGui::BeginChild("folder", size);
         list_files(state, state.files);
@@ -172,7 +172,6 @@ void draw_ring(State& state) {
 }  // namespace
 
 void draw_choices(State& state) {
-    draw_files(state);
     draw_view(state);
     draw_stream(state);
     draw_ring(state);
@@ -180,6 +179,8 @@ void draw_choices(State& state) {
     if (ImGui::Button("Screenshot")) state.screenshot = true;
     ImGui::SameLine();
     if (ImGui::Button("Turntable PNG")) state.turntable_frames = true;
+    ImGui::Dummy({0, px(4)});
+    draw_files(state);
 }
 
 }  // namespace lr::view

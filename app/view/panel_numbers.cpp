@@ -19,7 +19,9 @@ void row(const char* name, const std::string& value) {
 }
 
 void draw_ring_figures(const State& state) {
-    heading("This ring");
+    heading(state.shown.source == gpu::Source::plain    ? "Index list"
+            : state.shown.source == gpu::Source::packed ? "Packed stream"
+                                                        : "Lean stream");
     if (!state.document) {
         ImGui::TextDisabled("no mesh");
         return;
@@ -29,7 +31,6 @@ void draw_ring_figures(const State& state) {
     const bool plain = state.shown.source == gpu::Source::plain;
     const StreamFigures& figures = plain ? document.plain : packed ? document.packed : document.lean;
     const LeanStatistics& ring = document.model->lean.statistics;
-    row("format", plain ? "index list" : packed ? "packed" : "lean");
     if (figures.references > 0) row("references per triangle", fmt::format("{:.3f}", figures.references));
     row("bits per triangle", fmt::format("{:.2f}", figures.bits));
     row("bytes", grouped(figures.bytes));
@@ -49,17 +50,17 @@ void plot(const char* name, const State& state, float FrameCost::*member) {
     const float most = values.empty() ? 1 : *std::max_element(values.begin(), values.end());
     row(name, values.empty() ? "-" : fmt::format("{:.2f} ms, at most {:.2f}", last, most));
     ImGui::PushID(name);
-    ImGui::PlotLines("##", values.data(), static_cast<int>(values.size()), 0, nullptr, 0, most * 1.1F, {-1, px(26)});
+    ImGui::PlotLines("##", values.data(), static_cast<int>(values.size()), 0, nullptr, 0, most * 1.1F, {-1, px(18)});
     ImGui::PopID();
 }
 
 void draw_times(const State& state) {
     heading("Time of a frame");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", state.device.c_str());
     plot("decode, GPU", state, &FrameCost::decode);
     plot("draw, GPU", state, &FrameCost::draw);
     plot("record, CPU", state, &FrameCost::cpu);
     row("device memory", bytes_text(state.device_bytes));
-    ImGui::TextDisabled("%s", state.device.c_str());
 }
 
 void draw_formats(const State& state) {
@@ -75,16 +76,15 @@ void draw_formats(const State& state) {
         bool ours;
     };
     std::vector<Bar> bars;
-    double most = 1;
     for (const app::Format& format : state.formats->formats) {
         const double bits =
             8.0 * static_cast<double>(format.bytes) / static_cast<double>(state.document->mesh->triangle_count());
         const bool ours = format.name.starts_with("l") || format.name.starts_with("packed");
         bars.push_back({format.name, bits, format.bytes, ours});
-        most = std::max(most, bits);
     }
     std::stable_sort(bars.begin(), bars.end(), [](const Bar& a, const Bar& b) { return a.bits < b.bits; });
-    const float name_width = px(130), text_width = px(50);
+    const float name_width = px(158), text_width = px(52);
+    constexpr double kMost = 96;  // an index list of 32 bits: a longer bar is cut, its number is not
     for (const Bar& bar : bars) {
         if (bar.ours) {
             ImGui::TextUnformatted(bar.name.c_str());
@@ -92,11 +92,11 @@ void draw_formats(const State& state) {
             ImGui::TextDisabled("%s", bar.name.c_str());
         }
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s bytes", grouped(bar.bytes).c_str());
-        ImGui::SameLine(name_width + px(12));
+        ImGui::SameLine(name_width);
         const ImVec2 at = ImGui::GetCursorScreenPos();
         const float room = ImGui::GetContentRegionAvail().x - text_width;
         const float height = ImGui::GetTextLineHeight();
-        const float length = std::max(px(1.5F), room * static_cast<float>(bar.bits / most));
+        const float length = std::max(px(1.5F), room * static_cast<float>(std::min(1.0, bar.bits / kMost)));
         ImGui::GetWindowDrawList()->AddRectFilled(
             {at.x, at.y + px(3)}, {at.x + length, at.y + height - px(2)},
             ImGui::GetColorU32(bar.ours ? ImGuiCol_PlotHistogram : ImGuiCol_ScrollbarGrab), px(2));

@@ -65,8 +65,9 @@ void draw_selection(const State& state) {
     line("opposite", kOppositeColour, corner_text(document, table.opposite(c)));
     line("left", kLeftColour, corner_text(document, table.left(c)));
     line("right", kRightColour, corner_text(document, table.right(c)));
-    line("swing", kFanColour, corner_text(document, table.swing(c)));
-    line("fan", kFanColour, fmt::format("{} triangles around vertex {}", around(table, c).size(), table.vertex(c).value));
+    line("swing", kFanColour,
+         fmt::format("{}; {} triangles around the vertex", corner_text(document, table.swing(c)),
+                     around(table, c).size()));
     const std::uint32_t grey = 0xffa09a98U;
     line("lr", grey, state.tables ? lr_text(*state.tables, table, c) : "being made");
     line("lean", grey, lean_text(*document.model, triangle(c).value));

@@ -195,7 +195,7 @@ std::string bytes_text(std::uint64_t bytes) {
 }
 
 void heading(const char* text) {
-    ImGui::Dummy({0, px(2)});
+    if (ImGui::GetCursorPosY() > px(20)) ImGui::Dummy({0, px(1)});
     ImGui::TextColored(ImGui::GetStyle().Colors[ImGuiCol_CheckMark], "%s", text);
     ImGui::Separator();
 }

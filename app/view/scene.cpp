@@ -266,7 +266,10 @@ Result<std::optional<std::uint32_t>> Scene::triangle_at(std::uint32_t x, std::ui
     region.imageOffset = {static_cast<std::int32_t>(x * samples_ + samples_ / 2),
                           static_cast<std::int32_t>(y * samples_ + samples_ / 2), 0};
     region.imageExtent = {1, 1, 1};
-    vkCmdCopyImageToBuffer(commands, image.handle(), kGeneral, pixel_.handle(), 1, &region);
+    constexpr VkImageLayout kSource = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
+    gpu::image_barrier(commands, image.handle(), image.aspect(), kComposeRead, kTransferRead, kGeneral, kSource);
+    vkCmdCopyImageToBuffer(commands, image.handle(), kSource, pixel_.handle(), 1, &region);
+    gpu::image_barrier(commands, image.handle(), image.aspect(), kTransferRead, kComposeRead, kSource, kGeneral);
     gpu::memory_barrier(commands, kTransferWrite, {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
     LR_TRY(commands_->run());
     std::uint32_t id = 0;

@@ -82,6 +82,10 @@ void apply_theme(float scale) {
     c[ImGuiCol_ScrollbarGrab] = over;
     c[ImGuiCol_TextSelectedBg] = dim;
     c[ImGuiCol_NavHighlight] = accent;
+    c[ImGuiCol_Tab] = field;
+    c[ImGuiCol_TabHovered] = over;
+    c[ImGuiCol_TabActive] = c[ImGuiCol_TabUnfocusedActive] = dim;
+    c[ImGuiCol_TabUnfocused] = field;
     c[ImGuiCol_ModalWindowDimBg] = {0, 0, 0, 0.45F};
 }
 

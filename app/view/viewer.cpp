@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 
@@ -108,7 +109,7 @@ void Viewer::take_news() {
             options_.camera = {};  // was for the first mesh; its up stays
             options_.camera.up = up;
         }
-        dirty_ = paint_dirty_ = true;
+        dirty_ = true;
     }
     if (news.tables && state_.document && news.tables->mesh == state_.document->mesh) state_.tables = news.tables;
     if (news.formats) state_.formats = news.formats;
@@ -177,15 +178,13 @@ void Viewer::advance(double seconds) {
     if (state_.growing && state_.document) {
         state_.growth += state_.growth_speed * seconds;
         if (state_.growth >= static_cast<double>(state_.document->mesh->triangle_count())) state_.growing = false;
-        paint_dirty_ = true;
     }
 }
 
 void Viewer::update_paint() {
-    if (state_.selection.corner != painted_.corner) paint_dirty_ = true;
-    if (!paint_dirty_ || !state_.document) return;
-    paint_dirty_ = false;
-    painted_ = state_.selection;
+    const Painted wanted{state_.selection.corner, state_.paint, std::floor(state_.growth), state_.document.get()};
+    if (wanted == painted_ || !state_.document) return;
+    painted_ = wanted;
     std::vector<std::uint32_t> colours;
     if (state_.paint != Paint::none || state_.selection.any()) {
         colours.resize(state_.document->mesh->triangle_count());
@@ -253,8 +252,9 @@ Result<void> Viewer::frame(double seconds) {
         LR_TRY(draw());
     }
     busy_ = (state_.progress.busy && !state_.progress.background) || state_.turntable || state_.growing ||
-            state_.shown.decode_again || dirty_ || paint_dirty_ || difference_due_ || state_.open.has_value();
-    settled_ = !busy_ && !moving_ && drawn_exact_ && state_.ring == asked_;
+            state_.shown.decode_again || dirty_ || difference_due_ || state_.open.has_value();
+    const bool laid = painted_ == Painted{state_.selection.corner, state_.paint, std::floor(state_.growth), state_.document.get()};
+    settled_ = !busy_ && laid && !moving_ && drawn_exact_ && state_.ring == asked_;
     if (moving_) quiet_frames_ = 0;
     ++quiet_frames_;
     if (!dragging_divider_ && dragging_ < 0) moving_ = false;

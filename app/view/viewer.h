@@ -85,9 +85,15 @@ class Viewer {
     bool dragging_divider_ = false;
     double mouse_x_ = 0, mouse_y_ = 0, press_x_ = 0, press_y_ = 0;
     bool dirty_ = true, compose_ = true, moving_ = false, settled_ = false, closing_ = false, busy_ = false;
-    bool drawn_exact_ = false, paint_dirty_ = false, difference_due_ = false;
+    bool drawn_exact_ = false, difference_due_ = false;
     int quiet_frames_ = 0, still_frames_ = 0;
-    Selection painted_;
+    struct Painted {
+        CornerId corner = null_corner;
+        Paint paint = Paint::none;
+        double growth = 0;
+        const Document* document = nullptr;
+        bool operator==(const Painted&) const = default;
+    } painted_;
     std::string clipboard_;
 };
 

@@ -124,7 +124,6 @@ void Viewer::handle_key(const Event& event) {
             state_.paint = Paint::growth;
             state_.growth = 0;
             state_.growing = true;
-            paint_dirty_ = true;
             return;
         case 'V': {
             constexpr std::array<gpu::View, 6> kOrder{gpu::View::smooth, gpu::View::flat, gpu::View::triangle_class,
