@@ -75,6 +75,7 @@ Result<void> loop(Viewer& viewer, Window& window, gpu::Swapchain& swapchain, Scr
             window.set_clipboard(text);
             if (script == nullptr) fmt::print("{}\n", text);
         }
+        if (script != nullptr) continue;  // as fast as it goes
         // Not every driver waits for the display.
         const double cap = viewer.visible() ? viewer.state().frame_cap : 20;
         std::this_thread::sleep_until(now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / cap)));

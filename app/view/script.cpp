@@ -101,6 +101,9 @@ Result<bool> Script::wait(const Line& line, Viewer& viewer) {
     const std::string what = line.words.size() > 1 ? line.words[1] : "settled";
     const State& state = viewer.state();
     const bool failed = !state.error.empty() && !state.progress.busy && !state.open;
+    // What lines before this one changed shows in the next frame.
+    const bool changing = what == "settled" || what == "optimised" || what == "ready";
+    if (changing && waited_ < 2) return false;
     if (what == "mesh") return state.document != nullptr || failed;
     if (what == "settled") return viewer.settled() || failed || (!state.progress.busy && !state.document && !state.open);
     if (what == "optimised") return (state.document && state.document->optimised && viewer.settled()) || failed;
@@ -210,6 +213,7 @@ std::string Script::state_text(Viewer& viewer) {
         out["draw_ms"] = state.costs.back().draw;
         out["decode_ms"] = state.costs.back().decode;
         out["cpu_ms"] = state.costs.back().cpu;
+        out["frame_ms"] = state.frame_seconds * 1e3;
     }
     if (state.formats) {
         for (const app::Format& format : state.formats->formats) out["formats"][format.name] = format.bytes;
@@ -302,11 +306,14 @@ Result<bool> Script::run(const Line& line, Viewer& viewer, Window& window, std::
         // The triangle that a ray through the pixel hits, by looking at all of them.
         if (!number(1, x) || !number(2, y)) return wrong("ray X Y");
         std::int64_t hit = -1;
+        std::vector<std::uint32_t> near;
         if (state.document) {
-            const auto found = ray_hit(*state.document, viewer.orbit().eye(), viewer.ray(x, y));
+            const auto found = ray_hit(*state.document, viewer.orbit().eye(), viewer.ray(x, y), &near);
             if (found) hit = *found;
         }
-        fmt::print("{{\"ray\":{}}}\n", hit);
+        const std::int64_t selected =
+            state.selection.any() ? std::int64_t{triangle(state.selection.corner).value} : -1;
+        fmt::print("{}\n", nlohmann::ordered_json{{"ray", hit}, {"near", near}, {"selected", selected}}.dump());
     } else if (what == "print") {
         fmt::print("{}\n", state_text(viewer));
         std::fflush(stdout);

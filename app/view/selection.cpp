@@ -44,7 +44,9 @@ CornerId nearest_corner(const Document& document, std::uint32_t t, const Point& 
     return best;
 }
 
-std::optional<std::uint32_t> ray_hit(const Document& document, const Point& eye, const Point& ray) {
+std::optional<std::uint32_t> ray_hit(const Document& document, const Point& eye, const Point& ray,
+                                     std::vector<std::uint32_t>* near) {
+    constexpr double kNear = 1e-3;
     std::optional<std::uint32_t> hit;
     double nearest = std::numeric_limits<double>::infinity();
     const std::vector<std::uint32_t>& indices = document.mesh->indices;
@@ -57,10 +59,11 @@ std::optional<std::uint32_t> ray_hit(const Document& document, const Point& eye,
         if (determinant == 0) continue;
         const Point s = minus(eye, a);
         const double u = dot(s, p) / determinant;
-        if (!(u >= 0 && u <= 1)) continue;
+        if (!(u >= -kNear && u <= 1 + kNear)) continue;
         const Point q = cross(s, ab);
         const double v = dot(ray, q) / determinant, along = dot(ac, q) / determinant;
-        if (v >= 0 && u + v <= 1 && along > 0 && along < nearest) {
+        if (near != nullptr && v >= -kNear && u + v <= 1 + kNear && along > 0) near->push_back(t);
+        if (u >= 0 && v >= 0 && u + v <= 1 && along > 0 && along < nearest) {
             nearest = along;
             hit = t;
         }

@@ -53,6 +53,7 @@ struct State {
     double clock = 0;
     Loader::Progress progress;
     std::deque<FrameCost> costs;
+    double frame_seconds = 0;  ///< the last picture drawn anew: recorded, drawn, composed, panels
     std::uint64_t device_bytes = 0;
     std::string device;
     bool mesh_shaders = false;

@@ -63,6 +63,7 @@ Result<void> Viewer::resize() {
     std::uint32_t samples = state_.samples;
     while (samples > 1 && std::max(extent_.width, extent_.height) * samples > most) --samples;
     if (made_.width == extent_.width && made_.height == extent_.height && made_samples_ == samples) return {};
+    vkDeviceWaitIdle(context_.device());  // the window may still be taking the last picture
     LR_TRY(scene_.resize(extent_, samples));
     LR_TRY(overlay_->resize(extent_));
     made_ = extent_;
@@ -216,6 +217,7 @@ Result<void> Viewer::draw() {
             state_.costs.push_back({static_cast<float>(times->decode * 1e3), static_cast<float>(times->draw * 1e3),
                                     static_cast<float>(cpu * 1e3)});
             if (state_.costs.size() > kHistory) state_.costs.pop_front();
+            state_.frame_seconds = seconds_since(begun);
         }
         drawn_exact_ = picture.exact;
         if (picture.mode != Mode::single) difference_due_ = true;
