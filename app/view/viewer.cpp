@@ -176,6 +176,7 @@ void Viewer::advance(double seconds) {
         orbit_.turn_degrees(state_.turntable_speed * seconds);
         dirty_ = moving_ = true;
     }
+    if (state_.paint != Paint::growth) state_.growing = false;
     if (state_.growing && state_.document) {
         state_.growth += state_.growth_speed * seconds;
         if (state_.growth >= static_cast<double>(state_.document->mesh->triangle_count())) state_.growing = false;

@@ -247,6 +247,7 @@ class View(unittest.TestCase):
             frames 2
             key g
             frames 5
+            set paint none
             set turntable on
             frames 5
             set turntable off
