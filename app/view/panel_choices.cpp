@@ -128,6 +128,8 @@ void draw_view(State& state) {
     changed |= choose("Picture", kModes, shown.mode);
     changed |= choose("Samples", kSamples, state.samples);
     state.choices_changed |= changed;
+    ImGui::Checkbox("outlines", &state.outlines);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Silhouettes, borders and creases, asked of the LR tables");
     label("Turntable");
     auto speed = static_cast<float>(state.turntable_speed);
     ImGui::Checkbox("##turn", &state.turntable);

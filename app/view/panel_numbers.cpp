@@ -50,7 +50,7 @@ void plot(const char* name, const State& state, float FrameCost::*member) {
     const float most = values.empty() ? 1 : *std::max_element(values.begin(), values.end());
     row(name, values.empty() ? "-" : fmt::format("{:.2f} ms, at most {:.2f}", last, most));
     ImGui::PushID(name);
-    ImGui::PlotLines("##", values.data(), static_cast<int>(values.size()), 0, nullptr, 0, most * 1.1F, {-1, px(18)});
+    ImGui::PlotLines("##", values.data(), static_cast<int>(values.size()), 0, nullptr, 0, most * 1.1F, {-1, px(12)});
     ImGui::PopID();
 }
 

@@ -91,6 +91,19 @@ Result<void> Scene::set_model(std::shared_ptr<const gpu::Model> model) {
     return set_paint({});
 }
 
+Result<void> Scene::set_outlines(const EncodedLr* tables) {
+    adjacency_.reset();
+    // Surfaces are pushed back, or no longer.
+    painters_.clear();
+    for (auto& [key, entry] : entries_) entry.plans.clear();
+    if (tables == nullptr || !model_) return {};
+    if (!silhouettes_) {
+        LR_ASSIGN(silhouettes_, gpu::Silhouettes::create(*context_));
+    }
+    LR_ASSIGN(adjacency_, gpu::upload_adjacency(*context_, *transfer_, *tables, model_->positions));
+    return {};
+}
+
 Result<void> Scene::set_paint(std::span<const std::uint32_t> colours) {
     painted_ = !colours.empty();
     if (!painted_) return {};
@@ -146,7 +159,7 @@ Result<Scene::Entry> Scene::upload(const Key& key) {
 Result<gpu::Painter*> Scene::painter(gpu::View view) {
     const auto found = painters_.find(view);
     if (found != painters_.end()) return &found->second;
-    LR_ASSIGN(gpu::Painter made, gpu::Painter::create(*context_, view, samples_));
+    LR_ASSIGN(gpu::Painter made, gpu::Painter::create(*context_, view, samples_, adjacency_.has_value()));
     return &painters_.emplace(view, std::move(made)).first->second;
 }
 
@@ -186,6 +199,11 @@ Result<void> Scene::record_draw(VkCommandBuffer commands, const Shown& shown, co
         LR_ASSIGN(const gpu::Camera camera, gpu::make_camera(*model_, options, drawn.width, drawn.height));
         gpu::Painter& by = painters_.at(shown.view);
         by.set_frame(*model_, camera, *targets_[0]);
+        if (adjacency_) {
+            gpu::SilhouetteStyle style;
+            style.width *= static_cast<float>(samples_);
+            silhouettes_->set_frame(camera, *targets_[0], style);
+        }
         if (queries_) vkCmdResetQueryPool(commands, queries_.get(), 0, kTimestamps);
         stamp(0);
         for (int side = 0; side < sides; ++side) {
@@ -212,6 +230,7 @@ Result<void> Scene::record_draw(VkCommandBuffer commands, const Shown& shown, co
             }
             by.record(commands, mesh, entry.plans.at({shown.view, side}).draw, *targets_[side],
                       shown.exact ? gpu::Painter::Ties::by_number : gpu::Painter::Ties::first_drawn);
+            if (adjacency_) silhouettes_->record(commands, *adjacency_, *targets_[side]);
         }
         stamp(2);
         timed_ = static_cast<bool>(queries_);

@@ -9,6 +9,7 @@
 #include <string>
 #include <tuple>
 
+#include "renderer/adjacency.h"
 #include "renderer/renderer.h"
 #include "shaders/compose_shared.h"
 
@@ -41,6 +42,8 @@ class Scene {
     /// Drops what was made of another model. Null: nothing is drawn.
     Result<void> set_model(std::shared_ptr<const gpu::Model> model);
     const gpu::Model* model() const { return model_.get(); }
+    /// Draws outlines over the surface, asked of these LR tables of the model's mesh; null: none.
+    Result<void> set_outlines(const EncodedLr* tables);
     /// RGBA a triangle of the mesh, to be laid over it; empty: none. Not while a frame is being drawn.
     Result<void> set_paint(std::span<const std::uint32_t> colours);
 
@@ -93,6 +96,8 @@ class Scene {
     gpu::QueryPoolHandle queries_;
     bool timed_ = false;
 
+    std::optional<gpu::Silhouettes> silhouettes_;
+    std::optional<gpu::Adjacency> adjacency_;
     std::shared_ptr<const gpu::Model> model_;
     std::map<gpu::View, gpu::Painter> painters_;
     std::map<Key, Entry> entries_;

@@ -158,6 +158,7 @@ Result<bool> Script::set(const Line& line, Viewer& viewer) {
     if (name == "ring") return named(std::map<std::string, bool>{{"expander", false}, {"hybrid", true}}, state.ring.hybrid);
     if (name == "warts") state.ring.warts = on;
     else if (name == "panels") state.panels = on;
+    else if (name == "outlines") state.outlines = on;
     else if (name == "help") state.help = on;
     else if (name == "turntable") state.turntable = on;
     else if (name == "decode") state.shown.decode_again = on;

@@ -32,7 +32,7 @@ struct State {
     std::uint32_t samples = 1;
     RingSettings ring;
     Paint paint = Paint::none;
-    bool silhouettes = false;
+    bool outlines = false;  ///< silhouettes, borders and creases, from adjacency alone
     bool panels = true;
     bool help = false;
     bool turntable = false;

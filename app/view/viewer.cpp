@@ -183,6 +183,15 @@ void Viewer::advance(double seconds) {
     }
 }
 
+void Viewer::update_outlines() {
+    const Tables* wanted = state_.outlines ? state_.tables.get() : nullptr;
+    if (wanted == outlined_) return;
+    outlined_ = wanted;
+    const Result<void> set = scene_.set_outlines(wanted != nullptr ? &wanted->lr : nullptr);
+    if (!set) state_.error = set.error().message;
+    dirty_ = true;
+}
+
 void Viewer::update_paint() {
     const Painted wanted{state_.selection.corner, state_.paint, std::floor(state_.growth), state_.document.get()};
     if (wanted == painted_ || !state_.document) return;
@@ -198,6 +207,7 @@ void Viewer::update_paint() {
 }
 
 Result<void> Viewer::draw() {
+    update_outlines();
     const bool exact_due = !moving_ && !drawn_exact_;
     const bool draw_scene = dirty_ || exact_due || state_.shown.decode_again;
     const Shown picture = shown(moving_);
@@ -257,7 +267,7 @@ Result<void> Viewer::frame(double seconds) {
     busy_ = (state_.progress.busy && !state_.progress.background) || state_.turntable || state_.growing ||
             state_.shown.decode_again || dirty_ || difference_due_ || state_.open.has_value();
     const bool laid = painted_ == Painted{state_.selection.corner, state_.paint, std::floor(state_.growth), state_.document.get()};
-    settled_ = !busy_ && laid && !moving_ && drawn_exact_ && state_.ring == asked_;
+    settled_ = !busy_ && laid && (!state_.outlines || !state_.tables || outlined_ == state_.tables.get()) && !moving_ && drawn_exact_ && state_.ring == asked_;
     if (moving_) quiet_frames_ = 0;
     ++quiet_frames_;
     if (!dragging_divider_ && dragging_ < 0) moving_ = false;

@@ -63,6 +63,7 @@ class Viewer {
     void handle_key(const Event& event);
     void act();
     void opened(const std::string& path);
+    void update_outlines();
     void update_paint();
     void advance(double seconds);
     Result<void> draw();
@@ -94,6 +95,7 @@ class Viewer {
         const Document* document = nullptr;
         bool operator==(const Painted&) const = default;
     } painted_;
+    const Tables* outlined_ = nullptr;  // whose outlines are drawn
     std::string clipboard_;
 };
 

@@ -245,6 +245,8 @@ class View(unittest.TestCase):
             frames 2
             set paint blocks
             frames 2
+            set outlines on
+            frames 2
             key g
             frames 5
             set paint none
