@@ -15,6 +15,7 @@ void add_bench(CLI::App& program, Action& action);
 void add_report(CLI::App& program, Action& action);
 void add_render(CLI::App& program, Action& action);   // cmd_render.cpp; with LACEDRING_GPU
 void add_compare(CLI::App& program, Action& action);  // cmd_compare.cpp; with LACEDRING_GPU
+void add_view(CLI::App& program, Action& action);     // cmd_view.cpp; with LACEDRING_VIEWER
 
 inline void add_commands(CLI::App& program, Action& action) {
     add_info(program, action);
@@ -26,6 +27,9 @@ inline void add_commands(CLI::App& program, Action& action) {
 #ifdef LACEDRING_GPU
     add_render(program, action);
     add_compare(program, action);
+#endif
+#ifdef LACEDRING_VIEWER
+    add_view(program, action);
 #endif
     add_bench(program, action);
     add_generate(program, action);

@@ -101,13 +101,23 @@ Format packed_format(const char* name, std::uint32_t k, std::uint32_t passes, Pa
     return format;
 }
 
-Result<void> add_packed(FormatSet& set, const CornerTable& table, const RingChoice& choice, bool paper) {
-    OptimizeOptions optimize = optimize_options(choice, packed_ring_cost);
+/// The optimiser for a format that costs so much. With a progress of its own it says so, pass by pass.
+OptimizeOptions optimizer(const RingChoice& choice, const RingCost& cost, bool paper, const FormatProgress& progress,
+                          double share, const char* what) {
+    OptimizeOptions optimize = optimize_options(choice, cost);
     if (paper) optimize.passes = 0;
+    if (progress) optimize.progress = [=](std::uint32_t) { return progress(share, what); };
+    return optimize;
+}
+
+Result<void> add_packed(FormatSet& set, const CornerTable& table, const RingChoice& choice, bool paper,
+                        const FormatProgress& progress) {
+    const OptimizeOptions optimize = optimizer(choice, packed_ring_cost, paper, progress, 0.55, "packed");
     Result<PackedChoice> small = encode_smallest_packed(table, set.ring, optimize, PackedProfile::small);
     if (!small) return small.error();
     set.packed = small->stream.statistics;
     set.formats.push_back(packed_format("packed", set.ring.k, small->passes, std::move(small->stream)));
+    if (progress && !progress(0.7, "packed_cache")) return {};
     Result<PackedChoice> cache = encode_smallest_packed(table, set.ring, optimize, PackedProfile::cache);
     if (!cache) return cache.error();
     set.formats.push_back(packed_format("packed_cache", set.ring.k, cache->passes, std::move(cache->stream)));
@@ -183,7 +193,9 @@ void add_rivals(FormatSet& set, CornerTable table, std::uint32_t mesh_vertices) 
 
 }  // namespace
 
-Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool paper) {
+Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool paper,
+                               const FormatProgress& progress) {
+    const auto stop = [&](double share, const char* what) { return progress && !progress(share, what); };
     Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
     if (!table) return table.error();
     FormatSet set;
@@ -205,21 +217,22 @@ Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool 
     } else {
         set.absent.emplace_back("index_u16", "more than 65,536 vertices");
     }
+    if (stop(0.0, "strips")) return set;
     {
         const Strips strips = make_strips(triangles, mesh.vertex_count);
         add_list("strip_restart", 4, strips.restart, unstrip(strips.restart, true));
         add_list("strip_degenerate", 4, strips.degenerate, unstrip(strips.degenerate, false));
     }
-    OptimizeOptions optimize = optimize_options(choice, lean_ring_cost);
-    if (paper) optimize.passes = 0;
+    if (stop(0.1, "lean")) return set;
+    const OptimizeOptions optimize = optimizer(choice, lean_ring_cost, paper, progress, 0.1, "lean");
     const Rings rings = optimize_rings(*table, expand_rings(*table, set.ring), optimize);
     LeanStream lean = encode_lean(*table, rings);
     set.lean = lean.statistics;
     set.formats.push_back(lean_format("lean", set.ring.k, optimize.passes, std::move(lean)));
     set.formats.push_back(lean_format("lean_no_warts", set.ring.k, optimize.passes,
                                       encode_lean(*table, rings, {.wart_skipping = false})));
-    OptimizeOptions optimize_lr = optimize_options(choice, lr_ring_cost);
-    if (paper) optimize_lr.passes = 0;
+    if (stop(0.25, "lr")) return set;
+    const OptimizeOptions optimize_lr = optimizer(choice, lr_ring_cost, paper, progress, 0.25, "lr");
     if (Result<EncodedLr> lr = encode_lr(*table, set.ring, optimize_lr)) {
         set.lr = lr->statistics;
         const auto stream = validate_lr(lr->words);
@@ -227,6 +240,7 @@ Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool 
     } else {
         set.absent.emplace_back("lr", lr.error().message);
     }
+    if (stop(0.4, "lr_compact")) return set;
     std::vector<std::uint32_t> periods = ring_periods(choice, mesh.triangle_count());
     if (paper && periods.size() > 1) std::erase(periods, 0U);  // the hybrid, not the expander
     if (Result<EncodedLr> compact = encode_compact_lr(*table, compact_ring_options(choice), periods)) {
@@ -237,8 +251,11 @@ Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool 
     } else {
         set.absent.emplace_back("lr_compact", compact.error().message);
     }
-    if (const Result<void> added = add_packed(set, *table, choice, paper); !added) return added.error();
+    if (stop(0.55, "packed")) return set;
+    if (const Result<void> added = add_packed(set, *table, choice, paper, progress); !added) return added.error();
+    if (stop(0.85, "meshoptimizer's formats")) return set;
     add_codecs(set, mesh, triangles);
+    if (stop(0.93, "winged edge, corner table, SQuad")) return set;
     add_rivals(set, std::move(*table), mesh.vertex_count);
     return set;
 }

@@ -2,6 +2,7 @@
 // Every format that one mesh can be stored in, made and measured. Shared by stats and verify.
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -47,8 +48,12 @@ struct FormatSet {
     std::vector<std::pair<std::string, std::string>> absent;  ///< name, reason
 };
 
+/// Told what is made next, and which share of the work is done. false: stop, what there is so far is the result.
+using FormatProgress = std::function<bool(double share, const std::string& what)>;
+
 /// Makes every format of the mesh and decodes it again. Errors: those of build_corner_table.
-/// `paper`: the paper's procedures alone.
-Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool paper = false);
+/// `paper`: the paper's procedures alone. `progress`, if given, takes the place of the bar on a terminal.
+Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool paper = false,
+                               const FormatProgress& progress = {});
 
 }  // namespace lr::app

@@ -101,6 +101,13 @@ Result<void> Context::create_instance(const ContextOptions& options) {
     if (debug_utils_) enabled.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     if (options.validation && !debug_utils_) return Error{ErrorCode::no_device, "no VK_EXT_debug_utils for validation"};
 
+    for (const char* extension : options.instance_extensions) {
+        if (!has(extensions, extension)) {
+            return Error{ErrorCode::no_device, std::string("the Vulkan driver has no ") + extension};
+        }
+        enabled.push_back(extension);
+    }
+
     VkApplicationInfo application{};
     application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
     application.pApplicationName = "LacedRing";
@@ -139,6 +146,7 @@ Result<void> Context::create_instance(const ContextOptions& options) {
 Result<void> Context::create_device(const ContextOptions& options) {
     LR_ASSIGN(const DeviceChoice choice, choose_device(instance_, options.device));
     info_ = describe(choice);
+    physical_ = choice.device;
     queue_family_ = choice.queue_family;
 
     VkPhysicalDeviceMeshShaderFeaturesEXT mesh{};
@@ -173,9 +181,10 @@ Result<void> Context::create_device(const ContextOptions& options) {
     info.pNext = &features;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
-    const char* extension = VK_EXT_MESH_SHADER_EXTENSION_NAME;
-    info.enabledExtensionCount = info_.max_mesh_groups != 0 ? 1 : 0;
-    info.ppEnabledExtensionNames = &extension;
+    std::vector<const char*> extensions = options.device_extensions;
+    if (info_.max_mesh_groups != 0) extensions.push_back(VK_EXT_MESH_SHADER_EXTENSION_NAME);
+    info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
     LR_TRY_VK(vkCreateDevice(choice.device, &info, nullptr, &device_));
     vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
     if (info_.max_mesh_groups != 0) {

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "lrcore/base/result.h"
 #include "renderer/arena.h"
@@ -20,6 +21,8 @@ struct ContextOptions {
     /// them. Slow. Only with `validation`.
     bool gpu_assisted = false;
     std::uint64_t memory = 0;  ///< bytes of device memory to hold at most; 0: as much as the device has
+    /// To show pictures in a window: what its system needs, and VK_KHR_swapchain (renderer/swapchain.h).
+    std::vector<const char*> instance_extensions = {}, device_extensions = {};
 };
 
 struct DeviceInfo {
@@ -47,6 +50,8 @@ class Context {
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
 
+    VkInstance instance() const { return instance_; }
+    VkPhysicalDevice physical() const { return physical_; }
     VkDevice device() const { return device_; }
     VkQueue queue() const { return queue_; }
     std::uint32_t queue_family() const { return queue_family_; }
@@ -73,6 +78,7 @@ class Context {
     ValidationLog validation_;
     VkInstance instance_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+    VkPhysicalDevice physical_ = VK_NULL_HANDLE;
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
     std::uint32_t queue_family_ = 0;

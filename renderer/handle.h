@@ -46,6 +46,9 @@ using FenceHandle = Handle<VkFence, vkDestroyFence>;
 using PipelineHandle = Handle<VkPipeline, vkDestroyPipeline>;
 using PipelineLayoutHandle = Handle<VkPipelineLayout, vkDestroyPipelineLayout>;
 using QueryPoolHandle = Handle<VkQueryPool, vkDestroyQueryPool>;
+using RenderPassHandle = Handle<VkRenderPass, vkDestroyRenderPass>;
+using FramebufferHandle = Handle<VkFramebuffer, vkDestroyFramebuffer>;
+using SemaphoreHandle = Handle<VkSemaphore, vkDestroySemaphore>;
 using ShaderModuleHandle = Handle<VkShaderModule, vkDestroyShaderModule>;
 
 }  // namespace lr::gpu

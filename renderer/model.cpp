@@ -66,7 +66,7 @@ double mean_edge(const Model& model) {
 
 }  // namespace
 
-Result<Model> make_model(const Mesh& mesh, const ModelOptions& options) {
+Result<Model> make_surface(const Mesh& mesh) {
     if (mesh.indices.empty()) return Error{ErrorCode::unsupported, "the mesh has no triangles to draw"};
     Model model;
     model.indices = mesh.indices;
@@ -74,6 +74,11 @@ Result<Model> make_model(const Mesh& mesh, const ModelOptions& options) {
     model.normals = normals_f32(mesh);
     LR_TRY(normalise(model));
     model.mean_edge = mean_edge(model);
+    return model;
+}
+
+Result<Model> make_model(const Mesh& mesh, const ModelOptions& options) {
+    LR_ASSIGN(Model model, make_surface(mesh));
     LR_ASSIGN(const CornerTable table, build_corner_table(mesh.indices, mesh.vertex_count));
     const Rings rings = expand_rings(table, options.ring);
     const auto optimised = [&](const RingCost& cost) {

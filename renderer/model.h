@@ -36,6 +36,10 @@ struct ModelOptions {
     std::uint32_t passes = 0;  ///< of the optimiser (optimize_rings), for each stream's own cost
 };
 
+/// A model without streams, for who encodes them himself: positions, normals, sizes. Cost: O(V + T).
+/// Errors: unsupported (no triangles, extent zero or past f32).
+Result<Model> make_surface(const Mesh& mesh);
+
 /// Normalises, and encodes the streams (corner table, ring, streams). Cost: O(V + T).
 /// Errors: unsupported (no triangles, extent zero or past f32), and build_corner_table's.
 Result<Model> make_model(const Mesh& mesh, const ModelOptions& options = {});

@@ -14,11 +14,12 @@
 
 namespace lr::gpu {
 
-Result<Painter> Painter::create(Context& context, View view, std::uint32_t samples) {
+Result<Painter> Painter::create(Context& context, View view, std::uint32_t samples, bool outlined) {
     Painter out;
     out.context_ = &context;
     out.view_ = view;
     out.samples_ = samples;
+    out.outlined_ = outlined;
     constexpr VkShaderStageFlags kFragment = VK_SHADER_STAGE_FRAGMENT_BIT;
     const VkShaderStageFlags stages = surface_stages(context);
     const std::array<Binding, 4> bindings{{{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, stages},
@@ -48,7 +49,7 @@ Result<Painter> Painter::create(Context& context, View view, std::uint32_t sampl
 
 Result<DrawPlan> Painter::plan(Descriptors& descriptors, const GpuMesh& mesh, const Target& target) {
     if (!surfaces_.contains({mesh.source, mesh.path})) {
-        LR_ASSIGN(Surface surface, Surface::create(*context_, layout_, view_, mesh.source, mesh.path));
+        LR_ASSIGN(Surface surface, Surface::create(*context_, layout_, view_, mesh.source, mesh.path, outlined_));
         surfaces_.emplace(std::pair(mesh.source, mesh.path), std::move(surface));
     }
     DrawPlan plan;

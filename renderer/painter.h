@@ -15,8 +15,9 @@ namespace lr::gpu {
 
 class Painter {
   public:
-    /// For pictures of one view. `samples` is the supersampling of its pictures: lines get that much wider.
-    static Result<Painter> create(Context& context, View view, std::uint32_t samples);
+    /// For pictures of one view. `samples` is the supersampling of its pictures: lines get that much wider. `outlined`:
+    /// Silhouettes (adjacency.h) are drawn over it.
+    static Result<Painter> create(Context& context, View view, std::uint32_t samples, bool outlined = false);
 
     /// Makes the pipelines of the mesh's source and path, too, if this is the first mesh that needs them.
     Result<DrawPlan> plan(Descriptors& descriptors, const GpuMesh& mesh, const Target& target);
@@ -39,6 +40,7 @@ class Painter {
     Context* context_ = nullptr;
     View view_ = View::smooth;
     std::uint32_t samples_ = 1;
+    bool outlined_ = false;
     float line_width_ = 1;
     Layout layout_;
     std::map<std::pair<Source, Path>, Surface> surfaces_;

@@ -50,14 +50,15 @@ VkShaderStageFlags surface_stages(const Context& context) {
     return VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_GEOMETRY_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | mesh;
 }
 
-Result<Surface> Surface::create(Context& context, const Layout& layout, View view, Source source, Path path) {
+Result<Surface> Surface::create(Context& context, const Layout& layout, View view, Source source, Path path,
+                                bool outlined) {
     Surface out;
     out.context_ = &context;
     out.layout_ = layout.pipeline();
     for (const Pass pass : {depth, claim, resolve, single}) {
         GraphicsInfo info = vertex_stages(path);
         info.name = kNames[pass];
-        info.push_back = has_lines(view);
+        info.push_back = has_lines(view) || outlined;
         // Exact pictures are of triangles that begin with their smallest vertex; the index buffers of Path::compute are
         // turned so by the rotating pass.
         info.constants = {static_cast<std::uint32_t>(view), pass == resolve ? VK_TRUE : VK_FALSE,

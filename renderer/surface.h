@@ -25,8 +25,9 @@ class Surface {
     };
     static constexpr std::size_t kPasses = 4;
 
-    /// The layout has DrawConstants for surface_stages().
-    static Result<Surface> create(Context& context, const Layout& layout, View view, Source source, Path path);
+    /// The layout has DrawConstants for surface_stages(). `outlined`: lines of others are drawn over it.
+    static Result<Surface> create(Context& context, const Layout& layout, View view, Source source, Path path,
+                                  bool outlined = false);
 
     /// Draws every triangle of a mesh that has this source and path. Its buffers must be visible.
     void draw(VkCommandBuffer commands, Pass pass, const GpuMesh& mesh, const DrawPlan& plan) const;

@@ -26,12 +26,12 @@ constexpr Access kBefore{VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_NONE}
 
 }  // namespace
 
-Result<Target> Target::create(Context& context, VkExtent2D extent) {
+Result<Target> Target::create(Context& context, VkExtent2D extent, VkImageUsageFlags more) {
     Target out;
     out.extent_ = extent;
-    constexpr VkImageUsageFlags kDrawn = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-    LR_ASSIGN(out.colour_, Image::create(context, "colour", extent, kColour, kDrawn));
-    LR_ASSIGN(out.triangles_, Image::create(context, "triangle numbers", extent, kTriangles, kDrawn));
+    const VkImageUsageFlags drawn = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | more;
+    LR_ASSIGN(out.colour_, Image::create(context, "colour", extent, kColour, drawn));
+    LR_ASSIGN(out.triangles_, Image::create(context, "triangle numbers", extent, kTriangles, drawn));
     LR_ASSIGN(out.winner_, Image::create(context, "claims", extent, kTriangles,
                                          VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT));
     LR_ASSIGN(out.depth_, Image::create(context, "depth", extent, kDepth, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT));

@@ -14,7 +14,8 @@ class Target {
     static constexpr VkFormat kTriangles = VK_FORMAT_R32_UINT;
     static constexpr VkFormat kDepth = VK_FORMAT_D32_SFLOAT;
 
-    static Result<Target> create(Context& context, VkExtent2D extent);
+    /// `more`: what else is done with the colours and triangle numbers.
+    static Result<Target> create(Context& context, VkExtent2D extent, VkImageUsageFlags more = 0);
 
     VkExtent2D extent() const { return extent_; }
     /// The camera's projection, for the viewport that begin() sets. That is a square around the picture whose side is a
@@ -22,6 +23,8 @@ class Target {
     /// fuses it with the translation or not (lavapipe does for vertex shaders alone, and not behind geometry shaders).
     mat4 clip_from_view(const Camera& camera) const;
     const Image& winner() const { return winner_; }
+    const Image& colour() const { return colour_; }
+    const Image& triangles() const { return triangles_; }
 
     /// Brings every image to its layout and drops what it held; clears the claims.
     void prepare(VkCommandBuffer commands) const;

@@ -1,0 +1,18 @@
+#pragma once
+// The camera on the command line, as f3d has it.
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "lrcore/base/result.h"
+#include "renderer/camera.h"
+
+namespace lr::app {
+
+void add_camera(CLI::App& command, gpu::CameraOptions& camera);
+
+/// The same options as words, each with its value behind it or after a "=". Errors: invalid_argument.
+Result<gpu::CameraOptions> parse_camera(std::vector<std::string> words);
+
+}  // namespace lr::app

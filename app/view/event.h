@@ -1,0 +1,41 @@
+#pragma once
+// What happens to a window. GLFW makes these (window.h), and so do scripts (script.h); the viewer cannot tell which.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace lr::view {
+
+/// Letters, digits and punctuation are their upper-case ASCII characters.
+enum Key : int {
+    key_escape = 256,
+    key_enter = 257,
+    key_tab = 258,
+    key_backspace = 259,
+    key_delete = 261,
+    key_right = 262,
+    key_left = 263,
+    key_down = 264,
+    key_up = 265,
+    key_page_up = 266,
+    key_page_down = 267,
+    key_home = 268,
+    key_end = 269,
+    key_f1 = 290,
+    key_f12 = 301,
+};
+
+enum Modifier : unsigned { mod_shift = 1, mod_control = 2, mod_alt = 4 };
+
+/// Places and sizes are in pixels of the picture, from its upper left corner.
+struct Event {
+    enum Kind { key, text, move, button, scroll, drop, resize, close, refresh } kind = refresh;
+    int code = 0;  ///< Key; or 0 left, 1 right, 2 middle; or a Unicode character
+    bool down = false;
+    unsigned modifiers = 0;
+    double x = 0, y = 0;
+    std::vector<std::string> paths = {};
+};
+
+}  // namespace lr::view

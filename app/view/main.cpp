@@ -1,0 +1,166 @@
+// lacedring view [MESH]
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <deque>
+#include <exception>
+#include <thread>
+
+#include "app/camera_options.h"
+#include "app/command.h"
+#include "app/gpu_options.h"
+#include "app/view/script.h"
+#include "app/view/viewer.h"
+#include "app/view/window.h"
+#include "renderer/swapchain.h"
+
+namespace lr::view {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct Options {
+    ViewerOptions viewer;
+    app::PictureSize size;
+    gpu::ContextOptions context;
+    std::string script, screenshot;
+    double scale = 0;  ///< 0: the display's
+    bool no_panels = false;
+};
+
+/// Events up to the first press, of the mouse or a key: ImGui must see that before the release, a frame later.
+void feed(Viewer& viewer, std::deque<Event>& events) {
+    while (!events.empty()) {
+        const Event event = std::move(events.front());
+        events.pop_front();
+        viewer.handle(event);
+        const bool more_moves = event.kind == Event::move && !events.empty() && events.front().kind == Event::move;
+        if ((event.kind == Event::button || event.kind == Event::key) && event.down) return;
+        // A move before a press: panels must know that the mouse is over them.
+        if (event.kind == Event::move && !more_moves && !events.empty()) return;
+    }
+}
+
+Result<void> loop(Viewer& viewer, Window& window, gpu::Swapchain& swapchain, Script* script) {
+    std::deque<Event> events;
+    Clock::time_point last = Clock::now();
+    std::string title;
+    const VkExtent2D extent = window.extent();
+    viewer.handle({.kind = Event::resize, .x = double(extent.width), .y = double(extent.height)});
+    while (!viewer.closing()) {
+        const bool wait = script == nullptr && viewer.idle() && events.empty();
+        for (Event& event : window.poll(wait ? 0.1 : 0.0)) {
+            // A script is the only one who presses anything.
+            if (script == nullptr || event.kind == Event::resize || event.kind == Event::refresh) {
+                events.push_back(std::move(event));
+            }
+        }
+        if (script != nullptr) {
+            if (const Result<void> ran = script->advance(viewer, window, events); !ran) return ran;
+        }
+        feed(viewer, events);
+        const Clock::time_point now = Clock::now();
+        // A script's time is its frames', so that what it sees is the same on every machine.
+        const double seconds = script != nullptr ? 1.0 / 60 : std::chrono::duration<double>(now - last).count();
+        last = now;
+        if (wait && events.empty() && viewer.idle()) continue;
+        if (const Result<void> drawn = viewer.frame(seconds); !drawn) return drawn;
+        if (viewer.visible()) {
+            if (const Result<void> shown = swapchain.show(viewer.image(), viewer.extent()); !shown) return shown;
+        }
+        if (std::string next = viewer.title(); next != title) window.set_title(title = std::move(next));
+        if (const std::string text = viewer.take_clipboard(); !text.empty()) {
+            window.set_clipboard(text);
+            if (script == nullptr) fmt::print("{}\n", text);
+        }
+        if (script != nullptr) continue;  // as fast as it goes
+        // Not every driver waits for the display.
+        const double cap = viewer.visible() ? viewer.state().frame_cap : 20;
+        std::this_thread::sleep_until(now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / cap)));
+    }
+    return {};
+}
+
+int run(Options& options) {
+    std::optional<Script> script;
+    if (!options.script.empty()) {
+        Result<Script> read = Script::read(options.script);
+        if (!read) return app::fail(options.script, read.error());
+        script = std::move(*read);
+    } else if (!options.screenshot.empty()) {
+        script = Script::screenshot(options.screenshot);
+    }
+    Result<std::unique_ptr<Window>> window = Window::create(options.size.width, options.size.height);
+    if (!window) return app::fail("view", window.error());
+    options.context.instance_extensions = (*window)->extensions();
+    options.context.device_extensions = {VK_KHR_SWAPCHAIN_EXTENSION_NAME};
+    const Result<std::unique_ptr<gpu::Context>> context = gpu::Context::create(options.context);
+    if (!context) return app::fail("view", context.error());
+    const Result<VkSurfaceKHR> surface = (*window)->surface((*context)->instance());
+    if (!surface) return app::fail("view", surface.error());
+    options.viewer.scale = options.scale > 0 ? options.scale : (*window)->scale();
+    options.viewer.panels = !options.no_panels;
+    options.viewer.keep_recent = !script.has_value();
+    std::string failed_on = "view";
+    const Result<void> done = [&]() -> Result<void> {
+        Result<gpu::Swapchain> swapchain = gpu::Swapchain::create(**context, *surface);
+        if (!swapchain) return swapchain.error();
+        Result<std::unique_ptr<Viewer>> viewer = Viewer::create(**context, options.viewer);
+        if (!viewer) return viewer.error();
+        Result<void> looped = loop(**viewer, **window, *swapchain, script ? &*script : nullptr);
+        // A picture of a mesh that could not be read is none.
+        if (looped && !options.screenshot.empty() && !(*viewer)->state().document) {
+            failed_on = "--screenshot";
+            return Error{ErrorCode::malformed, (*viewer)->state().error};
+        }
+        return looped;
+    }();
+    vkDestroySurfaceKHR((*context)->instance(), *surface, nullptr);
+    const std::size_t messages = app::print_validation(**context);
+    if (!done) return app::fail(failed_on, done.error());
+    return messages == 0 ? app::done : app::check_failed;
+}
+
+int start(int argc, char** argv) {
+    CLI::App program("interactive viewer");
+    program.name("lacedring view");
+    Options options;
+    program.add_option("MESH", options.viewer.input.path, "mesh file");
+    app::add_weld(program, options.viewer.input.weld);
+    app::add_size(program, options.size);
+    program.add_option("--scale", options.scale, "pixels a nominal pixel of the panels; the display's unless told")
+        ->check(CLI::Range(0.5, 8.0));
+    program.add_flag("--no-panels", options.no_panels, "the picture alone, until Tab is pressed");
+    auto* screenshot = program.add_option("--screenshot", options.screenshot, "write a PNG file when all is shown, and end")
+                           ->type_name("PNG");
+    program.add_option("--script", options.script, "do what the lines of a file say (docs/viewer.md)")
+        ->type_name("FILE")
+        ->excludes(screenshot);
+    app::add_camera(program, options.viewer.camera);
+    app::add_device_options(program, options.context);
+    program.failure_message([](const CLI::App*, const CLI::Error& error) {
+        return fmt::format("lacedring: {} (lacedring view --help lists the options)\n", error.what());
+    });
+    try {
+        program.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return program.exit(error) == 0 ? app::done : app::wrong_usage;
+    }
+    return run(options);
+}
+
+}  // namespace
+}  // namespace lr::view
+
+int main(int argc, char** argv) {
+    try {
+        return lr::view::start(argc, argv);
+    } catch (const std::bad_alloc&) {
+        std::fputs("lacedring: not enough memory\n", stderr);
+    } catch (const std::exception& error) {  // a bug: nothing of ours throws
+        fmt::print(stderr, "lacedring: internal error: {}\n", error.what());
+    }
+    return lr::app::bad_input;
+}

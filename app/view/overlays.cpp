@@ -1,0 +1,212 @@
+#include "app/view/overlays.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/view/theme.h"
+#include "renderer/triangle_class.h"
+
+namespace lr::view {
+namespace {
+
+/// Colours that neighbouring numbers do not share.
+std::uint32_t hashed(std::uint32_t i) {
+    constexpr std::array<std::uint32_t, 12> kColours{
+        rgba(214, 96, 60),  rgba(66, 140, 196), rgba(232, 184, 92), rgba(96, 164, 108), rgba(146, 104, 182),
+        rgba(196, 70, 98),  rgba(98, 186, 190), rgba(170, 150, 84), rgba(120, 130, 210), rgba(222, 140, 160),
+        rgba(140, 186, 84), rgba(160, 110, 80)};
+    return kColours[(i * 2654435761U >> 8) % kColours.size()];
+}
+
+void paint_growth(const State& state, std::span<std::uint32_t> colours) {
+    // The order is of the table: kept until there is another.
+    static std::shared_ptr<const CornerTable> of;
+    static std::vector<std::uint32_t> order;
+    if (of != state.document->table) {
+        of = state.document->table;
+        order = growth_order(*of);
+    }
+    const double now = state.growth;
+    for (std::size_t t = 0; t < colours.size(); ++t) {
+        const double age = now - static_cast<double>(order[t]);
+        if (order[t] == UINT32_MAX || age < 0) {
+            colours[t] = rgba(190, 190, 190, 235);
+        } else if (age < std::max(3.0, state.growth_speed * 0.15)) {
+            colours[t] = rgba(252, 206, 60);
+        } else {
+            colours[t] = rgba(214, 104, 40);
+        }
+    }
+}
+
+ImVec2 at(const std::array<double, 2>& p) {
+    return {static_cast<float>(p[0]), static_cast<float>(p[1])};
+}
+
+void letter(ImVec2 place, const char* text, std::uint32_t colour) {
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const float radius = px(9);
+    list.AddCircleFilled(place, radius, IM_COL32(20, 21, 24, 235));
+    list.AddCircle(place, radius, colour | 0xff000000U, 0, px(1.5F));
+    const ImVec2 size = ImGui::CalcTextSize(text);
+    list.AddText({place.x - size.x / 2, place.y - size.y / 2}, IM_COL32_WHITE, text);
+}
+
+void mark_selection(const State& state, const Orbit& orbit, double width, double height) {
+    const Document& document = *state.document;
+    const auto place = [&](CornerId c, double towards) {
+        // A corner is drawn inside its triangle, near its vertex.
+        Vector p{};
+        const double weight[3] = {towards, (1 - towards) / 2, (1 - towards) / 2};
+        const CornerId corners[3] = {c, next(c), previous(c)};
+        for (std::size_t j = 0; j < 3; ++j) {
+            const std::size_t v = document.table->vertex(corners[j]).value;
+            for (std::size_t i = 0; i < 3; ++i) {
+                const double x = static_cast<double>(document.model->positions[3 * v + i]) * document.model->radius +
+                                 document.model->centre[i];
+                p[i] += weight[j] * x;
+            }
+        }
+        return orbit.project(p, height, width);
+    };
+    const CornerTable& table = *document.table;
+    const CornerId c = state.selection.corner;
+    const std::array<std::tuple<CornerId, const char*, std::uint32_t>, 7> marks{
+        {{table.swing(c), "s", kFanColour},
+         {table.right(c), "r", kRightColour},
+         {table.left(c), "l", kLeftColour},
+         {table.opposite(c), "o", kOppositeColour},
+         {previous(c), "p", rgba(150, 150, 150)},
+         {next(c), "n", rgba(150, 150, 150)},
+         {c, "c", kSelectedColour}}};
+    // Letters only where triangles have room for them.
+    const auto a = place(c, 1), b = place(next(c), 1);
+    const bool room = a && b && std::hypot((*a)[0] - (*b)[0], (*a)[1] - (*b)[1]) > static_cast<double>(px(46));
+    for (const auto& [corner, text, colour] : marks) {
+        if (corner.is_null() || (!room && corner != c)) continue;
+        if (const auto p = place(corner, room ? 0.72 : 1.0)) {
+            if (room) {
+                letter(at(*p), text, colour);
+            } else {
+                ImGui::GetBackgroundDrawList()->AddCircleFilled(at(*p), px(4), colour | 0xff000000U);
+                ImGui::GetBackgroundDrawList()->AddCircle(at(*p), px(4), IM_COL32(20, 21, 24, 235), 0, px(1));
+            }
+        }
+    }
+}
+
+void tag(const char* text, float x, float y, float side) {
+    const ImVec2 size = ImGui::CalcTextSize(text);
+    const float left = side < 0 ? x - size.x - px(22) : x + px(10);
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    list.AddRectFilled({left, y}, {left + size.x + px(12), y + size.y + px(6)}, IM_COL32(20, 21, 24, 210), px(3));
+    list.AddText({left + px(6), y + px(3)}, IM_COL32(225, 225, 225, 255), text);
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> growth_order(const CornerTable& table) {
+    std::vector<std::uint32_t> order(table.triangle_count(), UINT32_MAX);
+    std::vector<bool> reached(table.vertex_count), seen(table.triangle_count());
+    std::uint32_t steps = 0;
+    std::vector<CornerId> stack;
+    for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
+        if (seen[t] || table.degenerate({t})) continue;
+        const CornerId seed = corner({t}, 0);
+        bool fresh = true;
+        for (std::uint32_t i = 0; i < 3; ++i) fresh = fresh && !reached[table.vertex(corner({t}, i)).value];
+        if (!fresh) continue;
+        reached[table.vertex(next(seed)).value] = reached[table.vertex(previous(seed)).value] = true;
+        stack.push_back(seed);
+        while (!stack.empty()) {
+            const CornerId c = stack.back();
+            stack.pop_back();
+            // Entered across the edge that c faces: the triangle is invaded if its tip is new.
+            const std::uint32_t tip = table.vertex(c).value, triangle_number = triangle(c).value;
+            if (seen[triangle_number] || reached[tip]) continue;
+            reached[tip] = seen[triangle_number] = true;
+            order[triangle_number] = steps++;
+            if (const CornerId left = table.left(c); !left.is_null()) stack.push_back(left);
+            if (const CornerId right = table.right(c); !right.is_null()) stack.push_back(right);  // first
+        }
+    }
+    return order;
+}
+
+std::vector<std::uint32_t> corridors(const Document& document) {
+    const CornerTable& table = *document.table;
+    std::vector<std::uint32_t> out(table.triangle_count(), UINT32_MAX);
+    const Result<LeanView> lean = view_lean(document.model->lean.words);
+    if (!lean) return out;
+    std::vector<std::uint8_t> classes(table.triangle_count(), LR_CLASS_NONE);
+    const std::vector<std::uint8_t> by_slot = gpu::slot_classes(*lean);
+    for (std::size_t slot = 0; slot < by_slot.size(); ++slot) {
+        const std::uint32_t t = document.model->lean.slot_triangle[slot];
+        if (t < classes.size()) classes[t] = by_slot[slot];
+    }
+    const auto corridor = [&](std::uint32_t t) {
+        return classes[t] == LR_CLASS_T1_LEFT || classes[t] == LR_CLASS_T1_RIGHT;
+    };
+    std::uint32_t count = 0;
+    std::vector<std::uint32_t> stack;
+    for (std::uint32_t first = 0; first < out.size(); ++first) {
+        if (out[first] != UINT32_MAX || !corridor(first)) continue;
+        stack.push_back(first);
+        out[first] = count;
+        while (!stack.empty()) {
+            const std::uint32_t t = stack.back();
+            stack.pop_back();
+            for (std::uint32_t i = 0; i < 3; ++i) {
+                const CornerId o = table.opposite(corner({t}, i));
+                // On the same side: across a ring edge lies the other one.
+                if (o.is_null() || classes[triangle(o).value] != classes[t]) continue;
+                std::uint32_t& there = out[triangle(o).value];
+                if (there != UINT32_MAX) continue;
+                there = count;
+                stack.push_back(triangle(o).value);
+            }
+        }
+        ++count;
+    }
+    return out;
+}
+
+void lay_paint(const State& state, std::span<std::uint32_t> colours) {
+    const Document& document = *state.document;
+    if (state.paint == Paint::corridors) {
+        const std::vector<std::uint32_t> of = corridors(document);
+        for (std::size_t t = 0; t < colours.size(); ++t) {
+            colours[t] = of[t] == UINT32_MAX ? rgba(176, 176, 176) : hashed(of[t]);
+        }
+    } else if (state.paint == Paint::blocks) {
+        const std::vector<std::uint32_t>& order = document.model->packed.triangle_order;
+        for (std::uint32_t i = 0; i < order.size(); ++i) colours[order[i]] = hashed(i / 256);
+    } else if (state.paint == Paint::growth) {
+        paint_growth(state, colours);
+    }
+}
+
+void draw_marks(const State& state, const Orbit& orbit, std::uint32_t width, std::uint32_t height) {
+    if (!state.panels) return;
+    if (state.document && state.selection.any()) mark_selection(state, orbit, width, height);
+    if (state.shown.mode != Mode::split) return;
+    const auto x = static_cast<float>(state.divider * width);
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    list.AddLine({x, 0}, {x, static_cast<float>(height)}, IM_COL32(20, 21, 24, 255), px(1.5F));
+    const float middle = static_cast<float>(height) / 2;
+    list.AddCircleFilled({x, middle}, px(11), IM_COL32(20, 21, 24, 235));
+    list.AddTriangleFilled({x - px(7), middle}, {x - px(2), middle - px(4)}, {x - px(2), middle + px(4)},
+                           IM_COL32(222, 107, 33, 255));
+    list.AddTriangleFilled({x + px(7), middle}, {x + px(2), middle - px(4)}, {x + px(2), middle + px(4)},
+                           IM_COL32(222, 107, 33, 255));
+    tag("index list", x, px(14), -1);
+    tag(state.shown.source == gpu::Source::packed  ? "packed"
+        : state.shown.source == gpu::Source::plain ? "index list"
+                                                   : "lean",
+        x, px(14), 1);
+}
+
+}  // namespace lr::view

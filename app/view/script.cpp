@@ -1,0 +1,327 @@
+#include "app/view/script.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "app/camera_options.h"
+#include "app/formats.h"
+
+namespace lr::view {
+namespace {
+
+constexpr double kPatience = 300;  // seconds that a line may wait
+
+Error wrong(const std::string& why) {
+    return {ErrorCode::invalid_argument, why};
+}
+
+bool parse(const std::string& text, double& out) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
+    return error == std::errc() && end == text.data() + text.size();
+}
+
+std::optional<int> key_named(const std::string& name) {
+    static const std::map<std::string, int> kNames{
+        {"escape", key_escape}, {"enter", key_enter},   {"tab", key_tab},       {"home", key_home},
+        {"end", key_end},       {"left", key_left},     {"right", key_right},   {"up", key_up},
+        {"down", key_down},     {"delete", key_delete}, {"f1", key_f1},         {"f12", key_f12},
+        {"?", '/'},             {"backspace", key_backspace}};
+    if (const auto at = kNames.find(name); at != kNames.end()) return at->second;
+    if (name.size() == 1) return std::toupper(static_cast<unsigned char>(name[0]));
+    return std::nullopt;
+}
+
+std::optional<int> button_named(const std::string& name) {
+    if (name == "left") return 0;
+    if (name == "right") return 1;
+    if (name == "middle") return 2;
+    return std::nullopt;
+}
+
+}  // namespace
+
+Result<Script> Script::read(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    if (!file) return Error{ErrorCode::cannot_open, "cannot be opened"};
+    Script out;
+    out.name_ = path.string();
+    std::size_t number = 0;
+    for (std::string text; std::getline(file, text);) {
+        ++number;
+        std::istringstream words(text);
+        Line line{number, {}};
+        for (std::string word; words >> word;) {
+            if (word[0] == '#') break;
+            line.words.push_back(word);
+        }
+        if (!line.words.empty()) out.lines_.push_back(std::move(line));
+    }
+    return out;
+}
+
+Script Script::screenshot(const std::string& path) {
+    Script out;
+    out.name_ = "--screenshot";
+    out.lines_ = {{1, {"wait", "ready"}}, {2, {"screenshot", path}}, {3, {"close"}}};
+    return out;
+}
+
+Result<void> Script::advance(Viewer& viewer, Window& window, std::deque<Event>& events) {
+    while (events.empty()) {
+        if (frames_ > 0) {
+            --frames_;
+            return {};
+        }
+        if (at_ >= lines_.size()) return {};
+        const Line& line = lines_[at_];
+        if (waited_ == 0) waiting_since_ = std::chrono::steady_clock::now();
+        const Result<bool> ran = run(line, viewer, window, events);
+        if (!ran) return Error{ran.error().code, fmt::format("{}:{}: {}", name_, line.number, ran.error().message)};
+        if (!*ran) {
+            ++waited_;
+            const double waited =
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - waiting_since_).count();
+            if (waited > kPatience) return wrong(fmt::format("{}:{}: waited too long", name_, line.number));
+            return {};
+        }
+        waited_ = 0;
+        ++at_;
+    }
+    return {};
+}
+
+Result<bool> Script::wait(const Line& line, Viewer& viewer) {
+    const std::string what = line.words.size() > 1 ? line.words[1] : "settled";
+    const State& state = viewer.state();
+    const bool failed = !state.error.empty() && !state.progress.busy && !state.open;
+    // What lines before this one changed shows in the next frame.
+    const bool changing = what == "settled" || what == "optimised" || what == "ready";
+    if (changing && waited_ < 2) return false;
+    if (what == "mesh") return state.document != nullptr || failed;
+    if (what == "settled") return viewer.settled() || failed || (!state.progress.busy && !state.document && !state.open);
+    if (what == "optimised") return (state.document && state.document->optimised && viewer.settled()) || failed;
+    if (what == "tables") return state.tables != nullptr || failed;
+    if (what == "formats") return state.formats != nullptr || failed;
+    if (what == "ready") return (state.document && state.document->optimised && state.formats && viewer.settled()) || failed;
+    if (what == "error") return !state.error.empty();
+    return wrong("wait what: mesh, settled, optimised, tables, formats, ready, error");
+}
+
+Result<bool> Script::set(const Line& line, Viewer& viewer) {
+    if (line.words.size() != 3) return wrong("set NAME VALUE");
+    const std::string &name = line.words[1], &value = line.words[2];
+    State& state = viewer.state();
+    double number = 0;
+    const bool is_number = parse(value, number);
+    const bool on = value == "on";
+    const auto named = [&](const auto& names, auto& out) -> Result<bool> {
+        for (const auto& [text, v] : names) {
+            if (text == value) {
+                out = v;
+                state.choices_changed = true;
+                return true;
+            }
+        }
+        return wrong("no such " + name + ": " + value);
+    };
+    if (name == "view") {
+        const auto view = gpu::view_named(value);
+        if (!view) return wrong("no such view: " + value);
+        state.shown.view = *view;
+        state.choices_changed = true;
+        return true;
+    }
+    if (name == "mode") {
+        return named(std::map<std::string, Mode>{{"single", Mode::single}, {"split", Mode::split}, {"difference", Mode::difference}},
+                     state.shown.mode);
+    }
+    if (name == "source") {
+        return named(std::map<std::string, gpu::Source>{{"plain", gpu::Source::plain}, {"lean", gpu::Source::lean}, {"packed", gpu::Source::packed}},
+                     state.shown.source);
+    }
+    if (name == "path") {
+        std::map<std::string, gpu::Path> paths;
+        for (const gpu::NamedPath& path : gpu::kPaths) paths.emplace(path.name, path.path);
+        return named(paths, state.shown.path);
+    }
+    if (name == "paint") {
+        return named(std::map<std::string, Paint>{{"none", Paint::none}, {"corridors", Paint::corridors}, {"blocks", Paint::blocks}, {"growth", Paint::growth}},
+                     state.paint);
+    }
+    if (name == "ring") return named(std::map<std::string, bool>{{"expander", false}, {"hybrid", true}}, state.ring.hybrid);
+    if (name == "warts") state.ring.warts = on;
+    else if (name == "panels") state.panels = on;
+    else if (name == "outlines") state.outlines = on;
+    else if (name == "help") state.help = on;
+    else if (name == "turntable") state.turntable = on;
+    else if (name == "decode") state.shown.decode_again = on;
+    else if (!is_number) return wrong(name + " is a number");
+    else if (name == "samples") state.samples = static_cast<std::uint32_t>(std::clamp(number, 1.0, 4.0));
+    else if (name == "divider") state.divider = std::clamp(number, 0.0, 1.0);
+    else if (name == "k") state.ring.k = static_cast<std::uint32_t>(number);
+    else if (name == "seeds") state.ring.seeds = static_cast<std::uint32_t>(number);
+    else if (name == "seed") state.ring.random_seed = static_cast<std::uint64_t>(number);
+    else if (name == "passes") state.ring.passes = static_cast<std::uint32_t>(number);
+    else if (name == "growth") state.growth = number;
+    else return wrong("nothing is called " + name);
+    state.choices_changed = true;
+    return true;
+}
+
+std::string Script::state_text(Viewer& viewer) {
+    const State& state = viewer.state();
+    nlohmann::ordered_json out{{"file", state.document ? state.document->path : ""},
+                               {"error", state.error},
+                               {"note", state.note},
+                               {"busy", state.progress.busy},
+                               {"camera", viewer.orbit().text()},
+                               {"size", {viewer.extent().width, viewer.extent().height}}};
+    if (state.document) {
+        const Document& document = *state.document;
+        out["triangles"] = document.mesh->triangle_count();
+        out["optimised"] = document.optimised;
+        out["seconds"] = document.seconds;
+        out["t0"] = document.model->lean.statistics.t0;
+        out["lean_bits"] = document.lean.bits;
+        out["packed_bits"] = document.packed.bits;
+    }
+    if (state.selection.any()) {
+        const CornerId c = state.selection.corner;
+        out["corner"] = c.value;
+        out["triangle"] = triangle(c).value;
+        if (state.tables) {
+            // The tables' answers, and the corner table's.
+            for (const char operation : {'n', 'p', 'o', 's', 'l', 'r'}) {
+                const CornerId by_lr = lr_step(*state.tables, *state.document->table, c, operation);
+                const CornerId by_table = step(*state.document, c, operation);
+                out["operators"][std::string(1, operation)] = {by_lr.value, by_table.value};
+            }
+        }
+    }
+    if (state.difference) {
+        out["difference"] = {{"pixels", state.difference->pixels},
+                             {"triangles", state.difference->triangles},
+                             {"covered", state.difference->covered}};
+    }
+    if (!state.costs.empty()) {
+        out["draw_ms"] = state.costs.back().draw;
+        out["decode_ms"] = state.costs.back().decode;
+        out["cpu_ms"] = state.costs.back().cpu;
+        out["frame_ms"] = state.frame_seconds * 1e3;
+    }
+    if (state.formats) {
+        for (const app::Format& format : state.formats->formats) out["formats"][format.name] = format.bytes;
+    }
+    return out.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+Result<bool> Script::run(const Line& line, Viewer& viewer, Window& window, std::deque<Event>& events) {
+    const std::vector<std::string>& words = line.words;
+    const std::string& what = words[0];
+    const auto number = [&](std::size_t i, double& out) { return i < words.size() && parse(words[i], out); };
+    double x = 0, y = 0, x2 = 0, y2 = 0;
+    State& state = viewer.state();
+    if (what == "wait") return wait(line, viewer);
+    if (what == "set") return set(line, viewer);
+    if (what == "open" || what == "drop") {
+        if (words.size() < 2) return wrong(what + " PATH");
+        events.push_back({.kind = Event::drop, .paths = {words.begin() + 1, words.end()}});
+    } else if (what == "move") {
+        if (!number(1, x) || !number(2, y)) return wrong("move X Y");
+        events.push_back({.kind = Event::move, .x = x, .y = y});
+    } else if (what == "click" || what == "press" || what == "release") {
+        if (!number(1, x) || !number(2, y)) return wrong(what + " X Y [left|right|middle]");
+        const auto button = button_named(words.size() > 3 ? words[3] : "left");
+        if (!button) return wrong("a button is left, right or middle");
+        events.push_back({.kind = Event::move, .x = x, .y = y});
+        if (what != "release") events.push_back({.kind = Event::button, .code = *button, .down = true, .x = x, .y = y});
+        if (what != "press") events.push_back({.kind = Event::button, .code = *button, .down = false, .x = x, .y = y});
+    } else if (what == "drag") {
+        if (!number(1, x) || !number(2, y) || !number(3, x2) || !number(4, y2)) return wrong("drag X Y X Y [BUTTON]");
+        const auto button = button_named(words.size() > 5 ? words[5] : "left");
+        if (!button) return wrong("a button is left, right or middle");
+        events.push_back({.kind = Event::move, .x = x, .y = y});
+        events.push_back({.kind = Event::button, .code = *button, .down = true, .x = x, .y = y});
+        constexpr int kSteps = 8;
+        for (int i = 1; i <= kSteps; ++i) {
+            events.push_back({.kind = Event::move, .x = x + (x2 - x) * i / kSteps, .y = y + (y2 - y) * i / kSteps});
+        }
+        events.push_back({.kind = Event::button, .code = *button, .down = false, .x = x2, .y = y2});
+    } else if (what == "scroll") {
+        if (!number(1, x) || !number(2, y) || !number(3, y2)) return wrong("scroll X Y STEPS");
+        events.push_back({.kind = Event::move, .x = x, .y = y});
+        events.push_back({.kind = Event::scroll, .y = y2});
+    } else if (what == "key") {
+        const auto code = words.size() > 1 ? key_named(words[1]) : std::nullopt;
+        if (!code) return wrong("key NAME [shift] [control]");
+        unsigned modifiers = 0;
+        for (std::size_t i = 2; i < words.size(); ++i) {
+            modifiers |= words[i] == "shift" ? mod_shift : words[i] == "control" ? mod_control : 0U;
+        }
+        events.push_back({.kind = Event::key, .code = *code, .down = true, .modifiers = modifiers});
+        events.push_back({.kind = Event::key, .code = *code, .down = false});
+    } else if (what == "resize") {
+        if (!number(1, x) || !number(2, y)) return wrong("resize W H");
+        if (waited_ == 0) window.set_size(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
+        // The window system decides; a second is enough for it to.
+        if (viewer.extent().width == static_cast<std::uint32_t>(x) &&
+            viewer.extent().height == static_cast<std::uint32_t>(y)) {
+            return true;
+        }
+        return waited_ > 60;
+    } else if (what == "minimise") {
+        window.minimise(true);
+        events.push_back({.kind = Event::resize});
+    } else if (what == "restore") {
+        window.minimise(false);
+        const VkExtent2D extent = window.extent();
+        events.push_back({.kind = Event::resize, .x = double(extent.width), .y = double(extent.height)});
+    } else if (what == "close") {
+        events.push_back({.kind = Event::close});
+    } else if (what == "frames") {
+        if (!number(1, x)) return wrong("frames N");
+        frames_ = static_cast<int>(x);
+    } else if (what == "camera") {
+        Result<gpu::CameraOptions> camera = app::parse_camera({words.begin() + 1, words.end()});
+        if (!camera) return camera.error();
+        if (const Result<void> framed = viewer.frame_all(*camera); !framed) return framed.error();
+    } else if (what == "screenshot") {
+        if (words.size() != 2) return wrong("screenshot FILE");
+        if (waited_ < 2 || !viewer.settled()) {
+            // What was changed must be drawn, and settle, first.
+            if (waited_ < 2 || state.document) return waited_ > 600 ? wrong("nothing settles: no screenshot") : Result<bool>(false);
+        }
+        const Result<gpu::Picture> picture = viewer.picture();
+        if (!picture) return picture.error();
+        if (const Result<void> written = gpu::write_png(words[1], *picture); !written) {
+            return Error{written.error().code, words[1] + ": " + written.error().message};
+        }
+    } else if (what == "ray") {
+        // The triangle that a ray through the pixel hits, by looking at all of them.
+        if (!number(1, x) || !number(2, y)) return wrong("ray X Y");
+        std::int64_t hit = -1;
+        std::vector<std::uint32_t> near;
+        if (state.document) {
+            const auto found = ray_hit(*state.document, viewer.orbit().eye(), viewer.ray(x, y), &near);
+            if (found) hit = *found;
+        }
+        const std::int64_t selected =
+            state.selection.any() ? std::int64_t{triangle(state.selection.corner).value} : -1;
+        fmt::print("{}\n", nlohmann::ordered_json{{"ray", hit}, {"near", near}, {"selected", selected}}.dump());
+    } else if (what == "print") {
+        fmt::print("{}\n", state_text(viewer));
+        std::fflush(stdout);
+    } else {
+        return wrong("no such line: " + what);
+    }
+    return true;
+}
+
+}  // namespace lr::view

@@ -1,0 +1,130 @@
+#include "app/view/selection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lr::view {
+namespace {
+
+using Point = std::array<double, 3>;
+
+Point minus(const Point& a, const Point& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+double dot(const Point& a, const Point& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+Point cross(const Point& a, const Point& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// In the mesh's coordinates, of the numbers that are drawn.
+Point place(const gpu::Model& model, std::uint32_t v) {
+    Point out;
+    for (std::size_t i = 0; i < 3; ++i) {
+        out[i] = static_cast<double>(model.positions[3 * std::size_t{v} + i]) * model.radius + model.centre[i];
+    }
+    return out;
+}
+
+}  // namespace
+
+CornerId nearest_corner(const Document& document, std::uint32_t t, const Point& eye, const Point& ray) {
+    CornerId best = null_corner;
+    double distance = std::numeric_limits<double>::infinity();
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        const CornerId c = lr::corner({t}, i);
+        const Point d = cross(minus(place(*document.model, document.table->vertex(c).value), eye), ray);
+        if (dot(d, d) < distance) {
+            distance = dot(d, d);
+            best = c;
+        }
+    }
+    return best;
+}
+
+std::optional<std::uint32_t> ray_hit(const Document& document, const Point& eye, const Point& ray,
+                                     std::vector<std::uint32_t>* near) {
+    constexpr double kNear = 1e-3;
+    std::optional<std::uint32_t> hit;
+    double nearest = std::numeric_limits<double>::infinity();
+    const std::vector<std::uint32_t>& indices = document.mesh->indices;
+    for (std::uint32_t t = 0; t < indices.size() / 3; ++t) {
+        const Point a = place(*document.model, indices[3 * std::size_t{t}]);
+        const Point ab = minus(place(*document.model, indices[3 * std::size_t{t} + 1]), a);
+        const Point ac = minus(place(*document.model, indices[3 * std::size_t{t} + 2]), a);
+        const Point p = cross(ray, ac);
+        const double determinant = dot(ab, p);
+        if (determinant == 0) continue;
+        const Point s = minus(eye, a);
+        const double u = dot(s, p) / determinant;
+        if (!(u >= -kNear && u <= 1 + kNear)) continue;
+        const Point q = cross(s, ab);
+        const double v = dot(ray, q) / determinant, along = dot(ac, q) / determinant;
+        if (near != nullptr && v >= -kNear && u + v <= 1 + kNear && along > 0) near->push_back(t);
+        if (u >= 0 && v >= 0 && u + v <= 1 && along > 0 && along < nearest) {
+            nearest = along;
+            hit = t;
+        }
+    }
+    return hit;
+}
+
+CornerId step(const Document& document, CornerId corner, char operation) {
+    const CornerTable& table = *document.table;
+    switch (operation) {
+        case 'n':
+            return next(corner);
+        case 'p':
+            return previous(corner);
+        case 'o':
+            return table.opposite(corner);
+        case 's':
+            return table.swing(corner);
+        case 'l':
+            return table.left(corner);
+        case 'r':
+            return table.right(corner);
+        default:
+            return null_corner;
+    }
+}
+
+std::vector<CornerId> around(const CornerTable& table, CornerId corner) {
+    std::vector<CornerId> out{corner};
+    for (CornerId c = table.swing(corner); !c.is_null() && c != corner; c = table.swing(c)) out.push_back(c);
+    if (!table.swing(out.back()).is_null()) return out;
+    // A border ended it: the rest lies the other way.
+    for (CornerId c = table.right(corner); !c.is_null(); c = table.right(previous(c))) {
+        if (out.size() > table.corners.size()) break;
+        out.push_back(previous(c));
+    }
+    return out;
+}
+
+void paint_selection(const Document& document, CornerId corner, std::vector<std::uint32_t>& colours) {
+    const CornerTable& table = *document.table;
+    const auto lay = [&](CornerId c, std::uint32_t colour) {
+        if (!c.is_null()) colours[triangle(c).value] = colour;
+    };
+    for (const CornerId c : around(table, corner)) lay(c, kFanColour);
+    lay(table.left(corner), kLeftColour);
+    lay(table.right(corner), kRightColour);
+    lay(table.opposite(corner), kOppositeColour);
+    lay(corner, kSelectedColour);
+}
+
+std::pair<Point, double> ball(const Document& document, CornerId corner) {
+    const Point centre = place(*document.model, document.table->vertex(corner).value);
+    double squared = 0;
+    for (const CornerId c : around(*document.table, corner)) {
+        for (const CornerId other : {next(c), previous(c)}) {
+            const Point d = minus(place(*document.model, document.table->vertex(other).value), centre);
+            squared = std::max(squared, dot(d, d));
+        }
+    }
+    return {centre, std::sqrt(squared) * 2};
+}
+
+}  // namespace lr::view

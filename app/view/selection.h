@@ -1,0 +1,47 @@
+#pragma once
+// A corner, and what the operators say of it.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/view/document.h"
+
+namespace lr::view {
+
+struct Selection {
+    CornerId corner = null_corner;  ///< of the document's corner table
+
+    bool any() const { return !corner.is_null(); }
+};
+
+/// The corner of triangle t whose vertex is nearest to the ray, mesh coordinates.
+CornerId nearest_corner(const Document& document, std::uint32_t t, const std::array<double, 3>& eye,
+                        const std::array<double, 3>& ray);
+
+/// The triangle that the ray hits first; none if it misses. `near`, if given, are those that it meets or misses by less
+/// than a thousandth of their size. Cost: O(T).
+std::optional<std::uint32_t> ray_hit(const Document& document, const std::array<double, 3>& eye,
+                                     const std::array<double, 3>& ray, std::vector<std::uint32_t>* near = nullptr);
+
+/// Where the operator n p o s l r leads; null where there is nothing.
+CornerId step(const Document& document, CornerId corner, char operation);
+
+/// All corners around the vertex of a corner, by swings both ways.
+std::vector<CornerId> around(const CornerTable& table, CornerId corner);
+
+/// RGBA a triangle: the selected one, its neighbours and the fan of its vertex.
+void paint_selection(const Document& document, CornerId corner, std::vector<std::uint32_t>& colours);
+
+/// Centre and radius of a ball around the fan of the corner's vertex, in the mesh's coordinates.
+std::pair<std::array<double, 3>, double> ball(const Document& document, CornerId corner);
+
+constexpr std::uint32_t rgba(unsigned r, unsigned g, unsigned b, unsigned a = 255) {
+    return r | g << 8 | b << 16 | a << 24;
+}
+constexpr std::uint32_t kSelectedColour = rgba(246, 190, 40), kOppositeColour = rgba(60, 130, 246),
+                        kLeftColour = rgba(58, 190, 96), kRightColour = rgba(226, 74, 120),
+                        kFanColour = rgba(150, 120, 220, 190);
+
+}  // namespace lr::view

@@ -1,0 +1,77 @@
+#pragma once
+// What the person chose, what there is to show, and what the panels ask for. No window, no device.
+
+#include <deque>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/view/document.h"
+#include "app/view/loader.h"
+#include "app/view/scene.h"
+#include "app/view/selection.h"
+
+namespace lr::view {
+
+/// Milliseconds of one drawn frame.
+struct FrameCost {
+    float decode = 0;  ///< on the device
+    float draw = 0;    ///< on the device
+    float cpu = 0;     ///< of our own thread, without waiting for the device
+};
+
+/// What is laid over the triangles.
+enum class Paint { none, corridors, blocks, growth };
+
+struct State {
+    // Chosen.
+    Shown shown;
+    bool exact_while_moving = false;
+    double divider = 0.5;  ///< of the picture's width
+    std::uint32_t samples = 1;
+    RingSettings ring;
+    Paint paint = Paint::none;
+    bool outlines = false;  ///< silhouettes, borders and creases, from adjacency alone
+    bool panels = true;
+    bool help = false;
+    bool turntable = false;
+    double turntable_speed = 20;  ///< degrees a second
+    int frame_cap = 60;
+    // The ring-expander, corner by corner.
+    double growth = 0;          ///< triangles so far
+    double growth_speed = 500;  ///< triangles a second
+    bool growing = false;
+
+    // There.
+    std::shared_ptr<const Document> document;
+    std::shared_ptr<const Tables> tables;
+    std::shared_ptr<const app::FormatSet> formats;
+    std::string error;
+    std::string note;       ///< something short that happened: "saved ..."
+    double note_until = 0;  ///< seconds of `clock`
+    double clock = 0;
+    Loader::Progress progress;
+    std::deque<FrameCost> costs;
+    double frame_seconds = 0;  ///< the last picture drawn anew: recorded, drawn, composed, panels
+    std::uint64_t device_bytes = 0;
+    std::string device;
+    bool mesh_shaders = false;
+    std::optional<gpu::Difference> difference;
+    std::filesystem::path folder;
+    std::vector<std::string> files, recent;
+    Selection selection;
+
+    // Asked for by panels and keys; the viewer does it and takes it away.
+    std::optional<std::string> open;
+    bool cancel = false;
+    bool frame_all = false;
+    bool frame_selection = false;
+    bool copy_camera = false;
+    bool screenshot = false;
+    bool turntable_frames = false;
+    bool choices_changed = false;  ///< the picture must be drawn again
+    std::optional<char> step;      ///< n p o s l r: from the selected corner to another
+};
+
+}  // namespace lr::view

@@ -1,0 +1,96 @@
+// The LR tables behind a selected corner.
+#include <fmt/format.h>
+
+#include "app/view/document.h"
+#include "lrcore/lr/lr_stream.h"
+#include "lrcore/lr/operators.h"
+
+namespace lr::view {
+namespace {
+
+/// The corner of the LR triangle at the same vertex.
+CornerId to_lr(const Tables& tables, const LrOperators<LrView>& operators, const CornerTable& table, CornerId corner) {
+    const std::uint32_t number = tables.number[triangle(corner).value];
+    if (number == UINT32_MAX) return null_corner;
+    CornerId c = LrOperators<LrView>::corner(TriangleId{number});
+    for (int i = 0; i < 3; ++i, c = LrOperators<LrView>::next(c)) {
+        if (tables.lr.vertex_order[operators.vertex(c).value] == table.vertex(corner).value) return c;
+    }
+    return null_corner;
+}
+
+CornerId from_lr(const Tables& tables, const LrOperators<LrView>& operators, const CornerTable& table, CornerId corner) {
+    corner = operators.canonical(corner);
+    if (corner.is_null()) return corner;
+    const std::uint32_t t = tables.triangle[LrOperators<LrView>::triangle(corner).value];
+    if (t == UINT32_MAX) return null_corner;
+    const std::uint32_t vertex = tables.lr.vertex_order[operators.vertex(corner).value];
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        const CornerId c = lr::corner({t}, i);
+        if (table.vertex(c).value == vertex) return c;
+    }
+    return null_corner;
+}
+
+}  // namespace
+
+Result<Tables> make_tables(std::shared_ptr<const Mesh> mesh, EncodedLr lr) {
+    const Result<LrStream<LrView>> stream = view_lr(lr.words);
+    if (!stream) return stream.error();
+    const LrOperators<LrView> operators(stream->view);
+    Tables out{std::move(mesh), {}, {}, {}};
+    out.number.assign(out.mesh->triangle_count(), UINT32_MAX);
+    out.triangle.assign(stream->view.triangle_numbers(), UINT32_MAX);
+    std::size_t i = 0;
+    for (std::uint32_t t = 0; t < out.triangle.size() && i < lr.triangle_order.size(); ++t) {
+        if (!operators.is_canonical(TriangleId{t})) continue;
+        out.triangle[t] = lr.triangle_order[i++];
+        out.number[out.triangle[t]] = t;
+    }
+    out.lr = std::move(lr);
+    return out;
+}
+
+CornerId lr_step(const Tables& tables, const CornerTable& table, CornerId corner, char operation) {
+    const Result<LrStream<LrView>> stream = view_lr(tables.lr.words);
+    if (!stream) return null_corner;
+    const LrOperators<LrView> operators(stream->view);
+    const CornerId c = to_lr(tables, operators, table, corner);
+    if (c.is_null()) return c;
+    const auto result = [&] {
+        switch (operation) {
+            case 'n':
+                return LrOperators<LrView>::next(c);
+            case 'p':
+                return LrOperators<LrView>::previous(c);
+            case 'o':
+                return operators.opposite(c);
+            case 's':
+                return operators.swing(c);
+            case 'l':
+                return operators.left(c);
+            default:
+                return operators.right(c);
+        }
+    }();
+    return result.is_null() ? result : from_lr(tables, operators, table, result);
+}
+
+std::string lr_text(const Tables& tables, const CornerTable& table, CornerId corner) {
+    const Result<LrStream<LrView>> stream = view_lr(tables.lr.words);
+    if (!stream) return stream.error().message;
+    const LrView& view = stream->view;
+    const LrOperators<LrView> operators(view);
+    const CornerId c = to_lr(tables, operators, table, corner);
+    if (c.is_null()) return "degenerate: in no table";
+    const std::uint32_t t = LrOperators<LrView>::triangle(c).value;
+    if (t < 2 * view.ring_vertices) {
+        return fmt::format("corner {}, triangle {}: {}[{}] = {:08x}", c.value, t, t % 2 == 0 ? 'L' : 'R', t / 2,
+                           view.lr[t]);
+    }
+    const std::size_t at = 6 * std::size_t{t - 2 * view.ring_vertices};
+    return fmt::format("corner {}, T0: VO[{}] = {} {} {} | {} {} {}", c.value, at, view.vo[at] & ~word::kT0Flip,
+                       view.vo[at + 1], view.vo[at + 2], view.vo[at + 3], view.vo[at + 4], view.vo[at + 5]);
+}
+
+}  // namespace lr::view

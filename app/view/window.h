@@ -1,0 +1,49 @@
+#pragma once
+// The window, by GLFW. The only file that knows of it.
+
+#include <vulkan/vulkan.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/view/event.h"
+#include "lrcore/base/result.h"
+
+struct GLFWwindow;
+
+namespace lr::view {
+
+class Window {
+  public:
+    /// Errors: no_device (no display, no window, or no Vulkan for it).
+    static Result<std::unique_ptr<Window>> create(std::uint32_t width, std::uint32_t height);
+    ~Window();
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    /// Instance extensions that surface() needs.
+    std::vector<const char*> extensions() const;
+    Result<VkSurfaceKHR> surface(VkInstance instance) const;
+
+    /// What happened since the last call; waits up to `seconds` for something.
+    std::vector<Event> poll(double seconds);
+
+    VkExtent2D extent() const;  ///< pixels; zero while minimised
+    double scale() const;       ///< pixels of the display a nominal pixel
+    void set_size(std::uint32_t width, std::uint32_t height);
+    void minimise(bool minimised);
+    void set_title(const std::string& title);
+    void set_clipboard(const std::string& text);
+
+  private:
+    Window() = default;
+    /// Pixels a unit of the window's coordinates.
+    double pixels() const;
+    void listen();
+
+    GLFWwindow* window_ = nullptr;
+    std::vector<Event> events_;
+};
+
+}  // namespace lr::view

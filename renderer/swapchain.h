@@ -1,0 +1,51 @@
+#pragma once
+// A window's pictures: shows an image of ours on a surface that the application made.
+
+#include <vulkan/vulkan.h>
+
+#include <vector>
+
+#include "lrcore/base/result.h"
+#include "renderer/handle.h"
+
+namespace lr::gpu {
+
+class Context;
+class Image;
+
+/// Needs VK_KHR_surface and VK_KHR_swapchain. Goes before the surface, which it does not own.
+class Swapchain {
+  public:
+    /// Errors: no_device (the device's queue cannot show on that surface), device_failure.
+    static Result<Swapchain> create(Context& context, VkSurfaceKHR surface);
+    Swapchain(Swapchain&& other) noexcept;
+    Swapchain& operator=(Swapchain&&) = delete;
+    Swapchain(const Swapchain&) = delete;
+    Swapchain& operator=(const Swapchain&) = delete;
+    ~Swapchain();
+
+    /// Scales the image to the window and shows it. The image must be in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, written by
+    /// earlier submissions; the next one must wait for reads of it (Commands::begin does). Nothing where the window has
+    /// no size. A window that changed gets new pictures first.
+    Result<void> show(const Image& image, VkExtent2D extent);
+
+  private:
+    Swapchain() = default;
+    Result<bool> rebuild();  ///< false: the window has no size
+    void drop();
+    void record(VkImage to, const Image& image, VkExtent2D extent) const;
+
+    Context* context_ = nullptr;
+    VkSurfaceKHR surface_ = VK_NULL_HANDLE;
+    VkSurfaceFormatKHR format_{};
+    VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
+    VkExtent2D extent_{};
+    std::vector<VkImage> images_;
+    std::vector<SemaphoreHandle> drawn_;  // one an image: that many may wait to be shown
+    SemaphoreHandle acquired_;
+    CommandPoolHandle pool_;
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;
+    FenceHandle fence_;
+};
+
+}  // namespace lr::gpu

@@ -1,0 +1,295 @@
+#!/usr/bin/env python3
+"""The viewer, driven by scripts in a window of Xvfb. Usage: test_view.py LACEDRING"""
+
+import json
+import os
+import random
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import png
+
+program = None
+display = None
+folder = None
+WINDOW_LIBRARIES = ("libglfw", "libX11", "libxcb", "libwayland", "libGL.")
+
+
+def run(*arguments, environment=None, timeout=120):
+    variables = dict(os.environ, DISPLAY=display)
+    variables.pop("WAYLAND_DISPLAY", None)
+    variables["XDG_STATE_HOME"] = folder
+    if environment is not None:
+        variables = environment
+    return subprocess.run([program, *arguments], capture_output=True, timeout=timeout, env=variables, cwd=folder,
+                          stdin=subprocess.DEVNULL, text=True, errors="replace")
+
+
+def without_display():
+    return {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
+
+
+def mesh(kind, triangles, seed=1):
+    name = os.path.join(folder, f"{kind}-{triangles}-{seed}.ply")
+    if not os.path.exists(name):
+        made = run("generate", kind, "-o", name, "--triangles", str(triangles), "--seed", str(seed))
+        assert made.returncode == 0, made.stderr
+    return name
+
+
+class View(unittest.TestCase):
+    def view(self, script, *arguments, code=0, size="480x320"):
+        """Runs a script with validation, and gives the lines that it prints."""
+        with tempfile.NamedTemporaryFile("w", dir=folder, suffix=".txt", delete=False) as file:
+            file.write(script + "\nclose\n")
+        done = run("view", *arguments, "--size", size, "--validation", "--script", file.name)
+        self.assertEqual(done.returncode, code, f"{script}\n{done.stdout[-2000:]}\n{done.stderr[-3000:]}")
+        if code == 0:
+            self.assertEqual(done.stderr, "")
+        return [json.loads(line) for line in done.stdout.splitlines()]
+
+    def test_other_commands_load_no_window_library(self):
+        torus = mesh("torus", 500)
+        trace = dict(without_display(), LD_DEBUG="files")
+        for arguments in (["info", torus], ["stats", torus], ["verify", torus],
+                          ["encode", torus, "-o", os.path.join(folder, "t.lr")], ["bench", torus, "--no-gpu", "--rounds", "1"]):
+            done = run(*arguments, environment=trace)
+            self.assertEqual(done.returncode, 0, done.stderr[-500:])
+            for library in WINDOW_LIBRARIES:
+                self.assertNotIn(library, done.stderr, arguments)
+        # Vulkan drivers may load a window system's libraries; nobody loads ours.
+        for arguments in (["render", torus, "-o", os.path.join(folder, "t.png"), "--size", "64x64"],
+                          ["compare", torus, "--size", "64x64"]):
+            done = run(*arguments, environment=trace)
+            self.assertEqual(done.returncode, 0, done.stderr[-500:])
+            self.assertNotIn("libglfw", done.stderr)
+
+    def test_no_display_is_one_line(self):
+        done = run("view", mesh("torus", 500), environment=without_display())
+        self.assertEqual(done.returncode, 4)
+        self.assertEqual(done.stdout, "")
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertIn("no usable display", done.stderr)
+
+    def test_wrong_usage_and_wrong_scripts(self):
+        self.assertEqual(run("view", "--no-such-option").returncode, 2)
+        self.assertEqual(run("view", "--script", os.path.join(folder, "none.txt")).returncode, 3)
+        with open(os.path.join(folder, "wrong.txt"), "w") as file:
+            file.write("frames 1\nfly away\n")
+        done = run("view", "--script", file.name)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("wrong.txt:2: no such line: fly", done.stderr)
+
+    def test_screenshots_are_what_render_draws(self):
+        blob = mesh("blob", 3000)
+        views = ["smooth", "flat", "class", "ring", "wire", "offsets"]
+        script = ["set panels off", "wait optimised", "set passes 0", "wait settled", "drag 200 150 260 170", "scroll 250 140 2", "drag 200 150 190 120 middle", "print"]
+        for view in views:
+            script += [f"set view {view}", f"screenshot {folder}/{view}.png"]
+        camera = self.view("\n".join(script), blob)[0]["camera"].split()
+        for view in views:
+            done = run("render", blob, "-o", os.path.join(folder, "r.png"), "--size", "480x320", "--samples", "1",
+                       "--view", view, "--seeds", "1", *camera)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            pixels, largest = png.differences(png.read(f"{folder}/{view}.png"), png.read(f"{folder}/r.png"))
+            # The background is computed by the device in the one and by the CPU in the other.
+            self.assertLessEqual(largest, 1, view)
+            self.assertLessEqual(pixels, 480 * 320 // 20, view)
+
+    def test_split_screen_shows_one_picture(self):
+        blob = mesh("blob", 3000)
+        states = self.view(f"""set panels off
+            wait optimised
+            screenshot {folder}/single.png
+            set mode split
+            set divider 0.4
+            screenshot {folder}/split.png
+            print
+            set source packed
+            wait settled
+            screenshot {folder}/split2.png
+            print
+            set mode difference
+            wait settled
+            print""", blob)
+        for state in states:
+            self.assertEqual(state["difference"]["pixels"], 0)
+            self.assertEqual(state["difference"]["triangles"], 0)
+            self.assertGreater(state["difference"]["covered"], 10000)
+        single = png.read(f"{folder}/single.png")
+        self.assertEqual(png.differences(single, png.read(f"{folder}/split.png")), (0, 0))
+        self.assertEqual(png.differences(single, png.read(f"{folder}/split2.png")), (0, 0))
+
+    def test_clicks_hit_what_rays_hit(self):
+        random.seed(7)
+        script = ["set panels off", "wait tables", "wait settled"]
+        for _ in range(1000):
+            x, y = random.randrange(100, 380), random.randrange(20, 300)
+            script += [f"click {x} {y}", f"ray {x} {y}"]
+        script += ["print"]
+        lines = self.view("\n".join(script), mesh("blob", 3000))
+        hits = [line for line in lines if "ray" in line]
+        self.assertEqual(len(hits), 1000)
+        self.assertGreater(sum(line["selected"] >= 0 for line in hits), 300)
+        for line in hits:
+            if line["selected"] != line["ray"]:  # on an edge, the ray's rounding and the device's may differ
+                self.assertIn(line["selected"], line["near"] + [-1])
+        self.assertGreaterEqual(sum(line["selected"] == line["ray"] for line in hits), 998)
+
+    def test_operators_of_a_selection(self):
+        script = ["set panels off", "wait tables", "wait settled", "click 240 160"]
+        for key in "nposlrsolrno":
+            script += [f"key {key}", "frames 1", "print"]
+        for kind in ("blob", "terrain"):
+            states = self.view("\n".join(script), mesh(kind, 2000))
+            for state, after, key in zip(states, states[1:], "poslrsolrno"):
+                for by_lr, by_table in state["operators"].values():
+                    self.assertEqual(by_lr, by_table)
+                expected = state["operators"][key][1]
+                self.assertEqual(after["corner"], state["corner"] if expected == 0xffffffff else expected)
+
+    def test_bad_files_change_nothing(self):
+        torus, sphere = mesh("torus", 500), mesh("sphere", 600)
+        bad = []
+        for i in range(19):
+            bad.append(os.path.join(folder, f"bad{i}.ply"))
+            with open(bad[-1], "wb") as file:
+                file.write([b"", b"ply\nformat ascii 1.0\nelement vertex 3\n", os.urandom(200)][i % 3])
+        states = self.view(f"""wait optimised
+            print
+            drop {bad[0]}
+            wait error
+            frames 3
+            print
+            drop {' '.join(bad)}
+            frames 40
+            wait error
+            print
+            drop {' '.join(bad)} {sphere}
+            frames 300
+            wait optimised
+            print""", torus)
+        self.assertEqual([state["file"] for state in states[:3]], [torus] * 3)
+        self.assertEqual(states[0]["error"], "")
+        self.assertIn("bad0.ply: ", states[1]["error"])
+        self.assertEqual(len(states[1]["error"].splitlines()), 1)
+        self.assertNotEqual(states[2]["error"], "")
+        self.assertEqual((states[3]["file"], states[3]["error"]), (sphere, ""))
+
+    def test_resizing_and_minimising(self):
+        states = self.view("""wait optimised
+            resize 700 500
+            print
+            minimise
+            frames 5
+            restore
+            frames 3
+            resize 321 203
+            frames 2
+            print
+            resize 1000 900
+            resize 400 300
+            frames 2
+            print""", mesh("torus", 500))
+        self.assertEqual([state["size"] for state in states], [[700, 500], [321, 203], [400, 300]])
+
+    def test_another_ring(self):
+        states = self.view("""wait optimised
+            print
+            set passes 0
+            wait settled
+            print
+            set ring hybrid
+            set k 8
+            wait settled
+            print
+            set seeds 4
+            set warts off
+            wait settled
+            print""", mesh("blob", 3000))
+        t0 = [state["t0"] for state in states]
+        self.assertLess(t0[0], t0[1])
+        self.assertEqual(len(set(t0)), 4, t0)
+        for state in states:
+            self.assertLess(state["seconds"], 5)
+
+    def test_closing_while_it_encodes(self):
+        big = mesh("blob", 300000)
+        for before in ("frames 1", "wait mesh", "wait mesh\nset passes 500\nframes 5"):
+            begun = time.monotonic()
+            self.view(before, big)
+            self.assertLess(time.monotonic() - begun, 30)
+
+    def test_panels_help_and_every_path(self):
+        states = self.view(f"""wait ready
+            set help on
+            frames 2
+            key escape
+            key tab
+            key tab
+            key v
+            key x
+            key d
+            key d
+            set path pull
+            frames 2
+            set path geometry
+            set source packed
+            set samples 2
+            wait settled
+            set paint corridors
+            frames 2
+            set paint blocks
+            frames 2
+            set outlines on
+            frames 2
+            key g
+            frames 5
+            set paint none
+            set turntable on
+            frames 5
+            set turntable off
+            key 7
+            key home
+            wait settled
+            print""", mesh("blob", 3000), "--scale", "2", size="1280x800")
+        self.assertEqual(states[0]["error"], "")
+        self.assertIn("packed", states[0]["formats"])
+
+    def test_screenshot_option(self):
+        name = os.path.join(folder, "option.png")
+        done = run("view", mesh("torus", 500), "--screenshot", name, "--size", "400x300", "--no-panels", "--validation")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(png.read(name)[:2], (400, 300))
+        done = run("view", os.path.join(folder, "none.ply"), "--screenshot", name, "--size", "400x300")
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1)
+
+
+def start_display():
+    """Xvfb on a free number; its process and name."""
+    read, write = os.pipe()
+    server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1600x1200x24", "-nolisten", "tcp"],
+                              pass_fds=[write], stderr=subprocess.DEVNULL)
+    os.close(write)
+    with os.fdopen(read) as file:
+        number = file.readline().strip()
+    if not number:
+        sys.exit("Xvfb does not start")
+    return server, ":" + number
+
+
+if __name__ == "__main__":
+    program = os.path.abspath(sys.argv.pop(1))
+    server, display = start_display()  # without Xvfb this fails: nothing is skipped
+    try:
+        with tempfile.TemporaryDirectory() as folder:
+            outcome = unittest.main(exit=False, verbosity=2 if "-v" in sys.argv else 1)
+    finally:
+        server.terminate()
+        server.wait()
+    sys.exit(0 if outcome.result.wasSuccessful() else 1)
