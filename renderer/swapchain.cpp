@@ -38,8 +38,7 @@ Result<VkSurfaceFormatKHR> choose_format(Context& context, VkSurfaceKHR surface)
 
 Result<Swapchain> Swapchain::create(Context& context, VkSurfaceKHR surface) {
     VkBool32 supported = VK_FALSE;
-    LR_TRY_VK(
-        vkGetPhysicalDeviceSurfaceSupportKHR(context.physical(), context.queue_family(), surface, &supported));
+    LR_TRY_VK(vkGetPhysicalDeviceSurfaceSupportKHR(context.physical(), context.queue_family(), surface, &supported));
     if (supported == VK_FALSE) {
         return Error{ErrorCode::no_device, context.info().name + " cannot show pictures in this window"};
     }
@@ -154,6 +153,9 @@ void Swapchain::record(VkImage to, const Image& image, VkExtent2D extent) const 
                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
 }
 
+// A window system that keeps all its images (a locked screen, a window that nobody sees) must not stop the program.
+constexpr std::uint64_t kPatience = 200'000'000;  // nanoseconds
+
 Result<void> Swapchain::show(const Image& image, VkExtent2D extent) {
     const VkDevice device = context_->device();
     const VkFence fence = fence_.get();
@@ -164,13 +166,14 @@ Result<void> Swapchain::show(const Image& image, VkExtent2D extent) {
         if (!there) return {};
     }
     std::uint32_t index = 0;
-    VkResult acquired = vkAcquireNextImageKHR(device, swapchain_, UINT64_MAX, acquired_.get(), VK_NULL_HANDLE, &index);
+    VkResult acquired = vkAcquireNextImageKHR(device, swapchain_, kPatience, acquired_.get(), VK_NULL_HANDLE, &index);
     if (acquired == VK_ERROR_OUT_OF_DATE_KHR) {
         LR_ASSIGN(const bool there, rebuild());
         if (!there) return {};
-        acquired = vkAcquireNextImageKHR(device, swapchain_, UINT64_MAX, acquired_.get(), VK_NULL_HANDLE, &index);
+        acquired = vkAcquireNextImageKHR(device, swapchain_, kPatience, acquired_.get(), VK_NULL_HANDLE, &index);
         if (acquired == VK_ERROR_OUT_OF_DATE_KHR) return {};  // it is being resized still: the next frame will do
     }
+    if (acquired == VK_TIMEOUT || acquired == VK_NOT_READY) return {};
     if (acquired != VK_SUBOPTIMAL_KHR) LR_TRY(check(acquired, "vkAcquireNextImageKHR"));
 
     LR_TRY_VK(vkResetCommandPool(device, pool_.get(), 0));

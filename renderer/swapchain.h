@@ -24,9 +24,9 @@ class Swapchain {
     Swapchain& operator=(const Swapchain&) = delete;
     ~Swapchain();
 
-    /// Scales the image to the window and shows it. The image must be in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, written by
-    /// earlier submissions; the next one must wait for reads of it (Commands::begin does). Nothing where the window has
-    /// no size. A window that changed gets new pictures first.
+    /// Scales the image to the window and shows it. The image must be in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, written
+    /// by earlier submissions; the next one must wait for reads of it (Commands::begin does). Nothing where the window
+    /// has no size. A window that changed gets new pictures first.
     Result<void> show(const Image& image, VkExtent2D extent);
 
   private:

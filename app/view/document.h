@@ -24,11 +24,11 @@ struct Input {
 /// How the ring is made, as the panel has it.
 struct RingSettings {
     bool hybrid = false;
-    std::uint32_t k = 100;       ///< of the hybrid
-    std::uint32_t seeds = 1;     ///< per component
+    std::uint32_t k = 100;    ///< of the hybrid
+    std::uint32_t seeds = 1;  ///< per component
     std::uint64_t random_seed = 1;
-    std::uint32_t passes = 24;   ///< of the optimiser
-    bool warts = true;           ///< wart skipping
+    std::uint32_t passes = 24;  ///< of the optimiser
+    bool warts = true;          ///< wart skipping
 
     bool operator==(const RingSettings&) const = default;
 };

@@ -20,8 +20,8 @@ class Loader {
     Loader(const Loader&) = delete;
     Loader& operator=(const Loader&) = delete;
 
-    /// Reads a file. What it gives comes one by one: the mesh with a quick ring, then with the optimised one and the packed
-    /// stream, then tables, then formats.
+    /// Reads a file. What it gives comes one by one: the mesh with a quick ring, then with the optimised one and the
+    /// packed stream, then tables, then formats.
     void open(const Input& input, const RingSettings& settings);
     /// Makes another ring over the same mesh.
     void encode(std::shared_ptr<const Document> document, const RingSettings& settings);

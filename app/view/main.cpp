@@ -78,7 +78,8 @@ Result<void> loop(Viewer& viewer, Window& window, gpu::Swapchain& swapchain, Scr
         if (script != nullptr) continue;  // as fast as it goes
         // Not every driver waits for the display.
         const double cap = viewer.visible() ? viewer.state().frame_cap : 20;
-        std::this_thread::sleep_until(now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / cap)));
+        std::this_thread::sleep_until(
+            now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / cap)));
     }
     return {};
 }
@@ -133,8 +134,9 @@ int start(int argc, char** argv) {
     program.add_option("--scale", options.scale, "pixels a nominal pixel of the panels; the display's unless told")
         ->check(CLI::Range(0.5, 8.0));
     program.add_flag("--no-panels", options.no_panels, "the picture alone, until Tab is pressed");
-    auto* screenshot = program.add_option("--screenshot", options.screenshot, "write a PNG file when all is shown, and end")
-                           ->type_name("PNG");
+    auto* screenshot =
+        program.add_option("--screenshot", options.screenshot, "write a PNG file when all is shown, and end")
+            ->type_name("PNG");
     program.add_option("--script", options.script, "do what the lines of a file say (docs/viewer.md)")
         ->type_name("FILE")
         ->excludes(screenshot);

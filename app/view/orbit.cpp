@@ -144,8 +144,8 @@ gpu::CameraOptions Orbit::options() const {
 std::string Orbit::text() const {
     // As many digits as a double has: `render` then takes exactly this picture.
     const auto vector = [](const Vector& v) { return fmt::format("{:.17g},{:.17g},{:.17g}", v[0], v[1], v[2]); };
-    std::string out = fmt::format("--camera-position={} --camera-focal-point={} --up={}", vector(eye_), vector(focal_),
-                                  vector(up_));
+    std::string out =
+        fmt::format("--camera-position={} --camera-focal-point={} --up={}", vector(eye_), vector(focal_), vector(up_));
     if (view_angle_ != 30) out += fmt::format(" --camera-view-angle={:.17g}", view_angle_);
     return out;
 }

@@ -14,10 +14,10 @@ namespace {
 
 /// Colours that neighbouring numbers do not share.
 std::uint32_t hashed(std::uint32_t i) {
-    constexpr std::array<std::uint32_t, 12> kColours{
-        rgba(214, 96, 60),  rgba(66, 140, 196), rgba(232, 184, 92), rgba(96, 164, 108), rgba(146, 104, 182),
-        rgba(196, 70, 98),  rgba(98, 186, 190), rgba(170, 150, 84), rgba(120, 130, 210), rgba(222, 140, 160),
-        rgba(140, 186, 84), rgba(160, 110, 80)};
+    constexpr std::array<std::uint32_t, 12> kColours{rgba(214, 96, 60),   rgba(66, 140, 196),  rgba(232, 184, 92),
+                                                     rgba(96, 164, 108),  rgba(146, 104, 182), rgba(196, 70, 98),
+                                                     rgba(98, 186, 190),  rgba(170, 150, 84),  rgba(120, 130, 210),
+                                                     rgba(222, 140, 160), rgba(140, 186, 84),  rgba(160, 110, 80)};
     return kColours[(i * 2654435761U >> 8) % kColours.size()];
 }
 

@@ -19,7 +19,8 @@ void draw_marks(const State& state, const Orbit& orbit, std::uint32_t width, std
 /// than one ring there; UINT32_MAX: it does not invade it. Paper: LR 2011, section 4.2.
 std::vector<std::uint32_t> growth_order(const CornerTable& table);
 
-/// The corridor of each triangle (a maximal run of T1 triangles on one side of the ring), UINT32_MAX for other triangles.
+/// The corridor of each triangle (a maximal run of T1 triangles on one side of the ring), UINT32_MAX for other
+/// triangles.
 std::vector<std::uint32_t> corridors(const Document& document);
 
 }  // namespace lr::view

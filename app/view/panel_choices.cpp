@@ -135,7 +135,8 @@ void draw_view(State& state) {
     ImGui::Checkbox("##turn", &state.turntable);
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::SliderFloat("##degrees", &speed, -90, 90, "%.0f deg/s")) state.turntable_speed = static_cast<double>(speed);
+    if (ImGui::SliderFloat("##degrees", &speed, -90, 90, "%.0f deg/s"))
+        state.turntable_speed = static_cast<double>(speed);
 }
 
 void draw_stream(State& state) {

@@ -37,9 +37,8 @@ void draw_ring_figures(const State& state) {
     row("ACMR, FIFO of 32", fmt::format("{:.3f}", figures.acmr));
     row("T0", fmt::format("{} ({:.2f} %)", grouped(ring.t0), 100 * document.t0_share()));
     row("isolated vertices", grouped(ring.isolated));
-    row("optimised", document.optimised && document.settings.passes > 0
-                         ? fmt::format("{} passes", document.settings.passes)
-                         : "no");
+    row("optimised",
+        document.optimised && document.settings.passes > 0 ? fmt::format("{} passes", document.settings.passes) : "no");
     row("made in", fmt::format("{:.2f} s", document.seconds));
 }
 

@@ -34,9 +34,11 @@ std::string lean_text(const gpu::Model& model, std::uint32_t t) {
     }
     const std::uint32_t word = view->payload[slot];
     if (slot < 2 * view->rings2) {
-        return fmt::format("slot {}: {}[{}], word {:08x}: {}", slot, slot % 2 == 0 ? 'L' : 'R', slot / 2, word, vertices);
+        return fmt::format("slot {}: {}[{}], word {:08x}: {}", slot, slot % 2 == 0 ? 'L' : 'R', slot / 2, word,
+                           vertices);
     }
-    return fmt::format("slot {}: one side of ring vertex {}, word {:08x}: {}", slot, slot - view->rings2, word, vertices);
+    return fmt::format("slot {}: one side of ring vertex {}, word {:08x}: {}", slot, slot - view->rings2, word,
+                       vertices);
 }
 
 std::string packed_text(const gpu::Model& model, std::uint32_t t) {

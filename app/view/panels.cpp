@@ -74,7 +74,8 @@ void draw_notices(State& state) {
     const bool shifted = state.panels && narrow();
     const float middle = shifted ? (window.x + px(kLeft)) / 2 : window.x / 2;
     if (!state.error.empty()) {
-        const float width = std::clamp(ImGui::CalcTextSize(state.error.c_str()).x + px(70), px(240), std::max(px(240), room));
+        const float width =
+            std::clamp(ImGui::CalcTextSize(state.error.c_str()).x + px(70), px(240), std::max(px(240), room));
         ImGui::SetNextWindowPos({middle, px(16)}, ImGuiCond_Always, {0.5F, 0});
         ImGui::SetNextWindowSize({width, 0});
         ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4{0.36F, 0.09F, 0.08F, 0.97F});
@@ -91,9 +92,9 @@ void draw_notices(State& state) {
     }
     if (!state.document && !state.progress.busy) {
         const char* text = "Drop a mesh here";
-        ImGui::GetBackgroundDrawList()->AddText(
-            ImGui::GetFont(), px(22), {middle - ImGui::CalcTextSize(text).x * 0.75F, window.y / 2 - px(20)},
-            IM_COL32(70, 72, 78, 255), text);
+        ImGui::GetBackgroundDrawList()->AddText(ImGui::GetFont(), px(22),
+                                                {middle - ImGui::CalcTextSize(text).x * 0.75F, window.y / 2 - px(20)},
+                                                IM_COL32(70, 72, 78, 255), text);
     }
 }
 
@@ -163,7 +164,8 @@ void draw_help() {
     ImGui::SetNextWindowFocus();
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, px(6));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2{px(22), px(18)});
-    ImGui::Begin("help", nullptr, (kFixed & ~ImGuiWindowFlags_NoBringToFrontOnFocus) | ImGuiWindowFlags_AlwaysAutoResize);
+    ImGui::Begin("help", nullptr,
+                 (kFixed & ~ImGuiWindowFlags_NoBringToFrontOnFocus) | ImGuiWindowFlags_AlwaysAutoResize);
     if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
         for (const Line& line : kLines) {
             ImGui::TableNextRow();

@@ -248,9 +248,7 @@ void Scene::record_compose(VkCommandBuffer commands, Mode mode, std::uint32_t di
     gpu::image_barrier(commands, composed_.handle(), composed_.aspect(), kTransferRead, kComposeWrite,
                        VK_IMAGE_LAYOUT_UNDEFINED, kGeneral);
     gpu::ComposeConstants push{};
-    push.mode = mode == Mode::single  ? LR_COMPOSE_LEFT
-                : mode == Mode::split ? LR_COMPOSE_SPLIT
-                                      : LR_COMPOSE_DIFFERENCE;
+    push.mode = mode == Mode::single ? LR_COMPOSE_LEFT : mode == Mode::split ? LR_COMPOSE_SPLIT : LR_COMPOSE_DIFFERENCE;
     push.divider = divider;
     push.samples = samples_;
     push.paint = painted_ ? LR_PAINT_TRIANGLES : LR_PAINT_NONE;

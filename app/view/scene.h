@@ -1,6 +1,6 @@
 #pragma once
-// The drawn picture: a model on the device, one or two pictures of it, and these composed into one image of the window's
-// size. Knows of no window and no panel.
+// The drawn picture: a model on the device, one or two pictures of it, and these composed into one image of the
+// window's size. Knows of no window and no panel.
 
 #include <map>
 #include <memory>
@@ -22,9 +22,9 @@ struct Shown {
     gpu::View view = gpu::View::smooth;
     gpu::Source source = gpu::Source::lean;
     gpu::Path path = gpu::Path::compute;
-    Mode mode = Mode::single;  ///< of the two others, the left picture is of Source::plain
-    bool exact = true;         ///< as `lacedring render` draws (docs/renderer.md), else in one pass
-    bool decode_again = false; ///< expands the stream for this picture even if it has been
+    Mode mode = Mode::single;   ///< of the two others, the left picture is of Source::plain
+    bool exact = true;          ///< as `lacedring render` draws (docs/renderer.md), else in one pass
+    bool decode_again = false;  ///< expands the stream for this picture even if it has been
 };
 
 /// Seconds on the device for the last picture.
@@ -47,8 +47,8 @@ class Scene {
     /// RGBA a triangle of the mesh, to be laid over it; empty: none. Not while a frame is being drawn.
     Result<void> set_paint(std::span<const std::uint32_t> colours);
 
-    /// Puts on the device what the picture needs and is not there. Errors: unsupported (a stream that the model does not
-    /// have), and the device's.
+    /// Puts on the device what the picture needs and is not there. Errors: unsupported (a stream that the model does
+    /// not have), and the device's.
     Result<void> prepare(const Shown& shown);
     /// Records the drawing of what was prepared, and leaves both pictures to be composed.
     Result<void> record_draw(VkCommandBuffer commands, const Shown& shown, const gpu::CameraOptions& camera);

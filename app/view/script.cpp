@@ -28,11 +28,20 @@ bool parse(const std::string& text, double& out) {
 }
 
 std::optional<int> key_named(const std::string& name) {
-    static const std::map<std::string, int> kNames{
-        {"escape", key_escape}, {"enter", key_enter},   {"tab", key_tab},       {"home", key_home},
-        {"end", key_end},       {"left", key_left},     {"right", key_right},   {"up", key_up},
-        {"down", key_down},     {"delete", key_delete}, {"f1", key_f1},         {"f12", key_f12},
-        {"?", '/'},             {"backspace", key_backspace}};
+    static const std::map<std::string, int> kNames{{"escape", key_escape},
+                                                   {"enter", key_enter},
+                                                   {"tab", key_tab},
+                                                   {"home", key_home},
+                                                   {"end", key_end},
+                                                   {"left", key_left},
+                                                   {"right", key_right},
+                                                   {"up", key_up},
+                                                   {"down", key_down},
+                                                   {"delete", key_delete},
+                                                   {"f1", key_f1},
+                                                   {"f12", key_f12},
+                                                   {"?", '/'},
+                                                   {"backspace", key_backspace}};
     if (const auto at = kNames.find(name); at != kNames.end()) return at->second;
     if (name.size() == 1) return std::toupper(static_cast<unsigned char>(name[0]));
     return std::nullopt;
@@ -105,11 +114,13 @@ Result<bool> Script::wait(const Line& line, Viewer& viewer) {
     const bool changing = what == "settled" || what == "optimised" || what == "ready";
     if (changing && waited_ < 2) return false;
     if (what == "mesh") return state.document != nullptr || failed;
-    if (what == "settled") return viewer.settled() || failed || (!state.progress.busy && !state.document && !state.open);
+    if (what == "settled")
+        return viewer.settled() || failed || (!state.progress.busy && !state.document && !state.open);
     if (what == "optimised") return (state.document && state.document->optimised && viewer.settled()) || failed;
     if (what == "tables") return state.tables != nullptr || failed;
     if (what == "formats") return state.formats != nullptr || failed;
-    if (what == "ready") return (state.document && state.document->optimised && state.formats && viewer.settled()) || failed;
+    if (what == "ready")
+        return (state.document && state.document->optimised && state.formats && viewer.settled()) || failed;
     if (what == "error") return !state.error.empty();
     return wrong("wait what: mesh, settled, optimised, tables, formats, ready, error");
 }
@@ -139,12 +150,16 @@ Result<bool> Script::set(const Line& line, Viewer& viewer) {
         return true;
     }
     if (name == "mode") {
-        return named(std::map<std::string, Mode>{{"single", Mode::single}, {"split", Mode::split}, {"difference", Mode::difference}},
-                     state.shown.mode);
+        return named(
+            std::map<std::string, Mode>{
+                {"single", Mode::single}, {"split", Mode::split}, {"difference", Mode::difference}},
+            state.shown.mode);
     }
     if (name == "source") {
-        return named(std::map<std::string, gpu::Source>{{"plain", gpu::Source::plain}, {"lean", gpu::Source::lean}, {"packed", gpu::Source::packed}},
-                     state.shown.source);
+        return named(
+            std::map<std::string, gpu::Source>{
+                {"plain", gpu::Source::plain}, {"lean", gpu::Source::lean}, {"packed", gpu::Source::packed}},
+            state.shown.source);
     }
     if (name == "path") {
         std::map<std::string, gpu::Path> paths;
@@ -152,25 +167,44 @@ Result<bool> Script::set(const Line& line, Viewer& viewer) {
         return named(paths, state.shown.path);
     }
     if (name == "paint") {
-        return named(std::map<std::string, Paint>{{"none", Paint::none}, {"corridors", Paint::corridors}, {"blocks", Paint::blocks}, {"growth", Paint::growth}},
+        return named(std::map<std::string, Paint>{{"none", Paint::none},
+                                                  {"corridors", Paint::corridors},
+                                                  {"blocks", Paint::blocks},
+                                                  {"growth", Paint::growth}},
                      state.paint);
     }
-    if (name == "ring") return named(std::map<std::string, bool>{{"expander", false}, {"hybrid", true}}, state.ring.hybrid);
-    if (name == "warts") state.ring.warts = on;
-    else if (name == "panels") state.panels = on;
-    else if (name == "outlines") state.outlines = on;
-    else if (name == "help") state.help = on;
-    else if (name == "turntable") state.turntable = on;
-    else if (name == "decode") state.shown.decode_again = on;
-    else if (!is_number) return wrong(name + " is a number");
-    else if (name == "samples") state.samples = static_cast<std::uint32_t>(std::clamp(number, 1.0, 4.0));
-    else if (name == "divider") state.divider = std::clamp(number, 0.0, 1.0);
-    else if (name == "k") state.ring.k = static_cast<std::uint32_t>(number);
-    else if (name == "seeds") state.ring.seeds = static_cast<std::uint32_t>(number);
-    else if (name == "seed") state.ring.random_seed = static_cast<std::uint64_t>(number);
-    else if (name == "passes") state.ring.passes = static_cast<std::uint32_t>(number);
-    else if (name == "growth") state.growth = number;
-    else return wrong("nothing is called " + name);
+    if (name == "ring")
+        return named(std::map<std::string, bool>{{"expander", false}, {"hybrid", true}}, state.ring.hybrid);
+    if (name == "warts")
+        state.ring.warts = on;
+    else if (name == "panels")
+        state.panels = on;
+    else if (name == "outlines")
+        state.outlines = on;
+    else if (name == "help")
+        state.help = on;
+    else if (name == "turntable")
+        state.turntable = on;
+    else if (name == "decode")
+        state.shown.decode_again = on;
+    else if (!is_number)
+        return wrong(name + " is a number");
+    else if (name == "samples")
+        state.samples = static_cast<std::uint32_t>(std::clamp(number, 1.0, 4.0));
+    else if (name == "divider")
+        state.divider = std::clamp(number, 0.0, 1.0);
+    else if (name == "k")
+        state.ring.k = static_cast<std::uint32_t>(number);
+    else if (name == "seeds")
+        state.ring.seeds = static_cast<std::uint32_t>(number);
+    else if (name == "seed")
+        state.ring.random_seed = static_cast<std::uint64_t>(number);
+    else if (name == "passes")
+        state.ring.passes = static_cast<std::uint32_t>(number);
+    else if (name == "growth")
+        state.growth = number;
+    else
+        return wrong("nothing is called " + name);
     state.choices_changed = true;
     return true;
 }
@@ -296,7 +330,8 @@ Result<bool> Script::run(const Line& line, Viewer& viewer, Window& window, std::
         if (words.size() != 2) return wrong("screenshot FILE");
         if (waited_ < 2 || !viewer.settled()) {
             // What was changed must be drawn, and settle, first.
-            if (waited_ < 2 || state.document) return waited_ > 600 ? wrong("nothing settles: no screenshot") : Result<bool>(false);
+            if (waited_ < 2 || state.document)
+                return waited_ > 600 ? wrong("nothing settles: no screenshot") : Result<bool>(false);
         }
         const Result<gpu::Picture> picture = viewer.picture();
         if (!picture) return picture.error();
@@ -312,8 +347,7 @@ Result<bool> Script::run(const Line& line, Viewer& viewer, Window& window, std::
             const auto found = ray_hit(*state.document, viewer.orbit().eye(), viewer.ray(x, y), &near);
             if (found) hit = *found;
         }
-        const std::int64_t selected =
-            state.selection.any() ? std::int64_t{triangle(state.selection.corner).value} : -1;
+        const std::int64_t selected = state.selection.any() ? std::int64_t{triangle(state.selection.corner).value} : -1;
         fmt::print("{}\n", nlohmann::ordered_json{{"ray", hit}, {"near", near}, {"selected", selected}}.dump());
     } else if (what == "print") {
         fmt::print("{}\n", state_text(viewer));

@@ -19,7 +19,8 @@ CornerId to_lr(const Tables& tables, const LrOperators<LrView>& operators, const
     return null_corner;
 }
 
-CornerId from_lr(const Tables& tables, const LrOperators<LrView>& operators, const CornerTable& table, CornerId corner) {
+CornerId from_lr(const Tables& tables, const LrOperators<LrView>& operators, const CornerTable& table,
+                 CornerId corner) {
     corner = operators.canonical(corner);
     if (corner.is_null()) return corner;
     const std::uint32_t t = tables.triangle[LrOperators<LrView>::triangle(corner).value];

@@ -12,15 +12,13 @@ float g_scale = 1;
 
 /// The first of these that the machine has; else ImGui's own bitmap font.
 void add_font(float scale) {
-    constexpr std::array<const char*, 4> kFonts{"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
-                                                "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
-                                                "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
-                                                "/usr/share/fonts/TTF/DejaVuSans.ttf"};
+    constexpr std::array<const char*, 4> kFonts{
+        "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
+        "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf"};
     ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
     for (const char* path : kFonts) {
         std::error_code error;
-        if (std::filesystem::is_regular_file(path, error) &&
-            fonts.AddFontFromFileTTF(path, 15.0F * scale) != nullptr) {
+        if (std::filesystem::is_regular_file(path, error) && fonts.AddFontFromFileTTF(path, 15.0F * scale) != nullptr) {
             return;
         }
     }

@@ -38,7 +38,8 @@ Result<std::unique_ptr<Viewer>> Viewer::create(gpu::Context& context, const View
     state.samples = context.info().software ? 1 : 2;
     state.recent = read_recent();
     std::error_code error;
-    state.files = meshes_beside(options.input.path.empty() ? std::filesystem::current_path(error).string() : options.input.path);
+    state.files =
+        meshes_beside(options.input.path.empty() ? std::filesystem::current_path(error).string() : options.input.path);
     out->asked_ = state.ring;
     if (!options.input.path.empty()) state.open = options.input.path;
     return out;
@@ -266,8 +267,10 @@ Result<void> Viewer::frame(double seconds) {
     }
     busy_ = (state_.progress.busy && !state_.progress.background) || state_.turntable || state_.growing ||
             state_.shown.decode_again || dirty_ || difference_due_ || state_.open.has_value();
-    const bool laid = painted_ == Painted{state_.selection.corner, state_.paint, std::floor(state_.growth), state_.document.get()};
-    settled_ = !busy_ && laid && (!state_.outlines || !state_.tables || outlined_ == state_.tables.get()) && !moving_ && drawn_exact_ && state_.ring == asked_;
+    const bool laid =
+        painted_ == Painted{state_.selection.corner, state_.paint, std::floor(state_.growth), state_.document.get()};
+    settled_ = !busy_ && laid && (!state_.outlines || !state_.tables || outlined_ == state_.tables.get()) && !moving_ &&
+               drawn_exact_ && state_.ring == asked_;
     if (moving_) quiet_frames_ = 0;
     ++quiet_frames_;
     if (!dragging_divider_ && dragging_ < 0) moving_ = false;
@@ -275,14 +278,15 @@ Result<void> Viewer::frame(double seconds) {
 }
 
 Result<gpu::Picture> Viewer::picture() {
-    LR_ASSIGN(const gpu::Buffer bytes, gpu::Buffer::create(context_, "screenshot", VkDeviceSize{4} * made_.width * made_.height,
-                                                           0, gpu::Memory::readback));
+    LR_ASSIGN(const gpu::Buffer bytes,
+              gpu::Buffer::create(context_, "screenshot", VkDeviceSize{4} * made_.width * made_.height, 0,
+                                  gpu::Memory::readback));
     LR_ASSIGN(const VkCommandBuffer commands, commands_->begin());
     VkBufferImageCopy region{};
     region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     region.imageExtent = {made_.width, made_.height, 1};
-    vkCmdCopyImageToBuffer(commands, overlay_->image().handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, bytes.handle(), 1,
-                           &region);
+    vkCmdCopyImageToBuffer(commands, overlay_->image().handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, bytes.handle(),
+                           1, &region);
     gpu::memory_barrier(commands, {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
                         {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
     LR_TRY(commands_->run());

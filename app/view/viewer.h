@@ -12,7 +12,7 @@
 namespace lr::view {
 
 struct ViewerOptions {
-    Input input;            ///< path may be empty
+    Input input;                ///< path may be empty
     gpu::CameraOptions camera;  ///< for the first mesh
     double scale = 1;           ///< pixels a nominal pixel
     bool panels = true;
@@ -56,7 +56,8 @@ class Viewer {
     Shown shown(bool moving) const;
 
   private:
-    Viewer(gpu::Context& context, const ViewerOptions& options, Scene scene) : options_(options), context_(context), scene_(std::move(scene)) {}
+    Viewer(gpu::Context& context, const ViewerOptions& options, Scene scene)
+        : options_(options), context_(context), scene_(std::move(scene)) {}
     Result<void> resize();
     void take_news();
     void handle_mouse(const Event& event);

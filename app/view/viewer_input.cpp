@@ -127,7 +127,7 @@ void Viewer::handle_key(const Event& event) {
             return;
         case 'V': {
             constexpr std::array<gpu::View, 6> kOrder{gpu::View::smooth, gpu::View::flat, gpu::View::triangle_class,
-                                                      gpu::View::ring, gpu::View::wire, gpu::View::offsets};
+                                                      gpu::View::ring,   gpu::View::wire, gpu::View::offsets};
             const auto* at = std::find(kOrder.begin(), kOrder.end(), state_.shown.view);
             const auto i = static_cast<std::size_t>(at - kOrder.begin());
             state_.shown.view = kOrder[(i + (shift ? kOrder.size() - 1 : 1)) % kOrder.size()];

@@ -30,8 +30,7 @@ Result<std::unique_ptr<Window>> Window::create(std::uint32_t width, std::uint32_
     if (glfwInit() != GLFW_TRUE) return failed("no usable display");
     if (glfwVulkanSupported() != GLFW_TRUE) return failed("no Vulkan for windows");
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
-    out->window_ =
-        glfwCreateWindow(static_cast<int>(width), static_cast<int>(height), "LacedRing", nullptr, nullptr);
+    out->window_ = glfwCreateWindow(static_cast<int>(width), static_cast<int>(height), "LacedRing", nullptr, nullptr);
     if (out->window_ == nullptr) return failed("no window");
     out->listen();
     return out;
@@ -62,8 +61,8 @@ void Window::listen() {
     static constexpr auto self = of;
     glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int mods) {
         // Releases are told by no modifier at all times: a shift may be let go first.
-        self(w).events_.push_back({.kind = Event::key, .code = key, .down = action != GLFW_RELEASE,
-                                   .modifiers = modifiers(mods)});
+        self(w).events_.push_back(
+            {.kind = Event::key, .code = key, .down = action != GLFW_RELEASE, .modifiers = modifiers(mods)});
     });
     glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned code) {
         self(w).events_.push_back({.kind = Event::text, .code = static_cast<int>(code)});
@@ -76,8 +75,12 @@ void Window::listen() {
         double x = 0, y = 0;
         glfwGetCursorPos(w, &x, &y);
         const double scale = self(w).pixels();
-        self(w).events_.push_back({.kind = Event::button, .code = button, .down = action == GLFW_PRESS,
-                                   .modifiers = modifiers(mods), .x = x * scale, .y = y * scale});
+        self(w).events_.push_back({.kind = Event::button,
+                                   .code = button,
+                                   .down = action == GLFW_PRESS,
+                                   .modifiers = modifiers(mods),
+                                   .x = x * scale,
+                                   .y = y * scale});
     });
     glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) {
         self(w).events_.push_back({.kind = Event::scroll, .x = x, .y = y});
@@ -89,8 +92,7 @@ void Window::listen() {
         self(w).events_.push_back({.kind = Event::resize, .x = double(x), .y = double(y)});
     });
     glfwSetWindowCloseCallback(window_, [](GLFWwindow* w) { self(w).events_.push_back({.kind = Event::close}); });
-    glfwSetWindowRefreshCallback(window_,
-                                 [](GLFWwindow* w) { self(w).events_.push_back({.kind = Event::refresh}); });
+    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { self(w).events_.push_back({.kind = Event::refresh}); });
 }
 
 double Window::pixels() const {
