@@ -120,7 +120,7 @@ void draw_panels(State& state, const Orbit&) {
             draw_numbers(state);
             ImGui::End();
         }
-        if (state.document && state.selection.any()) {
+        if (state.document && state.selection.any() && !state.help) {  // help lies over it
             const float left = px(kLeft) + px(8), right = (narrow() ? 0 : px(kRight)) + px(8);
             ImGui::SetNextWindowPos({left, height - px(8)}, ImGuiCond_Always, {0, 1});
             ImGui::SetNextWindowSize({window.x - left - right, 0});
