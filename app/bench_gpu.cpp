@@ -17,7 +17,7 @@ Candidate candidate(std::string name, const gpu::Times& times) {
 }  // namespace
 
 Result<GpuFigures> measure_gpu(const Mesh& mesh, const gpu::ContextOptions& options, int rounds) {
-    const Result<gpu::Model> model = gpu::make_model(mesh, {.packed = true, .passes = OptimizeOptions{}.passes});
+    const Result<gpu::Model> model = gpu::make_model(mesh, {.packed = true, .optimize = {}});
     if (!model) return model.error();
     const Result<std::unique_ptr<gpu::Context>> context = gpu::Context::create(options);
     if (!context) return context.error();

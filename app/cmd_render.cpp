@@ -34,12 +34,12 @@ int run(const Options& options) {
     const Result<Mesh> mesh = load(options.input);
     if (!mesh) return fail(options.input.path, mesh.error());
     // Pictures show the ring as the paper makes it, unless the optimiser is asked for.
-    std::uint32_t passes = 0;
-    if (options.ring.optimize != "auto") passes = optimize_options(options.ring, lean_ring_cost).passes;
+    OptimizeOptions optimize = optimize_options(options.ring, lean_ring_cost);
+    if (options.ring.optimize == "auto") optimize.passes = 0;
     const gpu::ModelOptions model_options{ring_options(options.ring, mesh->triangle_count()),
                                           {.wart_skipping = !options.no_warts},
                                           options.source == "packed",
-                                          passes};
+                                          std::move(optimize)};
     const Result<gpu::Model> model = gpu::make_model(*mesh, model_options);
     if (!model) return fail(options.input.path, model.error());
     const Result<std::unique_ptr<gpu::Context>> context = gpu::Context::create(options.context);
@@ -47,9 +47,8 @@ int run(const Options& options) {
 
     gpu::RendererOptions renderer_options;
     renderer_options.view = gpu::view_named(options.view).value_or(gpu::View::smooth);
-    const std::uint32_t largest = (*context)->limits().maxImageDimension2D;
-    std::uint32_t samples = options.samples;
-    while (samples > 1 && std::max(options.size.width, options.size.height) * samples > largest) --samples;
+    const std::uint32_t samples =
+        gpu::Target::fitting_samples(**context, {options.size.width, options.size.height}, options.samples);
     renderer_options.samples = samples;
     renderer_options.crease = options.crease;
     renderer_options.width = options.size.width * samples;
@@ -59,17 +58,14 @@ int run(const Options& options) {
     Result<gpu::Picture> drawn = [&]() -> Result<gpu::Picture> {
         Result<gpu::Renderer> renderer = gpu::Renderer::create(**context, renderer_options);
         if (!renderer) return renderer.error();
-        const gpu::Source source = options.source == "plain"    ? gpu::Source::plain
-                                   : options.source == "packed" ? gpu::Source::packed
-                                                                : gpu::Source::lean;
-        const auto* path = std::find_if(gpu::kPaths.begin(), gpu::kPaths.end(),
-                                        [&](const gpu::NamedPath& named) { return options.path == named.name; });
-        device_bytes = (*context)->arena().used() + renderer->device_bytes(*model, source, path->path);
+        const gpu::Source source = gpu::source_named(options.source).value_or(gpu::Source::lean);
+        const gpu::Path path = gpu::path_named(options.path).value_or(gpu::Path::compute);
+        device_bytes = (*context)->arena().used() + renderer->device_bytes(*model, source, path);
         if (device_bytes > kWorthSaying) {
             fmt::print(stderr, "lacedring: drawing takes {:.1f} GB of device memory\n",
                        static_cast<double>(device_bytes) / 1e9);
         }
-        Result<gpu::Drawable> drawable = renderer->upload(*model, source, path->path);
+        Result<gpu::Drawable> drawable = renderer->upload(*model, source, path);
         if (!drawable) return drawable.error();
         const Result<gpu::Camera> camera =
             gpu::make_camera(*model, options.camera, renderer_options.width, renderer_options.height);

@@ -1,25 +1,11 @@
 #include "app/report_pictures.h"
 
-#include <algorithm>
-
 #include "app/report_html.h"
 #include "renderer/png.h"
 #include "renderer/renderer.h"
 
 namespace lr::app {
 namespace {
-
-/// The model, with the very stream that the size table is of.
-Result<gpu::Model> make_model(const Mesh& mesh, const RingChoice& choice) {
-    const RingOptions ring = ring_options(choice, mesh.triangle_count());
-    Result<gpu::Model> model = gpu::make_model(mesh, {.ring = ring});
-    const OptimizeOptions optimize = optimize_options(choice, lean_ring_cost);
-    if (!model || optimize.passes == 0) return model;
-    const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
-    if (!table) return table.error();
-    model->lean = encode_lean(*table, optimize_rings(*table, expand_rings(*table, ring), optimize));
-    return model;
-}
 
 Result<ReportPicture> draw(gpu::Context& context, const PictureSize& size, const gpu::Model& model, gpu::View view) {
     gpu::RendererOptions options;
@@ -43,15 +29,14 @@ Result<ReportPicture> draw(gpu::Context& context, const PictureSize& size, const
 }  // namespace
 
 std::uint32_t report_samples(const gpu::Context& context, const PictureSize& size) {
-    const std::uint32_t largest = context.limits().maxImageDimension2D;
-    std::uint32_t samples = 3;
-    while (samples > 1 && std::max(size.width, size.height) * samples > largest) --samples;
-    return samples;
+    return gpu::Target::fitting_samples(context, {size.width, size.height}, 3);
 }
 
 Result<void> draw_pictures(gpu::Context& context, const PictureSize& size, const Mesh& mesh, const RingChoice& choice,
                            MeshReport& report) {
-    const Result<gpu::Model> model = make_model(mesh, choice);
+    // With the very stream that the size table is of.
+    const Result<gpu::Model> model = gpu::make_model(mesh, {.ring = ring_options(choice, mesh.triangle_count()),
+                                                            .optimize = optimize_options(choice, lean_ring_cost)});
     if (!model) {
         report.no_pictures = model.error().message;
         return {};

@@ -7,6 +7,7 @@
 
 #include "lrcore/lr/lr_stream.h"
 #include "renderer/context.h"
+#include "renderer/surface.h"
 #include "renderer/try.h"
 #include "shaders/adjacency_shared.h"
 #include "spirv/silhouette_frag.h"
@@ -24,11 +25,13 @@ Result<Adjacency> upload_adjacency(Context& context, Transfer& transfer, const E
                                    std::span<const float> positions) {
     LR_ASSIGN(const LrStream<LrView> stream, view_lr(tables.words));
     const std::uint64_t position_bytes = std::uint64_t{3} * sizeof(float) * tables.vertex_order.size();
+    const std::uint64_t table_bytes = tables.words.size() * sizeof(std::uint32_t);
+    LR_TRY(context.arena().check_room(table_bytes + position_bytes, std::max(table_bytes, position_bytes)));
     Adjacency out;
     out.vertices = stream.view.vertices;
     out.triangle_numbers = stream.view.triangle_numbers();
     out.vertex_order = tables.vertex_order;
-    LR_ASSIGN(out.tables, Buffer::create(context, "LR tables", tables.words.size() * sizeof(std::uint32_t), kAddress));
+    LR_ASSIGN(out.tables, Buffer::create(context, "LR tables", table_bytes, kAddress));
     LR_ASSIGN(out.positions, Buffer::create(context, "positions in LR order", position_bytes, kAddress));
     LR_TRY(transfer.upload(out.tables, std::span<const std::uint32_t>(tables.words)));
     constexpr std::size_t kUnit = 3 * sizeof(float);
@@ -85,16 +88,9 @@ Result<Silhouettes> Silhouettes::create(Context& context, std::uint32_t lines_pe
     const Binding frame{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kVertex | VK_SHADER_STAGE_FRAGMENT_BIT};
     LR_ASSIGN(out.layout_,
               Layout::create(context, "silhouettes", std::span(&frame, 1), kVertex, sizeof(SilhouetteConstants)));
-    GraphicsInfo info;
-    info.name = "silhouettes";
-    info.vertex = spirv_silhouette_vert;
-    info.fragment = spirv_silhouette_frag;
-    info.topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST;
-    info.depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL;
-    info.depth_write = false;
-    info.blend = true;
-    info.colours = {Target::kColour};
-    LR_ASSIGN(out.pipeline_, create_graphics(context, out.layout_, info));
+    LR_ASSIGN(out.pipeline_,
+              create_graphics(context, out.layout_,
+                              line_pipeline("silhouettes", spirv_silhouette_vert, spirv_silhouette_frag)));
     LR_ASSIGN(out.frame_, Buffer::create(context, "silhouette frame", sizeof(SilhouetteFrame),
                                          VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, Memory::upload));
     out.descriptors_ = Descriptors(context);
@@ -121,7 +117,6 @@ void Silhouettes::set_frame(const Camera& camera, const Target& target, const Si
     const std::array<float, 3> eye = eye_of(camera);
     frame.eye = {eye[0], eye[1], eye[2], 1};
     frame.colour = style.colour;
-    frame.lift = 0.0012F;
     std::memcpy(frame_.mapped(), &frame, sizeof(frame));
     line_width_ = std::clamp(style.width, 1.0F, context_->info().max_line_width);
     // Below -1 is no cosine, rounded or not.

@@ -90,12 +90,8 @@ Result<void> upload_vertices(Transfer& transfer, const GpuMesh& mesh, std::span<
 template <class TriangleOf>
 Result<void> upload_classes(Context& context, Transfer& transfer, GpuMesh& mesh, const Model& model,
                             const LeanView& lean, bool offsets, const TriangleOf& triangle_of) {
-    const std::vector<std::uint8_t> by_slot = offsets ? slot_offset_bits(lean) : slot_classes(lean);
-    std::vector<std::uint8_t> by_triangle(model.triangle_count(), LR_CLASS_NONE);
-    for (std::uint32_t slot = 0; slot < by_slot.size(); ++slot) {
-        const std::uint32_t t = model.lean.slot_triangle[slot];
-        if (t < by_triangle.size()) by_triangle[t] = by_slot[slot];
-    }
+    const std::vector<std::uint8_t> by_triangle = of_triangles(offsets ? slot_offset_bits(lean) : slot_classes(lean),
+                                                               model.lean.slot_triangle, model.triangle_count());
     std::vector<std::uint8_t> classes((mesh.slots + 3) / 4 * 4, LR_CLASS_NONE);  // the shader reads whole words
     for (std::uint32_t slot = 0; slot < mesh.slots; ++slot) {
         const std::uint32_t t = triangle_of(slot);
@@ -134,7 +130,10 @@ template <class Original, class TriangleOf>
 Result<void> upload_rest(Context& context, Transfer& transfer, GpuMesh& mesh, const Model& model,
                          const UploadOptions& options, std::span<const std::uint32_t> order, const Original& original,
                          const TriangleOf& triangle_of) {
-    LR_ASSIGN(const LeanView lean, view_lean(model.lean.words));
+    LeanView lean;
+    if (options.ring || options.lines == UploadOptions::Lines::ring) {
+        LR_ASSIGN(lean, view_lean(model.lean.words));
+    }
     LR_TRY(upload_lines(context, transfer, mesh, model, lean, options.lines, order));
     const std::span<const float> normals = options.normals.empty() ? model.normals : options.normals;
     const auto vertices_with = [&](const auto& ring) {
@@ -184,6 +183,20 @@ Result<GpuMesh> upload_stream(Context& context, Transfer& transfer, const Model&
 }
 
 }  // namespace
+
+std::optional<Path> path_named(std::string_view name) {
+    for (const NamedPath& named : kPaths) {
+        if (named.name == name) return named.path;
+    }
+    return std::nullopt;
+}
+
+std::optional<Source> source_named(std::string_view name) {
+    if (name == "plain") return Source::plain;
+    if (name == "lean") return Source::lean;
+    if (name == "packed") return Source::packed;
+    return std::nullopt;
+}
 
 MeshBytes mesh_bytes(const Model& model, Source source, const UploadOptions& options) {
     constexpr std::uint64_t kWord = sizeof(std::uint32_t);

@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string_view>
 
 #include "renderer/buffer.h"
 #include "renderer/model.h"
@@ -31,6 +33,9 @@ struct NamedPath {
     const char* name;
     Path path;
 };
+std::optional<Path> path_named(std::string_view name);
+/// "plain", "lean", "packed"
+std::optional<Source> source_named(std::string_view name);
 constexpr std::array<NamedPath, 4> kPaths{
     {{"compute", Path::compute}, {"pull", Path::pull}, {"geometry", Path::geometry}, {"mesh", Path::mesh}}};
 

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "lrcore/corner_table/corner_table.h"
-#include "lrcore/ring/optimize.h"
 #include "lrcore/ring/ring.h"
 #include "renderer/try.h"
 
@@ -82,7 +81,9 @@ Result<Model> make_model(const Mesh& mesh, const ModelOptions& options) {
     LR_ASSIGN(const CornerTable table, build_corner_table(mesh.indices, mesh.vertex_count));
     const Rings rings = expand_rings(table, options.ring);
     const auto optimised = [&](const RingCost& cost) {
-        return options.passes == 0 ? rings : optimize_rings(table, rings, {.cost = cost, .passes = options.passes});
+        OptimizeOptions optimize = options.optimize;
+        optimize.cost = cost;
+        return optimize_rings(table, rings, optimize);
     };
     model.lean = encode_lean(table, optimised(lean_ring_cost), options.lean);
     if (options.packed) {

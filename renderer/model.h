@@ -10,6 +10,7 @@
 #include "lrcore/lean/lean_stream.h"
 #include "lrcore/mesh/mesh.h"
 #include "lrcore/packed/packed_stream.h"
+#include "lrcore/ring/optimize.h"
 
 namespace lr::gpu {
 
@@ -20,7 +21,7 @@ struct Model {
     std::vector<float> positions;            ///< 3 a vertex, in the mesh's own vertex order
     std::vector<float> normals;              ///< 3 a vertex, unit
     LeanStream lean;
-    PackedStream packed;             ///< of the same rings; empty unless asked for
+    PackedStream packed;             ///< empty unless asked for
     std::array<double, 3> centre{};  ///< of the unit sphere, in the mesh's coordinates
     double radius = 1;               ///< likewise
     double mean_edge = 0;            ///< mean length of the triangles' edges, of the unit sphere
@@ -32,8 +33,8 @@ struct Model {
 struct ModelOptions {
     RingOptions ring{};
     LeanOptions lean{};
-    bool packed = false;       ///< the packed stream too
-    std::uint32_t passes = 0;  ///< of the optimiser (optimize_rings), for each stream's own cost
+    bool packed = false;                       ///< the packed stream too
+    OptimizeOptions optimize = {.passes = 0};  ///< of the rings; the cost is each stream's own
 };
 
 /// A model without streams, for who encodes them himself: positions, normals, sizes. Cost: O(V + T).

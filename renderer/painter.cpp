@@ -28,17 +28,9 @@ Result<Painter> Painter::create(Context& context, View view, std::uint32_t sampl
                                            {3, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, kFragment}}};
     LR_ASSIGN(out.layout_, Layout::create(context, "draw", bindings, stages, sizeof(DrawConstants)));
     if (upload_options(view).lines != UploadOptions::Lines::none) {
-        GraphicsInfo lines;
-        lines.name = "lines";
-        lines.vertex = spirv_line_vert;
+        GraphicsInfo lines = line_pipeline("lines", spirv_line_vert, spirv_line_frag);
         lines.vertex_binding = {0, sizeof(Vertex), VK_VERTEX_INPUT_RATE_VERTEX};
         lines.vertex_attributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Vertex, position)}};
-        lines.fragment = spirv_line_frag;
-        lines.topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST;
-        lines.depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL;
-        lines.depth_write = false;
-        lines.blend = true;
-        lines.colours = {Target::kColour};
         LR_ASSIGN(out.lines_, create_graphics(context, out.layout_, lines));
     }
     LR_ASSIGN(out.frame_, Buffer::create(context, "frame", sizeof(FrameConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
@@ -73,7 +65,6 @@ void Painter::set_frame(const Model& model, const Camera& camera, const Target& 
     FrameConstants frame{};
     frame.view_from_world = camera.view_from_world;
     frame.clip_from_view = target.clip_from_view(camera);
-    frame.line_lift = 0.0012F;
     // Where edges are only a few pixels long, lines fade instead of painting the mesh black.
     const double pixels = model.mean_edge * camera.pixels_per_unit / samples_;
     const double strength = std::clamp((pixels - 1.0) / 9.0, 0.0, 1.0);

@@ -14,9 +14,7 @@ Result<Renderer> Renderer::create(Context& context, const RendererOptions& optio
     LR_ASSIGN(out.transfer_, Transfer::create(context));
     LR_ASSIGN(out.target_, Target::create(context, {options.width, options.height}));
     LR_ASSIGN(out.painter_, Painter::create(context, options.view, options.samples));
-    LR_ASSIGN(out.lean_, LeanDecoder::create(context));
-    LR_ASSIGN(out.packed_, PackedDecoder::create(context));
-    LR_ASSIGN(out.rotator_, Rotator::create(context));
+    LR_ASSIGN(out.expander_, Expander::create(context));
     LR_ASSIGN(out.slots_, SlotReader::create(context));
     if (options.view == View::silhouette) {
         LR_ASSIGN(out.silhouettes_, Silhouettes::create(context));
@@ -35,32 +33,15 @@ Result<Drawable> Renderer::upload(const Model& model, Source source, Path path) 
     UploadOptions options = upload_options(options_.view);
     options.path = path;
     options.max_range = options_.max_range;
-    Drawable out;
-    out.descriptors = Descriptors(*context_);
+    std::optional<Adjacency> adjacency;
     std::vector<float> normals;
     if (vertex_normals_) {
-        LR_ASSIGN(out.adjacency, upload_adjacency(*context_, *transfer_, model));
-        LR_ASSIGN(normals, normals_of(*out.adjacency, model.vertex_count()));
+        LR_ASSIGN(adjacency, upload_adjacency(*context_, *transfer_, model));
+        LR_ASSIGN(normals, normals_of(*adjacency, model.vertex_count()));
         options.normals = normals;
     }
-    if (source == Source::lean) {
-        LR_ASSIGN(out.mesh, upload_lean(*context_, *transfer_, model, options));
-        if (path == Path::compute) {
-            LR_ASSIGN(const LeanView view, view_lean(model.lean.words));
-            LR_ASSIGN(out.decode, lean_.plan(out.descriptors, out.mesh, view));
-        }
-    } else if (source == Source::packed) {
-        LR_ASSIGN(out.mesh, upload_packed(*context_, *transfer_, model, options));
-        if (path == Path::compute) {
-            LR_ASSIGN(const PackedView view, view_packed(model.packed.words));
-            LR_ASSIGN(out.decode, packed_.plan(out.descriptors, out.mesh, view));
-        }
-    } else {
-        LR_ASSIGN(out.mesh, upload_plain(*context_, *transfer_, model, options));
-    }
-    if (path == Path::compute) {
-        LR_ASSIGN(out.rotate, rotator_.plan(out.descriptors, out.mesh));
-    }
+    LR_ASSIGN(Drawable out, expander_.upload(*transfer_, model, source, options));
+    out.adjacency = std::move(adjacency);
     LR_ASSIGN(out.draw, painter_.plan(out.descriptors, out.mesh, target_));
     return out;
 }
@@ -77,12 +58,7 @@ Result<std::vector<float>> Renderer::normals_of(const Adjacency& adjacency, std:
 }
 
 void Renderer::decode(VkCommandBuffer commands, Drawable& drawable) const {
-    if (drawable.mesh.decoded || drawable.mesh.path != Path::compute) return;
-    const Decoder& decoder = drawable.mesh.source == Source::lean ? static_cast<const Decoder&>(lean_) : packed_;
-    decoder.record(commands, drawable.decode);
-    if (!options_.omit_decode_barrier) decode_barrier(commands);
-    drawable.mesh.decoded = true;
-    drawable.mesh.rotated = false;
+    expander_.decode(commands, drawable, !options_.omit_decode_barrier);
 }
 
 Result<Picture> Renderer::draw(Drawable& drawable, const Model& model, const Camera& camera, bool exact) {
@@ -92,11 +68,7 @@ Result<Picture> Renderer::draw(Drawable& drawable, const Model& model, const Cam
     painter_.set_frame(model, camera, target_);
     LR_ASSIGN(const VkCommandBuffer commands, commands_->begin());
     decode(commands, drawable);
-    if (exact && !drawable.mesh.rotated && drawable.mesh.path == Path::compute) {
-        rotator_.record(commands, drawable.rotate);
-        decode_barrier(commands);
-        drawable.mesh.rotated = true;
-    }
+    if (exact) expander_.rotate(commands, drawable);
     painter_.record(commands, drawable.mesh, drawable.draw, target_,
                     exact ? Painter::Ties::by_number : Painter::Ties::first_drawn);
     if (silhouettes_) {

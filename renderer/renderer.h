@@ -5,10 +5,8 @@
 
 #include "renderer/adjacency.h"
 #include "renderer/context.h"
-#include "renderer/lean_decoder.h"
-#include "renderer/packed_decoder.h"
+#include "renderer/expander.h"
 #include "renderer/painter.h"
-#include "renderer/rotator.h"
 #include "renderer/slot_reader.h"
 
 namespace lr::gpu {
@@ -23,22 +21,13 @@ struct RendererOptions {
     bool omit_decode_barrier = false;  ///< a bug on request: the test that validation sees it
 };
 
-/// A mesh on the device, with what is bound to draw it. Goes before its Renderer's context.
-struct Drawable {
-    GpuMesh mesh;
-    Descriptors descriptors;
-    DecodePlan decode;  ///< empty for Source::plain, and where no path but compute is taken
-    RotatePlan rotate;  ///< likewise for the other paths
-    DrawPlan draw;
-    std::optional<Adjacency> adjacency;  ///< View::silhouette
-};
-
 class Renderer {
   public:
     static Result<Renderer> create(Context& context, const RendererOptions& options);
 
     Result<Drawable> upload(const Model& model, Source source, Path path = Path::compute);
-    /// Bytes of device memory that this takes beside what the renderer has already (context().arena().used()).
+    /// Bytes of device memory that this takes beside what the renderer has already (context().arena().used()); without
+    /// what View::silhouette asks for neighbours, which is known once its tables are made.
     std::uint64_t device_bytes(const Model& model, Source source, Path path = Path::compute) const;
 
     /// Records the decoding of a stream and what makes it visible, if that has not been done.
@@ -78,9 +67,7 @@ class Renderer {
     std::optional<Transfer> transfer_;
     Target target_;
     Painter painter_;
-    LeanDecoder lean_;
-    PackedDecoder packed_;
-    Rotator rotator_;
+    Expander expander_;
     SlotReader slots_;
     std::optional<Silhouettes> silhouettes_;  // these two for View::silhouette
     std::optional<VertexNormals> vertex_normals_;

@@ -113,6 +113,20 @@ void Surface::draw(VkCommandBuffer commands, Pass pass, const GpuMesh& mesh, con
     }
 }
 
+GraphicsInfo line_pipeline(const char* name, std::span<const std::uint32_t> vertex,
+                           std::span<const std::uint32_t> fragment) {
+    GraphicsInfo info;
+    info.name = name;
+    info.vertex = vertex;
+    info.fragment = fragment;
+    info.topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST;
+    info.depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL;
+    info.depth_write = false;
+    info.blend = true;
+    info.colours = {Target::kColour};
+    return info;
+}
+
 DrawConstants draw_constants(const GpuMesh& mesh, std::uint32_t first, std::uint32_t slots) {
     DrawConstants constants{};
     constants.first_slot = first;

@@ -2,6 +2,8 @@
 // The triangles of a mesh, drawn by one path.
 
 #include <array>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "renderer/gpu_mesh.h"
@@ -40,6 +42,10 @@ class Surface {
 
 /// The stages that make vertices, and the fragment stage: all see DrawConstants.
 VkShaderStageFlags surface_stages(const Context& context);
+
+/// A pipeline of lines over a surface that is drawn already: blended, not nearer than it in the depth buffer.
+GraphicsInfo line_pipeline(const char* name, std::span<const std::uint32_t> vertex,
+                           std::span<const std::uint32_t> fragment);
 
 /// What shaders need to know of slots [first, first + slots).
 DrawConstants draw_constants(const GpuMesh& mesh, std::uint32_t first, std::uint32_t slots);

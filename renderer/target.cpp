@@ -26,6 +26,12 @@ constexpr Access kBefore{VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_NONE}
 
 }  // namespace
 
+std::uint32_t Target::fitting_samples(const Context& context, VkExtent2D extent, std::uint32_t wanted) {
+    const std::uint32_t largest = context.limits().maxImageDimension2D;
+    while (wanted > 1 && std::max(extent.width, extent.height) * wanted > largest) --wanted;
+    return wanted;
+}
+
 Result<Target> Target::create(Context& context, VkExtent2D extent, VkImageUsageFlags more) {
     Target out;
     out.extent_ = extent;

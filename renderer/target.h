@@ -15,6 +15,8 @@ class Target {
     static constexpr VkFormat kDepth = VK_FORMAT_D32_SFLOAT;
 
     /// `more`: what else is done with the colours and triangle numbers.
+    /// As many samples a pixel along each side, up to `wanted`, as the device's images are large enough for.
+    static std::uint32_t fitting_samples(const Context& context, VkExtent2D extent, std::uint32_t wanted);
     static Result<Target> create(Context& context, VkExtent2D extent, VkImageUsageFlags more = 0);
 
     VkExtent2D extent() const { return extent_; }

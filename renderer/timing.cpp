@@ -58,7 +58,6 @@ struct BestOrder {
             if (number[v] == UINT32_MAX) move(v);
         }
         model.indices = indices;
-        model.lean = from.lean;  // uploads look at it for what is drawn over the surface: nothing here
     }
 };
 

@@ -85,6 +85,15 @@ std::vector<std::uint8_t> slot_offset_bits(const LeanView& lean) {
     return out;
 }
 
+std::vector<std::uint8_t> of_triangles(std::span<const std::uint8_t> by_slot,
+                                       std::span<const std::uint32_t> slot_triangle, std::size_t triangles) {
+    std::vector<std::uint8_t> out(triangles, LR_CLASS_NONE);
+    for (std::size_t slot = 0; slot < by_slot.size(); ++slot) {
+        if (slot_triangle[slot] < triangles) out[slot_triangle[slot]] = by_slot[slot];
+    }
+    return out;
+}
+
 std::vector<std::uint32_t> mesh_edges(std::span<const std::uint32_t> indices) {
     std::vector<std::uint64_t> edges;
     edges.reserve(indices.size());

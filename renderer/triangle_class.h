@@ -16,6 +16,10 @@ std::vector<std::uint8_t> slot_classes(const LeanView& lean);
 /// Figure 8. Cost: O(slots). The stream must be valid.
 std::vector<std::uint8_t> slot_offset_bits(const LeanView& lean);
 
+/// One of these bytes a slot as one a triangle of the mesh; LR_CLASS_NONE where no slot has it.
+std::vector<std::uint8_t> of_triangles(std::span<const std::uint8_t> by_slot,
+                                       std::span<const std::uint32_t> slot_triangle, std::size_t triangles);
+
 /// Every edge of the triangles once, as pairs (smaller vertex, larger vertex), sorted. Cost: O(T log T), 24 bytes a
 /// triangle.
 std::vector<std::uint32_t> mesh_edges(std::span<const std::uint32_t> indices);

@@ -26,8 +26,6 @@ struct SilhouetteFrame {
     mat4 clip_from_view;
     vec4 eye;  // in the world
     vec4 colour;
-    float lift;  // as FrameConstants::line_lift
-    float pad0, pad1, pad2;
 };
 
 // One draw, or one dispatch of silhouette_edges.comp. Line 3t + k is the edge across from corner 4t + k.

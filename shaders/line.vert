@@ -8,5 +8,5 @@ layout(location = 0) in vec3 in_position;
 
 void main() {
     vec3 view = (frame.view_from_world * vec4(in_position, 1.0)).xyz;
-    gl_Position = frame.clip_from_view * vec4(view * (1.0 - frame.line_lift), 1.0);
+    gl_Position = frame.clip_from_view * vec4(view * (1.0 - LR_LINE_LIFT), 1.0);
 }

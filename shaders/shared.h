@@ -42,9 +42,9 @@ struct FrameConstants {
     mat4 view_from_world;
     mat4 clip_from_view;
     vec4 line_colour;  // with its opacity
-    float line_lift;   // lines are drawn this share of their distance nearer to the eye
-    float pad0, pad1, pad2;
 };
+// Lines over the surface are drawn this share of their distance nearer to the eye.
+#define LR_LINE_LIFT 0.0012
 
 // One draw command. All per-triangle buffers are bound at the draw's first slot.
 struct DrawConstants {

@@ -27,5 +27,5 @@ void main() {
     if (edge.kind == 0u) return;
     vec3 world = lr_position((gl_VertexIndex & 1) == 0 ? edge.from : edge.to);
     vec3 view = (frame.view_from_world * vec4(world, 1.0)).xyz;
-    gl_Position = frame.clip_from_view * vec4(view * (1.0 - frame.lift), 1.0);
+    gl_Position = frame.clip_from_view * vec4(view * (1.0 - LR_LINE_LIFT), 1.0);
 }

@@ -77,7 +77,7 @@ Result<void> loop(Viewer& viewer, Window& window, gpu::Swapchain& swapchain, Scr
         }
         if (script != nullptr) continue;  // as fast as it goes
         // Not every driver waits for the display.
-        const double cap = viewer.visible() ? viewer.state().frame_cap : 20;
+        const double cap = viewer.visible() ? 60.0 : 20.0;
         std::this_thread::sleep_until(
             now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / cap)));
     }

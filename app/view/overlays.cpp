@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "app/view/theme.h"
+#include "lrcore/ring/expansion_order.h"
 #include "renderer/triangle_class.h"
 
 namespace lr::view {
@@ -21,14 +22,13 @@ std::uint32_t hashed(std::uint32_t i) {
     return kColours[(i * 2654435761U >> 8) % kColours.size()];
 }
 
-void paint_growth(const State& state, std::span<std::uint32_t> colours) {
-    // The order is of the table: kept until there is another.
-    static std::shared_ptr<const CornerTable> of;
-    static std::vector<std::uint32_t> order;
-    if (of != state.document->table) {
-        of = state.document->table;
-        order = growth_order(*of);
+void paint_growth(State& state, std::span<std::uint32_t> colours) {
+    // Of the table: kept until there is another.
+    if (state.growth_of != state.document->table) {
+        state.growth_of = state.document->table;
+        state.growth_order = expansion_order(*state.growth_of);
     }
+    const std::vector<std::uint32_t>& order = state.growth_order;
     const double now = state.growth;
     for (std::size_t t = 0; t < colours.size(); ++t) {
         const double age = now - static_cast<double>(order[t]);
@@ -108,45 +108,13 @@ void tag(const char* text, float x, float y, float side) {
 
 }  // namespace
 
-std::vector<std::uint32_t> growth_order(const CornerTable& table) {
-    std::vector<std::uint32_t> order(table.triangle_count(), UINT32_MAX);
-    std::vector<bool> reached(table.vertex_count), seen(table.triangle_count());
-    std::uint32_t steps = 0;
-    std::vector<CornerId> stack;
-    for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
-        if (seen[t] || table.degenerate({t})) continue;
-        const CornerId seed = corner({t}, 0);
-        bool fresh = true;
-        for (std::uint32_t i = 0; i < 3; ++i) fresh = fresh && !reached[table.vertex(corner({t}, i)).value];
-        if (!fresh) continue;
-        reached[table.vertex(next(seed)).value] = reached[table.vertex(previous(seed)).value] = true;
-        stack.push_back(seed);
-        while (!stack.empty()) {
-            const CornerId c = stack.back();
-            stack.pop_back();
-            // Entered across the edge that c faces: the triangle is invaded if its tip is new.
-            const std::uint32_t tip = table.vertex(c).value, triangle_number = triangle(c).value;
-            if (seen[triangle_number] || reached[tip]) continue;
-            reached[tip] = seen[triangle_number] = true;
-            order[triangle_number] = steps++;
-            if (const CornerId left = table.left(c); !left.is_null()) stack.push_back(left);
-            if (const CornerId right = table.right(c); !right.is_null()) stack.push_back(right);  // first
-        }
-    }
-    return order;
-}
-
 std::vector<std::uint32_t> corridors(const Document& document) {
     const CornerTable& table = *document.table;
     std::vector<std::uint32_t> out(table.triangle_count(), UINT32_MAX);
     const Result<LeanView> lean = view_lean(document.model->lean.words);
     if (!lean) return out;
-    std::vector<std::uint8_t> classes(table.triangle_count(), LR_CLASS_NONE);
-    const std::vector<std::uint8_t> by_slot = gpu::slot_classes(*lean);
-    for (std::size_t slot = 0; slot < by_slot.size(); ++slot) {
-        const std::uint32_t t = document.model->lean.slot_triangle[slot];
-        if (t < classes.size()) classes[t] = by_slot[slot];
-    }
+    const std::vector<std::uint8_t> classes =
+        gpu::of_triangles(gpu::slot_classes(*lean), document.model->lean.slot_triangle, table.triangle_count());
     const auto corridor = [&](std::uint32_t t) {
         return classes[t] == LR_CLASS_T1_LEFT || classes[t] == LR_CLASS_T1_RIGHT;
     };
@@ -174,7 +142,7 @@ std::vector<std::uint32_t> corridors(const Document& document) {
     return out;
 }
 
-void lay_paint(const State& state, std::span<std::uint32_t> colours) {
+void lay_paint(State& state, std::span<std::uint32_t> colours) {
     const Document& document = *state.document;
     if (state.paint == Paint::corridors) {
         const std::vector<std::uint32_t> of = corridors(document);

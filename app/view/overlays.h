@@ -9,15 +9,12 @@
 
 namespace lr::view {
 
-/// RGBA a triangle of the mesh, as State::paint says; those with no colour are left as they are.
-void lay_paint(const State& state, std::span<std::uint32_t> colours);
+/// RGBA a triangle of the mesh, as State::paint says; those with no colour are left as they are. Keeps in the state
+/// what the next picture needs again.
+void lay_paint(State& state, std::span<std::uint32_t> colours);
 
 /// The divider, and letters at the selected corner and its neighbours. Between ImGui::NewFrame and Render.
 void draw_marks(const State& state, const Orbit& orbit, std::uint32_t width, std::uint32_t height);
-
-/// The step at which RING-EXPANDER reaches each triangle, if it starts in each component's first one and makes no more
-/// than one ring there; UINT32_MAX: it does not invade it. Paper: LR 2011, section 4.2.
-std::vector<std::uint32_t> growth_order(const CornerTable& table);
 
 /// The corridor of each triangle (a maximal run of T1 triangles on one side of the ring), UINT32_MAX for other
 /// triangles.

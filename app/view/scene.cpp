@@ -29,9 +29,7 @@ Result<Scene> Scene::create(gpu::Context& context) {
     out.context_ = &context;
     LR_ASSIGN(out.commands_, gpu::Commands::create(context));
     LR_ASSIGN(out.transfer_, gpu::Transfer::create(context));
-    LR_ASSIGN(out.lean_, gpu::LeanDecoder::create(context));
-    LR_ASSIGN(out.packed_, gpu::PackedDecoder::create(context));
-    LR_ASSIGN(out.rotator_, gpu::Rotator::create(context));
+    LR_ASSIGN(out.expander_, gpu::Expander::create(context));
     std::vector<gpu::Binding> bindings;
     for (std::uint32_t i = 0; i < 5; ++i) bindings.push_back({i, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
     bindings.push_back({5, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
@@ -134,26 +132,8 @@ Result<Scene::Entry> Scene::upload(const Key& key) {
     options.ring = kind != Kind::edges;
     options.offsets = kind == Kind::offsets;
     options.lines = kind == Kind::edges ? gpu::UploadOptions::Lines::edges : gpu::UploadOptions::Lines::ring;
-    Entry entry;
-    gpu::Drawable& out = entry.drawable;
-    out.descriptors = gpu::Descriptors(*context_);
-    if (source == gpu::Source::lean) {
-        LR_ASSIGN(out.mesh, gpu::upload_lean(*context_, *transfer_, *model_, options));
-    } else if (source == gpu::Source::packed) {
-        LR_ASSIGN(out.mesh, gpu::upload_packed(*context_, *transfer_, *model_, options));
-    } else {
-        LR_ASSIGN(out.mesh, gpu::upload_plain(*context_, *transfer_, *model_, options));
-    }
-    if (path != gpu::Path::compute) return entry;
-    if (source == gpu::Source::lean) {
-        LR_ASSIGN(const LeanView view, view_lean(model_->lean.words));
-        LR_ASSIGN(out.decode, lean_.plan(out.descriptors, out.mesh, view));
-    } else if (source == gpu::Source::packed) {
-        LR_ASSIGN(const PackedView view, view_packed(model_->packed.words));
-        LR_ASSIGN(out.decode, packed_.plan(out.descriptors, out.mesh, view));
-    }
-    LR_ASSIGN(out.rotate, rotator_.plan(out.descriptors, out.mesh));
-    return entry;
+    LR_ASSIGN(gpu::Drawable drawable, expander_.upload(*transfer_, *model_, source, options));
+    return Entry{std::move(drawable), {}};
 }
 
 Result<gpu::Painter*> Scene::painter(gpu::View view) {
@@ -208,27 +188,14 @@ Result<void> Scene::record_draw(VkCommandBuffer commands, const Shown& shown, co
         stamp(0);
         for (int side = 0; side < sides; ++side) {
             gpu::Drawable& drawable = entries_.at(key_of(shown, side)).drawable;
-            gpu::GpuMesh& mesh = drawable.mesh;
-            if (mesh.path != gpu::Path::compute) continue;
-            if (mesh.source != gpu::Source::plain && (shown.decode_again || !mesh.decoded)) {
-                const gpu::Decoder& decoder =
-                    mesh.source == gpu::Source::lean ? static_cast<const gpu::Decoder&>(lean_) : packed_;
-                decoder.record(commands, drawable.decode);
-                gpu::decode_barrier(commands);
-                mesh.decoded = true;
-                mesh.rotated = false;
-            }
+            if (shown.decode_again && drawable.mesh.source != gpu::Source::plain) drawable.mesh.decoded = false;
+            expander_.decode(commands, drawable);
         }
         stamp(1);
         for (int side = 0; side < sides; ++side) {
             Entry& entry = entries_.at(key_of(shown, side));
-            gpu::GpuMesh& mesh = entry.drawable.mesh;
-            if (shown.exact && !mesh.rotated && mesh.path == gpu::Path::compute) {
-                rotator_.record(commands, entry.drawable.rotate);
-                gpu::decode_barrier(commands);
-                mesh.rotated = true;
-            }
-            by.record(commands, mesh, entry.plans.at({shown.view, side}).draw, *targets_[side],
+            if (shown.exact) expander_.rotate(commands, entry.drawable);
+            by.record(commands, entry.drawable.mesh, entry.plans.at({shown.view, side}).draw, *targets_[side],
                       shown.exact ? gpu::Painter::Ties::by_number : gpu::Painter::Ties::first_drawn);
             if (adjacency_) silhouettes_->record(commands, *adjacency_, *targets_[side]);
         }

@@ -88,9 +88,7 @@ class Scene {
     gpu::Context* context_ = nullptr;
     std::optional<gpu::Commands> commands_;
     std::optional<gpu::Transfer> transfer_;
-    gpu::LeanDecoder lean_;
-    gpu::PackedDecoder packed_;
-    gpu::Rotator rotator_;
+    gpu::Expander expander_;
     gpu::Layout layout_;
     gpu::PipelineHandle compose_;
     gpu::QueryPoolHandle queries_;

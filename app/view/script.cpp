@@ -156,16 +156,13 @@ Result<bool> Script::set(const Line& line, Viewer& viewer) {
             state.shown.mode);
     }
     if (name == "source") {
-        return named(
-            std::map<std::string, gpu::Source>{
-                {"plain", gpu::Source::plain}, {"lean", gpu::Source::lean}, {"packed", gpu::Source::packed}},
-            state.shown.source);
+        const auto source = gpu::source_named(value);
+        if (!source) return wrong("no such source: " + value);
+        state.shown.source = *source;
+        state.choices_changed = true;
+        return true;
     }
-    if (name == "path") {
-        std::map<std::string, gpu::Path> paths;
-        for (const gpu::NamedPath& path : gpu::kPaths) paths.emplace(path.name, path.path);
-        return named(paths, state.shown.path);
-    }
+    if (name == "path") return named(gpu::kPaths, state.shown.path);
     if (name == "paint") {
         return named(std::map<std::string, Paint>{{"none", Paint::none},
                                                   {"corridors", Paint::corridors},

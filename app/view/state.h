@@ -37,11 +37,12 @@ struct State {
     bool help = false;
     bool turntable = false;
     double turntable_speed = 20;  ///< degrees a second
-    int frame_cap = 60;
     // The ring-expander, corner by corner.
     double growth = 0;          ///< triangles so far
     double growth_speed = 500;  ///< triangles a second
     bool growing = false;
+    std::shared_ptr<const CornerTable> growth_of;  ///< the table whose expansion_order this is
+    std::vector<std::uint32_t> growth_order;
 
     // There.
     std::shared_ptr<const Document> document;

@@ -60,9 +60,7 @@ Shown Viewer::shown(bool moving) const {
 }
 
 Result<void> Viewer::resize() {
-    const std::uint32_t most = context_.limits().maxImageDimension2D;
-    std::uint32_t samples = state_.samples;
-    while (samples > 1 && std::max(extent_.width, extent_.height) * samples > most) --samples;
+    const std::uint32_t samples = gpu::Target::fitting_samples(context_, extent_, state_.samples);
     if (made_.width == extent_.width && made_.height == extent_.height && made_samples_ == samples) return {};
     vkDeviceWaitIdle(context_.device());  // the window may still be taking the last picture
     LR_TRY(scene_.resize(extent_, samples));

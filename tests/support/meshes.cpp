@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <utility>
 
 #include "lrcore/generate/generate.h"
+#include "lrcore/mesh/read.h"
 #include "tests/support/shapes.h"
 
 namespace lr::test {
@@ -80,6 +82,20 @@ Mesh random_gluing(std::uint32_t vertices, std::uint32_t triangles, std::uint64_
         indices.insert(indices.end(), {a, b, tip});
     }
     return make_mesh(std::move(indices), vertices);
+}
+
+std::optional<std::size_t> for_each_real_mesh(
+    const std::function<void(const std::string& path, const Result<Mesh>& mesh)>& visit) {
+    const char* folder = std::getenv("LACEDRING_MESHES");
+    if (folder == nullptr) return std::nullopt;
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        const std::string extension = entry.path().extension();
+        if (extension == ".tsv" || extension == ".bin") continue;
+        visit(entry.path().string(), read_mesh(entry.path()));
+        ++count;
+    }
+    return count;
 }
 
 std::vector<std::array<std::uint32_t, 3>> oriented_triangles(std::span<const std::uint32_t> indices) {

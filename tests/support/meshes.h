@@ -3,10 +3,13 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "lrcore/base/result.h"
 #include "lrcore/mesh/mesh.h"
 
 namespace lr::test {
@@ -31,6 +34,11 @@ Mesh random_soup(std::uint32_t vertices, std::uint32_t triangles, std::uint64_t 
 /// A connected soup that is mostly surface: random triangles glued to the edges of earlier ones, some at non-manifold
 /// edges, some turned round. Hard on anything that walks a surface. vertices >= 3.
 Mesh random_gluing(std::uint32_t vertices, std::uint32_t triangles, std::uint64_t seed);
+
+/// Calls visit(path, mesh) for every mesh file of the folder that LACEDRING_MESHES names, read; says how many there
+/// were, nothing where the variable is not set.
+std::optional<std::size_t> for_each_real_mesh(
+    const std::function<void(const std::string& path, const Result<Mesh>& mesh)>& visit);
 
 /// The multiset of oriented triangles: each rotated so that its smallest vertex comes first, degenerate ones (a vertex
 /// repeated) dropped, sorted. Equal for two index lists if and only if they hold the same triangles.

@@ -1,0 +1,58 @@
+#include "renderer/expander.h"
+
+#include "renderer/try.h"
+
+namespace lr::gpu {
+
+Result<Expander> Expander::create(Context& context) {
+    Expander out;
+    out.context_ = &context;
+    LR_ASSIGN(out.lean_, LeanDecoder::create(context));
+    LR_ASSIGN(out.packed_, PackedDecoder::create(context));
+    LR_ASSIGN(out.rotator_, Rotator::create(context));
+    return out;
+}
+
+Result<Drawable> Expander::upload(Transfer& transfer, const Model& model, Source source,
+                                  const UploadOptions& options) const {
+    const bool compute = options.path == Path::compute;
+    Drawable out;
+    out.descriptors = Descriptors(*context_);
+    if (source == Source::lean) {
+        LR_ASSIGN(out.mesh, upload_lean(*context_, transfer, model, options));
+        if (compute) {
+            LR_ASSIGN(const LeanView view, view_lean(model.lean.words));
+            LR_ASSIGN(out.decode, lean_.plan(out.descriptors, out.mesh, view));
+        }
+    } else if (source == Source::packed) {
+        LR_ASSIGN(out.mesh, upload_packed(*context_, transfer, model, options));
+        if (compute) {
+            LR_ASSIGN(const PackedView view, view_packed(model.packed.words));
+            LR_ASSIGN(out.decode, packed_.plan(out.descriptors, out.mesh, view));
+        }
+    } else {
+        LR_ASSIGN(out.mesh, upload_plain(*context_, transfer, model, options));
+    }
+    if (compute) {
+        LR_ASSIGN(out.rotate, rotator_.plan(out.descriptors, out.mesh));
+    }
+    return out;
+}
+
+void Expander::decode(VkCommandBuffer commands, Drawable& drawable, bool barrier) const {
+    if (drawable.mesh.decoded || drawable.mesh.path != Path::compute) return;
+    const Decoder& decoder = drawable.mesh.source == Source::lean ? static_cast<const Decoder&>(lean_) : packed_;
+    decoder.record(commands, drawable.decode);
+    if (barrier) decode_barrier(commands);
+    drawable.mesh.decoded = true;
+    drawable.mesh.rotated = false;
+}
+
+void Expander::rotate(VkCommandBuffer commands, Drawable& drawable) const {
+    if (drawable.mesh.rotated || drawable.mesh.path != Path::compute) return;
+    rotator_.record(commands, drawable.rotate);
+    decode_barrier(commands);
+    drawable.mesh.rotated = true;
+}
+
+}  // namespace lr::gpu

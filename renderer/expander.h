@@ -1,0 +1,43 @@
+#pragma once
+// A mesh put on the device, and its index buffer made ready: whatever the source, whoever draws it.
+
+#include <optional>
+
+#include "renderer/adjacency.h"
+#include "renderer/lean_decoder.h"
+#include "renderer/packed_decoder.h"
+#include "renderer/rotator.h"
+#include "renderer/surface.h"
+
+namespace lr::gpu {
+
+/// A mesh on the device, with what is bound to draw it. Goes before its context.
+struct Drawable {
+    GpuMesh mesh;
+    Descriptors descriptors;
+    DecodePlan decode;  ///< empty for Source::plain, and where no path but compute is taken
+    RotatePlan rotate;  ///< likewise for the other paths
+    DrawPlan draw;
+    std::optional<Adjacency> adjacency;  ///< View::silhouette
+};
+
+class Expander {
+  public:
+    static Result<Expander> create(Context& context);
+
+    /// Uploads a source of the model and plans the passes over its index buffer; Drawable::draw is left to who draws.
+    Result<Drawable> upload(Transfer& transfer, const Model& model, Source source, const UploadOptions& options) const;
+
+    /// Records the decoding of a stream, if that has not been done, and what makes it visible (`barrier`).
+    void decode(VkCommandBuffer commands, Drawable& drawable, bool barrier = true) const;
+    /// Records the turning of its triangles, if that has not been done, and what makes it visible.
+    void rotate(VkCommandBuffer commands, Drawable& drawable) const;
+
+  private:
+    Context* context_ = nullptr;
+    LeanDecoder lean_;
+    PackedDecoder packed_;
+    Rotator rotator_;
+};
+
+}  // namespace lr::gpu
