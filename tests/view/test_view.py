@@ -1,68 +1,31 @@
 #!/usr/bin/env python3
 """The viewer, driven by scripts in a window of Xvfb. Usage: test_view.py LACEDRING"""
 
-import json
 import os
 import random
-import subprocess
 import sys
-import tempfile
 import time
-import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import driver
 import png
+from driver import mesh, run, without_display
 
-program = None
-display = None
-folder = None
 WINDOW_LIBRARIES = ("libglfw", "libX11", "libxcb", "libwayland", "libGL.")
 
 
-def run(*arguments, environment=None, timeout=120):
-    variables = dict(os.environ, DISPLAY=display)
-    variables.pop("WAYLAND_DISPLAY", None)
-    variables["XDG_STATE_HOME"] = folder
-    if environment is not None:
-        variables = environment
-    return subprocess.run([program, *arguments], capture_output=True, timeout=timeout, env=variables, cwd=folder,
-                          stdin=subprocess.DEVNULL, text=True, errors="replace")
-
-
-def without_display():
-    return {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
-
-
-def mesh(kind, triangles, seed=1):
-    name = os.path.join(folder, f"{kind}-{triangles}-{seed}.ply")
-    if not os.path.exists(name):
-        made = run("generate", kind, "-o", name, "--triangles", str(triangles), "--seed", str(seed))
-        assert made.returncode == 0, made.stderr
-    return name
-
-
-class View(unittest.TestCase):
-    def view(self, script, *arguments, code=0, size="480x320"):
-        """Runs a script with validation, and gives the lines that it prints."""
-        with tempfile.NamedTemporaryFile("w", dir=folder, suffix=".txt", delete=False) as file:
-            file.write(script + "\nclose\n")
-        done = run("view", *arguments, "--size", size, "--validation", "--script", file.name)
-        self.assertEqual(done.returncode, code, f"{script}\n{done.stdout[-2000:]}\n{done.stderr[-3000:]}")
-        if code == 0:
-            self.assertEqual(done.stderr, "")
-        return [json.loads(line) for line in done.stdout.splitlines()]
-
+class View(driver.Scripted):
     def test_other_commands_load_no_window_library(self):
         torus = mesh("torus", 500)
         trace = dict(without_display(), LD_DEBUG="files")
         for arguments in (["info", torus], ["stats", torus], ["verify", torus],
-                          ["encode", torus, "-o", os.path.join(folder, "t.lr")], ["bench", torus, "--no-gpu", "--rounds", "1"]):
+                          ["encode", torus, "-o", os.path.join(driver.folder, "t.lr")], ["bench", torus, "--no-gpu", "--rounds", "1"]):
             done = run(*arguments, environment=trace)
             self.assertEqual(done.returncode, 0, done.stderr[-500:])
             for library in WINDOW_LIBRARIES:
                 self.assertNotIn(library, done.stderr, arguments)
         # Vulkan drivers may load a window system's libraries; nobody loads ours.
-        for arguments in (["render", torus, "-o", os.path.join(folder, "t.png"), "--size", "64x64"],
+        for arguments in (["render", torus, "-o", os.path.join(driver.folder, "t.png"), "--size", "64x64"],
                           ["compare", torus, "--size", "64x64"]):
             done = run(*arguments, environment=trace)
             self.assertEqual(done.returncode, 0, done.stderr[-500:])
@@ -77,8 +40,8 @@ class View(unittest.TestCase):
 
     def test_wrong_usage_and_wrong_scripts(self):
         self.assertEqual(run("view", "--no-such-option").returncode, 2)
-        self.assertEqual(run("view", "--script", os.path.join(folder, "none.txt")).returncode, 3)
-        with open(os.path.join(folder, "wrong.txt"), "w") as file:
+        self.assertEqual(run("view", "--script", os.path.join(driver.folder, "none.txt")).returncode, 3)
+        with open(os.path.join(driver.folder, "wrong.txt"), "w") as file:
             file.write("frames 1\nfly away\n")
         done = run("view", "--script", file.name)
         self.assertEqual(done.returncode, 2)
@@ -89,13 +52,13 @@ class View(unittest.TestCase):
         views = ["smooth", "flat", "class", "ring", "wire", "offsets"]
         script = ["set panels off", "wait optimised", "set passes 0", "wait settled", "drag 200 150 260 170", "scroll 250 140 2", "drag 200 150 190 120 middle", "print"]
         for view in views:
-            script += [f"set view {view}", f"screenshot {folder}/{view}.png"]
+            script += [f"set view {view}", f"screenshot {driver.folder}/{view}.png"]
         camera = self.view("\n".join(script), blob)[0]["camera"].split()
         for view in views:
-            done = run("render", blob, "-o", os.path.join(folder, "r.png"), "--size", "480x320", "--samples", "1",
+            done = run("render", blob, "-o", os.path.join(driver.folder, "r.png"), "--size", "480x320", "--samples", "1",
                        "--view", view, "--seeds", "1", *camera)
             self.assertEqual(done.returncode, 0, done.stderr)
-            pixels, largest = png.differences(png.read(f"{folder}/{view}.png"), png.read(f"{folder}/r.png"))
+            pixels, largest = png.differences(png.read(f"{driver.folder}/{view}.png"), png.read(f"{driver.folder}/r.png"))
             # The background is computed by the device in the one and by the CPU in the other.
             self.assertLessEqual(largest, 1, view)
             self.assertLessEqual(pixels, 480 * 320 // 20, view)
@@ -104,14 +67,14 @@ class View(unittest.TestCase):
         blob = mesh("blob", 3000)
         states = self.view(f"""set panels off
             wait optimised
-            screenshot {folder}/single.png
+            screenshot {driver.folder}/single.png
             set mode split
             set divider 0.4
-            screenshot {folder}/split.png
+            screenshot {driver.folder}/split.png
             print
             set source packed
             wait settled
-            screenshot {folder}/split2.png
+            screenshot {driver.folder}/split2.png
             print
             set mode difference
             wait settled
@@ -120,9 +83,9 @@ class View(unittest.TestCase):
             self.assertEqual(state["difference"]["pixels"], 0)
             self.assertEqual(state["difference"]["triangles"], 0)
             self.assertGreater(state["difference"]["covered"], 10000)
-        single = png.read(f"{folder}/single.png")
-        self.assertEqual(png.differences(single, png.read(f"{folder}/split.png")), (0, 0))
-        self.assertEqual(png.differences(single, png.read(f"{folder}/split2.png")), (0, 0))
+        single = png.read(f"{driver.folder}/single.png")
+        self.assertEqual(png.differences(single, png.read(f"{driver.folder}/split.png")), (0, 0))
+        self.assertEqual(png.differences(single, png.read(f"{driver.folder}/split2.png")), (0, 0))
 
     def test_clicks_hit_what_rays_hit(self):
         random.seed(7)
@@ -156,7 +119,7 @@ class View(unittest.TestCase):
         torus, sphere = mesh("torus", 500), mesh("sphere", 600)
         bad = []
         for i in range(19):
-            bad.append(os.path.join(folder, f"bad{i}.ply"))
+            bad.append(os.path.join(driver.folder, f"bad{i}.ply"))
             with open(bad[-1], "wb") as file:
                 file.write([b"", b"ply\nformat ascii 1.0\nelement vertex 3\n", os.urandom(200)][i % 3])
         states = self.view(f"""wait optimised
@@ -261,35 +224,14 @@ class View(unittest.TestCase):
         self.assertIn("packed", states[0]["formats"])
 
     def test_screenshot_option(self):
-        name = os.path.join(folder, "option.png")
+        name = os.path.join(driver.folder, "option.png")
         done = run("view", mesh("torus", 500), "--screenshot", name, "--size", "400x300", "--no-panels", "--validation")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(png.read(name)[:2], (400, 300))
-        done = run("view", os.path.join(folder, "none.ply"), "--screenshot", name, "--size", "400x300")
+        done = run("view", os.path.join(driver.folder, "none.ply"), "--screenshot", name, "--size", "400x300")
         self.assertEqual(done.returncode, 3, done.stderr)
         self.assertEqual(len(done.stderr.splitlines()), 1)
 
 
-def start_display():
-    """Xvfb on a free number; its process and name."""
-    read, write = os.pipe()
-    server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1600x1200x24", "-nolisten", "tcp"],
-                              pass_fds=[write], stderr=subprocess.DEVNULL)
-    os.close(write)
-    with os.fdopen(read) as file:
-        number = file.readline().strip()
-    if not number:
-        sys.exit("Xvfb does not start")
-    return server, ":" + number
-
-
 if __name__ == "__main__":
-    program = os.path.abspath(sys.argv.pop(1))
-    server, display = start_display()  # without Xvfb this fails: nothing is skipped
-    try:
-        with tempfile.TemporaryDirectory() as folder:
-            outcome = unittest.main(exit=False, verbosity=2 if "-v" in sys.argv else 1)
-    finally:
-        server.terminate()
-        server.wait()
-    sys.exit(0 if outcome.result.wasSuccessful() else 1)
+    driver.main()
