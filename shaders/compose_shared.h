@@ -8,6 +8,7 @@
 namespace lr::gpu {
 #endif
 
+// Specialization constants of compose.comp: mode, samples a pixel along each side, paint.
 #define LR_COMPOSE_LEFT 0u  // the left picture alone
 #define LR_COMPOSE_SPLIT 1u
 #define LR_COMPOSE_DIFFERENCE 2u  // red where they differ
@@ -16,10 +17,7 @@ namespace lr::gpu {
 #define LR_PAINT_TRIANGLES 1u
 
 struct ComposeConstants {
-    uint mode;
-    uint divider;  // first column of the right picture
-    uint samples;  // of the pictures, a pixel along each side
-    uint paint;
+    uint divider;    // first column of the right picture
     uint triangles;  // of the mesh
 };
 

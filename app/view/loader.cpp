@@ -106,6 +106,7 @@ void Loader::say(const std::string& what, double share, bool background) {
 void Loader::publish(const Document& document) {
     auto copy = std::make_shared<Document>(document);
     const std::lock_guard lock(mutex_);
+    copy->asked = asked_;
     copy->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - asked_).count();
     if (!stop_) news_.document = std::move(copy);
 }

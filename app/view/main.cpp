@@ -21,6 +21,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+const Clock::time_point kStart = Clock::now();
+
 struct Options {
     ViewerOptions viewer;
     app::PictureSize size;
@@ -69,6 +71,9 @@ Result<void> loop(Viewer& viewer, Window& window, gpu::Swapchain& swapchain, Scr
         if (const Result<void> drawn = viewer.frame(seconds); !drawn) return drawn;
         if (viewer.visible()) {
             if (const Result<void> shown = swapchain.show(viewer.image(), viewer.extent()); !shown) return shown;
+            viewer.presented(std::chrono::duration<double>(Clock::now() - now).count());
+            double& started = viewer.state().started;
+            if (started == 0) started = std::chrono::duration<double>(Clock::now() - kStart).count();
         }
         if (std::string next = viewer.title(); next != title) window.set_title(title = std::move(next));
         if (const std::string text = viewer.take_clipboard(); !text.empty()) {

@@ -35,7 +35,6 @@ Result<Scene> Scene::create(gpu::Context& context) {
     bindings.push_back({5, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
     LR_ASSIGN(out.layout_, gpu::Layout::create(context, "compose", bindings, VK_SHADER_STAGE_COMPUTE_BIT,
                                                sizeof(gpu::ComposeConstants)));
-    LR_ASSIGN(out.compose_, gpu::create_compute(context, "compose", out.layout_, spirv_compose_comp));
     LR_ASSIGN(out.paint_, gpu::Buffer::create(context, "paint", 16, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT));
     LR_ASSIGN(out.pixel_, gpu::Buffer::create(context, "pixel", 16, 0, gpu::Memory::readback));
     if (context.info().timestamps) {
@@ -211,22 +210,33 @@ Result<void> Scene::record_draw(VkCommandBuffer commands, const Shown& shown, co
     return {};
 }
 
-void Scene::record_compose(VkCommandBuffer commands, Mode mode, std::uint32_t divider) const {
+Result<VkPipeline> Scene::compose_pipeline(Mode mode) {
+    const std::uint32_t how = mode == Mode::single  ? LR_COMPOSE_LEFT
+                              : mode == Mode::split ? LR_COMPOSE_SPLIT
+                                                    : LR_COMPOSE_DIFFERENCE;
+    const std::array<std::uint32_t, 3> constants{how, samples_, painted_ ? LR_PAINT_TRIANGLES : LR_PAINT_NONE};
+    gpu::PipelineHandle& made = compose_[constants];
+    if (!made) {
+        LR_ASSIGN(made, gpu::create_compute(*context_, "compose", layout_, spirv_compose_comp, constants));
+    }
+    return made.get();
+}
+
+Result<void> Scene::record_compose(VkCommandBuffer commands, Mode mode, std::uint32_t divider) {
+    LR_ASSIGN(const VkPipeline pipeline, compose_pipeline(mode));
     gpu::image_barrier(commands, composed_.handle(), composed_.aspect(), kTransferRead, kComposeWrite,
                        VK_IMAGE_LAYOUT_UNDEFINED, kGeneral);
     gpu::ComposeConstants push{};
-    push.mode = mode == Mode::single ? LR_COMPOSE_LEFT : mode == Mode::split ? LR_COMPOSE_SPLIT : LR_COMPOSE_DIFFERENCE;
     push.divider = divider;
-    push.samples = samples_;
-    push.paint = painted_ ? LR_PAINT_TRIANGLES : LR_PAINT_NONE;
     push.triangles = painted_ && model_ ? model_->triangle_count() : 0;
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, compose_.get());
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.pipeline(), 0, 1,
                             &sets_[mode == Mode::single ? 0 : 1], 0, nullptr);
     vkCmdPushConstants(commands, layout_.pipeline(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(push), &push);
     vkCmdDispatch(commands, (extent_.width + kGroup - 1) / kGroup, (extent_.height + kGroup - 1) / kGroup, 1);
     gpu::image_barrier(commands, composed_.handle(), composed_.aspect(), kComposeWrite, kTransferRead, kGeneral,
                        VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    return {};
 }
 
 std::optional<SceneTimes> Scene::times() const {

@@ -53,7 +53,7 @@ class Scene {
     /// Records the drawing of what was prepared, and leaves both pictures to be composed.
     Result<void> record_draw(VkCommandBuffer commands, const Shown& shown, const gpu::CameraOptions& camera);
     /// Records putting them together. `divider`: first column of the right picture.
-    void record_compose(VkCommandBuffer commands, Mode mode, std::uint32_t divider) const;
+    Result<void> record_compose(VkCommandBuffer commands, Mode mode, std::uint32_t divider);
 
     /// In VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL once composed.
     const gpu::Image& composed() const { return composed_; }
@@ -81,16 +81,16 @@ class Scene {
 
     Result<Entry> upload(const Key& key);
     Result<gpu::Painter*> painter(gpu::View view);
-    Result<void> draw_side(VkCommandBuffer commands, int side, const Shown& shown);
     static Key key_of(const Shown& shown, int side);
     Result<void> write_sets();
+    Result<VkPipeline> compose_pipeline(Mode mode);
 
     gpu::Context* context_ = nullptr;
     std::optional<gpu::Commands> commands_;
     std::optional<gpu::Transfer> transfer_;
     gpu::Expander expander_;
     gpu::Layout layout_;
-    gpu::PipelineHandle compose_;
+    std::map<std::array<std::uint32_t, 3>, gpu::PipelineHandle> compose_;  // by its constants
     gpu::QueryPoolHandle queries_;
     bool timed_ = false;
 

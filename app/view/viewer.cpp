@@ -217,7 +217,7 @@ Result<void> Viewer::draw() {
     if (draw_scene) LR_TRY(scene_.record_draw(commands, picture, orbit_.options()));
     if (draw_scene || compose_) {
         const auto divider = static_cast<std::uint32_t>(state_.divider * extent_.width + 0.5);
-        scene_.record_compose(commands, picture.mode, divider);
+        LR_TRY(scene_.record_compose(commands, picture.mode, divider));
     }
     overlay_->record(commands, scene_.composed());
     const double cpu = seconds_since(begun);
@@ -275,6 +275,13 @@ Result<void> Viewer::frame(double seconds) {
     return {};
 }
 
+void Viewer::presented(double seconds) {
+    state_.longest_frame = std::max(state_.longest_frame, seconds);
+    if (state_.document.get() == shown_ || scene_.model() != state_.document->model.get()) return;
+    shown_ = state_.document.get();
+    state_.shown_seconds = seconds_since(state_.document->asked);
+}
+
 Result<gpu::Picture> Viewer::picture() {
     LR_ASSIGN(const gpu::Buffer bytes,
               gpu::Buffer::create(context_, "screenshot", VkDeviceSize{4} * made_.width * made_.height, 0,
@@ -318,8 +325,8 @@ void Viewer::save_turntable() {
     const auto one = [&](int i) -> Result<void> {
         LR_ASSIGN(const VkCommandBuffer commands, commands_->begin());
         LR_TRY(scene_.record_draw(commands, shown(false), orbit_.options()));
-        scene_.record_compose(commands, state_.shown.mode,
-                              static_cast<std::uint32_t>(state_.divider * extent_.width + 0.5));
+        LR_TRY(scene_.record_compose(commands, state_.shown.mode,
+                                     static_cast<std::uint32_t>(state_.divider * extent_.width + 0.5)));
         ImGui::GetDrawData()->CmdListsCount = 0;  // panels stay out
         overlay_->record(commands, scene_.composed());
         LR_TRY(commands_->run());

@@ -27,6 +27,9 @@ class Viewer {
     /// Everything for one picture `seconds` after the last one. Nothing is drawn while the picture has no size.
     Result<void> frame(double seconds);
 
+    /// The last picture is on the screen, `seconds` after its frame began.
+    void presented(double seconds);
+
     /// The last picture, panels and all, in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL.
     const gpu::Image& image() const { return overlay_->image(); }
     VkExtent2D extent() const { return extent_; }
@@ -96,7 +99,8 @@ class Viewer {
         const Document* document = nullptr;
         bool operator==(const Painted&) const = default;
     } painted_;
-    const Tables* outlined_ = nullptr;  // whose outlines are drawn
+    const Tables* outlined_ = nullptr;   // whose outlines are drawn
+    const Document* shown_ = nullptr;    // was on the screen
     std::string clipboard_;
 };
 
