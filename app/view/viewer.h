@@ -56,13 +56,15 @@ class Viewer {
     void redraw() { dirty_ = true; }
     void pick(double x, double y);
     Result<void> frame_all(const gpu::CameraOptions& options);
-    Shown shown(bool moving) const;
 
   private:
     Viewer(gpu::Context& context, const ViewerOptions& options, Scene scene)
         : options_(options), context_(context), scene_(std::move(scene)) {}
     Result<void> resize();
+    Shown shown(bool moving, const gpu::Model* model) const;
     void take_news();
+    void take_document();
+    Result<bool> prepare(const Shown& picture);
     void handle_mouse(const Event& event);
     void handle_key(const Event& event);
     void act();
@@ -71,6 +73,7 @@ class Viewer {
     void update_paint();
     void advance(double seconds);
     Result<void> draw();
+    Result<void> compare();
     void save_turntable();
 
     ViewerOptions options_;
@@ -89,9 +92,14 @@ class Viewer {
     int dragging_ = -1;
     bool dragging_divider_ = false;
     double mouse_x_ = 0, mouse_y_ = 0, press_x_ = 0, press_y_ = 0;
-    bool dirty_ = true, compose_ = true, moving_ = false, settled_ = false, closing_ = false, busy_ = false;
-    bool drawn_exact_ = false, difference_due_ = false;
-    int quiet_frames_ = 0, still_frames_ = 0;
+    bool dirty_ = true, compose_ = true, moved_ = false, settled_ = false, closing_ = false, busy_ = false;
+    bool difference_due_ = false;
+    bool fresh_ = false;           // the model has not been drawn yet
+    Shown drawn_;                  // the last picture
+    double exact_seconds_ = 0;     // that the last exact one took
+    double still_seconds_ = 1;     // since the camera moved; 0: in this frame
+    int quiet_frames_ = 0;
+    Loader::News news_;  // not on the screen yet
     struct Painted {
         CornerId corner = null_corner;
         Paint paint = Paint::none;
