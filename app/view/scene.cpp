@@ -33,14 +33,14 @@ constexpr std::uint32_t kGroup = 8;  // compose.comp
 
 }  // namespace
 
-Result<Scene> Scene::create(gpu::Context& context) {
+Result<Scene> Scene::create(gpu::Context& context, std::function<void()> wake) {
     Scene out;
     out.context_ = &context;
     LR_ASSIGN(out.commands_, gpu::Commands::create(context));
     LR_ASSIGN(out.transfer_, gpu::Transfer::create(context));
     LR_ASSIGN(gpu::Expander expander, gpu::Expander::create(context));
     out.expander_ = std::make_unique<gpu::Expander>(std::move(expander));
-    LR_ASSIGN(out.uploader_, Uploader::create(context));
+    LR_ASSIGN(out.uploader_, Uploader::create(context, std::move(wake)));
     std::vector<gpu::Binding> bindings;
     for (std::uint32_t i = 0; i < 5; ++i) bindings.push_back({i, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
     bindings.push_back({5, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});

@@ -2,6 +2,7 @@
 // The drawn picture: a model on the device, one or two pictures of it, and these composed into one image of the
 // window's size. Knows of no window and no panel.
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -35,7 +36,8 @@ struct SceneTimes {
 
 class Scene {
   public:
-    static Result<Scene> create(gpu::Context& context);
+    /// `wake` is called, by another thread, when something that was awaited is there.
+    static Result<Scene> create(gpu::Context& context, std::function<void()> wake);
 
     /// Pixels of the composed image, and how many samples a pixel has along each side.
     Result<void> resize(VkExtent2D extent, std::uint32_t samples);

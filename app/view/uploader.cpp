@@ -19,9 +19,9 @@ gpu::UploadOptions options_of(const UploadKey& key) {
 
 }  // namespace
 
-Result<std::unique_ptr<Uploader>> Uploader::create(gpu::Context& context) {
+Result<std::unique_ptr<Uploader>> Uploader::create(gpu::Context& context, std::function<void()> wake) {
     LR_ASSIGN(gpu::Transfer transfer, gpu::Transfer::create(context));
-    std::unique_ptr<Uploader> out(new Uploader(std::move(transfer)));
+    std::unique_ptr<Uploader> out(new Uploader(std::move(transfer), std::move(wake)));
     out->thread_ = std::thread([uploader = out.get()] { uploader->run(); });
     return out;
 }
@@ -86,6 +86,7 @@ void Uploader::run() {
         working_ = false;
         if (last_ == done.job) done_ = std::move(done);  // else something else is wanted by now
         changed_.notify_all();
+        wake_();
     }
 }
 

@@ -2,6 +2,7 @@
 // Puts models on the device on a thread of its own, so that the window goes on with what it has.
 
 #include <condition_variable>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -36,7 +37,8 @@ class Uploader {
         std::optional<Error> error;            ///< then there are none
     };
 
-    static Result<std::unique_ptr<Uploader>> create(gpu::Context& context);
+    /// `wake` is called by the thread when something is done.
+    static Result<std::unique_ptr<Uploader>> create(gpu::Context& context, std::function<void()> wake);
     ~Uploader();  ///< ends what is being done, and waits for that
     Uploader(const Uploader&) = delete;
     Uploader& operator=(const Uploader&) = delete;
@@ -51,10 +53,12 @@ class Uploader {
     void finish();
 
   private:
-    explicit Uploader(gpu::Transfer transfer) : transfer_(std::move(transfer)) {}
+    Uploader(gpu::Transfer transfer, std::function<void()> wake)
+        : transfer_(std::move(transfer)), wake_(std::move(wake)) {}
     void run();
 
     gpu::Transfer transfer_;
+    std::function<void()> wake_;
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     const gpu::Expander* expander_ = nullptr;

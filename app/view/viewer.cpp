@@ -29,7 +29,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }  // namespace
 
 Result<std::unique_ptr<Viewer>> Viewer::create(gpu::Context& context, const ViewerOptions& options) {
-    LR_ASSIGN(Scene scene, Scene::create(context));
+    LR_ASSIGN(Scene scene, Scene::create(context, options.wake));
     std::unique_ptr<Viewer> out(new Viewer(context, options, std::move(scene)));
     LR_ASSIGN(out->overlay_, Overlay::create(context, options.scale));
     LR_ASSIGN(out->commands_, gpu::Commands::create(context));
@@ -316,9 +316,9 @@ Result<void> Viewer::frame(double seconds) {
         LR_TRY(draw());
         LR_TRY(compare());
     }
-    busy_ = (state_.progress.busy && !state_.progress.background) || state_.turntable || state_.growing ||
-            state_.shown.decode_again || dirty_ || difference_due_ || state_.open.has_value() ||
-            (visible() && !drawn_.exact);
+    animated_ = state_.turntable || state_.growing || state_.shown.decode_again || state_.open.has_value() || dirty_ ||
+                (visible() && !drawn_.exact);
+    busy_ = (state_.progress.busy && !state_.progress.background) || animated_ || difference_due_;
     const bool laid =
         painted_ == Painted{state_.selection.corner, state_.paint, std::floor(state_.growth), state_.document.get()};
     settled_ = !busy_ && laid && (!state_.outlines || !state_.tables || outlined_ == state_.tables.get()) &&

@@ -1,6 +1,7 @@
 #pragma once
 // The viewer: events in, frames out. Knows of no window system, so that a script drives it as a window does.
 
+#include <functional>
 #include <memory>
 #include <utility>
 
@@ -17,6 +18,8 @@ struct ViewerOptions {
     double scale = 1;           ///< pixels a nominal pixel
     bool panels = true;
     bool keep_recent = true;  ///< files that were opened are remembered
+    /// Called by other threads when they have something for the next frame.
+    std::function<void()> wake = [] {};
 };
 
 class Viewer {
@@ -38,8 +41,10 @@ class Viewer {
     Result<gpu::Picture> picture();
 
     bool closing() const { return closing_; }
+    /// The next picture will be another one by itself.
+    bool moving() const { return quiet_frames_ <= 3 || animated_; }
     /// Nothing moves, nothing is awaited: the next picture would be the last one.
-    bool idle() const { return quiet_frames_ > 3 && !busy_; }
+    bool idle() const { return !moving() && !busy_ && !state_.progress.busy && !news(); }
     /// The mesh as it was drawn is as it will stay, but for what a person does.
     bool settled() const { return settled_; }
     /// "NAME - LacedRing"
@@ -59,7 +64,8 @@ class Viewer {
 
   private:
     Viewer(gpu::Context& context, const ViewerOptions& options, Scene scene)
-        : options_(options), context_(context), scene_(std::move(scene)) {}
+        : options_(options), context_(context), scene_(std::move(scene)), loader_(options.wake) {}
+    bool news() const { return loader_.has_news() || news_.document; }
     Result<void> resize();
     Shown shown(bool moving, const gpu::Model* model) const;
     void take_news();
@@ -92,7 +98,7 @@ class Viewer {
     int dragging_ = -1;
     bool dragging_divider_ = false;
     double mouse_x_ = 0, mouse_y_ = 0, press_x_ = 0, press_y_ = 0;
-    bool dirty_ = true, compose_ = true, moved_ = false, settled_ = false, closing_ = false, busy_ = false;
+    bool dirty_ = true, compose_ = true, moved_ = false, settled_ = false, closing_ = false, busy_ = false, animated_ = false;
     bool difference_due_ = false;
     bool fresh_ = false;           // the model has not been drawn yet
     Shown drawn_;                  // the last picture
