@@ -342,13 +342,12 @@ Result<bool> Script::run(const Line& line, Viewer& viewer, Window& window, std::
         // The triangle that a ray through the pixel hits, by looking at all of them.
         if (!number(1, x) || !number(2, y)) return wrong("ray X Y");
         std::int64_t hit = -1;
-        std::vector<std::uint32_t> near;
         if (state.document) {
-            const auto found = ray_hit(*state.document, viewer.orbit().eye(), viewer.ray(x, y), &near);
+            const auto found = ray_hit(*state.document, viewer.orbit().eye(), viewer.ray(x, y));
             if (found) hit = *found;
         }
         const std::int64_t selected = state.selection.any() ? std::int64_t{triangle(state.selection.corner).value} : -1;
-        fmt::print("{}\n", nlohmann::ordered_json{{"ray", hit}, {"near", near}, {"selected", selected}}.dump());
+        fmt::print("{}\n", nlohmann::ordered_json{{"ray", hit}, {"selected", selected}}.dump());
     } else if (what == "print") {
         fmt::print("{}\n", state_text(viewer));
         state.longest_frame = 0;

@@ -44,27 +44,30 @@ CornerId nearest_corner(const Document& document, std::uint32_t t, const Point& 
     return best;
 }
 
-std::optional<std::uint32_t> ray_hit(const Document& document, const Point& eye, const Point& ray,
-                                     std::vector<std::uint32_t>* near) {
-    constexpr double kNear = 1e-3;
+std::optional<double> ray_meets(const Document& document, std::uint32_t t, const Point& eye, const Point& ray) {
+    const std::vector<std::uint32_t>& indices = document.mesh->indices;
+    const Point a = place(*document.model, indices[3 * std::size_t{t}]);
+    const Point ab = minus(place(*document.model, indices[3 * std::size_t{t} + 1]), a);
+    const Point ac = minus(place(*document.model, indices[3 * std::size_t{t} + 2]), a);
+    const Point p = cross(ray, ac);
+    const double determinant = dot(ab, p);
+    if (determinant == 0) return std::nullopt;
+    const Point s = minus(eye, a);
+    const double u = dot(s, p) / determinant;
+    if (!(u >= 0 && u <= 1)) return std::nullopt;
+    const Point q = cross(s, ab);
+    const double v = dot(ray, q) / determinant, along = dot(ac, q) / determinant;
+    if (!(v >= 0 && u + v <= 1 && along > 0)) return std::nullopt;
+    return along;
+}
+
+std::optional<std::uint32_t> ray_hit(const Document& document, const Point& eye, const Point& ray) {
     std::optional<std::uint32_t> hit;
     double nearest = std::numeric_limits<double>::infinity();
-    const std::vector<std::uint32_t>& indices = document.mesh->indices;
-    for (std::uint32_t t = 0; t < indices.size() / 3; ++t) {
-        const Point a = place(*document.model, indices[3 * std::size_t{t}]);
-        const Point ab = minus(place(*document.model, indices[3 * std::size_t{t} + 1]), a);
-        const Point ac = minus(place(*document.model, indices[3 * std::size_t{t} + 2]), a);
-        const Point p = cross(ray, ac);
-        const double determinant = dot(ab, p);
-        if (determinant == 0) continue;
-        const Point s = minus(eye, a);
-        const double u = dot(s, p) / determinant;
-        if (!(u >= -kNear && u <= 1 + kNear)) continue;
-        const Point q = cross(s, ab);
-        const double v = dot(ray, q) / determinant, along = dot(ac, q) / determinant;
-        if (near != nullptr && v >= -kNear && u + v <= 1 + kNear && along > 0) near->push_back(t);
-        if (u >= 0 && v >= 0 && u + v <= 1 && along > 0 && along < nearest) {
-            nearest = along;
+    for (std::uint32_t t = 0; t < document.mesh->triangle_count(); ++t) {
+        const std::optional<double> along = ray_meets(document, t, eye, ray);
+        if (along && *along < nearest) {
+            nearest = *along;
             hit = t;
         }
     }

@@ -20,10 +20,13 @@ struct Selection {
 CornerId nearest_corner(const Document& document, std::uint32_t t, const std::array<double, 3>& eye,
                         const std::array<double, 3>& ray);
 
-/// The triangle that the ray hits first; none if it misses. `near`, if given, are those that it meets or misses by less
-/// than a thousandth of their size. Cost: O(T).
+/// How far along the ray it meets triangle t, in lengths of `ray`; none if it misses it or runs along it.
+std::optional<double> ray_meets(const Document& document, std::uint32_t t, const std::array<double, 3>& eye,
+                                const std::array<double, 3>& ray);
+
+/// The triangle that the ray meets first; none if it misses all. Cost: O(T).
 std::optional<std::uint32_t> ray_hit(const Document& document, const std::array<double, 3>& eye,
-                                     const std::array<double, 3>& ray, std::vector<std::uint32_t>* near = nullptr);
+                                     const std::array<double, 3>& ray);
 
 /// Where the operator n p o s l r leads; null where there is nothing.
 CornerId step(const Document& document, CornerId corner, char operation);

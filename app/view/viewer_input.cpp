@@ -225,9 +225,14 @@ void Viewer::pick(double x, double y) {
         return;
     }
     state_.selection = {};
-    if (*hit && **hit < state_.document->mesh->triangle_count()) {
-        state_.selection.corner = nearest_corner(*state_.document, **hit, orbit_.eye(), ray(x, y));
+    if (!*hit || **hit >= state_.document->mesh->triangle_count()) return;
+    std::uint32_t t = **hit;
+    const Vector along = ray(x, y);
+    // A device rounds vertices to parts of a pixel: near an edge the ray through the sample may meet the neighbour.
+    if (!ray_meets(*state_.document, t, orbit_.eye(), along)) {
+        t = ray_hit(*state_.document, orbit_.eye(), along).value_or(t);
     }
+    state_.selection.corner = nearest_corner(*state_.document, t, orbit_.eye(), along);
 }
 
 }  // namespace lr::view

@@ -98,10 +98,7 @@ class View(driver.Scripted):
         hits = [line for line in lines if "ray" in line]
         self.assertEqual(len(hits), 1000)
         self.assertGreater(sum(line["selected"] >= 0 for line in hits), 300)
-        for line in hits:
-            if line["selected"] != line["ray"]:  # on an edge, the ray's rounding and the device's may differ
-                self.assertIn(line["selected"], line["near"] + [-1])
-        self.assertGreaterEqual(sum(line["selected"] == line["ray"] for line in hits), 998)
+        self.assertEqual([line for line in hits if line["selected"] != line["ray"]], [])
 
     def test_operators_of_a_selection(self):
         script = ["set panels off", "wait tables", "wait settled", "click 240 160"]
