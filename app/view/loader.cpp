@@ -10,6 +10,8 @@
 namespace lr::view {
 namespace {
 
+constexpr double kSoon = 0.25;  // seconds after which something must be seen of a ring that was asked for
+
 StreamFigures figures(std::size_t triangles, std::size_t bytes, std::size_t references, std::size_t vertices,
                       const std::vector<std::uint32_t>& indices) {
     StreamFigures out;
@@ -118,6 +120,11 @@ void Loader::publish(const Document& document) {
     wake_window_();
 }
 
+double Loader::since_asked() const {
+    const std::lock_guard lock(mutex_);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - asked_).count();
+}
+
 void Loader::run() {
     for (;;) {
         Request request;
@@ -144,6 +151,22 @@ Result<void> Loader::finish(Document& document, const Request& request, bool qui
     say("making the ring", share);
     const Rings rings = expand_rings(table, ring_options(settings, quick));
     if (stopped()) return {};
+    bool shown = quick || request.input.has_value();
+    // An optimiser that takes its time lets the ring be seen as it was made.
+    const auto show = [&] {
+        if (shown || since_asked() < kSoon) return;
+        shown = true;
+        Document early = document;
+        auto model = std::make_shared<gpu::Model>(*document.model);
+        model->lean = encode_lean(table, rings, {.wart_skipping = settings.warts});
+        model->packed = {};
+        early.rings = std::make_shared<const Rings>(rings);
+        early.model = std::move(model);
+        early.settings = settings;
+        early.optimised = false;
+        measure(early);
+        publish(early);
+    };
     const auto optimised = [&](const RingCost& cost, double from, double to, const char* what) {
         if (quick || settings.passes == 0) return rings;
         OptimizeOptions options;
@@ -152,6 +175,7 @@ Result<void> Loader::finish(Document& document, const Request& request, bool qui
         options.random_seed = settings.random_seed;
         options.progress = [&, from, to, what](std::uint32_t done) {
             say(what, from + (to - from) * done / settings.passes);
+            show();
             return !stopped();
         };
         say(what, from);

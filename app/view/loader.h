@@ -57,6 +57,7 @@ class Loader {
     void work(const Request& request);
     Result<void> finish(Document& document, const Request& request, bool quick);
     bool stopped() const { return stop_.load(); }
+    double since_asked() const;  ///< seconds
     void say(const std::string& what, double share, bool background = false);
     void publish(const Document& document);
     void request(Request request);

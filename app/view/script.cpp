@@ -219,6 +219,7 @@ std::string Script::state_text(Viewer& viewer) {
         out["triangles"] = document.mesh->triangle_count();
         out["optimised"] = document.optimised;
         out["seconds"] = document.seconds;
+        out["first_seconds"] = state.first_seconds;
         out["shown_seconds"] = state.shown_seconds;
         out["t0"] = document.model->lean.statistics.t0;
         out["lean_bits"] = document.lean.bits;

@@ -55,6 +55,7 @@ struct State {
     Loader::Progress progress;
     std::deque<FrameCost> costs;
     double frame_seconds = 0;  ///< the last picture drawn anew: recorded, drawn, composed, panels
+    double first_seconds = 0;  ///< from asking for a file or a ring until something of it was on the screen
     double shown_seconds = 0;  ///< from asking for the document until it was on the screen
     double longest_frame = 0;  ///< seconds from a look at the events to the picture that answers them
     double started = 0;        ///< seconds from the program's start to its first picture

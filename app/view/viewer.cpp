@@ -330,8 +330,11 @@ Result<void> Viewer::frame(double seconds) {
 void Viewer::presented(double seconds) {
     state_.longest_frame = std::max(state_.longest_frame, seconds);
     if (state_.document.get() == shown_ || scene_.model() != state_.document->model.get()) return;
+    const bool first = state_.document->asked != shown_asked_;
     shown_ = state_.document.get();
-    state_.shown_seconds = seconds_since(state_.document->asked);
+    shown_asked_ = state_.document->asked;
+    state_.shown_seconds = seconds_since(shown_asked_);
+    if (first) state_.first_seconds = state_.shown_seconds;
 }
 
 Result<gpu::Picture> Viewer::picture() {

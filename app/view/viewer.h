@@ -115,6 +115,7 @@ class Viewer {
     } painted_;
     const Tables* outlined_ = nullptr;   // whose outlines are drawn
     const Document* shown_ = nullptr;    // was on the screen
+    std::chrono::steady_clock::time_point shown_asked_{};
     std::string clipboard_;
 };
 
