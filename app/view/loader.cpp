@@ -134,7 +134,8 @@ Result<void> Loader::finish(Document& document, const Request& request, bool qui
     // In steps of the bar: ring, lean's passes, packed's passes.
     const double share = quick ? 0.55 : document.optimised ? 0.0 : 0.6;
     say("making the ring", share);
-    const Rings rings = expand_rings(table, ring_options(settings, quick));
+    auto expansion = std::make_shared<Expansion>();
+    const Rings rings = expand_rings(table, ring_options(settings, quick), expansion.get());
     if (stopped()) return {};
     const auto optimised = [&](const RingCost& cost, double from, double to, const char* what) {
         if (quick || settings.passes == 0) return rings;
@@ -160,6 +161,8 @@ Result<void> Loader::finish(Document& document, const Request& request, bool qui
     }
     if (stopped()) return {};
     document.rings = std::move(lean_rings);
+    // Where it went the same way it stays the same one, so that what is made of it does.
+    if (!document.expansion || *document.expansion != *expansion) document.expansion = std::move(expansion);
     document.model = std::move(model);
     document.settings = settings;
     document.optimised = !quick;

@@ -33,6 +33,7 @@ Result<std::unique_ptr<Viewer>> Viewer::create(gpu::Context& context, const View
     LR_ASSIGN(out->commands_, gpu::Commands::create(context));
     State& state = out->state_;
     state.panels = options.panels;
+    state.frame_cap = options.frame_cap;
     state.device = context.info().name;
     state.mesh_shaders = context.info().max_mesh_groups != 0;
     state.samples = context.info().software ? 1 : 2;
@@ -62,6 +63,7 @@ Shown Viewer::shown(bool moving) const {
 Result<void> Viewer::resize() {
     const std::uint32_t samples = gpu::Target::fitting_samples(context_, extent_, state_.samples);
     if (made_.width == extent_.width && made_.height == extent_.height && made_samples_ == samples) return {};
+    end_turntable();                      // its pictures are of one size
     vkDeviceWaitIdle(context_.device());  // the window may still be taking the last picture
     LR_TRY(scene_.resize(extent_, samples));
     LR_TRY(overlay_->resize(extent_));
@@ -89,6 +91,8 @@ void Viewer::opened(const std::string& path) {
     state_.selection = {};
     state_.paint = Paint::none;
     state_.growing = false;
+    state_.growth = 0;
+    end_turntable();
     state_.costs.clear();
     state_.files = meshes_beside(path);
     add_recent(state_.recent, path, options_.keep_recent);
@@ -99,8 +103,17 @@ void Viewer::take_news() {
     state_.progress = loader_.progress();
     if (news.document) {
         const bool other = !state_.document || state_.document->mesh != news.document->mesh;
-        if (other) opened(news.document->path);
+        if (other) {
+            opened(news.document->path);
+            if (const Result<void> taken = take_paint_away(); !taken) state_.error = taken.error().message;
+        }
+        const bool other_way = state_.document && state_.document->expansion != news.document->expansion;
         state_.document = std::move(news.document);
+        // One that was stopped on its way goes on from there.
+        if (other_way && (state_.growing || state_.growth >= state_.growth_end())) {
+            state_.growth = 0;
+            state_.growing = state_.paint == Paint::growth;
+        }
         if (const Result<void> set = scene_.set_model(state_.document->model); !set) state_.error = set.error().message;
         if (other) {
             const Result<void> framed = frame_all(options_.camera);
@@ -136,8 +149,12 @@ void Viewer::act() {
         loader_.encode(state_.document, state_.ring);
     }
     if (std::exchange(state_.cancel, false)) {
-        loader_.cancel();
-        queue_.clear();
+        if (state_.turntable_job) {
+            end_turntable();
+        } else {
+            loader_.cancel();
+            queue_.clear();
+        }
     }
     if (std::exchange(state_.frame_all, false)) {
         gpu::CameraOptions options;
@@ -155,7 +172,13 @@ void Viewer::act() {
         state_.note_until = state_.clock + 2;
     }
     if (std::exchange(state_.screenshot, false)) save(free_name("lacedring", ".png"));
-    if (std::exchange(state_.turntable_frames, false)) save_turntable();
+    if (std::exchange(state_.turntable_pictures, false) && state_.document && !state_.turntable_job) {
+        const std::string folder = free_name("turntable", "");
+        constexpr std::uint32_t kPictures = 90;
+        if (const Result<void> started = start_turntable(folder, kPictures); !started) {
+            state_.error = folder + ": " + started.error().message;
+        }
+    }
     if (state_.step && state_.document && state_.selection.any()) {
         const CornerId to = step(*state_.document, state_.selection.corner, *state_.step);
         if (to.is_null()) {
@@ -177,8 +200,8 @@ void Viewer::advance(double seconds) {
     }
     if (state_.paint != Paint::growth) state_.growing = false;
     if (state_.growing && state_.document) {
-        state_.growth += state_.growth_speed * seconds;
-        if (state_.growth >= static_cast<double>(state_.document->mesh->triangle_count())) state_.growing = false;
+        state_.growth = std::min(state_.growth + state_.growth_speed * seconds, state_.growth_end());
+        if (state_.growth >= state_.growth_end()) state_.growing = false;
     }
 }
 
@@ -191,27 +214,51 @@ void Viewer::update_outlines() {
     dirty_ = true;
 }
 
-void Viewer::update_paint() {
-    const Painted wanted{state_.selection.corner, state_.paint, std::floor(state_.growth), state_.document.get()};
-    if (wanted == painted_ || !state_.document) return;
-    painted_ = wanted;
-    std::vector<std::uint32_t> colours;
-    if (state_.paint != Paint::none || state_.selection.any()) {
-        colours.resize(state_.document->mesh->triangle_count());
-        lay_paint(state_, colours);
-        if (state_.selection.any()) paint_selection(*state_.document, state_.selection.corner, colours);
+Viewer::Painted Viewer::wanted_paint() const {
+    const double growth = state_.paint == Paint::growth ? std::min(state_.growth, state_.growth_end()) : 0;
+    return {state_.selection.corner, state_.paint, static_cast<std::uint32_t>(growth), state_.document.get()};
+}
+
+Result<void> Viewer::take_paint_away() {
+    laid_.reset();
+    marked_ = null_corner;
+    painted_ = {};
+    LR_TRY(scene_.set_growth({}));
+    return scene_.set_paint({});
+}
+
+/// What there is to lay over the triangles. While it is being made, what is laid there stays.
+Result<void> Viewer::update_paint() {
+    const Painted wanted = wanted_paint();
+    if (wanted == painted_ || !state_.document) return {};
+    const std::shared_ptr<const Painting> painting = paintings_.get(state_.document, state_.paint);
+    const bool made = painting || state_.paint == Paint::none;
+    if (made && painting != laid_) {
+        LR_TRY(scene_.set_paint(painting ? painting->colours : std::span<const std::uint32_t>{}));
+        LR_TRY(scene_.set_growth(painting ? painting->growth : std::span<const gpu::GrowthTriangle>{}));
+        laid_ = painting;
+        marked_ = null_corner;
     }
-    if (const Result<void> set = scene_.set_paint(colours); !set) state_.error = set.error().message;
-    compose_ = true;
+    if (marked_ != state_.selection.corner) {
+        LR_TRY(scene_.set_marks(selection_marks(*state_.document, state_.selection.corner)));
+        marked_ = state_.selection.corner;
+        compose_ = true;
+    }
+    // The last tenth of a second is told from what was invaded before.
+    scene_.grow(wanted.growth, static_cast<std::uint32_t>(std::max(3.0, state_.growth_speed * 0.1)));
+    if (made) painted_ = wanted;
+    compose_ |= made;
+    return {};
 }
 
 Result<void> Viewer::draw() {
     update_outlines();
+    aim_turntable();
     const bool exact_due = !moving_ && !drawn_exact_;
     const bool draw_scene = dirty_ || exact_due || state_.shown.decode_again;
     const Shown picture = shown(moving_);
     if (draw_scene) LR_TRY(scene_.prepare(picture));
-    update_paint();
+    LR_TRY(update_paint());
     const auto begun = std::chrono::steady_clock::now();
     LR_ASSIGN(const VkCommandBuffer commands, commands_->begin());
     if (draw_scene) LR_TRY(scene_.record_draw(commands, picture, orbit_.options()));
@@ -232,7 +279,9 @@ Result<void> Viewer::draw() {
         drawn_exact_ = picture.exact;
         if (picture.mode != Mode::single) difference_due_ = true;
     }
-    if (difference_due_ && !moving_ && picture.mode != Mode::single && scene_.model() != nullptr) {
+    if (state_.turntable_job) {
+        save_turntable_picture();
+    } else if (difference_due_ && !moving_ && picture.mode != Mode::single && scene_.model() != nullptr) {
         LR_ASSIGN(state_.difference, scene_.difference(orbit_.options(), picture));
         difference_due_ = false;
         quiet_frames_ = 0;
@@ -264,9 +313,9 @@ Result<void> Viewer::frame(double seconds) {
         LR_TRY(draw());
     }
     busy_ = (state_.progress.busy && !state_.progress.background) || state_.turntable || state_.growing ||
-            state_.shown.decode_again || dirty_ || difference_due_ || state_.open.has_value();
-    const bool laid =
-        painted_ == Painted{state_.selection.corner, state_.paint, std::floor(state_.growth), state_.document.get()};
+            state_.shown.decode_again || dirty_ || difference_due_ || state_.open.has_value() ||
+            state_.turntable_job.has_value() || (state_.document && painted_ != wanted_paint());
+    const bool laid = painted_ == wanted_paint();
     settled_ = !busy_ && laid && (!state_.outlines || !state_.tables || outlined_ == state_.tables.get()) && !moving_ &&
                drawn_exact_ && state_.ring == asked_;
     if (moving_) quiet_frames_ = 0;
@@ -275,7 +324,7 @@ Result<void> Viewer::frame(double seconds) {
     return {};
 }
 
-Result<gpu::Picture> Viewer::picture() {
+Result<gpu::Picture> Viewer::picture_of(const gpu::Image& image) {
     LR_ASSIGN(const gpu::Buffer bytes,
               gpu::Buffer::create(context_, "screenshot", VkDeviceSize{4} * made_.width * made_.height, 0,
                                   gpu::Memory::readback));
@@ -283,8 +332,7 @@ Result<gpu::Picture> Viewer::picture() {
     VkBufferImageCopy region{};
     region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     region.imageExtent = {made_.width, made_.height, 1};
-    vkCmdCopyImageToBuffer(commands, overlay_->image().handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, bytes.handle(),
-                           1, &region);
+    vkCmdCopyImageToBuffer(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, bytes.handle(), 1, &region);
     gpu::memory_barrier(commands, {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
                         {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
     LR_TRY(commands_->run());
@@ -306,39 +354,6 @@ void Viewer::save(const std::string& path) {
     state_.note = "saved " + path;
     state_.note_until = state_.clock + 3;
     quiet_frames_ = 0;
-}
-
-/// A whole turn in 90 pictures, without panels, in a folder of their own.
-void Viewer::save_turntable() {
-    constexpr int kFrames = 90;
-    if (!state_.document || !visible()) return;
-    const std::string folder = free_name("turntable", "");
-    std::error_code error;
-    std::filesystem::create_directory(folder, error);
-    const auto one = [&](int i) -> Result<void> {
-        LR_ASSIGN(const VkCommandBuffer commands, commands_->begin());
-        LR_TRY(scene_.record_draw(commands, shown(false), orbit_.options()));
-        scene_.record_compose(commands, state_.shown.mode,
-                              static_cast<std::uint32_t>(state_.divider * extent_.width + 0.5));
-        ImGui::GetDrawData()->CmdListsCount = 0;  // panels stay out
-        overlay_->record(commands, scene_.composed());
-        LR_TRY(commands_->run());
-        LR_ASSIGN(const gpu::Picture taken, picture());
-        return gpu::write_png(fmt::format("{}/{:03}.png", folder, i), taken);
-    };
-    const Orbit before = orbit_;
-    for (int i = 0; i < kFrames; ++i) {
-        if (const Result<void> done = scene_.prepare(shown(false)); !done) return;
-        if (const Result<void> done = one(i); !done) {
-            state_.error = folder + ": " + done.error().message;
-            break;
-        }
-        orbit_.turn_degrees(360.0 / kFrames);
-    }
-    orbit_ = before;
-    dirty_ = true;
-    state_.note = fmt::format("saved {} pictures in {}", kFrames, folder);
-    state_.note_until = state_.clock + 4;
 }
 
 }  // namespace lr::view

@@ -7,6 +7,7 @@
 #include "app/view/event.h"
 #include "app/view/orbit.h"
 #include "app/view/overlay.h"
+#include "app/view/painting.h"
 #include "app/view/state.h"
 
 namespace lr::view {
@@ -16,7 +17,8 @@ struct ViewerOptions {
     gpu::CameraOptions camera;  ///< for the first mesh
     double scale = 1;           ///< pixels a nominal pixel
     bool panels = true;
-    bool keep_recent = true;  ///< files that were opened are remembered
+    std::uint32_t frame_cap = 60;  ///< pictures a second, 0: none
+    bool keep_recent = true;       ///< files that were opened are remembered
 };
 
 class Viewer {
@@ -32,7 +34,7 @@ class Viewer {
     VkExtent2D extent() const { return extent_; }
     bool visible() const { return extent_.width != 0 && extent_.height != 0; }
     /// Of the last picture. Waits for the device.
-    Result<gpu::Picture> picture();
+    Result<gpu::Picture> picture() { return picture_of(overlay_->image()); }
 
     bool closing() const { return closing_; }
     /// Nothing moves, nothing is awaited: the next picture would be the last one.
@@ -44,6 +46,9 @@ class Viewer {
     /// What is to be put on the clipboard, once.
     std::string take_clipboard() { return std::exchange(clipboard_, {}); }
     void save(const std::string& path);
+    /// Begins a whole turn in so many pictures without panels, one a frame, each a PNG file in the folder, which is
+    /// made if it is not there. Nothing else may turn the camera meanwhile. Errors: cannot_write, invalid_argument.
+    Result<void> start_turntable(const std::string& folder, std::uint32_t pictures);
 
     State& state() { return state_; }
     Orbit& orbit() { return orbit_; }
@@ -65,10 +70,15 @@ class Viewer {
     void act();
     void opened(const std::string& path);
     void update_outlines();
-    void update_paint();
+    Result<void> update_paint();
+    Result<void> take_paint_away();
     void advance(double seconds);
     Result<void> draw();
-    void save_turntable();
+    /// Of the window's size, in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL.
+    Result<gpu::Picture> picture_of(const gpu::Image& image);
+    void aim_turntable();
+    void save_turntable_picture();
+    void end_turntable();
 
     ViewerOptions options_;
     gpu::Context& context_;
@@ -89,13 +99,18 @@ class Viewer {
     bool dirty_ = true, compose_ = true, moving_ = false, settled_ = false, closing_ = false, busy_ = false;
     bool drawn_exact_ = false, difference_due_ = false;
     int quiet_frames_ = 0, still_frames_ = 0;
+    Paintings paintings_;
+    std::shared_ptr<const Painting> laid_;  // what is laid over the triangles; kept until its successor is made
     struct Painted {
         CornerId corner = null_corner;
         Paint paint = Paint::none;
-        double growth = 0;
+        std::uint32_t growth = 0;
         const Document* document = nullptr;
         bool operator==(const Painted&) const = default;
     } painted_;
+    Painted wanted_paint() const;
+    CornerId marked_ = null_corner;  // the corner whose marks are laid
+    Orbit before_turntable_;
     const Tables* outlined_ = nullptr;  // whose outlines are drawn
     std::string clipboard_;
 };
