@@ -59,7 +59,7 @@ Result<void> Arena::check_room(VkDeviceSize bytes, VkDeviceSize largest) const {
         return Error{ErrorCode::too_large, "a buffer of " + mebibytes(largest) +
                                                " is needed; the device gives at most " + mebibytes(max_allocation_)};
     }
-    const VkDeviceSize room = limit_ - std::min(used_, limit_);
+    const VkDeviceSize room = limit_ - std::min(used(), limit_);
     if (bytes <= room) return {};
     return Error{ErrorCode::too_large,
                  mebibytes(bytes) + " of device memory are needed; " + mebibytes(room) + " are left"};
@@ -108,7 +108,7 @@ Result<std::uint32_t> Arena::add_block(std::uint32_t type, VkDeviceSize size, Ti
         block.mapped = static_cast<std::byte*>(mapped);
     }
     held_ += size;
-    peak_ = std::max(peak_, held_);
+    peak_ = std::max(peak(), held());
     const auto hole =
         std::find_if(blocks_.begin(), blocks_.end(), [](const Block& b) { return b.memory == VK_NULL_HANDLE; });
     const auto index = static_cast<std::uint32_t>(hole - blocks_.begin());
@@ -128,6 +128,7 @@ Result<Allocation> Arena::allocate(const VkMemoryRequirements& requirements, Mem
                                                " bytes in one resource; the device gives " +
                                                std::to_string(max_allocation_)};
     }
+    const std::lock_guard lock(mutex_);
     Allocation out;
     for (std::uint32_t i = 0; i < blocks_.size(); ++i) {
         if (blocks_[i].memory == VK_NULL_HANDLE || blocks_[i].type != type || blocks_[i].tiling != tiling) continue;
@@ -135,7 +136,7 @@ Result<Allocation> Arena::allocate(const VkMemoryRequirements& requirements, Mem
     }
     // A small heap (the 256 MiB window of a GPU's memory, say) must not be taken in a few bites.
     const VkDeviceSize usual = std::min({kBlockSize, max_allocation_, std::max(limit_ / 16, VkDeviceSize{1} << 20)});
-    const VkDeviceSize room = limit_ - std::min(held_, limit_);
+    const VkDeviceSize room = limit_ - std::min(held(), limit_);
     if (requirements.size > room) {
         return Error{ErrorCode::too_large, std::to_string(requirements.size) + " bytes; " + std::to_string(room) +
                                                " are left of the device memory that may be held"};
@@ -148,6 +149,7 @@ Result<Allocation> Arena::allocate(const VkMemoryRequirements& requirements, Mem
 }
 
 void Arena::free(const Allocation& allocation) {
+    const std::lock_guard lock(mutex_);
     used_ -= allocation.size;
     Block& block = blocks_[allocation.block];
     auto [it, inserted] = block.free.emplace(allocation.offset, allocation.size);
@@ -173,6 +175,7 @@ void Arena::free(const Allocation& allocation) {
 }
 
 std::uint32_t Arena::block_count() const {
+    const std::lock_guard lock(mutex_);
     return static_cast<std::uint32_t>(
         std::count_if(blocks_.begin(), blocks_.end(), [](const Block& b) { return b.memory != VK_NULL_HANDLE; }));
 }

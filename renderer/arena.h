@@ -3,10 +3,12 @@
 
 #include <vulkan/vulkan.h>
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "lrcore/base/result.h"
@@ -31,7 +33,7 @@ struct Allocation {
     std::uint32_t block = 0;
 };
 
-/// Not thread-safe. First fit over sorted free ranges; a block that is empty again is given back if it was made for one
+/// Any thread may call any of these. First fit over sorted free ranges; a block that is empty again is given back if it was made for one
 /// large resource.
 class Arena {
   public:
@@ -50,10 +52,10 @@ class Arena {
     Result<void> check_room(VkDeviceSize bytes, VkDeviceSize largest) const;
 
     /// Bytes that resources have now.
-    VkDeviceSize used() const { return used_; }
+    VkDeviceSize used() const { return used_.load(); }
     /// Bytes of device memory held now, and at most so far.
-    VkDeviceSize held() const { return held_; }
-    VkDeviceSize peak() const { return peak_; }
+    VkDeviceSize held() const { return held_.load(); }
+    VkDeviceSize peak() const { return peak_.load(); }
     std::uint32_t block_count() const;
 
   private:
@@ -75,9 +77,8 @@ class Arena {
     VkDeviceSize max_allocation_ = 0;
     std::vector<Block> blocks_;
     VkDeviceSize limit_ = 0;
-    VkDeviceSize used_ = 0;
-    VkDeviceSize held_ = 0;
-    VkDeviceSize peak_ = 0;
+    mutable std::mutex mutex_;  // of blocks_, and for writing what follows
+    std::atomic<VkDeviceSize> used_ = 0, held_ = 0, peak_ = 0;
 };
 
 }  // namespace lr::gpu

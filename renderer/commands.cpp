@@ -79,7 +79,7 @@ Result<Elapsed> Commands::run() {
     submit.commandBufferInfoCount = 1;
     submit.pCommandBufferInfos = &command_info;
     const auto start = std::chrono::steady_clock::now();
-    LR_TRY_VK(vkQueueSubmit2(context_->queue(), 1, &submit, fence));
+    LR_TRY(check(context_->submit(submit, fence), "vkQueueSubmit2"));
     LR_TRY_VK(vkWaitForFences(context_->device(), 1, &fence, VK_TRUE, UINT64_MAX));
     Elapsed elapsed;
     elapsed.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -213,6 +213,21 @@ Context::~Context() {
     if (instance_ != VK_NULL_HANDLE) vkDestroyInstance(instance_, nullptr);
 }
 
+VkResult Context::submit(const VkSubmitInfo2& info, VkFence fence) {
+    const std::lock_guard lock(queue_mutex_);
+    return vkQueueSubmit2(queue_, 1, &info, fence);
+}
+
+VkResult Context::present(const VkPresentInfoKHR& info) {
+    const std::lock_guard lock(queue_mutex_);
+    return vkQueuePresentKHR(queue_, &info);
+}
+
+void Context::wait_idle() {
+    const std::lock_guard lock(queue_mutex_);
+    vkDeviceWaitIdle(device_);
+}
+
 void Context::name_object(VkObjectType type, std::uint64_t handle, const std::string& text) const {
     if (set_name_ == nullptr) return;
     VkDebugUtilsObjectNameInfoEXT info{};

@@ -5,6 +5,7 @@
 #include <vulkan/vulkan.h>
 
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -53,7 +54,11 @@ class Context {
     VkInstance instance() const { return instance_; }
     VkPhysicalDevice physical() const { return physical_; }
     VkDevice device() const { return device_; }
+    /// For a library that wants it; ours is used through the three below, which any thread may call.
     VkQueue queue() const { return queue_; }
+    VkResult submit(const VkSubmitInfo2& info, VkFence fence);
+    VkResult present(const VkPresentInfoKHR& info);
+    void wait_idle();  ///< for all that was submitted
     std::uint32_t queue_family() const { return queue_family_; }
     const DeviceInfo& info() const { return info_; }
     const VkPhysicalDeviceLimits& limits() const { return info_.limits; }
@@ -81,6 +86,7 @@ class Context {
     VkPhysicalDevice physical_ = VK_NULL_HANDLE;
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
+    std::mutex queue_mutex_;
     std::uint32_t queue_family_ = 0;
     PFN_vkSetDebugUtilsObjectNameEXT set_name_ = nullptr;
     PFN_vkCmdDrawMeshTasksEXT draw_mesh_tasks_ = nullptr;

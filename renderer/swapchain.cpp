@@ -83,7 +83,7 @@ Swapchain::Swapchain(Swapchain&& other) noexcept
       fence_(std::move(other.fence_)) {}
 
 Swapchain::~Swapchain() {
-    if (pool_) vkDeviceWaitIdle(context_->device());
+    if (pool_) context_->wait_idle();
     drop();
 }
 
@@ -93,7 +93,7 @@ void Swapchain::drop() {
 }
 
 Result<bool> Swapchain::rebuild() {
-    vkDeviceWaitIdle(context_->device());
+    context_->wait_idle();
     VkSurfaceCapabilitiesKHR surface{};
     LR_TRY_VK(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(context_->physical(), surface_, &surface));
     VkExtent2D extent = surface.currentExtent;
@@ -203,7 +203,7 @@ Result<void> Swapchain::show(const Image& image, VkExtent2D extent) {
     submit.pCommandBufferInfos = &command_info;
     submit.signalSemaphoreInfoCount = 1;
     submit.pSignalSemaphoreInfos = &semaphores[1];
-    LR_TRY_VK(vkQueueSubmit2(context_->queue(), 1, &submit, fence));
+    LR_TRY(check(context_->submit(submit, fence), "vkQueueSubmit2"));
     const VkSemaphore drawn = drawn_[index].get();
     VkPresentInfoKHR present{};
     present.sType = VK_STRUCTURE_TYPE_PRESENT_INFO_KHR;
@@ -212,7 +212,7 @@ Result<void> Swapchain::show(const Image& image, VkExtent2D extent) {
     present.swapchainCount = 1;
     present.pSwapchains = &swapchain_;
     present.pImageIndices = &index;
-    const VkResult presented = vkQueuePresentKHR(context_->queue(), &present);
+    const VkResult presented = context_->present(present);
     if (presented == VK_ERROR_OUT_OF_DATE_KHR || presented == VK_SUBOPTIMAL_KHR) {
         LR_TRY(rebuild());
         return {};

@@ -13,6 +13,10 @@ layout(binding = 4, rgba8) uniform writeonly image2D composed;
 layout(std430, binding = 5) readonly buffer Paint { uint paint[]; };  // RGBA, one a triangle of the mesh
 layout(std430, binding = 6) readonly buffer Growth { GrowthTriangle growth[]; };
 layout(push_constant) uniform Push { ComposeConstants push; };
+// Constants, so that a device that runs both sides of every branch (a CPU) has none that it does not need.
+layout(constant_id = 0) const uint kMode = LR_COMPOSE_LEFT;
+layout(constant_id = 1) const uint kSamples = 1;  // of the pictures, a pixel along each side
+layout(constant_id = 2) const uint kPaint = LR_PAINT_NONE;
 
 float to_linear(float x) { return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4); }
 float to_srgb(float x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055; }
@@ -79,11 +83,11 @@ vec4 ring_line(uint i, bool right, ivec2 at) {
 }
 
 vec3 painted(vec3 colour, uint triangle, bool right, ivec2 at) {
-    if (push.paint == LR_PAINT_NONE || triangle == 0u) return colour;
+    if (kPaint == LR_PAINT_NONE || triangle == 0u) return colour;
     uint i = (triangle & ~LR_FRONT_FLAG) - 1u;
     if (i >= push.triangles) return colour;
-    vec4 over = (push.paint & LR_PAINT_TRIANGLES) != 0u ? unpackUnorm4x8(paint[i]) : vec4(0.0);
-    if ((push.paint & LR_PAINT_GROWTH) != 0u) {
+    vec4 over = (kPaint & LR_PAINT_TRIANGLES) != 0u ? unpackUnorm4x8(paint[i]) : vec4(0.0);
+    if ((kPaint & LR_PAINT_GROWTH) != 0u) {
         vec3 lit;
         if (over.a == 0.0) {
             // As recoloured() has it, but for the few percent by which sRGB is not a power: this runs every frame.
@@ -91,7 +95,7 @@ vec3 painted(vec3 colour, uint triangle, bool right, ivec2 at) {
         } else {
             lit = recoloured(colour, over);
         }
-        vec4 line = push.inner == 0u ? vec4(0.0) : ring_line(i, right, at);
+        vec4 line = (kPaint & LR_PAINT_RING) == 0u ? vec4(0.0) : ring_line(i, right, at);
         return mix(lit, line.rgb, line.a);
     }
     if (over.a == 0.0) return colour;
@@ -110,9 +114,9 @@ void main() {
     ivec2 size = imageSize(composed);
     if (at.x >= size.x || at.y >= size.y) return;
     vec3 behind = background((vec2(at) + 0.5) / vec2(size));
-    int n = int(push.samples);
+    int n = int(kSamples);
     vec3 colour;
-    if (push.mode == LR_COMPOSE_DIFFERENCE) {
+    if (kMode == LR_COMPOSE_DIFFERENCE) {
         bool same = true;
         vec3 pale = vec3(0.0);
         for (int j = 0; j < n; ++j) {
@@ -126,7 +130,7 @@ void main() {
         float grey = dot(pale / float(n * n), vec3(0.299, 0.587, 0.114));
         colour = same ? mix(vec3(grey), vec3(1.0), 0.55) : vec3(0.85, 0.06, 0.06);
     } else {
-        bool right = push.mode == LR_COMPOSE_SPLIT && at.x >= int(push.divider);
+        bool right = kMode == LR_COMPOSE_SPLIT && at.x >= int(push.divider);
         if (n == 1) {
             colour = sample_at(right, at, behind);
         } else {

@@ -8,14 +8,16 @@
 namespace lr::gpu {
 #endif
 
+// Specialization constants of compose.comp: mode, samples a pixel along each side, paint.
 #define LR_COMPOSE_LEFT 0u  // the left picture alone
 #define LR_COMPOSE_SPLIT 1u
 #define LR_COMPOSE_DIFFERENCE 2u  // red where they differ
 
-// What is laid over the triangles; both: colours over growth.
+// What is laid over the triangles, bits; several: the ring's line over colours over growth.
 #define LR_PAINT_NONE 0u
 #define LR_PAINT_TRIANGLES 1u
 #define LR_PAINT_GROWTH 2u
+#define LR_PAINT_RING 4u  // with LR_PAINT_GROWTH: the ring's line
 
 // RING-EXPANDER's way over one triangle of the mesh (lrcore/ring/expansion.h).
 struct GrowthTriangle {
@@ -33,14 +35,11 @@ struct GrowthTriangle {
 #define LR_GROWTH_NOT_YET_COLOUR 168, 172, 180
 #define LR_GROWTH_LINE_COLOUR 24, 24, 28    // the ring where it will stay
 #define LR_GROWTH_FRONT_COLOUR 24, 96, 220  // where it may still be crossed
-#define LR_GROWTH_RIGHT 0x80000000u   // in `step`: it is never invaded
-#define LR_GROWTH_BORDER 0xffffffffu  // in `across`: none
+#define LR_GROWTH_RIGHT 0x80000000u         // in `step`: it is never invaded
+#define LR_GROWTH_BORDER 0xffffffffu        // in `across`: none
 
 struct ComposeConstants {
-    uint mode;
-    uint divider;  // first column of the right picture
-    uint samples;  // of the pictures, a pixel along each side
-    uint paint;
+    uint divider;    // first column of the right picture
     uint triangles;  // of the mesh
     // Growth:
     uint invaded;        // triangles so far

@@ -1,6 +1,7 @@
 #pragma once
 // One mesh and what was made of it. Made by the loader, never changed after.
 
+#include <chrono>
 #include <memory>
 #include <string>
 
@@ -52,7 +53,8 @@ struct Document {
     RingSettings settings;
     bool optimised = false;  ///< the optimiser has run, as often as the settings say
     StreamFigures plain, lean, packed;
-    double seconds = 0;  ///< from the request to this
+    std::chrono::steady_clock::time_point asked;  ///< when a file or a ring was
+    double seconds = 0;                           ///< from then until this was made
 
     double t0_share() const {
         return static_cast<double>(model->lean.statistics.t0) / static_cast<double>(mesh->triangle_count());

@@ -50,7 +50,7 @@ RingOptions ring_options(const RingSettings& settings, bool quick) {
 
 }  // namespace
 
-Loader::Loader() : thread_([this] { run(); }) {}
+Loader::Loader(std::function<void()> wake) : wake_window_(std::move(wake)), thread_([this] { run(); }) {}
 
 Loader::~Loader() {
     {
@@ -93,6 +93,11 @@ Loader::Progress Loader::progress() const {
     return progress_;
 }
 
+bool Loader::has_news() const {
+    const std::lock_guard lock(mutex_);
+    return news_.document || news_.tables || news_.formats || news_.error;
+}
+
 Loader::News Loader::take() {
     const std::lock_guard lock(mutex_);
     return std::exchange(news_, {});
@@ -106,8 +111,11 @@ void Loader::say(const std::string& what, double share, bool background) {
 void Loader::publish(const Document& document) {
     auto copy = std::make_shared<Document>(document);
     const std::lock_guard lock(mutex_);
+    copy->asked = asked_;
     copy->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - asked_).count();
-    if (!stop_) news_.document = std::move(copy);
+    if (stop_) return;
+    news_.document = std::move(copy);
+    wake_window_();
 }
 
 void Loader::run() {
@@ -175,7 +183,9 @@ void Loader::work(const Request& request) {
     const std::string path = request.input ? request.input->path : request.document->path;
     const auto failed = [&](const Error& error) {
         const std::lock_guard lock(mutex_);
-        if (!stop_) news_.error = path + ": " + error.message;
+        if (stop_) return;
+        news_.error = path + ": " + error.message;
+        wake_window_();
     };
     Document document;
     if (request.input) {
@@ -208,6 +218,7 @@ void Loader::work(const Request& request) {
         if (Result<Tables> tables = make_tables(document.mesh, std::move(*lr))) {
             const std::lock_guard lock(mutex_);
             if (!stop_) news_.tables = std::make_shared<const Tables>(std::move(*tables));
+            wake_window_();
         }
     }
     if (!request.input || stopped()) return;  // formats have the rings recommended for each: they are the same for any
@@ -224,6 +235,7 @@ void Loader::work(const Request& request) {
     }
     const std::lock_guard lock(mutex_);
     news_.formats = std::make_shared<const app::FormatSet>(std::move(*formats));
+    wake_window_();
 }
 
 }  // namespace lr::view

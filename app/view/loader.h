@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -15,7 +16,8 @@ namespace lr::view {
 
 class Loader {
   public:
-    Loader();
+    /// `wake` is called by the thread when there is news.
+    explicit Loader(std::function<void()> wake);
     ~Loader();  ///< ends what is being done, and waits for that
     Loader(const Loader&) = delete;
     Loader& operator=(const Loader&) = delete;
@@ -43,6 +45,7 @@ class Loader {
         std::optional<std::string> error;  ///< one line, with the file's name
     };
     News take();
+    bool has_news() const;
 
   private:
     struct Request {
@@ -58,6 +61,7 @@ class Loader {
     void publish(const Document& document);
     void request(Request request);
 
+    std::function<void()> wake_window_;
     mutable std::mutex mutex_;
     std::condition_variable wake_;
     std::optional<Request> next_;

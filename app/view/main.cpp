@@ -21,6 +21,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+const Clock::time_point kStart = Clock::now();
+
 struct Options {
     ViewerOptions viewer;
     app::PictureSize size;
@@ -50,8 +52,9 @@ Result<void> loop(Viewer& viewer, Window& window, gpu::Swapchain& swapchain, Scr
     const VkExtent2D extent = window.extent();
     viewer.handle({.kind = Event::resize, .x = double(extent.width), .y = double(extent.height)});
     while (!viewer.closing()) {
-        const bool wait = script == nullptr && viewer.idle() && events.empty();
-        for (Event& event : window.poll(wait ? 0.1 : 0.0)) {
+        // Nothing moves: an event or a thread's news wakes us, and a bar is drawn on a few times a second.
+        const bool rest = events.empty() && !viewer.moving() && (script == nullptr || script->waiting());
+        for (Event& event : window.poll(rest ? 0.1 : 0.0)) {
             // A script is the only one who presses anything.
             if (script == nullptr || event.kind == Event::resize || event.kind == Event::refresh) {
                 events.push_back(std::move(event));
@@ -60,15 +63,19 @@ Result<void> loop(Viewer& viewer, Window& window, gpu::Swapchain& swapchain, Scr
         if (script != nullptr) {
             if (const Result<void> ran = script->advance(viewer, window, events); !ran) return ran;
         }
+        const bool asleep = script == nullptr && events.empty() && viewer.idle();
         feed(viewer, events);
         const Clock::time_point now = Clock::now();
         // A script's time is its frames', so that what it sees is the same on every machine.
         const double seconds = script != nullptr ? 1.0 / 60 : std::chrono::duration<double>(now - last).count();
         last = now;
-        if (wait && events.empty() && viewer.idle()) continue;
+        if (asleep) continue;
         if (const Result<void> drawn = viewer.frame(seconds); !drawn) return drawn;
         if (viewer.visible()) {
             if (const Result<void> shown = swapchain.show(viewer.image(), viewer.extent()); !shown) return shown;
+            viewer.presented(std::chrono::duration<double>(Clock::now() - now).count());
+            double& started = viewer.state().started;
+            if (started == 0) started = std::chrono::duration<double>(Clock::now() - kStart).count();
         }
         if (std::string next = viewer.title(); next != title) window.set_title(title = std::move(next));
         if (const std::string text = viewer.take_clipboard(); !text.empty()) {
@@ -105,6 +112,7 @@ int run(Options& options) {
     options.viewer.scale = options.scale > 0 ? options.scale : (*window)->scale();
     options.viewer.panels = !options.no_panels;
     options.viewer.keep_recent = !script.has_value();
+    options.viewer.wake = Window::wake;
     std::string failed_on = "view";
     const Result<void> done = [&]() -> Result<void> {
         Result<gpu::Swapchain> swapchain = gpu::Swapchain::create(**context, *surface);

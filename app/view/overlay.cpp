@@ -117,7 +117,7 @@ Result<void> Overlay::start(gpu::Context& context, double scale) {
 }
 
 Overlay::~Overlay() {
-    vkDeviceWaitIdle(context_->device());
+    context_->wait_idle();
     if (started_) ImGui_ImplVulkan_Shutdown();
     ImGui::DestroyContext();
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "renderer/try.h"
 #include "spirv/compose_comp.h"
@@ -20,23 +21,33 @@ constexpr Access kComposeRead{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_
 constexpr Access kComposeWrite{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
 constexpr Access kTransferRead{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
 constexpr Access kTransferWrite{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
+/// What was drawn, to be read by compose.comp and by triangle_at.
+void leave(VkCommandBuffer commands, const gpu::Target& target) {
+    for (const gpu::Image* image : {&target.colour(), &target.triangles()}) {
+        gpu::image_barrier(commands, image->handle(), image->aspect(), kColourWrite, kComposeRead,
+                           VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, kGeneral);
+    }
+}
+
 constexpr std::uint32_t kTimestamps = 3;
 constexpr std::uint32_t kGroup = 8;  // compose.comp
+constexpr double kLeastEdge = 1.5;   // pixels of a mean edge from which the growing ring has a line
 
 }  // namespace
 
-Result<Scene> Scene::create(gpu::Context& context) {
+Result<Scene> Scene::create(gpu::Context& context, std::function<void()> wake) {
     Scene out;
     out.context_ = &context;
     LR_ASSIGN(out.commands_, gpu::Commands::create(context));
     LR_ASSIGN(out.transfer_, gpu::Transfer::create(context));
-    LR_ASSIGN(out.expander_, gpu::Expander::create(context));
+    LR_ASSIGN(gpu::Expander expander, gpu::Expander::create(context));
+    out.expander_ = std::make_unique<gpu::Expander>(std::move(expander));
+    LR_ASSIGN(out.uploader_, Uploader::create(context, std::move(wake)));
     std::vector<gpu::Binding> bindings;
     for (std::uint32_t i = 0; i < 5; ++i) bindings.push_back({i, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
     for (std::uint32_t i = 5; i < 7; ++i) bindings.push_back({i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
     LR_ASSIGN(out.layout_, gpu::Layout::create(context, "compose", bindings, VK_SHADER_STAGE_COMPUTE_BIT,
                                                sizeof(gpu::ComposeConstants)));
-    LR_ASSIGN(out.compose_, gpu::create_compute(context, "compose", out.layout_, spirv_compose_comp));
     LR_ASSIGN(out.paint_, gpu::Buffer::create(context, "paint", 16, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT));
     LR_ASSIGN(out.growth_, gpu::Buffer::create(context, "growth", 16, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT));
     LR_ASSIGN(out.pixel_, gpu::Buffer::create(context, "pixel", 16, 0, gpu::Memory::readback));
@@ -65,6 +76,7 @@ Result<void> Scene::resize(VkExtent2D extent, std::uint32_t samples) {
     }
     LR_ASSIGN(composed_, gpu::Image::create(*context_, "composed", extent, gpu::Target::kColour,
                                             VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT));
+    blank_ = true;
     return write_sets();
 }
 
@@ -85,11 +97,20 @@ Result<void> Scene::write_sets() {
     return {};
 }
 
-Result<void> Scene::set_model(std::shared_ptr<const gpu::Model> model) {
-    if (model == model_) return {};
-    entries_.clear();
-    model_ = std::move(model);
-    return {};
+Result<bool> Scene::adopt(const std::shared_ptr<const gpu::Model>& model, const Shown& shown) {
+    if (model == model_) return true;
+    if (model != adopting_) {
+        adopted_.clear();
+        adopting_ = model;
+    }
+    const Result<bool> there = upload(model, shown, adopted_);
+    if (there && !*there) return false;
+    adopting_.reset();
+    Entries entries = std::exchange(adopted_, {});
+    if (!there) return there.error();
+    entries_ = std::move(entries);
+    model_ = model;
+    return true;
 }
 
 Result<void> Scene::set_outlines(const EncodedLr* tables) {
@@ -114,7 +135,7 @@ Result<void> Scene::hold(gpu::Buffer& buffer, const char* name, std::size_t byte
 
 Result<void> Scene::set_paint(std::span<const std::uint32_t> colours) {
     under_marks_.clear();
-    painted_ = !colours.empty();
+    painted_ = coloured_ = !colours.empty();
     if (!painted_) return {};
     LR_TRY(hold(paint_, "paint", colours.size_bytes()));
     std::memcpy(paint_.mapped(), colours.data(), colours.size_bytes());
@@ -133,12 +154,12 @@ Result<void> Scene::set_marks(std::span<const Mark> marks) {
         exchange(under_marks_.back());
         under_marks_.pop_back();
     }
+    painted_ = coloured_ || !marks.empty();
     if (marks.empty() || !model_) return {};
-    if (!painted_) {
+    if (!coloured_) {
         const std::size_t bytes = sizeof(std::uint32_t) * std::size_t{model_->triangle_count()};
         LR_TRY(hold(paint_, "paint", bytes));
         std::memset(paint_.mapped(), 0, bytes);
-        painted_ = true;
     }
     for (const Mark& mark : marks) under_marks_.push_back(exchange(mark));
     return {};
@@ -157,26 +178,35 @@ void Scene::grow(std::uint32_t invaded, std::uint32_t fresh) {
     fresh_ = fresh;
 }
 
-Scene::Kind Scene::kind_of(gpu::View view) {
-    if (view == gpu::View::offsets) return Kind::offsets;
-    return view == gpu::View::wire ? Kind::edges : Kind::ring;
+UploadKey Scene::key_of(const Shown& shown, int side) {
+    using With = UploadKey::With;
+    const With with = shown.view == gpu::View::offsets ? With::offsets
+                      : shown.view == gpu::View::wire  ? With::edges
+                                                       : With::ring;
+    if (shown.source == gpu::Source::plain || (shown.mode != Mode::single && side == 0)) {
+        return {gpu::Source::plain, gpu::Path::compute, with};
+    }
+    return {shown.source, shown.path, with};
 }
 
-Scene::Key Scene::key_of(const Shown& shown, int side) {
-    if (shown.mode != Mode::single && side == 0) return {gpu::Source::plain, gpu::Path::compute, kind_of(shown.view)};
-    const bool plain = shown.source == gpu::Source::plain;
-    return {shown.source, plain ? gpu::Path::compute : shown.path, kind_of(shown.view)};
-}
-
-Result<Scene::Entry> Scene::upload(const Key& key) {
-    const auto [source, path, kind] = key;
-    gpu::UploadOptions options;
-    options.path = path;
-    options.ring = kind != Kind::edges;
-    options.offsets = kind == Kind::offsets;
-    options.lines = kind == Kind::edges ? gpu::UploadOptions::Lines::edges : gpu::UploadOptions::Lines::ring;
-    LR_ASSIGN(gpu::Drawable drawable, expander_.upload(*transfer_, *model_, source, options));
-    return Entry{std::move(drawable), {}};
+/// True once all that `shown` needs of the model is in `entries`.
+Result<bool> Scene::upload(const std::shared_ptr<const gpu::Model>& model, const Shown& shown, Entries& entries) {
+    if (std::optional<Uploader::Done> done = uploader_->take()) {
+        if (done->job.model == model) {
+            if (done->error) return *done->error;
+            for (std::size_t i = 0; i < done->drawables.size(); ++i) {
+                entries.emplace(done->job.keys[i], Entry{std::move(done->drawables[i]), {}});
+            }
+        }
+    }
+    Uploader::Job missing{model, {}};
+    for (int side = 0; side < (shown.mode == Mode::single ? 1 : 2); ++side) {
+        const UploadKey key = key_of(shown, side);
+        if (!entries.contains(key)) missing.keys.push_back(key);
+    }
+    if (missing.keys.empty()) return true;
+    if (!uploader_->asked(missing)) uploader_->ask(std::move(missing), *expander_);
+    return false;
 }
 
 Result<gpu::Painter*> Scene::painter(gpu::View view) {
@@ -186,22 +216,37 @@ Result<gpu::Painter*> Scene::painter(gpu::View view) {
     return &painters_.emplace(view, std::move(made)).first->second;
 }
 
-Result<void> Scene::prepare(const Shown& shown) {
-    if (!model_) return {};
+Result<bool> Scene::prepare(const Shown& shown) {
+    if (!model_) return true;
+    // While another model is on its way, this one is drawn as far as it is there.
+    if (adopting_) {
+        for (int side = 0; side < (shown.mode == Mode::single ? 1 : 2); ++side) {
+            if (!entries_.contains(key_of(shown, side))) return false;
+        }
+    } else {
+        LR_ASSIGN(const bool there, upload(model_, shown, entries_));
+        if (!there) return false;
+    }
     LR_ASSIGN(gpu::Painter * by, painter(shown.view));
     for (int side = 0; side < (shown.mode == Mode::single ? 1 : 2); ++side) {
-        const Key key = key_of(shown, side);
-        if (!entries_.contains(key)) {
-            LR_ASSIGN(Entry entry, upload(key));
-            entries_.emplace(key, std::move(entry));
-        }
-        Entry& entry = entries_.at(key);
+        Entry& entry = entries_.at(key_of(shown, side));
         if (entry.plans.contains({shown.view, side})) continue;
         Plan plan{gpu::Descriptors(*context_), {}};
         LR_ASSIGN(plan.draw, by->plan(plan.descriptors, entry.drawable.mesh, *targets_[side]));
         entry.plans.emplace(std::pair(shown.view, side), std::move(plan));
     }
-    return {};
+    return true;
+}
+
+void Scene::record_clear(VkCommandBuffer commands, int first) {
+    for (int side = first; side < 2; ++side) {
+        const gpu::Target& target = *targets_[side];
+        target.prepare(commands);
+        target.begin(commands, {.colour = true, .triangles = true, .clear_colour = true, .clear_depth = true});
+        gpu::Target::end(commands);
+        leave(commands, target);
+    }
+    blank_ = false;
 }
 
 Result<void> Scene::record_draw(VkCommandBuffer commands, const Shown& shown, const gpu::CameraOptions& options) {
@@ -209,77 +254,77 @@ Result<void> Scene::record_draw(VkCommandBuffer commands, const Shown& shown, co
         if (queries_) vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_.get(), i);
     };
     const int sides = shown.mode == Mode::single ? 1 : 2;
-    timed_ = false;
-    if (!model_) {
-        for (int side = 0; side < sides; ++side) {
-            targets_[side]->prepare(commands);
-            targets_[side]->begin(commands,
-                                  {.colour = true, .triangles = true, .clear_colour = true, .clear_depth = true});
-            gpu::Target::end(commands);
-        }
-    } else {
-        const VkExtent2D drawn = targets_[0]->extent();
-        LR_ASSIGN(const gpu::Camera camera, gpu::make_camera(*model_, options, drawn.width, drawn.height));
-        edge_pixels_ = model_->mean_edge * camera.pixels_per_unit / samples_;
-        gpu::Painter& by = painters_.at(shown.view);
-        by.set_frame(*model_, camera, *targets_[0]);
-        if (adjacency_) {
-            gpu::SilhouetteStyle style;
-            style.width *= static_cast<float>(samples_);
-            silhouettes_->set_frame(camera, *targets_[0], style);
-        }
-        if (queries_) vkCmdResetQueryPool(commands, queries_.get(), 0, kTimestamps);
-        stamp(0);
-        for (int side = 0; side < sides; ++side) {
-            gpu::Drawable& drawable = entries_.at(key_of(shown, side)).drawable;
-            if (shown.decode_again && drawable.mesh.source != gpu::Source::plain) drawable.mesh.decoded = false;
-            expander_.decode(commands, drawable);
-        }
-        stamp(1);
-        for (int side = 0; side < sides; ++side) {
-            Entry& entry = entries_.at(key_of(shown, side));
-            if (shown.exact) expander_.rotate(commands, entry.drawable);
-            by.record(commands, entry.drawable.mesh, entry.plans.at({shown.view, side}).draw, *targets_[side],
-                      shown.exact ? gpu::Painter::Ties::by_number : gpu::Painter::Ties::first_drawn);
-            if (adjacency_) silhouettes_->record(commands, *adjacency_, *targets_[side]);
-        }
-        stamp(2);
-        timed_ = static_cast<bool>(queries_);
+    if (blank_) record_clear(commands, sides);  // what is not drawn must be readable
+    const VkExtent2D drawn = targets_[0]->extent();
+    LR_ASSIGN(const gpu::Camera camera, gpu::make_camera(*model_, options, drawn.width, drawn.height));
+    edge_pixels_ = model_->mean_edge * camera.pixels_per_unit / samples_;
+    gpu::Painter& by = painters_.at(shown.view);
+    by.set_frame(*model_, camera, *targets_[0]);
+    if (adjacency_) {
+        gpu::SilhouetteStyle style;
+        style.width *= static_cast<float>(samples_);
+        silhouettes_->set_frame(camera, *targets_[0], style);
     }
+    if (queries_) vkCmdResetQueryPool(commands, queries_.get(), 0, kTimestamps);
+    stamp(0);
     for (int side = 0; side < sides; ++side) {
-        for (const gpu::Image* image : {&targets_[side]->colour(), &targets_[side]->triangles()}) {
-            gpu::image_barrier(commands, image->handle(), image->aspect(), kColourWrite, kComposeRead,
-                               VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, kGeneral);
-        }
+        gpu::Drawable& drawable = entries_.at(key_of(shown, side)).drawable;
+        if (shown.decode_again && drawable.mesh.source != gpu::Source::plain) drawable.mesh.decoded = false;
+        expander_->decode(commands, drawable);
     }
+    stamp(1);
+    for (int side = 0; side < sides; ++side) {
+        Entry& entry = entries_.at(key_of(shown, side));
+        if (shown.exact) expander_->rotate(commands, entry.drawable);
+        by.record(commands, entry.drawable.mesh, entry.plans.at({shown.view, side}).draw, *targets_[side],
+                  shown.exact ? gpu::Painter::Ties::by_number : gpu::Painter::Ties::first_drawn);
+        if (adjacency_) silhouettes_->record(commands, *adjacency_, *targets_[side]);
+    }
+    stamp(2);
+    timed_ = static_cast<bool>(queries_);
+    for (int side = 0; side < sides; ++side) leave(commands, *targets_[side]);
     return {};
 }
 
-void Scene::record_compose(VkCommandBuffer commands, Mode mode, std::uint32_t divider) const {
+Result<VkPipeline> Scene::compose_pipeline(Mode mode) {
+    const std::uint32_t how = mode == Mode::single  ? LR_COMPOSE_LEFT
+                              : mode == Mode::split ? LR_COMPOSE_SPLIT
+                                                    : LR_COMPOSE_DIFFERENCE;
+    std::uint32_t paint = painted_ ? LR_PAINT_TRIANGLES : LR_PAINT_NONE;
+    if (grows_) paint |= LR_PAINT_GROWTH;
+    if (grows_ && edge_pixels_ > kLeastEdge) paint |= LR_PAINT_RING;
+    const std::array<std::uint32_t, 3> constants{how, samples_, paint};
+    gpu::PipelineHandle& made = compose_[constants];
+    if (!made) {
+        LR_ASSIGN(made, gpu::create_compute(*context_, "compose", layout_, spirv_compose_comp, constants));
+    }
+    return made.get();
+}
+
+Result<void> Scene::record_compose(VkCommandBuffer commands, Mode mode, std::uint32_t divider) {
+    LR_ASSIGN(const VkPipeline pipeline, compose_pipeline(mode));
     gpu::image_barrier(commands, composed_.handle(), composed_.aspect(), kTransferRead, kComposeWrite,
                        VK_IMAGE_LAYOUT_UNDEFINED, kGeneral);
     gpu::ComposeConstants push{};
-    push.mode = mode == Mode::single ? LR_COMPOSE_LEFT : mode == Mode::split ? LR_COMPOSE_SPLIT : LR_COMPOSE_DIFFERENCE;
     push.divider = divider;
-    push.samples = samples_;
-    push.paint = (painted_ ? LR_PAINT_TRIANGLES : LR_PAINT_NONE) | (grows_ ? LR_PAINT_GROWTH : LR_PAINT_NONE);
-    push.triangles = push.paint != LR_PAINT_NONE && model_ ? model_->triangle_count() : 0;
+    push.triangles = (painted_ || grows_) && model_ ? model_->triangle_count() : 0;
     push.invaded = invaded_;
     push.fresh = fresh_;
     // The ring's line, faded and thinned like the one of the view of the ring (renderer/painter.cpp).
     const double strength = std::clamp((edge_pixels_ - 1) / 9, 0.0, 1.0);
     const double closer = std::clamp((edge_pixels_ - 10) / 40, 0.0, 1.0);
     const auto width = static_cast<std::uint32_t>(std::lround((0.7 + 1.5 * strength + 1.3 * closer) * samples_));
-    push.inner = edge_pixels_ < 1.5 ? 0 : (width + 1) / 2;  // of edges that are hardly seen there is no line
-    push.outer = push.inner == 0 ? 0 : width / 2;
+    push.inner = (width + 1) / 2;
+    push.outer = width / 2;
     push.line_opacity = static_cast<float>(0.15 + 0.80 * strength);
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, compose_.get());
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.pipeline(), 0, 1,
                             &sets_[mode == Mode::single ? 0 : 1], 0, nullptr);
     vkCmdPushConstants(commands, layout_.pipeline(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(push), &push);
     vkCmdDispatch(commands, (extent_.width + kGroup - 1) / kGroup, (extent_.height + kGroup - 1) / kGroup, 1);
     gpu::image_barrier(commands, composed_.handle(), composed_.aspect(), kComposeWrite, kTransferRead, kGeneral,
                        VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    return {};
 }
 
 std::optional<SceneTimes> Scene::times() const {
@@ -315,12 +360,8 @@ Result<std::optional<std::uint32_t>> Scene::triangle_at(std::uint32_t x, std::ui
     return std::optional((id & ~LR_FRONT_FLAG) - 1);
 }
 
-Result<gpu::Difference> Scene::difference(const gpu::CameraOptions& camera, const Shown& shown) {
-    if (shown.mode == Mode::single) return Error{ErrorCode::invalid_argument, "there is one picture only"};
-    LR_TRY(prepare(shown));
-    // Drawn again: the pictures are read in the layout that drawing leaves them in.
+Result<gpu::Difference> Scene::difference() {
     LR_ASSIGN(const VkCommandBuffer commands, commands_->begin());
-    LR_TRY(record_draw(commands, shown, camera));
     for (const auto& target : targets_) {
         for (const gpu::Image* image : {&target->colour(), &target->triangles()}) {
             gpu::image_barrier(commands, image->handle(), image->aspect(), kComposeRead, kColourWrite, kGeneral,

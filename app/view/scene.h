@@ -2,13 +2,14 @@
 // The drawn picture: a model on the device, one or two pictures of it, and these composed into one image of the
 // window's size. Knows of no window and no panel.
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
-#include <tuple>
 
+#include "app/view/uploader.h"
 #include "renderer/adjacency.h"
 #include "renderer/renderer.h"
 #include "shaders/compose_shared.h"
@@ -41,13 +42,14 @@ struct Mark {
 
 class Scene {
   public:
-    static Result<Scene> create(gpu::Context& context);
+    /// `wake` is called, by another thread, when something that was awaited is there.
+    static Result<Scene> create(gpu::Context& context, std::function<void()> wake);
 
     /// Pixels of the composed image, and how many samples a pixel has along each side.
     Result<void> resize(VkExtent2D extent, std::uint32_t samples);
-    /// Drops what was made of another model, but not colours: those of another mesh have to be taken away. Null:
-    /// nothing is drawn.
-    Result<void> set_model(std::shared_ptr<const gpu::Model> model);
+    /// Takes another model once what `shown` needs of it is on the device: true. Until then, and if that fails, all
+    /// stays as it is. Colours stay in any case: those of another mesh have to be taken away. Errors: those of prepare.
+    Result<bool> adopt(const std::shared_ptr<const gpu::Model>& model, const Shown& shown);
     const gpu::Model* model() const { return model_.get(); }
     /// Draws outlines over the surface, asked of these LR tables of the model's mesh; null: none.
     Result<void> set_outlines(const EncodedLr* tables);
@@ -60,13 +62,17 @@ class Scene {
     /// How far it has grown, and how many of the last triangles are told from the others.
     void grow(std::uint32_t invaded, std::uint32_t fresh);
 
-    /// Puts on the device what the picture needs and is not there. Errors: unsupported (a stream that the model does
-    /// not have), and the device's.
-    Result<void> prepare(const Shown& shown);
-    /// Records the drawing of what was prepared, and leaves both pictures to be composed.
+    /// Has what the picture needs put on the device, beside this thread; true once it is there. Errors: unsupported (a
+    /// stream that the model does not have), and the device's.
+    Result<bool> prepare(const Shown& shown);
+    /// Nothing has been drawn since the last resize: compose cannot be recorded.
+    bool blank() const { return blank_; }
+    /// Records empty pictures, from that side on, to be composed.
+    void record_clear(VkCommandBuffer commands, int first = 0);
+    /// Records the drawing of what was prepared, of a model, and leaves the pictures to be composed.
     Result<void> record_draw(VkCommandBuffer commands, const Shown& shown, const gpu::CameraOptions& camera);
     /// Records putting them together. `divider`: first column of the right picture.
-    void record_compose(VkCommandBuffer commands, Mode mode, std::uint32_t divider) const;
+    Result<void> record_compose(VkCommandBuffer commands, Mode mode, std::uint32_t divider);
 
     /// In VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL once composed.
     const gpu::Image& composed() const { return composed_; }
@@ -77,12 +83,9 @@ class Scene {
     /// The original triangle at a pixel of the picture drawn last, if any. Waits for the device.
     Result<std::optional<std::uint32_t>> triangle_at(std::uint32_t x, std::uint32_t y, bool right);
     /// Of the two pictures drawn last, mode split or difference. Waits for the device.
-    Result<gpu::Difference> difference(const gpu::CameraOptions& camera, const Shown& shown);
+    Result<gpu::Difference> difference();
 
   private:
-    enum class Kind { ring, offsets, edges };
-    static Kind kind_of(gpu::View view);
-    using Key = std::tuple<gpu::Source, gpu::Path, Kind>;
     struct Plan {
         gpu::Descriptors descriptors;
         gpu::DrawPlan draw;
@@ -92,20 +95,21 @@ class Scene {
         std::map<std::pair<gpu::View, int>, Plan> plans;  // by side
     };
 
-    Result<Entry> upload(const Key& key);
+    using Entries = std::map<UploadKey, Entry>;
+    Result<bool> upload(const std::shared_ptr<const gpu::Model>& model, const Shown& shown, Entries& entries);
     Result<gpu::Painter*> painter(gpu::View view);
-    Result<void> draw_side(VkCommandBuffer commands, int side, const Shown& shown);
-    static Key key_of(const Shown& shown, int side);
+    static UploadKey key_of(const Shown& shown, int side);
     Result<void> write_sets();
     /// Makes the buffer so large, if it is not, and mapped.
     Result<void> hold(gpu::Buffer& buffer, const char* name, std::size_t bytes);
+    Result<VkPipeline> compose_pipeline(Mode mode);
 
     gpu::Context* context_ = nullptr;
     std::optional<gpu::Commands> commands_;
     std::optional<gpu::Transfer> transfer_;
-    gpu::Expander expander_;
+    std::unique_ptr<gpu::Expander> expander_;  // stays where it is: the uploader knows it
     gpu::Layout layout_;
-    gpu::PipelineHandle compose_;
+    std::map<std::array<std::uint32_t, 3>, gpu::PipelineHandle> compose_;  // by its constants
     gpu::QueryPoolHandle queries_;
     bool timed_ = false;
 
@@ -113,19 +117,22 @@ class Scene {
     std::optional<gpu::Adjacency> adjacency_;
     std::shared_ptr<const gpu::Model> model_;
     std::map<gpu::View, gpu::Painter> painters_;
-    std::map<Key, Entry> entries_;
+    Entries entries_;
+    Entries adopted_;  // of the model that is to be taken
+    std::shared_ptr<const gpu::Model> adopting_;
 
     VkExtent2D extent_{};
     std::uint32_t samples_ = 1;
     std::optional<gpu::Target> targets_[2];
     gpu::Image composed_;
     gpu::Buffer paint_, growth_, pixel_;
-    bool painted_ = false, grows_ = false;
+    bool painted_ = false, coloured_ = false, grows_ = false, blank_ = true;
     std::vector<Mark> under_marks_;  // what set_marks covered
     std::uint32_t invaded_ = 0, fresh_ = 0;
     double edge_pixels_ = 0;  // of a mean edge, in the picture drawn last
     gpu::Descriptors descriptors_;
-    VkDescriptorSet sets_[2] = {};  // the left picture alone; both
+    VkDescriptorSet sets_[2] = {};        // the left picture alone; both
+    std::unique_ptr<Uploader> uploader_;  // goes first
 };
 
 }  // namespace lr::view

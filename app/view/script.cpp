@@ -226,6 +226,7 @@ std::string Script::state_text(Viewer& viewer) {
         out["triangles"] = document.mesh->triangle_count();
         out["optimised"] = document.optimised;
         out["seconds"] = document.seconds;
+        out["shown_seconds"] = state.shown_seconds;
         out["t0"] = document.model->lean.statistics.t0;
         out["lean_bits"] = document.lean.bits;
         out["packed_bits"] = document.packed.bits;
@@ -248,6 +249,8 @@ std::string Script::state_text(Viewer& viewer) {
                              {"triangles", state.difference->triangles},
                              {"covered", state.difference->covered}};
     }
+    out["started_ms"] = state.started * 1e3;
+    out["longest_frame_ms"] = state.longest_frame * 1e3;  // since the last such line
     if (!state.costs.empty()) {
         out["draw_ms"] = state.costs.back().draw;
         out["decode_ms"] = state.costs.back().decode;
@@ -374,6 +377,7 @@ Result<bool> Script::run(const Line& line, Viewer& viewer, Window& window, std::
         fmt::print("{}\n", nlohmann::ordered_json{{"ray", hit}, {"near", near}, {"selected", selected}}.dump());
     } else if (what == "print") {
         fmt::print("{}\n", state_text(viewer));
+        state.longest_frame = 0;
         std::fflush(stdout);
     } else {
         return wrong("no such line: " + what);

@@ -21,6 +21,8 @@ class Script {
     /// Before each frame: puts events in the queue and changes what the lines say, up to the first that has to wait.
     /// Errors: invalid_argument, "FILE:LINE: why".
     Result<void> advance(Viewer& viewer, Window& window, std::deque<Event>& events);
+    /// A line waits for something.
+    bool waiting() const { return waited_ > 0; }
     bool done() const { return at_ >= lines_.size() && frames_ == 0; }
 
   private:

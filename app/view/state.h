@@ -54,6 +54,9 @@ struct State {
     Loader::Progress progress;
     std::deque<FrameCost> costs;
     double frame_seconds = 0;  ///< the last picture drawn anew: recorded, drawn, composed, panels
+    double shown_seconds = 0;  ///< from asking for the document until it was on the screen
+    double longest_frame = 0;  ///< seconds from a look at the events to the picture that answers them
+    double started = 0;        ///< seconds from the program's start to its first picture
     std::uint64_t device_bytes = 0;
     std::string device;
     bool mesh_shaders = false;

@@ -19,6 +19,8 @@ namespace lr::view {
 namespace {
 
 constexpr std::size_t kHistory = 120;  // frames of the plot
+constexpr double kNoticed = 0.03;      // seconds of a picture that a person waits for
+constexpr double kRest = 0.15;         // seconds without a movement
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -27,7 +29,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }  // namespace
 
 Result<std::unique_ptr<Viewer>> Viewer::create(gpu::Context& context, const ViewerOptions& options) {
-    LR_ASSIGN(Scene scene, Scene::create(context));
+    LR_ASSIGN(Scene scene, Scene::create(context, options.wake));
     std::unique_ptr<Viewer> out(new Viewer(context, options, std::move(scene)));
     LR_ASSIGN(out->overlay_, Overlay::create(context, options.scale));
     LR_ASSIGN(out->commands_, gpu::Commands::create(context));
@@ -51,10 +53,10 @@ std::string Viewer::title() const {
     return std::filesystem::path(state_.document->path).filename().string() + " - LacedRing";
 }
 
-Shown Viewer::shown(bool moving) const {
+Shown Viewer::shown(bool moving, const gpu::Model* model) const {
     Shown out = state_.shown;
     out.exact = !moving || state_.exact_while_moving || out.mode != Mode::single;
-    if (scene_.model() != nullptr && out.source == gpu::Source::packed && scene_.model()->packed.words.empty()) {
+    if (model != nullptr && out.source == gpu::Source::packed && model->packed.words.empty()) {
         out.source = gpu::Source::lean;  // it is being made
     }
     return out;
@@ -63,8 +65,8 @@ Shown Viewer::shown(bool moving) const {
 Result<void> Viewer::resize() {
     const std::uint32_t samples = gpu::Target::fitting_samples(context_, extent_, state_.samples);
     if (made_.width == extent_.width && made_.height == extent_.height && made_samples_ == samples) return {};
-    end_turntable();                      // its pictures are of one size
-    vkDeviceWaitIdle(context_.device());  // the window may still be taking the last picture
+    end_turntable();       // its pictures are of one size
+    context_.wait_idle();  // the window may still be taking the last picture
     LR_TRY(scene_.resize(extent_, samples));
     LR_TRY(overlay_->resize(extent_));
     made_ = extent_;
@@ -101,31 +103,22 @@ void Viewer::opened(const std::string& path) {
 void Viewer::take_news() {
     Loader::News news = loader_.take();
     state_.progress = loader_.progress();
-    if (news.document) {
-        const bool other = !state_.document || state_.document->mesh != news.document->mesh;
-        if (other) {
-            opened(news.document->path);
-            if (const Result<void> taken = take_paint_away(); !taken) state_.error = taken.error().message;
+    if (news.document) news_.document = std::move(news.document);
+    if (news.tables) news_.tables = std::move(news.tables);
+    if (news.formats) news_.formats = std::move(news.formats);
+    if (news_.document && visible()) take_document();
+    if (news_.document) {
+        // Tables and formats are of what is still to come.
+        if (!state_.progress.busy || state_.progress.background) {
+            state_.progress = {.busy = true, .background = false, .what = "to the device", .share = 1};
         }
-        const bool other_way = state_.document && state_.document->expansion != news.document->expansion;
-        state_.document = std::move(news.document);
-        // One that was stopped on its way goes on from there.
-        if (other_way && (state_.growing || state_.growth >= state_.growth_end())) {
-            state_.growth = 0;
-            state_.growing = state_.paint == Paint::growth;
+    } else {
+        if (news_.tables && state_.document && news_.tables->mesh == state_.document->mesh) {
+            state_.tables = std::move(news_.tables);
         }
-        if (const Result<void> set = scene_.set_model(state_.document->model); !set) state_.error = set.error().message;
-        if (other) {
-            const Result<void> framed = frame_all(options_.camera);
-            if (!framed) state_.error = framed.error().message;
-            const Vector up = options_.camera.up;
-            options_.camera = {};  // was for the first mesh; its up stays
-            options_.camera.up = up;
-        }
-        dirty_ = true;
+        if (news_.formats) state_.formats = std::move(news_.formats);
+        news_ = {};
     }
-    if (news.tables && state_.document && news.tables->mesh == state_.document->mesh) state_.tables = news.tables;
-    if (news.formats) state_.formats = news.formats;
     if (news.error) {
         state_.error = *news.error;
         if (!queue_.empty()) {
@@ -134,6 +127,38 @@ void Viewer::take_news() {
         }
         quiet_frames_ = 0;
     }
+}
+
+/// Shows the document that came, once its model is on the device; the one that was shown stays until then.
+void Viewer::take_document() {
+    const std::shared_ptr<const gpu::Model>& model = news_.document->model;
+    const Result<bool> there = scene_.adopt(model, shown(false, model.get()));
+    if (there && !*there) return;
+    const std::shared_ptr<const Document> document = std::exchange(news_.document, nullptr);
+    if (!there) {
+        state_.error = document->path + ": " + there.error().message;
+        return;
+    }
+    const bool other = !state_.document || state_.document->mesh != document->mesh;
+    if (other) {
+        opened(document->path);
+        if (const Result<void> taken = take_paint_away(); !taken) state_.error = taken.error().message;
+    }
+    const bool other_way = state_.document && state_.document->expansion != document->expansion;
+    state_.document = document;
+    // One that was stopped on its way goes on from there.
+    if (other_way && (state_.growing || state_.growth >= state_.growth_end())) {
+        state_.growth = 0;
+        state_.growing = state_.paint == Paint::growth;
+    }
+    if (other) {
+        const Result<void> framed = frame_all(options_.camera);
+        if (!framed) state_.error = framed.error().message;
+        const Vector up = options_.camera.up;
+        options_.camera = {};  // was for the first mesh; its up stays
+        options_.camera.up = up;
+    }
+    dirty_ = fresh_ = true;
 }
 
 /// What panels and keys asked for.
@@ -196,7 +221,7 @@ void Viewer::advance(double seconds) {
     state_.clock += seconds;
     if (state_.turntable && state_.document) {
         orbit_.turn_degrees(state_.turntable_speed * seconds);
-        dirty_ = moving_ = true;
+        dirty_ = moved_ = true;
     }
     if (state_.paint != Paint::growth) state_.growing = false;
     if (state_.growing && state_.document) {
@@ -217,6 +242,10 @@ void Viewer::update_outlines() {
 Viewer::Painted Viewer::wanted_paint() const {
     const double growth = state_.paint == Paint::growth ? std::min(state_.growth, state_.growth_end()) : 0;
     return {state_.selection.corner, state_.paint, static_cast<std::uint32_t>(growth), state_.document.get()};
+}
+
+bool Viewer::laid() const {
+    return !state_.document || painted_ == wanted_paint();
 }
 
 Result<void> Viewer::take_paint_away() {
@@ -251,51 +280,77 @@ Result<void> Viewer::update_paint() {
     return {};
 }
 
+/// False: not yet. What cannot be is told, and not shown.
+Result<bool> Viewer::prepare(const Shown& picture) {
+    const Result<bool> there = scene_.prepare(picture);
+    if (there || there.error().code == ErrorCode::device_failure) return there;
+    state_.error = there.error().message;
+    const bool other = state_.shown.view != drawn_.view || state_.shown.source != drawn_.source ||
+                       state_.shown.path != drawn_.path || state_.shown.mode != drawn_.mode;
+    if (!other) return there;  // nothing to go back to
+    state_.shown = drawn_;
+    return false;
+}
+
 Result<void> Viewer::draw() {
     update_outlines();
     aim_turntable();
-    const bool exact_due = !moving_ && !drawn_exact_;
-    const bool draw_scene = dirty_ || exact_due || state_.shown.decode_again;
-    const Shown picture = shown(moving_);
-    if (draw_scene) LR_TRY(scene_.prepare(picture));
+    // An exact picture that takes long waits until a person rests.
+    const bool resting = still_seconds_ > (exact_seconds_ > kNoticed ? kRest : 0.0);
+    bool draw_scene = dirty_ || (!drawn_.exact && resting) || state_.shown.decode_again;
+    const Shown picture = shown(fresh_ || !resting, scene_.model());
+    if (draw_scene) {
+        LR_ASSIGN(draw_scene, prepare(picture));
+        if (!draw_scene) dirty_ = true;
+    }
     LR_TRY(update_paint());
     const auto begun = std::chrono::steady_clock::now();
     LR_ASSIGN(const VkCommandBuffer commands, commands_->begin());
-    if (draw_scene) LR_TRY(scene_.record_draw(commands, picture, orbit_.options()));
+    if (draw_scene && scene_.model() != nullptr) {
+        LR_TRY(scene_.record_draw(commands, picture, orbit_.options()));
+        drawn_ = picture;
+    } else if (scene_.blank()) {
+        scene_.record_clear(commands);
+        compose_ = true;
+    }
     if (draw_scene || compose_) {
         const auto divider = static_cast<std::uint32_t>(state_.divider * extent_.width + 0.5);
-        scene_.record_compose(commands, picture.mode, divider);
+        LR_TRY(scene_.record_compose(commands, drawn_.mode, divider));
+        compose_ = false;
     }
     overlay_->record(commands, scene_.composed());
     const double cpu = seconds_since(begun);
     LR_TRY(commands_->run());
-    if (draw_scene && scene_.model() != nullptr) {
+    if (!draw_scene) return {};
+    dirty_ = fresh_ = false;
+    if (scene_.model() != nullptr) {
+        state_.frame_seconds = seconds_since(begun);
+        if (picture.exact) exact_seconds_ = state_.frame_seconds;
         if (const auto times = scene_.times()) {
             state_.costs.push_back({static_cast<float>(times->decode * 1e3), static_cast<float>(times->draw * 1e3),
                                     static_cast<float>(cpu * 1e3)});
             if (state_.costs.size() > kHistory) state_.costs.pop_front();
-            state_.frame_seconds = seconds_since(begun);
         }
-        drawn_exact_ = picture.exact;
-        if (picture.mode != Mode::single) difference_due_ = true;
-    }
-    if (state_.turntable_job) {
-        save_turntable_picture();
-    } else if (difference_due_ && !moving_ && picture.mode != Mode::single && scene_.model() != nullptr) {
-        LR_ASSIGN(state_.difference, scene_.difference(orbit_.options(), picture));
-        difference_due_ = false;
-        quiet_frames_ = 0;
+        difference_due_ = picture.mode != Mode::single;
     }
     if (picture.mode == Mode::single) state_.difference.reset();
-    dirty_ = compose_ = false;
+    if (state_.turntable_job) save_turntable_picture();
+    return {};
+}
+
+/// Of the two pictures that are drawn, once nothing moves.
+Result<void> Viewer::compare() {
+    if (!difference_due_ || still_seconds_ == 0 || dirty_ || state_.turntable_job) return {};
+    LR_ASSIGN(state_.difference, scene_.difference());
+    difference_due_ = false;
+    quiet_frames_ = 0;
     return {};
 }
 
 Result<void> Viewer::frame(double seconds) {
     take_news();
-    const bool was_moving = moving_;
-    moving_ = dragging_ >= 0 && was_moving;
     advance(seconds);
+    still_seconds_ = std::exchange(moved_, false) ? 0 : still_seconds_ + seconds;
     if (visible()) {
         LR_TRY(resize());
         state_.device_bytes = context_.arena().held();
@@ -311,17 +366,22 @@ Result<void> Viewer::frame(double seconds) {
     if (visible()) {
         if (state_.samples != made_samples_) LR_TRY(resize());
         LR_TRY(draw());
+        LR_TRY(compare());
     }
-    busy_ = (state_.progress.busy && !state_.progress.background) || state_.turntable || state_.growing ||
-            state_.shown.decode_again || dirty_ || difference_due_ || state_.open.has_value() ||
-            state_.turntable_job.has_value() || (state_.document && painted_ != wanted_paint());
-    const bool laid = painted_ == wanted_paint();
-    settled_ = !busy_ && laid && (!state_.outlines || !state_.tables || outlined_ == state_.tables.get()) && !moving_ &&
-               drawn_exact_ && state_.ring == asked_;
-    if (moving_) quiet_frames_ = 0;
-    ++quiet_frames_;
-    if (!dragging_divider_ && dragging_ < 0) moving_ = false;
+    animated_ = state_.turntable || state_.growing || state_.shown.decode_again || state_.open.has_value() || dirty_ ||
+                state_.turntable_job.has_value() || !laid() || (visible() && !drawn_.exact);
+    busy_ = (state_.progress.busy && !state_.progress.background) || animated_ || difference_due_;
+    settled_ = !busy_ && (!state_.outlines || !state_.tables || outlined_ == state_.tables.get()) &&
+               still_seconds_ > 0 && state_.ring == asked_;
+    quiet_frames_ = still_seconds_ == 0 ? 0 : quiet_frames_ + 1;
     return {};
+}
+
+void Viewer::presented(double seconds) {
+    state_.longest_frame = std::max(state_.longest_frame, seconds);
+    if (state_.document.get() == shown_ || scene_.model() != state_.document->model.get()) return;
+    shown_ = state_.document.get();
+    state_.shown_seconds = seconds_since(state_.document->asked);
 }
 
 Result<gpu::Picture> Viewer::picture_of(const gpu::Image& image) {

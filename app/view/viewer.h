@@ -1,6 +1,7 @@
 #pragma once
 // The viewer: events in, frames out. Knows of no window system, so that a script drives it as a window does.
 
+#include <functional>
 #include <memory>
 #include <utility>
 
@@ -19,6 +20,8 @@ struct ViewerOptions {
     bool panels = true;
     std::uint32_t frame_cap = 60;  ///< pictures a second, 0: none
     bool keep_recent = true;       ///< files that were opened are remembered
+    /// Called by other threads when they have something for the next frame.
+    std::function<void()> wake = [] {};
 };
 
 class Viewer {
@@ -29,6 +32,9 @@ class Viewer {
     /// Everything for one picture `seconds` after the last one. Nothing is drawn while the picture has no size.
     Result<void> frame(double seconds);
 
+    /// The last picture is on the screen, `seconds` after its frame began.
+    void presented(double seconds);
+
     /// The last picture, panels and all, in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL.
     const gpu::Image& image() const { return overlay_->image(); }
     VkExtent2D extent() const { return extent_; }
@@ -37,8 +43,10 @@ class Viewer {
     Result<gpu::Picture> picture() { return picture_of(overlay_->image()); }
 
     bool closing() const { return closing_; }
+    /// The next picture will be another one by itself.
+    bool moving() const { return quiet_frames_ <= 3 || animated_; }
     /// Nothing moves, nothing is awaited: the next picture would be the last one.
-    bool idle() const { return quiet_frames_ > 3 && !busy_; }
+    bool idle() const { return !moving() && !busy_ && !state_.progress.busy && !news(); }
     /// The mesh as it was drawn is as it will stay, but for what a person does.
     bool settled() const { return settled_; }
     /// "NAME - LacedRing"
@@ -58,13 +66,16 @@ class Viewer {
     void redraw() { dirty_ = true; }
     void pick(double x, double y);
     Result<void> frame_all(const gpu::CameraOptions& options);
-    Shown shown(bool moving) const;
 
   private:
     Viewer(gpu::Context& context, const ViewerOptions& options, Scene scene)
-        : options_(options), context_(context), scene_(std::move(scene)) {}
+        : options_(options), context_(context), scene_(std::move(scene)), loader_(options.wake) {}
+    bool news() const { return loader_.has_news() || news_.document; }
     Result<void> resize();
+    Shown shown(bool moving, const gpu::Model* model) const;
     void take_news();
+    void take_document();
+    Result<bool> prepare(const Shown& picture);
     void handle_mouse(const Event& event);
     void handle_key(const Event& event);
     void act();
@@ -79,6 +90,7 @@ class Viewer {
     void aim_turntable();
     void save_turntable_picture();
     void end_turntable();
+    Result<void> compare();
 
     ViewerOptions options_;
     gpu::Context& context_;
@@ -96,9 +108,15 @@ class Viewer {
     int dragging_ = -1;
     bool dragging_divider_ = false;
     double mouse_x_ = 0, mouse_y_ = 0, press_x_ = 0, press_y_ = 0;
-    bool dirty_ = true, compose_ = true, moving_ = false, settled_ = false, closing_ = false, busy_ = false;
-    bool drawn_exact_ = false, difference_due_ = false;
-    int quiet_frames_ = 0, still_frames_ = 0;
+    bool dirty_ = true, compose_ = true, moved_ = false, settled_ = false, closing_ = false, busy_ = false,
+         animated_ = false;
+    bool difference_due_ = false;
+    bool fresh_ = false;        // the model has not been drawn yet
+    Shown drawn_;               // the last picture
+    double exact_seconds_ = 0;  // that the last exact one took
+    double still_seconds_ = 1;  // since the camera moved; 0: in this frame
+    int quiet_frames_ = 0;
+    Loader::News news_;  // not on the screen yet
     Paintings paintings_;
     std::shared_ptr<const Painting> laid_;  // what is laid over the triangles; kept until its successor is made
     struct Painted {
@@ -109,9 +127,11 @@ class Viewer {
         bool operator==(const Painted&) const = default;
     } painted_;
     Painted wanted_paint() const;
+    bool laid() const;
     CornerId marked_ = null_corner;  // the corner whose marks are laid
     Orbit before_turntable_;
     const Tables* outlined_ = nullptr;  // whose outlines are drawn
+    const Document* shown_ = nullptr;   // was on the screen
     std::string clipboard_;
 };
 

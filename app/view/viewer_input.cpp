@@ -167,7 +167,7 @@ void Viewer::handle_mouse(const Event& event) {
     if (event.kind == Event::scroll) {
         if (over_panel) return;
         orbit_.zoom(std::pow(1.15, event.y), from_middle_x(mouse_x_), from_middle_y(mouse_y_), height, width);
-        dirty_ = moving_ = true;
+        dirty_ = moved_ = true;
         return;
     }
     if (event.kind == Event::button) {
@@ -204,7 +204,7 @@ void Viewer::handle_mouse(const Event& event) {
     if (dragging_ == 0) orbit_.turn(dx, dy, height);
     if (dragging_ == 1) orbit_.zoom(std::exp(-dy * 4 / std::max(1.0, height)), 0, 0, height, width);
     if (dragging_ == 2) orbit_.pan(dx, dy, height, width);
-    dirty_ = moving_ = true;
+    dirty_ = moved_ = true;
 }
 
 Vector Viewer::ray(double x, double y) const {
@@ -217,7 +217,7 @@ Vector Viewer::ray(double x, double y) const {
 
 void Viewer::pick(double x, double y) {
     if (!state_.document || x < 0 || y < 0 || x >= extent_.width || y >= extent_.height) return;
-    const bool right = state_.shown.mode == Mode::split && x >= state_.divider * extent_.width;
+    const bool right = drawn_.mode == Mode::split && x >= state_.divider * extent_.width;
     const Result<std::optional<std::uint32_t>> hit =
         scene_.triangle_at(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), right);
     if (!hit) {

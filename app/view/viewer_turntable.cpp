@@ -28,7 +28,8 @@ void Viewer::aim_turntable() {
     orbit_ = before_turntable_;
     orbit_.turn_degrees(360.0 * job.done / job.pictures);
     dirty_ = true;
-    moving_ = false;
+    fresh_ = false;
+    still_seconds_ = 1e6;  // nobody moves it: every picture is an exact one
 }
 
 /// After it is drawn. The composed picture has no panels yet.

@@ -111,6 +111,10 @@ std::vector<Event> Window::poll(double seconds) {
     return std::exchange(events_, {});
 }
 
+void Window::wake() {
+    glfwPostEmptyEvent();
+}
+
 VkExtent2D Window::extent() const {
     int width = 0, height = 0;
     glfwGetFramebufferSize(window_, &width, &height);

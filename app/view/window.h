@@ -28,6 +28,8 @@ class Window {
 
     /// What happened since the last call; waits up to `seconds` for something.
     std::vector<Event> poll(double seconds);
+    /// Ends a poll that waits. From any thread.
+    static void wake();
 
     VkExtent2D extent() const;  ///< pixels; zero while minimised
     double scale() const;       ///< pixels of the display a nominal pixel

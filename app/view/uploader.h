@@ -1,0 +1,71 @@
+#pragma once
+// Puts models on the device on a thread of its own, so that the window goes on with what it has.
+
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "renderer/expander.h"
+
+namespace lr::view {
+
+/// What is put there of a model, and with what beside its triangles.
+struct UploadKey {
+    enum class With { ring, offsets, edges };  ///< ring order, classes and the ring's lines; sizes of offsets; all edges
+    gpu::Source source = gpu::Source::plain;
+    gpu::Path path = gpu::Path::compute;
+    With with = With::ring;
+
+    auto operator<=>(const UploadKey&) const = default;
+};
+
+class Uploader {
+  public:
+    struct Job {
+        std::shared_ptr<const gpu::Model> model;
+        std::vector<UploadKey> keys;
+
+        bool operator==(const Job&) const = default;
+    };
+    struct Done {
+        Job job;
+        std::vector<gpu::Drawable> drawables;  ///< one a key
+        std::optional<Error> error;            ///< then there are none
+    };
+
+    /// `wake` is called by the thread when something is done.
+    static Result<std::unique_ptr<Uploader>> create(gpu::Context& context, std::function<void()> wake);
+    ~Uploader();  ///< ends what is being done, and waits for that
+    Uploader(const Uploader&) = delete;
+    Uploader& operator=(const Uploader&) = delete;
+
+    /// Begins it, after what is being done, in the place of what was not begun yet. `expander` must outlive the job.
+    void ask(Job job, const gpu::Expander& expander);
+    /// Asked for last, and not taken yet.
+    bool asked(const Job& job) const;
+    /// What was asked for last, once it is done.
+    std::optional<Done> take();
+    /// Waits until nothing is being done. What is done by then can still be taken.
+    void finish();
+
+  private:
+    Uploader(gpu::Transfer transfer, std::function<void()> wake)
+        : transfer_(std::move(transfer)), wake_(std::move(wake)) {}
+    void run();
+
+    gpu::Transfer transfer_;
+    std::function<void()> wake_;
+    mutable std::mutex mutex_;
+    std::condition_variable changed_;
+    const gpu::Expander* expander_ = nullptr;
+    std::optional<Job> next_, last_;  // not begun; asked for and not taken
+    std::optional<Done> done_;
+    bool working_ = false, quit_ = false;
+    std::thread thread_;
+};
+
+}  // namespace lr::view
