@@ -11,6 +11,7 @@ layout(binding = 2, rgba8) uniform readonly image2D right_colour;
 layout(binding = 3, r32ui) uniform readonly uimage2D right_triangles;
 layout(binding = 4, rgba8) uniform writeonly image2D composed;
 layout(std430, binding = 5) readonly buffer Paint { uint paint[]; };  // RGBA, one a triangle of the mesh
+layout(std430, binding = 6) readonly buffer Growth { GrowthTriangle growth[]; };
 layout(push_constant) uniform Push { ComposeConstants push; };
 // Constants, so that a device that runs both sides of every branch (a CPU) has none that it does not need.
 layout(constant_id = 0) const uint kMode = LR_COMPOSE_LEFT;
@@ -30,23 +31,81 @@ vec3 background(vec2 at) {
     return vec3(246.0 - 34.0 * s, 247.0 - 32.0 * s, 249.0 - 28.0 * s) / 255.0;
 }
 
-vec3 painted(vec3 colour, uint triangle) {
-    if (kPaint == LR_PAINT_NONE || triangle == 0u) return colour;
-    uint i = (triangle & ~LR_FRONT_FLAG) - 1u;
-    if (i >= push.triangles) return colour;
-    vec4 over = unpackUnorm4x8(paint[i]);
-    if (over.a == 0.0) return colour;
-    // The light on it stays: the surface's own colour is replaced, not its shading.
+// The light on it stays: the surface's own colour is replaced, not its shading.
+vec3 recoloured(vec3 colour, vec4 over) {
     vec3 light = linear(colour) / vec3(0.62, 0.60, 0.565);
     vec3 lit = srgb(min(linear(over.rgb) * light, vec3(1.0)));
     return mix(colour, lit, over.a);
 }
 
+uint triangle_at(bool right, ivec2 at) {
+    return right ? imageLoad(right_triangles, at).x : imageLoad(left_triangles, at).x;
+}
+
+// Colours as the panel names them (app/view/panel_choices.cpp).
+vec3 growth_colour(uint step) {
+    uint settled = step & ~LR_GROWTH_RIGHT;
+    if (settled >= push.invaded) return vec3(LR_GROWTH_NOT_YET_COLOUR) / 255.0;
+    if (step >= LR_GROWTH_RIGHT) return vec3(LR_GROWTH_RIGHT_COLOUR) / 255.0;
+    uint age = push.invaded - 1u - settled;
+    vec3 invaded = vec3(LR_GROWTH_INVADED_COLOUR) / 255.0;
+    if (age >= push.fresh) return invaded;
+    return mix(vec3(LR_GROWTH_NEWEST_COLOUR) / 255.0, invaded, 0.6 * float(age) / float(push.fresh));
+}
+
+// The ring so far parts what is invaded from what is not (yet): where a sample nearby shows the triangle across such an
+// edge, the line is drawn. So it hides behind the surface as that does, and costs what is seen, not what there is.
+vec4 ring_line(uint i, bool right, ivec2 at) {
+    uint step = growth[i].step;
+    uvec3 across = uvec3(growth[i].across[0], growth[i].across[1], growth[i].across[2]);
+    bool inside = step < push.invaded;  // the flag makes the others larger than any number of triangles
+    ivec2 last = imageSize(left_triangles) - 1;
+    uint reach = inside ? push.inner : push.outer;
+    for (int d = 1; d <= int(reach); ++d) {
+        for (int k = 0; k < 4; ++k) {
+            ivec2 to = clamp(at + d * (k < 2 ? ivec2(2 * k - 1, 0) : ivec2(0, 2 * k - 5)), ivec2(0), last);
+            uint other = triangle_at(right, to) & ~LR_FRONT_FLAG;
+            if (other == i + 1u) continue;
+            uint j = other == 0u ? LR_GROWTH_BORDER : other - 1u;
+            if (j != across.x && j != across.y && j != across.z) continue;
+            if (j == LR_GROWTH_BORDER) {
+                if (inside) return vec4(vec3(LR_GROWTH_LINE_COLOUR) / 255.0, push.line_opacity);
+                continue;
+            }
+            uint beyond = growth[j].step;
+            if (inside == (beyond < push.invaded)) continue;
+            bool stays = ((inside ? beyond : step) & ~LR_GROWTH_RIGHT) < push.invaded;
+            if (stays) return vec4(vec3(LR_GROWTH_LINE_COLOUR) / 255.0, push.line_opacity);
+            return vec4(vec3(LR_GROWTH_FRONT_COLOUR) / 255.0, max(push.line_opacity, 0.75));
+        }
+    }
+    return vec4(0.0);
+}
+
+vec3 painted(vec3 colour, uint triangle, bool right, ivec2 at) {
+    if (kPaint == LR_PAINT_NONE || triangle == 0u) return colour;
+    uint i = (triangle & ~LR_FRONT_FLAG) - 1u;
+    if (i >= push.triangles) return colour;
+    vec4 over = (kPaint & LR_PAINT_TRIANGLES) != 0u ? unpackUnorm4x8(paint[i]) : vec4(0.0);
+    if ((kPaint & LR_PAINT_GROWTH) != 0u) {
+        vec3 lit;
+        if (over.a == 0.0) {
+            // As recoloured() has it, but for the few percent by which sRGB is not a power: this runs every frame.
+            lit = min(growth_colour(growth[i].step) * colour / vec3(0.808, 0.797, 0.776), vec3(1.0));
+        } else {
+            lit = recoloured(colour, over);
+        }
+        vec4 line = (kPaint & LR_PAINT_RING) == 0u ? vec4(0.0) : ring_line(i, right, at);
+        return mix(lit, line.rgb, line.a);
+    }
+    if (over.a == 0.0) return colour;
+    return recoloured(colour, over);
+}
+
 // One sample, on the background.
 vec3 sample_at(bool right, ivec2 at, vec3 behind) {
     vec4 c = right ? imageLoad(right_colour, at) : imageLoad(left_colour, at);
-    uint triangle = right ? imageLoad(right_triangles, at).x : imageLoad(left_triangles, at).x;
-    vec3 over = c.a == 1.0 ? painted(c.rgb, triangle) : c.rgb;
+    vec3 over = c.a == 1.0 ? painted(c.rgb, triangle_at(right, at), right, at) : c.rgb;
     return floor((over + (1.0 - c.a) * behind) * 255.0 + 0.5) / 255.0;
 }
 

@@ -7,6 +7,7 @@
 
 #include "lrcore/corner_table/corner_table.h"
 #include "lrcore/lr/lr_encode.h"
+#include "lrcore/ring/expansion.h"
 #include "lrcore/ring/ring.h"
 #include "renderer/model.h"
 
@@ -46,7 +47,8 @@ struct Document {
     std::string path;
     std::shared_ptr<const Mesh> mesh;
     std::shared_ptr<const CornerTable> table;
-    std::shared_ptr<const Rings> rings;  ///< lean's
+    std::shared_ptr<const Rings> rings;          ///< lean's
+    std::shared_ptr<const Expansion> expansion;  ///< how these were begun, before the optimiser
     std::shared_ptr<const gpu::Model> model;
     RingSettings settings;
     bool optimised = false;  ///< the optimiser has run, as often as the settings say

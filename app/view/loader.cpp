@@ -149,7 +149,8 @@ Result<void> Loader::finish(Document& document, const Request& request, bool qui
     // In steps of the bar: ring, lean's passes, packed's passes.
     const double share = quick ? 0.55 : document.optimised ? 0.0 : 0.6;
     say("making the ring", share);
-    const Rings rings = expand_rings(table, ring_options(settings, quick));
+    auto expansion = std::make_shared<Expansion>();
+    const Rings rings = expand_rings(table, ring_options(settings, quick), expansion.get());
     if (stopped()) return {};
     bool shown = quick || request.input.has_value();
     // An optimiser that takes its time lets the ring be seen as it was made.
@@ -192,6 +193,8 @@ Result<void> Loader::finish(Document& document, const Request& request, bool qui
     }
     if (stopped()) return {};
     document.rings = std::move(lean_rings);
+    // Where it went the same way it stays the same one, so that what is made of it does.
+    if (!document.expansion || *document.expansion != *expansion) document.expansion = std::move(expansion);
     document.model = std::move(model);
     document.settings = settings;
     document.optimised = !quick;

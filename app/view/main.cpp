@@ -84,9 +84,10 @@ Result<void> loop(Viewer& viewer, Window& window, gpu::Swapchain& swapchain, Scr
         }
         if (script != nullptr) continue;  // as fast as it goes
         // Not every driver waits for the display.
-        const double cap = viewer.visible() ? 60.0 : 20.0;
+        const std::uint32_t cap = viewer.visible() ? viewer.state().frame_cap : 20;
+        if (cap == 0) continue;
         std::this_thread::sleep_until(
-            now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / cap)));
+            now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / cap)));
     }
     return {};
 }
@@ -142,6 +143,9 @@ int start(int argc, char** argv) {
     program.add_option("--scale", options.scale, "pixels a nominal pixel of the panels; the display's unless told")
         ->check(CLI::Range(0.5, 8.0));
     program.add_flag("--no-panels", options.no_panels, "the picture alone, until Tab is pressed");
+    program.add_option("--fps", options.viewer.frame_cap, "pictures a second at most; 0: no limit")
+        ->check(CLI::Range(0, 1000))
+        ->capture_default_str();
     auto* screenshot =
         program.add_option("--screenshot", options.screenshot, "write a PNG file when all is shown, and end")
             ->type_name("PNG");

@@ -2,45 +2,13 @@
 
 #include <imgui.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "app/view/theme.h"
-#include "lrcore/ring/expansion_order.h"
-#include "renderer/triangle_class.h"
 
 namespace lr::view {
 namespace {
-
-/// Colours that neighbouring numbers do not share.
-std::uint32_t hashed(std::uint32_t i) {
-    constexpr std::array<std::uint32_t, 12> kColours{rgba(214, 96, 60),   rgba(66, 140, 196),  rgba(232, 184, 92),
-                                                     rgba(96, 164, 108),  rgba(146, 104, 182), rgba(196, 70, 98),
-                                                     rgba(98, 186, 190),  rgba(170, 150, 84),  rgba(120, 130, 210),
-                                                     rgba(222, 140, 160), rgba(140, 186, 84),  rgba(160, 110, 80)};
-    return kColours[(i * 2654435761U >> 8) % kColours.size()];
-}
-
-void paint_growth(State& state, std::span<std::uint32_t> colours) {
-    // Of the table: kept until there is another.
-    if (state.growth_of != state.document->table) {
-        state.growth_of = state.document->table;
-        state.growth_order = expansion_order(*state.growth_of);
-    }
-    const std::vector<std::uint32_t>& order = state.growth_order;
-    const double now = state.growth;
-    for (std::size_t t = 0; t < colours.size(); ++t) {
-        const double age = now - static_cast<double>(order[t]);
-        if (order[t] == UINT32_MAX || age < 0) {
-            colours[t] = rgba(190, 190, 190, 235);
-        } else if (age < std::max(3.0, state.growth_speed * 0.15)) {
-            colours[t] = rgba(252, 206, 60);
-        } else {
-            colours[t] = rgba(214, 104, 40);
-        }
-    }
-}
 
 ImVec2 at(const std::array<double, 2>& p) {
     return {static_cast<float>(p[0]), static_cast<float>(p[1])};
@@ -107,55 +75,6 @@ void tag(const char* text, float x, float y, float side) {
 }
 
 }  // namespace
-
-std::vector<std::uint32_t> corridors(const Document& document) {
-    const CornerTable& table = *document.table;
-    std::vector<std::uint32_t> out(table.triangle_count(), UINT32_MAX);
-    const Result<LeanView> lean = view_lean(document.model->lean.words);
-    if (!lean) return out;
-    const std::vector<std::uint8_t> classes =
-        gpu::of_triangles(gpu::slot_classes(*lean), document.model->lean.slot_triangle, table.triangle_count());
-    const auto corridor = [&](std::uint32_t t) {
-        return classes[t] == LR_CLASS_T1_LEFT || classes[t] == LR_CLASS_T1_RIGHT;
-    };
-    std::uint32_t count = 0;
-    std::vector<std::uint32_t> stack;
-    for (std::uint32_t first = 0; first < out.size(); ++first) {
-        if (out[first] != UINT32_MAX || !corridor(first)) continue;
-        stack.push_back(first);
-        out[first] = count;
-        while (!stack.empty()) {
-            const std::uint32_t t = stack.back();
-            stack.pop_back();
-            for (std::uint32_t i = 0; i < 3; ++i) {
-                const CornerId o = table.opposite(corner({t}, i));
-                // On the same side: across a ring edge lies the other one.
-                if (o.is_null() || classes[triangle(o).value] != classes[t]) continue;
-                std::uint32_t& there = out[triangle(o).value];
-                if (there != UINT32_MAX) continue;
-                there = count;
-                stack.push_back(triangle(o).value);
-            }
-        }
-        ++count;
-    }
-    return out;
-}
-
-void lay_paint(State& state, std::span<std::uint32_t> colours) {
-    const Document& document = *state.document;
-    if (state.paint == Paint::corridors) {
-        const std::vector<std::uint32_t> of = corridors(document);
-        for (std::size_t t = 0; t < colours.size(); ++t) {
-            colours[t] = of[t] == UINT32_MAX ? rgba(176, 176, 176) : hashed(of[t]);
-        }
-    } else if (state.paint == Paint::blocks) {
-        const std::vector<std::uint32_t>& order = document.model->packed.triangle_order;
-        for (std::uint32_t i = 0; i < order.size(); ++i) colours[order[i]] = hashed(i / 256);
-    } else if (state.paint == Paint::growth) {
-        paint_growth(state, colours);
-    }
-}
 
 void draw_marks(const State& state, const Orbit& orbit, std::uint32_t width, std::uint32_t height) {
     if (!state.panels) return;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 
 #include "app/view/panels.h"
@@ -79,6 +80,52 @@ void draw_files(State& state) {
     ImGui::EndTabBar();
 }
 
+void swatch(unsigned r, unsigned g, unsigned b, const char* text) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float side = ImGui::GetTextLineHeight() - px(4);
+    ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + px(2)}, {at.x + side, at.y + px(2) + side}, rgba(r, g, b),
+                                              px(2));
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + side + px(6));
+    ImGui::TextDisabled("%s", text);
+}
+
+/// How the ring-expander is watched.
+void draw_growth(State& state) {
+    const double end = state.growth_end();
+    label("Speed");
+    auto speed = static_cast<float>(state.growth_speed);
+    if (ImGui::SliderFloat("##speed", &speed, 1, 1e6F, "%.0f /s", ImGuiSliderFlags_Logarithmic)) {
+        state.growth_speed = static_cast<double>(speed);
+    }
+    label("Invaded");
+    auto invaded = static_cast<int>(std::min(state.growth, end));
+    if (ImGui::SliderInt("##invaded", &invaded, 0, static_cast<int>(end))) {
+        state.growing = false;
+        state.growth = invaded;
+    }
+    if (ImGui::Button(state.growing ? "Pause" : "Grow")) {
+        if (!state.growing && state.growth >= end) state.growth = 0;
+        state.growing = !state.growing;
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Step")) {
+        state.growing = false;
+        state.growth = std::min(std::floor(state.growth) + 1, end);
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Restart")) state.growth = 0;
+    const float column = px(124);
+    swatch(LR_GROWTH_INVADED_COLOUR, "invaded");
+    ImGui::SameLine(column);
+    swatch(LR_GROWTH_NEWEST_COLOUR, "newest");
+    swatch(LR_GROWTH_RIGHT_COLOUR, "never invaded");
+    ImGui::SameLine(column);
+    swatch(LR_GROWTH_NOT_YET_COLOUR, "not yet");
+    swatch(LR_GROWTH_LINE_COLOUR, "ring");
+    ImGui::SameLine(column);
+    swatch(LR_GROWTH_FRONT_COLOUR, "front");
+}
+
 void draw_view(State& state) {
     heading("View");
     using gpu::View;
@@ -104,29 +151,12 @@ void draw_view(State& state) {
             state.growing = true;
         }
     }
-    if (state.paint == Paint::growth && state.document) {
-        label("Speed");
-        auto speed = static_cast<float>(state.growth_speed);
-        if (ImGui::SliderFloat("##speed", &speed, 1, 1e6F, "%.0f /s", ImGuiSliderFlags_Logarithmic)) {
-            state.growth_speed = static_cast<double>(speed);
-        }
-        if (ImGui::Button(state.growing ? "Pause" : "Grow")) {
-            if (!state.growing && state.growth >= static_cast<double>(state.document->mesh->triangle_count())) {
-                state.growth = 0;
-            }
-            state.growing = !state.growing;
-        }
-        ImGui::SameLine();
-        if (ImGui::Button("Step")) {
-            state.growing = false;
-            state.growth += 1;
-            changed = true;
-        }
-        ImGui::SameLine();
-        if (ImGui::Button("Restart")) state.growth = 0;
-    }
+    if (state.paint == Paint::growth && state.document) draw_growth(state);
     changed |= choose("Picture", kModes, shown.mode);
     changed |= choose("Samples", kSamples, state.samples);
+    constexpr std::array<std::pair<const char*, std::uint32_t>, 4> kCaps{
+        {{"30 a second", 30}, {"60 a second", 60}, {"120 a second", 120}, {"no limit", 0}}};
+    choose("Pictures", kCaps, state.frame_cap);
     state.choices_changed |= changed;
     ImGui::Checkbox("outlines", &state.outlines);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Silhouettes, borders and creases, asked of the LR tables");
@@ -181,7 +211,7 @@ void draw_choices(State& state) {
     ImGui::Dummy({0, px(4)});
     if (ImGui::Button("Screenshot")) state.screenshot = true;
     ImGui::SameLine();
-    if (ImGui::Button("Turntable PNG")) state.turntable_frames = true;
+    if (ImGui::Button("Turntable PNG")) state.turntable_pictures = true;
     ImGui::Dummy({0, px(4)});
     draw_files(state);
 }

@@ -32,7 +32,11 @@ void draw_bar(State& state) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2{px(12), px(4)});
     begin_at("bar", {0, window.y - px(kBar)}, {window.x, px(kBar)}, ImGuiWindowFlags_NoScrollbar);
     ImGui::AlignTextToFramePadding();
-    const Loader::Progress& progress = state.progress;
+    Loader::Progress progress = state.progress;
+    if (const auto& job = state.turntable_job) {
+        progress = {true, false, fmt::format("picture {} of {}", job->done + 1, job->pictures),
+                    static_cast<double>(job->done) / job->pictures};
+    }
     if (state.document) {
         const Document& document = *state.document;
         ImGui::Text("%s   %s triangles   %s vertices", std::filesystem::path(document.path).filename().c_str(),
@@ -147,7 +151,7 @@ void draw_help() {
                                {"Home, Enter, F", "frame all"},
                                {".", "frame the selection"},
                                {"1 3 7 9", "front, right, top, three-quarter; control: opposite"},
-                               {"T", "turntable"},
+                               {"T, shift + T", "turntable; a whole turn as PNG files"},
                                {"V, shift + V", "next view, previous view"},
                                {"X, D", "split: plain | stream; difference"},
                                {"click", "select a corner"},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -30,6 +31,7 @@ void leave(VkCommandBuffer commands, const gpu::Target& target) {
 
 constexpr std::uint32_t kTimestamps = 3;
 constexpr std::uint32_t kGroup = 8;  // compose.comp
+constexpr double kLeastEdge = 1.5;   // pixels of a mean edge from which the growing ring has a line
 
 }  // namespace
 
@@ -43,10 +45,11 @@ Result<Scene> Scene::create(gpu::Context& context, std::function<void()> wake) {
     LR_ASSIGN(out.uploader_, Uploader::create(context, std::move(wake)));
     std::vector<gpu::Binding> bindings;
     for (std::uint32_t i = 0; i < 5; ++i) bindings.push_back({i, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
-    bindings.push_back({5, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
+    for (std::uint32_t i = 5; i < 7; ++i) bindings.push_back({i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
     LR_ASSIGN(out.layout_, gpu::Layout::create(context, "compose", bindings, VK_SHADER_STAGE_COMPUTE_BIT,
                                                sizeof(gpu::ComposeConstants)));
     LR_ASSIGN(out.paint_, gpu::Buffer::create(context, "paint", 16, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT));
+    LR_ASSIGN(out.growth_, gpu::Buffer::create(context, "growth", 16, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT));
     LR_ASSIGN(out.pixel_, gpu::Buffer::create(context, "pixel", 16, 0, gpu::Memory::readback));
     if (context.info().timestamps) {
         VkQueryPoolCreateInfo info{};
@@ -89,6 +92,7 @@ Result<void> Scene::write_sets() {
         descriptors_.write_image(sets_[both], 3, right.triangles().view());
         descriptors_.write_image(sets_[both], 4, composed_.view());
         descriptors_.write(sets_[both], 5, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, {&paint_});
+        descriptors_.write(sets_[both], 6, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, {&growth_});
     }
     return {};
 }
@@ -106,7 +110,6 @@ Result<bool> Scene::adopt(const std::shared_ptr<const gpu::Model>& model, const 
     if (!there) return there.error();
     entries_ = std::move(entries);
     model_ = model;
-    LR_TRY(set_paint({}));
     return true;
 }
 
@@ -123,16 +126,56 @@ Result<void> Scene::set_outlines(const EncodedLr* tables) {
     return {};
 }
 
+Result<void> Scene::hold(gpu::Buffer& buffer, const char* name, std::size_t bytes) {
+    if (buffer.size() >= bytes && buffer.mapped() != nullptr) return {};
+    LR_ASSIGN(buffer,
+              gpu::Buffer::create(*context_, name, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Memory::upload));
+    return write_sets();
+}
+
 Result<void> Scene::set_paint(std::span<const std::uint32_t> colours) {
-    painted_ = !colours.empty();
+    under_marks_.clear();
+    painted_ = coloured_ = !colours.empty();
     if (!painted_) return {};
-    if (paint_.size() < colours.size_bytes() || paint_.mapped() == nullptr) {
-        LR_ASSIGN(paint_, gpu::Buffer::create(*context_, "paint", colours.size_bytes(),
-                                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Memory::upload));
-        LR_TRY(write_sets());
-    }
+    LR_TRY(hold(paint_, "paint", colours.size_bytes()));
     std::memcpy(paint_.mapped(), colours.data(), colours.size_bytes());
     return {};
+}
+
+Result<void> Scene::set_marks(std::span<const Mark> marks) {
+    const auto exchange = [&](const Mark& mark) {
+        std::byte* at = paint_.mapped() + sizeof(std::uint32_t) * mark.triangle;
+        Mark under = mark;
+        std::memcpy(&under.colour, at, sizeof(under.colour));
+        std::memcpy(at, &mark.colour, sizeof(mark.colour));
+        return under;
+    };
+    while (!under_marks_.empty()) {  // a triangle may have been marked twice
+        exchange(under_marks_.back());
+        under_marks_.pop_back();
+    }
+    painted_ = coloured_ || !marks.empty();
+    if (marks.empty() || !model_) return {};
+    if (!coloured_) {
+        const std::size_t bytes = sizeof(std::uint32_t) * std::size_t{model_->triangle_count()};
+        LR_TRY(hold(paint_, "paint", bytes));
+        std::memset(paint_.mapped(), 0, bytes);
+    }
+    for (const Mark& mark : marks) under_marks_.push_back(exchange(mark));
+    return {};
+}
+
+Result<void> Scene::set_growth(std::span<const gpu::GrowthTriangle> triangles) {
+    grows_ = !triangles.empty();
+    if (!grows_) return {};
+    LR_TRY(hold(growth_, "growth", triangles.size_bytes()));
+    std::memcpy(growth_.mapped(), triangles.data(), triangles.size_bytes());
+    return {};
+}
+
+void Scene::grow(std::uint32_t invaded, std::uint32_t fresh) {
+    invaded_ = invaded;
+    fresh_ = fresh;
 }
 
 UploadKey Scene::key_of(const Shown& shown, int side) {
@@ -214,6 +257,7 @@ Result<void> Scene::record_draw(VkCommandBuffer commands, const Shown& shown, co
     if (blank_) record_clear(commands, sides);  // what is not drawn must be readable
     const VkExtent2D drawn = targets_[0]->extent();
     LR_ASSIGN(const gpu::Camera camera, gpu::make_camera(*model_, options, drawn.width, drawn.height));
+    edge_pixels_ = model_->mean_edge * camera.pixels_per_unit / samples_;
     gpu::Painter& by = painters_.at(shown.view);
     by.set_frame(*model_, camera, *targets_[0]);
     if (adjacency_) {
@@ -246,7 +290,10 @@ Result<VkPipeline> Scene::compose_pipeline(Mode mode) {
     const std::uint32_t how = mode == Mode::single  ? LR_COMPOSE_LEFT
                               : mode == Mode::split ? LR_COMPOSE_SPLIT
                                                     : LR_COMPOSE_DIFFERENCE;
-    const std::array<std::uint32_t, 3> constants{how, samples_, painted_ ? LR_PAINT_TRIANGLES : LR_PAINT_NONE};
+    std::uint32_t paint = painted_ ? LR_PAINT_TRIANGLES : LR_PAINT_NONE;
+    if (grows_) paint |= LR_PAINT_GROWTH;
+    if (grows_ && edge_pixels_ > kLeastEdge) paint |= LR_PAINT_RING;
+    const std::array<std::uint32_t, 3> constants{how, samples_, paint};
     gpu::PipelineHandle& made = compose_[constants];
     if (!made) {
         LR_ASSIGN(made, gpu::create_compute(*context_, "compose", layout_, spirv_compose_comp, constants));
@@ -260,7 +307,16 @@ Result<void> Scene::record_compose(VkCommandBuffer commands, Mode mode, std::uin
                        VK_IMAGE_LAYOUT_UNDEFINED, kGeneral);
     gpu::ComposeConstants push{};
     push.divider = divider;
-    push.triangles = painted_ && model_ ? model_->triangle_count() : 0;
+    push.triangles = (painted_ || grows_) && model_ ? model_->triangle_count() : 0;
+    push.invaded = invaded_;
+    push.fresh = fresh_;
+    // The ring's line, faded and thinned like the one of the view of the ring (renderer/painter.cpp).
+    const double strength = std::clamp((edge_pixels_ - 1) / 9, 0.0, 1.0);
+    const double closer = std::clamp((edge_pixels_ - 10) / 40, 0.0, 1.0);
+    const auto width = static_cast<std::uint32_t>(std::lround((0.7 + 1.5 * strength + 1.3 * closer) * samples_));
+    push.inner = (width + 1) / 2;
+    push.outer = width / 2;
+    push.line_opacity = static_cast<float>(0.15 + 0.80 * strength);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.pipeline(), 0, 1,
                             &sets_[mode == Mode::single ? 0 : 1], 0, nullptr);

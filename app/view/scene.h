@@ -34,6 +34,12 @@ struct SceneTimes {
     double draw = 0;
 };
 
+/// A triangle of the mesh and its RGBA.
+struct Mark {
+    std::uint32_t triangle;
+    std::uint32_t colour;
+};
+
 class Scene {
   public:
     /// `wake` is called, by another thread, when something that was awaited is there.
@@ -42,13 +48,19 @@ class Scene {
     /// Pixels of the composed image, and how many samples a pixel has along each side.
     Result<void> resize(VkExtent2D extent, std::uint32_t samples);
     /// Takes another model once what `shown` needs of it is on the device: true. Until then, and if that fails, all
-    /// stays as it is. Errors: those of prepare.
+    /// stays as it is. Colours stay in any case: those of another mesh have to be taken away. Errors: those of prepare.
     Result<bool> adopt(const std::shared_ptr<const gpu::Model>& model, const Shown& shown);
     const gpu::Model* model() const { return model_.get(); }
     /// Draws outlines over the surface, asked of these LR tables of the model's mesh; null: none.
     Result<void> set_outlines(const EncodedLr* tables);
     /// RGBA a triangle of the mesh, to be laid over it; empty: none. Not while a frame is being drawn.
     Result<void> set_paint(std::span<const std::uint32_t> colours);
+    /// Colours of single triangles over those of set_paint, in the place of those set before. Likewise.
+    Result<void> set_marks(std::span<const Mark> marks);
+    /// A triangle of the mesh each, to be laid under both; empty: none. Likewise.
+    Result<void> set_growth(std::span<const gpu::GrowthTriangle> triangles);
+    /// How far it has grown, and how many of the last triangles are told from the others.
+    void grow(std::uint32_t invaded, std::uint32_t fresh);
 
     /// Has what the picture needs put on the device, beside this thread; true once it is there. Errors: unsupported (a
     /// stream that the model does not have), and the device's.
@@ -88,6 +100,8 @@ class Scene {
     Result<gpu::Painter*> painter(gpu::View view);
     static UploadKey key_of(const Shown& shown, int side);
     Result<void> write_sets();
+    /// Makes the buffer so large, if it is not, and mapped.
+    Result<void> hold(gpu::Buffer& buffer, const char* name, std::size_t bytes);
     Result<VkPipeline> compose_pipeline(Mode mode);
 
     gpu::Context* context_ = nullptr;
@@ -111,10 +125,13 @@ class Scene {
     std::uint32_t samples_ = 1;
     std::optional<gpu::Target> targets_[2];
     gpu::Image composed_;
-    gpu::Buffer paint_, pixel_;
-    bool painted_ = false, blank_ = true;
+    gpu::Buffer paint_, growth_, pixel_;
+    bool painted_ = false, coloured_ = false, grows_ = false, blank_ = true;
+    std::vector<Mark> under_marks_;  // what set_marks covered
+    std::uint32_t invaded_ = 0, fresh_ = 0;
+    double edge_pixels_ = 0;  // of a mean edge, in the picture drawn last
     gpu::Descriptors descriptors_;
-    VkDescriptorSet sets_[2] = {};  // the left picture alone; both
+    VkDescriptorSet sets_[2] = {};        // the left picture alone; both
     std::unique_ptr<Uploader> uploader_;  // goes first
 };
 

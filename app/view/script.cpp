@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -199,7 +200,11 @@ Result<bool> Script::set(const Line& line, Viewer& viewer) {
     else if (name == "passes")
         state.ring.passes = static_cast<std::uint32_t>(number);
     else if (name == "growth")
-        state.growth = number;
+        state.growth = std::clamp(std::floor(number), 0.0, 4e9);
+    else if (name == "speed")
+        state.growth_speed = std::clamp(number, 1.0, 1e9);
+    else if (name == "fps")
+        state.frame_cap = static_cast<std::uint32_t>(std::clamp(number, 0.0, 1000.0));
     else
         return wrong("nothing is called " + name);
     state.choices_changed = true;
@@ -214,6 +219,8 @@ std::string Script::state_text(Viewer& viewer) {
                                {"busy", state.progress.busy},
                                {"camera", viewer.orbit().text()},
                                {"size", {viewer.extent().width, viewer.extent().height}}};
+    out["fps"] = state.frame_cap;
+    if (state.document) out["growth"] = {state.growth, state.growth_end()};
     if (state.document) {
         const Document& document = *state.document;
         out["triangles"] = document.mesh->triangle_count();
@@ -339,6 +346,25 @@ Result<bool> Script::run(const Line& line, Viewer& viewer, Window& window, std::
         if (const Result<void> written = gpu::write_png(words[1], *picture); !written) {
             return Error{written.error().code, words[1] + ": " + written.error().message};
         }
+    } else if (what == "turntable-png") {
+        double pictures = 90;
+        if (words.size() < 2 || words.size() > 3 || (words.size() == 3 && !number(2, pictures)) || pictures < 1 ||
+            pictures > 1e6) {
+            return wrong("turntable-png FOLDER [PICTURES]");
+        }
+        if (state.turntable_job) return false;
+        if (turning_) {
+            turning_ = false;
+            if (!state.error.empty()) return Error{ErrorCode::cannot_write, state.error};
+            return true;
+        }
+        if (waited_ < 2 || !viewer.settled()) return waited_ > 600 ? wrong("nothing settles") : Result<bool>(false);
+        state.error.clear();
+        if (const Result<void> begun = viewer.start_turntable(words[1], static_cast<std::uint32_t>(pictures)); !begun) {
+            return Error{begun.error().code, words[1] + ": " + begun.error().message};
+        }
+        turning_ = true;
+        return false;
     } else if (what == "ray") {
         // The triangle that a ray through the pixel hits, by looking at all of them.
         if (!number(1, x) || !number(2, y)) return wrong("ray X Y");

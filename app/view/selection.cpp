@@ -106,16 +106,19 @@ std::vector<CornerId> around(const CornerTable& table, CornerId corner) {
     return out;
 }
 
-void paint_selection(const Document& document, CornerId corner, std::vector<std::uint32_t>& colours) {
+std::vector<Mark> selection_marks(const Document& document, CornerId corner) {
+    std::vector<Mark> out;
+    if (corner.is_null()) return out;
     const CornerTable& table = *document.table;
     const auto lay = [&](CornerId c, std::uint32_t colour) {
-        if (!c.is_null()) colours[triangle(c).value] = colour;
+        if (!c.is_null()) out.push_back({triangle(c).value, colour});
     };
     for (const CornerId c : around(table, corner)) lay(c, kFanColour);
     lay(table.left(corner), kLeftColour);
     lay(table.right(corner), kRightColour);
     lay(table.opposite(corner), kOppositeColour);
     lay(corner, kSelectedColour);
+    return out;
 }
 
 std::pair<Point, double> ball(const Document& document, CornerId corner) {

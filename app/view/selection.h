@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/view/document.h"
+#include "app/view/scene.h"
 
 namespace lr::view {
 
@@ -34,8 +35,8 @@ CornerId step(const Document& document, CornerId corner, char operation);
 /// All corners around the vertex of a corner, by swings both ways.
 std::vector<CornerId> around(const CornerTable& table, CornerId corner);
 
-/// RGBA a triangle: the selected one, its neighbours and the fan of its vertex.
-void paint_selection(const Document& document, CornerId corner, std::vector<std::uint32_t>& colours);
+/// The selected triangle, its neighbours and the fan of its vertex, with their colours; the later ones count.
+std::vector<Mark> selection_marks(const Document& document, CornerId corner);
 
 /// Centre and radius of a ball around the fan of the corner's vertex, in the mesh's coordinates.
 std::pair<std::array<double, 3>, double> ball(const Document& document, CornerId corner);

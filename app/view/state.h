@@ -36,13 +36,12 @@ struct State {
     bool panels = true;
     bool help = false;
     bool turntable = false;
-    double turntable_speed = 20;  ///< degrees a second
+    double turntable_speed = 20;   ///< degrees a second
+    std::uint32_t frame_cap = 60;  ///< pictures a second; 0: as many as there can be
     // The ring-expander, corner by corner.
     double growth = 0;          ///< triangles so far
     double growth_speed = 500;  ///< triangles a second
     bool growing = false;
-    std::shared_ptr<const CornerTable> growth_of;  ///< the table whose expansion_order this is
-    std::vector<std::uint32_t> growth_order;
 
     // There.
     std::shared_ptr<const Document> document;
@@ -66,6 +65,14 @@ struct State {
     std::filesystem::path folder;
     std::vector<std::string> files, recent;
     Selection selection;
+    struct TurntableJob {
+        std::string folder;
+        std::uint32_t pictures = 0, done = 0;
+    };
+    std::optional<TurntableJob> turntable_job;  ///< pictures being written
+
+    /// How far the ring-expander goes: triangles.
+    double growth_end() const { return document ? static_cast<double>(document->expansion->corners.size()) : 0.0; }
 
     // Asked for by panels and keys; the viewer does it and takes it away.
     std::optional<std::string> open;
@@ -74,7 +81,7 @@ struct State {
     bool frame_selection = false;
     bool copy_camera = false;
     bool screenshot = false;
-    bool turntable_frames = false;
+    bool turntable_pictures = false;
     bool choices_changed = false;  ///< the picture must be drawn again
     std::optional<char> step;      ///< n p o s l r: from the selected corner to another
 };

@@ -35,6 +35,7 @@ Result<std::unique_ptr<Viewer>> Viewer::create(gpu::Context& context, const View
     LR_ASSIGN(out->commands_, gpu::Commands::create(context));
     State& state = out->state_;
     state.panels = options.panels;
+    state.frame_cap = options.frame_cap;
     state.device = context.info().name;
     state.mesh_shaders = context.info().max_mesh_groups != 0;
     state.samples = context.info().software ? 1 : 2;
@@ -64,6 +65,7 @@ Shown Viewer::shown(bool moving, const gpu::Model* model) const {
 Result<void> Viewer::resize() {
     const std::uint32_t samples = gpu::Target::fitting_samples(context_, extent_, state_.samples);
     if (made_.width == extent_.width && made_.height == extent_.height && made_samples_ == samples) return {};
+    end_turntable();       // its pictures are of one size
     context_.wait_idle();  // the window may still be taking the last picture
     LR_TRY(scene_.resize(extent_, samples));
     LR_TRY(overlay_->resize(extent_));
@@ -91,6 +93,8 @@ void Viewer::opened(const std::string& path) {
     state_.selection = {};
     state_.paint = Paint::none;
     state_.growing = false;
+    state_.growth = 0;
+    end_turntable();
     state_.costs.clear();
     state_.files = meshes_beside(path);
     add_recent(state_.recent, path, options_.keep_recent);
@@ -136,8 +140,17 @@ void Viewer::take_document() {
         return;
     }
     const bool other = !state_.document || state_.document->mesh != document->mesh;
-    if (other) opened(document->path);
+    if (other) {
+        opened(document->path);
+        if (const Result<void> taken = take_paint_away(); !taken) state_.error = taken.error().message;
+    }
+    const bool other_way = state_.document && state_.document->expansion != document->expansion;
     state_.document = document;
+    // One that was stopped on its way goes on from there.
+    if (other_way && (state_.growing || state_.growth >= state_.growth_end())) {
+        state_.growth = 0;
+        state_.growing = state_.paint == Paint::growth;
+    }
     if (other) {
         const Result<void> framed = frame_all(options_.camera);
         if (!framed) state_.error = framed.error().message;
@@ -161,8 +174,12 @@ void Viewer::act() {
         loader_.encode(state_.document, state_.ring);
     }
     if (std::exchange(state_.cancel, false)) {
-        loader_.cancel();
-        queue_.clear();
+        if (state_.turntable_job) {
+            end_turntable();
+        } else {
+            loader_.cancel();
+            queue_.clear();
+        }
     }
     if (std::exchange(state_.frame_all, false)) {
         gpu::CameraOptions options;
@@ -180,7 +197,13 @@ void Viewer::act() {
         state_.note_until = state_.clock + 2;
     }
     if (std::exchange(state_.screenshot, false)) save(free_name("lacedring", ".png"));
-    if (std::exchange(state_.turntable_frames, false)) save_turntable();
+    if (std::exchange(state_.turntable_pictures, false) && state_.document && !state_.turntable_job) {
+        const std::string folder = free_name("turntable", "");
+        constexpr std::uint32_t kPictures = 90;
+        if (const Result<void> started = start_turntable(folder, kPictures); !started) {
+            state_.error = folder + ": " + started.error().message;
+        }
+    }
     if (state_.step && state_.document && state_.selection.any()) {
         const CornerId to = step(*state_.document, state_.selection.corner, *state_.step);
         if (to.is_null()) {
@@ -202,8 +225,8 @@ void Viewer::advance(double seconds) {
     }
     if (state_.paint != Paint::growth) state_.growing = false;
     if (state_.growing && state_.document) {
-        state_.growth += state_.growth_speed * seconds;
-        if (state_.growth >= static_cast<double>(state_.document->mesh->triangle_count())) state_.growing = false;
+        state_.growth = std::min(state_.growth + state_.growth_speed * seconds, state_.growth_end());
+        if (state_.growth >= state_.growth_end()) state_.growing = false;
     }
 }
 
@@ -216,18 +239,45 @@ void Viewer::update_outlines() {
     dirty_ = true;
 }
 
-void Viewer::update_paint() {
-    const Painted wanted{state_.selection.corner, state_.paint, std::floor(state_.growth), state_.document.get()};
-    if (wanted == painted_ || !state_.document) return;
-    painted_ = wanted;
-    std::vector<std::uint32_t> colours;
-    if (state_.paint != Paint::none || state_.selection.any()) {
-        colours.resize(state_.document->mesh->triangle_count());
-        lay_paint(state_, colours);
-        if (state_.selection.any()) paint_selection(*state_.document, state_.selection.corner, colours);
+Viewer::Painted Viewer::wanted_paint() const {
+    const double growth = state_.paint == Paint::growth ? std::min(state_.growth, state_.growth_end()) : 0;
+    return {state_.selection.corner, state_.paint, static_cast<std::uint32_t>(growth), state_.document.get()};
+}
+
+bool Viewer::laid() const {
+    return !state_.document || painted_ == wanted_paint();
+}
+
+Result<void> Viewer::take_paint_away() {
+    laid_.reset();
+    marked_ = null_corner;
+    painted_ = {};
+    LR_TRY(scene_.set_growth({}));
+    return scene_.set_paint({});
+}
+
+/// What there is to lay over the triangles. While it is being made, what is laid there stays.
+Result<void> Viewer::update_paint() {
+    const Painted wanted = wanted_paint();
+    if (wanted == painted_ || !state_.document) return {};
+    const std::shared_ptr<const Painting> painting = paintings_.get(state_.document, state_.paint);
+    const bool made = painting || state_.paint == Paint::none;
+    if (made && painting != laid_) {
+        LR_TRY(scene_.set_paint(painting ? painting->colours : std::span<const std::uint32_t>{}));
+        LR_TRY(scene_.set_growth(painting ? painting->growth : std::span<const gpu::GrowthTriangle>{}));
+        laid_ = painting;
+        marked_ = null_corner;
     }
-    if (const Result<void> set = scene_.set_paint(colours); !set) state_.error = set.error().message;
-    compose_ = true;
+    if (marked_ != state_.selection.corner) {
+        LR_TRY(scene_.set_marks(selection_marks(*state_.document, state_.selection.corner)));
+        marked_ = state_.selection.corner;
+        compose_ = true;
+    }
+    // The last tenth of a second is told from what was invaded before.
+    scene_.grow(wanted.growth, static_cast<std::uint32_t>(std::max(3.0, state_.growth_speed * 0.1)));
+    if (made) painted_ = wanted;
+    compose_ |= made;
+    return {};
 }
 
 /// False: not yet. What cannot be is told, and not shown.
@@ -244,6 +294,7 @@ Result<bool> Viewer::prepare(const Shown& picture) {
 
 Result<void> Viewer::draw() {
     update_outlines();
+    aim_turntable();
     // An exact picture that takes long waits until a person rests.
     const bool resting = still_seconds_ > (exact_seconds_ > kNoticed ? kRest : 0.0);
     bool draw_scene = dirty_ || (!drawn_.exact && resting) || state_.shown.decode_again;
@@ -252,7 +303,7 @@ Result<void> Viewer::draw() {
         LR_ASSIGN(draw_scene, prepare(picture));
         if (!draw_scene) dirty_ = true;
     }
-    update_paint();
+    LR_TRY(update_paint());
     const auto begun = std::chrono::steady_clock::now();
     LR_ASSIGN(const VkCommandBuffer commands, commands_->begin());
     if (draw_scene && scene_.model() != nullptr) {
@@ -283,12 +334,13 @@ Result<void> Viewer::draw() {
         difference_due_ = picture.mode != Mode::single;
     }
     if (picture.mode == Mode::single) state_.difference.reset();
+    if (state_.turntable_job) save_turntable_picture();
     return {};
 }
 
 /// Of the two pictures that are drawn, once nothing moves.
 Result<void> Viewer::compare() {
-    if (!difference_due_ || still_seconds_ == 0 || dirty_) return {};
+    if (!difference_due_ || still_seconds_ == 0 || dirty_ || state_.turntable_job) return {};
     LR_ASSIGN(state_.difference, scene_.difference());
     difference_due_ = false;
     quiet_frames_ = 0;
@@ -317,11 +369,9 @@ Result<void> Viewer::frame(double seconds) {
         LR_TRY(compare());
     }
     animated_ = state_.turntable || state_.growing || state_.shown.decode_again || state_.open.has_value() || dirty_ ||
-                (visible() && !drawn_.exact);
+                state_.turntable_job.has_value() || !laid() || (visible() && !drawn_.exact);
     busy_ = (state_.progress.busy && !state_.progress.background) || animated_ || difference_due_;
-    const bool laid =
-        painted_ == Painted{state_.selection.corner, state_.paint, std::floor(state_.growth), state_.document.get()};
-    settled_ = !busy_ && laid && (!state_.outlines || !state_.tables || outlined_ == state_.tables.get()) &&
+    settled_ = !busy_ && (!state_.outlines || !state_.tables || outlined_ == state_.tables.get()) &&
                still_seconds_ > 0 && state_.ring == asked_;
     quiet_frames_ = still_seconds_ == 0 ? 0 : quiet_frames_ + 1;
     return {};
@@ -337,7 +387,7 @@ void Viewer::presented(double seconds) {
     if (first) state_.first_seconds = state_.shown_seconds;
 }
 
-Result<gpu::Picture> Viewer::picture() {
+Result<gpu::Picture> Viewer::picture_of(const gpu::Image& image) {
     LR_ASSIGN(const gpu::Buffer bytes,
               gpu::Buffer::create(context_, "screenshot", VkDeviceSize{4} * made_.width * made_.height, 0,
                                   gpu::Memory::readback));
@@ -345,8 +395,7 @@ Result<gpu::Picture> Viewer::picture() {
     VkBufferImageCopy region{};
     region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     region.imageExtent = {made_.width, made_.height, 1};
-    vkCmdCopyImageToBuffer(commands, overlay_->image().handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, bytes.handle(),
-                           1, &region);
+    vkCmdCopyImageToBuffer(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, bytes.handle(), 1, &region);
     gpu::memory_barrier(commands, {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
                         {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
     LR_TRY(commands_->run());
@@ -368,38 +417,6 @@ void Viewer::save(const std::string& path) {
     state_.note = "saved " + path;
     state_.note_until = state_.clock + 3;
     quiet_frames_ = 0;
-}
-
-/// A whole turn in 90 pictures, without panels, in a folder of their own.
-void Viewer::save_turntable() {
-    constexpr int kFrames = 90;
-    if (!state_.document || !visible() || !settled_) return;
-    const std::string folder = free_name("turntable", "");
-    std::error_code error;
-    std::filesystem::create_directory(folder, error);
-    const auto one = [&](int i) -> Result<void> {
-        LR_ASSIGN(const VkCommandBuffer commands, commands_->begin());
-        LR_TRY(scene_.record_draw(commands, drawn_, orbit_.options()));
-        LR_TRY(scene_.record_compose(commands, drawn_.mode,
-                                     static_cast<std::uint32_t>(state_.divider * extent_.width + 0.5)));
-        ImGui::GetDrawData()->CmdListsCount = 0;  // panels stay out
-        overlay_->record(commands, scene_.composed());
-        LR_TRY(commands_->run());
-        LR_ASSIGN(const gpu::Picture taken, picture());
-        return gpu::write_png(fmt::format("{}/{:03}.png", folder, i), taken);
-    };
-    const Orbit before = orbit_;
-    for (int i = 0; i < kFrames; ++i) {
-        if (const Result<void> done = one(i); !done) {
-            state_.error = folder + ": " + done.error().message;
-            break;
-        }
-        orbit_.turn_degrees(360.0 / kFrames);
-    }
-    orbit_ = before;
-    dirty_ = true;
-    state_.note = fmt::format("saved {} pictures in {}", kFrames, folder);
-    state_.note_until = state_.clock + 4;
 }
 
 }  // namespace lr::view

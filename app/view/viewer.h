@@ -8,6 +8,7 @@
 #include "app/view/event.h"
 #include "app/view/orbit.h"
 #include "app/view/overlay.h"
+#include "app/view/painting.h"
 #include "app/view/state.h"
 
 namespace lr::view {
@@ -17,7 +18,8 @@ struct ViewerOptions {
     gpu::CameraOptions camera;  ///< for the first mesh
     double scale = 1;           ///< pixels a nominal pixel
     bool panels = true;
-    bool keep_recent = true;  ///< files that were opened are remembered
+    std::uint32_t frame_cap = 60;  ///< pictures a second, 0: none
+    bool keep_recent = true;       ///< files that were opened are remembered
     /// Called by other threads when they have something for the next frame.
     std::function<void()> wake = [] {};
 };
@@ -38,7 +40,7 @@ class Viewer {
     VkExtent2D extent() const { return extent_; }
     bool visible() const { return extent_.width != 0 && extent_.height != 0; }
     /// Of the last picture. Waits for the device.
-    Result<gpu::Picture> picture();
+    Result<gpu::Picture> picture() { return picture_of(overlay_->image()); }
 
     bool closing() const { return closing_; }
     /// The next picture will be another one by itself.
@@ -52,6 +54,9 @@ class Viewer {
     /// What is to be put on the clipboard, once.
     std::string take_clipboard() { return std::exchange(clipboard_, {}); }
     void save(const std::string& path);
+    /// Begins a whole turn in so many pictures without panels, one a frame, each a PNG file in the folder, which is
+    /// made if it is not there. Nothing else may turn the camera meanwhile. Errors: cannot_write, invalid_argument.
+    Result<void> start_turntable(const std::string& folder, std::uint32_t pictures);
 
     State& state() { return state_; }
     Orbit& orbit() { return orbit_; }
@@ -76,11 +81,16 @@ class Viewer {
     void act();
     void opened(const std::string& path);
     void update_outlines();
-    void update_paint();
+    Result<void> update_paint();
+    Result<void> take_paint_away();
     void advance(double seconds);
     Result<void> draw();
+    /// Of the window's size, in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL.
+    Result<gpu::Picture> picture_of(const gpu::Image& image);
+    void aim_turntable();
+    void save_turntable_picture();
+    void end_turntable();
     Result<void> compare();
-    void save_turntable();
 
     ViewerOptions options_;
     gpu::Context& context_;
@@ -98,23 +108,30 @@ class Viewer {
     int dragging_ = -1;
     bool dragging_divider_ = false;
     double mouse_x_ = 0, mouse_y_ = 0, press_x_ = 0, press_y_ = 0;
-    bool dirty_ = true, compose_ = true, moved_ = false, settled_ = false, closing_ = false, busy_ = false, animated_ = false;
+    bool dirty_ = true, compose_ = true, moved_ = false, settled_ = false, closing_ = false, busy_ = false,
+         animated_ = false;
     bool difference_due_ = false;
-    bool fresh_ = false;           // the model has not been drawn yet
-    Shown drawn_;                  // the last picture
-    double exact_seconds_ = 0;     // that the last exact one took
-    double still_seconds_ = 1;     // since the camera moved; 0: in this frame
+    bool fresh_ = false;        // the model has not been drawn yet
+    Shown drawn_;               // the last picture
+    double exact_seconds_ = 0;  // that the last exact one took
+    double still_seconds_ = 1;  // since the camera moved; 0: in this frame
     int quiet_frames_ = 0;
     Loader::News news_;  // not on the screen yet
+    Paintings paintings_;
+    std::shared_ptr<const Painting> laid_;  // what is laid over the triangles; kept until its successor is made
     struct Painted {
         CornerId corner = null_corner;
         Paint paint = Paint::none;
-        double growth = 0;
+        std::uint32_t growth = 0;
         const Document* document = nullptr;
         bool operator==(const Painted&) const = default;
     } painted_;
-    const Tables* outlined_ = nullptr;   // whose outlines are drawn
-    const Document* shown_ = nullptr;    // was on the screen
+    Painted wanted_paint() const;
+    bool laid() const;
+    CornerId marked_ = null_corner;  // the corner whose marks are laid
+    Orbit before_turntable_;
+    const Tables* outlined_ = nullptr;  // whose outlines are drawn
+    const Document* shown_ = nullptr;   // was on the screen
     std::chrono::steady_clock::time_point shown_asked_{};
     std::string clipboard_;
 };

@@ -77,7 +77,7 @@ void Viewer::handle_key(const Event& event) {
         case key_escape:
             if (state_.help) {
                 state_.help = false;
-            } else if (state_.progress.busy && !state_.progress.background) {
+            } else if (state_.turntable_job || (state_.progress.busy && !state_.progress.background)) {
                 state_.cancel = true;
             } else {
                 state_.selection = {};
@@ -101,7 +101,7 @@ void Viewer::handle_key(const Event& event) {
             state_.frame_selection = true;
             return;
         case 'T':
-            state_.turntable = !state_.turntable;
+            (shift ? state_.turntable_pictures : state_.turntable) ^= true;
             return;
         case key_f12:
             state_.screenshot = true;

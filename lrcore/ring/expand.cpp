@@ -12,6 +12,7 @@
 
 #include "lrcore/base/bits.h"
 #include "lrcore/corner_table/swirl.h"
+#include "lrcore/ring/expansion.h"
 #include "lrcore/ring/ring.h"
 #include "lrcore/ring/ring_walk.h"
 
@@ -37,12 +38,23 @@ class Expander {
         return !table_.degenerate(t) && !visited(t, 0) && !visited(t, 1) && !visited(t, 2);
     }
 
-    /// Grows a region from seed's triangle and appends its boundary to `edges`. k as in RingOptions.
-    void grow(CornerId seed, std::uint32_t k, std::vector<RingEdge>& edges) {
+    /// Grows a region from seed's triangle and appends its boundary to `edges`; to `entered`, if there is one, the
+    /// corners as in Expansion. k as in RingOptions.
+    void grow(CornerId seed, std::uint32_t k, std::vector<RingEdge>& edges, std::vector<CornerId>* entered = nullptr) {
         if (k > 0) {
             grow_hybrid(seed, k, edges);
-            return;
+            if (entered != nullptr) entered->insert(entered->end(), region_.begin(), region_.end());
+        } else if (entered != nullptr) {
+            grow_deep<true>(seed, edges, *entered);
+        } else {
+            grow_deep<false>(seed, edges, region_);
         }
+    }
+
+    /// RING-EXPANDER; `entered` is used if kNoted.
+    template <bool kNoted>
+    void grow_deep(CornerId seed, std::vector<RingEdge>& edges, std::vector<CornerId>& entered) {
+        if constexpr (kNoted) entered.push_back(seed);
         for (const CornerId c : {seed, next(seed), previous(seed)}) visited_.set(table_.vertex(c).value);
         stack_.assign({facing(next(seed)), facing(previous(seed))});
         RingEdge edge = facing(seed);
@@ -52,6 +64,7 @@ class Expander {
                 edge.right_tip = table_.vertex(c);
                 if (!visited_.test(edge.right_tip.value)) {  // invade c's triangle, to the right first
                     visited_.set(edge.right_tip.value);
+                    if constexpr (kNoted) entered.push_back(c);
                     stack_.push_back(facing(next(c)));
                     fetch(stack_.back().right);  // often the next to be popped
                     edge = facing(previous(c));
@@ -72,7 +85,7 @@ class Expander {
         if (invaded_.empty()) invaded_ = BitVector(table_.triangle_count());
         for (const CornerId c : {seed, next(seed), previous(seed)}) visited_.set(table_.vertex(c).value);
         invaded_.set(triangle(seed).value);
-        region_.assign(1, triangle(seed));
+        region_.assign(1, seed);
         queue_.assign({table_.opposite(seed), table_.opposite(next(seed)), table_.opposite(previous(seed))});
         std::size_t front = 0;
         while (front < queue_.size()) {
@@ -85,7 +98,7 @@ class Expander {
             if (c.is_null() || visited_.test(table_.vertex(c).value)) continue;
             visited_.set(table_.vertex(c).value);
             invaded_.set(triangle(c).value);
-            region_.push_back(triangle(c));
+            region_.push_back(c);
             queue_.push_back(table_.left(c));
             fetch(queue_.back());
             queue_.push_back(table_.right(c));
@@ -108,7 +121,7 @@ class Expander {
             stack_.pop_back();
             if (stack_.size() >= kAhead) fetch(stack_[stack_.size() - kAhead].right);
         }
-        for (const TriangleId t : region_) invaded_.clear(t.value);
+        for (const CornerId c : region_) invaded_.clear(triangle(c).value);
     }
 
     /// Takes back a ring: its vertices are unvisited again.
@@ -159,9 +172,9 @@ class Expander {
     }
 
     const CornerTable& table_;
-    BitVector visited_;     // paper: v.m
-    BitVector invaded_{0};  // paper: t.m; of the region being grown
-    std::vector<TriangleId> region_;
+    BitVector visited_;             // paper: v.m
+    BitVector invaded_{0};          // paper: t.m; of the region being grown
+    std::vector<CornerId> region_;  // of the hybrid: corners through which it was entered
     std::vector<CornerId> queue_;
     BitVector rung_;  // scratch of cost(): triangles with a ring edge; all clear between calls
     std::vector<RingEdge> stack_;
@@ -175,9 +188,11 @@ std::uint32_t recommended_seeds(std::size_t triangles) {
     return static_cast<std::uint32_t>(std::clamp<std::size_t>(kBudget / std::max<std::size_t>(triangles, 1), 1, 64));
 }
 
-Rings expand_rings(const CornerTable& table, const RingOptions& options) {
+Rings expand_rings(const CornerTable& table, const RingOptions& options, Expansion* expansion) {
     Rings rings;
     rings.edges.reserve(table.vertex_count);
+    if (expansion != nullptr) *expansion = {};
+    std::vector<CornerId>* const entered = expansion != nullptr ? &expansion->corners : nullptr;
     Expander expander(table);
     std::uint64_t random = options.random_seed;
     std::vector<RingEdge> trial, region;
@@ -196,8 +211,10 @@ Rings expand_rings(const CornerTable& table, const RingOptions& options) {
         }
         const std::size_t begin = rings.edges.size();
         rings.first.push_back(static_cast<std::uint32_t>(begin));
-        CornerId best = corner({t}, 0);
-        expander.grow(best, options.k, rings.edges);
+        if (expansion != nullptr) expansion->first.push_back(static_cast<std::uint32_t>(entered->size()));
+        const CornerId first = corner({t}, 0);
+        CornerId best = first;
+        expander.grow(best, options.k, rings.edges, entered);
         if (options.seeds <= 1 || rings.edges.size() - begin < 4) continue;
 
         // More seeds, drawn from the triangles at the first ring; only the best seed is remembered and grown again.
@@ -218,15 +235,19 @@ Rings expand_rings(const CornerTable& table, const RingOptions& options) {
                 best = grown;
             }
         }
-        if (grown != best) {
+        // Of the trials, nothing but their cost is kept; of the first one, what it entered.
+        const bool enter_again = entered != nullptr && best != first;
+        if (enter_again) entered->resize(expansion->first.back());
+        if (grown != best || enter_again) {
             expander.undo(trial);
             trial.clear();
-            expander.grow(best, options.k, trial);
+            expander.grow(best, options.k, trial, enter_again ? entered : nullptr);
         }
         rings.edges.resize(begin);
         rings.edges.insert(rings.edges.end(), trial.begin(), trial.end());
     }
     rings.first.push_back(static_cast<std::uint32_t>(rings.edges.size()));
+    if (expansion != nullptr) expansion->first.push_back(static_cast<std::uint32_t>(entered->size()));
     return rings;
 }
 

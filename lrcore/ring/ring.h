@@ -12,6 +12,8 @@
 
 namespace lr {
 
+struct Expansion;  // lrcore/ring/expansion.h
+
 struct RingOptions {
     std::uint32_t seeds = 1;  ///< seed corners tried per component; the one with the cheapest ring is kept
     std::uint64_t random_seed = 1;
@@ -48,7 +50,8 @@ struct Rings {
 /// is walked, and a component whose ring left three unvisited vertices in one triangle gets a further ring there. Cost:
 /// O(T) time per seed; 20 bytes a ring vertex for the result; while it runs V/8 + T/8 bytes and a stack of up to 20
 /// bytes a ring vertex; with more seeds than one, 40 bytes a vertex of the largest component on top.
-Rings expand_rings(const CornerTable& table, const RingOptions& options = {});
+/// `expansion`, if given, gets the order in which triangles were invaded; costs nothing where it is not.
+Rings expand_rings(const CornerTable& table, const RingOptions& options = {}, Expansion* expansion = nullptr);
 
 /// Checks that every ring is one cycle of mesh edges that visits no vertex twice. Empty if all is well.
 std::string validate(const CornerTable& table, const Rings& rings);

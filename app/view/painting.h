@@ -1,0 +1,48 @@
+#pragma once
+// Colours by triangle that take a look at the whole mesh to know. Made beside drawing, and kept while they are of use.
+
+#include <array>
+#include <future>
+#include <memory>
+#include <vector>
+
+#include "app/view/state.h"
+#include "shaders/compose_shared.h"
+
+namespace lr::view {
+
+/// What one Paint lays over one document. Either may be empty.
+struct Painting {
+    std::vector<std::uint32_t> colours;       ///< RGBA a triangle of the mesh; 0: as it is drawn
+    std::vector<gpu::GrowthTriangle> growth;  ///< a triangle of the mesh each
+};
+
+/// Costs: O(T) time; corridors 5 bytes a triangle while they are made.
+Painting make_painting(const Document& document, Paint paint);
+
+/// The corridor of each triangle (a maximal run of T1 triangles on one side of the ring), UINT32_MAX for other
+/// triangles.
+std::vector<std::uint32_t> corridors(const Document& document);
+
+/// Makes one painting at a time, on a thread of its own.
+class Paintings {
+  public:
+    /// The document's, if it is made; null while it is being made, which this begins, and for Paint::none. One that is
+    /// asked for again is made once.
+    std::shared_ptr<const Painting> get(const std::shared_ptr<const Document>& document, Paint paint);
+
+  private:
+    static constexpr std::size_t kPaints = 4;
+    struct Made {
+        std::shared_ptr<const void> of;  ///< what of the document it shows
+        std::shared_ptr<const Painting> painting;
+    };
+    void take();
+
+    std::array<Made, kPaints> made_;
+    std::future<std::shared_ptr<const Painting>> job_;  // waited for where it is dropped
+    Paint job_paint_ = Paint::none;
+    std::shared_ptr<const void> job_of_;
+};
+
+}  // namespace lr::view

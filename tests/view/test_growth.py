@@ -1,0 +1,206 @@
+#!/usr/bin/env python3
+"""The viewer's growing ring, turntable pictures and cap of pictures, by scripts in a window of Xvfb.
+Usage: test_growth.py LACEDRING"""
+
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import driver
+import png
+from driver import mesh, run
+
+# The shares of red, green and blue that a lit colour keeps (shaders/compose_shared.h).
+ORANGE, YELLOW, CREAM, GREY, BLUE, BLACK = (222, 112, 48), (255, 214, 60), (247, 234, 200), (168, 172, 180), \
+    (24, 96, 220), (24, 24, 28)
+
+
+def nearest(pixel):
+    """Which of the colours a pixel is, whatever light is on it; None: too dark to tell."""
+    r, g, b = pixel
+    if max(pixel) < 60:
+        return None
+    shares = [channel / max(pixel) for channel in pixel]
+    return min((ORANGE, YELLOW, CREAM, GREY, BLUE),
+               key=lambda colour: sum((s - c / max(colour)) ** 2 for s, c in zip(shares, colour)))
+
+
+def counts(name, background):
+    """Pixels of each colour where the mesh is drawn: where the picture is not the background."""
+    out = {}
+    picture = png.read(name)
+    for row, behind in zip(picture[2], background[2]):
+        for i in range(0, len(row), 3):
+            pixel = tuple(row[i:i + 3])
+            if pixel == tuple(behind[i:i + 3]):
+                continue
+            colour = nearest(pixel)
+            out[colour] = out.get(colour, 0) + 1
+    return out
+
+
+class Growth(driver.Scripted):
+    def background(self):
+        """The picture without a mesh."""
+        name = os.path.join(driver.folder, "background.png")
+        self.view(f"set panels off\nframes 3\nscreenshot {name}")
+        return png.read(name)
+
+    def shots(self, model, stages, *lines):
+        script = ["set panels off", "wait optimised", "set passes 0", "wait settled", *lines, "set speed 30", "set paint growth"]
+        for stage in stages:
+            script += [f"set growth {stage}", f"screenshot {driver.folder}/growth-{stage}.png", "print"]
+        return self.view("\n".join(script), model)
+
+    def test_colours_follow_the_expander(self):
+        behind = self.background()
+        states = self.shots(mesh("torus", 500), (0, 1, 60, 1000000))
+        _, end = states[0]["growth"]
+        self.assertEqual(end, 248)  # of a ring of 250 vertices
+        seen = [counts(f"{driver.folder}/growth-{stage}.png", behind) for stage in (0, 1, 60, 1000000)]
+        grey = [each.get(GREY, 0) for each in seen]
+        orange = [each.get(ORANGE, 0) for each in seen]
+        # At first nothing is settled, at last everything; so it goes on.
+        self.assertGreater(grey[0], 10000)
+        self.assertEqual([seen[0].get(c, 0) for c in (ORANGE, YELLOW, CREAM, BLUE)], [0, 0, 0, 0])
+        self.assertGreater(grey[0], grey[2])
+        self.assertGreater(grey[2], grey[3])
+        self.assertLess(orange[2], orange[3])
+        self.assertGreater(seen[2].get(BLUE, 0), 30)
+        self.assertLess(seen[3].get(BLUE, 0), 30)  # the front is gone
+        # Half of the surface each, about.
+        self.assertGreater(seen[3][ORANGE] + seen[3].get(YELLOW, 0), seen[3][CREAM] // 2)
+        self.assertGreater(seen[3][CREAM], (seen[3][ORANGE] + seen[3].get(YELLOW, 0)) // 2)
+
+    def test_another_seed_grows_elsewhere(self):
+        blob = mesh("blob", 3000)
+        pictures = []
+        for lines in ((), ("set seeds 8", "wait settled"), ("set seeds 8", "set seed 5", "wait settled"),
+                      ("set ring hybrid", "set k 1", "wait settled")):
+            self.shots(blob, (300,), *lines)
+            pictures.append(png.read(f"{driver.folder}/growth-300.png"))
+        for i in range(len(pictures)):
+            for j in range(i):
+                self.assertGreater(png.differences(pictures[i], pictures[j])[0], 500, (i, j))
+
+    def test_growing_restarts_with_another_seed_and_stays_where_it_stands_still(self):
+        states = self.view("""wait optimised
+            set passes 0
+            wait settled
+            set speed 60
+            key g
+            frames 20
+            print
+            set seeds 8
+            wait optimised
+            set speed 100000
+            wait settled
+            print
+            set growth 77
+            set seeds 3
+            wait settled
+            print
+            set seed 2
+            wait settled
+            print
+            set passes 2
+            wait settled
+            print""", mesh("blob", 1000))
+        self.assertGreater(states[0]["growth"][0], 10)
+        self.assertLess(states[0]["growth"][0], 30)
+        self.assertEqual(states[1]["growth"][0], states[1]["growth"][1])
+        self.assertEqual([state["growth"][0] for state in states[2:]], [77, 77, 77])
+
+    def test_paint_that_comes_later_and_marks(self):
+        blob = mesh("blob", 3000)
+        names = [f"{driver.folder}/paint-{i}.png" for i in range(6)]
+        self.view(f"""set panels off
+            wait tables
+            wait settled
+            screenshot {names[0]}
+            click 240 160
+            screenshot {names[1]}
+            set paint corridors
+            screenshot {names[2]}
+            key escape
+            screenshot {names[3]}
+            set paint growth
+            set growth 100
+            screenshot {names[4]}
+            set paint none
+            screenshot {names[5]}""", blob)
+        pictures = [png.read(name) for name in names]
+        self.assertEqual(png.differences(pictures[0], pictures[5]), (0, 0))
+        for i in range(5):
+            self.assertGreater(png.differences(pictures[i], pictures[i + 1])[0], 20, i)
+
+    def test_turntable_pictures(self):
+        blob = mesh("blob", 3000)
+        folder = os.path.join(driver.folder, "turn")
+        states = self.view(f"""wait optimised
+            set passes 0
+            wait settled
+            print
+            turntable-png {folder} 8
+            print
+            set panels off
+            wait settled
+            screenshot {driver.folder}/panelless.png""", blob)
+        self.assertEqual(states[0]["camera"], states[1]["camera"])
+        self.assertEqual(sorted(os.listdir(folder)), [f"{i:03}.png" for i in range(8)])
+        pictures = [png.read(os.path.join(folder, f"{i:03}.png")) for i in range(8)]
+        self.assertEqual(png.differences(pictures[0], png.read(f"{driver.folder}/panelless.png")), (0, 0))
+        for i in range(8):
+            self.assertGreater(png.differences(pictures[i], pictures[(i + 1) % 8])[0], 1000)
+        rendered = os.path.join(driver.folder, "quarter.png")
+        done = run("render", blob, "-o", rendered, "--size", "480x320", "--samples", "1", "--seeds", "1", "--optimize", "0",
+                   "--camera-azimuth-angle", "90", *states[0]["camera"].split())
+        self.assertEqual(done.returncode, 0, done.stderr)
+        pixels, largest = png.differences(pictures[2], png.read(rendered))
+        self.assertLessEqual(largest, 1)  # the background, as in test_view.py
+        self.assertLessEqual(pixels, 480 * 320 // 20)
+
+    def test_turntable_that_is_stopped(self):
+        states = self.view("""wait optimised
+            set passes 0
+            wait settled
+            print
+            key t shift
+            frames 6
+            key escape
+            frames 2
+            print""", mesh("torus", 500))
+        self.assertIn("stopped: ", states[1]["note"])
+        self.assertIn(" of 90 pictures in turntable-1", states[1]["note"])
+        written = os.listdir(os.path.join(driver.folder, "turntable-1"))
+        self.assertTrue(3 <= len(written) <= 9, written)
+        self.assertEqual(states[0]["camera"], states[1]["camera"])
+        for name in written:
+            self.assertEqual(png.read(os.path.join(driver.folder, "turntable-1", name))[:2], (480, 320))
+
+    def test_turntable_where_nothing_can_be_written(self):
+        torus = mesh("torus", 500)
+        blocked = os.path.join(driver.folder, "blocked")
+        os.makedirs(os.path.join(blocked, "001.png"))
+        for folder, why in ((os.path.join(torus, "below"), torus), (blocked, "001.png")):
+            with open(os.path.join(driver.folder, "blocked.txt"), "w") as file:
+                file.write(f"wait settled\nturntable-png {folder} 3\nclose\n")
+            done = run("view", torus, "--size", "320x200", "--script", file.name)
+            self.assertEqual(done.returncode, 3, done.stderr)
+            self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+            self.assertIn(why, done.stderr)
+        for line in ("turntable-png", "turntable-png x 0", "turntable-png x y"):
+            with open(os.path.join(driver.folder, "wrong.txt"), "w") as file:
+                file.write(line + "\n")
+            self.assertEqual(run("view", torus, "--script", file.name).returncode, 2, line)
+
+    def test_cap_of_pictures(self):
+        torus = mesh("torus", 500)
+        states = self.view("print\nset fps 120\nprint\nset fps 0\nprint", torus, "--fps", "30")
+        self.assertEqual([state["fps"] for state in states], [30, 120, 0])
+        self.assertEqual(self.view("print", torus)[0]["fps"], 60)
+        self.assertEqual(run("view", "--fps", "-1").returncode, 2)
+
+
+if __name__ == "__main__":
+    driver.main()
