@@ -114,6 +114,31 @@ Result<void> Scene::set_paint(std::span<const std::uint32_t> colours) {
     return {};
 }
 
+Result<void> Scene::reload() {
+    LR_ASSIGN(gpu::Expander expander, gpu::Expander::create(*context_));
+    LR_ASSIGN(gpu::PipelineHandle compose, gpu::create_compute(*context_, "compose", layout_, spirv_compose_comp));
+    std::optional<gpu::Silhouettes> silhouettes;
+    if (silhouettes_) {
+        LR_ASSIGN(silhouettes, gpu::Silhouettes::create(*context_));
+    }
+    std::map<gpu::View, gpu::Painter> painters;
+    for (const auto& [view, painter] : painters_) {
+        LR_ASSIGN(gpu::Painter again, painter.again());
+        painters.emplace(view, std::move(again));
+    }
+    vkDeviceWaitIdle(context_->device());  // the last picture may still be drawn with those that go
+    expander_ = std::move(expander);
+    compose_ = std::move(compose);
+    silhouettes_ = std::move(silhouettes);
+    painters_ = std::move(painters);
+    for (auto& [key, entry] : entries_) {
+        entry.plans.clear();
+        // Expanded anew, by the shaders as they are now. What was planned for that holds: the layouts are the same.
+        if (entry.drawable.mesh.source != gpu::Source::plain) entry.drawable.mesh.decoded = false;
+    }
+    return {};
+}
+
 Scene::Kind Scene::kind_of(gpu::View view) {
     if (view == gpu::View::offsets) return Kind::offsets;
     return view == gpu::View::wire ? Kind::edges : Kind::ring;

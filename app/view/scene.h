@@ -47,6 +47,10 @@ class Scene {
     /// RGBA a triangle of the mesh, to be laid over it; empty: none. Not while a frame is being drawn.
     Result<void> set_paint(std::span<const std::uint32_t> colours);
 
+    /// Makes every pipeline anew, of the context's shaders as they are now. If one cannot be made, nothing changes.
+    /// Waits for the device.
+    Result<void> reload();
+
     /// Puts on the device what the picture needs and is not there. Errors: unsupported (a stream that the model does
     /// not have), and the device's.
     Result<void> prepare(const Shown& shown);

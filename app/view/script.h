@@ -39,6 +39,7 @@ class Script {
     std::size_t at_ = 0;
     int frames_ = 0;  ///< to be drawn before the next line
     int waited_ = 0;
+    std::uint64_t look_ = 0;  ///< of the watch over shaders, that is waited for
     std::chrono::steady_clock::time_point waiting_since_{};
 };
 

@@ -41,6 +41,7 @@ Result<std::unique_ptr<Viewer>> Viewer::create(gpu::Context& context, const View
     state.files =
         meshes_beside(options.input.path.empty() ? std::filesystem::current_path(error).string() : options.input.path);
     out->asked_ = state.ring;
+    out->watch_shaders();
     if (!options.input.path.empty()) state.open = options.input.path;
     return out;
 }
@@ -244,6 +245,7 @@ Result<void> Viewer::draw() {
 
 Result<void> Viewer::frame(double seconds) {
     take_news();
+    take_shaders();
     const bool was_moving = moving_;
     moving_ = dragging_ >= 0 && was_moving;
     advance(seconds);
@@ -256,6 +258,7 @@ Result<void> Viewer::frame(double seconds) {
         ImGui::NewFrame();
         draw_panels(state_, orbit_);
         draw_marks(state_, orbit_, extent_.width, extent_.height);
+        draw_shader_error(state_);
         ImGui::Render();
     }
     act();

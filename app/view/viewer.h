@@ -7,6 +7,7 @@
 #include "app/view/event.h"
 #include "app/view/orbit.h"
 #include "app/view/overlay.h"
+#include "app/view/shader_watch.h"
 #include "app/view/state.h"
 
 namespace lr::view {
@@ -16,7 +17,8 @@ struct ViewerOptions {
     gpu::CameraOptions camera;  ///< for the first mesh
     double scale = 1;           ///< pixels a nominal pixel
     bool panels = true;
-    bool keep_recent = true;  ///< files that were opened are remembered
+    bool keep_recent = true;        ///< files that were opened are remembered
+    std::filesystem::path shaders;  ///< folder of sources to be watched; empty: those that the program was built from
 };
 
 class Viewer {
@@ -36,7 +38,7 @@ class Viewer {
 
     bool closing() const { return closing_; }
     /// Nothing moves, nothing is awaited: the next picture would be the last one.
-    bool idle() const { return quiet_frames_ > 3 && !busy_; }
+    bool idle() const { return quiet_frames_ > 3 && !busy_ && !(watch_ && watch_->has_news()); }
     /// The mesh as it was drawn is as it will stay, but for what a person does.
     bool settled() const { return settled_; }
     /// "NAME - LacedRing"
@@ -48,6 +50,8 @@ class Viewer {
     State& state() { return state_; }
     Orbit& orbit() { return orbit_; }
     Scene& scene() { return scene_; }
+    /// Null: there are no sources of shaders.
+    const ShaderWatch* shaders() const { return watch_.get(); }
     /// From a point of the picture.
     Vector ray(double x, double y) const;
     void redraw() { dirty_ = true; }
@@ -60,6 +64,8 @@ class Viewer {
         : options_(options), context_(context), scene_(std::move(scene)) {}
     Result<void> resize();
     void take_news();
+    void watch_shaders();
+    void take_shaders();
     void handle_mouse(const Event& event);
     void handle_key(const Event& event);
     void act();
@@ -78,6 +84,7 @@ class Viewer {
     State state_;
     Orbit orbit_;
     Loader loader_;
+    std::unique_ptr<ShaderWatch> watch_;
     RingSettings asked_;
     std::vector<std::string> queue_;  // dropped, to be tried in turn
 
