@@ -131,10 +131,12 @@ Result<void> Scene::reload() {
     compose_ = std::move(compose);
     silhouettes_ = std::move(silhouettes);
     painters_ = std::move(painters);
+    // Index buffers are of the old shaders: streams are expanded anew, index lists uploaded anew, for they were turned
+    // in place. What was planned for expanding holds: the layouts are the same.
+    std::erase_if(entries_, [](const auto& entry) { return std::get<gpu::Source>(entry.first) == gpu::Source::plain; });
     for (auto& [key, entry] : entries_) {
         entry.plans.clear();
-        // Expanded anew, by the shaders as they are now. What was planned for that holds: the layouts are the same.
-        if (entry.drawable.mesh.source != gpu::Source::plain) entry.drawable.mesh.decoded = false;
+        entry.drawable.mesh.decoded = false;
     }
     return {};
 }
