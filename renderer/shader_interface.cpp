@@ -18,9 +18,8 @@ enum Op : std::uint32_t {
     op_execution_mode = 16,
     op_capability = 17,
     op_first_type = 19,
-    op_type_image = 25,
+    op_type_vector = 23,  // from here on, the first operand is a type
     op_type_array = 28,
-    op_type_runtime_array = 29,
     op_type_struct = 30,
     op_type_pointer = 32,
     op_last_type = 39,
@@ -45,7 +44,8 @@ enum Decoration : std::uint32_t {
 // Execution modes: sizes of workgroups, and what is taken and emitted by stages that make primitives.
 constexpr std::uint32_t kLocalSize = 17, kLocalSizeId = 38;
 constexpr std::array<std::uint32_t, 13> kPrimitives{0, 19, 20, 21, 22, 23, 26, 27, 28, 29, 5269, 5270, 5298};
-// Capabilities that every device has, or that are turned on wherever we run (context.cpp).
+// Capabilities that every device has, or that are turned on wherever we run (context.cpp): Matrix, Shader, Geometry,
+// Sampled1D, Image1D, SampledBuffer, ImageBuffer, ImageQuery, DerivativeControl, PhysicalStorageBufferAddresses.
 constexpr std::array<std::uint32_t, 10> kAlways{0, 1, 2, 43, 44, 46, 47, 50, 51, 5347};
 // Decorations of members that the host must know: offsets, strides, order of a matrix, read only, built in.
 constexpr std::array<std::uint32_t, 8> kOfTypes{2, 3, 4, 5, 6, 7, 11, 24};
@@ -100,7 +100,7 @@ const std::uint32_t* Module::decoration(std::uint32_t id, Decoration which) cons
 std::string Module::value_text(std::uint32_t id) const {
     if (const std::uint32_t* number = decoration(id, spec_id)) return "constant " + std::to_string(*number);
     const auto at = definitions_.find(id);
-    return at == definitions_.end() ? "?" : numbers(at->second.subspan(2));
+    return at == definitions_.end() || at->second.size() < 3 ? "?" : numbers(at->second.subspan(2));
 }
 
 std::string Module::type_text(std::uint32_t id, int depth) const {
@@ -117,10 +117,10 @@ std::string Module::type_text(std::uint32_t id, int depth) const {
     }
     out += " (";
     for (std::size_t i = 1; i < words.size(); ++i) {
-        const bool of_types = operation >= op_type_struct || i == 1;
+        const bool is_type = operation >= op_type_struct || (operation >= op_type_vector && i == 1);
         if (operation == op_type_array && i == 2) {
             out += value_text(words[i]);
-        } else if (of_types && operations_.contains(words[i]) && operation > 22) {
+        } else if (is_type && operations_.contains(words[i])) {
             out += type_text(words[i], depth + 1);
         } else {
             out += ' ' + std::to_string(words[i]);

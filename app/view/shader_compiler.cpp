@@ -152,7 +152,7 @@ Result<std::vector<std::uint32_t>> ShaderCompiler::compile(const std::string& na
 fs::path built_shaders() {
     std::error_code error;
     const fs::path self = fs::read_symlink("/proc/self/exe", error);
-    fs::path out = fs::canonical(self.parent_path() / "shaders", error);
+    fs::path out = fs::canonical(self.parent_path() / "lacedring-shaders", error);
     return error || !fs::is_directory(out, error) ? fs::path{} : out;
 }
 
