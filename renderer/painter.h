@@ -19,8 +19,8 @@ class Painter {
     /// Silhouettes (adjacency.h) are drawn over it.
     static Result<Painter> create(Context& context, View view, std::uint32_t samples, bool outlined = false);
 
-    /// Another one for the same pictures and meshes, of shaders as they are now. What was planned by this one is not for
-    /// that one.
+    /// Another one for the same pictures and meshes, of shaders as they are now. What was planned by this one is not
+    /// for that one.
     Result<Painter> again() const;
 
     /// Makes the pipelines of the mesh's source and path, too, if this is the first mesh that needs them.

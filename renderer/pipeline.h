@@ -75,8 +75,8 @@ Result<PipelineHandle> create_compute(Context& context, const std::string& name,
 /// drawn.
 struct GraphicsInfo {
     std::string name;
-    Shader vertex;                         ///< or none, where `mesh` makes the vertices
-    Shader geometry;                       ///< may be none
+    Shader vertex;    ///< or none, where `mesh` makes the vertices
+    Shader geometry;  ///< may be none
     Shader mesh;
     Shader fragment;                       ///< none: depth only
     std::vector<std::uint32_t> constants;  ///< specialization constants 0, 1, ... of all stages
