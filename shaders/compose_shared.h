@@ -13,7 +13,8 @@ namespace lr::gpu {
 #define LR_COMPOSE_DIFFERENCE 2u  // red where they differ
 
 #define LR_PAINT_NONE 0u
-#define LR_PAINT_TRIANGLES 1u
+#define LR_PAINT_LIT 1u   // in the light of the surface, which is grey
+#define LR_PAINT_FLAT 2u  // the surface has colours of its own; only its lines stay
 
 struct ComposeConstants {
     uint mode;

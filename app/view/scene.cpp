@@ -165,6 +165,7 @@ Result<void> Scene::record_draw(VkCommandBuffer commands, const Shown& shown, co
     const auto stamp = [&](std::uint32_t i) {
         if (queries_) vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_.get(), i);
     };
+    view_ = shown.view;
     const int sides = shown.mode == Mode::single ? 1 : 2;
     timed_ = false;
     if (!model_) {
@@ -218,7 +219,8 @@ void Scene::record_compose(VkCommandBuffer commands, Mode mode, std::uint32_t di
     push.mode = mode == Mode::single ? LR_COMPOSE_LEFT : mode == Mode::split ? LR_COMPOSE_SPLIT : LR_COMPOSE_DIFFERENCE;
     push.divider = divider;
     push.samples = samples_;
-    push.paint = painted_ ? LR_PAINT_TRIANGLES : LR_PAINT_NONE;
+    const bool grey = view_ == gpu::View::smooth || view_ == gpu::View::flat || view_ == gpu::View::wire;
+    push.paint = !painted_ ? LR_PAINT_NONE : grey ? LR_PAINT_LIT : LR_PAINT_FLAT;
     push.triangles = painted_ && model_ ? model_->triangle_count() : 0;
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, compose_.get());
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.pipeline(), 0, 1,

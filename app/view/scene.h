@@ -106,6 +106,7 @@ class Scene {
     gpu::Image composed_;
     gpu::Buffer paint_, pixel_;
     bool painted_ = false;
+    gpu::View view_ = gpu::View::smooth;  // drawn last
     gpu::Descriptors descriptors_;
     VkDescriptorSet sets_[2] = {};  // the left picture alone; both
 };

@@ -24,6 +24,9 @@ struct FrameCost {
 /// What is laid over the triangles.
 enum class Paint { none, corridors, blocks, growth };
 
+/// Which side panel is open where the window is too narrow for both.
+enum class Drawer { none, choices, numbers };
+
 struct State {
     // Chosen.
     Shown shown;
@@ -34,6 +37,7 @@ struct State {
     Paint paint = Paint::none;
     bool outlines = false;  ///< silhouettes, borders and creases, from adjacency alone
     bool panels = true;
+    Drawer drawer = Drawer::none;
     bool help = false;
     bool turntable = false;
     double turntable_speed = 20;  ///< degrees a second
@@ -55,7 +59,8 @@ struct State {
     Loader::Progress progress;
     std::deque<FrameCost> costs;
     double frame_seconds = 0;  ///< the last picture drawn anew: recorded, drawn, composed, panels
-    std::uint64_t device_bytes = 0;
+    std::uint64_t device_bytes = 0, device_held = 0;  ///< in use; allocated
+    double covered_below = 0;                         ///< pixels of the window under bar and selection
     std::string device;
     bool mesh_shaders = false;
     std::optional<gpu::Difference> difference;
