@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 
 #include "app/view/panels.h"
 #include "app/view/theme.h"
@@ -57,6 +58,15 @@ bool check(const char* name, bool& value, const char* explained) {
     return changed;
 }
 
+/// Scrolls to the last item, once for each path.
+void show_once(const std::string& path) {
+    ImGuiStorage& storage = *ImGui::GetStateStorage();
+    const int now = static_cast<int>(std::hash<std::string>()(path));
+    if (storage.GetInt(ImGui::GetID("shown")) == now) return;
+    storage.SetInt(ImGui::GetID("shown"), now);
+    ImGui::SetScrollHereY();
+}
+
 void list_files(State& state, const std::vector<std::string>& files, const char* none) {
     for (const std::string& path : files) {
         const bool current = state.document && std::filesystem::path(state.document->path).filename() ==
@@ -64,6 +74,7 @@ void list_files(State& state, const std::vector<std::string>& files, const char*
         ImGui::PushID(path.c_str());
         const std::string name = std::filesystem::path(path).filename().string();
         if (ImGui::Selectable(elided(name, ImGui::GetContentRegionAvail().x).c_str(), current)) state.open = path;
+        if (current) show_once(state.document->path);
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", broken(path, px(320)).c_str());
         ImGui::PopID();
     }

@@ -20,7 +20,7 @@ constexpr Line kLines[] = {{nullptr, "Camera"},
                            {"right drag, control + left drag", "zoom"},
                            {"Home, Enter, F", "frame all"},
                            {".", "frame the selection"},
-                           {"1 3 7 9", "from the front, right, top, three-quarter; with control from the other side"},
+                           {"1 3 7 9", "front, right, top, three-quarter; control: other side"},
                            {"T", "turntable"},
                            {nullptr, "Picture"},
                            {"V, shift + V", "next view, previous view"},
@@ -29,7 +29,7 @@ constexpr Line kLines[] = {{nullptr, "Camera"},
                            {"G", "watch the ring-expander grow"},
                            {nullptr, "Selection"},
                            {"click", "select the corner nearest to the cursor"},
-                           {"N P O S L R", "go to the next, previous, opposite, swing, left, right corner"},
+                           {"N P O S L R", "next, previous, opposite, swing, left, right corner"},
                            {nullptr, "Window"},
                            {"Tab", "panels on and off"},
                            {"F12", "screenshot"},
@@ -40,19 +40,19 @@ constexpr Line kLines[] = {{nullptr, "Camera"},
 
 }  // namespace
 
-void draw_help(float bottom) {
-    const ImVec2 window = ImGui::GetIO().DisplaySize;
+void draw_help(float left, float right, float bottom) {
+    const float across = right - left;
     float keys = 0, what = 0;
     for (const Line& line : kLines) {
         if (line.keys != nullptr) keys = std::max(keys, ImGui::CalcTextSize(line.keys).x);
         what = std::max(what, ImGui::CalcTextSize(line.what).x);
     }
-    const float padding = std::min(px(22), window.x / 20), gap = px(16);
+    const float padding = std::min(px(22), across / 20), gap = px(16);
     // Both columns give way in a window that is too narrow: their lines wrap.
-    const float room = window.x - px(16) - 2 * padding - gap - ImGui::GetStyle().ScrollbarSize;
+    const float room = across - px(16) - 2 * padding - gap - ImGui::GetStyle().ScrollbarSize;
     keys = std::min(keys, room * 0.4F);
     what = std::min(what, room - keys);
-    ImGui::SetNextWindowPos({window.x / 2, bottom / 2}, ImGuiCond_Always, {0.5F, 0.5F});
+    ImGui::SetNextWindowPos({(left + right) / 2, bottom / 2}, ImGuiCond_Always, {0.5F, 0.5F});
     const float width = keys + gap + what + 2 * padding + ImGui::GetStyle().ScrollbarSize;
     ImGui::SetNextWindowSizeConstraints({width, 0}, {width, bottom - px(12)});
     ImGui::SetNextWindowFocus();

@@ -56,8 +56,11 @@ void bar_text(const std::string& text, float x, bool dim = false) {
 std::string opened(const State& state, float room) {
     const Document& document = *state.document;
     const std::string name = std::filesystem::path(document.path).filename().string();
-    const std::string triangles = fmt::format("   {} triangles", grouped(document.mesh->triangle_count()));
-    const std::string all = name + triangles + fmt::format("   {} vertices", grouped(document.mesh->vertex_count));
+    const auto counted = [](std::uint64_t count, const char* one, const char* many) {
+        return fmt::format("   {} {}", grouped(count), count == 1 ? one : many);
+    };
+    const std::string triangles = counted(document.mesh->triangle_count(), "triangle", "triangles");
+    const std::string all = name + triangles + counted(document.mesh->vertex_count, "vertex", "vertices");
     if (ImGui::CalcTextSize(all.c_str()).x <= room) return all;
     const float left = room - ImGui::CalcTextSize(triangles.c_str()).x;
     if (left > px(120)) return elided(name, left) + triangles;
@@ -217,7 +220,7 @@ void draw_panels(State& state, const Orbit&) {
     if (!state.document && !state.progress.busy && !covered) invite(left, right, height);
     if (!state.panels && state.clock < state.note_until) draw_note(state);
     if (!state.error.empty()) draw_error(state, left, right);
-    if (state.help) draw_help(state.panels ? height : window.y);
+    if (state.help) draw_help(left, right, state.panels ? height : window.y);
 }
 
 }  // namespace lr::view

@@ -28,8 +28,8 @@ std::vector<PanelBox> panel_boxes();
 /// Parts, each with a file of its own.
 void draw_choices(State& state);  ///< files, view, stream, ring
 void draw_numbers(State& state);  ///< sizes, times
-/// In the middle of the window, above `bottom`.
-void draw_help(float bottom);
+/// In the middle of what is left of the window.
+void draw_help(float left, float right, float bottom);
 void draw_selection(const State& state);
 /// What the picture's colours mean, in a box with this upper left corner; nothing where there is nothing to tell or the
 /// box would be higher than `room`.
