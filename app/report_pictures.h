@@ -11,7 +11,8 @@ namespace lr::app {
 std::uint32_t report_samples(const gpu::Context& context, const PictureSize& size);
 
 /// Draws the mesh smooth, with the ring of lean, and in ring order, into `report`. Where the mesh cannot be drawn,
-/// `report.no_pictures` says why. Errors: of the device.
+/// `report.no_pictures` says why. Errors: of the device, and of a camera
+/// that cannot be.
 Result<void> draw_pictures(gpu::Context& context, const PictureSize& size, const gpu::CameraOptions& camera,
                            const Mesh& mesh, const RingChoice& choice, MeshReport& report);
 

@@ -134,7 +134,7 @@ void draw_error(State& state, float left, float right) {
     ImGui::Begin("error", nullptr, kOver | ImGuiWindowFlags_AlwaysAutoResize);
     const float top = ImGui::GetCursorPosY();
     ImGui::TextUnformatted(text.c_str());
-    ImGui::SetCursorPos({ImGui::GetWindowContentRegionMax().x - px(20), top});
+    ImGui::SetCursorPos({ImGui::GetWindowContentRegionMax().x - px(24), top});
     if (ImGui::SmallButton("x")) state.error.clear();
     ImGui::End();
     ImGui::PopStyleVar();

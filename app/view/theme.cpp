@@ -52,6 +52,7 @@ void apply_theme(float scale) {
     style.ItemSpacing = {8, 5};
     style.ItemInnerSpacing = {6, 4};
     style.ScrollbarSize = 11;
+    style.WindowMinSize = {16, 16};  // the bar is lower than ImGui's own least
     style.GrabMinSize = 10;
     style.WindowRounding = 0;
     style.FrameRounding = 3;
