@@ -92,7 +92,10 @@ void time_row(const char* name, const State& state, float FrameCost::*member, co
         most = std::max(most, cost.*member);
         sum += cost.*member;
     }
-    const std::string last = state.costs.empty() ? "-" : fmt::format("{:.2f} ms", state.costs.back().*member);
+    const float ms = state.costs.empty() ? 0 : state.costs.back().*member;
+    const std::string last = state.costs.empty() ? "-"
+                             : ms < 1000         ? fmt::format("{:.2f} ms", ms)
+                                                 : fmt::format("{:.2f} s", ms / 1000);
     ImGui::TextDisabled("%s", name);
     const auto frames = static_cast<float>(std::max<std::size_t>(1, state.costs.size()));
     explain(fmt::format("{}.\nThe last {} frames drawn anew: {:.2f} ms on average, at most {:.2f}", explained,
@@ -151,8 +154,8 @@ void draw_format(const Bar& bar, float bits_at, float bytes_at) {
     };
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyle().Colors[baseline ? ImGuiCol_TextDisabled : ImGuiCol_Text]);
     ImGui::TextUnformatted(bar.format->name.c_str());
-    explain(fmt::format("{}: {}", bar.format->name, note.what).c_str());
     ImGui::PopStyleColor();
+    explain(fmt::format("{}: {}", bar.format->name, note.what).c_str());
     put(grouped(bar.format->bytes), bytes_at, ImGuiCol_TextDisabled);
     put(fmt::format("{:.2f}", bar.bits), bits_at, ImGuiCol_Text);
     const float y = at.y + height;

@@ -152,12 +152,17 @@ void draw_note(const State& state) {
     ImGui::PopStyleVar();
 }
 
-void invite(float left, float right, float height) {
+/// In the middle of an empty window.
+void invite(const State& state, float left, float right, float height) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const auto centred = [&](const char* text, float size, float y, ImU32 colour) {
         const float width = ImGui::CalcTextSize(text).x * size / ImGui::GetFontSize();
         list.AddText(ImGui::GetFont(), size, {(left + right - width) / 2, y}, colour, text);
     };
+    if (state.progress.busy) {
+        centred(state.progress.what.c_str(), px(18), height / 2 - px(20), IM_COL32(70, 72, 78, 255));
+        return;
+    }
     centred("Drop a mesh here", px(22), height / 2 - px(26), IM_COL32(70, 72, 78, 255));
     centred("glTF, GLB, OBJ, PLY, OFF, STL or LR", px(15), height / 2 + px(8), IM_COL32(100, 103, 110, 255));
 }
@@ -217,7 +222,7 @@ void draw_panels(State& state, const Orbit&) {
         draw_legend(state, left + px(kGap), px(kGap), bottom - px(100));
     }
     state.covered_below = static_cast<double>(window.y - bottom);
-    if (!state.document && !state.progress.busy && !covered) invite(left, right, height);
+    if (!state.document && !covered) invite(state, left, right, height);
     if (!state.panels && state.clock < state.note_until) draw_note(state);
     if (!state.error.empty()) draw_error(state, left, right);
     if (state.help) draw_help(left, right, state.panels ? height : window.y);
