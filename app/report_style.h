@@ -102,7 +102,7 @@ footer { margin-top: 48px; padding-top: 12px; border-top: 2px solid var(--line);
   :root { font-size: 12px; color-scheme: light; --page: #fff; --text: #000; --soft: #444; --line: #bbb; --faint: #ddd; --band: #fff;
     --ours: #1a66b8; --paper: #b35900; --baseline: #7d8590; --outside: #8a6d1d; --link: #000; }
   body { max-width: none; padding: 0; font-size: 9.5pt; }
-  svg text { font-size: 13px; } h3 { margin-top: 18px; }
+  svg text { font-size: 11px; } h3 { margin-top: 18px; }
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
   a { text-decoration: none; }
   .wide { overflow: visible; background: none; }
