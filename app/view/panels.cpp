@@ -219,7 +219,10 @@ void draw_panels(State& state, const Orbit&) {
     float bottom = state.panels ? height : window.y;
     if (state.panels && state.document && !covered) {
         if (state.selection.any()) bottom = draw_selection_box(state, left, right, bottom);
-        draw_legend(state, left + px(kGap), px(kGap), bottom - px(100));
+        // Below the names of the two pictures where these are near.
+        const bool near = state.shown.mode == Mode::split &&
+                          state.divider * static_cast<double>(window.x) < static_cast<double>(left + px(350));
+        draw_legend(state, left + px(kGap), near ? px(48) : px(kGap), bottom - px(100));
     }
     state.covered_below = static_cast<double>(window.y - bottom);
     if (!state.document && !covered) invite(state, left, right, height);
