@@ -109,6 +109,9 @@ class Panels(driver.Scripted):
     def test_numbers_are_those_of_stats(self):
         torus = mesh("torus", 600)
         state, = self.view("wait ready\nprint", torus)
+        # Another ring, asked for before they are measured, does not do away with them.
+        again, = self.view("wait mesh\nset passes 3\nwait ready\nprint", torus)
+        self.assertEqual(again["formats"], state["formats"])
         stats = json.loads(run("stats", torus, "--json").stdout)["meshes"][0]["formats"]
         self.assertEqual(state["formats"], {name: entry["bytes"] for name, entry in stats.items()})
 
