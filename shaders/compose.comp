@@ -34,7 +34,9 @@ vec3 painted(vec3 colour, uint triangle) {
     if (over.a == 0.0) return colour;
     // The light on it stays: the surface's own colour is replaced, not its shading.
     vec3 light = linear(colour) / vec3(0.62, 0.60, 0.565);
-    if (push.paint == LR_PAINT_FLAT) light = vec3(smoothstep(0.002, 0.02, dot(linear(colour), vec3(0.2126, 0.7152, 0.0722))));
+    if (push.paint == LR_PAINT_FLAT) {
+        light = vec3(smoothstep(0.002, 0.02, dot(linear(colour), vec3(0.2126, 0.7152, 0.0722))));
+    }
     vec3 lit = srgb(min(linear(over.rgb) * light, vec3(1.0)));
     return mix(colour, lit, over.a);
 }
