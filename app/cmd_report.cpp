@@ -11,6 +11,7 @@
 #include "app/report_page.h"
 #include "lrcore/base/file.h"
 #ifdef LACEDRING_GPU
+#include "app/camera_options.h"
 #include "app/report_pictures.h"
 #endif
 
@@ -25,6 +26,7 @@ struct Options {
     bool no_gpu = false;
 #ifdef LACEDRING_GPU
     PictureSize size{960, 720};
+    gpu::CameraOptions camera;  ///< of every mesh
     gpu::ContextOptions context;
 #endif
     std::string command;  ///< as it was given
@@ -100,7 +102,8 @@ int run(const Options& options) {
         report->no_pictures = skipped;
 #ifdef LACEDRING_GPU
         if (context != nullptr) {
-            const Result<void> drawn = draw_pictures(*context, options.size, *mesh, options.ring, *report);
+            const Result<void> drawn =
+                draw_pictures(*context, options.size, options.camera, *mesh, options.ring, *report);
             if (!drawn) return fail(path, drawn.error());
         }
 #endif
@@ -137,6 +140,7 @@ void add_report(CLI::App& program, Action& action) {
 #ifdef LACEDRING_GPU
     add_size(*command, options->size);
     command->get_option("--size")->description("pixels of a picture, 960x720 unless told");
+    add_camera(*command, options->camera);
     add_device_options(*command, options->context);
 #endif
     command->callback([options, &action, command] {

@@ -37,10 +37,14 @@ double seconds(const std::function<void()>& work) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
+std::size_t resident_bytes() {
+    return status_bytes("VmRSS");
+}
+
 std::size_t peak_bytes(const std::function<void()>& work) {
     malloc_trim(0);
     if (!reset_peak()) return 0;
-    const std::size_t before = status_bytes("VmRSS");
+    const std::size_t before = resident_bytes();
     work();
     const std::size_t peak = status_bytes("VmHWM");
     return peak > before ? peak - before : 0;

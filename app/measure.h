@@ -13,6 +13,9 @@ namespace lr::app {
 /// Wall seconds of one call.
 double seconds(const std::function<void()>& work);
 
+/// Bytes of memory that the process holds now. 0 where the system does not tell.
+std::size_t resident_bytes();
+
 /// Bytes by which the process's resident memory rose above where it was, at most, during one call. 0 where the system
 /// does not tell (it needs /proc/self/clear_refs).
 std::size_t peak_bytes(const std::function<void()>& work);

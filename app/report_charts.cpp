@@ -156,7 +156,7 @@ std::string offset_histograms(const MeshReport& mesh) {
     }
     out +=
         "Short offsets fit the 16-bit references of lr_compact. <b>iso</b>: the tip is on no ring; <b>T0</b>: the "
-        "triangle has no ring edge.</p>\n";
+        "triangle has no ring edge. Columns: percent of the triangles.</p>\n";
     const std::vector<Bin> columns = bins(mesh.periods);
     double top = 1;
     for (const Bin& bin : columns) {

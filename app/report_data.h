@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/format_notes.h"
 #include "app/formats.h"
 #include "app/paper_tables.h"
 
@@ -44,14 +45,6 @@ struct MeshReport {
 
     const FormatFigures* find(std::string_view name) const;
 };
-
-/// Whose idea a format is.
-enum class Origin { ours, paper, baseline };
-struct FormatNote {
-    Origin origin;
-    const char* what;  ///< in a few words
-};
-FormatNote note_on(std::string_view format);
 
 /// Everything but the pictures. `invalid` is what a format's own validation found wrong, if anything: then it is a bug,
 /// and there is no report. Errors: those of make_formats.

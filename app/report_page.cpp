@@ -58,7 +58,7 @@ std::string ring_line(const MeshReport& mesh) {
     return fmt::format(
         "<p class=\"note ringline\">Ring of lean ({}): {} on it, {} isolated; T0 {}\u00A0%, in warts {}\u00A0%, T2 "
         "{}\u00A0% of the "
-        "triangles.</p>\n",
+        "triangles. T0, T1 and T2 have none, one and two edges on the ring; a wart is a T0 next to a T2.</p>\n",
         lean == nullptr ? "" : lean->ring, counted(mesh.lean.ring_vertices, "vertex", "vertices"),
         grouped(mesh.lean.isolated), share(mesh.lean.t0), share(mesh.lean.t0_wart), share(mesh.lean.t2));
 }

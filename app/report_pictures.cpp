@@ -7,7 +7,8 @@
 namespace lr::app {
 namespace {
 
-Result<ReportPicture> draw(gpu::Context& context, const PictureSize& size, const gpu::Model& model, gpu::View view) {
+Result<ReportPicture> draw(gpu::Context& context, const PictureSize& size, const gpu::CameraOptions& from,
+                           const gpu::Model& model, gpu::View view) {
     gpu::RendererOptions options;
     options.view = view;
     options.samples = report_samples(context, size);
@@ -17,7 +18,7 @@ Result<ReportPicture> draw(gpu::Context& context, const PictureSize& size, const
     if (!renderer) return renderer.error();
     Result<gpu::Drawable> drawable = renderer->upload(model, gpu::Source::lean);
     if (!drawable) return drawable.error();
-    const Result<gpu::Camera> camera = gpu::make_camera(model, {}, options.width, options.height);
+    const Result<gpu::Camera> camera = gpu::make_camera(model, from, options.width, options.height);
     if (!camera) return camera.error();
     const Result<gpu::Picture> drawn = renderer->draw(*drawable, model, *camera, true);
     if (!drawn) return drawn.error();
@@ -32,8 +33,8 @@ std::uint32_t report_samples(const gpu::Context& context, const PictureSize& siz
     return gpu::Target::fitting_samples(context, {size.width, size.height}, 3);
 }
 
-Result<void> draw_pictures(gpu::Context& context, const PictureSize& size, const Mesh& mesh, const RingChoice& choice,
-                           MeshReport& report) {
+Result<void> draw_pictures(gpu::Context& context, const PictureSize& size, const gpu::CameraOptions& camera,
+                           const Mesh& mesh, const RingChoice& choice, MeshReport& report) {
     // With the very stream that the size table is of.
     const Result<gpu::Model> model = gpu::make_model(mesh, {.ring = ring_options(choice, mesh.triangle_count()),
                                                             .optimize = optimize_options(choice, lean_ring_cost)});
@@ -42,10 +43,13 @@ Result<void> draw_pictures(gpu::Context& context, const PictureSize& size, const
         return {};
     }
     for (const char* name : {"smooth", "class", "ring"}) {
-        Result<ReportPicture> picture = draw(context, size, *model, *gpu::view_named(name));
+        Result<ReportPicture> picture = draw(context, size, camera, *model, *gpu::view_named(name));
         if (!picture) {
             const ErrorCode code = picture.error().code;
-            if (code == ErrorCode::no_device || code == ErrorCode::device_failure) return picture.error();
+            if (code == ErrorCode::no_device || code == ErrorCode::device_failure ||
+                code == ErrorCode::invalid_argument) {
+                return picture.error();
+            }
             report.pictures.clear();
             report.no_pictures = picture.error().message;
             return {};

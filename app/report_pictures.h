@@ -3,6 +3,7 @@
 
 #include "app/gpu_options.h"
 #include "app/report_data.h"
+#include "renderer/camera.h"
 
 namespace lr::app {
 
@@ -10,8 +11,9 @@ namespace lr::app {
 std::uint32_t report_samples(const gpu::Context& context, const PictureSize& size);
 
 /// Draws the mesh smooth, with the ring of lean, and in ring order, into `report`. Where the mesh cannot be drawn,
-/// `report.no_pictures` says why. Errors: of the device.
-Result<void> draw_pictures(gpu::Context& context, const PictureSize& size, const Mesh& mesh, const RingChoice& choice,
-                           MeshReport& report);
+/// `report.no_pictures` says why. Errors: of the device, and of a camera
+/// that cannot be.
+Result<void> draw_pictures(gpu::Context& context, const PictureSize& size, const gpu::CameraOptions& camera,
+                           const Mesh& mesh, const RingChoice& choice, MeshReport& report);
 
 }  // namespace lr::app

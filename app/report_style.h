@@ -10,11 +10,13 @@ inline constexpr std::string_view kReportStyle = R"css(
   color-scheme: light dark;
   --page: #fff; --text: #1b1f24; --soft: #57606a; --line: #d0d7de; --faint: #eaeef2; --band: #f6f8fa;
   --ours: #1a66b8; --paper: #b35900; --baseline: #7d8590; --outside: #8a6d1d; --link: #0a58ae;
+  --shade: rgba(27, 31, 36, .22);
 }
 @media (prefers-color-scheme: dark) {
   :root {
     --page: #14171b; --text: #e4e7eb; --soft: #a2abb5; --line: #3b434d; --faint: #262c33; --band: #1b2026;
     --ours: #58a6ff; --paper: #f0a04b; --baseline: #848d97; --outside: #c9a63f; --link: #79b8ff;
+    --shade: rgba(160, 180, 205, .34);
   }
 }
 * { box-sizing: border-box; }
@@ -31,7 +33,11 @@ code { font: .92em ui-monospace, "DejaVu Sans Mono", monospace; }
 b { color: var(--text); }
 .facts { margin: 8px 0 0; padding: 0; list-style: none; display: flex; flex-wrap: wrap; gap: 0 26px; }
 .facts + .note { margin: 4px 0 16px; }
-.wide { overflow-x: auto; margin: 6px 0; }
+.wide { overflow-x: auto; margin: 6px 0; background:
+    linear-gradient(90deg, var(--page) 30%, transparent) left / 48px 100% no-repeat local,
+    linear-gradient(270deg, var(--page) 30%, transparent) right / 48px 100% no-repeat local,
+    linear-gradient(90deg, var(--shade), transparent) left / 18px 100% no-repeat scroll,
+    linear-gradient(270deg, var(--shade), transparent) right / 18px 100% no-repeat scroll; }
 .wide:focus-visible { outline: 2px solid var(--link); outline-offset: 2px; }
 table { border-collapse: separate; border-spacing: 0; font-size: .88rem; font-variant-numeric: tabular-nums; }
 table.sizes, table.overview { width: 100%; }
@@ -96,10 +102,10 @@ footer { margin-top: 48px; padding-top: 12px; border-top: 2px solid var(--line);
   :root { font-size: 12px; color-scheme: light; --page: #fff; --text: #000; --soft: #444; --line: #bbb; --faint: #ddd; --band: #fff;
     --ours: #1a66b8; --paper: #b35900; --baseline: #7d8590; --outside: #8a6d1d; --link: #000; }
   body { max-width: none; padding: 0; font-size: 9.5pt; }
-  svg text { font-size: 13px; } h3 { margin-top: 18px; }
+  svg text { font-size: 11px; } h3 { margin-top: 18px; }
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
   a { text-decoration: none; }
-  .wide { overflow: visible; }
+  .wide { overflow: visible; background: none; }
   table { font-size: 7pt; } th, td { padding: 2px 3px; } td.what { font-size: 6pt; }
   .offsets th, .offsets td { padding: 0 4px; } table.sizes { break-inside: avoid; }
   tbody th { position: static; }

@@ -31,9 +31,12 @@ vec3 background(vec2 at) {
     return vec3(246.0 - 34.0 * s, 247.0 - 32.0 * s, 249.0 - 28.0 * s) / 255.0;
 }
 
-// The light on it stays: the surface's own colour is replaced, not its shading.
+// The surface's own colour is replaced.
 vec3 recoloured(vec3 colour, vec4 over) {
     vec3 light = linear(colour) / vec3(0.62, 0.60, 0.565);
+    if ((kPaint & LR_PAINT_FLAT) != 0u) {
+        light = vec3(smoothstep(0.002, 0.02, dot(linear(colour), vec3(0.2126, 0.7152, 0.0722))));
+    }
     vec3 lit = srgb(min(linear(over.rgb) * light, vec3(1.0)));
     return mix(colour, lit, over.a);
 }
@@ -89,7 +92,9 @@ vec3 painted(vec3 colour, uint triangle, bool right, ivec2 at) {
     vec4 over = (kPaint & LR_PAINT_TRIANGLES) != 0u ? unpackUnorm4x8(paint[i]) : vec4(0.0);
     if ((kPaint & LR_PAINT_GROWTH) != 0u) {
         vec3 lit;
-        if (over.a == 0.0) {
+        if (over.a == 0.0 && (kPaint & LR_PAINT_FLAT) != 0u) {
+            lit = recoloured(colour, vec4(growth_colour(growth[i].step), 1.0));
+        } else if (over.a == 0.0) {
             // As recoloured() has it, but for the few percent by which sRGB is not a power: this runs every frame.
             lit = min(growth_colour(growth[i].step) * colour / vec3(0.808, 0.797, 0.776), vec3(1.0));
         } else {

@@ -18,6 +18,7 @@ namespace lr::gpu {
 #define LR_PAINT_TRIANGLES 1u
 #define LR_PAINT_GROWTH 2u
 #define LR_PAINT_RING 4u  // with LR_PAINT_GROWTH: the ring's line
+#define LR_PAINT_FLAT 8u  // the surface has colours of its own: only its lines stay, else the light on it does
 
 // RING-EXPANDER's way over one triangle of the mesh (lrcore/ring/expansion.h).
 struct GrowthTriangle {

@@ -245,7 +245,8 @@ void Loader::work(const Request& request) {
             wake_window_();
         }
     }
-    if (!request.input || stopped()) return;  // formats have the rings recommended for each: they are the same for any
+    // Formats have the rings recommended for each: once for a mesh, unless another ring was asked for before they came.
+    if (stopped() || measured_.lock() == document.mesh) return;
     app::RingChoice choice;
     Result<app::FormatSet> formats =
         app::make_formats(*document.mesh, choice, false, [&](double share, const std::string& what) {
@@ -258,6 +259,7 @@ void Loader::work(const Request& request) {
         format.order = {};
     }
     const std::lock_guard lock(mutex_);
+    measured_ = document.mesh;
     news_.formats = std::make_shared<const app::FormatSet>(std::move(*formats));
     wake_window_();
 }

@@ -71,6 +71,7 @@ class Loader {
     std::chrono::steady_clock::time_point asked_{};
     std::atomic<bool> stop_ = false;
     bool quit_ = false;
+    std::weak_ptr<const Mesh> measured_;  // whose formats were; of the thread alone
     std::thread thread_;
 };
 

@@ -53,10 +53,17 @@ void mark_selection(const State& state, const Orbit& orbit, double width, double
     // Letters only where triangles have room for them.
     const auto a = place(c, 1), b = place(next(c), 1);
     const bool room = a && b && std::hypot((*a)[0] - (*b)[0], (*a)[1] - (*b)[1]) > static_cast<double>(px(46));
-    for (const auto& [corner, text, colour] : marks) {
+    // The least important come first and lie below; where one would lie under another, it is a dot.
+    std::vector<ImVec2> places(marks.size());
+    for (std::size_t i = marks.size(); i-- > 0;) {
+        const auto& [corner, text, colour] = marks[i];
         if (corner.is_null() || (!room && corner != c)) continue;
         if (const auto p = place(corner, room ? 0.72 : 1.0)) {
-            if (room) {
+            places[i] = at(*p);
+            const bool free =
+                std::none_of(places.begin() + static_cast<std::ptrdiff_t>(i) + 1, places.end(),
+                             [&](ImVec2 q) { return std::hypot(q.x - places[i].x, q.y - places[i].y) < px(19); });
+            if (room && free) {
                 letter(at(*p), text, colour);
             } else {
                 ImGui::GetBackgroundDrawList()->AddCircleFilled(at(*p), px(4), colour | 0xff000000U);

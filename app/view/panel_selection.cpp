@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <string>
 
 #include "app/view/panels.h"
 #include "app/view/theme.h"
@@ -13,11 +14,6 @@ namespace {
 
 ImVec4 colour(std::uint32_t rgba) {
     return ImGui::ColorConvertU32ToFloat4(rgba | 0xff000000U);
-}
-
-std::string corner_text(const Document& document, CornerId c) {
-    if (c.is_null()) return "border";
-    return fmt::format("{} (triangle {}, vertex {})", c.value, triangle(c).value, document.table->vertex(c).value);
 }
 
 /// "L[12] = 34": the slots of the lean stream that hold a triangle.
@@ -51,29 +47,93 @@ std::string packed_text(const gpu::Model& model, std::uint32_t t) {
     return fmt::format("triangle {} of block {}: ({}, {}, {})", i % 256, i / 256, found.v[0], found.v[1], found.v[2]);
 }
 
-void line(const char* name, std::uint32_t rgba, const std::string& text) {
-    ImGui::TextColored(colour(rgba), "%s", name);
-    ImGui::SameLine(px(86));
+void cell(const std::string& text) {
+    ImGui::TableNextColumn();
+    const float room = ImGui::GetContentRegionAvail().x, width = ImGui::CalcTextSize(text.c_str()).x;
+    if (width < room) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room - width);
     ImGui::TextUnformatted(text.c_str());
+}
+
+/// A line of the table: the letter that marks the corner on the surface, and where it is.
+void line(const Document& document, const char* letter, const char* name, std::uint32_t rgba, CornerId c,
+          const char* explained) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextColored(colour(rgba), "%s", letter);
+    ImGui::TableNextColumn();
+    ImGui::TextColored(colour(rgba), "%s", name);
+    explain(explained);
+    if (c.is_null()) {
+        cell("border");
+        return;
+    }
+    cell(std::to_string(c.value));
+    cell(std::to_string(triangle(c).value));
+    cell(std::to_string(document.table->vertex(c).value));
+}
+
+void draw_operators(const Document& document, CornerId c) {
+    const CornerTable& table = *document.table;
+    const std::uint32_t grey = 0xffb4b0aeU;
+    if (!ImGui::BeginTable("operators", 5, ImGuiTableFlags_SizingFixedFit)) return;
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TableNextColumn();
+    for (const char* name : {"corner", "triangle", "vertex"}) {
+        ImGui::TableNextColumn();
+        ImGui::TextDisabled("  %s", name);
+    }
+    line(document, "c", "selected", kSelectedColour, c, "The corner nearest to where you clicked");
+    line(document, "n", "next", grey, next(c), "Of the same triangle, counterclockwise. Key N");
+    line(document, "p", "previous", grey, previous(c), "Of the same triangle, clockwise. Key P");
+    line(document, "o", "opposite", kOppositeColour, table.opposite(c),
+         "Of the triangle across the edge that faces the corner. Key O");
+    line(document, "l", "left", kLeftColour, table.left(c), "The next corner's opposite. Key L");
+    line(document, "r", "right", kRightColour, table.right(c), "The previous corner's opposite. Key R");
+    line(document, "s", "swing", kFanColour, table.swing(c),
+         "Of the next triangle around the same vertex; violet: all of them. Key S");
+    ImGui::EndTable();
+}
+
+void draw_streams(const State& state, CornerId c) {
+    const Document& document = *state.document;
+    const auto part = [](const char* name, const std::string& text, const char* explained) {
+        ImGui::TextDisabled("%s", name);
+        explain(explained);
+        ImGui::PushFont(small_font());
+        ImGui::PushTextWrapPos(0);
+        ImGui::TextUnformatted(text.c_str());
+        ImGui::PopTextWrapPos();
+        ImGui::PopFont();
+    };
+    const std::size_t fan = around(*document.table, c).size();
+    ImGui::TextDisabled("%zu triangle%s around the vertex", fan, fan == 1 ? "" : "s");
+    part("LR tables hold", state.tables ? lr_text(*state.tables, *document.table, c) : "being made",
+         "Their own numbers: L[v] and R[v] are the triangles left and right of ring edge v, VO the T0 triangles");
+    part("lean holds", lean_text(*document.model, triangle(c).value),
+         "Vertices in ring order. Slot 2v is the triangle left of ring edge v, slot 2v + 1 the one right of it");
+    part("packed holds", packed_text(*document.model, triangle(c).value),
+         "Vertices in ring order. A block is 256 triangles that decode on their own");
 }
 
 }  // namespace
 
 void draw_selection(const State& state) {
-    const Document& document = *state.document;
-    const CornerTable& table = *document.table;
     const CornerId c = state.selection.corner;
-    line("corner", kSelectedColour, corner_text(document, c));
-    line("opposite", kOppositeColour, corner_text(document, table.opposite(c)));
-    line("left", kLeftColour, corner_text(document, table.left(c)));
-    line("right", kRightColour, corner_text(document, table.right(c)));
-    line("swing", kFanColour,
-         fmt::format("{}; {} triangles around the vertex", corner_text(document, table.swing(c)),
-                     around(table, c).size()));
-    const std::uint32_t grey = 0xffa09a98U;
-    line("lr", grey, state.tables ? lr_text(*state.tables, table, c) : "being made");
-    line("lean", grey, lean_text(*document.model, triangle(c).value));
-    line("packed", grey, packed_text(*document.model, triangle(c).value));
+    // Beside each other where there is room.
+    const float width = ImGui::GetContentRegionAvail().x;
+    if (width < px(560)) {
+        draw_operators(*state.document, c);
+        draw_streams(state, c);
+        return;
+    }
+    ImGui::BeginGroup();
+    draw_operators(*state.document, c);
+    ImGui::EndGroup();
+    ImGui::SameLine(px(310));
+    ImGui::BeginGroup();
+    draw_streams(state, c);
+    ImGui::EndGroup();
 }
 
 }  // namespace lr::view

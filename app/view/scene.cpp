@@ -285,6 +285,7 @@ Result<void> Scene::record_draw(VkCommandBuffer commands, const Shown& shown, co
     const auto stamp = [&](std::uint32_t i) {
         if (queries_) vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_.get(), i);
     };
+    view_ = shown.view;
     const int sides = shown.mode == Mode::single ? 1 : 2;
     if (blank_) record_clear(commands, sides);  // what is not drawn must be readable
     const VkExtent2D drawn = targets_[0]->extent();
@@ -325,6 +326,8 @@ Result<VkPipeline> Scene::compose_pipeline(Mode mode) {
     std::uint32_t paint = painted_ ? LR_PAINT_TRIANGLES : LR_PAINT_NONE;
     if (grows_) paint |= LR_PAINT_GROWTH;
     if (grows_ && edge_pixels_ > kLeastEdge) paint |= LR_PAINT_RING;
+    const bool grey = view_ == gpu::View::smooth || view_ == gpu::View::flat || view_ == gpu::View::wire;
+    if (paint != LR_PAINT_NONE && !grey) paint |= LR_PAINT_FLAT;
     const std::array<std::uint32_t, 3> constants{how, samples_, paint};
     gpu::PipelineHandle& made = compose_[constants];
     if (!made) {

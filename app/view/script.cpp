@@ -13,6 +13,7 @@
 
 #include "app/camera_options.h"
 #include "app/formats.h"
+#include "app/view/panels.h"
 
 namespace lr::view {
 namespace {
@@ -180,6 +181,8 @@ Result<bool> Script::set(const Line& line, Viewer& viewer) {
         state.help = on;
     else if (name == "turntable")
         state.turntable = on;
+    else if (name == "choices" || name == "numbers")
+        state.drawer = !on ? Drawer::none : name == "choices" ? Drawer::choices : Drawer::numbers;
     else if (name == "decode")
         state.shown.decode_again = on;
     else if (!is_number)
@@ -264,6 +267,11 @@ std::string Script::state_text(Viewer& viewer) {
     if (state.formats) {
         for (const app::Format& format : state.formats->formats) out["formats"][format.name] = format.bytes;
     }
+    for (const PanelBox& box : panel_boxes()) {
+        out["panels"].push_back({{"name", box.name},
+                                 {"box", {box.x, box.y, box.width, box.height}},
+                                 {"hidden", {box.hidden_right, box.hidden_below}}});
+    }
     return out.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
@@ -338,8 +346,9 @@ Result<bool> Script::run(const Line& line, Viewer& viewer, Window& window, std::
         if (!camera) return camera.error();
         if (const Result<void> framed = viewer.frame_all(*camera); !framed) return framed.error();
     } else if (what == "screenshot") {
-        if (words.size() != 2) return wrong("screenshot FILE");
-        if (waited_ < 2 || !viewer.settled()) {
+        const bool now = words.size() == 3 && words[2] == "now";
+        if (words.size() != 2 && !now) return wrong("screenshot FILE [now]");
+        if (!now && (waited_ < 2 || !viewer.settled())) {
             // What was changed must be drawn, and settle, first.
             if (waited_ < 2 || state.document)
                 return waited_ > 600 ? wrong("nothing settles: no screenshot") : Result<bool>(false);

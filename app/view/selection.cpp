@@ -130,7 +130,7 @@ std::pair<Point, double> ball(const Document& document, CornerId corner) {
             squared = std::max(squared, dot(d, d));
         }
     }
-    return {centre, std::sqrt(squared) * 2};
+    return {centre, std::sqrt(squared) * 1.6};
 }
 
 }  // namespace lr::view

@@ -24,6 +24,9 @@ struct FrameCost {
 /// What is laid over the triangles.
 enum class Paint { none, corridors, blocks, growth };
 
+/// Which side panel is open where the window is too narrow for both.
+enum class Drawer { none, choices, numbers };
+
 struct State {
     // Chosen.
     Shown shown;
@@ -34,6 +37,7 @@ struct State {
     Paint paint = Paint::none;
     bool outlines = false;  ///< silhouettes, borders and creases, from adjacency alone
     bool panels = true;
+    Drawer drawer = Drawer::none;
     bool help = false;
     bool turntable = false;
     double turntable_speed = 20;   ///< degrees a second
@@ -58,7 +62,8 @@ struct State {
     double shown_seconds = 0;  ///< from asking for the document until it was on the screen
     double longest_frame = 0;  ///< seconds from a look at the events to the picture that answers them
     double started = 0;        ///< seconds from the program's start to its first picture
-    std::uint64_t device_bytes = 0;
+    std::uint64_t device_bytes = 0, device_held = 0;  ///< in use; allocated
+    double covered_below = 0;                         ///< pixels of the window under bar and selection
     std::string device;
     bool mesh_shaders = false;
     std::optional<gpu::Difference> difference;

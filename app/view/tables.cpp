@@ -90,8 +90,12 @@ std::string lr_text(const Tables& tables, const CornerTable& table, CornerId cor
                            view.lr[t]);
     }
     const std::size_t at = 6 * std::size_t{t - 2 * view.ring_vertices};
+    const auto opposite = [&](std::size_t i) {
+        const std::uint32_t o = view.vo[at + i];
+        return o == UINT32_MAX ? std::string("border") : std::to_string(o);
+    };
     return fmt::format("corner {}, T0: VO[{}] = {} {} {} | {} {} {}", c.value, at, view.vo[at] & ~word::kT0Flip,
-                       view.vo[at + 1], view.vo[at + 2], view.vo[at + 3], view.vo[at + 4], view.vo[at + 5]);
+                       view.vo[at + 1], view.vo[at + 2], opposite(3), opposite(4), opposite(5));
 }
 
 }  // namespace lr::view

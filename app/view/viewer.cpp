@@ -120,6 +120,10 @@ void Viewer::take_news() {
         if (news_.formats) state_.formats = std::move(news_.formats);
         news_ = {};
     }
+    if (const auto& job = state_.turntable_job) {
+        state_.progress = {true, false, fmt::format("picture {} of {}", job->done + 1, job->pictures),
+                           static_cast<double>(job->done) / job->pictures};
+    }
     if (news.error) {
         state_.error = *news.error;
         if (!queue_.empty()) {
@@ -189,7 +193,10 @@ void Viewer::act() {
     }
     if (std::exchange(state_.frame_selection, false) && state_.document && state_.selection.any()) {
         const auto [centre, radius] = ball(*state_.document, state_.selection.corner);
-        orbit_.look_at(centre, radius);
+        // In the middle of what its panel leaves of the window.
+        const double height = extent_.height, seen = std::max(0.3 * height, height - state_.covered_below);
+        orbit_.look_at(centre, radius * height / seen);
+        orbit_.pan(0, (seen - height) / 2, height, extent_.width);
         dirty_ = true;
     }
     if (std::exchange(state_.copy_camera, false)) {
@@ -355,7 +362,8 @@ Result<void> Viewer::frame(double seconds) {
     still_seconds_ = std::exchange(moved_, false) ? 0 : still_seconds_ + seconds;
     if (visible()) {
         LR_TRY(resize());
-        state_.device_bytes = context_.arena().held();
+        state_.device_bytes = context_.arena().used();
+        state_.device_held = context_.arena().held();
         ImGuiIO& io = ImGui::GetIO();
         io.DisplaySize = {static_cast<float>(extent_.width), static_cast<float>(extent_.height)};
         io.DeltaTime = static_cast<float>(std::max(1e-4, seconds));

@@ -272,6 +272,27 @@ class Report(CliTest):
         self.fails("report", self.path("torus-800-1.ply"), "-o", self.path("x.html"), "--device", "no such",
                    codes=(NO_DEVICE,))
 
+    def test_camera(self):
+        if not self.has_command("render"):
+            self.assertNotIn("--camera-position", self.ok("report", "--help").out)
+            return
+        torus = self.generate("torus", 400)
+        cameras = [(), ("--up", "+Z"), ("--camera-azimuth-angle", "40", "--camera-zoom-factor", "1.5"),
+                   ("--camera-position=0,0,9", "--camera-focal-point=0,0,0")]
+        pages = [self.page(torus, "--size", "200x150", *camera) for camera in cameras]
+        self.assertEqual(len({page.images[0]["src"] for page in pages}), len(cameras), "no two are the same")
+        # As render draws it from there.
+        self.ok("render", torus, "-o", self.path("render.png"), "--size", "200x150", *cameras[1])
+        with open(self.path("render.png"), "rb") as file:
+            rendered = read_png(file.read())
+        shown = read_png(base64.b64decode(pages[1].images[0]["src"].partition(",")[2]))
+        different = sum(a != b for p, q in zip(rendered[2], shown[2]) for a, b in zip(p, q))
+        self.assertLess(different, 200 * 150 // 50)
+        self.assertIn("--up +Z", pages[1].words())
+        self.fails("report", torus, "-o", self.path("x.html"), "--up", "sideways", codes=(WRONG_USAGE,))
+        self.fails("report", torus, "-o", self.path("x.html"), "--camera-position=1,1,1", "--camera-focal-point=1,1,1",
+                   codes=(WRONG_USAGE,))
+
     def test_what_cannot_be_drawn_is_counted(self):
         flat = self.write("point.obj", b"v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n")
         page = self.page(flat)
