@@ -114,7 +114,7 @@ void draw_growth(State& state) {
     }
     ImGui::SameLine();
     if (ImGui::Button("Restart")) state.growth = 0;
-    const float column = px(124);
+    const float column = px(138);
     swatch(LR_GROWTH_INVADED_COLOUR, "invaded");
     ImGui::SameLine(column);
     swatch(LR_GROWTH_NEWEST_COLOUR, "newest");

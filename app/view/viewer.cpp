@@ -273,8 +273,9 @@ Result<void> Viewer::update_paint() {
         marked_ = state_.selection.corner;
         compose_ = true;
     }
-    // The last tenth of a second is told from what was invaded before.
-    scene_.grow(wanted.growth, static_cast<std::uint32_t>(std::max(3.0, state_.growth_speed * 0.1)));
+    // The last tenth of a second is told from what was invaded before, until all is done.
+    const bool done = state_.growth >= state_.growth_end();
+    scene_.grow(wanted.growth, done ? 0 : static_cast<std::uint32_t>(std::max(3.0, state_.growth_speed * 0.1)));
     if (made) painted_ = wanted;
     compose_ |= made;
     return {};
