@@ -11,6 +11,7 @@
 
 #include "lrcore/base/result.h"
 #include "renderer/arena.h"
+#include "renderer/shader_set.h"
 #include "renderer/validation.h"
 
 namespace lr::gpu {
@@ -64,6 +65,8 @@ class Context {
     const VkPhysicalDeviceLimits& limits() const { return info_.limits; }
     Arena& arena() { return *arena_; }
     ValidationLog& validation() { return validation_; }
+    /// What pipelines are made of where it is not what was built in.
+    ShaderSet& shaders() { return shaders_; }
     /// vkCmdDrawMeshTasksEXT; null where info().max_mesh_groups is 0.
     PFN_vkCmdDrawMeshTasksEXT draw_mesh_tasks() const { return draw_mesh_tasks_; }
     bool validating() const { return validating_; }
@@ -81,6 +84,7 @@ class Context {
     void name_object(VkObjectType type, std::uint64_t handle, const std::string& text) const;
 
     ValidationLog validation_;
+    ShaderSet shaders_;
     VkInstance instance_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
     VkPhysicalDevice physical_ = VK_NULL_HANDLE;

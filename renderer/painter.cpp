@@ -39,11 +39,21 @@ Result<Painter> Painter::create(Context& context, View view, std::uint32_t sampl
     return out;
 }
 
+Result<Painter> Painter::again() const {
+    LR_ASSIGN(Painter out, create(*context_, view_, samples_, outlined_));
+    for (const auto& [key, surface] : surfaces_) LR_TRY(out.make_surface(key.first, key.second));
+    return out;
+}
+
+Result<void> Painter::make_surface(Source source, Path path) {
+    if (surfaces_.contains({source, path})) return {};
+    LR_ASSIGN(Surface surface, Surface::create(*context_, layout_, view_, source, path, outlined_));
+    surfaces_.emplace(std::pair(source, path), std::move(surface));
+    return {};
+}
+
 Result<DrawPlan> Painter::plan(Descriptors& descriptors, const GpuMesh& mesh, const Target& target) {
-    if (!surfaces_.contains({mesh.source, mesh.path})) {
-        LR_ASSIGN(Surface surface, Surface::create(*context_, layout_, view_, mesh.source, mesh.path, outlined_));
-        surfaces_.emplace(std::pair(mesh.source, mesh.path), std::move(surface));
-    }
+    LR_TRY(make_surface(mesh.source, mesh.path));
     DrawPlan plan;
     for (std::uint32_t draw = 0; draw < mesh.draws; ++draw) {
         const std::uint64_t first = std::uint64_t{draw} * mesh.draw_slots;

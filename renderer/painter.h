@@ -19,6 +19,10 @@ class Painter {
     /// Silhouettes (adjacency.h) are drawn over it.
     static Result<Painter> create(Context& context, View view, std::uint32_t samples, bool outlined = false);
 
+    /// Another one for the same pictures and meshes, of shaders as they are now. What was planned by this one is not
+    /// for that one.
+    Result<Painter> again() const;
+
     /// Makes the pipelines of the mesh's source and path, too, if this is the first mesh that needs them.
     Result<DrawPlan> plan(Descriptors& descriptors, const GpuMesh& mesh, const Target& target);
 
@@ -35,6 +39,7 @@ class Painter {
                 Ties ties) const;
 
   private:
+    Result<void> make_surface(Source source, Path path);
     void draw_lines(VkCommandBuffer commands, const GpuMesh& mesh, const DrawPlan& plan) const;
 
     Context* context_ = nullptr;

@@ -10,7 +10,9 @@ namespace {
 
 constexpr std::uint32_t kSetsPerPool = 64;
 
-Result<ShaderModuleHandle> create_module(Context& context, std::span<const std::uint32_t> spirv) {
+Result<ShaderModuleHandle> create_module(Context& context, const Shader& of) {
+    const std::shared_ptr<const ShaderSet::Words> other = context.shaders().find(of.name);
+    const std::span<const std::uint32_t> spirv = other ? std::span(*other) : of.words;
     VkShaderModuleCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
     info.codeSize = spirv.size_bytes();
@@ -127,12 +129,12 @@ void Descriptors::write_image(VkDescriptorSet set, std::uint32_t number, VkImage
 }
 
 Result<PipelineHandle> create_compute(Context& context, const std::string& name, const Layout& layout,
-                                      std::span<const std::uint32_t> spirv, std::span<const std::uint32_t> constants) {
-    LR_ASSIGN(const ShaderModuleHandle shader, create_module(context, spirv));
+                                      const Shader& shader, std::span<const std::uint32_t> constants) {
+    LR_ASSIGN(const ShaderModuleHandle module, create_module(context, shader));
     const Specialization specialization(constants);
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-    info.stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, shader);
+    info.stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, module);
     info.stage.pSpecializationInfo = &specialization.info;
     info.layout = layout.pipeline();
     VkPipeline pipeline = VK_NULL_HANDLE;
@@ -145,17 +147,17 @@ Result<PipelineHandle> create_graphics(Context& context, const Layout& layout, c
     std::vector<VkPipelineShaderStageCreateInfo> stages;
     std::vector<ShaderModuleHandle> modules;
     const Specialization specialization(info.constants);
-    const std::array<std::pair<VkShaderStageFlagBits, std::span<const std::uint32_t>>, 4> code{
+    const std::array<std::pair<VkShaderStageFlagBits, Shader>, 4> shaders{
         {{VK_SHADER_STAGE_VERTEX_BIT, info.vertex},
          {VK_SHADER_STAGE_GEOMETRY_BIT, info.geometry},
          {VK_SHADER_STAGE_MESH_BIT_EXT, info.mesh},
          {VK_SHADER_STAGE_FRAGMENT_BIT, info.fragment}}};
-    for (const auto& [stage, spirv] : code) {
-        if (spirv.empty()) continue;
-        LR_ASSIGN(ShaderModuleHandle shader, create_module(context, spirv));
-        stages.push_back(stage_info(stage, shader));
+    for (const auto& [stage, shader] : shaders) {
+        if (shader.words.empty()) continue;
+        LR_ASSIGN(ShaderModuleHandle module, create_module(context, shader));
+        stages.push_back(stage_info(stage, module));
         stages.back().pSpecializationInfo = &specialization.info;
-        modules.push_back(std::move(shader));
+        modules.push_back(std::move(module));
     }
 
     VkPipelineVertexInputStateCreateInfo input{};
@@ -222,7 +224,7 @@ Result<PipelineHandle> create_graphics(Context& context, const Layout& layout, c
     create.pNext = &rendering;
     create.stageCount = static_cast<std::uint32_t>(stages.size());
     create.pStages = stages.data();
-    if (info.mesh.empty()) {
+    if (info.mesh.words.empty()) {
         create.pVertexInputState = &input;
         create.pInputAssemblyState = &assembly;
     }

@@ -11,6 +11,7 @@
 #include "lrcore/base/result.h"
 #include "renderer/buffer.h"
 #include "renderer/handle.h"
+#include "shaders/shader.h"
 
 namespace lr::gpu {
 
@@ -65,20 +66,20 @@ class Descriptors {
     std::vector<DescriptorPoolHandle> pools_;  // the last one may have room
 };
 
-/// `constants`: the shader's specialization constants 0, 1, ...
+/// `constants`: the shader's specialization constants 0, 1, ... Of every shader the context's ShaderSet may have other
+/// words than its own.
 Result<PipelineHandle> create_compute(Context& context, const std::string& name, const Layout& layout,
-                                      std::span<const std::uint32_t> spirv,
-                                      std::span<const std::uint32_t> constants = {});
+                                      const Shader& shader, std::span<const std::uint32_t> constants = {});
 
 /// What differs between the graphics pipelines. Viewport and scissor are dynamic, and the line width where lines are
 /// drawn.
 struct GraphicsInfo {
     std::string name;
-    std::span<const std::uint32_t> vertex;    ///< or empty, where `mesh` makes the vertices
-    std::span<const std::uint32_t> geometry;  ///< may be empty
-    std::span<const std::uint32_t> mesh;
-    std::span<const std::uint32_t> fragment;  ///< empty: depth only
-    std::vector<std::uint32_t> constants;     ///< specialization constants 0, 1, ... of all stages
+    Shader vertex;    ///< or none, where `mesh` makes the vertices
+    Shader geometry;  ///< may be none
+    Shader mesh;
+    Shader fragment;                       ///< none: depth only
+    std::vector<std::uint32_t> constants;  ///< specialization constants 0, 1, ... of all stages
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     VkCompareOp depth_compare = VK_COMPARE_OP_LESS;
     bool depth_write = true;

@@ -26,9 +26,8 @@ Result<void> SlotReader::run(Commands& commands, const GpuMesh& mesh, Task task,
     PipelineHandle& pipeline = pipelines_[2 * static_cast<std::size_t>(task) + (packed ? 1 : 0)];
     if (!pipeline) {
         const std::array<std::uint32_t, 4> constants{0, 0, packed ? 1U : 0U, 0};  // the triangles as they are
-        std::span<const std::uint32_t> code = spirv_slot_indices_comp;
-        if (task == Task::words) code = spirv_slot_words_comp;
-        LR_ASSIGN(pipeline, create_compute(*context_, "slots", layout_, code, constants));
+        const Shader& shader = task == Task::words ? spirv_slot_words_comp : spirv_slot_indices_comp;
+        LR_ASSIGN(pipeline, create_compute(*context_, "slots", layout_, shader, constants));
     }
     constexpr std::uint32_t kSlots = 1U << 20;
     const std::uint32_t step = std::min({kSlots, mesh.slots, static_cast<std::uint32_t>(mesh.max_range / 12)});

@@ -113,8 +113,7 @@ void Surface::draw(VkCommandBuffer commands, Pass pass, const GpuMesh& mesh, con
     }
 }
 
-GraphicsInfo line_pipeline(const char* name, std::span<const std::uint32_t> vertex,
-                           std::span<const std::uint32_t> fragment) {
+GraphicsInfo line_pipeline(const char* name, const Shader& vertex, const Shader& fragment) {
     GraphicsInfo info;
     info.name = name;
     info.vertex = vertex;

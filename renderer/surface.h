@@ -44,8 +44,7 @@ class Surface {
 VkShaderStageFlags surface_stages(const Context& context);
 
 /// A pipeline of lines over a surface that is drawn already: blended, not nearer than it in the depth buffer.
-GraphicsInfo line_pipeline(const char* name, std::span<const std::uint32_t> vertex,
-                           std::span<const std::uint32_t> fragment);
+GraphicsInfo line_pipeline(const char* name, const Shader& vertex, const Shader& fragment);
 
 /// What shaders need to know of slots [first, first + slots).
 DrawConstants draw_constants(const GpuMesh& mesh, std::uint32_t first, std::uint32_t slots);

@@ -23,6 +23,7 @@ enum Key : int {
     key_home = 268,
     key_end = 269,
     key_f1 = 290,
+    key_f5 = 294,
     key_f12 = 301,
 };
 

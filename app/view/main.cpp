@@ -101,6 +101,10 @@ int run(Options& options) {
     } else if (!options.screenshot.empty()) {
         script = Script::screenshot(options.screenshot);
     }
+    std::error_code error;
+    if (!options.viewer.shaders.empty() && !std::filesystem::is_directory(options.viewer.shaders, error)) {
+        return app::fail(options.viewer.shaders.string(), {ErrorCode::cannot_open, "is no folder"});
+    }
     Result<std::unique_ptr<Window>> window = Window::create(options.size.width, options.size.height);
     if (!window) return app::fail("view", window.error());
     options.context.instance_extensions = (*window)->extensions();
@@ -152,6 +156,9 @@ int start(int argc, char** argv) {
     program.add_option("--script", options.script, "do what the lines of a file say (docs/viewer.md)")
         ->type_name("FILE")
         ->excludes(screenshot);
+    program
+        .add_option("--shaders", options.viewer.shaders, "folder of shaders to compile whenever one of them changes")
+        ->type_name("DIR");
     app::add_camera(program, options.viewer.camera);
     app::add_device_options(program, options.context);
     program.failure_message([](const CLI::App*, const CLI::Error& error) {

@@ -159,6 +159,7 @@ void draw_help() {
                                {"G", "watch the ring-expander grow"},
                                {"Tab", "panels"},
                                {"F12", "screenshot"},
+                               {"F5", "compile the shaders again"},
                                {"control + C", "copy the camera, as render takes it"},
                                {"Escape", "cancel, clear"},
                                {"? or H", "this help"},

@@ -19,6 +19,7 @@ void draw_choices(State& state);  ///< files, view, stream, ring
 void draw_numbers(State& state);  ///< sizes, times
 void draw_help();
 void draw_selection(const State& state);
+void draw_shader_error(State& state);
 
 /// "1,234,567"
 std::string grouped(std::uint64_t number);

@@ -165,6 +165,38 @@ Result<void> Scene::set_marks(std::span<const Mark> marks) {
     return {};
 }
 
+Result<void> Scene::reload() {
+    uploader_->finish();  // it knows the expander
+    LR_ASSIGN(gpu::Expander expander, gpu::Expander::create(*context_));
+    decltype(compose_) compose;
+    for (const auto& [constants, pipeline] : compose_) {
+        LR_ASSIGN(compose[constants],
+                  gpu::create_compute(*context_, "compose", layout_, spirv_compose_comp, constants));
+    }
+    std::optional<gpu::Silhouettes> silhouettes;
+    if (silhouettes_) {
+        LR_ASSIGN(silhouettes, gpu::Silhouettes::create(*context_));
+    }
+    std::map<gpu::View, gpu::Painter> painters;
+    for (const auto& [view, painter] : painters_) {
+        LR_ASSIGN(gpu::Painter again, painter.again());
+        painters.emplace(view, std::move(again));
+    }
+    context_->wait_idle();  // the last picture may still be drawn with those that go
+    *expander_ = std::move(expander);
+    compose_ = std::move(compose);
+    silhouettes_ = std::move(silhouettes);
+    painters_ = std::move(painters);
+    // Index buffers are of the old shaders: streams are expanded anew, index lists uploaded anew, for they were turned
+    // in place. What was planned for expanding holds: the layouts are the same.
+    std::erase_if(entries_, [](const auto& entry) { return entry.first.source == gpu::Source::plain; });
+    for (auto& [key, entry] : entries_) {
+        entry.plans.clear();
+        entry.drawable.mesh.decoded = false;
+    }
+    return {};
+}
+
 Result<void> Scene::set_growth(std::span<const gpu::GrowthTriangle> triangles) {
     grows_ = !triangles.empty();
     if (!grows_) return {};

@@ -62,6 +62,10 @@ class Scene {
     /// How far it has grown, and how many of the last triangles are told from the others.
     void grow(std::uint32_t invaded, std::uint32_t fresh);
 
+    /// Makes every pipeline anew, of the context's shaders as they are now. If one cannot be made, nothing changes.
+    /// Waits for the device.
+    Result<void> reload();
+
     /// Has what the picture needs put on the device, beside this thread; true once it is there. Errors: unsupported (a
     /// stream that the model does not have), and the device's.
     Result<bool> prepare(const Shown& shown);

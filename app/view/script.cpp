@@ -29,20 +29,12 @@ bool parse(const std::string& text, double& out) {
 }
 
 std::optional<int> key_named(const std::string& name) {
-    static const std::map<std::string, int> kNames{{"escape", key_escape},
-                                                   {"enter", key_enter},
-                                                   {"tab", key_tab},
-                                                   {"home", key_home},
-                                                   {"end", key_end},
-                                                   {"left", key_left},
-                                                   {"right", key_right},
-                                                   {"up", key_up},
-                                                   {"down", key_down},
-                                                   {"delete", key_delete},
-                                                   {"f1", key_f1},
-                                                   {"f12", key_f12},
-                                                   {"?", '/'},
-                                                   {"backspace", key_backspace}};
+    static const std::map<std::string, int> kNames{
+        {"escape", key_escape}, {"enter", key_enter}, {"tab", key_tab},
+        {"home", key_home},     {"end", key_end},     {"left", key_left},
+        {"right", key_right},   {"up", key_up},       {"down", key_down},
+        {"delete", key_delete}, {"f1", key_f1},       {"f5", key_f5},
+        {"f12", key_f12},       {"?", '/'},           {"backspace", key_backspace}};
     if (const auto at = kNames.find(name); at != kNames.end()) return at->second;
     if (name.size() == 1) return std::toupper(static_cast<unsigned char>(name[0]));
     return std::nullopt;
@@ -123,7 +115,12 @@ Result<bool> Script::wait(const Line& line, Viewer& viewer) {
     if (what == "ready")
         return (state.document && state.document->optimised && state.formats && viewer.settled()) || failed;
     if (what == "error") return !state.error.empty();
-    return wrong("wait what: mesh, settled, optimised, tables, formats, ready, error");
+    if (what == "shaders") {
+        if (viewer.shaders() == nullptr) return wrong("no sources of shaders to wait for");
+        if (waited_ == 0) look_ = viewer.shaders()->next_look();
+        return state.shaders.looks >= look_;
+    }
+    return wrong("wait what: mesh, settled, optimised, tables, formats, ready, shaders, error");
 }
 
 Result<bool> Script::set(const Line& line, Viewer& viewer) {
@@ -252,6 +249,12 @@ std::string Script::state_text(Viewer& viewer) {
     }
     out["started_ms"] = state.started * 1e3;
     out["longest_frame_ms"] = state.longest_frame * 1e3;  // since the last such line
+    const State::Shaders& shaders = state.shaders;
+    out["shaders"] = {{"folder", shaders.folder},
+                      {"compiled", shaders.compiled},
+                      {"reloads", shaders.reloads},
+                      {"replaced", shaders.replaced},
+                      {"error", shaders.error}};
     if (!state.costs.empty()) {
         out["draw_ms"] = state.costs.back().draw;
         out["decode_ms"] = state.costs.back().decode;
@@ -375,6 +378,12 @@ Result<bool> Script::run(const Line& line, Viewer& viewer, Window& window, std::
         }
         const std::int64_t selected = state.selection.any() ? std::int64_t{triangle(state.selection.corner).value} : -1;
         fmt::print("{}\n", nlohmann::ordered_json{{"ray", hit}, {"selected", selected}}.dump());
+    } else if (what == "copy") {
+        if (words.size() != 3) return wrong("copy FROM TO");
+        std::error_code error;
+        if (!std::filesystem::copy_file(words[1], words[2], std::filesystem::copy_options::overwrite_existing, error)) {
+            return Error{ErrorCode::cannot_write, words[2] + ": " + error.message()};
+        }
     } else if (what == "print") {
         fmt::print("{}\n", state_text(viewer));
         state.longest_frame = 0;

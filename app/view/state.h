@@ -73,6 +73,14 @@ struct State {
 
     /// How far the ring-expander goes: triangles.
     double growth_end() const { return document ? static_cast<double>(document->expansion->corners.size()) : 0.0; }
+    struct Shaders {
+        std::string folder;          ///< watched; empty: none
+        std::string error;           ///< why what was edited last is not drawn with
+        std::uint32_t compiled = 0;  ///< so far
+        std::uint32_t reloads = 0;   ///< how often pipelines were made anew
+        std::uint32_t replaced = 0;  ///< shaders in use that are not as built in
+        std::uint64_t looks = 0;     ///< at their files
+    } shaders;
 
     // Asked for by panels and keys; the viewer does it and takes it away.
     std::optional<std::string> open;
@@ -82,6 +90,7 @@ struct State {
     bool copy_camera = false;
     bool screenshot = false;
     bool turntable_pictures = false;
+    bool reload_shaders = false;
     bool choices_changed = false;  ///< the picture must be drawn again
     std::optional<char> step;      ///< n p o s l r: from the selected corner to another
 };

@@ -44,6 +44,7 @@ Result<std::unique_ptr<Viewer>> Viewer::create(gpu::Context& context, const View
     state.files =
         meshes_beside(options.input.path.empty() ? std::filesystem::current_path(error).string() : options.input.path);
     out->asked_ = state.ring;
+    out->watch_shaders();
     if (!options.input.path.empty()) state.open = options.input.path;
     return out;
 }
@@ -308,6 +309,7 @@ Result<void> Viewer::compare() {
 
 Result<void> Viewer::frame(double seconds) {
     take_news();
+    take_shaders();
     advance(seconds);
     still_seconds_ = std::exchange(moved_, false) ? 0 : still_seconds_ + seconds;
     if (visible()) {
@@ -319,6 +321,7 @@ Result<void> Viewer::frame(double seconds) {
         ImGui::NewFrame();
         draw_panels(state_, orbit_);
         draw_marks(state_, orbit_, extent_.width, extent_.height);
+        draw_shader_error(state_);
         ImGui::Render();
     }
     act();

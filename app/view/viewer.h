@@ -9,6 +9,7 @@
 #include "app/view/orbit.h"
 #include "app/view/overlay.h"
 #include "app/view/painting.h"
+#include "app/view/shader_watch.h"
 #include "app/view/state.h"
 
 namespace lr::view {
@@ -22,6 +23,7 @@ struct ViewerOptions {
     bool keep_recent = true;       ///< files that were opened are remembered
     /// Called by other threads when they have something for the next frame.
     std::function<void()> wake = [] {};
+    std::filesystem::path shaders;  ///< folder of sources to be watched; empty: those that the program was built from
 };
 
 class Viewer {
@@ -61,6 +63,8 @@ class Viewer {
     State& state() { return state_; }
     Orbit& orbit() { return orbit_; }
     Scene& scene() { return scene_; }
+    /// Null: there are no sources of shaders.
+    const ShaderWatch* shaders() const { return watch_.get(); }
     /// From a point of the picture.
     Vector ray(double x, double y) const;
     void redraw() { dirty_ = true; }
@@ -70,12 +74,14 @@ class Viewer {
   private:
     Viewer(gpu::Context& context, const ViewerOptions& options, Scene scene)
         : options_(options), context_(context), scene_(std::move(scene)), loader_(options.wake) {}
-    bool news() const { return loader_.has_news() || news_.document; }
+    bool news() const { return loader_.has_news() || news_.document || (watch_ && watch_->has_news()); }
     Result<void> resize();
     Shown shown(bool moving, const gpu::Model* model) const;
     void take_news();
     void take_document();
     Result<bool> prepare(const Shown& picture);
+    void watch_shaders();
+    void take_shaders();
     void handle_mouse(const Event& event);
     void handle_key(const Event& event);
     void act();
@@ -100,6 +106,7 @@ class Viewer {
     State state_;
     Orbit orbit_;
     Loader loader_;
+    std::unique_ptr<ShaderWatch> watch_;
     RingSettings asked_;
     std::vector<std::string> queue_;  // dropped, to be tried in turn
 

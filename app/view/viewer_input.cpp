@@ -82,6 +82,7 @@ void Viewer::handle_key(const Event& event) {
             } else {
                 state_.selection = {};
                 state_.error.clear();
+                state_.shaders.error.clear();
             }
             return;
         case '/':  // with shift: ?
@@ -102,6 +103,9 @@ void Viewer::handle_key(const Event& event) {
             return;
         case 'T':
             (shift ? state_.turntable_pictures : state_.turntable) ^= true;
+            return;
+        case key_f5:
+            state_.reload_shaders = true;
             return;
         case key_f12:
             state_.screenshot = true;

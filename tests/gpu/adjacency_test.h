@@ -74,8 +74,8 @@ struct AdjacencyTest : GpuTest {
         commands.emplace(std::move(*c));
     }
 
-    gpu::PipelineHandle pipeline(std::span<const std::uint32_t> spirv, std::uint32_t constant = 0) {
-        auto made = gpu::create_compute(*context, "adjacency test", layout, spirv, std::span(&constant, 1));
+    gpu::PipelineHandle pipeline(const gpu::Shader& shader, std::uint32_t constant = 0) {
+        auto made = gpu::create_compute(*context, "adjacency test", layout, shader, std::span(&constant, 1));
         REQUIRE_MESSAGE(made, made.error().message);
         return std::move(*made);
     }

@@ -1,0 +1,15 @@
+#pragma once
+// A compiled shader, as the generated headers "spirv/NAME_STAGE.h" hold it.
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace lr::gpu {
+
+struct Shader {
+    std::string_view name;  ///< of its source in this folder: "surface.frag"
+    std::span<const std::uint32_t> words;
+};
+
+}  // namespace lr::gpu
