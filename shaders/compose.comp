@@ -56,11 +56,16 @@ vec3 growth_colour(uint step) {
     return mix(vec3(LR_GROWTH_NEWEST_COLOUR) / 255.0, invaded, 0.6 * float(age) / float(push.fresh));
 }
 
+uvec3 triangles_across(uint i) { return uvec3(growth[i].across[0], growth[i].across[1], growth[i].across[2]); }
+
+bool is_among(uint i, uvec3 triangles) { return i != LR_GROWTH_BORDER && any(equal(triangles, uvec3(i))); }
+
 // The ring so far parts what is invaded from what is not (yet): where a sample nearby shows the triangle across such an
-// edge, the line is drawn. So it hides behind the surface as that does, and costs what is seen, not what there is.
+// edge, or around its end, the line is drawn. So it hides behind the surface as that does, not where two parts of the
+// surface merely overlap, and costs what is seen, not what there is.
 vec4 ring_line(uint i, bool right, ivec2 at) {
     uint step = growth[i].step;
-    uvec3 across = uvec3(growth[i].across[0], growth[i].across[1], growth[i].across[2]);
+    uvec3 across = triangles_across(i);
     bool inside = step < push.invaded;  // the flag makes the others larger than any number of triangles
     ivec2 last = imageSize(left_triangles) - 1;
     uint reach = inside ? push.inner : push.outer;
@@ -69,14 +74,19 @@ vec4 ring_line(uint i, bool right, ivec2 at) {
             ivec2 to = clamp(at + d * (k < 2 ? ivec2(2 * k - 1, 0) : ivec2(0, 2 * k - 5)), ivec2(0), last);
             uint other = triangle_at(right, to) & ~LR_FRONT_FLAG;
             if (other == i + 1u) continue;
-            uint j = other == 0u ? LR_GROWTH_BORDER : other - 1u;
-            if (j != across.x && j != across.y && j != across.z) continue;
-            if (j == LR_GROWTH_BORDER) {
-                if (inside) return vec4(vec3(LR_GROWTH_LINE_COLOUR) / 255.0, push.line_opacity);
+            if (other == 0u) {
+                if (inside && any(equal(across, uvec3(LR_GROWTH_BORDER)))) {
+                    return vec4(vec3(LR_GROWTH_LINE_COLOUR) / 255.0, push.line_opacity);
+                }
                 continue;
             }
+            uint j = other - 1u;
             uint beyond = growth[j].step;
             if (inside == (beyond < push.invaded)) continue;
+            if (!is_among(j, across)) {
+                uvec3 there = triangles_across(j);
+                if (!is_among(across.x, there) && !is_among(across.y, there) && !is_among(across.z, there)) continue;
+            }
             bool stays = ((inside ? beyond : step) & ~LR_GROWTH_RIGHT) < push.invaded;
             if (stays) return vec4(vec3(LR_GROWTH_LINE_COLOUR) / 255.0, push.line_opacity);
             return vec4(vec3(LR_GROWTH_FRONT_COLOUR) / 255.0, max(push.line_opacity, 0.75));

@@ -75,7 +75,7 @@ class Growth(driver.Scripted):
     def test_another_seed_grows_elsewhere(self):
         blob = mesh("blob", 3000)
         pictures = []
-        for lines in ((), ("set seeds 8", "wait settled"), ("set seeds 8", "set seed 5", "wait settled"),
+        for lines in ((), ("set seeds 40", "wait settled"), ("set seeds 40", "set seed 5", "wait settled"),
                       ("set ring hybrid", "set k 1", "wait settled")):
             self.shots(blob, (300,), *lines)
             pictures.append(png.read(f"{driver.folder}/growth-300.png"))
