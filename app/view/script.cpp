@@ -353,7 +353,7 @@ Result<bool> Script::run(const Line& line, Viewer& viewer, Window& window, std::
             if (waited_ < 2 || state.document)
                 return waited_ > 600 ? wrong("nothing settles: no screenshot") : Result<bool>(false);
         }
-        const Result<gpu::Picture> picture = viewer.picture();
+        const Result<gpu::Picture> picture = now ? viewer.window() : viewer.picture();
         if (!picture) return picture.error();
         if (const Result<void> written = gpu::write_png(words[1], *picture); !written) {
             return Error{written.error().code, words[1] + ": " + written.error().message};

@@ -41,8 +41,12 @@ class Viewer {
     const gpu::Image& image() const { return overlay_->image(); }
     VkExtent2D extent() const { return extent_; }
     bool visible() const { return extent_.width != 0 && extent_.height != 0; }
-    /// Of the last picture. Waits for the device.
-    Result<gpu::Picture> picture() { return picture_of(overlay_->image()); }
+    /// The last picture, with panels if they are on; else with nothing over it. Waits for the device.
+    Result<gpu::Picture> picture() {
+        return state_.panels || state_.help ? window() : picture_of(scene_.composed());
+    }
+    /// All that is in the window, notices too.
+    Result<gpu::Picture> window() { return picture_of(overlay_->image()); }
 
     bool closing() const { return closing_; }
     /// The next picture will be another one by itself.

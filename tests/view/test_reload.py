@@ -70,7 +70,7 @@ class Reload(driver.Scripted):
     def test_errors_keep_the_picture(self):
         broken, closed, other, mended = self.script(
             self.shot("before"), self.edited("surface.frag", ALBEDO, "vec3 albedo = vec3(0.62, 0.60"), "frames 3",
-            self.shot("notice"), "print", "key escape", "frames 3", self.shot("closed"), "print",
+            self.shot("notice") + " now", "print", "key escape", "frames 3", self.shot("closed"), "print",
             self.edited("line.frag", "void main", "void mine"), "print",
             self.mended("surface.frag"), self.mended("line.frag"), self.shot("after"), "print")
         self.assertRegex(broken["error"], r"^shaders/surface\.frag:71: ")  # where the next statement begins
