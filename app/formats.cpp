@@ -193,8 +193,7 @@ void add_rivals(FormatSet& set, CornerTable table, std::uint32_t mesh_vertices) 
 
 }  // namespace
 
-Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool paper,
-                               const FormatProgress& progress) {
+Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool paper, const FormatProgress& progress) {
     const auto stop = [&](double share, const char* what) { return progress && !progress(share, what); };
     Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
     if (!table) return table.error();

@@ -33,8 +33,8 @@ struct Allocation {
     std::uint32_t block = 0;
 };
 
-/// Any thread may call any of these. First fit over sorted free ranges; a block that is empty again is given back if it was made for one
-/// large resource.
+/// Any thread may call any of these. First fit over sorted free ranges; a block that is empty again is given back if it
+/// was made for one large resource.
 class Arena {
   public:
     /// `limit`: bytes of device memory to hold at most; 0: as much as the device has.

@@ -24,10 +24,12 @@ void label(const char* text, const char* explained) {
 }
 
 template <class T, std::size_t N>
-bool choose(const char* name, const std::array<std::pair<const char*, T>, N>& values, T& value, const char* explained) {
+bool choose(const char* name, const std::array<std::pair<const char*, T>, N>& values, T& value, const char* explained,
+            float width = -1) {
     const auto at = std::find_if(values.begin(), values.end(), [&](const auto& v) { return v.second == value; });
     bool changed = false;
     label(name, explained);
+    ImGui::SetNextItemWidth(width);
     ImGui::PushID(name);
     if (ImGui::BeginCombo("##", at == values.end() ? "" : at->first)) {
         for (const auto& [text, v] : values) {
@@ -86,7 +88,7 @@ void draw_files(State& state) {
     // Whole lines of it, and some even in a low window.
     const float line = ImGui::GetTextLineHeightWithSpacing();
     const float room = ImGui::GetContentRegionAvail().y - ImGui::GetStyle().ItemSpacing.y;
-    const ImVec2 size{0, line * std::max(4.0F, std::floor(room / line))};
+    const ImVec2 size{0, line * std::max(3.0F, std::floor(room / line))};
     if (ImGui::BeginTabItem("Folder")) {
         ImGui::BeginChild("folder", size);
         list_files(state, state.files, "no meshes in this folder");
@@ -164,12 +166,14 @@ void draw_view(State& state) {
     changed |=
         choose("Compare", kModes, shown.mode,
                "The same picture from the index list and from the stream: side by side, or red where they differ");
-    changed |= choose("Samples", kSamples, state.samples, "Of each pixel: more make edges smooth, and take longer");
+    changed |=
+        choose("Samples", kSamples, state.samples, "Of each pixel: more make edges smooth, and take longer", px(44));
+    ImGui::SameLine();
+    check("outlines", state.outlines, "Silhouettes, borders and creases, asked of the LR tables");
     constexpr std::array<std::pair<const char*, std::uint32_t>, 4> kCaps{
         {{"30 a second", 30}, {"60 a second", 60}, {"120 a second", 120}, {"no limit", 0}}};
     choose("Pictures", kCaps, state.frame_cap, "At most so many are drawn while something moves");
     state.choices_changed |= changed;
-    check("outlines", state.outlines, "Silhouettes, borders and creases, asked of the LR tables");
     label("Turntable", "Turns around the mesh, so many degrees a second");
     auto speed = static_cast<float>(state.turntable_speed);
     ImGui::Checkbox("##turn", &state.turntable);
@@ -232,13 +236,13 @@ void draw_choices(State& state) {
     draw_view(state);
     draw_stream(state);
     draw_ring(state);
-    ImGui::Dummy({0, px(4)});
+    ImGui::Dummy({0, px(1)});
     if (ImGui::Button("Screenshot")) state.screenshot = true;
     explain("lacedring-N.png in the working folder. Key F12");
     ImGui::SameLine();
     if (ImGui::Button("Turntable PNG")) state.turntable_pictures = true;
     explain("A whole turn in 90 pictures, in a folder turntable-N of the working folder");
-    ImGui::Dummy({0, px(4)});
+    ImGui::Dummy({0, px(1)});
     draw_files(state);
 }
 

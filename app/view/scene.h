@@ -133,7 +133,7 @@ class Scene {
     bool painted_ = false, coloured_ = false, grows_ = false, blank_ = true;
     std::vector<Mark> under_marks_;  // what set_marks covered
     std::uint32_t invaded_ = 0, fresh_ = 0;
-    double edge_pixels_ = 0;  // of a mean edge, in the picture drawn last
+    double edge_pixels_ = 0;              // of a mean edge, in the picture drawn last
     gpu::View view_ = gpu::View::smooth;  // drawn last
     gpu::Descriptors descriptors_;
     VkDescriptorSet sets_[2] = {};        // the left picture alone; both

@@ -41,7 +41,7 @@ class Script {
     std::size_t at_ = 0;
     int frames_ = 0;  ///< to be drawn before the next line
     int waited_ = 0;
-    bool turning_ = false;  ///< pictures of a turntable are being written
+    bool turning_ = false;    ///< pictures of a turntable are being written
     std::uint64_t look_ = 0;  ///< of the watch over shaders, that is waited for
     std::chrono::steady_clock::time_point waiting_since_{};
 };

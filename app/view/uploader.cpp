@@ -12,8 +12,7 @@ gpu::UploadOptions options_of(const UploadKey& key) {
     out.path = key.path;
     out.ring = key.with != UploadKey::With::edges;
     out.offsets = key.with == UploadKey::With::offsets;
-    out.lines =
-        key.with == UploadKey::With::edges ? gpu::UploadOptions::Lines::edges : gpu::UploadOptions::Lines::ring;
+    out.lines = key.with == UploadKey::With::edges ? gpu::UploadOptions::Lines::edges : gpu::UploadOptions::Lines::ring;
     return out;
 }
 

@@ -15,7 +15,11 @@ namespace lr::view {
 
 /// What is put there of a model, and with what beside its triangles.
 struct UploadKey {
-    enum class With { ring, offsets, edges };  ///< ring order, classes and the ring's lines; sizes of offsets; all edges
+    enum class With {
+        ring,
+        offsets,
+        edges
+    };  ///< ring order, classes and the ring's lines; sizes of offsets; all edges
     gpu::Source source = gpu::Source::plain;
     gpu::Path path = gpu::Path::compute;
     With with = With::ring;

@@ -42,9 +42,7 @@ class Viewer {
     VkExtent2D extent() const { return extent_; }
     bool visible() const { return extent_.width != 0 && extent_.height != 0; }
     /// The last picture, with panels if they are on; else with nothing over it. Waits for the device.
-    Result<gpu::Picture> picture() {
-        return state_.panels || state_.help ? window() : picture_of(scene_.composed());
-    }
+    Result<gpu::Picture> picture() { return state_.panels || state_.help ? window() : picture_of(scene_.composed()); }
     /// All that is in the window, notices too.
     Result<gpu::Picture> window() { return picture_of(overlay_->image()); }
 
