@@ -29,8 +29,9 @@ struct RingSettings {
     std::uint32_t k = 100;    ///< of the hybrid
     std::uint32_t seeds = 1;  ///< per component
     std::uint64_t random_seed = 1;
-    std::uint32_t passes = 24;  ///< of the optimiser
-    bool warts = true;          ///< wart skipping
+    CornerId start = null_corner;  ///< where it begins; null: at the first triangle
+    std::uint32_t passes = 24;     ///< of the optimiser
+    bool warts = true;             ///< wart skipping
 
     bool operator==(const RingSettings&) const = default;
 };

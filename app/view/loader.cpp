@@ -46,6 +46,7 @@ RingOptions ring_options(const RingSettings& settings, bool quick) {
     RingOptions options;
     options.seeds = quick ? 1 : std::max(1U, settings.seeds);
     options.random_seed = settings.random_seed;
+    options.start = settings.start;
     options.k = settings.hybrid ? std::max(1U, settings.k) : 0;
     return options;
 }

@@ -17,6 +17,8 @@ std::string Script::state_text(Viewer& viewer) {
                                {"size", {viewer.extent().width, viewer.extent().height}}};
     out["fps"] = state.frame_cap;
     if (state.document) out["growth"] = {state.growth, state.growth_end()};
+    out["start"] =
+        state.ring.start.is_null() ? nlohmann::ordered_json() : nlohmann::ordered_json(state.ring.start.value);
     if (state.document) {
         const Document& document = *state.document;
         out["triangles"] = document.mesh->triangle_count();

@@ -95,6 +95,7 @@ void Viewer::opened(const std::string& path) {
     state_.paint = Paint::none;
     state_.growing = false;
     state_.growth = 0;
+    state_.ring.start = asked_.start = null_corner;
     end_turntable();
     state_.costs.clear();
     state_.files = meshes_beside(path);
@@ -171,8 +172,10 @@ void Viewer::act() {
     if (state_.open) {
         Input input = options_.input;
         input.path = *std::exchange(state_.open, std::nullopt);
+        RingSettings settings = state_.ring;
+        settings.start = null_corner;  // was of another mesh
         if (queue_.empty()) state_.error.clear();
-        loader_.open(input, state_.ring);
+        loader_.open(input, settings);
         asked_ = state_.ring;
     } else if (state_.ring != asked_ && state_.document && !ImGui::IsMouseDown(0)) {
         asked_ = state_.ring;

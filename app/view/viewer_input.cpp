@@ -129,6 +129,14 @@ void Viewer::handle_key(const Event& event) {
             state_.growth = 0;
             state_.growing = true;
             return;
+        case 'B':
+            if (state_.selection.any()) {
+                note("the ring begins at the selected corner");
+            } else {
+                note(state_.ring.start.is_null() ? "click a triangle first" : "the ring begins at the first triangle");
+            }
+            state_.ring.start = state_.selection.corner;
+            return;
         case 'V': {
             constexpr std::array<gpu::View, 6> kOrder{gpu::View::smooth, gpu::View::flat, gpu::View::triangle_class,
                                                       gpu::View::ring,   gpu::View::wire, gpu::View::offsets};

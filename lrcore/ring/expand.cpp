@@ -200,19 +200,20 @@ Rings expand_rings(const CornerTable& table, const RingOptions& options, Expansi
     // another ring to begin at, so shells are walked only once that is in question.
     std::optional<Swirl> shells;
     std::size_t swirled = 0;
-    for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
-        if (!expander.can_seed({t})) continue;
+    const bool told = options.start.value < table.corners.size();
+    for (std::size_t i = told ? 0 : 1; i <= table.triangle_count(); ++i) {
+        const CornerId first = i == 0 ? options.start : corner({static_cast<std::uint32_t>(i - 1)}, 0);
+        if (!expander.can_seed(triangle(first))) continue;
         if (options.one_per_shell) {
             if (!shells && !rings.first.empty()) shells.emplace(table);
             for (; swirled < rings.first.size(); ++swirled) {
                 shells->run(rings.edges[rings.first[swirled]].left, [](CornerId) {});
             }
-            if (shells && shells->visited({t})) continue;
+            if (shells && shells->visited(triangle(first))) continue;
         }
         const std::size_t begin = rings.edges.size();
         rings.first.push_back(static_cast<std::uint32_t>(begin));
         if (expansion != nullptr) expansion->first.push_back(static_cast<std::uint32_t>(entered->size()));
-        const CornerId first = corner({t}, 0);
         CornerId best = first;
         expander.grow(best, options.k, rings.edges, entered);
         if (options.seeds <= 1 || rings.edges.size() - begin < 4) continue;

@@ -115,6 +115,9 @@ void check(const Mesh& mesh, const RingOptions& options) {
     const Rings plain = expand_rings(*table, options);
     REQUIRE(plain.first == rings.first);
     for (std::size_t i = 0; i < rings.edges.size(); ++i) REQUIRE(plain.edges[i].left == rings.edges[i].left);
+    if (options.start.value < table->corners.size() && !table->degenerate(triangle(options.start))) {
+        if (options.seeds == 1) REQUIRE(expansion.corners.front() == options.start);
+    }
     check_order(*table, rings, expansion);
     check_steps(*table, rings, expansion, options.random_seed);
 }
@@ -129,6 +132,11 @@ TEST_CASE("the expansion of named meshes is what their rings enclose") {
         check(mesh, {.seeds = 3, .random_seed = 2, .k = 7});
         check(mesh, {.k = 1});
         check(mesh, {.seeds = 2, .one_per_shell = true});
+        const auto corners = static_cast<std::uint32_t>(mesh.indices.size());
+        for (const std::uint32_t start : {corners / 2, corners - 1, corners}) {
+            check(mesh, {.start = {start}});
+            check(mesh, {.seeds = 3, .k = 3, .start = {start}, .one_per_shell = true});
+        }
     }
 }
 
@@ -142,6 +150,8 @@ TEST_CASE("the expansion of random soups") {
         check(test::random_soup(vertices, 1 + static_cast<std::uint32_t>(seed % 71), seed),
               {.seeds = seeds, .random_seed = seed, .k = k});
         check(test::random_gluing(40, 120, seed), {.seeds = seeds, .random_seed = seed, .k = k});
+        const CornerId start{static_cast<std::uint32_t>(seed % 400)};
+        check(test::random_gluing(40, 120, seed), {.random_seed = seed, .k = k, .start = start});
     }
 }
 

@@ -83,6 +83,31 @@ class Growth(driver.Scripted):
             for j in range(i):
                 self.assertGreater(png.differences(pictures[i], pictures[j])[0], 500, (i, j))
 
+    def test_the_ring_begins_at_the_selected_corner(self):
+        states = self.view("""set panels off
+            wait ready
+            set passes 0
+            wait settled
+            key b
+            frames 2
+            print
+            click 240 160
+            key b
+            wait settled
+            print
+            key g
+            set growth 1
+            wait settled
+            click 240 160
+            print
+            key escape
+            key b
+            wait settled
+            print""", mesh("blob", 3000))
+        self.assertEqual([state["start"] for state in states], [None, states[1]["corner"], states[1]["corner"], None])
+        self.assertEqual(states[0]["t0"], states[3]["t0"])
+        self.assertNotEqual(states[0]["t0"], states[1]["t0"])
+
     def test_growing_restarts_with_another_seed_and_stays_where_it_stands_still(self):
         states = self.view("""wait optimised
             set passes 0
