@@ -17,10 +17,10 @@ struct Expansion;  // lrcore/ring/expansion.h
 struct RingOptions {
     std::uint32_t seeds = 1;  ///< seed corners tried per component; the one with the cheapest ring is kept
     std::uint64_t random_seed = 1;
-    std::uint32_t k = 0;  ///< 0: RING-EXPANDER; else HYBRID-RING-EXPANDER, breadth first every k triangles
+    std::uint32_t k = 0;         ///< 0: RING-EXPANDER; else HYBRID-RING-EXPANDER, breadth first every k triangles
+    bool one_per_shell = false;  ///< never a further ring among vertices that a shell's ring left out
     /// Where the ring of its component begins, and which ring is the first; null: each at its first triangle.
     CornerId start = null_corner;
-    bool one_per_shell = false;  ///< never a further ring among vertices that a shell's ring left out
 };
 
 /// Seeds worth trying on a mesh of that size: more on small meshes, where chance weighs more and trying is cheap.

@@ -135,7 +135,7 @@ TEST_CASE("the expansion of named meshes is what their rings enclose") {
         const auto corners = static_cast<std::uint32_t>(mesh.indices.size());
         for (const std::uint32_t start : {corners / 2, corners - 1, corners}) {
             check(mesh, {.start = {start}});
-            check(mesh, {.seeds = 3, .k = 3, .start = {start}, .one_per_shell = true});
+            check(mesh, {.seeds = 3, .k = 3, .one_per_shell = true, .start = {start}});
         }
     }
 }
