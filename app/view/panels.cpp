@@ -121,24 +121,28 @@ void draw_bar(State& state) {
     ImGui::PopStyleVar();
 }
 
-/// Over the picture, at the top of its middle. `left`, `right`: what panels leave of the window.
-void draw_error(State& state, float left, float right) {
+/// Over the picture, in its middle, from `top` on; gives where it ends. `left`, `right`: what panels leave of the
+/// window.
+float draw_error(const char* name, std::string& error, float top, float left, float right) {
+    if (error.empty()) return top;
     const float room = std::max(px(160), right - left - px(32));
     const float button = px(36), padding = px(12);
-    const std::string text = broken(state.error, room - button - 2 * padding);
+    const std::string text = broken(error, room - button - 2 * padding);
     const float width = ImGui::CalcTextSize(text.c_str()).x + button + 2 * padding;
-    ImGui::SetNextWindowPos({(left + right) / 2, px(16)}, ImGuiCond_Always, {0.5F, 0});
+    ImGui::SetNextWindowPos({(left + right) / 2, top}, ImGuiCond_Always, {0.5F, 0});
     ImGui::SetNextWindowSizeConstraints({width, 0}, {width, ImGui::GetIO().DisplaySize.y * 0.6F});
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4{0.36F, 0.09F, 0.08F, 0.98F});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, px(4));
-    ImGui::Begin("error", nullptr, kOver | ImGuiWindowFlags_AlwaysAutoResize);
-    const float top = ImGui::GetCursorPosY();
+    ImGui::Begin(name, nullptr, kOver | ImGuiWindowFlags_AlwaysAutoResize);
+    const float line = ImGui::GetCursorPosY();
     ImGui::TextUnformatted(text.c_str());
-    ImGui::SetCursorPos({ImGui::GetWindowContentRegionMax().x - px(24), top});
-    if (ImGui::SmallButton("x")) state.error.clear();
+    ImGui::SetCursorPos({ImGui::GetWindowContentRegionMax().x - px(24), line});
+    if (ImGui::SmallButton("x")) error.clear();
+    const float bottom = top + ImGui::GetWindowSize().y;
     ImGui::End();
     ImGui::PopStyleVar();
     ImGui::PopStyleColor();
+    return bottom + px(kGap);
 }
 
 /// What happened, where there is no bar to tell it.
@@ -227,7 +231,8 @@ void draw_panels(State& state, const Orbit&) {
     state.covered_below = static_cast<double>(window.y - bottom);
     if (!state.document && !covered) invite(state, left, right, height);
     if (!state.panels && state.clock < state.note_until) draw_note(state);
-    if (!state.error.empty()) draw_error(state, left, right);
+    const float below = draw_error("error", state.error, px(16), left, right);
+    draw_error("shaders", state.shaders.error, below, left, right);
     if (state.help) draw_help(left, right, state.panels ? height : window.y);
 }
 

@@ -31,7 +31,6 @@ void draw_numbers(State& state);  ///< sizes, times
 /// In the middle of what is left of the window.
 void draw_help(float left, float right, float bottom);
 void draw_selection(const State& state);
-void draw_shader_error(State& state);
 /// What the picture's colours mean, in a box with this upper left corner; nothing where there is nothing to tell or the
 /// box would be higher than `room`.
 void draw_legend(const State& state, float left, float top, float room);

@@ -21,6 +21,11 @@ constexpr Access kComposeRead{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_
 constexpr Access kComposeWrite{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
 constexpr Access kTransferRead{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
 constexpr Access kTransferWrite{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
+/// How many pictures are drawn.
+int sides_of(const Shown& shown) {
+    return shown.mode == Mode::single ? 1 : 2;
+}
+
 /// What was drawn, to be read by compose.comp and by triangle_at.
 void leave(VkCommandBuffer commands, const gpu::Target& target) {
     for (const gpu::Image* image : {&target.colour(), &target.triangles()}) {
@@ -180,7 +185,7 @@ Result<bool> Scene::upload(const std::shared_ptr<const gpu::Model>& model, const
         }
     }
     Uploader::Job missing{model, {}};
-    for (int side = 0; side < (shown.mode == Mode::single ? 1 : 2); ++side) {
+    for (int side = 0; side < sides_of(shown); ++side) {
         const UploadKey key = key_of(shown, side);
         if (!entries.contains(key)) missing.keys.push_back(key);
     }
@@ -200,7 +205,7 @@ Result<bool> Scene::prepare(const Shown& shown) {
     if (!model_) return true;
     // While another model is on its way, this one is drawn as far as it is there.
     if (adopting_) {
-        for (int side = 0; side < (shown.mode == Mode::single ? 1 : 2); ++side) {
+        for (int side = 0; side < sides_of(shown); ++side) {
             if (!entries_.contains(key_of(shown, side))) return false;
         }
     } else {
@@ -208,7 +213,7 @@ Result<bool> Scene::prepare(const Shown& shown) {
         if (!there) return false;
     }
     LR_ASSIGN(gpu::Painter * by, painter(shown.view));
-    for (int side = 0; side < (shown.mode == Mode::single ? 1 : 2); ++side) {
+    for (int side = 0; side < sides_of(shown); ++side) {
         Entry& entry = entries_.at(key_of(shown, side));
         if (entry.plans.contains({shown.view, side})) continue;
         Plan plan{gpu::Descriptors(*context_), {}};
@@ -234,7 +239,7 @@ Result<void> Scene::record_draw(VkCommandBuffer commands, const Shown& shown, co
         if (queries_) vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_.get(), i);
     };
     view_ = shown.view;
-    const int sides = shown.mode == Mode::single ? 1 : 2;
+    const int sides = sides_of(shown);
     if (blank_) record_clear(commands, sides);  // what is not drawn must be readable
     const VkExtent2D drawn = targets_[0]->extent();
     LR_ASSIGN(const gpu::Camera camera, gpu::make_camera(*model_, options, drawn.width, drawn.height));

@@ -23,7 +23,6 @@ class Script {
     Result<void> advance(Viewer& viewer, Window& window, std::deque<Event>& events);
     /// A line waits for something.
     bool waiting() const { return waited_ > 0; }
-    bool done() const { return at_ >= lines_.size() && frames_ == 0; }
 
   private:
     struct Line {

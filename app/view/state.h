@@ -30,7 +30,6 @@ enum class Drawer { none, choices, numbers };
 struct State {
     // Chosen.
     Shown shown;
-    bool exact_while_moving = false;
     double divider = 0.5;  ///< of the picture's width
     std::uint32_t samples = 1;
     RingSettings ring;
@@ -67,7 +66,6 @@ struct State {
     std::string device;
     bool mesh_shaders = false;
     std::optional<gpu::Difference> difference;
-    std::filesystem::path folder;
     std::vector<std::string> files, recent;
     Selection selection;
     struct TurntableJob {
@@ -75,6 +73,12 @@ struct State {
         std::uint32_t pictures = 0, done = 0;
     };
     std::optional<TurntableJob> turntable_job;  ///< pictures being written
+
+    /// Tells something short for so many seconds.
+    void tell(std::string text, double seconds = 2) {
+        note = std::move(text);
+        note_until = clock + seconds;
+    }
 
     /// How far the ring-expander goes: triangles.
     double growth_end() const { return document ? static_cast<double>(document->expansion->corners.size()) : 0.0; }

@@ -56,7 +56,7 @@ std::string Viewer::title() const {
 
 Shown Viewer::shown(bool moving, const gpu::Model* model) const {
     Shown out = state_.shown;
-    out.exact = !moving || state_.exact_while_moving || out.mode != Mode::single;
+    out.exact = !moving || out.mode != Mode::single;
     if (model != nullptr && out.source == gpu::Source::packed && model->packed.words.empty()) {
         out.source = gpu::Source::lean;  // it is being made
     }
@@ -204,8 +204,7 @@ void Viewer::act() {
     }
     if (std::exchange(state_.copy_camera, false)) {
         clipboard_ = orbit_.text();
-        state_.note = "camera copied";
-        state_.note_until = state_.clock + 2;
+        state_.tell("camera copied");
     }
     if (std::exchange(state_.screenshot, false)) save(free_name("lacedring", ".png"));
     if (std::exchange(state_.turntable_pictures, false) && state_.document && !state_.turntable_job) {
@@ -218,8 +217,7 @@ void Viewer::act() {
     if (state_.step && state_.document && state_.selection.any()) {
         const CornerId to = step(*state_.document, state_.selection.corner, *state_.step);
         if (to.is_null()) {
-            state_.note = "a border: there is no such corner";
-            state_.note_until = state_.clock + 2;
+            state_.tell("a border: there is no such corner");
         } else {
             state_.selection.corner = to;
         }
@@ -332,7 +330,6 @@ Result<void> Viewer::frame(double seconds) {
         ImGui::NewFrame();
         draw_panels(state_, orbit_);
         draw_marks(state_, orbit_, extent_.width, extent_.height);
-        draw_shader_error(state_);
         ImGui::Render();
     }
     act();
@@ -387,8 +384,7 @@ void Viewer::save(const std::string& path) {
         state_.error = path + ": " + written.error().message;
         return;
     }
-    state_.note = "saved " + path;
-    state_.note_until = state_.clock + 3;
+    state_.tell("saved " + path, 3);
     quiet_frames_ = 0;
 }
 

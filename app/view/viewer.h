@@ -69,7 +69,6 @@ class Viewer {
     const ShaderWatch* shaders() const { return watch_.get(); }
     /// From a point of the picture.
     Vector ray(double x, double y) const;
-    void redraw() { dirty_ = true; }
     void pick(double x, double y);
     Result<void> frame_all(const gpu::CameraOptions& options);
 

@@ -69,10 +69,7 @@ void Viewer::handle(const Event& event) {
 
 void Viewer::handle_key(const Event& event) {
     const bool control = (event.modifiers & mod_control) != 0, shift = (event.modifiers & mod_shift) != 0;
-    const auto note = [&](const char* text) {
-        state_.note = text;
-        state_.note_until = state_.clock + 2;
-    };
+    const auto note = [&](const char* text) { state_.tell(text); };
     switch (event.code) {
         case key_escape:
             if (state_.help) {

@@ -20,8 +20,7 @@ void Viewer::take_shaders() {
     const bool asked = std::exchange(state_.reload_shaders, false);
     if (!watch_) {
         if (!asked) return;
-        state_.note = "no sources of shaders here: lacedring view --shaders DIR";
-        state_.note_until = state_.clock + 4;
+        state_.tell("no sources of shaders here: lacedring view --shaders DIR", 4);
         return;
     }
     if (asked) watch_->force();
@@ -42,8 +41,7 @@ void Viewer::take_shaders() {
     ++shaders.reloads;
     shaders.replaced = static_cast<std::uint32_t>(news.replaced.size());
     dirty_ = true;
-    state_.note = "shaders reloaded";
-    state_.note_until = state_.clock + 2;
+    state_.tell("shaders reloaded");
 }
 
 }  // namespace lr::view

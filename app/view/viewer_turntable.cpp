@@ -49,10 +49,10 @@ void Viewer::save_turntable_picture() {
 void Viewer::end_turntable() {
     if (!state_.turntable_job) return;
     const State::TurntableJob& job = *state_.turntable_job;
-    state_.note = job.done == job.pictures
-                      ? fmt::format("saved {} pictures in {}", job.pictures, job.folder)
-                      : fmt::format("stopped: {} of {} pictures in {}", job.done, job.pictures, job.folder);
-    state_.note_until = state_.clock + 4;
+    state_.tell(job.done == job.pictures
+                    ? fmt::format("saved {} pictures in {}", job.pictures, job.folder)
+                    : fmt::format("stopped: {} of {} pictures in {}", job.done, job.pictures, job.folder),
+                4);
     state_.turntable_job.reset();
     orbit_ = before_turntable_;
     dirty_ = true;
