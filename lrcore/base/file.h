@@ -2,6 +2,7 @@
 // Whole files in and out.
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <vector>
@@ -10,12 +11,24 @@
 
 namespace lr {
 
-/// The whole file. Errors: cannot_open (missing, a folder, no permission), too_large.
-Result<std::vector<std::byte>> read_file(const std::filesystem::path& path);
+/// Reads a whole regular file. Pipes, devices and what /proc and /sys hold are refused without being opened for long:
+/// reading one may block for ever, never end, or have an effect.
+/// Errors: cannot_open (missing, a folder, no permission, not a regular file), too_large (more than `most` bytes).
+Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::uint64_t most = UINT64_MAX);
 
-/// Writes `parts` one after the other to a temporary file beside `path`, then renames it: `path` is whole or untouched, and
-/// keeps its permissions. A link is followed; devices and pipes are written in place.
-/// Errors: cannot_write.
+/// Reads the first `count` bytes of a regular file, fewer where it is shorter. Errors: cannot_open, as read_file.
+Result<std::vector<std::byte>> read_file_start(const std::filesystem::path& path, std::uint64_t count);
+
+/// Reads what is left of an open descriptor, of a pipe too. Errors: cannot_open (a read error), too_large.
+Result<std::vector<std::byte>> read_descriptor(int descriptor, std::uint64_t most = UINT64_MAX);
+
+/// Writes `parts` one after the other to a file without a name, then gives it the name `path`: `path` is whole or
+/// untouched, whatever ends the process, and keeps its permissions. Threads and processes may write one path at once; the
+/// last one stays. Links are followed; devices, pipes and descriptors (/dev/stdout) are written in place.
+/// Errors: cannot_write (a loop of links, too).
 Result<void> write_file(const std::filesystem::path& path, std::span<const std::span<const std::byte>> parts);
+
+/// Writes `parts` to an open descriptor. Errors: cannot_write.
+Result<void> write_descriptor(int descriptor, std::span<const std::span<const std::byte>> parts);
 
 }  // namespace lr

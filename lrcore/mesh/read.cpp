@@ -80,48 +80,104 @@ std::string lower_extension(const std::filesystem::path& path) {
     return extension;
 }
 
-Result<Mesh> read_bytes(std::span<const std::byte> bytes, const std::filesystem::path& path) {
+/// What kind of file it is, by its first bytes, else by its extension; any: neither tells.
+MeshFormat recognise(std::string_view raw, std::string_view text, const std::filesystem::path& name) {
+    // Signatures first: files with the wrong extension are common.
+    const std::size_t start = text.find_first_not_of(" \t\r\n");
+    if (raw.starts_with("glTF") || (start != std::string_view::npos && text[start] == '{')) return MeshFormat::gltf;
+    if (text.starts_with("ply\n") || text.starts_with("ply\r")) return MeshFormat::ply;
+    if (looks_like_stl(raw)) return MeshFormat::stl;
+    if (looks_like_off(text)) return MeshFormat::off;
+    const std::string extension = lower_extension(name);
+    if (extension == ".obj") return MeshFormat::obj;
+    if (extension == ".off") return MeshFormat::off;
+    if (extension == ".stl") return MeshFormat::stl;
+    if (extension == ".ply") return MeshFormat::ply;
+    if (extension == ".gltf" || extension == ".glb") return MeshFormat::gltf;
+    return MeshFormat::any;
+}
+
+Result<Mesh> read_bytes(std::span<const std::byte> bytes, Reading& reading) {
     const std::string_view raw(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     const std::string_view text = without_byte_order_mark(raw);
     if (raw.empty()) return malformed("is empty");
-
-    // Signatures first: files with the wrong extension are common.
-    const std::size_t start = text.find_first_not_of(" \t\r\n");
-    if (raw.starts_with("glTF") || (start != std::string_view::npos && text[start] == '{')) {
-        return read_gltf(bytes.subspan(raw.size() - text.size()), path.parent_path());
+    MeshFormat format = reading.options.format;
+    if (format == MeshFormat::any) format = recognise(raw, text, reading.name);
+    switch (format) {
+        case MeshFormat::gltf:
+            return read_gltf(bytes.subspan(raw.size() - text.size()), reading);
+        case MeshFormat::obj:
+            return read_obj(text, reading);
+        case MeshFormat::off:
+            return read_off(text, reading);
+        case MeshFormat::ply:
+            return read_ply(text, reading);
+        case MeshFormat::stl:
+            return read_stl(text);
+        case MeshFormat::any:
+            break;
     }
-    if (text.starts_with("ply\n") || text.starts_with("ply\r")) return read_ply(text);
-    if (looks_like_stl(raw)) return read_stl(raw);
-    if (looks_like_off(text)) return read_off(text);
-
-    const std::string extension = lower_extension(path);
-    if (extension == ".obj") return read_obj(text);
-    if (extension == ".off") return read_off(text);
-    if (extension == ".stl") return read_stl(raw);
-    if (extension == ".ply") return malformed("line 1: does not begin with 'ply'");
-    if (extension == ".gltf" || extension == ".glb")
-        return malformed("begins neither with 'glTF' nor with JSON's '{{'");
     return unsupported("the format is not recognised (glTF, GLB, OBJ, PLY, OFF and STL are read)");
 }
 
-}  // namespace
-}  // namespace detail
-
-Result<Mesh> read_mesh(const std::filesystem::path& path) {
-    // The standard library may run out of memory, and what the glTF library throws is not documented.
+/// Calls read(), and turns what it throws into an error: the standard library may run out of memory, and what the glTF
+/// library throws is not documented.
+template <class Read>
+Result<Mesh> caught(const Read& read) {
     try {
-        const auto bytes = read_file(path);
-        if (!bytes) return bytes.error();
-        return detail::read_bytes(*bytes, path);
+        return read();
     } catch (const std::bad_alloc&) {
         return Error{ErrorCode::too_large, "does not fit into memory"};
     } catch (const std::length_error&) {
         return Error{ErrorCode::too_large, "does not fit into memory"};
     } catch (const std::exception& exception) {
-        return detail::malformed("cannot be read: {}", detail::shown(exception.what()));
+        return malformed("cannot be read: {}", shown(exception.what()));
     } catch (...) {
-        return detail::malformed("cannot be read");
+        return malformed("cannot be read");
     }
+}
+
+}  // namespace
+
+void Reading::leave_out(std::uint64_t count, std::string_view one, std::string_view many) {
+    if (count != 0) report.left_out.push_back(fmt::format("{} {}", count, count == 1 ? one : many));
+}
+
+Result<void> Reading::check_memory(double vertices, double stride, double triangles, double file_bytes) const {
+    constexpr double kAlways = 512.0 * 1024 * 1024, kTimes = 128;
+    const double most =
+        options.max_bytes != 0 ? static_cast<double>(options.max_bytes) : std::max(kAlways, kTimes * file_bytes);
+    const double bytes = vertices * stride + triangles * (12.0 + options.triangle_bytes);
+    if (bytes <= most) return {};
+    constexpr double kMebibyte = 1024.0 * 1024;
+    return Error{ErrorCode::too_large, fmt::format("{:.0f} triangles take about {:.0f} MiB, and {:.0f} MiB are allowed",
+                                                   triangles, bytes / kMebibyte, most / kMebibyte)};
+}
+
+}  // namespace detail
+
+Result<Mesh> read_mesh(std::span<const std::byte> bytes, const std::filesystem::path& name, const ReadOptions& options,
+                       ReadReport* report) {
+    ReadReport unwanted;
+    detail::Reading reading{options, report != nullptr ? *report : unwanted, name};
+    return detail::caught([&]() -> Result<Mesh> {
+        Result<Mesh> mesh = detail::read_bytes(bytes, reading);
+        if (!mesh) return mesh;
+        double stride = 0;
+        for (const Attribute& attribute : mesh->attributes) stride += static_cast<double>(attribute.stride());
+        const auto good = reading.check_memory(mesh->vertex_count, stride, static_cast<double>(mesh->triangle_count()),
+                                               static_cast<double>(bytes.size()));
+        if (!good) return good.error();
+        return mesh;
+    });
+}
+
+Result<Mesh> read_mesh(const std::filesystem::path& path, const ReadOptions& options, ReadReport* report) {
+    return detail::caught([&]() -> Result<Mesh> {
+        const auto bytes = read_file(path);
+        if (!bytes) return bytes.error();
+        return read_mesh(*bytes, path, options, report);
+    });
 }
 
 }  // namespace lr

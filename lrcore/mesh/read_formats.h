@@ -15,16 +15,29 @@
 
 #include "lrcore/base/result.h"
 #include "lrcore/mesh/mesh.h"
+#include "lrcore/mesh/read.h"
 
 namespace lr::detail {
 
 static_assert(std::endian::native == std::endian::little, "Mesh holds little-endian bits, and so do most files");
 
+/// One call of read_mesh: what the readers are told, and what they tell beside the mesh.
+struct Reading {
+    const ReadOptions& options;
+    ReadReport& report;
+    std::filesystem::path name;  ///< of the file; empty: it has none
+
+    void leave_out(std::uint64_t count, std::string_view one, std::string_view many);
+    /// Is there room for a mesh of so many vertices of `stride` bytes and so many triangles, read from `file_bytes`?
+    /// Doubles: a hostile file's counts overflow integers. Errors: too_large.
+    Result<void> check_memory(double vertices, double stride, double triangles, double file_bytes) const;
+};
+
 // Each takes the whole file, never throws on its content but for memory, and returns a mesh that `checked` accepted.
-Result<Mesh> read_gltf(std::span<const std::byte> bytes, const std::filesystem::path& folder);
-Result<Mesh> read_obj(std::string_view text);
-Result<Mesh> read_off(std::string_view text);
-Result<Mesh> read_ply(std::string_view bytes);
+Result<Mesh> read_gltf(std::span<const std::byte> bytes, Reading& reading);
+Result<Mesh> read_obj(std::string_view text, Reading& reading);
+Result<Mesh> read_off(std::string_view text, Reading& reading);
+Result<Mesh> read_ply(std::string_view bytes, Reading& reading);
 Result<Mesh> read_stl(std::string_view bytes);
 
 /// Does the text start, after white space and # comments, with one of OFF's header words?

@@ -297,8 +297,8 @@ class GltfReader {
 
 }  // namespace
 
-Result<Mesh> read_gltf(std::span<const std::byte> bytes, const std::filesystem::path& folder) {
-    const auto model = load_gltf(bytes, folder);
+Result<Mesh> read_gltf(std::span<const std::byte> bytes, [[maybe_unused]] Reading& reading) {
+    const auto model = load_gltf(bytes, reading.name.parent_path());
     if (!model) return model.error();
     return GltfReader(*model, bytes.size()).read();
 }

@@ -229,7 +229,7 @@ class ObjReader {
 
 }  // namespace
 
-Result<Mesh> read_obj(std::string_view text) {
+Result<Mesh> read_obj(std::string_view text, [[maybe_unused]] Reading& reading) {
     return ObjReader(text).read();
 }
 

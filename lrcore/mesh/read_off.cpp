@@ -187,7 +187,7 @@ bool looks_like_off(std::string_view text) {
     return parse_header_word(scanner.word()).known;
 }
 
-Result<Mesh> read_off(std::string_view text) {
+Result<Mesh> read_off(std::string_view text, [[maybe_unused]] Reading& reading) {
     return OffReader(text).read();
 }
 

@@ -308,7 +308,7 @@ class PlyReader {
 
 }  // namespace
 
-Result<Mesh> read_ply(std::string_view bytes) {
+Result<Mesh> read_ply(std::string_view bytes, [[maybe_unused]] Reading& reading) {
     const auto header = parse_ply_header(bytes);
     if (!header) return header.error();
     switch (header->format) {
