@@ -34,19 +34,21 @@ bool to_component_type(int gltf, ComponentType& out) {
 }
 
 /// `count` elements of `size` bytes from `offset` on in a buffer view. `where` names them in an error.
-Result<StridedBytes> view_bytes(const tinygltf::Model& model, int view_index, std::uint64_t offset, std::size_t count,
+Result<StridedBytes> view_bytes(GltfFile& file, int view_index, std::uint64_t offset, std::size_t count,
                                 std::size_t size, const std::string& where) {
-    if (view_index < 0 || static_cast<std::size_t>(view_index) >= model.bufferViews.size()) {
+    const auto& views = file.model.bufferViews;
+    if (view_index < 0 || static_cast<std::size_t>(view_index) >= views.size()) {
         return malformed("{}: buffer view {} does not exist", where, view_index);
     }
-    const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(view_index)];
-    if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= model.buffers.size()) {
+    const tinygltf::BufferView& view = views[static_cast<std::size_t>(view_index)];
+    if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= file.buffers.count()) {
         return malformed("buffer view {}: buffer {} does not exist", view_index, view.buffer);
     }
-    const std::vector<unsigned char>& buffer = model.buffers[static_cast<std::size_t>(view.buffer)].data;
-    if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset) {
+    const auto buffer = file.buffers.open(static_cast<std::size_t>(view.buffer));
+    if (!buffer) return buffer.error();
+    if (view.byteOffset > buffer->size() || view.byteLength > buffer->size() - view.byteOffset) {
         return malformed("buffer view {}: {} bytes from byte {} on are not in buffer {} of {} bytes", view_index,
-                         view.byteLength, view.byteOffset, view.buffer, buffer.size());
+                         view.byteLength, view.byteOffset, view.buffer, buffer->size());
     }
     const std::size_t stride = view.byteStride == 0 ? size : view.byteStride;
     if (stride < size) return malformed("buffer view {}: a stride of {} bytes is too small", view_index, stride);
@@ -58,10 +60,10 @@ Result<StridedBytes> view_bytes(const tinygltf::Model& model, int view_index, st
         return malformed("{}: {} elements from byte {} on are not in buffer view {} of {} bytes", where, count, offset,
                          view_index, view.byteLength);
     }
-    return StridedBytes{reinterpret_cast<const std::byte*>(buffer.data()) + view.byteOffset + offset, stride};
+    return StridedBytes{buffer->data() + view.byteOffset + offset, stride};
 }
 
-Result<void> add_sparse(const tinygltf::Model& model, const tinygltf::Accessor& accessor, const std::string& where,
+Result<void> add_sparse(GltfFile& file, const tinygltf::Accessor& accessor, const std::string& where,
                         AccessorView& view) {
     const auto& sparse = accessor.sparse;
     if (sparse.count < 0 || static_cast<std::size_t>(sparse.count) > view.count) {
@@ -78,12 +80,11 @@ Result<void> add_sparse(const tinygltf::Model& model, const tinygltf::Accessor& 
         return malformed("{}: sparse indices of type {}", where, sparse.indices.componentType);
     }
     const auto indices =
-        view_bytes(model, sparse.indices.bufferView, static_cast<std::uint64_t>(sparse.indices.byteOffset),
+        view_bytes(file, sparse.indices.bufferView, static_cast<std::uint64_t>(sparse.indices.byteOffset),
                    view.sparse_count, size_of(view.sparse_type), where);
     if (!indices) return indices.error();
-    const auto values =
-        view_bytes(model, sparse.values.bufferView, static_cast<std::uint64_t>(sparse.values.byteOffset),
-                   view.sparse_count, view.element_bytes(), where);
+    const auto values = view_bytes(file, sparse.values.bufferView, static_cast<std::uint64_t>(sparse.values.byteOffset),
+                                   view.sparse_count, view.element_bytes(), where);
     if (!values) return values.error();
     view.sparse_indices = *indices;
     view.sparse_values = *values;
@@ -92,11 +93,11 @@ Result<void> add_sparse(const tinygltf::Model& model, const tinygltf::Accessor& 
 
 }  // namespace
 
-Result<AccessorView> view_accessor(const tinygltf::Model& model, int index, std::size_t file_bytes) {
-    if (index < 0 || static_cast<std::size_t>(index) >= model.accessors.size()) {
+Result<AccessorView> view_accessor(GltfFile& file, int index) {
+    if (index < 0 || static_cast<std::size_t>(index) >= file.model.accessors.size()) {
         return malformed("accessor {} does not exist", index);
     }
-    const tinygltf::Accessor& accessor = model.accessors[static_cast<std::size_t>(index)];
+    const tinygltf::Accessor& accessor = file.model.accessors[static_cast<std::size_t>(index)];
     const std::string where = fmt::format("accessor {}", index);
     AccessorView view;
     if (!to_component_type(accessor.componentType, view.type)) {
@@ -111,17 +112,14 @@ Result<AccessorView> view_accessor(const tinygltf::Model& model, int index, std:
     const bool padded_matrix = components > 4 || accessor.type == TINYGLTF_TYPE_MAT2;
     if (padded_matrix && size_of(view.type) < 4) return unsupported("{}: a matrix of small integers", where);
 
-    if (accessor.bufferView != -1) {  // tinygltf leaves -1 where there is none
+    if (accessor.bufferView != -1) {
         const auto values =
-            view_bytes(model, accessor.bufferView, accessor.byteOffset, view.count, view.element_bytes(), where);
+            view_bytes(file, accessor.bufferView, accessor.byteOffset, view.count, view.element_bytes(), where);
         if (!values) return values.error();
         view.values = *values;
-    } else if (view.count > file_bytes) {  // all zero: nothing else bounds what a reader would allocate
-        return Error{ErrorCode::too_large,
-                     fmt::format("{}: {} elements without bytes of their own", where, view.count)};
     }
     if (accessor.sparse.isSparse) {
-        if (auto good = add_sparse(model, accessor, where, view); !good) return good.error();
+        if (auto good = add_sparse(file, accessor, where, view); !good) return good.error();
     }
     return view;
 }

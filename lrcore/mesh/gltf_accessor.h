@@ -2,14 +2,13 @@
 // Values out of a glTF model. tinygltf checks few of the numbers in a file, so every bound is checked here.
 // Internal to lrcore/mesh.
 
-#include <tiny_gltf.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "lrcore/base/result.h"
+#include "lrcore/mesh/gltf_file.h"
 #include "lrcore/mesh/mesh.h"
 
 namespace lr::detail {
@@ -35,8 +34,10 @@ struct AccessorView {
     std::size_t element_bytes() const { return size_of(type) * components; }
 };
 
-/// `file_bytes` bounds the count of an accessor that has no bytes of its own.
-Result<AccessorView> view_accessor(const tinygltf::Model& model, int index, std::size_t file_bytes);
+/// Opens the buffers that the accessor lies in. An accessor without bytes of its own is all zeros, and may have any
+/// count: nothing may be allocated for it that was not checked. Errors: malformed, unsupported, too_large,
+/// GltfBuffers::open's.
+Result<AccessorView> view_accessor(GltfFile& file, int index);
 
 /// count * element_bytes() tightly packed bytes, sparse ones replaced. Errors: malformed (a sparse index).
 Result<void> copy_elements(const AccessorView& view, std::byte* out);

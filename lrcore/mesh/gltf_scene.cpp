@@ -1,160 +1,12 @@
 #include "lrcore/mesh/gltf_scene.h"
 
 #include <algorithm>
-#include <cctype>
-#include <cstring>
-#include <limits>
-#include <string>
-#include <string_view>
+#include <array>
+#include <optional>
 
-#include "lrcore/base/file.h"
-#include "lrcore/mesh/read_formats.h"
+#include "lrcore/mesh/gltf_accessor.h"
 
 namespace lr::detail {
-namespace {
-
-constexpr std::size_t deepest_json = 256;
-
-/// tinygltf calls itself for nested values: deep ones would overflow the stack.
-bool nests_too_deep(std::string_view json) {
-    std::size_t depth = 0;
-    bool in_string = false;
-    for (std::size_t i = 0; i < json.size(); ++i) {
-        const char c = json[i];
-        if (in_string) {
-            if (c == '\\') ++i;
-            if (c == '"') in_string = false;
-        } else if (c == '"') {
-            in_string = true;
-        } else if (c == '{' || c == '[') {
-            if (++depth > deepest_json) return true;
-        } else if (c == '}' || c == ']') {
-            if (depth > 0) --depth;
-        }
-    }
-    return false;
-}
-
-std::uint32_t word_at(std::span<const std::byte> bytes, std::size_t offset) {
-    std::uint32_t word = 0;
-    std::memcpy(&word, bytes.data() + offset, 4);
-    return word;
-}
-
-/// The JSON chunk of a GLB file whose chunks are known to lie inside of it.
-Result<std::string_view> glb_json(std::span<const std::byte> bytes) {
-    constexpr std::size_t header = 12;
-    constexpr std::size_t chunk_header = 8;
-    if (bytes.size() < header + chunk_header) return malformed("{} bytes are too few for a GLB file", bytes.size());
-    if (word_at(bytes, 4) != 2) return unsupported("byte 4: GLB version {}", word_at(bytes, 4));
-    const std::uint64_t length = word_at(bytes, 8);
-    if (length > bytes.size()) return malformed("byte 8: {} bytes long, but has {}", length, bytes.size());
-    const std::uint64_t json = word_at(bytes, 12);
-    if (header + chunk_header + json > length) return malformed("byte 12: the JSON chunk does not fit into the file");
-    // tinygltf forgets the chunk's own header when it compares these
-    const std::uint64_t bin = header + chunk_header + json;
-    if (bin != length && (bin + chunk_header > length || bin + chunk_header + word_at(bytes, bin) > length)) {
-        return malformed("byte {}: the second chunk does not fit into the file", bin);
-    }
-    return std::string_view(reinterpret_cast<const char*>(bytes.data()) + header + chunk_header, json);
-}
-
-/// Buffers come from regular files with absolute names (tinygltf looks in the working directory too, and expands
-/// names as a shell would, which nobody wants). Images are said to be missing, which tinygltf takes as a warning.
-bool file_exists(const std::string& name, void*) {
-    const std::filesystem::path path(name);
-    std::string extension = path.extension().string();
-    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    for (const char* image : {".png", ".jpg", ".jpeg", ".webp", ".ktx2", ".basis", ".dds", ".bmp", ".gif", ".tga"}) {
-        if (extension == image) return false;
-    }
-    std::error_code error;
-    return path.is_absolute() && std::filesystem::is_regular_file(path, error);
-}
-
-std::string keep_file_path(const std::string& name, void*) {
-    return name;
-}
-
-bool read_whole_file(std::vector<unsigned char>* out, std::string* error, const std::string& name, void*) {
-    const auto bytes = read_file(name);
-    if (!bytes) {
-        *error += bytes.error().message;
-        return false;
-    }
-    const auto* begin = reinterpret_cast<const unsigned char*>(bytes->data());
-    out->assign(begin, begin + bytes->size());
-    return true;
-}
-
-bool write_no_file(std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
-    return false;
-}
-
-bool ignore_image(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
-    return true;
-}
-
-/// tinygltf's complaints are several lines with the name of the folder in them.
-std::string one_line(std::string_view complaint, const std::string& folder) {
-    std::string out;
-    for (const char c : complaint.substr(0, 300)) out += (c >= ' ' && c <= '~') ? c : ' ';
-    for (std::size_t at = 0; !folder.empty() && (at = out.find(folder + "/")) != std::string::npos;) {
-        out.erase(at, folder.size() + 1);
-    }
-    out.erase(std::min(out.find_last_not_of(" .") + 1, out.size()));
-    return out.empty() ? "is not glTF" : "glTF: " + out;
-}
-
-/// An extension in whose buffers the geometry is hidden.
-Result<void> check_extensions(const tinygltf::Model& model, bool loaded) {
-    // Where they are not required, the file has the plain geometry too, unless it does not even load without them.
-    for (const std::string& name : loaded ? model.extensionsRequired : model.extensionsUsed) {
-        if (name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression" ||
-            name == "KHR_meshopt_compression") {
-            return unsupported("glTF: the geometry is compressed with {}, which is not read", name);
-        }
-        if (loaded && name == "EXT_mesh_gpu_instancing") return unsupported("glTF: {} is not read", name);
-    }
-    return {};
-}
-
-}  // namespace
-
-Result<tinygltf::Model> load_gltf(std::span<const std::byte> bytes, const std::filesystem::path& folder) {
-    const bool binary = bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
-    std::string_view json(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    if (bytes.size() > std::numeric_limits<std::uint32_t>::max()) {
-        return Error{ErrorCode::too_large, "glTF of more than 4 GiB"};
-    }
-    if (binary) {
-        const auto chunk = glb_json(bytes);
-        if (!chunk) return chunk.error();
-        json = *chunk;
-    }
-    if (nests_too_deep(json)) return malformed("glTF: values are nested more than {} deep", deepest_json);
-
-    std::error_code error;
-    const std::string base = std::filesystem::absolute(folder.empty() ? "." : folder, error).string();
-    tinygltf::Model model;
-    std::string complaint;
-    std::string warning;
-    tinygltf::TinyGLTF loader;
-    loader.SetImageLoader(ignore_image, nullptr);
-    loader.SetFsCallbacks({file_exists, keep_file_path, read_whole_file, write_no_file, nullptr});
-    const auto size = static_cast<unsigned>(bytes.size());
-    const bool loaded =
-        binary ? loader.LoadBinaryFromMemory(&model, &complaint, &warning,
-                                             reinterpret_cast<const unsigned char*>(bytes.data()), size, base)
-               : loader.LoadASCIIFromString(&model, &complaint, &warning, json.data(), size, base);
-    if (auto good = check_extensions(model, true); !good) return good.error();
-    if (!loaded) {
-        if (auto good = check_extensions(model, false); !good) return good.error();
-        return Error{ErrorCode::malformed, one_line(complaint, base)};
-    }
-    return model;
-}
-
 namespace {
 
 template <std::size_t count>
@@ -197,9 +49,78 @@ Result<std::vector<int>> root_nodes(const tinygltf::Model& model) {
     return roots;
 }
 
+/// The placements of EXT_mesh_gpu_instancing. An attribute that is missing moves nothing.
+struct Instances {
+    std::size_t count = 0;
+    std::optional<AccessorView> translation, rotation, scale;
+};
+
+/// Null: the node has none of the extension.
+Result<std::optional<Instances>> instances_of(GltfFile& file, const tinygltf::Node& node) {
+    const auto extension = node.extensions.find("EXT_mesh_gpu_instancing");
+    if (extension == node.extensions.end()) return std::optional<Instances>();
+    const tinygltf::Value& attributes = extension->second.Get("attributes");
+    Instances out;
+    bool any = false;
+    const auto take = [&](const char* name, std::uint8_t components, bool may_be_integer,
+                          std::optional<AccessorView>& to) -> Result<void> {
+        if (!attributes.IsObject() || !attributes.Has(name)) return {};
+        const tinygltf::Value& number = attributes.Get(name);
+        const auto view = view_accessor(file, number.IsInt() ? number.GetNumberAsInt() : -1);
+        if (!view) return Error{view.error().code, fmt::format("instances' {}: {}", name, view.error().message)};
+        const bool fits =
+            view->type == ComponentType::f32 || (may_be_integer && view->normalized &&
+                                                 (view->type == ComponentType::i8 || view->type == ComponentType::i16));
+        if (view->components != components || !fits) return malformed("instances' {}: not of its type", name);
+        if (any && view->count != out.count) return malformed("instances' {}: {} of {}", name, view->count, out.count);
+        any = true;
+        out.count = view->count;
+        to = *view;
+        return {};
+    };
+    if (auto good = take("TRANSLATION", 3, false, out.translation); !good) return good.error();
+    if (auto good = take("ROTATION", 4, true, out.rotation); !good) return good.error();
+    if (auto good = take("SCALE", 3, false, out.scale); !good) return good.error();
+    if (!any) return malformed("instances without TRANSLATION, ROTATION or SCALE");
+    return std::optional<Instances>(out);
+}
+
+/// The values of an accessor as doubles, `unset` where there is none.
+template <std::size_t width>
+Result<std::vector<std::array<double, width>>> values_of(const std::optional<AccessorView>& view, std::size_t count,
+                                                         const std::array<double, width>& unset) {
+    std::vector<std::array<double, width>> out(count, unset);
+    if (!view) return out;
+    std::vector<std::byte> packed(count * view->element_bytes());
+    if (auto good = copy_elements(*view, packed.data()); !good) return good.error();
+    for (std::size_t i = 0; i < count * width; ++i) {
+        out[i / width][i % width] = component_at(packed.data(), view->type, view->normalized, i);
+    }
+    return out;
+}
+
+Result<void> place_each(const Instances& several, std::size_t mesh, const Transform& node,
+                        std::vector<MeshInstance>& instances, const Reading& reading, std::size_t file_bytes) {
+    // An accessor without bytes of its own may have any count, and many nodes may name the same one.
+    const auto room = reading.check_memory(static_cast<double>(instances.size()) + static_cast<double>(several.count),
+                                           sizeof(MeshInstance), 0, static_cast<double>(file_bytes));
+    if (!room) return room;
+    const auto translation = values_of<3>(several.translation, several.count, {0, 0, 0});
+    if (!translation) return translation.error();
+    const auto rotation = values_of<4>(several.rotation, several.count, {0, 0, 0, 1});
+    if (!rotation) return rotation.error();
+    const auto scale = values_of<3>(several.scale, several.count, {1, 1, 1});
+    if (!scale) return scale.error();
+    for (std::size_t i = 0; i < several.count; ++i) {
+        instances.push_back({mesh, node * from_parts((*translation)[i], (*rotation)[i], (*scale)[i])});
+    }
+    return {};
+}
+
 }  // namespace
 
-Result<std::vector<MeshInstance>> place_meshes(const tinygltf::Model& model) {
+Result<std::vector<MeshInstance>> place_meshes(GltfFile& file, Reading& reading, std::size_t file_bytes) {
+    const tinygltf::Model& model = file.model;
     std::vector<MeshInstance> instances;
     if (model.nodes.empty()) {
         for (std::size_t mesh = 0; mesh < model.meshes.size(); ++mesh) instances.push_back({mesh, {}});
@@ -234,7 +155,17 @@ Result<std::vector<MeshInstance>> place_meshes(const tinygltf::Model& model) {
             if (node.mesh < 0 || static_cast<std::size_t>(node.mesh) >= model.meshes.size()) {
                 return malformed("glTF: node {}: mesh {} does not exist", index, node.mesh);
             }
-            instances.push_back({static_cast<std::size_t>(node.mesh), transform});
+            const auto mesh = static_cast<std::size_t>(node.mesh);
+            // Joints alone place a skinned mesh (glTF 2.0, section 3.7.3.2).
+            const Transform placed = node.skin == -1 ? transform : Transform{};
+            const auto several = instances_of(file, node);
+            if (!several)
+                return Error{several.error().code, fmt::format("glTF: node {}: {}", index, several.error().message)};
+            if (!*several) {
+                instances.push_back({mesh, placed});
+            } else if (auto good = place_each(**several, mesh, placed, instances, reading, file_bytes); !good) {
+                return Error{good.error().code, fmt::format("glTF: node {}: {}", index, good.error().message)};
+            }
         }
         for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
             stack.push_back({*child, transform, false});

@@ -4,9 +4,11 @@
 #include <cstring>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "lrcore/mesh/gltf_accessor.h"
+#include "lrcore/mesh/gltf_file.h"
 #include "lrcore/mesh/gltf_scene.h"
 #include "lrcore/mesh/read_formats.h"
 
@@ -39,6 +41,7 @@ struct MeshPlan {
     bool made = false;
     std::vector<VertexBlock> blocks;
     std::vector<Primitive> primitives;
+    double vertices = 0, corners = 0;  ///< of all of them
 };
 
 bool is_direction(const Attribute& attribute) {
@@ -48,12 +51,11 @@ bool is_direction(const Attribute& attribute) {
 
 class GltfReader {
   public:
-    GltfReader(const tinygltf::Model& model, std::size_t json_bytes) : model_(model), file_bytes_(json_bytes) {
-        for (const tinygltf::Buffer& buffer : model.buffers) file_bytes_ += buffer.data.size();
-    }
+    GltfReader(GltfFile& file, Reading& reading, std::size_t file_bytes)
+        : file_(file), model_(file.model), reading_(reading), file_bytes_(file_bytes) {}
 
     Result<Mesh> read() {
-        const auto instances = place_meshes(model_);
+        const auto instances = place_meshes(file_, reading_, file_bytes_);
         if (!instances) return instances.error();
         plans_.resize(model_.meshes.size());
         for (const MeshInstance& instance : *instances) {
@@ -64,6 +66,7 @@ class GltfReader {
         for (const MeshInstance& instance : *instances) {
             if (auto good = append(instance); !good) return good.error();
         }
+        tell_what_is_left_out(*instances);
         return checked(std::move(mesh_));
     }
 
@@ -86,7 +89,15 @@ class GltfReader {
         if (from.mode < TINYGLTF_MODE_POINTS || from.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
             return malformed("mode {}", from.mode);
         }
-        if (from.mode < TINYGLTF_MODE_TRIANGLES || !from.attributes.contains("POSITION")) return {};
+        if (from.mode < TINYGLTF_MODE_TRIANGLES) {
+            ++(from.mode == TINYGLTF_MODE_POINTS ? points_ : lines_);
+            return {};
+        }
+        if (!from.attributes.contains("POSITION")) {
+            ++without_position_;
+            return {};
+        }
+        morph_targets_ += from.targets.size();
         Primitive primitive;
         primitive.mode = from.mode;
         primitive.number = number;
@@ -94,7 +105,7 @@ class GltfReader {
         if (!block) return block.error();
         primitive.block = *block;
         if (from.indices != -1) {
-            const auto view = view_accessor(model_, from.indices, file_bytes_);
+            const auto view = view_accessor(file_, from.indices);
             if (!view) return view.error();
             const bool is_unsigned =
                 view->type == ComponentType::u8 || view->type == ComponentType::u16 || view->type == ComponentType::u32;
@@ -103,6 +114,8 @@ class GltfReader {
         }
         const std::size_t corners = primitive.corner_count(plan.blocks[primitive.block].count);
         if (corners % 3 != 0) return malformed("{} indices are not triangles", corners);
+        if (corners == 0) return {};  // placed a million times, nothing would still be work
+        plan.corners += static_cast<double>(corners);
         plan.primitives.push_back(primitive);
         return {};
     }
@@ -113,8 +126,11 @@ class GltfReader {
         VertexBlock block;
         block.accessors = &from.attributes;
         for (const auto& [name, accessor] : from.attributes) {
-            const auto view = view_accessor(model_, accessor, file_bytes_);
-            if (!view && view.error().code == ErrorCode::unsupported) continue;  // an attribute that no mesh can hold
+            const auto view = view_accessor(file_, accessor);
+            if (!view && view.error().code == ErrorCode::unsupported) {  // an attribute that no mesh can hold
+                dropped_.insert(name);
+                continue;
+            }
             if (!view) return Error{view.error().code, fmt::format("{}: {}", shown(name), view.error().message)};
             block.views.emplace(name, *view);
         }
@@ -128,6 +144,7 @@ class GltfReader {
             return unsupported("compressed with KHR_draco_mesh_compression, which is not read");
         }
         block.count = position->second.count;
+        plan.vertices += static_cast<double>(block.count);
         for (const auto& [name, view] : block.views) {
             if (view.count != block.count) {
                 return malformed("{} has {} elements, POSITION {}", shown(name), view.count, block.count);
@@ -160,6 +177,15 @@ class GltfReader {
                 });
             }
         }
+        std::set<std::string_view> kept;
+        for (const Attribute& attribute : mesh_.attributes) kept.insert(attribute.name);
+        for (const MeshPlan& plan : plans_) {
+            for (const VertexBlock& block : plan.blocks) {
+                for (const auto& [name, view] : block.views) {
+                    if (!kept.contains(name)) dropped_.insert(name);
+                }
+            }
+        }
         std::stable_partition(mesh_.attributes.begin(), mesh_.attributes.end(),
                               [](const Attribute& attribute) { return attribute.name == "POSITION"; });
         for (Attribute& attribute : mesh_.attributes) {
@@ -170,23 +196,18 @@ class GltfReader {
     }
 
     Result<void> allocate(const std::vector<MeshInstance>& instances) {
-        // Doubles: a small file may place its meshes so often that the sums overflow integers.
         double vertices = 0;
         double corners = 0;
         for (const MeshInstance& instance : instances) {
-            const MeshPlan& plan = plans_[instance.mesh];
-            for (const VertexBlock& block : plan.blocks) vertices += static_cast<double>(block.count);
-            for (const Primitive& primitive : plan.primitives) {
-                corners += static_cast<double>(primitive.corner_count(plan.blocks[primitive.block].count));
-            }
+            vertices += plans_[instance.mesh].vertices;
+            corners += plans_[instance.mesh].corners;
         }
         if (vertices > static_cast<double>(max_vertices)) return too_many_vertices();
-        double bytes = corners * sizeof(std::uint32_t);
-        for (const Attribute& attribute : mesh_.attributes) bytes += vertices * static_cast<double>(attribute.stride());
-        constexpr double always_allowed = 1024.0 * 1024.0 * 1024.0;
-        if (bytes > std::max(always_allowed, 64.0 * static_cast<double>(file_bytes_))) {
-            return Error{ErrorCode::too_large, "glTF: the nodes make more than 1 GiB and 64 times the file of it"};
-        }
+        double stride = 0;
+        for (const Attribute& attribute : mesh_.attributes) stride += static_cast<double>(attribute.stride());
+        const auto room = reading_.check_memory(vertices, stride, corners / 3,
+                                                static_cast<double>(file_bytes_ + file_.buffers.loaded_bytes()));
+        if (!room) return room;
         for (Attribute& attribute : mesh_.attributes) {
             attribute.data.reserve(static_cast<std::size_t>(vertices) * attribute.stride());
         }
@@ -289,18 +310,51 @@ class GltfReader {
         return {};
     }
 
+    void tell_what_is_left_out(const std::vector<MeshInstance>& instances) {
+        std::size_t placed = 0, primitives = 0;
+        for (const MeshPlan& plan : plans_) {
+            placed += plan.made ? 1 : 0;
+            primitives += plan.primitives.size();
+        }
+        if (model_.nodes.size() > 1) {
+            reading_.leave_out(model_.nodes.size(), "node", "nodes (their transforms are applied)");
+        }
+        reading_.leave_out(instances.size() - placed, "instance (its triangles are repeated)",
+                           "instances (their triangles are repeated)");
+        if (primitives > 1) reading_.leave_out(primitives, "", "primitives (joined into one)");
+        reading_.leave_out(morph_targets_, "morph target", "morph targets");
+        reading_.leave_out(points_, "primitive of points", "primitives of points");
+        reading_.leave_out(lines_, "primitive of lines", "primitives of lines");
+        reading_.leave_out(without_position_, "primitive without positions", "primitives without positions");
+        if (dropped_.empty()) return;
+        std::string names;
+        for (const std::string& name : dropped_) {
+            names += (names.empty() ? "" : ", ") + shown(name);
+            if (names.size() > 200) {
+                names += ", ...";
+                break;
+            }
+        }
+        reading_.leave_out(dropped_.size(), fmt::format("attribute that not every primitive has alike ({})", names),
+                           fmt::format("attributes that not every primitive has alike ({})", names));
+    }
+
+    GltfFile& file_;
     const tinygltf::Model& model_;
+    Reading& reading_;
     std::size_t file_bytes_;
     std::vector<MeshPlan> plans_;
     Mesh mesh_;
+    std::size_t points_ = 0, lines_ = 0, without_position_ = 0, morph_targets_ = 0;
+    std::set<std::string> dropped_;  ///< attributes
 };
 
 }  // namespace
 
-Result<Mesh> read_gltf(std::span<const std::byte> bytes, [[maybe_unused]] Reading& reading) {
-    const auto model = load_gltf(bytes, reading.name.parent_path());
-    if (!model) return model.error();
-    return GltfReader(*model, bytes.size()).read();
+Result<Mesh> read_gltf(std::span<const std::byte> bytes, Reading& reading) {
+    auto file = load_gltf(bytes, reading);
+    if (!file) return file.error();
+    return GltfReader(*file, reading, bytes.size()).read();
 }
 
 }  // namespace lr::detail
