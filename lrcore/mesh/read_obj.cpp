@@ -195,8 +195,11 @@ class ObjReader {
                 return mix(mix(0, high | vertices_.corners[i]), entry(normals_, i));
             },
             [&](std::uint32_t i, std::uint32_t j) {
-                return vertices_.corners[i] == vertices_.corners[j] && entry(textures_, i) == entry(textures_, j) &&
-                       entry(normals_, i) == entry(normals_, j);
+                for (const List* list : {&vertices_, &textures_, &normals_}) {
+                    const std::uint32_t a = entry(*list, i), b = entry(*list, j);
+                    if (a != b) return a < b ? -1 : 1;
+                }
+                return 0;
             });
     }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "lrcore/mesh/mesh.h"
@@ -8,13 +9,20 @@ namespace lr {
 
 enum class Weld {
     none,
-    attributes,  ///< vertices whose stored bits are identical in all attributes become one
-    position,    ///< vertices whose POSITION bits are identical become one; the first one's attributes are kept
+    attributes,  ///< vertices that are the same in all attributes become one
+    position,    ///< vertices at the same POSITION become one; the first one's attributes are kept
 };
 
-/// Merges vertices with identical bits (so -0 and +0 differ, as do two NaN payloads). The first of each group is kept,
-/// in the order of first appearance. Triangles keep their order; some may become degenerate. Unused vertices take part.
-/// Cost: O(V) expected time, about 4 bytes a vertex and 10 to 17 a group beside the result.
-Mesh weld(const Mesh& mesh, Weld mode);
+/// What Weld::position takes from vertices that had it otherwise than the one that is kept.
+struct WeldReport {
+    std::uint32_t vertices = 0;           ///< that lose some attribute's value
+    std::vector<std::string> attributes;  ///< of which values are lost
+};
+
+/// Merges vertices whose values have identical bits; of POSITION, -0 is 0. The first of each group is kept as it is, in
+/// the order of first appearance. Triangles keep their order; some may become degenerate. Unused vertices take part.
+/// Cost: O(V) expected time, O(V log V) at most; about 4 bytes a vertex and 10 to 17 a group beside the result.
+/// `report` may be null.
+Mesh weld(const Mesh& mesh, Weld mode, WeldReport* report = nullptr);
 
 }  // namespace lr

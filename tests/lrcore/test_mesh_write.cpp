@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "lrcore/mesh/distinct.h"
 #include "lrcore/mesh/weld.h"
 #include "lrcore/mesh/write.h"
 #include "tests/lrcore/mesh_files.h"
@@ -208,10 +209,54 @@ TEST_CASE("weld") {
     CHECK(all.indices == Indices{0, 1, 2, 3, 1, 4, 0, 3, 1});
     CHECK(values_of<std::uint8_t>(all, "q") == std::vector<std::uint8_t>{1, 2, 3, 4, 6});
 
-    const Mesh position = weld(mesh, Weld::position);
-    CHECK(position.indices == Indices{0, 1, 2, 3, 1, 2, 0, 3, 1});
-    CHECK(values_of<std::uint8_t>(position, "q") == std::vector<std::uint8_t>{1, 2, 3, 4});
-    CHECK(values_of<float>(position, "POSITION").size() == 12);
+    WeldReport report;
+    const Mesh position = weld(mesh, Weld::position, &report);
+    CHECK(position.indices == Indices{0, 1, 2, 0, 1, 2, 0, 0, 1});  // -0 is where 0 is
+    CHECK(values_of<std::uint8_t>(position, "q") == std::vector<std::uint8_t>{1, 2, 3});
+    CHECK(values_of<float>(position, "POSITION").size() == 9);
+    CHECK(report.vertices == 2);  // the q of 4 and 6; another one had 2 as well
+    CHECK(report.attributes == std::vector<std::string>{"q"});
+
+    // What is kept is kept as it is.
+    mesh.indices = {3, 4, 5};
+    std::swap(mesh.attributes[0].data[3], mesh.attributes[0].data[39]);  // the sign of vertex 0's x, and of 3's
+    const Mesh negative = weld(mesh, Weld::position);
+    CHECK(std::signbit(values_of<float>(negative, "POSITION")[0]));
+    CHECK(negative.indices == Indices{0, 1, 2});
+    CHECK(weld(mesh, Weld::attributes).vertex_count == 5);
+    mesh.attributes[0] = attribute<double>("POSITION", ComponentType::f64, 3,
+                                           {0, -0.0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -0.0, 0, 1, 0});
+    CHECK(weld(mesh, Weld::position).vertex_count == 3);
+}
+
+namespace {
+std::size_t comparisons = 0;
+}
+
+TEST_CASE("items whose hashes collide are grouped as others are") {
+    const std::uint32_t seed = 5;
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    std::vector<std::uint32_t> items(50000);
+    for (std::uint32_t& item : items) item = static_cast<std::uint32_t>(random() % 20000);
+    const auto compare = [&](std::uint32_t i, std::uint32_t j) {
+        ++comparisons;
+        return items[i] < items[j] ? -1 : items[i] > items[j] ? 1 : 0;
+    };
+    const auto count = static_cast<std::uint32_t>(items.size());
+    const auto spread = detail::group_equal(
+        count, [&](std::uint32_t i) { return detail::mix(0, items[i]); }, compare);
+    CHECK(comparisons < 4 * items.size());
+    for (const std::uint64_t modulus : {1ULL, 64ULL, 300ULL}) {
+        CAPTURE(modulus);
+        comparisons = 0;
+        const auto collided = detail::group_equal(
+            count, [&](std::uint32_t i) { return items[i] % modulus << 40U; }, compare);
+        CHECK(collided.of == spread.of);
+        CHECK(collided.count == spread.count);
+        CHECK(comparisons < 60 * items.size());
+    }
+    CHECK(detail::group_sorted(0, compare).count == 0);
 }
 
 TEST_CASE("weld against a slow one, with many vertices and few places") {
