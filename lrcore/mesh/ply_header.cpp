@@ -50,6 +50,7 @@ class HeaderParser {
             ++line_;
             TextScanner words(text);
             const std::string_view keyword = words.next_word();
+            if (line_ == 1 && keyword != "ply") return malformed("line 1: does not begin with 'ply'");
             Result<void> good;
             if (keyword == "end_header") break;
             if (keyword == "format") {

@@ -64,6 +64,15 @@ Result<Mesh> checked(Mesh mesh) {
     const std::size_t bad = position.type == ComponentType::f64 ? first_not_finite<double>(position.data)
                                                                 : first_not_finite<float>(position.data);
     if (bad != SIZE_MAX) return malformed("vertex {}: the position is not finite", bad / 3);
+    if (position.type == ComponentType::f64) {
+        for (std::size_t i = 0; i * sizeof(double) < position.data.size(); ++i) {
+            double value = 0;
+            std::memcpy(&value, position.data.data() + i * sizeof(double), sizeof(double));
+            // what is from here on is rounded to a float that is infinite
+            if (std::abs(value) < 0x1.ffffffp127) continue;
+            return malformed("vertex {}: the position is beyond the range of floats", i / 3);
+        }
+    }
     return mesh;
 }
 
@@ -113,7 +122,7 @@ Result<Mesh> read_bytes(std::span<const std::byte> bytes, Reading& reading) {
         case MeshFormat::ply:
             return read_ply(text, reading);
         case MeshFormat::stl:
-            return read_stl(text);
+            return read_stl(raw, reading);
         case MeshFormat::any:
             break;
     }

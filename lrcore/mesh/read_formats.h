@@ -38,12 +38,12 @@ Result<Mesh> read_gltf(std::span<const std::byte> bytes, Reading& reading);
 Result<Mesh> read_obj(std::string_view text, Reading& reading);
 Result<Mesh> read_off(std::string_view text, Reading& reading);
 Result<Mesh> read_ply(std::string_view bytes, Reading& reading);
-Result<Mesh> read_stl(std::string_view bytes);
+Result<Mesh> read_stl(std::string_view bytes, Reading& reading);
 
 /// Does the text start, after white space and # comments, with one of OFF's header words?
 bool looks_like_off(std::string_view text);
 
-/// Is it binary STL by its length, or else ascii STL by its first word?
+/// Is it binary STL by its length, or else ascii STL by its first word? A byte-order mark may come before the word.
 bool looks_like_stl(std::string_view bytes);
 
 /// What every reader ends with: some triangles, and finite positions (attributes[0]).
@@ -72,17 +72,14 @@ std::string shown(std::string_view text);
 /// A vertex attribute of floats.
 Attribute float_attribute(std::string name, std::uint8_t components, std::span<const float> values);
 
-/// Splits a polygon, given corner by corner, into a fan around its first corner. Fewer than 3 corners give nothing.
+/// Splits a polygon, given corner by corner, into a fan around its first corner: emit(a, b, c) for each triangle. Fewer
+/// than 3 corners give nothing.
 template <class Corner>
 class Fan {
   public:
     template <class Emit>
     void add(const Corner& corner, const Emit& emit) {
-        if (count_ >= 2) {
-            emit(first_);
-            emit(previous_);
-            emit(corner);
-        }
+        if (count_ >= 2) emit(first_, previous_, corner);
         if (count_ == 0) first_ = corner;
         previous_ = corner;
         ++count_;

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "lrcore/mesh/ply_header.h"
+#include "lrcore/mesh/polygon.h"
 #include "lrcore/mesh/read_formats.h"
 #include "lrcore/mesh/text_scanner.h"
 
@@ -37,11 +38,26 @@ auto with_type(ComponentType type, const F& f) {
     return f(double{});
 }
 
-/// The data as words, separated by any white space.
+/// Lines with anything in them.
+std::uint64_t count_lines(std::string_view data) {
+    const char newline = data.find('\n') == std::string_view::npos ? '\r' : '\n';
+    std::uint64_t lines = 0;
+    for (std::size_t at = 0; at < data.size();) {
+        const std::size_t end = std::min(data.find(newline, at), data.size());
+        while (at < end && TextScanner::is_space(data[at])) ++at;
+        if (at < end) ++lines;
+        at = end + 1;
+    }
+    return lines;
+}
+
+/// The data as words, separated by any white space, or with one element a line.
+template <bool by_line>
 class AsciiSource {
   public:
     AsciiSource(std::string_view bytes, std::size_t data) : text_(bytes), scanner_(text_) {
         while (scanner_.position() < text_.data() + data) scanner_.skip_line();
+        scanner_.skip_space();
     }
 
     std::size_t most_values() const { return scanner_.remaining() / 2 + 1; }
@@ -49,7 +65,7 @@ class AsciiSource {
 
     template <class T>
     bool read(T& out) {
-        word_ = scanner_.next_word();
+        word_ = next_word();
         if (parse_number(word_, out)) return true;
         if constexpr (std::is_integral_v<T>) {  // some programs write 255.0 for a uchar
             double real = 0;
@@ -64,22 +80,40 @@ class AsciiSource {
 
     bool skip(ComponentType, std::uint64_t count) {
         for (std::uint64_t i = 0; i < count; ++i) {
-            word_ = scanner_.next_word();
+            word_ = next_word();
             if (word_.empty()) return false;
         }
         return true;
     }
 
+    void end_element() {
+        if (!by_line) return;
+        if (!scanner_.skip_to_line_end()) {
+            ++longer_;
+            scanner_.skip_line();
+        }
+        scanner_.skip_space();
+    }
+
+    /// Lines that have more values than their element.
+    std::uint64_t longer_lines() const { return longer_; }
+
     Error bad_value(std::string_view element, std::uint64_t number) const {
-        if (word_.empty()) return malformed("line {}: the file ends in {} {}", scanner_.line(), element, number);
+        if (word_.empty()) {
+            const std::string_view what = by_line && !scanner_.at_end() ? "line" : "file";
+            return malformed("line {}: the {} ends in {} {}", scanner_.line(), what, element, number);
+        }
         return malformed("line {}: {} {}: {} is not a number of its type", scanner_.line(), element, number,
                          shown(word_));
     }
     std::string place() const { return fmt::format("line {}", scanner_.line()); }
 
   private:
+    std::string_view next_word() { return by_line ? scanner_.next_word_of_line() : scanner_.next_word(); }
+
     std::string_view text_;
     TextScanner scanner_;
+    std::uint64_t longer_ = 0;
     std::string_view word_;
 };
 
@@ -110,6 +144,9 @@ class BinarySource {
         return true;
     }
 
+    void end_element() {}
+    static std::uint64_t longer_lines() { return 0; }
+
     Error bad_value(std::string_view element, std::uint64_t number) const {
         return malformed("byte {}: the file ends in {} {}", at_ - begin_, element, number);
     }
@@ -126,7 +163,7 @@ class PlyReader {
   public:
     PlyReader(std::string_view bytes, const PlyHeader& header) : header_(header), source_(bytes, header.bytes) {}
 
-    Result<Mesh> read() {
+    Result<Mesh> read(Reading& reading) {
         const PlyElement* vertex = nullptr;
         for (const PlyElement& element : header_.elements) {
             if (element.name != "vertex") continue;
@@ -135,6 +172,7 @@ class PlyReader {
         }
         if (vertex == nullptr) return malformed("the header has no element vertex");
         if (vertex->count > max_vertices) return too_many_vertices();
+        if (vertex->properties.empty()) return malformed("line {}: the vertices have no x, y and z", vertex->line);
         mesh_.vertex_count = static_cast<std::uint32_t>(vertex->count);
 
         for (const PlyElement& element : header_.elements) {
@@ -147,6 +185,9 @@ class PlyReader {
                                            : skip_element(element);
             if (!good) return good.error();
         }
+        tell(reading, *vertex);
+        const Attribute& position = mesh_.attributes.front();
+        polygons_.cut({position.data.data(), position.type == ComponentType::f64}, {&mesh_.indices}, reading);
         return checked(std::move(mesh_));
     }
 
@@ -198,6 +239,7 @@ class PlyReader {
                 }
                 target.at += target.stride;
             }
+            source_.end_element();
         }
         return {};
     }
@@ -246,16 +288,21 @@ class PlyReader {
             for (const PlyProperty& property : element.properties) {
                 if (!skip_property(property)) return source_.bad_value("element", i);
             }
+            source_.end_element();
         }
         return {};
     }
 
-    Result<void> read_polygons(const PlyElement& element, bool strips) {
-        const PlyProperty* indices = nullptr;
+    static const PlyProperty* find_indices(const PlyElement& element) {
         for (const PlyProperty& property : element.properties) {
             const bool named = property.name == "vertex_indices" || property.name == "vertex_index";
-            if (named && property.is_list && indices == nullptr) indices = &property;
+            if (named && property.is_list) return &property;
         }
+        return nullptr;
+    }
+
+    Result<void> read_polygons(const PlyElement& element, bool strips) {
+        const PlyProperty* indices = find_indices(element);
         if (indices == nullptr) return skip_element(element);
         if (indices->type == ComponentType::f32 || indices->type == ComponentType::f64) {
             return malformed("line {}: the indices of element {} are not integers", element.line, shown(element.name));
@@ -269,6 +316,7 @@ class PlyReader {
                     return source_.bad_value(strips ? "strip" : "face", f);
                 }
             }
+            source_.end_element();
         }
         return {};
     }
@@ -278,48 +326,133 @@ class PlyReader {
         std::int64_t count = 0;
         if (!read_integer(list.count_type, count)) return source_.bad_value(what, number);
         if (count < 0) return malformed("{}: {} {}: {} indices", source_.place(), what, number, count);
-        Fan<std::uint32_t> fan;
-        Strip strip;
-        for (std::int64_t i = 0; i < count; ++i) {
-            std::int64_t index = 0;
-            if (!read_integer(list.type, index)) return source_.bad_value(what, number);
-            if (is_strip && index == -1) {
-                strip.restart();
-                continue;
-            }
-            if (index < 0 || index >= std::int64_t{mesh_.vertex_count}) {
-                return malformed("{}: {} {}: index {} is out of range ({} vertices)", source_.place(), what, number,
-                                 index, mesh_.vertex_count);
-            }
-            const auto v = static_cast<std::uint32_t>(index);
-            if (is_strip) {
-                strip.add(v, mesh_.indices);
+        return with_type(list.type, [&](auto zero) -> Result<void> {
+            if constexpr (std::is_integral_v<decltype(zero)>) {
+                return is_strip ? read_strip<decltype(zero)>(count, number) : read_face<decltype(zero)>(count, number);
             } else {
-                fan.add(v, [this](std::uint32_t corner) { mesh_.indices.push_back(corner); });
+                return {};
+            }
+        });
+    }
+
+    template <class Integer>
+    Result<void> read_face(std::int64_t count, std::uint64_t number) {
+        Fan<std::uint32_t> fan;
+        for (std::int64_t i = 0; i < count; ++i) {
+            Integer index{};
+            if (!source_.read(index)) return source_.bad_value("face", number);
+            if (!is_vertex(index)) return out_of_range("face", number, index);
+            fan.add(static_cast<std::uint32_t>(index), [this](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+                mesh_.indices.insert(mesh_.indices.end(), {a, b, c});
+            });
+        }
+        polygons_.add(static_cast<std::uint64_t>(count));
+        return {};
+    }
+
+    template <class Integer>
+    Result<void> read_strip(std::int64_t count, std::uint64_t number) {
+        Strip strip;
+        const std::size_t before = mesh_.indices.size();
+        for (std::int64_t i = 0; i < count; ++i) {
+            Integer index{};
+            if (!source_.read(index)) return source_.bad_value("strip", number);
+            if (std::int64_t{index} == -1) {
+                strip.restart();
+            } else {
+                if (!is_vertex(index)) return out_of_range("strip", number, index);
+                strip.add(static_cast<std::uint32_t>(index), mesh_.indices);
             }
         }
+        polygons_.skip((mesh_.indices.size() - before) / 3);
         return {};
+    }
+
+    bool is_vertex(std::int64_t index) const { return index >= 0 && index < std::int64_t{mesh_.vertex_count}; }
+
+    Error out_of_range(std::string_view what, std::uint64_t number, std::int64_t index) const {
+        return malformed("{}: {} {}: index {} is out of range ({} vertices)", source_.place(), what, number, index,
+                         mesh_.vertex_count);
+    }
+
+    void tell(Reading& reading, const PlyElement& vertex) const {
+        constexpr std::size_t kNames = 4;
+        std::size_t kinds = 0;
+        std::uint64_t others = 0;
+        for (const PlyElement& element : header_.elements) {
+            const bool has_indices =
+                (element.name == "face" || element.name == "tristrips") && find_indices(element) != nullptr;
+            if (&element == &vertex || has_indices || element.properties.empty()) continue;
+            if (element.count != 0 && ++kinds > kNames) {
+                others += element.count;
+            } else {
+                const std::string name = shown(element.name);
+                reading.leave_out(element.count, "element " + name, "elements " + name);
+            }
+        }
+        reading.leave_out(others, "further element", "further elements");
+        for (const PlyElement& element : header_.elements) {
+            const PlyProperty* indices = find_indices(element);
+            const bool is_vertex = &element == &vertex;
+            if (element.count == 0 || (!is_vertex && indices == nullptr)) continue;
+            std::uint64_t count = 0;
+            std::string names;
+            for (const PlyProperty& property : element.properties) {
+                if (is_vertex ? !property.is_list : &property == indices) continue;
+                if (++count <= kNames) names += (count == 1 ? " " : ", ") + shown(property.name);
+                if (count == kNames + 1) names += ", ...";
+            }
+            if (is_vertex) {
+                reading.leave_out(count, "list of vertices:" + names, "lists of vertices:" + names);
+            } else if (element.name == "face" || element.name == "tristrips") {
+                const std::string_view of = element.name == "face" ? "faces:" : "strips:";
+                reading.leave_out(count, fmt::format("property of {}{}", of, names),
+                                  fmt::format("properties of {}{}", of, names));
+            }
+        }
+        reading.leave_out(source_.longer_lines(), "line with values behind its element's",
+                          "lines with values behind their elements'");
     }
 
     const PlyHeader& header_;
     Source source_;
     Mesh mesh_;
+    PolygonList polygons_;
 };
+
+/// Where the data have as many lines as elements, each element has a line, and what is over in it is skipped. Else, and
+/// where lines are too short for that, line ends are blanks like others.
+Result<Mesh> read_ascii(std::string_view bytes, const PlyHeader& header, Reading& reading) {
+    double elements = 0;  // not an integer: the counts may be anything
+    for (const PlyElement& element : header.elements) {
+        if (!element.properties.empty()) elements += static_cast<double>(element.count);
+    }
+    if (static_cast<double>(count_lines(bytes.substr(header.bytes))) != elements) {
+        return PlyReader<AsciiSource<false>>(bytes, header).read(reading);
+    }
+    auto mesh = PlyReader<AsciiSource<true>>(bytes, header).read(reading);
+    if (mesh) return mesh;
+    const std::size_t told = reading.report.left_out.size();
+    auto again = PlyReader<AsciiSource<false>>(bytes, header).read(reading);
+    if (again) return again;
+    reading.report.left_out.resize(told);
+    return mesh;
+}
 
 }  // namespace
 
-Result<Mesh> read_ply(std::string_view bytes, [[maybe_unused]] Reading& reading) {
+Result<Mesh> read_ply(std::string_view bytes, Reading& reading) {
     const auto header = parse_ply_header(bytes);
     if (!header) return header.error();
     switch (header->format) {
         case PlyFormat::ascii:
-            return PlyReader<AsciiSource>(bytes, *header).read();
+            return read_ascii(bytes, *header, reading);
         case PlyFormat::little_endian:
-            return PlyReader<BinarySource<false>>(bytes, *header).read();
+            return PlyReader<BinarySource<false>>(bytes, *header).read(reading);
         case PlyFormat::big_endian:
             break;
     }
-    return PlyReader<BinarySource<true>>(bytes, *header).read();
+    return PlyReader<BinarySource<true>>(bytes, *header).read(reading);
 }
 
 }  // namespace lr::detail

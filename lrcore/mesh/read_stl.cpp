@@ -32,18 +32,30 @@ bool has_binary_length(std::string_view bytes) {
     return bytes.size() >= header_bytes && bytes.size() == header_bytes + triangle_bytes * claimed_triangles(bytes);
 }
 
+std::string_view without_byte_order_mark(std::string_view bytes) {
+    return bytes.starts_with("\xEF\xBB\xBF") ? bytes.substr(3) : bytes;
+}
+
 bool is_ascii(std::string_view bytes) {
     // Binary files may begin with "solid" too, but their headers and floats hold bytes that text has not.
-    if (has_binary_length(bytes) || !equals_ignoring_case(TextScanner(bytes).next_word(), "solid")) return false;
-    const std::string_view head = bytes.substr(0, 512);
-    return std::none_of(head.begin(), head.end(), [](char c) { return c >= '\0' && c < '\t'; });
+    if (has_binary_length(bytes)) return false;
+    const std::string_view head = without_byte_order_mark(bytes).substr(0, 512);
+    return equals_ignoring_case(TextScanner(head).next_word(), "solid") &&
+           std::none_of(head.begin(), head.end(), [](char c) { return c >= '\0' && c < '\t'; });
 }
 
 Result<Mesh> merged(const std::vector<float>& corners) {
     const std::size_t count = corners.size() / 3;
     if (count > max_vertices) return Error{ErrorCode::too_large, "has more than 2^32 - 2 triangle corners"};
     const auto* data = reinterpret_cast<const std::byte*>(corners.data());
-    Groups groups = group_equal_bytes(data, 3 * sizeof(float), static_cast<std::uint32_t>(count));
+    // -0 is where 0 is. The vertex keeps the bits of its first corner.
+    std::vector<float> places;
+    if (std::any_of(corners.begin(), corners.end(), [](float x) { return x == 0 && std::signbit(x); })) {
+        places.reserve(corners.size());
+        for (const float x : corners) places.push_back(x == 0 ? 0.0F : x);
+    }
+    Groups groups = group_equal_bytes(places.empty() ? data : reinterpret_cast<const std::byte*>(places.data()),
+                                      3 * sizeof(float), static_cast<std::uint32_t>(count));
     Mesh mesh;
     mesh.vertex_count = groups.count;
     Attribute position{"POSITION", ComponentType::f32, 3, false, {}};
@@ -57,7 +69,7 @@ Result<Mesh> merged(const std::vector<float>& corners) {
     return checked(std::move(mesh));
 }
 
-Result<Mesh> read_binary(std::string_view bytes) {
+Result<Mesh> read_binary(std::string_view bytes, Reading& reading) {
     if (bytes.size() < header_bytes) return malformed("{} bytes are too few for an STL file", bytes.size());
     const std::uint64_t claimed = claimed_triangles(bytes);
     const std::uint64_t present = (bytes.size() - header_bytes) / triangle_bytes;
@@ -65,13 +77,17 @@ Result<Mesh> read_binary(std::string_view bytes) {
         return malformed("byte 80: {} triangles, but there are bytes for {}", claimed, present);
     }
     std::vector<float> corners(static_cast<std::size_t>(claimed) * 9);
+    std::uint64_t attributes = 0;  // two bytes behind each triangle, which some programs use for a color
     for (std::size_t t = 0; t < claimed; ++t) {
         float* nine = corners.data() + t * 9;
         std::memcpy(nine, bytes.data() + header_bytes + t * triangle_bytes + normal_bytes, 9 * sizeof(float));
         for (std::size_t i = 0; i < 9; ++i) {
             if (!std::isfinite(nine[i])) return malformed("triangle {}: vertex {} is not finite", t, i / 3);
         }
+        const char* end = bytes.data() + header_bytes + (t + 1) * triangle_bytes;
+        attributes += end[-1] != 0 || end[-2] != 0 ? 1 : 0;
     }
+    reading.leave_out(attributes, "color or attribute of a triangle", "colors or attributes of triangles");
     return merged(corners);
 }
 
@@ -105,7 +121,9 @@ class AsciiStl {
         while (is_next("facet")) {
             if (!is_next("normal")) return unexpected("'normal'");
             for (int i = 0; i < 3; ++i) {  // not kept: it follows from the vertices, and is often wrong
-                if (scanner_.next_word().empty()) return unexpected("a number");
+                float ignored = 0;
+                word_ = scanner_.next_word();
+                if (!parse_number(word_, ignored)) return unexpected("a number");
             }
             if (!is_next("outer")) return unexpected("'outer'");
             if (!is_next("loop")) return unexpected("'loop'");
@@ -147,8 +165,8 @@ bool looks_like_stl(std::string_view bytes) {
     return has_binary_length(bytes) || is_ascii(bytes);
 }
 
-Result<Mesh> read_stl(std::string_view bytes) {
-    return is_ascii(bytes) ? AsciiStl(bytes).read() : read_binary(bytes);
+Result<Mesh> read_stl(std::string_view bytes, Reading& reading) {
+    return is_ascii(bytes) ? AsciiStl(without_byte_order_mark(bytes)).read() : read_binary(bytes, reading);
 }
 
 }  // namespace lr::detail

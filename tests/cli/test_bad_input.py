@@ -235,6 +235,8 @@ class Wrong(CliTest):
                 self.refused(name, data, "vertex")
         huge = write.obj(POINTS, TRIANGLES).replace(b"1.5", b"1e999")
         self.refused("a.obj", huge, "line 2")
+        huge = write.ply([(1e39, 0, 0)] + POINTS[1:], TRIANGLES, real="double")
+        self.refused("a.ply", huge, "vertex 0: the position is beyond the range of floats")
         huge = write.gltf([(1e38, 0, 0)] + POINTS[1:], [(4, write.flat(TRIANGLES))], nodes=[{"mesh": 0, "scale": [9, 9, 9]}])
         self.refused("a.gltf", huge)
 
@@ -248,9 +250,14 @@ class Wrong(CliTest):
             if v == len(POINTS):
                 self.refused("a.glb", write.gltf(POINTS, [(4, [0, 1, v])], binary=True), "mesh 0")
         obj = write.obj(POINTS, TRIANGLES)
-        for line in (b"f 1 2 6", b"f 1 2 0", b"f 1 2 -6", b"f 1 2 99999999999999999999", b"f 1/1 2 3", b"f 1//2 2 3", b"f a b c",
-                     b"f 1 2 3.5"):
-            self.refused("a.obj", obj + line + b"\n", "line 10")
+        for line in (b"f 1 2 6", b"f 1 2 0", b"f 1 2 -6", b"f 1 2 99999999999999999999", b"f 1/0 2 3", b"f 1//x 2 3", b"f a b c",
+                     b"f 1 2 3.5", b"f 1 2 \\ 3", b"f 1 2 3 \\", b"fo 1 2 6"):
+            self.refused("a.obj", obj + line + b"\n" + (b"# no line for it to go on in" if line.endswith(b"\\") else b""),
+                         *(() if line.endswith(b"\\") else ("line 10",)))
+        # where there are some; of which there is none at all are left out
+        for line, there in ((b"f 1/2 2 3", b"vt 0 0\n"), (b"f 1//2 2 3", b"vn 0 0 1\n"), (b"f 1/1/-3 2 3", b"vn 0 0 1\nvt 0 0\n")):
+            self.refused("a.obj", obj + line + b"\n" + there, "line 10")
+            self.ok("info", self.write("good.obj", obj + line + b"\n"))
         self.refused("a.obj", write.obj(POINTS, []), "no triangles")
         self.refused("a.obj", b"v 1 2\n", "line 1")
 
@@ -275,7 +282,8 @@ class Wrong(CliTest):
         for count in (5, 1000, 2 ** 31, 2 ** 32 - 1):
             self.refused("a.stl", stl[:80] + struct.pack("<I", count) + stl[84:])
         text = write.stl_text(POINTS, TRIANGLES)
-        for old, new in ((b"endfacet", b"facet"), (b"outer", b"inner"), (b"1.5", b"x"), (b"endsolid", b"end")):
+        for old, new in ((b"endfacet", b"facet"), (b"outer", b"inner"), (b"1.5", b"x"), (b"endsolid", b"end"),
+                         (b"normal 0 0 1", b"normal"), (b"normal 0 0 1", b"normal 0 0"), (b"normal 0 0 1", b"")):
             self.refused("a.stl", text.replace(old, new, 1), "line")
         self.check_memory()
 

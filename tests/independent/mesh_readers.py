@@ -6,9 +6,12 @@ Whatever makes two corners the same vertex in the file's own terms gives them th
 """
 
 import array
+import re
 import struct
 import sys
 from fractions import Fraction
+
+from polygons import cut
 
 assert sys.byteorder == "little"
 
@@ -56,9 +59,18 @@ def floats_of_words(words):
     return out
 
 
-def fan(corners, out):
-    for i in range(2, len(corners)):
-        out += (corners[0], corners[i - 1], corners[i])
+def unpack(key):
+    """The coordinates of a position, from its bits."""
+    return struct.unpack("<3f" if len(key) == 12 else "<3d", key)
+
+
+def add_polygon(corners, keys, out, vertex=lambda corner: corner):
+    """The triangles of a polygon. `keys` are positions, `vertex` gives a corner's place among them."""
+    if len(corners) == 3:
+        out += corners
+    elif len(corners) > 3:
+        for triangle in cut([unpack(keys[vertex(corner)]) for corner in corners]):
+            out += [corners[i] for i in triangle]
 
 
 def strip(corners, out):
@@ -72,13 +84,27 @@ def strip(corners, out):
 # --- OBJ ---
 
 
+COMMENT = re.compile(rb"(?<!1\.)#.*|#(?!(?i:IND|INF|QNAN|SNAN)).*")  # "1.#IND" is a number
+
+
+def obj_statements(data):
+    """The words of each statement: lines that end in a backslash joined, comments left out."""
+    words = []
+    for line in data.splitlines():
+        text = COMMENT.sub(b"", line)
+        joined = text == line and re.search(rb"\\[ \t\v\f]*$", line)
+        words += (text[:joined.start()] if joined else text).split()
+        if not joined:
+            yield words
+            words = []
+    yield words
+
+
 def read_obj(data):
     words = []
     faces = []
     counts = [0, 0, 0]  # of v, vt, vn so far
-    data = data.replace(b"\\\r\n", b" ").replace(b"\\\n", b" ")
-    for line in data.splitlines():
-        parts = line.split()
+    for parts in obj_statements(data):
         if not parts:
             continue
         keyword = parts[0]
@@ -89,38 +115,64 @@ def read_obj(data):
             counts[1] += 1
         elif keyword == b"vn":
             counts[2] += 1
-        elif keyword == b"f":
+        elif keyword in (b"f", b"fo"):
             corners = []
             for part in parts[1:]:
-                if part.startswith(b"#"):
-                    break
-                # v alone is an int, v/vt/vn a tuple: equal if and only if all three are
-                if b"/" not in part:
-                    i = int(part)
-                    corners.append(i - 1 if i > 0 else counts[0] + i)
-                else:
-                    corner = []
-                    for which, number in enumerate(part.split(b"/")[:3]):
-                        i = int(number) if number else None
-                        corner.append(None if i is None else i - 1 if i > 0 else counts[which] + i)
-                    corners.append(tuple(corner + [None] * (3 - len(corner))))
-            fan(corners, faces)
+                corner = []
+                for which, number in enumerate(part.split(b"/")[:3]):
+                    i = int(number) if number else None
+                    corner.append(None if i is None else i - 1 if i > 0 else counts[which] + i)
+                corners.append(tuple(corner + [None] * (3 - len(corner))))
+            faces.append(corners)
     keys = split_keys(floats_of_words(words).tobytes())
     numbers = {}
     positions = []
     indices = []
-    for corner in faces:
-        if isinstance(corner, int):
-            corner = (corner, None, None)
+    triangles = []
+    for corners in faces:
+        add_polygon(corners, keys, triangles, lambda corner: corner[0])
+    for v, vt, vn in triangles:
+        # what the file has none of at all is not there
+        corner = (v, vt if counts[1] else None, vn if counts[2] else None)
         number = numbers.get(corner)
         if number is None:
             number = numbers[corner] = len(positions)
-            positions.append(keys[corner[0]])
+            positions.append(keys[v])
         indices.append(number)
     return Mesh(positions, indices)
 
 
 # --- OFF ---
+
+
+def off_vertices(lines, count, width, by_line):
+    """The first three words of each vertex, and the lines behind the vertices."""
+    if by_line:
+        if len(lines) < count or any(len(line) < width for line in lines[:count]):
+            raise BadFile("a vertex is not on one line")
+        return [word for line in lines[:count] for word in line[:3]], lines[count:]
+    words = []
+    while len(words) < count * width:
+        words += lines[0]
+        lines = lines[1:]
+    if len(words) != count * width:
+        raise BadFile("a vertex ends within a line")
+    return [word for i in range(0, len(words), width) for word in words[i:i + 3]], lines
+
+
+def off_faces(lines, count, by_line):
+    faces = []
+    at = 0
+    for _ in range(count):
+        words = list(lines[at])
+        while len(words) < 1 + int(words[0]):  # goes on in the next line
+            at += 1
+            words += lines[at]
+        faces.append([int(word) for word in words[1:1 + int(words[0])]])
+        at += 1
+    if not by_line and at != len(lines):
+        raise BadFile("something follows the faces")
+    return faces
 
 
 def read_off(data):
@@ -129,37 +181,49 @@ def read_off(data):
         line = line.split(b"#")[0].split()
         if line:
             lines.append(line)
-    first = lines[0][0]
-    if first.endswith(b"OFF"):
-        if b"4" in first or b"n" in first or b"BINARY" in lines[0]:
+    prefixes = []
+    header = re.fullmatch(rb"((?:ST|C|N|4|n|S)*)OFF(\d*)", lines[0][0])
+    if header:
+        prefixes = re.findall(rb"ST|C|N|4|n|S", header.group(1))
+        if b"4" in prefixes or b"n" in prefixes or b"BINARY" in lines[0]:
             raise BadFile("this kind of OFF is not read")
-        lines[0] = lines[0][1:]
+        lines[0] = ([header.group(2)] if header.group(2) else []) + lines[0][1:]
         if not lines[0]:
-            lines = lines[1:]
-    header = lines[0] if len(lines[0]) > 1 else lines[0] + lines[1]
-    at = 1 if len(lines[0]) > 1 else 2
-    vertices, faces = int(header[0]), int(header[1])
-    words = []
-    for line in lines[at:at + vertices]:
-        words += line[:3]
+            del lines[0]
+    if len(lines[0]) > 1:
+        counts, lines = lines[0][:2], lines[1:]
+    else:
+        counts, lines = lines[0] + lines[1][:1], lines[2 if len(lines[1]) > 1 else 3:]
+    vertices, faces = map(int, counts)
+    base = 3 + 3 * prefixes.count(b"N") + 2 * prefixes.count(b"ST")
+    colored = b"C" in prefixes
+    for by_line, width in ((True, base + 3 * colored), (False, base + 4 * colored), (False, base + 3 * colored)):
+        try:
+            words, rest = off_vertices(lines, vertices, width, by_line)
+            polygons = off_faces(rest, faces, by_line)
+            break
+        except (BadFile, IndexError):
+            if not by_line and width == base + 3 * colored:
+                raise
+    keys = split_keys(floats_of_words(words).tobytes())
     indices = []
-    for line in lines[at + vertices:at + vertices + faces]:
-        n = int(line[0])
-        fan(list(map(int, line[1:1 + n])), indices)
-    return Mesh(split_keys(floats_of_words(words).tobytes()), indices)
+    for corners in polygons:
+        add_polygon(corners, keys, indices)
+    return Mesh(keys, indices)
 
 
 # --- STL ---
 
 
 def read_stl(data):
-    words = data[:512].split()
-    text = bool(words) and words[0].lower() == b"solid" and not any(c < 9 for c in data[:512])
+    unmarked = data[3:] if data.startswith(b"\xef\xbb\xbf") else data
+    words = unmarked[:512].split()
+    text = bool(words) and words[0].lower() == b"solid" and not any(c < 9 for c in unmarked[:512])
     if len(data) >= 84 and len(data) == 84 + 50 * struct.unpack_from("<I", data, 80)[0]:
         text = False
     if text:
         numbers = []
-        for line in data.splitlines():
+        for line in unmarked.splitlines():
             parts = line.split()
             for i, part in enumerate(parts):
                 if part.lower() == b"vertex" and parts[0].lower() not in (b"solid", b"endsolid"):
@@ -171,9 +235,12 @@ def read_stl(data):
         for t in range(count):
             at = 84 + 50 * t + 12
             corners += (data[at:at + 12], data[at + 12:at + 24], data[at + 24:at + 36])
-    numbers = {}
-    indices = [numbers.setdefault(corner, len(numbers)) for corner in corners]
-    return Mesh(list(numbers), indices)
+    numbers = {}  # -0 is where 0 is
+    indices = [numbers.setdefault(tuple(x + 0.0 for x in unpack(corner)), len(numbers)) for corner in corners]
+    positions = {}
+    for number, corner in zip(indices, corners):
+        positions.setdefault(number, corner)
+    return Mesh(list(positions.values()), indices)
 
 
 # --- PLY ---
@@ -216,21 +283,30 @@ def ply_header(data):
 
 
 class AsciiRows:
-    """The values of an element, from all the words of the file."""
+    """The values of an element, from all the words of the file, or from one line for each element."""
 
-    def __init__(self, data, at):
-        self.words = data[at:].split()
+    def __init__(self, data, at, by_line):
+        self.by_line = by_line
+        self.words = [line.split() for line in data[at:].splitlines() if line.strip()] if by_line else data[at:].split()
         self.at = 0
 
     def scalars(self, element, wanted):
         width = len(element.properties)
+        if self.by_line:
+            lines = self.words[self.at:self.at + element.count]
+            self.at += element.count
+            if any(len(line) < width for line in lines):
+                raise BadFile("a line is too short")
+            return [[line[i] for line in lines] for i in wanted]
         block = self.words[self.at:self.at + width * element.count]
         self.at += width * element.count
         return [block[i::width] for i in wanted]
 
     def rows(self, element):
         words, at = self.words, self.at
-        for _ in range(element.count):
+        for i in range(element.count):
+            if self.by_line:
+                words, at = self.words[self.at + i], 0
             row = []
             for _, kind, count_type in element.properties:
                 if count_type is None:
@@ -238,10 +314,12 @@ class AsciiRows:
                     at += 1
                 else:
                     n = int(words[at])
+                    if at + 1 + n > len(words):
+                        raise BadFile("a list is too short")
                     row.append([int(w) if kind not in "fd" else w for w in words[at + 1:at + 1 + n]])
                     at += 1 + n
             yield row
-        self.at = at
+        self.at = self.at + element.count if self.by_line else at
 
 
 class BinaryRows:
@@ -300,9 +378,21 @@ def ply_positions(columns, kinds, is_text):
 
 def read_ply(data):
     elements, order, at = ply_header(data)
-    source = AsciiRows(data, at) if order == "" else BinaryRows(data, at, order)
+    if order != "":
+        return read_ply_elements(elements, BinaryRows(data, at, order), False)
+    # One element a line, if there are as many; what is over in a line is skipped.
+    lines = sum(1 for line in data[at:].splitlines() if line.strip())
+    if lines == sum(element.count for element in elements if element.properties):
+        try:
+            return read_ply_elements(elements, AsciiRows(data, at, True), True)
+        except (BadFile, IndexError, ValueError):
+            pass
+    return read_ply_elements(elements, AsciiRows(data, at, False), True)
+
+
+def read_ply_elements(elements, source, is_text):
     positions = None
-    indices = []
+    polygons = []  # and triangles of strips, which are never cut otherwise
     for element in elements:
         names = [name for name, _, _ in element.properties]
         if not names:
@@ -314,7 +404,7 @@ def read_ply(data):
             else:
                 rows = list(source.rows(element))
                 columns = [[row[i] for row in rows] for i in xyz]
-            positions = ply_positions(columns, [element.properties[i][1] for i in xyz], order == "")
+            positions = ply_positions(columns, [element.properties[i][1] for i in xyz], is_text)
             continue
         lists = [i for i, (name, _, count_type) in enumerate(element.properties)
                  if name in ("vertex_indices", "vertex_index") and count_type is not None]
@@ -323,20 +413,22 @@ def read_ply(data):
                 continue
             corners = row[lists[0]]
             if element.name == "face":
-                if len(corners) == 3:
-                    indices += corners
-                else:
-                    fan(corners, indices)
+                polygons.append(corners)
                 continue
             piece = []
             for v in list(corners) + [-1]:
                 if v == -1:
-                    strip(piece, indices)
+                    triangles = []
+                    strip(piece, triangles)
+                    polygons += [triangles[i:i + 3] for i in range(0, len(triangles), 3)]
                     piece = []
                 else:
                     piece.append(v)
     if positions is None:
         raise BadFile("the PLY file has no vertices")
-    if indices and (max(indices) >= len(positions) or min(indices) < 0):
-        raise BadFile("a PLY index is out of range")
+    indices = []
+    for corners in polygons:
+        if corners and (max(corners) >= len(positions) or min(corners) < 0):
+            raise BadFile("a PLY index is out of range")
+        add_polygon(corners, positions, indices)
     return Mesh(positions, indices)

@@ -253,6 +253,13 @@ TEST_CASE("errors name the place and the cause") {
     CHECK(message_of("m.ply", ply + "0 0 0\n1 0 0\n0 0 0\n2 0 1\n") == "has no triangles");
     CHECK(message_of("m.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nend_header\n1 2 3\n") ==
           "line 3: the vertices have no x, y and z");
+    CHECK(message_of("m.ply", ply + "0 0 0\n1 0\n0 0 0\n3 0 1 2\n") == "line 11: the line ends in vertex 1");
+    CHECK(message_of("m.ply", ply + "0 0 0\n1 0 0\n0 0 0\n3 0 1\n") == "line 13: the line ends in face 0");
+    CHECK(message_of("m.ply", "hello\n") == "line 1: does not begin with 'ply'");
+    CHECK(message_of("m.ply", "plyx\nformat ascii 1.0\nend_header\n") == "line 1: does not begin with 'ply'");
+    CHECK(message_of("m.ply",
+                     "ply\nformat ascii 1.0\nelement vertex 3\nelement face 1\nproperty list uchar int "
+                     "vertex_index\nend_header\n3 0 1 2\n") == "line 3: the vertices have no x, y and z");
     CHECK(message_of("m.ply", "ply\nformat ascii 1.0\nelement vertex x\n") ==
           "line 3: 'x' is not a number of elements");
     CHECK(message_of("m.ply", "ply\nelement vertex 1\nproperty long x\n") == "line 3: 'long' is not a type");
@@ -263,6 +270,24 @@ TEST_CASE("errors name the place and the cause") {
           "line 4: vertex 4 does not exist (there are 3)");
     CHECK(message_of("m.obj", "v 0 0 0\nf 1//1 1//1 1//2\nvn 0 0 1\n") ==
           "line 2: normal 2 does not exist (there are 1)");
+    // the first reference that does not exist, not the highest
+    CHECK(message_of("m.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 4\nf 1 2 9\nf 1 2 5\n") ==
+          "line 4: vertex 4 does not exist (there are 3)");
+    CHECK(message_of("m.obj", "v 0 0 0\nf 1//1 1//3 1//2\nf 1//9 1 1\nvn 0 0 1\n") ==
+          "line 2: normal 3 does not exist (there are 1)");
+    CHECK(message_of("m.obj", "v 0 0 0\nf 1/2/1 1/1/7 1\nvn 0 0 1\nvt 0 0\n") ==
+          "line 2: texture coordinate 2 does not exist (there are 1)");
+    CHECK(message_of("m.obj", "v 0 0 0\nf 1 1 1\nf 1//-1 1//-1 1//-1\nvn 0 0 1\n") ==
+          "line 3: normal -1 does not exist (there are 0 before it)");
+    CHECK(message_of("m.obj", "v 0 0 0\nvn 0 0 1\nf 1//-1 1//-1 1//-2\n") ==
+          "line 3: '1//-2' is not a corner of a face");
+    CHECK(message_of("m.obj", "f 1 2 3\n") == "line 1: vertex 1 does not exist (there are 0)");
+    for (const char* face : {"f 1 1 \\ 1\n", "f 1 1 1 \\", "f 1 1 1 \\ #\n1\n", "f 1 1 1 \\ \\ \n1\n"}) {
+        CHECK(message_of("m.obj", std::string("v 0 0 0\n") + face) == "line 2: '\\' is not a corner of a face");
+    }
+    CHECK(message_of("m.obj", "v 0 0 0\nf 1 1\\1 1\n") == "line 2: '1\\1' is not a corner of a face");
+    CHECK(message_of("m.obj", "v 0 0 0\nf 1 1 1\\ 1\n") == "line 2: '1\\' is not a corner of a face");
+    CHECK(message_of("m.obj", "v 0 0 \\ 0\n") == "line 1: '\\' is not a number");
     CHECK(message_of("m.obj", "v 0 0 0\nf 1 1 -2\n") == "line 2: '-2' is not a corner of a face");
     CHECK(message_of("m.obj", "v 0 0 0\nf 1 1 0\n") == "line 2: '0' is not a corner of a face");
     CHECK(message_of("m.obj", "v 0 0 0\r\nv 0 0\r\n") == "line 2: 2 numbers where 3 are due");
@@ -273,10 +298,18 @@ TEST_CASE("errors name the place and the cause") {
     CHECK(message_of("m.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n") ==
           "line 6: face 0: index 3 is out of range (3 vertices)");
     CHECK(message_of("m.off", "COFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n") ==
-          "line 3: 0 numbers where a colour is due");
+          "line 3: 0 numbers where a color is due");
 
     CHECK(message_of("m.stl", "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 x\n") ==
           "line 4: 'x' where a number is due");
+    CHECK(message_of("m.off", "OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n") == "line 4: ends before a number");
+    CHECK(message_of("m.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n4 0 1 2\n3 0 1 2\n") ==
+          "line 7: face 0: index 3 is out of range (3 vertices)");
+    CHECK(message_of("m.stl", "solid\nfacet normal\nouter loop\nvertex 0 0 0\n") ==
+          "line 3: 'outer' where a number is due");
+    CHECK(message_of("m.stl", "solid\nfacet normal 0 0\nouter loop\nvertex 0 0 0\n") ==
+          "line 3: 'outer' where a number is due");
+    CHECK(message_of("m.stl", "solid\nfacet\nouter loop\nvertex 0 0 0\n") == "line 3: 'outer' where 'normal' is due");
     CHECK(message_of("m.stl", "solid\nendsolid\n") == "has no triangles");
     CHECK(message_of("m.stl", binary_stl(Floats{0, 0, 0, 1, 0, std::nanf(""), 0, 1, 0})) ==
           "triangle 0: vertex 1 is not finite");
