@@ -8,6 +8,7 @@
 #include <random>
 #include <span>
 
+#include "app/print.h"
 #include "app/resident_visits.h"
 #include "lrcore/corner_table/geometry.h"
 #include "lrcore/corner_table/split.h"
@@ -323,19 +324,19 @@ Result<ResidentFigures> measure_resident(const Mesh& mesh, CornerTable input, co
 }
 
 void print_resident(const ResidentFigures& figures) {
-    fmt::print("  operators with resident memory limited, ns each; * pages were read from the scratch file\n");
-    fmt::print("    pages of {} KiB, first in first out; {} random visits; {} triangles on contours{}\n",
-               figures.page_bytes / 1024, figures.sample, figures.contour_triangles,
-               figures.structures.front().direct ? "" : "; the file system's memory, not a disk, is read");
+    print("  operators with resident memory limited, ns each; * pages were read from the scratch file\n");
+    print("    pages of {} KiB, first in first out; {} random visits; {} triangles on contours{}\n",
+          figures.page_bytes / 1024, figures.sample, figures.contour_triangles,
+          figures.structures.front().direct ? "" : "; the file system's memory, not a disk, is read");
     const auto header = [&](const char* title) {
-        fmt::print("    {:<34}", title);
-        for (const auto& s : figures.structures) fmt::print("{:>14}", s.name);
-        fmt::print("\n");
+        print("    {:<34}", title);
+        for (const auto& s : figures.structures) print("{:>14}", s.name);
+        print("\n");
     };
     header("");
-    fmt::print("      {:<32}", "file, MB");
-    for (const auto& s : figures.structures) fmt::print("{:>14.1f}", static_cast<double>(s.bytes) / 1e6);
-    fmt::print("\n");
+    print("      {:<32}", "file, MB");
+    for (const auto& s : figures.structures) print("{:>14.1f}", static_cast<double>(s.bytes) / 1e6);
+    print("\n");
     constexpr const char* titles[kVisits] = {
         "c.v, own order",        "c.o (SQuad c.s), own order", "valence, own order",
         "normal, own order",     "c.v, random order",          "c.o (SQuad c.s), random",
@@ -343,12 +344,12 @@ void print_resident(const ResidentFigures& figures) {
     for (std::size_t visit = 0; visit < kVisits; ++visit) {
         header(titles[visit]);
         for (const auto& level : figures.levels) {
-            fmt::print("      {:>9.1f} MB = {:>6.3f} corner tables", static_cast<double>(level.limit_bytes) / 1e6,
-                       level.corner_tables);
+            print("      {:>9.1f} MB = {:>6.3f} corner tables", static_cast<double>(level.limit_bytes) / 1e6,
+                  level.corner_tables);
             for (const auto& cells : level.cells) {
-                fmt::print("{:>13.1f}{}", cells[visit].ns_per_op, cells[visit].pages_per_op > 0 ? '*' : ' ');
+                print("{:>13.1f}{}", cells[visit].ns_per_op, cells[visit].pages_per_op > 0 ? '*' : ' ');
             }
-            fmt::print("\n");
+            print("\n");
         }
     }
 }

@@ -32,7 +32,7 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
     std::vector<std::string> paths;
-    std::string weld;
+    InputOptions input;
     int rounds = 5;
     std::uint32_t seeds = 1;
     bool no_gpu = false;
@@ -75,28 +75,28 @@ void add_costs(Json& draw, const GpuFigures& figures) {
 }
 
 void print_draw(const GpuFigures& figures, double triangles) {
-    fmt::print("  draw (wall){:>27}{:>22}{:>10}{:>9}{:>10}{:>10}{:>9}\n", "ms", "min to max", "GPU ms", "plain",
-               "resident", "read", "VS runs");
+    print("  draw (wall){:>27}{:>22}{:>10}{:>9}{:>10}{:>10}{:>9}\n", "ms", "min to max", "GPU ms", "plain", "resident",
+          "read", "VS runs");
     const double plain = figures.draw[0].median();
     for (std::size_t i = 0; i < figures.draw.size(); ++i) {
         const Candidate& c = figures.draw[i];
         const DrawCost& cost = figures.cost[i];
         const auto [low, high] = std::minmax_element(c.seconds.begin(), c.seconds.end());
         const auto a_triangle = [&](std::uint64_t n) { return static_cast<double>(n) / triangles; };
-        fmt::print("    {:<25}{:>9.2f}{:>22}{:>10}{:>8.2f}x{:>10.3f}{:>10.2f}{:>9}\n", c.name, c.median() * 1e3,
-                   fmt::format("{:.2f} to {:.2f}", *low * 1e3, *high * 1e3),
-                   c.gpu_seconds.empty() ? "-" : fmt::format("{:.2f}", median(c.gpu_seconds) * 1e3), c.median() / plain,
-                   a_triangle(cost.connectivity_bytes), a_triangle(cost.bytes_read),
-                   cost.vertex_invocations ? fmt::format("{:.2f}", a_triangle(*cost.vertex_invocations)) : "-");
+        print("    {:<25}{:>9.2f}{:>22}{:>10}{:>8.2f}x{:>10.3f}{:>10.2f}{:>9}\n", c.name, c.median() * 1e3,
+              fmt::format("{:.2f} to {:.2f}", *low * 1e3, *high * 1e3),
+              c.gpu_seconds.empty() ? "-" : fmt::format("{:.2f}", median(c.gpu_seconds) * 1e3), c.median() / plain,
+              a_triangle(cost.connectivity_bytes), a_triangle(cost.bytes_read),
+              cost.vertex_invocations ? fmt::format("{:.2f}", a_triangle(*cost.vertex_invocations)) : "-");
     }
-    fmt::print("    resident, read: bytes of connectivity a triangle; VS runs: vertex shader runs a triangle\n");
+    print("    resident, read: bytes of connectivity a triangle; VS runs: vertex shader runs a triangle\n");
 }
 #endif
 
-int run(const Options& options) {
+int run(const Options& options, RunLog& log) {
     Json meshes = Json::array();
     for (const std::string& path : options.paths) {
-        const Result<Mesh> mesh = load({path, options.weld});
+        const Result<Mesh> mesh = load({path, options.input}, log);
         if (!mesh) return fail(path, mesh.error());
         const auto build = [&] { return build_corner_table(mesh->indices, mesh->vertex_count); };
         const Result<CornerTable> table = build();
@@ -230,33 +230,33 @@ int run(const Options& options) {
                               {"peak_bytes", peak}});
             continue;
         }
-        fmt::print("{}: {} triangles; medians of {} rounds\n", path, mesh->triangle_count(), options.rounds);
+        print("{}: {} triangles; medians of {} rounds\n", path, mesh->triangle_count(), options.rounds);
         for (const Section& section : {construct, decode, decode_gpu}) {
             if (section.candidates.empty()) continue;
-            fmt::print("  {}\n", section.name);
+            print("  {}\n", section.name);
             for (const Candidate& c : section.candidates) {
-                fmt::print("    {:<24}{:>11.3f} ms{:>10.1f} Mtri/s\n", c.name, c.median() * 1e3,
-                           triangles / c.median() / 1e6);
+                print("    {:<24}{:>11.3f} ms{:>10.1f} Mtri/s\n", c.name, c.median() * 1e3,
+                      triangles / c.median() / 1e6);
             }
         }
 #ifdef LACEDRING_GPU
         if (gpu) print_draw(*gpu, triangles);
 #endif
-        fmt::print("  {}\n", gpu_skipped.empty() ? "drawn at 1280x720 on " + device : "not drawn: " + gpu_skipped);
+        print("  {}\n", gpu_skipped.empty() ? "drawn at 1280x720 on " + device : "not drawn: " + gpu_skipped);
         if (!operators.empty()) {
-            fmt::print("  operators, ns each{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "refs/tri", "c.v", "c.o, c.s",
-                       "valence", "normal", "contour");
+            print("  operators, ns each{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "refs/tri", "c.v", "c.o, c.s",
+                  "valence", "normal", "contour");
         }
         for (const OperatorFigures& structure : operators) {
-            fmt::print("    {:<16}{:>10.3f}", structure.structure, structure.references_per_triangle);
-            for (const auto& row : structure.rows) fmt::print("{:>10.2f}", row.ns_per_op());
-            fmt::print("\n");
+            print("    {:<16}{:>10.3f}", structure.structure, structure.references_per_triangle);
+            for (const auto& row : structure.rows) print("{:>10.2f}", row.ns_per_op());
+            print("\n");
         }
         if (resident) print_resident(*resident);
-        fmt::print("  lean is built {:.2f} times as fast as strips\n  peak memory beyond the input\n", ratio);
+        print("  lean is built {:.2f} times as fast as strips\n  peak memory beyond the input\n", ratio);
         for (const auto& [name, bytes] : peak.items()) {
-            fmt::print("    {:<24}{:>11.1f} MB{:>10.1f} bytes a triangle\n", name, bytes.get<double>() / 1e6,
-                       bytes.get<double>() / triangles);
+            print("    {:<24}{:>11.1f} MB{:>10.1f} bytes a triangle\n", name, bytes.get<double>() / 1e6,
+                  bytes.get<double>() / triangles);
         }
     }
     if (options.json) print_json(Json{{"schema", 1}, {"meshes", std::move(meshes)}});
@@ -269,7 +269,7 @@ void add_bench(CLI::App& program, Action& action) {
     auto options = std::make_shared<Options>();
     CLI::App* command = program.add_subcommand("bench", "time construction, decoding and drawing beside rivals");
     command->add_option("MESH", options->paths, "mesh files")->required();
-    add_weld(*command, options->weld);
+    add_input_options(*command, options->input, 400);
     command->add_option("--rounds", options->rounds, "how often each is run")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
@@ -301,7 +301,7 @@ void add_bench(CLI::App& program, Action& action) {
     add_device_options(*command, options->context);
 #endif
     command->add_flag("--json", options->json, "one JSON document on standard output");
-    command->callback([options, &action] { action = [options] { return run(*options); }; });
+    command->callback([options, &action] { action = [options](RunLog& log) { return run(*options, log); }; });
 }
 
 }  // namespace lr::app

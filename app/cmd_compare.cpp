@@ -71,15 +71,15 @@ nlohmann::ordered_json to_json(const Options& options, const gpu::DeviceInfo& in
 
 void print_table(const Options& options, const gpu::DeviceInfo& info, std::span<const Compared> all,
                  std::size_t messages) {
-    fmt::print("{}: plain against streams, {} views of {}x{} on {}\n", options.input.path, all[0].comparison.views,
-               options.size.width, options.size.height, info.name);
-    fmt::print("  {:<40}", "");
-    for (const Compared& compared : all) fmt::print("{:>10}", compared.source);
-    fmt::print("\n  {:<40}", "");
-    for (const Compared& compared : all) fmt::print("{:>10}", compared.path);
+    print("{}: plain against streams, {} views of {}x{} on {}\n", options.input.path, all[0].comparison.views,
+          options.size.width, options.size.height, info.name);
+    print("  {:<40}", "");
+    for (const Compared& compared : all) print("{:>10}", compared.source);
+    print("\n  {:<40}", "");
+    for (const Compared& compared : all) print("{:>10}", compared.path);
     const auto row = [&](const char* what, const auto& value) {
-        fmt::print("\n  {:<40}", what);
-        for (const Compared& compared : all) fmt::print("{:>10}", value(compared.comparison));
+        print("\n  {:<40}", what);
+        for (const Compared& compared : all) print("{:>10}", value(compared.comparison));
     };
     row("pixels that differ", [](const gpu::Comparison& c) { return c.pixels_different; });
     row("largest difference, of 255", [](const gpu::Comparison& c) { return c.max_channel_difference; });
@@ -95,12 +95,12 @@ void print_table(const Options& options, const gpu::DeviceInfo& info, std::span<
     row("pixels covered",
         [](const gpu::Comparison& c) { return fmt::format("{}{}", c.blank ? "BLANK " : "", c.covered_pixels); });
     row("triangles seen", [](const gpu::Comparison& c) { return c.distinct_ids; });
-    if (options.context.validation) fmt::print("\n  {:<40}{:>10}", "validation messages", messages);
-    fmt::print("\n");
+    if (options.context.validation) print("\n  {:<40}{:>10}", "validation messages", messages);
+    print("\n");
 }
 
-int run(const Options& options) {
-    const Result<Mesh> mesh = load(options.input);
+int run(const Options& options, RunLog& log) {
+    const Result<Mesh> mesh = load(options.input, log);
     if (!mesh) return fail(options.input.path, mesh.error());
     const Result<gpu::Model> model = gpu::make_model(*mesh, {.packed = true});
     if (!model) return fail(options.input.path, model.error());
@@ -151,9 +151,9 @@ int run(const Options& options) {
         print_json(to_json(options, (*context)->info(), all, skipped, messages, diff));
     } else {
         print_table(options, (*context)->info(), all, messages);
-        for (const Skipped& s : skipped) fmt::print("  {} not compared: {}\n", s.path, s.reason);
-        if (!diff.empty()) fmt::print("  differences drawn in {}\n", diff);
-        fmt::print("{}\n", passed ? "the same pictures" : "DIFFERENT");
+        for (const Skipped& s : skipped) print("  {} not compared: {}\n", s.path, s.reason);
+        if (!diff.empty()) print("  differences drawn in {}\n", diff);
+        print("{}\n", passed ? "the same pictures" : "DIFFERENT");
     }
     return passed ? done : check_failed;
 }
@@ -165,7 +165,7 @@ void add_compare(CLI::App& program, Action& action) {
     CLI::App* command =
         program.add_subcommand("compare", "draw a mesh plain and from its streams, and compare the pixels");
     command->add_option("MESH", options->input.path, "mesh file")->required();
-    add_weld(*command, options->input.weld);
+    add_input_options(*command, options->input.options, 250);
     add_size(*command, options->size);
     command
         ->add_option("--path", options->paths, "compute, pull, geometry or mesh, with commas; all of them unless told")
@@ -175,7 +175,7 @@ void add_compare(CLI::App& program, Action& action) {
         ->type_name("FILE.png");
     add_device_options(*command, options->context);
     command->add_flag("--json", options->json, "one JSON document on standard output");
-    command->callback([options, &action] { action = [options] { return run(*options); }; });
+    command->callback([options, &action] { action = [options](RunLog& log) { return run(*options, log); }; });
 }
 
 }  // namespace lr::app

@@ -30,8 +30,8 @@ struct Options {
     bool json = false;
 };
 
-int run(const Options& options) {
-    const Result<Mesh> mesh = load(options.input);
+int run(const Options& options, RunLog& log) {
+    const Result<Mesh> mesh = load(options.input, log);
     if (!mesh) return fail(options.input.path, mesh.error());
     // Pictures show the ring as the paper makes it, unless the optimiser is asked for.
     OptimizeOptions optimize = optimize_options(options.ring, lean_ring_cost);
@@ -62,8 +62,7 @@ int run(const Options& options) {
         const gpu::Path path = gpu::path_named(options.path).value_or(gpu::Path::compute);
         device_bytes = (*context)->arena().used() + renderer->device_bytes(*model, source, path);
         if (device_bytes > kWorthSaying) {
-            fmt::print(stderr, "lacedring: drawing takes {:.1f} GB of device memory\n",
-                       static_cast<double>(device_bytes) / 1e9);
+            say("lacedring: drawing takes {:.1f} GB of device memory\n", static_cast<double>(device_bytes) / 1e9);
         }
         Result<gpu::Drawable> drawable = renderer->upload(*model, source, path);
         if (!drawable) return drawable.error();
@@ -98,9 +97,9 @@ int run(const Options& options) {
                                       {"validation_messages", messages}};
         print_json(out);
     } else {
-        fmt::print("{}: {}x{}, {} triangles, {} {}, covers {:.1f} % of the picture; {}\n", options.output,
-                   options.size.width, options.size.height, model->triangle_count(), options.source, options.view,
-                   100 * share, (*context)->info().name);
+        print("{}: {}x{}, {} triangles, {} {}, covers {:.1f} % of the picture; {}\n", options.output,
+              options.size.width, options.size.height, model->triangle_count(), options.source, options.view,
+              100 * share, (*context)->info().name);
     }
     return messages == 0 ? done : check_failed;
 }
@@ -112,7 +111,7 @@ void add_render(CLI::App& program, Action& action) {
     CLI::App* command = program.add_subcommand("render", "draw a mesh into a PNG file");
     command->add_option("MESH", options->input.path, "mesh file")->required();
     command->add_option("-o,--output", options->output, "the PNG file")->required();
-    add_weld(*command, options->input.weld);
+    add_input_options(*command, options->input.options, 150);
     command->add_option("--source", options->source, "what the triangles come from")
         ->check(CLI::IsMember({"plain", "lean", "packed"}))
         ->capture_default_str();
@@ -136,7 +135,7 @@ void add_render(CLI::App& program, Action& action) {
     add_camera(*command, options->camera);
     add_device_options(*command, options->context);
     command->add_flag("--json", options->json, "one JSON document on standard output");
-    command->callback([options, &action] { action = [options] { return run(*options); }; });
+    command->callback([options, &action] { action = [options](RunLog& log) { return run(*options, log); }; });
 }
 
 }  // namespace lr::app

@@ -21,7 +21,7 @@ namespace {
 struct Options {
     std::vector<std::string> paths;
     std::string output;
-    std::string weld;
+    InputOptions input;
     RingChoice ring;
     bool no_gpu = false;
 #ifdef LACEDRING_GPU
@@ -70,7 +70,7 @@ Result<std::unique_ptr<gpu::Context>> open_device(const Options& options, std::s
 }
 #endif
 
-int run(const Options& options) {
+int run(const Options& options, RunLog& log) {
     ReportPage page;
     page.command = options.command;
     page.version = LACEDRING_VERSION;
@@ -90,13 +90,13 @@ int run(const Options& options) {
     std::vector<MeshReport> meshes;
     std::size_t messages = 0;
     for (const std::string& path : options.paths) {
-        const Result<Mesh> mesh = load({path, options.weld});
+        const Result<Mesh> mesh = load({path, options.input}, log);
         if (!mesh) return fail(path, mesh.error());
         std::string invalid;
         Result<MeshReport> report = measure_mesh(path, *mesh, options.ring, invalid);
         if (!report) return fail(path, report.error());
         if (!invalid.empty()) {
-            fmt::print(stderr, "lacedring: {}: {}\n", path, invalid);
+            say("lacedring: {}: {}\n", path, invalid);
             return check_failed;
         }
         report->no_pictures = skipped;
@@ -122,8 +122,8 @@ int run(const Options& options) {
     if (const Result<void> written = write_file(options.output, std::span(&part, 1)); !written) {
         return fail(options.output, written.error());
     }
-    fmt::print("{}: {}, {} bytes; {}\n", options.output, counted(meshes.size(), "mesh", "meshes"), text.size(),
-               skipped.empty() ? "drawn on " + page.device : "no pictures: " + skipped);
+    print("{}: {}, {} bytes; {}\n", options.output, counted(meshes.size(), "mesh", "meshes"), text.size(),
+          skipped.empty() ? "drawn on " + page.device : "no pictures: " + skipped);
     return messages == 0 ? done : check_failed;
 }
 
@@ -134,7 +134,7 @@ void add_report(CLI::App& program, Action& action) {
     CLI::App* command = program.add_subcommand("report", "figures, charts and pictures of meshes as one HTML page");
     command->add_option("MESH", options->paths, "mesh files")->required();
     command->add_option("-o,--output", options->output, "the HTML file")->required();
-    add_weld(*command, options->weld);
+    add_input_options(*command, options->input, 350);
     add_ring_options(*command, options->ring);
     command->add_flag("--no-gpu", options->no_gpu, "no pictures");
 #ifdef LACEDRING_GPU
@@ -145,7 +145,7 @@ void add_report(CLI::App& program, Action& action) {
 #endif
     command->callback([options, &action, command] {
         options->command = command_line(*command);
-        action = [options] { return run(*options); };
+        action = [options](RunLog& log) { return run(*options, log); };
     });
 }
 

@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cstdio>
 
+#include "app/print.h"
+
 namespace lr::app {
 namespace {
 
@@ -43,7 +45,7 @@ void add_size(CLI::App& command, PictureSize& size) {
 
 std::size_t print_validation(gpu::Context& context) {
     const std::vector<std::string> messages = context.validation().messages();
-    for (const std::string& message : messages) fmt::print(stderr, "lacedring: validation: {}\n", message);
+    for (const std::string& message : messages) say("lacedring: validation: {}\n", message);
     return messages.size();
 }
 

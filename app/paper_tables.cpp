@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <limits>
 
+#include "app/print.h"
+
 namespace lr::app {
 namespace {
 
@@ -136,16 +138,16 @@ void print_cells(const std::vector<Row>& rows) {
     }
     for (std::size_t r = 0; r < rows.size(); ++r) {
         for (std::size_t i = 0; i < width.size(); ++i) {
-            i == 0 ? fmt::print("| {:<{}} |", rows[r][i], width[i]) : fmt::print(" {:>{}} |", rows[r][i], width[i]);
+            i == 0 ? print("| {:<{}} |", rows[r][i], width[i]) : print(" {:>{}} |", rows[r][i], width[i]);
         }
-        fmt::print("\n");
+        print("\n");
         if (r > 0) continue;
         for (std::size_t i = 0; i < width.size(); ++i) {
-            i == 0 ? fmt::print("|:{:-<{}}|", "", width[i] + 1) : fmt::print("{:-<{}}:|", "", width[i] + 1);
+            i == 0 ? print("|:{:-<{}}|", "", width[i] + 1) : print("{:-<{}}:|", "", width[i] + 1);
         }
-        fmt::print("\n");
+        print("\n");
     }
-    fmt::print("\n");
+    print("\n");
 }
 
 std::string cell(double value, int decimals) {

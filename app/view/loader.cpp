@@ -215,7 +215,8 @@ void Loader::work(const Request& request) {
     Document document;
     if (request.input) {
         say("reading the file", 0.05);
-        Result<Mesh> mesh = app::load({request.input->path, request.input->weld});
+        app::RunLog log;
+        Result<Mesh> mesh = app::load({request.input->path, request.input->options}, log);
         if (!mesh) return failed(mesh.error());
         if (stopped()) return;
         document.path = path;

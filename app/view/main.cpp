@@ -80,7 +80,7 @@ Result<void> loop(Viewer& viewer, Window& window, gpu::Swapchain& swapchain, Scr
         if (std::string next = viewer.title(); next != title) window.set_title(title = std::move(next));
         if (const std::string text = viewer.take_clipboard(); !text.empty()) {
             window.set_clipboard(text);
-            if (script == nullptr) fmt::print("{}\n", text);
+            if (script == nullptr) app::print("{}\n", text);
         }
         if (script != nullptr) continue;  // as fast as it goes
         // Not every driver waits for the display.
@@ -142,7 +142,7 @@ int start(int argc, char** argv) {
     program.name("lacedring view");
     Options options;
     program.add_option("MESH", options.viewer.input.path, "mesh file");
-    app::add_weld(program, options.viewer.input.weld);
+    app::add_input_options(program, options.viewer.input.options, 250);
     app::add_size(program, options.size);
     program.add_option("--scale", options.scale, "pixels a nominal pixel of the panels; the display's unless told")
         ->check(CLI::Range(0.5, 8.0));
@@ -181,7 +181,7 @@ int main(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         std::fputs("lacedring: not enough memory\n", stderr);
     } catch (const std::exception& error) {  // a bug: nothing of ours throws
-        fmt::print(stderr, "lacedring: internal error: {}\n", error.what());
+        app::say("lacedring: internal error: {}\n", error.what());
     }
     return lr::app::bad_input;
 }

@@ -320,7 +320,7 @@ Result<bool> Script::run(const Line& line, Viewer& viewer, Window& window, std::
             if (found) hit = *found;
         }
         const std::int64_t selected = state.selection.any() ? std::int64_t{triangle(state.selection.corner).value} : -1;
-        fmt::print("{}\n", nlohmann::ordered_json{{"ray", hit}, {"selected", selected}}.dump());
+        app::print("{}\n", nlohmann::ordered_json{{"ray", hit}, {"selected", selected}}.dump());
     } else if (what == "copy") {
         if (words.size() != 3) return wrong("copy FROM TO");
         std::error_code error;
@@ -328,7 +328,7 @@ Result<bool> Script::run(const Line& line, Viewer& viewer, Window& window, std::
             return Error{ErrorCode::cannot_write, words[2] + ": " + error.message()};
         }
     } else if (what == "print") {
-        fmt::print("{}\n", state_text(viewer));
+        app::print("{}\n", state_text(viewer));
         state.longest_frame = 0;
         std::fflush(stdout);
     } else {

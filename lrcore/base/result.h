@@ -15,6 +15,7 @@ enum class ErrorCode {
     unsupported,      ///< the format is right, but this part of it is not read here
     invalid_argument, ///< a parameter is out of its range
     too_large,        ///< more elements than the representation numbers, or than memory holds
+    memory_limit,     ///< would take more memory than the caller allows
     no_device,        ///< no usable Vulkan device
     device_failure,   ///< a Vulkan call failed
 };
