@@ -152,7 +152,10 @@ class OffReader {
         mesh.indices = std::move(indices_);
         mesh.attributes.push_back(float_attribute("POSITION", 3, positions_));
         if (header_.normal) mesh.attributes.push_back(float_attribute("NORMAL", 3, normals_));
-        if (header_.texture) mesh.attributes.push_back(float_attribute("TEXCOORD_0", 2, textures_));
+        if (header_.texture) {
+            mesh.attributes.push_back(float_attribute("TEXCOORD_0", 2, textures_));
+            mesh.attributes.back().v_up = true;
+        }
         if (header_.colour) {
             const auto width = static_cast<std::uint8_t>(colour_width_);
             Attribute colour = float_attribute("COLOR_0", width, colours_);

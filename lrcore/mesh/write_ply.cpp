@@ -57,8 +57,8 @@ std::string header(const Mesh& mesh, std::string_view index_type) {
     std::string properties;
     UniqueNames names;
     for (const Attribute& attribute : mesh.attributes) {
-        out += fmt::format("comment {}{} {} {}\n", ply_note_prefix, attribute.components, attribute.normalized ? 1 : 0,
-                           escape_ply_name(attribute.name));
+        out += fmt::format("comment {}{} {} {}\n", ply_note_prefix, attribute.components,
+                           (attribute.normalized ? 1 : 0) + (attribute.v_up ? 2 : 0), escape_ply_name(attribute.name));
         for (const std::string& name : component_names(attribute)) {
             properties += fmt::format("property {} {}\n", ply_type(attribute.type), names.take(name));
         }
