@@ -14,6 +14,7 @@
 #include "lrcore/lr/lr_encode.h"
 #include "lrcore/packed/packed_format.h"
 #include "lrcore/packed/packed_stream.h"
+#include "tests/support/lr_consistency.h"
 #include "tests/support/meshes.h"
 
 using namespace lr;
@@ -98,7 +99,15 @@ void check(std::span<const std::uint32_t> indices, std::uint32_t vertices) {
     }
 }
 
-/// Accepted? Then it has decoded, too.
+template <class View>
+void check_operators(const View& view) {
+    const std::string why = test::inconsistency(view);
+    if (why.empty()) return;
+    std::printf("accepted tables disagree: %s\n", why.c_str());
+    std::abort();
+}
+
+/// Accepted? Then it has decoded, too, and every operator has answered.
 bool accepted(Kind kind, std::span<const std::uint32_t> words) {
     if (kind == lean) {
         const auto view = validate_lean(words);
@@ -118,10 +127,12 @@ bool accepted(Kind kind, std::span<const std::uint32_t> words) {
         const auto stream = validate_lr(words);
         if (!stream) return false;
         check(decode_lr(*stream), stream->view.vertices);
+        check_operators(stream->view);
     } else {
         const auto stream = validate_compact_lr(words);
         if (!stream) return false;
         check(decode_lr(*stream), stream->view.vertices);
+        check_operators(stream->view);
     }
     return true;
 }
