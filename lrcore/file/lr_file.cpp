@@ -64,7 +64,7 @@ Error malformed(std::string message) { return {ErrorCode::malformed, "lr file: "
 struct Decoded {
     std::uint32_t vertices = 0;
     std::vector<std::uint32_t> indices;
-    std::vector<bool> copy;  // empty if none is
+    std::vector<bool> copy;  // empty if none is; no vertex beyond its end is
 };
 
 Result<Decoded> decode(const LrFile& file, bool untrusted) {
@@ -73,7 +73,7 @@ Result<Decoded> decode(const LrFile& file, bool untrusted) {
         if (!stream) return stream.error();
         out.vertices = stream->view.vertices;
         out.indices = decode_lr(*stream);
-        if (!stream->copies.empty()) out.copy.assign(out.vertices, false);
+        if (!stream->copies.empty()) out.copy.assign(stream->view.used_vertices(), false);
         for (std::size_t i = 0; i < stream->copies.size(); i += 2) out.copy[stream->copies[i]] = true;
         return out;
     };
@@ -110,7 +110,7 @@ void remove_copies(const Decoded& decoded, std::vector<std::uint32_t>& values) {
     if (decoded.copy.empty()) return;
     std::size_t kept = 0;
     for (std::size_t v = 0; v < values.size(); ++v) {
-        if (!decoded.copy[v]) values[kept++] = values[v];
+        if (v >= decoded.copy.size() || !decoded.copy[v]) values[kept++] = values[v];
     }
     values.resize(kept);
 }

@@ -65,7 +65,8 @@ Result<LrStream<View>> view_tables(std::span<const std::uint32_t> words, std::ui
 template <class View>
 std::vector<std::uint32_t> decode_tables(const LrStream<View>& stream, auto&& flipped) {
     const LrOperators<View> ops(stream.view);
-    std::vector<std::uint32_t> original(stream.copies.empty() ? 0 : stream.view.vertices);
+    // Copies and their originals are in use: vertices of no triangle, which no word pays for, get no entry.
+    std::vector<std::uint32_t> original(stream.copies.empty() ? 0 : stream.view.used_vertices());
     for (std::uint32_t v = 0; v < original.size(); ++v) original[v] = v;
     for (std::size_t i = 0; i < stream.copies.size(); i += 2) original[stream.copies[i]] = stream.copies[i + 1];
     std::vector<std::uint32_t> indices;
