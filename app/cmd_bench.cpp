@@ -104,17 +104,18 @@ int run(const Options& options) {
         const auto triangles = static_cast<double>(mesh->triangle_count());
         const RingOptions ring_choice{options.seeds, 1};
         const Rings rings = expand_rings(*table, ring_choice);
-        const LeanStream lean = encode_lean(*table, rings);
-        const Result<LeanView> view = view_lean(lean.words);
+        const Result<LeanStream> lean = encode_lean(*table, rings);
+        if (!lean) return fail(path, lean.error());
+        const Result<LeanView> view = view_lean(lean->words);
         if (!view) return fail(path, view.error());
 
         Section construct{"construct", {}};
         construct.candidates.push_back({"corner_table", [&] { (void)build(); }, {}, {}});
         construct.candidates.push_back({"ring", [&] { expand_rings(*table, ring_choice); }, {}, {}});
-        construct.candidates.push_back({"lean_encode", [&] { encode_lean(*table, rings); }, {}, {}});
+        construct.candidates.push_back({"lean_encode", [&] { (void)encode_lean(*table, rings); }, {}, {}});
         const auto whole = [&] {
             const Result<CornerTable> t = build();
-            encode_lean(*t, expand_rings(*t, ring_choice));
+            (void)encode_lean(*t, expand_rings(*t, ring_choice));
         };
         construct.candidates.push_back({"lean", whole, {}, {}});
         construct.candidates.push_back(

@@ -27,8 +27,9 @@ Result<std::vector<PeriodFigures>> figures_by_period(const Mesh& mesh, RingOptio
         figures.compact_bits = 8 * static_cast<double>(compact->view().bytes()) / triangles;
 
         ring.one_per_shell = false;
-        const LeanStream lean = encode_lean(*table, expand_rings(*table, ring));
-        const Result<LeanView> view = view_lean(lean.words);
+        const Result<LeanStream> lean = encode_lean(*table, expand_rings(*table, ring));
+        if (!lean) return lean.error();
+        const Result<LeanView> view = view_lean(lean->words);
         if (!view) return view.error();
         figures.lean_references = static_cast<double>(view->references()) / triangles;
         std::vector<std::uint32_t> indices(std::size_t{3} * view->slots());

@@ -73,7 +73,7 @@ constexpr Column kLean[] = {
     {"strips, degenerate", 3, [](const Mesh& m, const FormatSet& s) { return references(m, s, "strip_degenerate"); }},
     {"%T0", 2, [](const Mesh& m, const FormatSet& s) { return percent(s.lean.t0, m); }},
     {"%T0w", 2, [](const Mesh& m, const FormatSet& s) { return percent(s.lean.t0_wart, m); }},
-    {"lean, bytes", 0, [](const Mesh&, const FormatSet& s) { return static_cast<double>(find(s, "lean")->bytes); }},
+    {"lean, bytes", 0, [](const Mesh& m, const FormatSet& s) { return bits(m, s, "lean") / 8 * triangles(m); }},
 };
 
 double acmr(const Mesh& mesh, const FormatSet& set, std::string_view name) {

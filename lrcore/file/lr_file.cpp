@@ -13,6 +13,7 @@
 #include "lrcore/base/bits.h"
 #include "lrcore/base/crc32.h"
 #include "lrcore/base/file.h"
+#include "lrcore/base/signature.h"
 #include "lrcore/lean/lean_stream.h"
 #include "lrcore/lr/lr_stream.h"
 #include "lrcore/packed/packed_stream.h"
@@ -41,6 +42,7 @@ struct FileHeader {
     std::uint32_t header_crc;  // of the seven words before
 };
 static_assert(sizeof(FileHeader) == 32);
+static_assert(kMagic == magic::kLrFile);
 
 struct Section {
     std::uint32_t kind;
@@ -115,14 +117,23 @@ void remove_copies(const Decoded& decoded, std::vector<std::uint32_t>& values) {
     values.resize(kept);
 }
 
+/// Empty, or what was given in the place of an .lr file.
+std::string not_an_lr_file(std::span<const std::byte> bytes) {
+    std::uint32_t magic_number = 0;
+    if (bytes.size() >= sizeof magic_number) std::memcpy(&magic_number, bytes.data(), sizeof magic_number);
+    if (magic_number == kMagic) return {};
+    const std::string_view kind = kind_by_signature(bytes);
+    return kind.empty() ? "not an .lr file" : fmt::format("not an .lr file: it looks like {}", kind);
+}
+
 /// Checks header and section table and calls visit(section, contents) for each section; what visit returns, if not empty,
 /// is an error. The contents' checksums are visit's to look at.
 template <class Visit>
 Result<FileHeader> visit_sections(std::span<const std::byte> bytes, Visit visit) {
     FileHeader header;
+    if (std::string why = not_an_lr_file(bytes); !why.empty()) return Error{ErrorCode::malformed, std::move(why)};
     if (bytes.size() < sizeof header) return malformed("shorter than its header");
     std::memcpy(&header, bytes.data(), sizeof header);
-    if (header.magic != kMagic) return malformed("wrong magic number");
     if (header.version != kVersion) return malformed(fmt::format("version {} is not {}", header.version, kVersion));
     if (header.header_crc != crc32(bytes.first(28)) || header.reserved != 0) return malformed("damaged header");
     const std::uint64_t table = std::uint64_t{header.sections} * sizeof(Section);

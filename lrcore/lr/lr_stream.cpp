@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "lrcore/base/signature.h"
 #include "lrcore/lr/operators.h"
 #include "lrcore/lr/stream_header.h"
 
@@ -9,14 +10,14 @@ namespace lr {
 namespace {
 
 template <class Table>
-std::vector<std::uint32_t> serialize_tables(const Table& table, std::uint32_t magic, std::uint32_t unit,
+std::vector<std::uint32_t> serialize_tables(const Table& table, std::uint32_t magic_number, std::uint32_t unit,
                                             std::span<const VertexCopy> copies) {
     const auto size = [](const auto& v) { return static_cast<std::uint32_t>(v.size()); };
-    std::vector<std::uint32_t> words = {magic,
+    std::vector<std::uint32_t> words = {magic_number,
                                         kLrVersion,
                                         table.vertices,
                                         table.ring_vertices,
-                                        size(table.vo) / 6,
+                                        static_cast<std::uint32_t>(table.vo.size() / 6),
                                         size(table.star),
                                         size(table.c),
                                         static_cast<std::uint32_t>(copies.size()),
@@ -33,10 +34,10 @@ std::vector<std::uint32_t> serialize_tables(const Table& table, std::uint32_t ma
 }
 
 template <class View>
-Result<LrStream<View>> view_tables(std::span<const std::uint32_t> words, std::uint32_t magic,
-                                   std::uint32_t per_vertex) {
+Result<LrStream<View>> view_tables(std::span<const std::uint32_t> words, std::uint32_t magic_number,
+                                   std::uint32_t per_vertex, std::string_view wanted) {
     if (words.size() < kLrHeaderWords) return malformed_lr("shorter than their header");
-    if (words[kW_magic] != magic) return malformed_lr("wrong magic number");
+    if (words[kW_magic] != magic_number) return malformed_lr(wrong_magic(words, wanted));
     if (words[kW_version] != kLrVersion)
         return malformed_lr(fmt::format("version {} is not {}", words[kW_version], kLrVersion));
     const std::uint64_t sizes[] = {std::uint64_t{words[kW_ring]} * per_vertex, std::uint64_t{words[kW_t0]} * 6,
@@ -86,17 +87,18 @@ std::vector<std::uint32_t> decode_tables(const LrStream<View>& stream, auto&& fl
 }  // namespace
 
 std::vector<std::uint32_t> serialize(const LrTable& table, std::span<const VertexCopy> copies) {
-    return serialize_tables(table, kLrMagic, 0, copies);
+    return serialize_tables(table, magic::kLr, 0, copies);
 }
 std::vector<std::uint32_t> serialize(const CompactLrTable& table, std::span<const VertexCopy> copies) {
-    return serialize_tables(table, kCompactLrMagic, table.unit, copies);
+    return serialize_tables(table, magic::kCompactLr, table.unit, copies);
 }
 
 Result<LrStream<LrView>> view_lr(std::span<const std::uint32_t> words) {
-    return view_tables<LrView>(words, kLrMagic, 2);
+    return view_tables<LrView>(words, magic::kLr, 2, "standard LR tables");
 }
 Result<LrStream<CompactLrView>> view_compact_lr(std::span<const std::uint32_t> words) {
-    Result<LrStream<CompactLrView>> stream = view_tables<CompactLrView>(words, kCompactLrMagic, 1);
+    Result<LrStream<CompactLrView>> stream =
+        view_tables<CompactLrView>(words, magic::kCompactLr, 1, "bit-efficient LR tables");
     if (stream) stream->view.unit = words[kW_unit];
     return stream;
 }

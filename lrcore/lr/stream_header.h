@@ -12,7 +12,6 @@
 
 namespace lr {
 
-constexpr std::uint32_t kLrMagic = 0x5443524c, kCompactLrMagic = 0x4243524c;  // "LRCT", "LRCB"
 constexpr std::uint32_t kLrVersion = 1;
 enum LrHeaderWord {
     kW_magic,

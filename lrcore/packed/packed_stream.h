@@ -40,7 +40,7 @@ enum class PackedProfile {
 
 /// Encodes every triangle of the table that is not degenerate.
 /// Cost: O(T) time; beside the result 5 bytes a triangle, 5 a vertex and 4 bits a triangle while it runs.
-/// Errors: too_large (records of 4 GiB: at least 300 million triangles).
+/// Errors: too_large (2^29 vertices; records of 4 GiB: at least 300 million triangles).
 Result<PackedStream> encode_packed(const CornerTable& table, const Rings& rings,
                                    PackedProfile profile = PackedProfile::small);
 

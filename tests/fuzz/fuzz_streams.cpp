@@ -51,7 +51,7 @@ std::array<Words, kinds> streams_of(const Mesh& mesh) {
     std::array<Words, kinds> out;
     const CornerTable table = build_corner_table(mesh.indices, mesh.vertex_count).value();
     const Rings rings = expand_rings(table, {.seeds = 1, .random_seed = state, .k = random(4)});
-    out[lean] = encode_lean(table, rings).words;
+    out[lean] = encode_lean(table, rings)->words;
     out[packed] = encode_packed(table, rings).value().words;
     out[packed_cache] = encode_packed(table, rings, PackedProfile::cache).value().words;
     if (auto tables = encode_lr(table, {})) out[lr_tables] = std::move(tables->words);

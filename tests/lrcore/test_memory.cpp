@@ -89,7 +89,7 @@ TEST_CASE("LR tables with vertices of no triangle decode in the memory that thei
 }
 
 TEST_CASE("a lean stream with vertices of no triangle") {
-    std::vector<std::uint32_t> words = encode_lean(table_of(pinched()), expand_rings(table_of(pinched()))).words;
+    std::vector<std::uint32_t> words = encode_lean(table_of(pinched()), expand_rings(table_of(pinched())))->words;
     words[LR_LEAN_WORD_VERTICES] = 1U << 29;
     words[LR_LEAN_WORD_CHECKSUM] = lean_checksum(words);
     CHECK(bytes_of([&] { CHECK(validate_lean(words)); }) < kLittle);
