@@ -70,7 +70,10 @@ Json to_json(const std::string& path, const Mesh& mesh, const FormatSet& set) {
         {"t2", set.lr_compact.t2},     {"irregular", set.lr_compact.t1_irregular + set.lr_compact.t2_irregular},
         {"long", set.lr_compact_long}, {"isolated", set.lr_compact.isolated}};
     for (const auto& [name, reason] : set.absent) out["absent"][name] = reason;
-    out["best_order"] = {{"acmr_fifo32", set.best_order.acmr}, {"atvr_fifo32", set.best_order.atvr}};
+    out["best_order"] = nullptr;
+    if (set.best_order) {
+        out["best_order"] = {{"acmr_fifo32", set.best_order->acmr}, {"atvr_fifo32", set.best_order->atvr}};
+    }
     out["packed"] = {{"ring_vertices", set.packed.ring_vertices},
                      {"warts", set.packed.events[LR_PACKED_WART]},
                      {"splits", set.packed.events[LR_PACKED_SPLIT]},
@@ -103,8 +106,11 @@ void print(const std::string& path, const Mesh& mesh, const FormatSet& set) {
             base > 0 ? 100 * bytes / base : 0.0, cache.acmr, cache.atvr,
             format.deflated == 0 ? "" : fmt::format("{}", format.deflated));
     }
-    fmt::print("  meshoptimizer's best order for the vertex cache: ACMR(32) {:.3f}, ATVR(32) {:.3f}\n",
-               set.best_order.acmr, set.best_order.atvr);
+    if (set.best_order) {
+        fmt::print("  meshoptimizer's best order for the vertex cache: ACMR(32) {:.3f}, ATVR(32) {:.3f}\n",
+                   set.best_order->acmr, set.best_order->atvr);
+    }
+    for (const auto& [name, reason] : set.absent) fmt::print("  {:<20}absent: {}\n", name, reason);
     fmt::print("\n");
 }
 

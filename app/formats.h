@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,8 +43,8 @@ struct FormatSet {
     LrStatistics lr_compact;
     std::uint32_t lr_compact_long = 0;  ///< n_l of section 8
     PackedStatistics packed;
-    CacheFigures best_order;  ///< meshoptimizer's order for the vertex cache
-    RingOptions ring;         ///< lean's
+    std::optional<CacheFigures> best_order;  ///< meshoptimizer's order for the vertex cache; none where absent
+    RingOptions ring;                        ///< lean's
     std::vector<Format> formats;
     std::vector<std::pair<std::string, std::string>> absent;  ///< name, reason
 };

@@ -87,7 +87,7 @@ constexpr Column kPacked[] = {
     {"packed, bits", 3, [](const Mesh& m, const FormatSet& s) { return bits(m, s, "packed"); }},
     {"cache profile, bits", 3, [](const Mesh& m, const FormatSet& s) { return bits(m, s, "packed_cache"); }},
     {"its ACMR(32)", 3, [](const Mesh& m, const FormatSet& s) { return acmr(m, s, "packed_cache"); }},
-    {"best order's", 3, [](const Mesh&, const FormatSet& s) { return s.best_order.acmr; }},
+    {"best order's", 3, [](const Mesh&, const FormatSet& s) { return s.best_order ? s.best_order->acmr : kNone; }},
     {"index codec, bits", 2, [](const Mesh& m, const FormatSet& s) { return bits(m, s, "meshopt_index_codec"); }},
     {"over packed", 1,
      [](const Mesh& m, const FormatSet& s) { return bits(m, s, "meshopt_index_codec") / bits(m, s, "packed"); }},
