@@ -39,6 +39,7 @@ Result<GpuFigures> measure_gpu(const Mesh& mesh, const gpu::ContextOptions& opti
     }
     figures.decode.push_back(candidate("copy", times->copy));
     figures.device_bytes = times->device_bytes;
+    figures.absent = times->absent;
     return figures;
 }
 

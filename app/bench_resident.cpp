@@ -8,6 +8,7 @@
 #include <random>
 #include <span>
 
+#include "app/bench_operators.h"
 #include "app/print.h"
 #include "app/resident_visits.h"
 #include "lrcore/corner_table/geometry.h"
@@ -182,7 +183,7 @@ class Maker {
     std::size_t page_bytes_;
 };
 
-Result<void> add_all(Maker& maker, const CornerTable& table, const CornerTableC& with_c) {
+Result<void> add_all(Maker& maker, const CornerTable& table, const CornerTableC& with_c, bool with_squad) {
     const CornerTableCView reference = with_c.view();
     const std::size_t c = with_c.vertex_of.size();
     Result<void> added = maker.add(
@@ -191,7 +192,7 @@ Result<void> add_all(Maker& maker, const CornerTable& table, const CornerTableC&
             return CornerTableCView{{}, reference.vertices, words.first(c), words.subspan(c, c), words.subspan(2 * c)};
         });
     if (!added) return added;
-    {
+    if (with_squad) {
         LrMap map;
         const Result<Squad> squad = build_squad(table, {}, &map);
         if (!squad) return squad.error();
@@ -279,7 +280,9 @@ Result<ResidentFigures> measure_resident(const Mesh& mesh, CornerTable input, co
         out.page_bytes = options.page_kib != 0 ? options.page_kib * 1024 : choose_page(4 * with_c.view().references());
         out.contour_triangles = reference.visits.contour_triangles;
         Maker maker(reference, positions, scratch, out.page_bytes);
-        if (const Result<void> added = add_all(maker, *table, with_c); !added) return added.error();
+        const std::string no_squad = no_squad_operators(*table);
+        if (!no_squad.empty()) out.absent.emplace_back("squad", no_squad);
+        if (const Result<void> added = add_all(maker, *table, with_c, no_squad.empty()); !added) return added.error();
         structures = std::move(maker.structures);
         out.page_bytes = structures.front()->file().page_bytes();
     }
@@ -289,7 +292,8 @@ Result<ResidentFigures> measure_resident(const Mesh& mesh, CornerTable input, co
     for (const auto& s : structures)
         out.structures.push_back({s->name(), s->file().bytes().size(), s->file().direct()});
 
-    for (const std::size_t limit : choose_limits(options, bytes(0), bytes(2), bytes(3), out.page_bytes)) {
+    const std::size_t last = structures.size() - 1;  // lr_compact; before it comes lr
+    for (const std::size_t limit : choose_limits(options, bytes(0), bytes(last - 1), bytes(last), out.page_bytes)) {
         ResidentFigures::Level level;
         level.limit_bytes = limit;
         level.corner_tables = static_cast<double>(limit) / static_cast<double>(bytes(0));
@@ -328,6 +332,7 @@ void print_resident(const ResidentFigures& figures) {
     print("    pages of {} KiB, first in first out; {} random visits; {} triangles on contours{}\n",
           figures.page_bytes / 1024, figures.sample, figures.contour_triangles,
           figures.structures.front().direct ? "" : "; the file system's memory, not a disk, is read");
+    for (const auto& [name, reason] : figures.absent) print("    {} is absent: {}\n", name, reason);
     const auto header = [&](const char* title) {
         print("    {:<34}", title);
         for (const auto& s : figures.structures) print("{:>14}", s.name);
@@ -377,10 +382,13 @@ nlohmann::ordered_json to_json(const ResidentFigures& figures) {
                           {"corner_tables", level.corner_tables},
                           {"structures", std::move(by_structure)}});
     }
+    Json absent = Json::object();
+    for (const auto& [name, reason] : figures.absent) absent[name] = reason;
     return {{"page_bytes", figures.page_bytes},
             {"sample", figures.sample},
             {"contour_triangles", figures.contour_triangles},
             {"structures", std::move(structures)},
+            {"absent", std::move(absent)},
             {"levels", std::move(levels)}};
 }
 

@@ -13,6 +13,7 @@
 #include "app/commands.h"
 #include "app/measure.h"
 #include "lrcore/baseline/codecs.h"
+#include "lrcore/baseline/limit.h"
 #include "lrcore/baseline/strips.h"
 #include "lrcore/corner_table/split.h"
 #include "lrcore/lean/lean_stream.h"
@@ -50,6 +51,12 @@ constexpr std::uint32_t kHybridPeriod = 32;  // of Figure 8's middle picture
 struct Section {
     std::string name;
     std::vector<Candidate> candidates;
+
+    /// Seconds of a candidate; 0 where there is none of that name.
+    double median(std::string_view candidate) const {
+        const auto found = std::ranges::find(candidates, candidate, &Candidate::name);
+        return found == candidates.end() ? 0 : found->median();
+    }
 };
 
 Json to_json(const Section& section, double triangles) {
@@ -104,21 +111,28 @@ int run(const Options& options, RunLog& log) {
         const auto triangles = static_cast<double>(mesh->triangle_count());
         const RingOptions ring_choice{options.seeds, 1};
         const Rings rings = expand_rings(*table, ring_choice);
-        const LeanStream lean = encode_lean(*table, rings);
-        const Result<LeanView> view = view_lean(lean.words);
+        const Result<LeanStream> lean = encode_lean(*table, rings);
+        if (!lean) return fail(path, lean.error());
+        const Result<LeanView> view = view_lean(lean->words);
         if (!view) return fail(path, view.error());
 
         Section construct{"construct", {}};
         construct.candidates.push_back({"corner_table", [&] { (void)build(); }, {}, {}});
         construct.candidates.push_back({"ring", [&] { expand_rings(*table, ring_choice); }, {}, {}});
-        construct.candidates.push_back({"lean_encode", [&] { encode_lean(*table, rings); }, {}, {}});
+        construct.candidates.push_back({"lean_encode", [&] { (void)encode_lean(*table, rings); }, {}, {}});
         const auto whole = [&] {
             const Result<CornerTable> t = build();
-            encode_lean(*t, expand_rings(*t, ring_choice));
+            (void)encode_lean(*t, expand_rings(*t, ring_choice));
         };
         construct.candidates.push_back({"lean", whole, {}, {}});
-        construct.candidates.push_back(
-            {"strips", [&] { make_restart_strip(mesh->indices, mesh->vertex_count); }, {}, {}});
+        Json absent = Json::object();
+        const auto strips = [&] { (void)make_restart_strip(mesh->indices, mesh->vertex_count); };
+        const Result<void> orders = check_valences(mesh->indices, mesh->vertex_count);
+        if (orders) {
+            construct.candidates.push_back({"strips", strips, {}, {}});
+        } else {
+            absent["strips"] = orders.error().message;
+        }
         // From a corner table of a pseudo-manifold to the tables, ring included.
         CornerTable split = *table;
         split_fans(split);
@@ -161,20 +175,25 @@ int run(const Options& options, RunLog& log) {
         for (const std::uint32_t t : small->triangle_order) {
             for (std::size_t k = 0; k < 3; ++k) proper.push_back(mesh->indices[std::size_t{3} * t + k]);
         }
-        const CodedIndices codec = encode_meshopt_indices(proper, mesh->vertex_count);
+        const Result<CodedIndices> codec = encode_meshopt_indices(proper, mesh->vertex_count);
         decode.candidates.push_back({"packed", [&] { decode_packed(*packed, unpacked); }, {}, {}});
         decode.candidates.push_back({"packed_2_threads", [&] { decode_packed(*packed, unpacked, 2); }, {}, {}});
         decode.candidates.push_back({"packed_cache", [&] { decode_packed(*packed_cache, unpacked); }, {}, {}});
-        decode.candidates.push_back(
-            {"meshopt_index_codec", [&] { (void)decode_meshopt_indices(codec.bytes, decoded); }, {}, {}});
+        if (codec) {
+            decode.candidates.push_back(
+                {"meshopt_index_codec", [&] { (void)decode_meshopt_indices(codec->bytes, decoded); }, {}, {}});
+        } else {
+            absent["meshopt_index_codec"] = codec.error().message;
+        }
         run_interleaved(decode.candidates, options.rounds * 3);
 
         std::vector<OperatorFigures> operators;
         Json operators_json = Json::object();
         if (options.operators) {
-            Result<std::vector<OperatorFigures>> measured = measure_operators(*mesh, *table, options.rounds);
+            Result<OperatorBench> measured = measure_operators(*mesh, *table, options.rounds);
             if (!measured) return fail(path, measured.error());
-            operators = std::move(*measured);
+            operators = std::move(measured->structures);
+            for (const auto& [name, reason] : measured->absent) absent[name + "_operators"] = reason;
             for (const OperatorFigures& structure : operators) {
                 Json& entry = operators_json[structure.structure];
                 for (const auto& row : structure.rows) entry[row.name] = {{"ns_per_op", row.ns_per_op()}};
@@ -205,26 +224,27 @@ int run(const Options& options, RunLog& log) {
             draw = to_json({"", gpu->draw}, triangles);
             add_costs(draw, *gpu);
             peak["gpu"] = gpu->device_bytes;
+            for (const auto& [name, reason] : gpu->absent) absent[name] = reason;
         } else if (gpu.error().code == ErrorCode::no_device && options.context.device.empty()) {
             gpu_skipped = gpu.error().message;
         } else {
             return fail(path, gpu.error());
         }
 #endif
-        peak.update(Json{{"lean", peak_bytes(whole)},
-                         {"packed", peak_bytes(whole_packed)},
-                         {"strips", peak_bytes([&] { make_restart_strip(mesh->indices, mesh->vertex_count); })}});
-        const double ratio = construct.candidates[4].median() / construct.candidates[3].median();
+        peak.update(Json{{"lean", peak_bytes(whole)}, {"packed", peak_bytes(whole_packed)}});
+        if (orders) peak["strips"] = peak_bytes(strips);
+        const double ratio = construct.median("strips") / construct.median("lean");
         if (options.json) {
             meshes.push_back({{"file", path},
                               {"triangles", mesh->triangle_count()},
                               {"construct", to_json(construct, triangles)},
-                              {"construct_ratio", {{"strips_over_lean", ratio}}},
+                              {"construct_ratio", {{"strips_over_lean", orders ? Json(ratio) : Json(nullptr)}}},
                               {"decode_cpu", to_json(decode, triangles)},
                               {"decode_gpu", to_json(decode_gpu, triangles)},
                               {"draw", draw},
                               {"device", device},
                               {"gpu_skipped", gpu_skipped},
+                              {"absent", absent},
                               {"operators", operators_json},
                               {"resident", resident ? to_json(*resident) : Json::object()},
                               {"peak_bytes", peak}});
@@ -253,7 +273,11 @@ int run(const Options& options, RunLog& log) {
             print("\n");
         }
         if (resident) print_resident(*resident);
-        print("  lean is built {:.2f} times as fast as strips\n  peak memory beyond the input\n", ratio);
+        if (orders) print("  lean is built {:.2f} times as fast as strips\n", ratio);
+        for (const auto& [name, reason] : absent.items()) {
+            print("  {} absent: {}\n", name, reason.get<std::string>());
+        }
+        print("  peak memory beyond the input\n");
         for (const auto& [name, bytes] : peak.items()) {
             print("    {:<24}{:>11.1f} MB{:>10.1f} bytes a triangle\n", name, bytes.get<double>() / 1e6,
                   bytes.get<double>() / triangles);

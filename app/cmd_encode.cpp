@@ -30,9 +30,10 @@ Result<LrFile> encode(const Options& options, const Mesh& mesh, CornerTable tabl
     if (options.format == "lean") {
         const Rings rings =
             optimize_rings(table, expand_rings(table, ring), optimize_options(options.ring, lean_ring_cost));
-        LeanStream lean = encode_lean(table, rings, {.wart_skipping = !options.no_warts});
-        return make_lr_file(mesh, Connectivity::lean, std::move(lean.words), std::move(lean.vertex_order),
-                            std::move(lean.slot_triangle), options.keep_order);
+        Result<LeanStream> lean = encode_lean(table, rings, {.wart_skipping = !options.no_warts});
+        if (!lean) return lean.error();
+        return make_lr_file(mesh, Connectivity::lean, std::move(lean->words), std::move(lean->vertex_order),
+                            std::move(lean->slot_triangle), options.keep_order);
     }
     if (options.format == "packed") {
         Result<PackedChoice> choice =

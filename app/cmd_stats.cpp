@@ -45,7 +45,7 @@ Json sizes_to_json(const std::string& path, const Mesh& mesh, const FormatSet& s
                   {"seeds", set.ring.seeds}}},
                 {"formats", Json::object()},
                 {"absent", Json::object()}};
-    const auto triangles = static_cast<double>(mesh.triangle_count());
+    const double triangles = set.triangles();
     for (const Format& format : set.formats) {
         const CacheFigures cache = analyze_fifo32(format.indices, format.vertex_count(mesh));
         Json entry = {{"bytes", format.bytes},
@@ -71,7 +71,10 @@ Json sizes_to_json(const std::string& path, const Mesh& mesh, const FormatSet& s
         {"t2", set.lr_compact.t2},     {"irregular", set.lr_compact.t1_irregular + set.lr_compact.t2_irregular},
         {"long", set.lr_compact_long}, {"isolated", set.lr_compact.isolated}};
     for (const auto& [name, reason] : set.absent) out["absent"][name] = reason;
-    out["best_order"] = {{"acmr_fifo32", set.best_order.acmr}, {"atvr_fifo32", set.best_order.atvr}};
+    out["best_order"] = nullptr;
+    if (set.best_order) {
+        out["best_order"] = {{"acmr_fifo32", set.best_order->acmr}, {"atvr_fifo32", set.best_order->atvr}};
+    }
     out["packed"] = {{"ring_vertices", set.packed.ring_vertices},
                      {"warts", set.packed.events[LR_PACKED_WART]},
                      {"splits", set.packed.events[LR_PACKED_SPLIT]},
@@ -81,7 +84,7 @@ Json sizes_to_json(const std::string& path, const Mesh& mesh, const FormatSet& s
 }
 
 void print_sizes(const std::string& path, const Mesh& mesh, const FormatSet& set, const std::optional<LrContents>& lr) {
-    const auto triangles = static_cast<double>(mesh.triangle_count());
+    const double triangles = set.triangles();
     const auto share = [&](std::uint32_t count) { return 100.0 * count / triangles; };
     print("{}: {} triangles, {} vertices, {} component{}, {} border edges", path, mesh.triangle_count(),
           mesh.vertex_count, set.report.components, set.report.components == 1 ? "" : "s", set.topology.border_edges);
@@ -103,8 +106,11 @@ void print_sizes(const std::string& path, const Mesh& mesh, const FormatSet& set
               base > 0 ? 100 * bytes / base : 0.0, cache.acmr, cache.atvr,
               format.deflated == 0 ? "" : fmt::format("{}", format.deflated));
     }
-    print("  meshoptimizer's best order for the vertex cache: ACMR(32) {:.3f}, ATVR(32) {:.3f}\n", set.best_order.acmr,
-          set.best_order.atvr);
+    if (set.best_order) {
+        print("  meshoptimizer's best order for the vertex cache: ACMR(32) {:.3f}, ATVR(32) {:.3f}\n",
+              set.best_order->acmr, set.best_order->atvr);
+    }
+    for (const auto& [name, reason] : set.absent) print("  {:<20}absent: {}\n", name, reason);
     print("\n");
 }
 
@@ -149,7 +155,7 @@ int add_ring_figures(const Options& options, const std::string& path, const Mesh
     if (json != nullptr) {
         (*json)["by_period"] = to_json(*periods);
     } else {
-        (figure8 ? print_offsets : print_periods)(path, mesh, *periods);
+        (figure8 ? print_offsets : print_periods)(path, *periods);
     }
     return done;
 }

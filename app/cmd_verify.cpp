@@ -73,11 +73,16 @@ int run(const Options& options, RunLog& log) {
         }
         all = all && why.empty();
         formats[format.name] = {{"ok", why.empty()}, {"why", why}};
-        if (!options.json) print("{:<18} {}\n", format.name, why.empty() ? "ok" : "FAILED: " + why);
+        if (!options.json) print("{:<20} {}\n", format.name, why.empty() ? "ok" : "FAILED: " + why);
+    }
+    nlohmann::ordered_json absent = nlohmann::ordered_json::object();
+    for (const auto& [name, reason] : set->absent) {
+        absent[name] = reason;
+        if (!options.json) print("{:<20} absent: {}\n", name, reason);
     }
     if (options.json) {
         const nlohmann::ordered_json out = {
-            {"schema", 1}, {"file", input_name(options.input.path)}, {"formats", formats}};
+            {"schema", 1}, {"file", input_name(options.input.path)}, {"formats", formats}, {"absent", absent}};
         print_json(out);
     }
     return all ? done : check_failed;

@@ -2,7 +2,9 @@
 
 #include <functional>
 #include <list>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include "lrcore/baseline/codecs.h"
 #include "renderer/renderer.h"
@@ -38,7 +40,7 @@ struct BestOrder {
     std::vector<std::uint32_t> indices;
     Model model;
 
-    explicit BestOrder(const Model& from) : indices(best_cache_order(from.indices, from.vertex_count())) {
+    BestOrder(const Model& from, std::vector<std::uint32_t> order) : indices(std::move(order)) {
         std::vector<std::uint32_t> number(from.vertex_count(), UINT32_MAX);
         std::uint32_t next = 0;
         model.positions.resize(from.positions.size());
@@ -102,8 +104,14 @@ Result<DeviceTimes> measure_device(Context& context, const Model& model, const T
         return count_bytes(renderer, all.back(), stream_bytes);
     };
     LR_TRY(add("plain", model, Source::plain, Path::compute, 0));
-    const BestOrder best(model);
-    LR_TRY(add("plain_best_order", best.model, Source::plain, Path::compute, 0));
+    DeviceTimes out;
+    std::optional<BestOrder> best;  // kept while its buffers are filled
+    if (Result<std::vector<std::uint32_t>> order = best_cache_order(model.indices, model.vertex_count())) {
+        best.emplace(model, std::move(*order));
+        LR_TRY(add("plain_best_order", best->model, Source::plain, Path::compute, 0));
+    } else {
+        out.absent.emplace_back("plain_best_order", order.error().message);
+    }
     for (const auto& [path_name, path] : kPaths) {
         if (path == Path::mesh && context.info().max_mesh_groups == 0) continue;
         const std::string suffix = path == Path::compute ? "" : std::string("_") + path_name;
@@ -121,7 +129,6 @@ Result<DeviceTimes> measure_device(Context& context, const Model& model, const T
         drawable.mesh.decoded = false;
         renderer.decode(buffer, drawable);
     };
-    DeviceTimes out;
     std::vector<Work> works;
     const Buffer* lean_indices = nullptr;
     for (Uploaded& uploaded : all) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "renderer/commands.h"
@@ -42,12 +43,13 @@ struct DeviceTimes {
     Times copy;                      ///< vkCmdCopyBuffer of lean's index buffer. Trust its wall time only on lavapipe
     std::uint64_t index_bytes = 0;   ///< of lean's index buffer
     std::uint64_t device_bytes = 0;  ///< device memory held at most
+    std::vector<std::pair<std::string, std::string>> absent;  ///< ways that there are not, and why
 };
 
 /// Every source and path that model and device have, and the index list again in the order that meshoptimizer thinks
-/// best for the vertex cache, vertices in the order of their use. Pictures are drawn in one pass with smooth normals,
-/// from the default camera, and not read back. Every repetition is one submission, waited for; all kinds take turns.
-/// Device memory: all of them at the same time.
+/// best for the vertex cache, vertices in the order of their use (absent where that order takes too long). Pictures are
+/// drawn in one pass with smooth normals, from the default camera, and not read back. Every repetition is one
+/// submission, waited for; all kinds take turns. Device memory: all of them at the same time.
 Result<DeviceTimes> measure_device(Context& context, const Model& model, const TimingOptions& options = {});
 
 }  // namespace lr::gpu

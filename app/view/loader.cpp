@@ -24,7 +24,7 @@ StreamFigures figures(std::size_t triangles, std::size_t bytes, std::size_t refe
 }
 
 void measure(Document& document) {
-    const std::size_t triangles = document.mesh->triangle_count();
+    const std::size_t triangles = document.mesh->triangle_count() - document.table->topology.degenerate;
     const std::size_t vertices = document.mesh->vertex_count;
     document.plain = figures(triangles, 4 * document.mesh->indices.size(), document.mesh->indices.size(), vertices,
                              document.mesh->indices);
@@ -158,9 +158,11 @@ Result<void> Loader::finish(Document& document, const Request& request, bool qui
     const auto show = [&] {
         if (shown || since_asked() < kSoon) return;
         shown = true;
+        Result<LeanStream> lean = encode_lean(table, rings, {.wart_skipping = settings.warts});
+        if (!lean) return;  // the optimised rings will say so
         Document early = document;
         auto model = std::make_shared<gpu::Model>(*document.model);
-        model->lean = encode_lean(table, rings, {.wart_skipping = settings.warts});
+        model->lean = std::move(*lean);
         model->packed = {};
         early.rings = std::make_shared<const Rings>(rings);
         early.model = std::move(model);
@@ -186,7 +188,7 @@ Result<void> Loader::finish(Document& document, const Request& request, bool qui
     auto lean_rings = std::make_shared<Rings>(optimised(lean_ring_cost, share, 0.8, "optimising the ring"));
     if (stopped()) return {};
     auto model = std::make_shared<gpu::Model>(*document.model);
-    model->lean = encode_lean(table, *lean_rings, {.wart_skipping = settings.warts});
+    LR_ASSIGN(model->lean, encode_lean(table, *lean_rings, {.wart_skipping = settings.warts}));
     if (!quick) {
         const Rings packed_rings = optimised(packed_ring_cost, 0.8, 1.0, "optimising for the packed stream");
         if (stopped()) return {};

@@ -11,6 +11,7 @@
 #include "lrcore/base/bits.h"
 #include "lrcore/base/crc32.h"
 #include "lrcore/base/file.h"
+#include "lrcore/base/signature.h"
 #include "lrcore/lean/lean_stream.h"
 #include "lrcore/lr/lr_stream.h"
 #include "lrcore/packed/packed_stream.h"
@@ -39,6 +40,7 @@ struct FileHeader {
     std::uint32_t header_crc;  // of the seven words before
 };
 static_assert(sizeof(FileHeader) == 32);
+static_assert(kMagic == magic::kLrFile);
 
 struct Section {
     std::uint32_t kind;
@@ -62,7 +64,7 @@ Error malformed(std::string message) { return {ErrorCode::malformed, "lr file: "
 struct Decoded {
     std::uint32_t vertices = 0;
     std::vector<std::uint32_t> indices;
-    std::vector<bool> copy;  // empty if none is
+    std::vector<bool> copy;  // empty if none is; no vertex beyond its end is
 };
 
 Result<Decoded> decode(const LrFile& file, bool untrusted) {
@@ -71,7 +73,7 @@ Result<Decoded> decode(const LrFile& file, bool untrusted) {
         if (!stream) return stream.error();
         out.vertices = stream->view.vertices;
         out.indices = decode_lr(*stream);
-        if (!stream->copies.empty()) out.copy.assign(out.vertices, false);
+        if (!stream->copies.empty()) out.copy.assign(stream->view.used_vertices(), false);
         for (std::size_t i = 0; i < stream->copies.size(); i += 2) out.copy[stream->copies[i]] = true;
         return out;
     };
@@ -108,9 +110,18 @@ void remove_copies(const Decoded& decoded, std::vector<std::uint32_t>& values) {
     if (decoded.copy.empty()) return;
     std::size_t kept = 0;
     for (std::size_t v = 0; v < values.size(); ++v) {
-        if (!decoded.copy[v]) values[kept++] = values[v];
+        if (v >= decoded.copy.size() || !decoded.copy[v]) values[kept++] = values[v];
     }
     values.resize(kept);
+}
+
+/// Empty, or what was given in the place of an .lr file.
+std::string not_an_lr_file(std::span<const std::byte> bytes) {
+    std::uint32_t magic_number = 0;
+    if (bytes.size() >= sizeof magic_number) std::memcpy(&magic_number, bytes.data(), sizeof magic_number);
+    if (magic_number == kMagic) return {};
+    const std::string_view kind = kind_by_signature(bytes);
+    return kind.empty() ? "not an .lr file" : fmt::format("not an .lr file: it looks like {}", kind);
 }
 
 /// Checks header and section table and calls visit(section, contents) for each section; what visit returns, if not empty,
@@ -118,9 +129,9 @@ void remove_copies(const Decoded& decoded, std::vector<std::uint32_t>& values) {
 template <class Visit>
 Result<FileHeader> visit_sections(std::span<const std::byte> bytes, Visit visit) {
     FileHeader header;
+    if (std::string why = not_an_lr_file(bytes); !why.empty()) return Error{ErrorCode::malformed, std::move(why)};
     if (bytes.size() < sizeof header) return malformed("shorter than its header");
     std::memcpy(&header, bytes.data(), sizeof header);
-    if (header.magic != kMagic) return malformed("wrong magic number");
     if (header.version != kVersion) return malformed(fmt::format("version {} is not {}", header.version, kVersion));
     if (header.header_crc != crc32(bytes.first(28)) || header.reserved != 0) return malformed("damaged header");
     const std::uint64_t table = std::uint64_t{header.sections} * sizeof(Section);

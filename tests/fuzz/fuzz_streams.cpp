@@ -14,6 +14,7 @@
 #include "lrcore/lr/lr_encode.h"
 #include "lrcore/packed/packed_format.h"
 #include "lrcore/packed/packed_stream.h"
+#include "tests/support/lr_consistency.h"
 #include "tests/support/meshes.h"
 
 using namespace lr;
@@ -50,7 +51,7 @@ std::array<Words, kinds> streams_of(const Mesh& mesh) {
     std::array<Words, kinds> out;
     const CornerTable table = build_corner_table(mesh.indices, mesh.vertex_count).value();
     const Rings rings = expand_rings(table, {.seeds = 1, .random_seed = state, .k = random(4)});
-    out[lean] = encode_lean(table, rings).words;
+    out[lean] = encode_lean(table, rings)->words;
     out[packed] = encode_packed(table, rings).value().words;
     out[packed_cache] = encode_packed(table, rings, PackedProfile::cache).value().words;
     if (auto tables = encode_lr(table, {})) out[lr_tables] = std::move(tables->words);
@@ -98,7 +99,15 @@ void check(std::span<const std::uint32_t> indices, std::uint32_t vertices) {
     }
 }
 
-/// Accepted? Then it has decoded, too.
+template <class View>
+void check_operators(const View& view) {
+    const std::string why = test::inconsistency(view);
+    if (why.empty()) return;
+    std::printf("accepted tables disagree: %s\n", why.c_str());
+    std::abort();
+}
+
+/// Accepted? Then it has decoded, too, and every operator has answered.
 bool accepted(Kind kind, std::span<const std::uint32_t> words) {
     if (kind == lean) {
         const auto view = validate_lean(words);
@@ -118,10 +127,12 @@ bool accepted(Kind kind, std::span<const std::uint32_t> words) {
         const auto stream = validate_lr(words);
         if (!stream) return false;
         check(decode_lr(*stream), stream->view.vertices);
+        check_operators(stream->view);
     } else {
         const auto stream = validate_compact_lr(words);
         if (!stream) return false;
         check(decode_lr(*stream), stream->view.vertices);
+        check_operators(stream->view);
     }
     return true;
 }

@@ -7,9 +7,9 @@ int main(int argc, char** argv) {
     const lr::Result<lr::Mesh> mesh = lr::read_mesh(argc > 1 ? argv[1] : "");
     if (!mesh) return std::printf("%s\n", mesh.error().message.c_str()), 1;
     const auto table = lr::build_corner_table(mesh->indices, mesh->vertex_count);
-    const lr::LeanStream lean = lr::encode_lean(*table, lr::expand_rings(*table));  // lean.words is all there is to store
-    const auto view = lr::view_lean(lean.words);
+    const auto lean = lr::encode_lean(*table, lr::expand_rings(*table));  // lean->words is all there is to store
+    const auto view = lr::view_lean(lean->words);
     std::vector<std::uint32_t> indices(std::size_t{3} * view->slots());
-    lr::decode_lean(*view, indices);  // over vertices in the order lean.vertex_order
+    lr::decode_lean(*view, indices);  // over vertices in the order lean->vertex_order
     std::printf("%u triangles in %zu references\n", view->triangles, view->references());
 }

@@ -18,7 +18,7 @@ LrFile make(const Mesh& mesh, bool keep_order, Connectivity format = Connectivit
     Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
     REQUIRE(table);
     if (format == Connectivity::lean) {
-        LeanStream lean = encode_lean(*table, expand_rings(*table));
+        LeanStream lean = encode_lean(*table, expand_rings(*table)).value();
         return make_lr_file(mesh, format, lean.words, lean.vertex_order, lean.slot_triangle, keep_order);
     }
     if (format == Connectivity::packed) {
