@@ -24,7 +24,7 @@ struct GpuFigures {
     std::vector<Candidate> draw;    ///< gpu::Way's names, and "lean_decode_every_frame", "packed_decode_every_frame"
     std::vector<DrawCost> cost;     ///< of each of `draw`
     std::uint64_t device_bytes = 0;
-    std::vector<std::pair<std::string, std::string>> absent;  ///< name of a way that there is not, reason
+    std::vector<std::pair<std::string, std::string>> absent;  ///< name of a missing way, reason
 };
 
 /// With the streams that the program recommends, optimised. Errors: no_device, and those of the renderer.

@@ -143,7 +143,7 @@ std::string no_squad_operators(const CornerTable& table) {
     for (const CornerTable::Corner& c : table.corners) vertices.push_back(c.vertex.value);
     const Valences valences = count_valences(vertices, table.vertex_count);
     if (valences.moderate()) return {};
-    return fmt::format("c.v takes as long as the vertex has triangles, and one has {}", valences.most);
+    return fmt::format("c.v takes time proportional to the valence, and one vertex has {} triangles", valences.most);
 }
 
 Result<OperatorBench> measure_operators(const Mesh& mesh, CornerTable table, int rounds) {

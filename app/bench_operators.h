@@ -29,8 +29,7 @@ struct OperatorBench {
     std::vector<std::pair<std::string, std::string>> absent;  ///< structure, reason
 };
 
-/// Why SQuad's operators are not timed on a pseudo-manifold: its c.v takes as long as the vertex has triangles. Empty:
-/// they are.
+/// Returns why SQuad's operators cannot be timed on a pseudo-manifold table (its c.v is O(valence)); empty if they can.
 std::string no_squad_operators(const CornerTable& table);
 
 /// Times sequential loops over all corners (c.v; c.o, c.s for SQuad) and vertices (valence, normal), and the contours

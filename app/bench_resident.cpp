@@ -292,7 +292,7 @@ Result<ResidentFigures> measure_resident(const Mesh& mesh, CornerTable input, co
     for (const auto& s : structures)
         out.structures.push_back({s->name(), s->file().bytes().size(), s->file().direct()});
 
-    const std::size_t last = structures.size() - 1;  // lr_compact; before it comes lr
+    const std::size_t last = structures.size() - 1;  // of lr_compact; lr is the one before
     for (const std::size_t limit : choose_limits(options, bytes(0), bytes(last - 1), bytes(last), out.page_bytes)) {
         ResidentFigures::Level level;
         level.limit_bytes = limit;

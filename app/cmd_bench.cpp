@@ -52,7 +52,7 @@ struct Section {
     std::string name;
     std::vector<Candidate> candidates;
 
-    /// Seconds of a candidate; 0 where there is none of that name.
+    /// Median seconds of the named candidate; 0 if it is missing.
     double median(std::string_view candidate) const {
         const auto found = std::ranges::find(candidates, candidate, &Candidate::name);
         return found == candidates.end() ? 0 : found->median();

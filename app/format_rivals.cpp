@@ -14,15 +14,15 @@
 namespace lr::app {
 namespace {
 
-/// Each corner's vertex, UINT32_MAX where no star has it: four entries a triangle number.
+/// The vertex of each corner, by walking each star once; UINT32_MAX if no star contains the corner.
 std::vector<std::uint32_t> vertices_by_stars(const SquadView& view) {
     std::vector<std::uint32_t> out(std::size_t{4} * view.triangle_numbers(), UINT32_MAX);
     for (std::uint32_t v = 0; v < view.vertices; ++v) view.star({v}, [&](CornerId c) { out[c.value] = v; });
     return out;
 }
 
-/// Reads c.v by walking around each vertex once: c.v by itself takes as long as the vertex has triangles, and so all of
-/// them the square of that. Where there are few it has to say the same.
+/// Tells c.v of every corner in O(T), from the stars: SquadView::vertex is O(valence), which is quadratic over all
+/// corners of a vertex. Up to kFew triangles at a vertex, both must agree; a disagreement is stored in `invalid`.
 class SquadReader {
   public:
     SquadReader(const SquadView& view, std::string& invalid)

@@ -1,5 +1,5 @@
 #pragma once
-// The formats of a FormatSet that are not this project's. What cannot be made is in FormatSet::absent, with the reason.
+// The baseline formats of a FormatSet. A format that cannot be made is listed in FormatSet::absent with the reason.
 
 #include <cstdint>
 #include <vector>
@@ -9,13 +9,13 @@
 
 namespace lr::app {
 
-/// Triangle strips. `triangles`: the mesh's, degenerate ones left out.
+/// Adds triangle strips. `triangles` are those of the mesh without the degenerate ones.
 void add_strips(FormatSet& set, const Mesh& mesh, const std::vector<std::uint32_t>& triangles);
 
-/// The formats of meshoptimizer that are no index buffers, and its best order for the vertex cache.
+/// Adds meshoptimizer's index codec and meshlets, and sets FormatSet::best_order.
 void add_codecs(FormatSet& set, const Mesh& mesh, const std::vector<std::uint32_t>& triangles);
 
-/// The structures that answer the corner operators: winged edge, corner table, SQuad. `table` is the mesh's.
+/// Adds the structures with corner operators: winged edge, corner table, SQuad. `table` is that of the mesh.
 void add_structures(FormatSet& set, CornerTable table, std::uint32_t mesh_vertices);
 
 }  // namespace lr::app

@@ -44,7 +44,7 @@ struct FormatSet {
     LrStatistics lr_compact;
     std::uint32_t lr_compact_long = 0;  ///< n_l of section 8
     PackedStatistics packed;
-    std::optional<CacheFigures> best_order;  ///< meshoptimizer's order for the vertex cache; none where absent
+    std::optional<CacheFigures> best_order;  ///< of meshoptimizer's vertex-cache order; empty if absent
     RingOptions ring;                        ///< lean's
     std::vector<Format> formats;
     std::vector<std::pair<std::string, std::string>> absent;  ///< name, reason

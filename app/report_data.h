@@ -36,7 +36,7 @@ struct MeshReport {
     TopologyReport report;
     Topology topology;
     LeanStatistics lean;
-    std::optional<CacheFigures> best_order;  ///< as FormatSet has it
+    std::optional<CacheFigures> best_order;  ///< as in FormatSet
     std::vector<FormatFigures> formats;
     std::vector<std::pair<std::string, std::string>> absent;  ///< name, reason
     std::vector<PeriodFigures> periods;                       ///< one each of kFigure8Periods

@@ -105,7 +105,7 @@ Result<DeviceTimes> measure_device(Context& context, const Model& model, const T
     };
     LR_TRY(add("plain", model, Source::plain, Path::compute, 0));
     DeviceTimes out;
-    std::optional<BestOrder> best;  // kept while its buffers are filled
+    std::optional<BestOrder> best;  // must outlive the upload
     if (Result<std::vector<std::uint32_t>> order = best_cache_order(model.indices, model.vertex_count())) {
         best.emplace(model, std::move(*order));
         LR_TRY(add("plain_best_order", best->model, Source::plain, Path::compute, 0));

@@ -43,7 +43,7 @@ struct DeviceTimes {
     Times copy;                      ///< vkCmdCopyBuffer of lean's index buffer. Trust its wall time only on lavapipe
     std::uint64_t index_bytes = 0;   ///< of lean's index buffer
     std::uint64_t device_bytes = 0;  ///< device memory held at most
-    std::vector<std::pair<std::string, std::string>> absent;  ///< ways that there are not, and why
+    std::vector<std::pair<std::string, std::string>> absent;  ///< name of a missing way, reason
 };
 
 /// Every source and path that model and device have, and the index list again in the order that meshoptimizer thinks

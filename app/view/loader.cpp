@@ -159,7 +159,7 @@ Result<void> Loader::finish(Document& document, const Request& request, bool qui
         if (shown || since_asked() < kSoon) return;
         shown = true;
         Result<LeanStream> lean = encode_lean(table, rings, {.wart_skipping = settings.warts});
-        if (!lean) return;  // the optimised rings will say so
+        if (!lean) return;  // reported when the optimized rings are encoded
         Document early = document;
         auto model = std::make_shared<gpu::Model>(*document.model);
         model->lean = std::move(*lean);

@@ -12,7 +12,7 @@ bool is_space(char c) {
     return c == ' ' || c == '\t' || c == '\r' || c == '\n';
 }
 
-/// The first word of the first line that is no comment.
+/// The first word of the text, comment lines skipped.
 std::string_view first_word(std::string_view text) {
     while (!text.empty()) {
         if (is_space(text.front())) {

@@ -32,7 +32,7 @@ CodedIndices encode(std::vector<std::uint32_t> ordered, std::uint32_t vertex_cou
     return out;
 }
 
-/// 1, or the power of two that makes positions small enough for areas, and their squares, to be floats.
+/// Scale that keeps squared areas within the range of floats: 1, or a power of two, which rounds nothing.
 float down_scale(std::span<const float> positions) {
     constexpr float kLarge = 0x1p30F;
     float largest = 0;
@@ -76,7 +76,7 @@ Result<Meshlets> make_meshlets(std::span<const std::uint32_t> indices, std::span
     if (const Result<void> good = check_valences(indices, vertex_count); !good) return good.error();
     std::vector<float> scaled;
     if (const float scale = down_scale(positions); scale != 1) {
-        constexpr float kMost = std::numeric_limits<float>::max();  // doubles may have become more
+        constexpr float kMost = std::numeric_limits<float>::max();  // positions given as doubles may round to infinity
         scaled.reserve(positions.size());
         for (const float x : positions) scaled.push_back(std::clamp(x, -kMost, kMost) * scale);
         positions = scaled;

@@ -19,19 +19,19 @@ struct CodedIndices {
 
 /// meshopt_encodeIndexBuffer, in the better of meshopt_optimizeVertexCache's order and that for strips, vertices in the
 /// order in which they are used. Decoding starts at the first triangle. `indices` has no degenerate triangles.
-/// Errors: check_valences'.
+/// Errors: those of check_valences.
 Result<CodedIndices> encode_meshopt_indices(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);
 
 /// meshopt_decodeIndexBuffer. False if `bytes` are no such stream of so many indices.
 bool decode_meshopt_indices(std::span<const std::uint8_t> bytes, std::span<std::uint32_t> indices);
 
-/// The triangles in the order that meshopt_optimizeVertexCache thinks best. Errors: check_valences'.
+/// The triangles in the order that meshopt_optimizeVertexCache thinks best. Errors: those of check_valences.
 Result<std::vector<std::uint32_t>> best_cache_order(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);
 
 /// meshopt_buildMeshlets, 64 vertices and 124 triangles each, as a mesh shader reads them: 16 bytes a meshlet, 4 for
-/// each of its vertices, 3 for each triangle, filled up to 4. `positions` has three a vertex. Where their squares are
-/// more than floats hold they are scaled down first.
-/// Errors: check_valences'; unsupported (not all triangles come out).
+/// each of its vertices, 3 for each triangle, filled up to 4. `positions` has three a vertex. Positions
+/// above 2^30 are scaled down first, so that areas do not overflow.
+/// Errors: those of check_valences and check_places; unsupported (meshoptimizer loses triangles).
 struct Meshlets {
     std::size_t bytes = 0;
     std::vector<std::uint32_t> indices;  ///< as they come out, in the mesh's numbers

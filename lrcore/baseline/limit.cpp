@@ -11,7 +11,7 @@ namespace lr {
 
 namespace {
 
-/// Sets of triangles that vertices connect.
+/// Number of sets of triangles connected by vertices.
 std::uint64_t components(std::span<const std::uint32_t> indices, std::size_t vertex_count) {
     std::vector<std::uint32_t> parent(vertex_count);
     std::iota(parent.begin(), parent.end(), 0U);
@@ -25,7 +25,7 @@ std::uint64_t components(std::span<const std::uint32_t> indices, std::size_t ver
     return static_cast<std::uint64_t>(std::ranges::count(used, true));
 }
 
-/// A triangle's place, as far as 64 bits tell places apart: a hash of the bits of its corners' sum.
+/// Hash of the triangle's centroid: equal for triangles at the same place.
 std::uint64_t place(std::span<const float> positions, std::span<const std::uint32_t> triangle) {
     std::uint64_t hash = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -44,7 +44,7 @@ Valences count_valences(std::span<const std::uint32_t> indices, std::uint32_t ve
     out.triangles = indices.size() / 3;
     std::vector<std::uint32_t> triangles(vertex_count, 0);
     for (const std::uint32_t v : indices) {
-        out.squares += 2 * std::uint64_t{triangles[v]++} + 1;  // the next square
+        out.squares += 2 * std::uint64_t{triangles[v]++} + 1;  // from n^2 to (n + 1)^2
         out.most = std::max(out.most, triangles[v]);
     }
     return out;
@@ -68,7 +68,7 @@ Result<void> check_places(std::span<const std::uint32_t> indices, std::span<cons
         while (end < places.size() && places[end] == places[begin]) ++end;
         most = std::max(most, end - begin);
     }
-    // As if a vertex had all of them that are looked at.
+    // The number of triangles looked at takes the place of the sum of squared valences.
     const auto moderate = [&](std::uint64_t looked_for) {
         return Valences{looked_for * most, places.size(), 0}.moderate();
     };

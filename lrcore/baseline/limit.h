@@ -1,5 +1,5 @@
 #pragma once
-// What meshoptimizer's orders can be asked for.
+// Limits of meshoptimizer: meshes on which its orders would take quadratic time.
 
 #include <cstdint>
 #include <span>
@@ -8,27 +8,27 @@
 
 namespace lr {
 
-/// How many triangles the vertices have.
+/// Numbers of triangles at the vertices of a mesh.
 struct Valences {
-    std::uint64_t squares = 0;  ///< sum over the vertices
+    std::uint64_t squares = 0;  ///< sum of squares over the vertices
     std::uint64_t triangles = 0;
-    std::uint32_t most = 0;  ///< at one vertex
+    std::uint32_t most = 0;  ///< largest number at one vertex
 
-    /// May what takes time quadratic in a vertex's triangles be run? 64 a triangle, where real meshes have 18 to 40,
-    /// and what one vertex of 2,048 triangles has.
+    /// Returns whether an algorithm that is quadratic in the valence may be run: the sum of squares is at most 64 a
+    /// triangle (real meshes have 18 to 40), plus that of one vertex of 2,048 triangles.
     bool moderate() const { return squares <= 64 * triangles + std::uint64_t{2048} * 2048; }
 };
 /// Cost: O(T), 4 bytes a vertex.
 Valences count_valences(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);
 
-/// Is the mesh one for meshoptimizer's orders (for the vertex cache, for strips, of meshlets)? Each triangle that they
-/// take makes them look at all that are left at its vertices: a fan of 100,000 takes minutes. Cost: that of
-/// count_valences. Errors: too_large (the valences are not moderate).
+/// Checks that meshoptimizer's orders (vertex cache, strips, meshlets) end in linear time. For each triangle they look
+/// at all triangles left at its vertices: a fan of 100,000 takes minutes. Cost: that of count_valences.
+/// Errors: too_large (the valences are not moderate).
 Result<void> check_valences(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);
 
-/// Is the mesh one for meshlets, beside that? Where a component ends, the next triangle is looked for by its place,
-/// among all that lie at the same one. `positions` has three a vertex. Cost: O(T log T), 8 bytes a triangle. Errors:
-/// too_large, with the largest number of triangles at one place.
+/// The same for meshlets of many components: where a component ends, meshoptimizer searches the next triangle by its
+/// centroid, among all triangles with the same centroid. `positions` has three a vertex. Cost: O(T log T), 8 bytes a
+/// triangle. Errors: too_large.
 Result<void> check_places(std::span<const std::uint32_t> indices, std::span<const float> positions);
 
 }  // namespace lr

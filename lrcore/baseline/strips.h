@@ -17,10 +17,10 @@ struct Strips {
 };
 
 /// meshopt_optimizeVertexCacheStrip, then meshopt_stripify both ways. `indices` has no degenerate triangles.
-/// Errors: check_valences'.
+/// Errors: those of check_valences.
 Result<Strips> make_strips(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);
 
-/// The first of them alone: what an engine that wants strips would run. Errors: check_valences'.
+/// The first of them alone: what an engine that wants strips would run. Errors: those of check_valences.
 Result<std::vector<std::uint32_t>> make_restart_strip(std::span<const std::uint32_t> indices,
                                                       std::uint32_t vertex_count);
 

@@ -9,7 +9,7 @@ namespace lr {
 
 Result<CornerTable> build_corner_table(std::span<const std::uint32_t> indices, std::uint32_t vertex_count) {
     constexpr std::uint32_t kMostVertices = 1U << 29;
-    // Also what split_fans may make of the vertices, one for each corner more, is numbered by 32 bits.
+    // split_fans adds at most one vertex a corner: the sum must not exceed 32 bits.
     constexpr std::size_t kMostCorners = UINT32_MAX - 1;
     if (vertex_count > kMostVertices) {
         return Error{ErrorCode::too_large,

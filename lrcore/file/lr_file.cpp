@@ -64,7 +64,7 @@ Error malformed(std::string message) { return {ErrorCode::malformed, "lr file: "
 struct Decoded {
     std::uint32_t vertices = 0;
     std::vector<std::uint32_t> indices;
-    std::vector<bool> copy;  // empty if none is; no vertex beyond its end is
+    std::vector<bool> copy;  // empty if there is none; vertices beyond its end are no copies
 };
 
 Result<Decoded> decode(const LrFile& file, bool untrusted) {
@@ -115,7 +115,7 @@ void remove_copies(const Decoded& decoded, std::vector<std::uint32_t>& values) {
     values.resize(kept);
 }
 
-/// Empty, or what was given in the place of an .lr file.
+/// Empty if the bytes begin as an .lr file, else an error message that names their kind if it is known.
 std::string not_an_lr_file(std::span<const std::byte> bytes) {
     std::uint32_t magic_number = 0;
     if (bytes.size() >= sizeof magic_number) std::memcpy(&magic_number, bytes.data(), sizeof magic_number);

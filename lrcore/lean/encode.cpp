@@ -26,7 +26,7 @@ static_assert(std::endian::native == std::endian::little, "streams are little-en
 
 constexpr std::uint32_t kNone = UINT32_MAX;
 constexpr std::uint32_t kMostVertices = LR_LEAN_TIP_MASK + 1;
-constexpr std::uint32_t kMostSlots = UINT32_MAX / 3;  // so that 32 bits number the indices that they expand to
+constexpr std::uint32_t kMostSlots = UINT32_MAX / 3;  // three indices a slot, numbered by 32 bits
 
 /// How many sides of a ring are stored as slots: the left one, or both.
 using Sides = std::uint32_t;

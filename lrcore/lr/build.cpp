@@ -251,7 +251,7 @@ class Builder {
         for (const CornerId c : irregular) mark(c);
     }
 
-    /// False where VO* would be longer than words can tell.
+    /// Returns false if VO* outgrows its index.
     bool fill_irregular() {
         std::vector<Slot> irregular;
         for_slots([](std::uint32_t w) { return (w & word::kIrregular) != 0; },

@@ -66,7 +66,7 @@ Result<LrStream<View>> view_tables(std::span<const std::uint32_t> words, std::ui
 template <class View>
 std::vector<std::uint32_t> decode_tables(const LrStream<View>& stream, auto&& flipped) {
     const LrOperators<View> ops(stream.view);
-    // Copies and their originals are in use: vertices of no triangle, which no word pays for, get no entry.
+    // Copies and originals are used vertices. Unused vertices get no entry: the header alone counts them.
     std::vector<std::uint32_t> original(stream.copies.empty() ? 0 : stream.view.used_vertices());
     for (std::uint32_t v = 0; v < original.size(); ++v) original[v] = v;
     for (std::size_t i = 0; i < stream.copies.size(); i += 2) original[stream.copies[i]] = stream.copies[i + 1];

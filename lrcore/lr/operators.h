@@ -182,8 +182,8 @@ class LrOperators {
         if (!last.is_null() && left(last).is_null()) visit(vertex(previous(last)));
     }
 
-    /// The same, and true, where the slots near v tell the neighbours without a walk, which is never at a border; else
-    /// false, and nothing is visited. Constant time. valence and star take the same short way at the same vertices.
+    /// Visits the same vertices in the same order and returns true, if the slots near v give them in constant time.
+    /// Else returns false and visits nothing; always so on a border. valence and star use the same shortcut.
     template <class Visit>
     bool near_neighbours(VertexId v, Visit visit) const {
         if constexpr (kHasFans) {

@@ -1,4 +1,4 @@
-// Everything that the operators rely on, of words that may be hostile. docs/lr-tables.md lists it.
+// Checks what the operators rely on; docs/lr-tables.md lists it. The words may be hostile.
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 namespace lr {
 namespace {
 
-/// What validation asks of a representation beyond the operators: that its own indices stay in bounds.
+/// Checks the indices within a representation: tips, VO* indices, records.
 std::string check_slots(const LrView& view) {
     for (std::uint32_t slot = 0; slot < view.lr.size(); ++slot) {
         const std::uint32_t w = view.lr[slot], kind = w & word::kKind, tip = w & word::kTip;
@@ -59,13 +59,13 @@ std::string check_slots(const CompactLrView& view) {
     return {};
 }
 
-/// Is there an entry of VO* with the slot's opposites?
+/// Returns whether VO* has opposites of the slot's triangle.
 template <class View>
 bool is_irregular(const View& view, std::uint32_t slot) {
     return (view.kind(slot / 2, slot % 2) & (word::kSpecial | word::kIrregular)) == word::kIrregular;
 }
 
-/// Kinds that the masks allow but nothing writes.
+/// Checks that kinds are valid, rings tile and close, and each T2 has its second copy.
 template <class View>
 std::string check_rings(const View& view) {
     const LrOperators<View> ops(view);
@@ -109,7 +109,8 @@ std::string check_rings(const View& view) {
     return {};
 }
 
-/// Is every corner that VO, VO* and C name a canonical one, and every vertex of VO in use? After check_rings.
+/// Checks that the corners stored in VO, VO* and C are canonical or null, and the vertices in VO used. Needs
+/// check_rings.
 template <class View>
 std::string check_named(const View& view) {
     const LrOperators<View> ops(view);
@@ -134,11 +135,11 @@ std::string check_named(const View& view) {
     return {};
 }
 
-/// Walks around every vertex, once through each of its corners, and checks the opposites met. After check_named.
+/// Walks each star once and checks the opposites on the way. Needs check_named.
 ///
-/// That opposite is an involution is checked from the smaller corner of each pair, and by counting: as many corners
-/// have a smaller opposite as have a larger one. The steps of a walk may lead astray until that is known, so no more of
-/// them are made than there are corners.
+/// An involution pairs each corner with a smaller or a larger opposite. It is enough to check opposite(opposite(c)) ==
+/// c from the smaller corner of each pair, and that as many corners have a smaller opposite as have a larger one. Until
+/// that is known a walk might not return, so the number of steps is limited to the number of corners.
 template <class View>
 class StarChecker {
   public:
@@ -149,7 +150,7 @@ class StarChecker {
         for (std::uint32_t v = 0; v < view_.used_vertices(); ++v) {
             if (!check_star({v})) return std::move(why_);
         }
-        // A further fan of a vertex, or a vertex that no v.c leads to, is left over.
+        // Fewer if a vertex has several fans, of which v.c leads to one.
         if (corners_ != most_) return fmt::format("{} corners around vertices, of {}", corners_, most_);
         if (larger_ != smaller_) return "opposites that are not undone";
         for (std::uint32_t slot = 0; slot < 2 * view_.ring_vertices; ++slot) {
@@ -174,7 +175,7 @@ class StarChecker {
     struct Around {
         VertexId after, before;  ///< of the corners after and before the one at the vertex
     };
-    /// Enters a triangle at its corner c: does it have three vertices, of which c's is v?
+    /// Reads the triangle of c and checks that its vertices differ and that c's is v.
     bool enter(CornerId c, VertexId v, Around& at) {
         if (corners_++ == most_) return fail("vertex {}: its star does not end", v.value);
         at = {ops_.vertex(ops_.next(c)), ops_.vertex(ops_.previous(c))};
@@ -206,8 +207,8 @@ class StarChecker {
         }
     }
 
-    /// Goes on from v.c the other way. Each step is the inverse of the one that leads back, so none meets the corners
-    /// met forwards.
+    /// Walks backward from v.c to the other border. Each step is checked to be the inverse of a swing, so the walk
+    /// meets no corner that the forward walk met.
     bool check_border(VertexId v, CornerId first, Around at) {
         if (ops_.near_neighbours(v, [](VertexId) {})) return fail("vertex {}: its border is not seen", v.value);
         for (CornerId c = first;;) {
@@ -222,7 +223,7 @@ class StarChecker {
         }
     }
 
-    /// Are the neighbours that are told without a walk those that were met?
+    /// Compares near_neighbours with the walk.
     bool check_fan(VertexId v) {
         std::size_t i = 0;
         bool same = true;
@@ -231,7 +232,7 @@ class StarChecker {
         return !told || (same && i == neighbours_.size()) || fail("vertex {}: neighbours", v.value);
     }
 
-    /// Does VO* hold what the operators answer? Where other slots tell the answer, they do not read it.
+    /// Checks the opposites in VO* against the operators, which do not read those that other slots imply.
     bool check_star_entries(std::uint32_t slot) {
         const std::uint32_t v = slot / 2, side = slot % 2;
         for (std::uint32_t end = 0; end < 2; ++end) {
@@ -245,9 +246,9 @@ class StarChecker {
     const View& view_;
     const LrOperators<View> ops_;
     const std::uint32_t numbers_;
-    std::uint64_t most_ = 0, corners_ = 0;    // there are; entered
-    std::uint64_t larger_ = 0, smaller_ = 0;  // corners by what their opposites are
-    std::vector<VertexId> neighbours_;        // of one vertex, in the order of its star
+    std::uint64_t most_ = 0, corners_ = 0;    // corners of all triangles; corners walked
+    std::uint64_t larger_ = 0, smaller_ = 0;  // corners whose opposite is larger, smaller
+    std::vector<VertexId> neighbours_;        // of one vertex, in star order
     std::string why_;
 };
 

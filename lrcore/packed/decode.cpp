@@ -11,7 +11,7 @@
 namespace lr {
 namespace {
 
-constexpr std::uint32_t kFewestBlocks = 4;  // of a part: some ten microseconds, as long as a thread takes to start
+constexpr std::uint32_t kFewestBlocks = 4;  // of a part: about ten microseconds, the time to start a thread
 
 void decode_triangles(const PackedView& view, std::uint32_t begin, std::uint32_t end, std::uint32_t* out) {
     while (begin < end) {
@@ -28,7 +28,7 @@ void decode_packed(const PackedView& view, std::span<std::uint32_t> indices, uns
     assert(indices.size() == std::size_t{3} * view.triangles);
     const std::uint32_t blocks = view.blocks();
     if (threads <= 1 || blocks <= kFewestBlocks) return decode_triangles(view, 0, view.triangles, indices.data());
-    // Several parts a thread, so that one that starts late or is held up keeps the others waiting for less.
+    // Several parts a thread: a thread that starts late leaves its parts to the others.
     const std::uint32_t parts =
         static_cast<std::uint32_t>(std::min<std::uint64_t>(std::uint64_t{threads} * 4, blocks / kFewestBlocks));
     std::atomic<std::uint32_t> next_part = 0;
@@ -45,7 +45,7 @@ void decode_packed(const PackedView& view, std::span<std::uint32_t> indices, uns
     try {
         others.reserve(std::min(threads, parts) - 1);
         for (unsigned i = 1; i < std::min(threads, parts) && next_part < parts; ++i) others.emplace_back(work);
-    } catch (const std::system_error&) {  // no more threads: those that there are take all parts
+    } catch (const std::system_error&) {  // the existing threads take all parts
     } catch (const std::bad_alloc&) {
     }
     work();

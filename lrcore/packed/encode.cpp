@@ -25,7 +25,7 @@ struct Edge {
 };
 
 constexpr std::uint32_t kNoEvent = UINT32_MAX;
-constexpr std::uint32_t kMostVertices = 1U << 29;  // so that the steps of BESIDE, folded, are below 2^30
+constexpr std::uint32_t kMostVertices = 1U << 29;  // keeps folded BESIDE steps below 2^30
 
 class Encoder {
   public:

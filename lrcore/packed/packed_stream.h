@@ -80,8 +80,8 @@ Result<PackedView> view_packed(std::span<const std::uint32_t> words);
 Result<PackedView> validate_packed(std::span<const std::uint32_t> words);
 
 /// Expands all triangles: indices holds 3 * view.triangles entries. The stream must be valid (validate_packed).
-/// Cost: O(T), no allocation; with `threads` above 1, at most that many threads, the calling one among them, and fewer
-/// where there is little to do or the system makes no more. Throws nothing.
+/// Cost: O(T), no allocation. Runs on at most `threads` threads, including the calling one; on fewer if the stream is
+/// small or the system creates no more. Never throws.
 void decode_packed(const PackedView& view, std::span<std::uint32_t> indices, unsigned threads = 1);
 
 /// Expands one block: triangles [256 * block, ...), 3 * 256 entries or what the last block has.

@@ -149,7 +149,7 @@ Error too_large(std::size_t count, const char* what) {
 }  // namespace
 
 Result<Squad> build_squad(const CornerTable& table, const SquadOptions& options, LrMap* map) {
-    // Each record has two triangles at most: no need to match where there will be too many records.
+    // A record has at most two triangles: too many triangles mean too many records.
     const std::size_t triangles = table.triangle_count() - table.topology.degenerate;
     if (triangles / 2 > SquadView::kMaxRecords) return too_large(triangles, "triangles");
     SquadMatching matching = match_squad(table, options.renumber, options.reach);

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""test_hubs.py LACEDRING: vertices of very many triangles, triangles at one place, and coordinates beyond what a rival's
-floats hold: what the rivals cannot do in good time is absent with the reason, and nothing hangs or fails."""
+"""test_hubs.py LACEDRING: vertices with very many triangles, many triangles at one place, huge coordinates. Baselines that
+would take quadratic time are absent with the reason; nothing hangs or fails."""
 
 import os
 
@@ -18,7 +18,7 @@ def points(count, scale=1.0):
 
 
 def shape(kind, n):
-    """Points and triangles: around a vertex, around an edge, the same one again and again, at one place."""
+    """Points and triangles: a fan, triangles around one edge, one triangle n times, separate triangles at one place."""
     if kind == "fan":
         return points(n + 2), [(0, i + 1, i + 2) for i in range(n)]
     if kind == "book":

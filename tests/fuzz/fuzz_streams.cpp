@@ -107,7 +107,7 @@ void check_operators(const View& view) {
     std::abort();
 }
 
-/// Accepted? Then it has decoded, too, and every operator has answered.
+/// Returns whether the stream is valid. A valid one is decoded, and every operator checked.
 bool accepted(Kind kind, std::span<const std::uint32_t> words) {
     if (kind == lean) {
         const auto view = validate_lean(words);

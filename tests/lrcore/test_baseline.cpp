@@ -1,4 +1,4 @@
-// Where meshoptimizer's orders are not asked for, and what comes of coordinates that its floats do not hold.
+// Limits of meshoptimizer's orders, and meshlets of huge coordinates.
 
 #include <doctest/doctest.h>
 
@@ -70,7 +70,7 @@ TEST_CASE("meshlets are left out where too many unconnected triangles lie at one
     }
     check_too_large(make_meshlets(indices, piled));
     CHECK(make_meshlets(indices, apart));
-    // One component: the next triangle is a neighbor, whatever the places.
+    // Within one component the next triangle is a neighbor: no search by place.
     std::vector<std::uint32_t> strip;
     for (std::uint32_t i = 0; i < 5000; ++i) strip.insert(strip.end(), {i, i + 1, i + 2});
     CHECK(make_meshlets(strip, std::vector<float>(std::size_t{3} * 5002, 0.0F)));
@@ -91,7 +91,8 @@ TEST_CASE("meshlets of large coordinates are those of small ones") {
         CHECK(test::oriented_triangles(large->indices) == test::oriented_triangles(mesh.indices));
         CHECK(large->bytes == small->bytes);
     }
-    const std::vector<float> infinite(positions.size(), std::numeric_limits<float>::infinity());  // of doubles
+    const std::vector<float> infinite(positions.size(),
+                                      std::numeric_limits<float>::infinity());  // as doubles beyond float become
     const Result<Meshlets> beyond = make_meshlets(mesh.indices, infinite);
     CHECK((!beyond || beyond->indices.size() == mesh.indices.size()));
 }

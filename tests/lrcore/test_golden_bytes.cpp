@@ -1,7 +1,7 @@
-// The bytes of every format, kept as text in tests/golden: a format does not change without its version number.
+// The bytes of every format, kept as text in tests/golden: a format must not change without a new version number.
 //
-// Each file holds a stream's words, and its vertex order, as they were when the format got its version. After a change
-// that is meant, LACEDRING_WRITE_GOLDEN=1 test_core -tc='golden*' writes the files anew.
+// Each file holds the words and the vertex order of a stream. After an intended change of a format,
+// LACEDRING_WRITE_GOLDEN=1 test_core -tc='golden*' rewrites the files.
 
 #include <doctest/doctest.h>
 
@@ -30,7 +30,7 @@ struct Stream {
 struct Format {
     const char* name;
     Stream (*encode)(const CornerTable&);
-    Words (*decode)(const Words&);  // after validation; vertices by the stream's numbers
+    Words (*decode)(const Words&);  // validates, and returns indices in the numbers of the stream
 };
 
 template <class Encoded>
@@ -64,7 +64,7 @@ Words decode_tables(const Words& words) {
 
 constexpr std::uint32_t kPeriods[] = {0, 7};
 
-// An .lr file of each connectivity belongs here as well, once the file format is at its next version.
+// TODO: add an .lr file of each connectivity once the file format is at version 2.
 const Format kFormats[] = {
     {"lean", [](const CornerTable& t) { return stream_of(encode_lean(t, expand_rings(t))); }, decode_lean},
     {"lean-no-warts",
@@ -100,7 +100,7 @@ void write_words(std::ostream& out, const char* title, const Words& words) {
     out << '\n';
 }
 
-/// The words of a section, or what is wrong as a failed check.
+/// Reads one section; a malformed file fails a check.
 Words read_words(std::istream& in, const std::string& title) {
     std::string name;
     std::size_t size = 0;

@@ -1,4 +1,4 @@
-// Sizes at which 32 bits would wrap: refused as values, or numbered in 64.
+// Sizes at which 32-bit arithmetic would wrap: refused, or computed in 64 bits.
 
 #include <doctest/doctest.h>
 #include <sys/mman.h>
@@ -13,7 +13,7 @@ using namespace lr;
 
 namespace {
 
-/// Zeros that take no memory before they are written.
+/// Zeroed memory that is not resident until written.
 class Sparse {
   public:
     explicit Sparse(std::size_t words) : size_(words * sizeof(std::uint32_t)) {
@@ -59,7 +59,7 @@ TEST_CASE("streams refuse vertices that they cannot number") {
 
 TEST_CASE("a corner table refuses corners that split_fans could not name apart") {
     const std::uint32_t one = 0;
-    // Not read: only its size is looked at.
+    // The span is not read, only its size.
     const auto indices = [&](std::size_t count) { return std::span(&one, count); };
     check_too_large(build_corner_table(indices(3), (1U << 29) + 1));
     check_too_large(build_corner_table(indices(std::size_t{UINT32_MAX}), 1));
@@ -69,7 +69,7 @@ TEST_CASE("a corner table refuses corners that split_fans could not name apart")
 TEST_CASE("T0 beyond the 715 millionth are found in VO") {
     constexpr std::uint32_t kT0 = 900'000'000;
     const Sparse sparse(std::size_t{6} * (kT0 + 1));
-    if (sparse.words().empty()) return;  // no address space for it
+    if (sparse.words().empty()) return;  // not enough address space
     const std::size_t at = std::size_t{6} * kT0;
     for (std::size_t k = 0; k < 6; ++k) sparse.words()[at + k] = static_cast<std::uint32_t>(100 + k);
     LrView standard;

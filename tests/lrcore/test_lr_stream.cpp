@@ -106,7 +106,7 @@ TEST_CASE("a used vertex without a corner is refused") {
 }
 
 TEST_CASE("one vertex for several fans is refused") {
-    // Two tetrahedra that share vertex 0: a copy of it takes the second fan. Without it, v.c leads to one of them
+    // Two tetrahedra that share vertex 0: a copy of it takes the second fan. Without the copy, v.c leads to one of them
     // alone.
     const Mesh mesh = test::make_mesh({0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2, 0, 4, 5, 0, 5, 6, 0, 6, 4, 4, 6, 5}, 7);
     for (const std::uint32_t k : {0U, 2U}) {

@@ -1,5 +1,5 @@
-// Headers that promise more than their streams hold: what decoders and validators allocate is paid for by the words.
-// A binary of its own, because it counts every operator new.
+// Streams whose headers count more elements than the streams hold: decoders and validators must not allocate by such a
+// count. A separate binary, because it replaces operator new.
 
 #include <doctest/doctest.h>
 
@@ -16,7 +16,7 @@
 #include "tests/support/meshes.h"
 
 namespace {
-std::size_t allocated = 0;  // bytes asked for since it was set to zero, whether given back or not
+std::size_t allocated = 0;  // bytes requested since the last reset, freed or not
 }
 
 void* operator new(std::size_t size) {
@@ -36,9 +36,9 @@ using namespace lr;
 
 namespace {
 
-constexpr std::size_t kLittle = 64 * 1024;  // many times what the streams below need
+constexpr std::size_t kLittle = 64 * 1024;  // far above the needs of the streams below
 
-/// Bytes that work() asks for.
+/// Bytes that work() requests.
 template <class Work>
 std::size_t bytes_of(const Work& work) {
     allocated = 0;

@@ -1,4 +1,4 @@
-// decode_packed with threads, and where the system makes none: pthread_create is this file's.
+// decode_packed with threads, and without the permission to create any: this file replaces pthread_create.
 
 #include <dlfcn.h>
 #include <doctest/doctest.h>
@@ -16,13 +16,13 @@
 #include "lrcore/packed/packed_stream.h"
 
 #if defined(__SANITIZE_ADDRESS__)
-constexpr bool kSanitized = true;  // its shadow memory does not fit under a limit of address space
+constexpr bool kSanitized = true;  // RLIMIT_AS does not work with its shadow memory
 #else
 constexpr bool kSanitized = false;
 #endif
 
 namespace {
-std::atomic<int> allowed = INT_MAX, made = 0;  // threads that pthread_create makes before it fails; and has made
+std::atomic<int> allowed = INT_MAX, made = 0;  // threads that may be created; threads created
 }
 
 extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*start)(void*),
@@ -94,7 +94,7 @@ TEST_CASE("decode_packed where no stack of a thread fits the address space" * do
     REQUIRE(child >= 0);
     if (child == 0) {
         std::vector<std::uint32_t> out(sample().indices.size());
-        const rlimit limit{64U << 20, 64U << 20};  // less than the process has
+        const rlimit limit{64U << 20, 64U << 20};  // no room for another stack
         if (setrlimit(RLIMIT_AS, &limit) != 0) _exit(2);
         decode_packed(sample().view, out, 1000);
         _exit(out == sample().indices ? 0 : 1);

@@ -1,4 +1,4 @@
-// Errors name what was given in the place of something else.
+// Errors name the kind of stream or file that was given.
 
 #include <doctest/doctest.h>
 
@@ -20,14 +20,14 @@ std::span<const std::byte> bytes_of(std::string_view text) {
 }
 
 struct Kind {
-    std::string name;    // as a phrase
-    std::string wanted;  // where it is asked for
+    std::string name;    // as found
+    std::string wanted;  // as expected
     std::vector<std::uint32_t> words;
     std::string (*view)(std::span<const std::uint32_t>);
     std::string (*validate)(std::span<const std::uint32_t>);
 };
 
-/// What a function says of words; empty if it takes them.
+/// The error message of a function; empty if it accepts the words.
 template <auto function>
 std::string said(std::span<const std::uint32_t> words) {
     const auto result = function(words);
@@ -111,5 +111,5 @@ TEST_CASE("kinds of files by how they begin") {
     stl[80] = 2;
     stl[81] = stl[82] = stl[83] = 0;
     CHECK(kind(stl) == "an STL file");
-    CHECK(kind(std::string(5000, '#') + "\nOFF\n") == "");  // beyond what is looked at
+    CHECK(kind(std::string(5000, '#') + "\nOFF\n") == "");  // beyond the first 4 KiB
 }

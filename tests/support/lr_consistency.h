@@ -1,5 +1,5 @@
 #pragma once
-// What validate_lr and validate_compact_lr promise of the tables that they accept, looked at from outside.
+// Tests what validate_lr and validate_compact_lr promise about the tables that they accept.
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 
 namespace lr::test {
 
-/// The tables without what they answer themselves (plain_opposite, plain_fan): LrOperators takes its general way.
+/// The tables without their shortcuts (plain_opposite, plain_fan): LrOperators takes the general path.
 template <class View>
 struct GeneralStore {
     const View* view;
@@ -32,14 +32,14 @@ struct GeneralStore {
     std::uint32_t used_vertices() const { return view->used_vertices(); }
 };
 
-/// Every operator at every corner and vertex of valid tables. Empty, or what does not agree with the triangles.
+/// Compares every operator at every corner and vertex with the triangles. Empty, or the first disagreement.
 template <class View>
 std::string inconsistency(const View& view) {
     const LrOperators<View> ops(view);
     const LrOperators<GeneralStore<View>> general({&view, view.ring_vertices});
     const std::uint32_t used = view.used_vertices();
     std::vector<std::uint32_t> triangles(used, 0), borders(used, 0);
-    std::vector<std::vector<std::uint32_t>> next_to(used);  // along the edges that start there
+    std::vector<std::vector<std::uint32_t>> next_to(used);  // neighbors, one for each edge
     for (std::uint32_t t = 0; t < view.triangle_numbers(); ++t) {
         for (std::uint32_t k = 0; k < 3; ++k) {
             const CornerId c{4 * t + k}, real = ops.canonical(c), o = ops.opposite(c);
