@@ -1,17 +1,19 @@
 #include "app/view/script.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "app/camera_options.h"
+#include "lrcore/base/file.h"
+#include "renderer/try.h"
 
 namespace lr::view {
 namespace {
@@ -49,10 +51,13 @@ std::optional<int> button_named(const std::string& name) {
 }  // namespace
 
 Result<Script> Script::read(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    if (!file) return Error{ErrorCode::cannot_open, "cannot be opened"};
+    constexpr std::uint64_t kMost = std::uint64_t{64} << 20;
+    const bool standard_input = path == "-";
+    LR_ASSIGN(const std::vector<std::byte> bytes,
+              standard_input ? read_descriptor(STDIN_FILENO, kMost) : read_file(path, kMost));
+    std::istringstream file(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
     Script out;
-    out.name_ = path.string();
+    out.name_ = standard_input ? "standard input" : path.string();
     std::size_t number = 0;
     for (std::string text; std::getline(file, text);) {
         ++number;
@@ -258,8 +263,8 @@ Result<bool> Script::run(const Line& line, Viewer& viewer, Window& window, std::
         if (!number(1, x) || !number(2, y)) return wrong("resize W H");
         if (waited_ == 0) window.set_size(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
         // The window system decides; a second is enough for it to.
-        if (viewer.extent().width == static_cast<std::uint32_t>(x) &&
-            viewer.extent().height == static_cast<std::uint32_t>(y)) {
+        if (viewer.window().width == static_cast<std::uint32_t>(x) &&
+            viewer.window().height == static_cast<std::uint32_t>(y)) {
             return true;
         }
         return waited_ > 60;
@@ -287,7 +292,7 @@ Result<bool> Script::run(const Line& line, Viewer& viewer, Window& window, std::
             if (waited_ < 2 || state.document)
                 return waited_ > 600 ? wrong("nothing settles: no screenshot") : Result<bool>(false);
         }
-        const Result<gpu::Picture> picture = now ? viewer.window() : viewer.picture();
+        const Result<gpu::Picture> picture = now ? viewer.window_picture() : viewer.picture();
         if (!picture) return picture.error();
         if (const Result<void> written = gpu::write_png(words[1], *picture); !written) {
             return Error{written.error().code, words[1] + ": " + written.error().message};
