@@ -9,6 +9,7 @@
 #include "app/camera_options.h"
 #include "app/commands.h"
 #include "app/gpu_options.h"
+#include "app/option_rules.h"
 #include "renderer/renderer.h"
 
 namespace lr::app {
@@ -23,12 +24,14 @@ struct Options {
     RingChoice ring;
     bool no_warts = false;
     PictureSize size;
-    std::uint32_t samples = 3;
+    std::uint32_t samples = 0;  ///< 0: kSamples, or as many as the device draws
     double crease = 40;
     gpu::CameraOptions camera;
     gpu::ContextOptions context;
     bool json = false;
 };
+
+constexpr std::uint32_t kSamples = 3;
 
 int run(const Options& options) {
     const Result<Mesh> mesh = load(options.input);
@@ -47,8 +50,11 @@ int run(const Options& options) {
 
     gpu::RendererOptions renderer_options;
     renderer_options.view = gpu::view_named(options.view).value_or(gpu::View::smooth);
+    // What was asked for is drawn, or is an error of the device; else fewer samples do.
     const std::uint32_t samples =
-        gpu::Target::fitting_samples(**context, {options.size.width, options.size.height}, options.samples);
+        options.samples != 0
+            ? options.samples
+            : gpu::Target::fitting_samples(**context, {options.size.width, options.size.height}, kSamples);
     renderer_options.samples = samples;
     renderer_options.crease = options.crease;
     renderer_options.width = options.size.width * samples;
@@ -132,11 +138,32 @@ void add_render(CLI::App& program, Action& action) {
     add_size(*command, options->size);
     command->add_option("--samples", options->samples, "samples a pixel along each side")
         ->check(CLI::Range(1, 8))
-        ->capture_default_str();
+        ->default_str(std::to_string(kSamples));
     add_camera(*command, options->camera);
     add_device_options(*command, options->context);
     command->add_flag("--json", options->json, "one JSON document on standard output");
-    command->callback([options, &action] { action = [options] { return run(*options); }; });
+
+    const auto shows_ring = [options] {
+        return options->view == "class" || options->view == "ring" || options->view == "offsets";
+    };
+    auto rules = std::make_shared<OptionRules>(*command);
+    rules->forbid("--source plain goes with --path compute only",
+                  [options] { return options->source == "plain" && options->path != "compute"; });
+    rules->only_with({"--crease"}, "--view silhouette", [options] { return options->view == "silhouette"; });
+    rules->only_with({"--ring", "--k", "--seeds", "--random-seed", "--optimize"},
+                     "--source lean or packed, or --view class, ring or offsets",
+                     [options, shows_ring] { return options->source != "plain" || shows_ring(); });
+    rules->only_with({"--no-warts"}, "--source lean, or --view class, ring or offsets",
+                     [options, shows_ring] { return options->source == "lean" || shows_ring(); });
+    rules->only_with({"--k"}, "--ring hybrid", [options] { return options->ring.ring == "hybrid"; });
+    rules->only_with({"--random-seed"}, "several --seeds, or --optimize", [options] {
+        const std::string& passes = options->ring.optimize;
+        return options->ring.seeds != 1 || (passes != "auto" && passes != "0");
+    });
+    command->callback([options, rules, &action] {
+        rules->check();
+        action = [options] { return run(*options); };
+    });
 }
 
 }  // namespace lr::app

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "app/commands.h"
+#include "app/option_rules.h"
 #include "app/report_html.h"
 #include "app/report_page.h"
 #include "lrcore/base/file.h"
@@ -62,7 +63,7 @@ Result<std::unique_ptr<gpu::Context>> open_device(const Options& options, std::s
         return std::unique_ptr<gpu::Context>();
     }
     Result<std::unique_ptr<gpu::Context>> context = gpu::Context::create(options.context);
-    if (!context && context.error().code == ErrorCode::no_device && options.context.device.empty()) {
+    if (!context && context.error().code == ErrorCode::no_device && !asks_for_device(options.context)) {
         skipped = context.error().message;
         return std::unique_ptr<gpu::Context>();
     }
@@ -143,7 +144,13 @@ void add_report(CLI::App& program, Action& action) {
     add_camera(*command, options->camera);
     add_device_options(*command, options->context);
 #endif
-    command->callback([options, &action, command] {
+    auto rules = std::make_shared<OptionRules>(*command);
+    rules->never_with({"--size", "--up", "--camera-position", "--camera-focal-point", "--camera-azimuth-angle",
+                       "--camera-elevation-angle", "--camera-zoom-factor", "--camera-view-angle", "--device",
+                       "--device-memory", "--validation"},
+                      "--no-gpu");
+    command->callback([options, rules, &action, command] {
+        rules->check();
         options->command = command_line(*command);
         action = [options] { return run(*options); };
     });

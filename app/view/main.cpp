@@ -12,6 +12,7 @@
 #include "app/camera_options.h"
 #include "app/command.h"
 #include "app/gpu_options.h"
+#include "app/option_rules.h"
 #include "app/view/script.h"
 #include "app/view/threads.h"
 #include "app/view/viewer.h"
@@ -166,7 +167,7 @@ int start(int argc, char** argv) {
     CLI::App program("interactive viewer");
     program.name("lacedring view");
     Options options;
-    program.add_option("MESH", options.viewer.input.path, "mesh file");
+    auto* mesh = program.add_option("MESH", options.viewer.input.path, "mesh file");
     app::add_weld(program, options.viewer.input.weld);
     app::add_size(program, options.size);
     program.add_option("--scale", options.scale, "pixels a nominal pixel of the panels; the display's unless told")
@@ -177,7 +178,8 @@ int start(int argc, char** argv) {
         ->capture_default_str();
     auto* screenshot =
         program.add_option("--screenshot", options.screenshot, "write a PNG file when all is shown, and end")
-            ->type_name("PNG");
+            ->type_name("PNG")
+            ->needs(mesh);
     program.add_option("--script", options.script, "do what the lines of a file say (docs/viewer.md)")
         ->type_name("FILE")
         ->excludes(screenshot);
@@ -186,11 +188,16 @@ int start(int argc, char** argv) {
         ->type_name("DIR");
     app::add_camera(program, options.viewer.camera);
     app::add_device_options(program, options.context);
+    app::OptionRules rules(program);
+    rules.never_with({"--fps"}, "--screenshot");
+    rules.forbid("--scale has no effect with --screenshot and --no-panels",
+                 [&] { return options.scale > 0 && options.no_panels && !options.screenshot.empty(); });
     program.failure_message([](const CLI::App*, const CLI::Error& error) {
         return fmt::format("lacedring: {} (lacedring view --help lists the options)\n", error.what());
     });
     try {
         program.parse(argc, argv);
+        rules.check();
     } catch (const CLI::ParseError& error) {
         return program.exit(error) == 0 ? app::done : app::wrong_usage;
     }
