@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "app/operator_kernels.h"
+#include "app/progress.h"
 #include "lrcore/corner_table/split.h"
 #include "lrcore/lr/operators.h"
 #include "lrcore/lr/search.h"
@@ -141,15 +142,22 @@ Result<std::vector<OperatorFigures>> measure_operators(const Mesh& mesh, CornerT
         for (std::size_t i = 0; i < 3; ++i) positions.push_back(positions[3 * std::size_t{original.value} + i]);
     }
     const std::size_t triangles = mesh.triangle_count();
+    constexpr std::uint64_t kBuilt = 5;
+    ProgressBar bar("operators", kBuilt + static_cast<std::uint64_t>(rounds));
     const CornerTableC corner_table = build_corner_table_c(table);
+    bar.step();
     const WingedEdge winged = build_winged_edge(table);
+    bar.step();
     LrMap squad_map, lr_map;
     const Result<Squad> squad = build_squad(table, {}, &squad_map);
     if (!squad) return squad.error();
+    bar.step();
     const Result<LrTable> lr = build_lr(table, expand_rings(table, {.one_per_shell = true}), {}, &lr_map);
     if (!lr) return lr.error();
+    bar.step();
     const Result<CompactChoice> compact = smallest_compact_lr(table, {}, recommended_periods(triangles));
     if (!compact) return compact.error();
+    bar.step();
     table = {};
 
     const auto no_order = std::vector<VertexId>{};
@@ -169,6 +177,7 @@ Result<std::vector<OperatorFigures>> measure_operators(const Mesh& mesh, CornerT
                 return Error{ErrorCode::invalid_argument, "structures disagree on an operator"};
             }
         }
+        bar.step();
     }
     return std::vector<OperatorFigures>{a.figures(), b.figures(), c.figures(), d.figures(), e.figures()};
 }

@@ -12,6 +12,8 @@
 #include "app/bench_resident.h"
 #include "app/commands.h"
 #include "app/measure.h"
+#include "app/option_rules.h"
+#include "app/progress.h"
 #include "lrcore/baseline/codecs.h"
 #include "lrcore/baseline/strips.h"
 #include "lrcore/corner_table/split.h"
@@ -51,6 +53,11 @@ struct Section {
     std::string name;
     std::vector<Candidate> candidates;
 };
+
+void measure(Section& section, int rounds) {
+    ProgressBar bar(section.name, section.candidates.size() * static_cast<std::uint64_t>(rounds));
+    run_interleaved(section.candidates, rounds, [&] { bar.step(); });
+}
 
 Json to_json(const Section& section, double triangles) {
     Json out = Json::object();
@@ -93,8 +100,15 @@ void print_draw(const GpuFigures& figures, double triangles) {
 }
 #endif
 
+/// Structures that disagree on a result are a check that failed, and no wrong usage.
+int failed(const std::string& path, const Error& error) {
+    const int code = fail(path, error);
+    return error.code == ErrorCode::invalid_argument ? static_cast<int>(check_failed) : code;
+}
+
 int run(const Options& options) {
     Json meshes = Json::array();
+    std::size_t messages = 0;
     for (const std::string& path : options.paths) {
         const Result<Mesh> mesh = load({path, options.weld});
         if (!mesh) return fail(path, mesh.error());
@@ -144,7 +158,7 @@ int run(const Options& options) {
         construct.candidates.push_back(
             {"packed_cache_encode", [&] { (void)encode_packed(*table, rings, PackedProfile::cache); }, {}, {}});
         construct.candidates.push_back({"packed", whole_packed, {}, {}});
-        run_interleaved(construct.candidates, options.rounds);
+        measure(construct, options.rounds);
 
         Section decode{"decode_cpu", {}};
         std::vector<std::uint32_t> indices(std::size_t{3} * view->slots()), copy(indices.size());
@@ -167,13 +181,13 @@ int run(const Options& options) {
         decode.candidates.push_back({"packed_cache", [&] { decode_packed(*packed_cache, unpacked); }, {}, {}});
         decode.candidates.push_back(
             {"meshopt_index_codec", [&] { (void)decode_meshopt_indices(codec.bytes, decoded); }, {}, {}});
-        run_interleaved(decode.candidates, options.rounds * 3);
+        measure(decode, options.rounds * 3);
 
         std::vector<OperatorFigures> operators;
         Json operators_json = Json::object();
         if (options.operators) {
             Result<std::vector<OperatorFigures>> measured = measure_operators(*mesh, *table, options.rounds);
-            if (!measured) return fail(path, measured.error());
+            if (!measured) return failed(path, measured.error());
             operators = std::move(*measured);
             for (const OperatorFigures& structure : operators) {
                 Json& entry = operators_json[structure.structure];
@@ -186,7 +200,7 @@ int run(const Options& options) {
             ResidentOptions limits = options.limits;
             limits.rounds = options.rounds;
             Result<ResidentFigures> measured = measure_resident(*mesh, *table, limits);
-            if (!measured) return fail(path, measured.error());
+            if (!measured) return failed(path, measured.error());
             resident = std::move(*measured);
         }
 
@@ -205,15 +219,23 @@ int run(const Options& options) {
             draw = to_json({"", gpu->draw}, triangles);
             add_costs(draw, *gpu);
             peak["gpu"] = gpu->device_bytes;
-        } else if (gpu.error().code == ErrorCode::no_device && options.context.device.empty()) {
+            messages += gpu->validation_messages;
+        } else if (gpu.error().code == ErrorCode::no_device && !asks_for_device(options.context)) {
             gpu_skipped = gpu.error().message;
         } else {
             return fail(path, gpu.error());
         }
 #endif
-        peak.update(Json{{"lean", peak_bytes(whole)},
-                         {"packed", peak_bytes(whole_packed)},
-                         {"strips", peak_bytes([&] { make_restart_strip(mesh->indices, mesh->vertex_count); })}});
+        {
+            ProgressBar bar("peak memory", 3);
+            const auto add_peak = [&](const char* name, const std::function<void()>& work) {
+                peak[name] = peak_bytes(work);
+                bar.step();
+            };
+            add_peak("lean", whole);
+            add_peak("packed", whole_packed);
+            add_peak("strips", [&] { make_restart_strip(mesh->indices, mesh->vertex_count); });
+        }
         const double ratio = construct.candidates[4].median() / construct.candidates[3].median();
         if (options.json) {
             meshes.push_back({{"file", path},
@@ -260,7 +282,7 @@ int run(const Options& options) {
         }
     }
     if (options.json) print_json(Json{{"schema", 1}, {"meshes", std::move(meshes)}});
-    return done;
+    return messages == 0 ? done : check_failed;
 }
 
 }  // namespace
@@ -301,7 +323,12 @@ void add_bench(CLI::App& program, Action& action) {
     add_device_options(*command, options->context);
 #endif
     command->add_flag("--json", options->json, "one JSON document on standard output");
-    command->callback([options, &action] { action = [options] { return run(*options); }; });
+    auto rules = std::make_shared<OptionRules>(*command);
+    rules->never_with({"--device", "--device-memory", "--validation"}, "--no-gpu");
+    command->callback([options, rules, &action] {
+        rules->check();
+        action = [options] { return run(*options); };
+    });
 }
 
 }  // namespace lr::app

@@ -6,12 +6,14 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <span>
 #include <vector>
 
 #include "app/commands.h"
 #include "app/gpu_options.h"
+#include "app/progress.h"
 #include "renderer/compare.h"
 
 namespace lr::app {
@@ -39,6 +41,11 @@ struct Skipped {
     std::string reason;
 };
 
+/// What is to be seen is the mesh's own: the same for all.
+bool is_blank(std::span<const Compared> all) {
+    return std::any_of(all.begin(), all.end(), [](const Compared& compared) { return compared.comparison.blank; });
+}
+
 nlohmann::ordered_json to_json(const Options& options, const gpu::DeviceInfo& info, std::span<const Compared> all,
                                std::span<const Skipped> skipped, std::size_t messages, const std::string& diff) {
     nlohmann::ordered_json out = {{"schema", 1},
@@ -63,6 +70,7 @@ nlohmann::ordered_json to_json(const Options& options, const gpu::DeviceInfo& in
                                   {"blank", c.blank},
                                   {"validation_messages", messages}});
     }
+    out["blank"] = is_blank(all);
     out["skipped"] = nlohmann::ordered_json::array();
     for (const Skipped& s : skipped) out["skipped"].push_back({{"path", s.path}, {"reason", s.reason}});
     if (!diff.empty()) out["diff"] = diff;
@@ -92,11 +100,18 @@ void print_table(const Options& options, const gpu::DeviceInfo& info, std::span<
     });
     row("  by more than 1/255", [](const gpu::Comparison& c) { return c.raw_pixels_beyond_one; });
     row("  at most, of 255", [](const gpu::Comparison& c) { return c.raw_max_channel_difference; });
-    row("pixels covered",
-        [](const gpu::Comparison& c) { return fmt::format("{}{}", c.blank ? "BLANK " : "", c.covered_pixels); });
+    row("pixels covered", [](const gpu::Comparison& c) { return c.covered_pixels; });
     row("triangles seen", [](const gpu::Comparison& c) { return c.distinct_ids; });
     if (options.context.validation) fmt::print("\n  {:<40}{:>10}", "validation messages", messages);
     fmt::print("\n");
+}
+
+std::string verdict(bool passed, std::span<const Compared> all, std::uint32_t triangles) {
+    if (!passed) return "DIFFERENT";
+    if (!is_blank(all)) return "the same pictures";
+    const gpu::Comparison& c = all[0].comparison;
+    return fmt::format("nothing to be seen: {} of {} triangles on {} pixels; nothing differs", c.distinct_ids,
+                       triangles, c.covered_pixels);
 }
 
 int run(const Options& options) {
@@ -126,7 +141,14 @@ int run(const Options& options) {
     compare_options.height = options.size.height;
     std::vector<gpu::Subject> subjects;
     for (const Compared& compared : all) subjects.push_back(compared.subject);
-    Result<std::vector<gpu::Comparison>> comparisons = gpu::compare(**context, *model, subjects, compare_options);
+    Result<std::vector<gpu::Comparison>> comparisons = [&] {
+        std::optional<ProgressBar> bar;
+        compare_options.progress = [&bar](std::uint32_t done, std::uint32_t total) {
+            if (!bar) bar.emplace("comparing", total);
+            bar->show(done);
+        };
+        return gpu::compare(**context, *model, subjects, compare_options);
+    }();
     if (!comparisons) {
         print_validation(**context);
         return fail(options.input.path, comparisons.error());
@@ -153,7 +175,7 @@ int run(const Options& options) {
         print_table(options, (*context)->info(), all, messages);
         for (const Skipped& s : skipped) fmt::print("  {} not compared: {}\n", s.path, s.reason);
         if (!diff.empty()) fmt::print("  differences drawn in {}\n", diff);
-        fmt::print("{}\n", passed ? "the same pictures" : "DIFFERENT");
+        fmt::print("{}\n", verdict(passed, all, model->triangle_count()));
     }
     return passed ? done : check_failed;
 }
