@@ -361,6 +361,7 @@ void Loader::Job::measure_formats(const Document& document) {
 
 void Loader::Job::work() {
     Document document;
+    if (stopped()) return;
     if (reads()) {
         Result<Mesh> mesh = read();
         if (!mesh) return fail(mesh.error().message);

@@ -125,7 +125,10 @@ Result<void> Script::advance(Viewer& viewer, Window& window, std::deque<Event>& 
             --frames_;
             return {};
         }
-        if (at_ >= lines_.size()) return {};
+        if (at_ >= lines_.size()) {
+            events.push_back({.kind = Event::close});  // nobody else could
+            return {};
+        }
         const Line& line = lines_[at_];
         if (waited_ == 0) waiting_since_ = std::chrono::steady_clock::now();
         const Result<bool> ran = run(line, viewer, window, events);

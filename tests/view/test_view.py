@@ -71,6 +71,13 @@ class View(driver.Scripted):
                      "minimise now", "print all", "close it", "ray 1", "copy a", "camera --up=+Z", "camera --no-such 1"):
             self.wrong_line(line)
 
+    def test_a_script_ends_with_its_last_line(self):
+        name = os.path.join(driver.folder, "ends.txt")
+        with open(name, "w") as file:
+            file.write("wait mesh\nprint\n")
+        done = run("view", mesh("torus", 500), "--size", "320x200", "--script", name, timeout=60)
+        self.assertEqual((done.returncode, done.stderr, len(done.stdout.splitlines())), (0, "", 1))
+
     def test_a_script_from_standard_input(self):
         done = subprocess.run([driver.program, "view", mesh("torus", 500), "--size", "320x200", "--script", "-"], text=True,
                               input="wait mesh\nprint\nset k 0\n", capture_output=True, cwd=driver.folder, timeout=120,
