@@ -25,6 +25,7 @@ struct GpuFigures {
     std::vector<DrawCost> cost;     ///< of each of `draw`
     std::uint64_t device_bytes = 0;
     std::vector<std::pair<std::string, std::string>> absent;  ///< name of a missing way, reason
+    std::size_t validation_messages = 0;                      ///< printed on standard error
 };
 
 /// With the streams that the program recommends, optimised. Errors: no_device, and those of the renderer.

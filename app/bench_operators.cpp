@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "app/operator_kernels.h"
+#include "app/progress.h"
 #include "lrcore/baseline/limit.h"
 #include "lrcore/corner_table/split.h"
 #include "lrcore/lr/operators.h"
@@ -155,8 +156,12 @@ Result<OperatorBench> measure_operators(const Mesh& mesh, CornerTable table, int
     const std::string no_squad = no_squad_operators(table);
     if (!no_squad.empty()) out.absent.emplace_back("squad", no_squad);
     const std::size_t triangles = mesh.triangle_count();
+    constexpr std::uint64_t kBuilt = 5;
+    ProgressBar bar("operators", kBuilt + static_cast<std::uint64_t>(rounds));
     const CornerTableC corner_table = build_corner_table_c(table);
+    bar.step();
     const WingedEdge winged = build_winged_edge(table);
+    bar.step();
     LrMap squad_map, lr_map;
     Squad squad;
     if (no_squad.empty()) {
@@ -164,10 +169,13 @@ Result<OperatorBench> measure_operators(const Mesh& mesh, CornerTable table, int
         if (!built) return built.error();
         squad = std::move(*built);
     }
+    bar.step();
     const Result<LrTable> lr = build_lr(table, expand_rings(table, {.one_per_shell = true}), {}, &lr_map);
     if (!lr) return lr.error();
+    bar.step();
     const Result<CompactChoice> compact = smallest_compact_lr(table, {}, recommended_periods(triangles));
     if (!compact) return compact.error();
+    bar.step();
     table = {};
 
     const auto no_order = std::vector<VertexId>{};
@@ -190,6 +198,7 @@ Result<OperatorBench> measure_operators(const Mesh& mesh, CornerTable table, int
                 return Error{ErrorCode::invalid_argument, "structures disagree on an operator"};
             }
         }
+        bar.step();
     }
     out.structures = {a.figures(), b.figures()};
     if (c) out.structures.push_back(c->figures());

@@ -10,6 +10,7 @@
 
 #include "app/bench_operators.h"
 #include "app/print.h"
+#include "app/progress.h"
 #include "app/resident_visits.h"
 #include "lrcore/corner_table/geometry.h"
 #include "lrcore/corner_table/split.h"
@@ -293,7 +294,10 @@ Result<ResidentFigures> measure_resident(const Mesh& mesh, CornerTable input, co
         out.structures.push_back({s->name(), s->file().bytes().size(), s->file().direct()});
 
     const std::size_t last = structures.size() - 1;  // of lr_compact; lr is the one before
-    for (const std::size_t limit : choose_limits(options, bytes(0), bytes(last - 1), bytes(last), out.page_bytes)) {
+    const std::vector<std::size_t> limits =
+        choose_limits(options, bytes(0), bytes(last - 1), bytes(last), out.page_bytes);
+    ProgressBar bar("operators, memory limited", limits.size() * kVisits * static_cast<std::uint64_t>(options.rounds));
+    for (const std::size_t limit : limits) {
         ResidentFigures::Level level;
         level.limit_bytes = limit;
         level.corner_tables = static_cast<double>(limit) / static_cast<double>(bytes(0));
@@ -319,6 +323,7 @@ Result<ResidentFigures> measure_resident(const Mesh& mesh, CornerTable input, co
                         static_cast<double>(timing.pages) / operations / options.rounds;
                     level.resident_bytes[i] = std::max(level.resident_bytes[i], structures[i]->file().resident());
                 }
+                bar.step();
             }
             for (std::size_t i = 0; i < structures.size(); ++i) level.cells[i][visit].ns_per_op = median(ns[i]);
         }

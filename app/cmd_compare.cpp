@@ -6,12 +6,15 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <span>
 #include <vector>
 
 #include "app/commands.h"
 #include "app/gpu_options.h"
+#include "app/output.h"
+#include "app/progress.h"
 #include "renderer/compare.h"
 
 namespace lr::app {
@@ -19,7 +22,7 @@ namespace {
 
 struct Options {
     MeshInput input;
-    std::string diff;
+    OutputOptions diff;
     std::set<std::string> paths;  ///< empty: all
     PictureSize size;
     gpu::ContextOptions context;
@@ -39,10 +42,15 @@ struct Skipped {
     std::string reason;
 };
 
+/// What is to be seen is the mesh's own: the same for all.
+bool is_blank(std::span<const Compared> all) {
+    return std::any_of(all.begin(), all.end(), [](const Compared& compared) { return compared.comparison.blank; });
+}
+
 nlohmann::ordered_json to_json(const Options& options, const gpu::DeviceInfo& info, std::span<const Compared> all,
                                std::span<const Skipped> skipped, std::size_t messages, const std::string& diff) {
     nlohmann::ordered_json out = {{"schema", 1},
-                                  {"file", options.input.path},
+                                  {"file", input_name(options.input.path)},
                                   {"device", {{"name", info.name}, {"driver", info.driver}, {"api", info.api}}},
                                   {"size", {options.size.width, options.size.height}},
                                   {"views", all[0].comparison.views}};
@@ -63,6 +71,7 @@ nlohmann::ordered_json to_json(const Options& options, const gpu::DeviceInfo& in
                                   {"blank", c.blank},
                                   {"validation_messages", messages}});
     }
+    out["blank"] = is_blank(all);
     out["skipped"] = nlohmann::ordered_json::array();
     for (const Skipped& s : skipped) out["skipped"].push_back({{"path", s.path}, {"reason", s.reason}});
     if (!diff.empty()) out["diff"] = diff;
@@ -92,16 +101,27 @@ void print_table(const Options& options, const gpu::DeviceInfo& info, std::span<
     });
     row("  by more than 1/255", [](const gpu::Comparison& c) { return c.raw_pixels_beyond_one; });
     row("  at most, of 255", [](const gpu::Comparison& c) { return c.raw_max_channel_difference; });
-    row("pixels covered",
-        [](const gpu::Comparison& c) { return fmt::format("{}{}", c.blank ? "BLANK " : "", c.covered_pixels); });
+    row("pixels covered", [](const gpu::Comparison& c) { return c.covered_pixels; });
     row("triangles seen", [](const gpu::Comparison& c) { return c.distinct_ids; });
     if (options.context.validation) print("\n  {:<40}{:>10}", "validation messages", messages);
     print("\n");
 }
 
+std::string verdict(bool passed, std::span<const Compared> all, std::uint32_t triangles) {
+    if (!passed) return "DIFFERENT";
+    if (!is_blank(all)) return "the same pictures";
+    const gpu::Comparison& c = all[0].comparison;
+    return fmt::format("nothing to be seen: {} of {} triangles on {} pixels; nothing differs", c.distinct_ids,
+                       triangles, c.covered_pixels);
+}
+
 int run(const Options& options, RunLog& log) {
     const Result<Mesh> mesh = load(options.input, log);
     if (!mesh) return fail(options.input.path, mesh.error());
+    constexpr std::string_view kExtensions[] = {".png"};
+    if (const auto good = check_output(options.diff.path, options.diff, log, kExtensions); !good) {
+        return fail(options.diff.path, good.error());
+    }
     const Result<gpu::Model> model = gpu::make_model(*mesh, {.packed = true});
     if (!model) return fail(options.input.path, model.error());
     const Result<std::unique_ptr<gpu::Context>> context = gpu::Context::create(options.context);
@@ -126,7 +146,14 @@ int run(const Options& options, RunLog& log) {
     compare_options.height = options.size.height;
     std::vector<gpu::Subject> subjects;
     for (const Compared& compared : all) subjects.push_back(compared.subject);
-    Result<std::vector<gpu::Comparison>> comparisons = gpu::compare(**context, *model, subjects, compare_options);
+    Result<std::vector<gpu::Comparison>> comparisons = [&] {
+        std::optional<ProgressBar> bar;
+        compare_options.progress = [&bar](std::uint32_t done, std::uint32_t total) {
+            if (!bar) bar.emplace("comparing", total);
+            bar->show(done);
+        };
+        return gpu::compare(**context, *model, subjects, compare_options);
+    }();
     if (!comparisons) {
         print_validation(**context);
         return fail(options.input.path, comparisons.error());
@@ -138,7 +165,7 @@ int run(const Options& options, RunLog& log) {
     const auto other =
         std::find_if(all.begin(), all.end(), [](const Compared& compared) { return !compared.comparison.same(); });
     const bool same = other == all.end();
-    std::string diff = options.diff;
+    std::string diff = options.diff.path;
     if (diff.empty() && !same) diff = std::filesystem::path(options.input.path).stem().string() + ".diff.png";
     if (!diff.empty()) {
         const Compared& shown = same ? all.front() : *other;
@@ -153,7 +180,7 @@ int run(const Options& options, RunLog& log) {
         print_table(options, (*context)->info(), all, messages);
         for (const Skipped& s : skipped) print("  {} not compared: {}\n", s.path, s.reason);
         if (!diff.empty()) print("  differences drawn in {}\n", diff);
-        print("{}\n", passed ? "the same pictures" : "DIFFERENT");
+        print("{}\n", verdict(passed, all, model->triangle_count()));
     }
     return passed ? done : check_failed;
 }
@@ -166,12 +193,13 @@ void add_compare(CLI::App& program, Action& action) {
         program.add_subcommand("compare", "draw a mesh plain and from its streams, and compare the pixels");
     command->add_option("MESH", options->input.path, "mesh file")->required();
     add_input_options(*command, options->input.options, 250);
+    add_force(*command, options->diff);
     add_size(*command, options->size);
     command
         ->add_option("--path", options->paths, "compute, pull, geometry or mesh, with commas; all of them unless told")
         ->delimiter(',')
         ->check(CLI::IsMember(std::set<std::string>{"compute", "pull", "geometry", "mesh"}));
-    command->add_option("--diff", options->diff, "write a picture of the differences, even if there are none")
+    command->add_option("--diff", options->diff.path, "write a picture of the differences, even if there are none")
         ->type_name("FILE.png");
     add_device_options(*command, options->context);
     command->add_flag("--json", options->json, "one JSON document on standard output");

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/commands.h"
+#include "app/option_rules.h"
 #include "app/output.h"
 #include "lrcore/file/lr_file.h"
 #include "lrcore/lean/lean_stream.h"
@@ -110,7 +111,22 @@ void add_encode(CLI::App& program, Action& action) {
     command->add_flag("--no-warts", options->no_warts, "no wart skipping (lean and lr)");
     command->add_flag("--keep-order", options->keep_order,
                       "store the vertex and triangle permutations, for decode --original-order");
-    command->callback([options, &action] { action = [options](RunLog& log) { return run(*options, log); }; });
+    auto rules = std::make_shared<OptionRules>(*command);
+    const auto is = [options](std::string_view format) { return options->format == format; };
+    rules->only_with({"--profile"}, "--format packed", [is] { return is("packed"); });
+    rules->only_with({"--no-warts"}, "--format lean or lr", [is] { return is("lean") || is("lr"); });
+    rules->only_with({"--optimize"}, "--format lean, packed or lr", [is] { return !is("lr-compact"); });
+    rules->only_with({"--k"}, "--ring hybrid or --format lr-compact", [options, is] {
+        return options->ring.ring == "hybrid" || (is("lr-compact") && options->ring.ring.empty());
+    });
+    rules->only_with({"--random-seed"}, "several --seeds, or --optimize", [options, is] {
+        return options->ring.seeds > 1 ||
+               (!is("lr-compact") && (options->ring.seeds == 0 || options->ring.optimize != "0"));
+    });
+    command->callback([options, rules, &action] {
+        rules->check();
+        action = [options](RunLog& log) { return run(*options, log); };
+    });
 }
 
 }  // namespace lr::app

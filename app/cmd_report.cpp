@@ -7,9 +7,10 @@
 #include <span>
 
 #include "app/commands.h"
+#include "app/option_rules.h"
+#include "app/output.h"
 #include "app/report_html.h"
 #include "app/report_page.h"
-#include "lrcore/base/file.h"
 #ifdef LACEDRING_GPU
 #include "app/camera_options.h"
 #include "app/report_pictures.h"
@@ -20,7 +21,7 @@ namespace {
 
 struct Options {
     std::vector<std::string> paths;
-    std::string output;
+    OutputOptions output;
     InputOptions input;
     RingChoice ring;
     bool no_gpu = false;
@@ -62,7 +63,7 @@ Result<std::unique_ptr<gpu::Context>> open_device(const Options& options, std::s
         return std::unique_ptr<gpu::Context>();
     }
     Result<std::unique_ptr<gpu::Context>> context = gpu::Context::create(options.context);
-    if (!context && context.error().code == ErrorCode::no_device && options.context.device.empty()) {
+    if (!context && context.error().code == ErrorCode::no_device && !asks_for_device(options.context)) {
         skipped = context.error().message;
         return std::unique_ptr<gpu::Context>();
     }
@@ -116,14 +117,20 @@ int run(const Options& options, RunLog& log) {
         skipped = meshes.front().no_pictures;
     }
 #endif
+    constexpr std::string_view kExtensions[] = {".html", ".htm"};
+    if (const auto good = check_output(options.output.path, options.output, log, kExtensions); !good) {
+        return fail(output_name(options.output.path), good.error());
+    }
     page.meshes = meshes;
     const std::string text = report_page(page);
     const std::span<const std::byte> part = std::as_bytes(std::span(text));
-    if (const Result<void> written = write_file(options.output, std::span(&part, 1)); !written) {
-        return fail(options.output, written.error());
+    if (const Result<void> written = write_output(options.output.path, std::span(&part, 1)); !written) {
+        return fail(output_name(options.output.path), written.error());
     }
-    print("{}: {}, {} bytes; {}\n", options.output, counted(meshes.size(), "mesh", "meshes"), text.size(),
-          skipped.empty() ? "drawn on " + page.device : "no pictures: " + skipped);
+    const std::string line = fmt::format("{}: {}, {} bytes; {}\n", output_name(options.output.path),
+                                         counted(meshes.size(), "mesh", "meshes"), text.size(),
+                                         skipped.empty() ? "drawn on " + page.device : "no pictures: " + skipped);
+    options.output.path == "-" ? say("{}", line) : print("{}", line);
     return messages == 0 ? done : check_failed;
 }
 
@@ -133,7 +140,7 @@ void add_report(CLI::App& program, Action& action) {
     auto options = std::make_shared<Options>();
     CLI::App* command = program.add_subcommand("report", "figures, charts and pictures of meshes as one HTML page");
     command->add_option("MESH", options->paths, "mesh files")->required();
-    command->add_option("-o,--output", options->output, "the HTML file")->required();
+    add_output(*command, options->output, "the HTML file; - for standard output");
     add_input_options(*command, options->input, 350);
     add_ring_options(*command, options->ring);
     command->add_flag("--no-gpu", options->no_gpu, "no pictures");
@@ -143,7 +150,13 @@ void add_report(CLI::App& program, Action& action) {
     add_camera(*command, options->camera);
     add_device_options(*command, options->context);
 #endif
-    command->callback([options, &action, command] {
+    auto rules = std::make_shared<OptionRules>(*command);
+    rules->never_with({"--size", "--up", "--camera-position", "--camera-focal-point", "--camera-azimuth-angle",
+                       "--camera-elevation-angle", "--camera-zoom-factor", "--camera-view-angle", "--device",
+                       "--device-memory", "--validation"},
+                      "--no-gpu");
+    command->callback([options, rules, &action, command] {
+        rules->check();
         options->command = command_line(*command);
         action = [options](RunLog& log) { return run(*options, log); };
     });

@@ -7,6 +7,7 @@
 
 #include "app/commands.h"
 #include "app/lr_contents.h"
+#include "app/option_rules.h"
 #include "app/paper_tables.h"
 #include "lrcore/baseline/strips.h"
 #include "lrcore/packed/packed_format.h"
@@ -114,6 +115,11 @@ void print_sizes(const std::string& path, const Mesh& mesh, const FormatSet& set
     print("\n");
 }
 
+/// Tables of rings that are made for them alone.
+bool makes_rings(const Options& options) {
+    return options.table == "offsets" || options.table == "periods" || options.table == "seeds";
+}
+
 /// Every format, and the rows of size tables. Returns an Exit.
 int add_sizes(const Options& options, const std::string& path, const LoadedMesh& loaded, Json& json,
               std::vector<MeshRow>& rows) {
@@ -164,7 +170,7 @@ int run(const Options& options, RunLog& log) {
     Json meshes = Json::array();
     std::vector<MeshRow> mesh_rows;
     std::vector<SeedRow> seed_rows;
-    const bool rings = options.table == "offsets" || options.table == "periods" || options.table == "seeds";
+    const bool rings = makes_rings(options);
     const int exit = for_each_input(options.paths, log, [&](std::size_t i) {
         const std::string& path = options.paths[i];
         const Result<LoadedMesh> loaded = load_file({path, options.input}, log);
@@ -206,7 +212,16 @@ void add_stats(CLI::App& program, Action& action) {
         ->check(CLI::IsMember({"sizes", "packed", "table1", "lean", "storage", "offsets", "periods", "seeds"}))
         ->capture_default_str();
     command->add_flag("--json", options->json, "one JSON document on standard output");
-    command->callback([options, &action] { action = [options](RunLog& log) { return run(*options, log); }; });
+    auto rules = std::make_shared<OptionRules>(*command);
+    rules->never_with({"--optimize"}, "--paper");
+    const auto makes_sizes = [options] { return options->json || !makes_rings(*options); };
+    rules->only_with({"--paper", "--ring", "--k", "--optimize"}, "--json, or a table of sizes", makes_sizes);
+    rules->only_with({"--seeds"}, "--json, or another --table than seeds",
+                     [options, makes_sizes] { return makes_sizes() || options->table != "seeds"; });
+    command->callback([options, rules, &action] {
+        rules->check();
+        action = [options](RunLog& log) { return run(*options, log); };
+    });
 }
 
 }  // namespace lr::app

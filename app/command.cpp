@@ -1,14 +1,13 @@
 #include "app/command.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <charconv>
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <system_error>
 
+#include "app/progress.h"
 #include "lrcore/lr/search.h"
 
 namespace lr::app {
@@ -73,28 +72,6 @@ std::vector<std::uint32_t> ring_periods(const RingChoice& choice, std::size_t tr
     if (choice.ring == "hybrid") std::erase(periods, 0U);  // that is the expander
     return periods;
 }
-
-namespace {
-
-/// A bar on standard error, if that is a terminal and the work takes longer than a moment. Gone when all is done.
-std::function<bool(std::uint32_t)> progress_bar(const char* what, std::uint32_t total) {
-    if (isatty(STDERR_FILENO) == 0) return {};
-    const auto begun = std::chrono::steady_clock::now();
-    return [=](std::uint32_t done) {
-        constexpr std::uint32_t kWidth = 40;
-        if (std::chrono::steady_clock::now() - begun < std::chrono::milliseconds(500)) return true;
-        const std::uint32_t full = kWidth * done / total;
-        if (done < total) {
-            say("\r{} [{:=<{}}{:{}}] {}/{}", what, "", full, "", kWidth - full, done, total);
-        } else {
-            say("\r{:{}}\r", "", kWidth + 40);
-        }
-        std::fflush(stderr);
-        return true;
-    };
-}
-
-}  // namespace
 
 OptimizeOptions optimize_options(const RingChoice& choice, const RingCost& cost) {
     OptimizeOptions options;

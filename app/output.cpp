@@ -35,6 +35,10 @@ Error refused(std::string why) {
 
 void add_output(CLI::App& command, OutputOptions& options, const std::string& what) {
     command.add_option("-o,--output", options.path, what)->required();
+    add_force(command, options);
+}
+
+void add_force(CLI::App& command, OutputOptions& options) {
     command.add_flag("--force", options.force, "write over an input, or under another kind's extension");
 }
 
@@ -44,7 +48,7 @@ std::string output_name(const fs::path& path) {
 
 Result<void> check_output(const fs::path& path, const OutputOptions& options, const RunLog& log,
                           std::span<const std::string_view> extensions) {
-    if (options.force || path == "-") return {};
+    if (options.force || path == "-" || path.empty()) return {};
     const std::string extension = lower_extension(path);
     if (is_known(extension) && std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) {
         return refused("what is written is no " + extension + " file");

@@ -18,8 +18,9 @@ struct OutputOptions {
     bool force = false;
 };
 
-/// Adds -o and --force.
+/// Adds -o and --force, or --force alone.
 void add_output(CLI::App& command, OutputOptions& options, const std::string& what);
+void add_force(CLI::App& command, OutputOptions& options);
 
 /// As messages name it.
 std::string output_name(const std::filesystem::path& path);

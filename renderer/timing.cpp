@@ -21,7 +21,10 @@ struct Work {
 
 /// Runs each piece of work between timestamps, in turns. The first round is not counted: pages are touched, shaders
 /// compiled.
-Result<void> run_in_turns(Commands& commands, std::uint32_t repeats, std::span<const Work> works) {
+Result<void> run_in_turns(Commands& commands, const TimingOptions& options, std::span<const Work> works) {
+    const std::uint32_t repeats = options.repeats;
+    const auto total = static_cast<std::uint32_t>((repeats + 1) * works.size());
+    std::uint32_t done = 0;
     for (std::uint32_t i = 0; i <= repeats; ++i) {
         for (const Work& work : works) {
             LR_ASSIGN(const VkCommandBuffer buffer, commands.begin());
@@ -30,6 +33,7 @@ Result<void> run_in_turns(Commands& commands, std::uint32_t repeats, std::span<c
             commands.stop_timer();
             LR_ASSIGN(const Elapsed elapsed, commands.run());
             if (i != 0) work.times->push_back(elapsed);
+            if (options.progress) options.progress(++done, total);
         }
     }
     return {};
@@ -152,7 +156,7 @@ Result<DeviceTimes> measure_device(Context& context, const Model& model, const T
                          const VkBufferCopy region{0, 0, out.index_bytes};
                          vkCmdCopyBuffer(buffer, lean_indices->handle(), copy.handle(), 1, &region);
                      }});
-    LR_TRY(run_in_turns(renderer.commands(), options.repeats, works));
+    LR_TRY(run_in_turns(renderer.commands(), options, works));
     for (Uploaded& uploaded : all) {
         if (uploaded.way.path != Path::mesh && context.info().statistics) {
             LR_ASSIGN(uploaded.way.vertex_invocations, renderer.vertex_invocations(uploaded.drawable));

@@ -2,6 +2,7 @@
 // How long the device takes. For `lacedring bench`.
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -21,6 +22,8 @@ struct TimingOptions {
     std::uint32_t repeats = 5;
     std::uint32_t width = 1280;
     std::uint32_t height = 720;
+    /// Told after each submission, outside the times, how many of how many are done.
+    std::function<void(std::uint32_t done, std::uint32_t total)> progress = {};
 };
 
 /// One way to draw the model.

@@ -16,7 +16,7 @@ enum class ErrorCode {
     invalid_argument, ///< a parameter is out of its range
     too_large,        ///< more elements than the representation numbers, or than memory holds
     memory_limit,     ///< would take more memory than the caller allows
-    no_device,        ///< no usable Vulkan device
+    no_device,        ///< no usable Vulkan device, or it lacks what was asked for: memory, sizes, features
     device_failure,   ///< a Vulkan call failed
 };
 

@@ -124,7 +124,7 @@ class RoundTrip(CliTest):
             self.assertEqual(self.json("info", lr, "--json")["vertices"], self.json("info", source, "--json")["vertices"])
 
         in_parallel(check, [(k, *f) for k in KINDS for f in (
-            ("lr",), ("lr", "--k", "40"), ("lr-compact", "--k", "40"), ("lr-compact",), ("packed",), ("packed", "--ring", "expander"),
+            ("lr",), ("lr", "--ring", "hybrid", "--k", "40"), ("lr-compact", "--k", "40"), ("lr-compact",), ("packed",), ("packed", "--ring", "expander"),
             ("packed", "--profile", "cache"), ("packed", "--profile", "cache", "--optimize", "2"))])
 
     def test_nothing_but_degenerate_triangles(self):

@@ -255,6 +255,22 @@ class Usage(CliTest):
         self.assertEqual(self.json("info", "--json", "--weld", "attributes", mesh)["vertices"], 4)
         self.wrong("info", "--weld=nonsense", mesh)
 
+    def test_options_without_effect(self):
+        mesh, lr = self.generate("blob", 300), self.path("x.lr")
+        for options in (["--profile", "cache"], ["--profile", "small", "--format", "lr"], ["--k", "5"], ["--k", "5", "--format", "lr"],
+                        ["--k", "5", "--format", "packed"], ["--no-warts", "--format", "packed"],
+                        ["--no-warts", "--format", "lr-compact"], ["--optimize", "3", "--format", "lr-compact"],
+                        ["--k", "5", "--format", "lr-compact", "--ring", "expander"],
+                        ["--random-seed", "7", "--seeds", "1", "--optimize", "0"]):
+            self.fails("encode", mesh, "-o", lr, *options, mentions=[options[0]], codes=(WRONG_USAGE,))
+        for options in (["--profile", "cache", "--format", "packed"], ["--k", "5", "--ring", "hybrid"], ["--no-warts"],
+                        ["--k", "5", "--format", "lr-compact"], ["--no-warts", "--format", "lr"], ["--random-seed", "7"]):
+            self.ok("encode", mesh, "-o", lr, *options)
+        for options in (["--paper", "--optimize", "3"], ["--table", "periods", "--ring", "hybrid"],
+                        ["--table", "seeds", "--seeds", "4"], ["--table", "offsets", "--paper"]):
+            self.wrong("stats", mesh, *options, mentions=["--"])
+        self.fails("decode", lr, "-o", self.path("y.ply"), "--output-format", "ply", codes=(WRONG_USAGE,))
+
     def test_no_exceptions_in_messages(self):
         for arguments in (["generate", "blob", "-o", "x.ply", "--triangles", "1e6"], ["info", "--optimize"], ["stats"],
                           ["encode", "x.ply"], ["encode", "x.ply", "-o", "y.lr", "--format", "leen"]):
