@@ -173,10 +173,15 @@ void Loader::list(const std::string& path) {
         ++shared_->readers;
     }
     const Result<void> started = threads_.start([shared = shared_, path, number] {
-        std::vector<std::string> files = meshes_beside(path);
+        std::optional<std::vector<std::string>> files;
+        try {
+            files = meshes_beside(path);
+        } catch (const std::bad_alloc&) {
+            files.reset();  // the list stays as it is
+        }
         const std::lock_guard lock(shared->mutex);
         --shared->readers;
-        if (number != shared->listing) return;
+        if (number != shared->listing || !files) return;
         shared->news.files = std::move(files);
         shared->say_news();
     });

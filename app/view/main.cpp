@@ -163,7 +163,7 @@ int run(Options& options, Threads& threads) {
     return exit_code(failed_on, done);
 }
 
-int start(int argc, char** argv) {
+int start(int argc, char** argv, Threads& threads) {
     CLI::App program("interactive viewer");
     program.name("lacedring view");
     Options options;
@@ -201,23 +201,27 @@ int start(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return program.exit(error) == 0 ? app::done : app::wrong_usage;
     }
-    Threads threads;
-    const int code = run(options, threads);
-    // A thread that waits for a disk, or computes for long, is left behind.
-    if (!threads.finish(kPatience)) leave(code);
-    return code;
+    return run(options, threads);
 }
 
 }  // namespace
 }  // namespace lr::view
 
 int main(int argc, char** argv) {
+    lr::view::Threads threads;
+    int code = lr::app::bad_input;
     try {
-        return lr::view::start(argc, argv);
+        code = lr::view::start(argc, argv, threads);
     } catch (const std::bad_alloc&) {
         std::fputs("lacedring: not enough memory\n", stderr);
     } catch (const std::exception& error) {  // a bug: nothing of ours throws
         lr::app::say("lacedring: internal error: {}\n", error.what());
     }
-    return lr::app::bad_input;
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+        std::fputs("lacedring: standard output: cannot be written\n", stderr);
+        if (code == lr::app::done) code = lr::app::bad_input;
+    }
+    // A thread that waits for a disk, or computes for long, is left behind.
+    if (!threads.finish(lr::view::kPatience)) lr::view::leave(code);
+    return code;
 }

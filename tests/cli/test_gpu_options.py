@@ -12,7 +12,7 @@ import cli_support
 from cli_support import DONE, NO_DEVICE, WRONG_USAGE, CliTest, main
 
 
-def on_a_terminal(*arguments, timeout=120):
+def on_a_terminal(*arguments, timeout=300):
     """Runs the program with standard error on a terminal: exit code, standard output, and what the terminal got."""
     ours, theirs = pty.openpty()
     process = subprocess.Popen([cli_support.program, *arguments], stdout=subprocess.PIPE, stderr=theirs, stdin=subprocess.DEVNULL)
@@ -173,7 +173,7 @@ class GpuOptions(CliTest):
 
     def test_progress_is_for_terminals(self):
         mesh = self.generate("blob", 30000)
-        for arguments in (("compare", mesh, "--size", "800x600"), ("bench", mesh, "--rounds", "2", "--operators")):
+        for arguments in (("compare", mesh, "--size", "400x300"), ("bench", mesh, "--rounds", "1", "--operators")):
             code, out, said = on_a_terminal(*arguments)
             self.assertEqual(code, DONE, said)
             self.assertIn("[", said, arguments)
@@ -186,7 +186,7 @@ class GpuOptions(CliTest):
         self.assertEqual(outcome.err, "")
         # An error is on a line of its own.
         bad = self.write("bad.obj", b"v 0 0 0\nf 1 1 1\n")
-        code, _, said = on_a_terminal("bench", mesh, bad, "--rounds", "2")
+        code, _, said = on_a_terminal("bench", mesh, bad, "--rounds", "1")
         self.assertNotEqual(code, DONE)
         self.assertIn("lacedring: " + bad, said.split("\r")[-2] if said.endswith("\r\n") else said)
 
