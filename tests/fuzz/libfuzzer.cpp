@@ -23,6 +23,7 @@ struct Counts {
 }  // namespace
 
 void lr::fuzz::mutate_bytes(Bytes& bytes, std::size_t max_size, Random&) {
+    if (max_size == 0) return bytes.clear();  // LLVMFuzzerMutate wants room
     const std::size_t size = std::min(bytes.size(), max_size);
     bytes.resize(max_size);
     bytes.resize(LLVMFuzzerMutate(reinterpret_cast<std::uint8_t*>(bytes.data()), size, max_size));
