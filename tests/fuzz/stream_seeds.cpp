@@ -23,6 +23,7 @@ std::filesystem::path folder;
 bool all_written = true;
 
 void write(const char* target, const std::string& name, std::span<const std::byte> bytes) {
+    if (bytes.size() > 8192) return;  // scripts/fuzz would cut it off
     std::filesystem::create_directories(folder / target);
     const std::span<const std::byte> parts[] = {bytes};
     all_written = write_file(folder / target / name, parts).has_value() && all_written;
@@ -57,10 +58,10 @@ void write_seeds(std::string name, const Mesh& mesh, std::uint32_t number) {
         write_stream("lr_compact", name, mesh, Connectivity::lr_compact, compact->words, compact->vertex_order,
                      compact->triangle_order);
     }
-    if (mesh.vertex_count <= 256 && mesh.triangle_count() <= 200) {
+    if (mesh.vertex_count <= 256 && mesh.triangle_count() <= 100) {
         std::vector<std::byte> input;
         for (const std::uint32_t v : mesh.indices) input.push_back(static_cast<std::byte>(v));
-        const std::uint32_t warts = number % 3 == 0 ? 0x80 : 0, copies = number % 5 == 0 ? number % 32 * 2 : 0;
+        const std::uint32_t warts = number % 3 == 0 ? 0x80 : 0, copies = number % 5 == 0 ? 2 + number % 8 * 2 : 0;
         for (const std::uint32_t option : {0x40U | warts, number % 7, number % 3, number % 4, number, 255U, copies, 3U,
                                            number % 2 == 0 ? 0U : 1U << number % 6}) {
             input.push_back(static_cast<std::byte>(option));
@@ -79,8 +80,9 @@ int main(int argc, char** argv) {
         if (named.mesh.triangle_count() <= 200) write_seeds(named.name, named.mesh, number);
         ++number;
     }
-    for (const char* kind : {"blob", "terrain", "parts", "soup", "genus"}) {  // of several blocks
+    for (const char* kind : {"blob", "terrain", "parts", "soup", "genus"}) {  // of several blocks, and groups of blocks
         write_seeds(std::string(kind) + "-600", generate(kind, 600).value(), number++);
+        write_seeds(std::string(kind) + "-4600", generate(kind, 4600).value(), number++);
     }
     if (!all_written) std::fprintf(stderr, "%s: cannot be written\n", argv[1]);
     return all_written ? 0 : 1;
