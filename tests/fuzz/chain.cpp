@@ -250,9 +250,10 @@ void check_rivals(const Mesh& mesh, CornerTable table) {
     std::vector<std::uint32_t> proper;
     for (const Triangle& t : triangles_of(mesh.indices)) proper.insert(proper.end(), t.begin(), t.end());
     if (proper.empty()) return;
-    const Strips strips = make_strips(proper, mesh.vertex_count);
-    REQUIRE(sorted(triangles_of(unstrip(strips.restart, true))) == sorted(triangles_of(proper)));
-    REQUIRE(sorted(triangles_of(unstrip(strips.degenerate, false))) == sorted(triangles_of(proper)));
+    const Result<Strips> strips = make_strips(proper, mesh.vertex_count);
+    if (!strips) return;
+    REQUIRE(sorted(triangles_of(unstrip(strips->restart, true))) == sorted(triangles_of(proper)));
+    REQUIRE(sorted(triangles_of(unstrip(strips->degenerate, false))) == sorted(triangles_of(proper)));
 }
 
 void run_chain(const Mesh& input, const Options& options) {
