@@ -19,16 +19,17 @@ namespace {
 std::size_t allocated = 0;  // bytes requested since the last reset, freed or not
 }
 
-void* operator new(std::size_t size) {
+// Not inlined: the compiler would see free() of what it takes for the standard operator new's.
+[[gnu::noinline]] void* operator new(std::size_t size) {
     allocated += size;
     void* const out = std::malloc(size);
     if (out == nullptr) throw std::bad_alloc();
     return out;
 }
-void operator delete(void* p) noexcept {
+[[gnu::noinline]] void operator delete(void* p) noexcept {
     std::free(p);
 }
-void operator delete(void* p, std::size_t) noexcept {
+[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept {
     std::free(p);
 }
 
