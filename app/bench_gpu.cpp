@@ -1,5 +1,7 @@
 #include "app/bench_gpu.h"
 
+#include "app/gpu_options.h"
+#include "app/progress.h"
 #include "renderer/timing.h"
 
 namespace lr::app {
@@ -17,15 +19,25 @@ Candidate candidate(std::string name, const gpu::Times& times) {
 }  // namespace
 
 Result<GpuFigures> measure_gpu(const Mesh& mesh, const gpu::ContextOptions& options, int rounds) {
-    const Result<gpu::Model> model = gpu::make_model(mesh, {.packed = true, .optimize = {}});
+    OptimizeOptions optimize;
+    optimize.progress = progress_bar("optimising the ring", optimize.passes);
+    const Result<gpu::Model> model = gpu::make_model(mesh, {.packed = true, .optimize = std::move(optimize)});
     if (!model) return model.error();
     const Result<std::unique_ptr<gpu::Context>> context = gpu::Context::create(options);
     if (!context) return context.error();
     gpu::TimingOptions timing;
     timing.repeats = static_cast<std::uint32_t>(rounds);
-    const Result<gpu::DeviceTimes> times = gpu::measure_device(**context, *model, timing);
-    if (!times) return times.error();
+    const Result<gpu::DeviceTimes> times = [&] {
+        std::optional<ProgressBar> bar;
+        timing.progress = [&bar](std::uint32_t done, std::uint32_t total) {
+            if (!bar) bar.emplace("drawing", total);
+            bar->show(done);
+        };
+        return gpu::measure_device(**context, *model, timing);
+    }();
     GpuFigures figures;
+    figures.validation_messages = print_validation(**context);
+    if (!times) return times.error();
     figures.device = (*context)->info().name;
     for (const gpu::Way& way : times->ways) {
         figures.draw.push_back(candidate(way.name, way.draw));
@@ -39,6 +51,7 @@ Result<GpuFigures> measure_gpu(const Mesh& mesh, const gpu::ContextOptions& opti
     }
     figures.decode.push_back(candidate("copy", times->copy));
     figures.device_bytes = times->device_bytes;
+    figures.absent = times->absent;
     return figures;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/measure.h"
@@ -23,6 +24,8 @@ struct GpuFigures {
     std::vector<Candidate> draw;    ///< gpu::Way's names, and "lean_decode_every_frame", "packed_decode_every_frame"
     std::vector<DrawCost> cost;     ///< of each of `draw`
     std::uint64_t device_bytes = 0;
+    std::vector<std::pair<std::string, std::string>> absent;  ///< name of a missing way, reason
+    std::size_t validation_messages = 0;                      ///< printed on standard error
 };
 
 /// With the streams that the program recommends, optimised. Errors: no_device, and those of the renderer.

@@ -8,6 +8,9 @@
 #include <random>
 #include <span>
 
+#include "app/bench_operators.h"
+#include "app/print.h"
+#include "app/progress.h"
 #include "app/resident_visits.h"
 #include "lrcore/corner_table/geometry.h"
 #include "lrcore/corner_table/split.h"
@@ -181,7 +184,7 @@ class Maker {
     std::size_t page_bytes_;
 };
 
-Result<void> add_all(Maker& maker, const CornerTable& table, const CornerTableC& with_c) {
+Result<void> add_all(Maker& maker, const CornerTable& table, const CornerTableC& with_c, bool with_squad) {
     const CornerTableCView reference = with_c.view();
     const std::size_t c = with_c.vertex_of.size();
     Result<void> added = maker.add(
@@ -190,7 +193,7 @@ Result<void> add_all(Maker& maker, const CornerTable& table, const CornerTableC&
             return CornerTableCView{{}, reference.vertices, words.first(c), words.subspan(c, c), words.subspan(2 * c)};
         });
     if (!added) return added;
-    {
+    if (with_squad) {
         LrMap map;
         const Result<Squad> squad = build_squad(table, {}, &map);
         if (!squad) return squad.error();
@@ -278,7 +281,9 @@ Result<ResidentFigures> measure_resident(const Mesh& mesh, CornerTable input, co
         out.page_bytes = options.page_kib != 0 ? options.page_kib * 1024 : choose_page(4 * with_c.view().references());
         out.contour_triangles = reference.visits.contour_triangles;
         Maker maker(reference, positions, scratch, out.page_bytes);
-        if (const Result<void> added = add_all(maker, *table, with_c); !added) return added.error();
+        const std::string no_squad = no_squad_operators(*table);
+        if (!no_squad.empty()) out.absent.emplace_back("squad", no_squad);
+        if (const Result<void> added = add_all(maker, *table, with_c, no_squad.empty()); !added) return added.error();
         structures = std::move(maker.structures);
         out.page_bytes = structures.front()->file().page_bytes();
     }
@@ -288,7 +293,11 @@ Result<ResidentFigures> measure_resident(const Mesh& mesh, CornerTable input, co
     for (const auto& s : structures)
         out.structures.push_back({s->name(), s->file().bytes().size(), s->file().direct()});
 
-    for (const std::size_t limit : choose_limits(options, bytes(0), bytes(2), bytes(3), out.page_bytes)) {
+    const std::size_t last = structures.size() - 1;  // of lr_compact; lr is the one before
+    const std::vector<std::size_t> limits =
+        choose_limits(options, bytes(0), bytes(last - 1), bytes(last), out.page_bytes);
+    ProgressBar bar("operators, memory limited", limits.size() * kVisits * static_cast<std::uint64_t>(options.rounds));
+    for (const std::size_t limit : limits) {
         ResidentFigures::Level level;
         level.limit_bytes = limit;
         level.corner_tables = static_cast<double>(limit) / static_cast<double>(bytes(0));
@@ -314,6 +323,7 @@ Result<ResidentFigures> measure_resident(const Mesh& mesh, CornerTable input, co
                         static_cast<double>(timing.pages) / operations / options.rounds;
                     level.resident_bytes[i] = std::max(level.resident_bytes[i], structures[i]->file().resident());
                 }
+                bar.step();
             }
             for (std::size_t i = 0; i < structures.size(); ++i) level.cells[i][visit].ns_per_op = median(ns[i]);
         }
@@ -323,19 +333,20 @@ Result<ResidentFigures> measure_resident(const Mesh& mesh, CornerTable input, co
 }
 
 void print_resident(const ResidentFigures& figures) {
-    fmt::print("  operators with resident memory limited, ns each; * pages were read from the scratch file\n");
-    fmt::print("    pages of {} KiB, first in first out; {} random visits; {} triangles on contours{}\n",
-               figures.page_bytes / 1024, figures.sample, figures.contour_triangles,
-               figures.structures.front().direct ? "" : "; the file system's memory, not a disk, is read");
+    print("  operators with resident memory limited, ns each; * pages were read from the scratch file\n");
+    print("    pages of {} KiB, first in first out; {} random visits; {} triangles on contours{}\n",
+          figures.page_bytes / 1024, figures.sample, figures.contour_triangles,
+          figures.structures.front().direct ? "" : "; the file system's memory, not a disk, is read");
+    for (const auto& [name, reason] : figures.absent) print("    {} is absent: {}\n", name, reason);
     const auto header = [&](const char* title) {
-        fmt::print("    {:<34}", title);
-        for (const auto& s : figures.structures) fmt::print("{:>14}", s.name);
-        fmt::print("\n");
+        print("    {:<34}", title);
+        for (const auto& s : figures.structures) print("{:>14}", s.name);
+        print("\n");
     };
     header("");
-    fmt::print("      {:<32}", "file, MB");
-    for (const auto& s : figures.structures) fmt::print("{:>14.1f}", static_cast<double>(s.bytes) / 1e6);
-    fmt::print("\n");
+    print("      {:<32}", "file, MB");
+    for (const auto& s : figures.structures) print("{:>14.1f}", static_cast<double>(s.bytes) / 1e6);
+    print("\n");
     constexpr const char* titles[kVisits] = {
         "c.v, own order",        "c.o (SQuad c.s), own order", "valence, own order",
         "normal, own order",     "c.v, random order",          "c.o (SQuad c.s), random",
@@ -343,12 +354,12 @@ void print_resident(const ResidentFigures& figures) {
     for (std::size_t visit = 0; visit < kVisits; ++visit) {
         header(titles[visit]);
         for (const auto& level : figures.levels) {
-            fmt::print("      {:>9.1f} MB = {:>6.3f} corner tables", static_cast<double>(level.limit_bytes) / 1e6,
-                       level.corner_tables);
+            print("      {:>9.1f} MB = {:>6.3f} corner tables", static_cast<double>(level.limit_bytes) / 1e6,
+                  level.corner_tables);
             for (const auto& cells : level.cells) {
-                fmt::print("{:>13.1f}{}", cells[visit].ns_per_op, cells[visit].pages_per_op > 0 ? '*' : ' ');
+                print("{:>13.1f}{}", cells[visit].ns_per_op, cells[visit].pages_per_op > 0 ? '*' : ' ');
             }
-            fmt::print("\n");
+            print("\n");
         }
     }
 }
@@ -376,10 +387,13 @@ nlohmann::ordered_json to_json(const ResidentFigures& figures) {
                           {"corner_tables", level.corner_tables},
                           {"structures", std::move(by_structure)}});
     }
+    Json absent = Json::object();
+    for (const auto& [name, reason] : figures.absent) absent[name] = reason;
     return {{"page_bytes", figures.page_bytes},
             {"sample", figures.sample},
             {"contour_triangles", figures.contour_triangles},
             {"structures", std::move(structures)},
+            {"absent", std::move(absent)},
             {"levels", std::move(levels)}};
 }
 

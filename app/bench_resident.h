@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lrcore/base/result.h"
@@ -44,8 +45,9 @@ struct ResidentFigures {
     };
     std::size_t page_bytes = 0, contour_triangles = 0;
     std::uint32_t sample = 0;
-    std::vector<Structure> structures;  ///< corner_table, squad, lr, lr_compact
-    std::vector<Level> levels;          ///< largest limit first
+    std::vector<Structure> structures;  ///< corner_table, squad, lr, lr_compact; without the absent ones
+    std::vector<std::pair<std::string, std::string>> absent;  ///< structure, reason
+    std::vector<Level> levels;                                ///< largest limit first
 };
 
 /// Sequential loops in the structure's own order, each after an untimed one unless everything fits; random-order visits

@@ -12,7 +12,10 @@
 #include "app/bench_resident.h"
 #include "app/commands.h"
 #include "app/measure.h"
+#include "app/option_rules.h"
+#include "app/progress.h"
 #include "lrcore/baseline/codecs.h"
+#include "lrcore/baseline/limit.h"
 #include "lrcore/baseline/strips.h"
 #include "lrcore/corner_table/split.h"
 #include "lrcore/lean/lean_stream.h"
@@ -32,7 +35,7 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
     std::vector<std::string> paths;
-    std::string weld;
+    InputOptions input;
     int rounds = 5;
     std::uint32_t seeds = 1;
     bool no_gpu = false;
@@ -50,7 +53,18 @@ constexpr std::uint32_t kHybridPeriod = 32;  // of Figure 8's middle picture
 struct Section {
     std::string name;
     std::vector<Candidate> candidates;
+
+    /// Median seconds of the named candidate; 0 if it is missing.
+    double median(std::string_view candidate) const {
+        const auto found = std::ranges::find(candidates, candidate, &Candidate::name);
+        return found == candidates.end() ? 0 : found->median();
+    }
 };
+
+void measure(Section& section, int rounds) {
+    ProgressBar bar(section.name, section.candidates.size() * static_cast<std::uint64_t>(rounds));
+    run_interleaved(section.candidates, rounds, [&] { bar.step(); });
+}
 
 Json to_json(const Section& section, double triangles) {
     Json out = Json::object();
@@ -75,192 +89,230 @@ void add_costs(Json& draw, const GpuFigures& figures) {
 }
 
 void print_draw(const GpuFigures& figures, double triangles) {
-    fmt::print("  draw (wall){:>27}{:>22}{:>10}{:>9}{:>10}{:>10}{:>9}\n", "ms", "min to max", "GPU ms", "plain",
-               "resident", "read", "VS runs");
+    print("  draw (wall){:>27}{:>22}{:>10}{:>9}{:>10}{:>10}{:>9}\n", "ms", "min to max", "GPU ms", "plain", "resident",
+          "read", "VS runs");
     const double plain = figures.draw[0].median();
     for (std::size_t i = 0; i < figures.draw.size(); ++i) {
         const Candidate& c = figures.draw[i];
         const DrawCost& cost = figures.cost[i];
         const auto [low, high] = std::minmax_element(c.seconds.begin(), c.seconds.end());
         const auto a_triangle = [&](std::uint64_t n) { return static_cast<double>(n) / triangles; };
-        fmt::print("    {:<25}{:>9.2f}{:>22}{:>10}{:>8.2f}x{:>10.3f}{:>10.2f}{:>9}\n", c.name, c.median() * 1e3,
-                   fmt::format("{:.2f} to {:.2f}", *low * 1e3, *high * 1e3),
-                   c.gpu_seconds.empty() ? "-" : fmt::format("{:.2f}", median(c.gpu_seconds) * 1e3), c.median() / plain,
-                   a_triangle(cost.connectivity_bytes), a_triangle(cost.bytes_read),
-                   cost.vertex_invocations ? fmt::format("{:.2f}", a_triangle(*cost.vertex_invocations)) : "-");
+        print("    {:<25}{:>9.2f}{:>22}{:>10}{:>8.2f}x{:>10.3f}{:>10.2f}{:>9}\n", c.name, c.median() * 1e3,
+              fmt::format("{:.2f} to {:.2f}", *low * 1e3, *high * 1e3),
+              c.gpu_seconds.empty() ? "-" : fmt::format("{:.2f}", median(c.gpu_seconds) * 1e3), c.median() / plain,
+              a_triangle(cost.connectivity_bytes), a_triangle(cost.bytes_read),
+              cost.vertex_invocations ? fmt::format("{:.2f}", a_triangle(*cost.vertex_invocations)) : "-");
     }
-    fmt::print("    resident, read: bytes of connectivity a triangle; VS runs: vertex shader runs a triangle\n");
+    print("    resident, read: bytes of connectivity a triangle; VS runs: vertex shader runs a triangle\n");
 }
 #endif
 
-int run(const Options& options) {
-    Json meshes = Json::array();
-    for (const std::string& path : options.paths) {
-        const Result<Mesh> mesh = load({path, options.weld});
-        if (!mesh) return fail(path, mesh.error());
-        const auto build = [&] { return build_corner_table(mesh->indices, mesh->vertex_count); };
-        const Result<CornerTable> table = build();
-        if (!table) return fail(path, table.error());
-        const auto triangles = static_cast<double>(mesh->triangle_count());
-        const RingOptions ring_choice{options.seeds, 1};
-        const Rings rings = expand_rings(*table, ring_choice);
-        const LeanStream lean = encode_lean(*table, rings);
-        const Result<LeanView> view = view_lean(lean.words);
-        if (!view) return fail(path, view.error());
+/// Structures that disagree on a result are a check that failed, and no wrong usage.
+int failed(const std::string& path, const Error& error) {
+    const int code = fail(path, error);
+    return error.code == ErrorCode::invalid_argument ? static_cast<int>(check_failed) : code;
+}
 
-        Section construct{"construct", {}};
-        construct.candidates.push_back({"corner_table", [&] { (void)build(); }, {}, {}});
-        construct.candidates.push_back({"ring", [&] { expand_rings(*table, ring_choice); }, {}, {}});
-        construct.candidates.push_back({"lean_encode", [&] { encode_lean(*table, rings); }, {}, {}});
-        const auto whole = [&] {
-            const Result<CornerTable> t = build();
-            encode_lean(*t, expand_rings(*t, ring_choice));
-        };
-        construct.candidates.push_back({"lean", whole, {}, {}});
-        construct.candidates.push_back(
-            {"strips", [&] { make_restart_strip(mesh->indices, mesh->vertex_count); }, {}, {}});
-        // From a corner table of a pseudo-manifold to the tables, ring included.
-        CornerTable split = *table;
-        split_fans(split);
-        const auto make_lr = [&](std::uint32_t k) {
-            return build_lr(split, expand_rings(split, {options.seeds, 1, k, true}));
-        };
-        const auto hybrid = [&] { expand_rings(*table, {options.seeds, 1, kHybridPeriod}); };
-        const auto compact = [&] {
-            if (const auto lr = make_lr(kHybridPeriod)) (void)build_compact_lr(lr->view());
-        };
-        construct.candidates.push_back({"ring_hybrid", hybrid, {}, {}});
-        construct.candidates.push_back({"lr", [&] { (void)make_lr(0); }, {}, {}});
-        construct.candidates.push_back({"lr_compact", compact, {}, {}});
-        construct.candidates.push_back({"squad", [&] { (void)build_squad(split); }, {}, {}});
-        // The optimiser alone, at its default, and from index list to packed stream with it.
-        const OptimizeOptions optimize{.cost = packed_ring_cost};
-        const auto whole_packed = [&] {
-            const Result<CornerTable> t = build();
-            (void)encode_packed(*t, optimize_rings(*t, expand_rings(*t, ring_choice), optimize));
-        };
-        construct.candidates.push_back({"optimize", [&] { (void)optimize_rings(*table, rings, optimize); }, {}, {}});
-        construct.candidates.push_back({"packed_encode", [&] { (void)encode_packed(*table, rings); }, {}, {}});
-        construct.candidates.push_back(
-            {"packed_cache_encode", [&] { (void)encode_packed(*table, rings, PackedProfile::cache); }, {}, {}});
-        construct.candidates.push_back({"packed", whole_packed, {}, {}});
-        run_interleaved(construct.candidates, options.rounds);
+/// One mesh: its figures printed, or put into `meshes`. Returns an Exit.
+int bench(const Options& options, const std::string& path, Json& meshes, std::size_t& messages, RunLog& log) {
+    const Result<Mesh> mesh = load({path, options.input}, log);
+    if (!mesh) return fail(path, mesh.error());
+    const auto build = [&] { return build_corner_table(mesh->indices, mesh->vertex_count); };
+    const Result<CornerTable> table = build();
+    if (!table) return fail(path, table.error());
+    const auto triangles = static_cast<double>(mesh->triangle_count());
+    const RingOptions ring_choice{options.seeds, 1};
+    const Rings rings = expand_rings(*table, ring_choice);
+    const Result<LeanStream> lean = encode_lean(*table, rings);
+    if (!lean) return fail(path, lean.error());
+    const Result<LeanView> view = view_lean(lean->words);
+    if (!view) return fail(path, view.error());
 
-        Section decode{"decode_cpu", {}};
-        std::vector<std::uint32_t> indices(std::size_t{3} * view->slots()), copy(indices.size());
-        decode.candidates.push_back({"lean", [&] { decode_lean(*view, indices); }, {}, {}});
-        decode.candidates.push_back({"copy", [&] { std::copy(indices.begin(), indices.end(), copy.begin()); }, {}, {}});
-        const Rings optimised = optimize_rings(*table, rings, optimize);
-        const Result<PackedStream> small = encode_packed(*table, optimised),
-                                   cache = encode_packed(*table, optimised, PackedProfile::cache);
-        if (!small || !cache) return fail(path, small ? cache.error() : small.error());
-        const Result<PackedView> packed = view_packed(small->words), packed_cache = view_packed(cache->words);
-        if (!packed || !packed_cache) return fail(path, packed ? packed_cache.error() : packed.error());
-        std::vector<std::uint32_t> unpacked(std::size_t{3} * packed->triangles), decoded(unpacked.size());
-        std::vector<std::uint32_t> proper;  // the rival takes no degenerate triangles
-        for (const std::uint32_t t : small->triangle_order) {
-            for (std::size_t k = 0; k < 3; ++k) proper.push_back(mesh->indices[std::size_t{3} * t + k]);
-        }
-        const CodedIndices codec = encode_meshopt_indices(proper, mesh->vertex_count);
-        decode.candidates.push_back({"packed", [&] { decode_packed(*packed, unpacked); }, {}, {}});
-        decode.candidates.push_back({"packed_2_threads", [&] { decode_packed(*packed, unpacked, 2); }, {}, {}});
-        decode.candidates.push_back({"packed_cache", [&] { decode_packed(*packed_cache, unpacked); }, {}, {}});
+    Section construct{"construct", {}};
+    construct.candidates.push_back({"corner_table", [&] { (void)build(); }, {}, {}});
+    construct.candidates.push_back({"ring", [&] { expand_rings(*table, ring_choice); }, {}, {}});
+    construct.candidates.push_back({"lean_encode", [&] { (void)encode_lean(*table, rings); }, {}, {}});
+    const auto whole = [&] {
+        const Result<CornerTable> t = build();
+        (void)encode_lean(*t, expand_rings(*t, ring_choice));
+    };
+    construct.candidates.push_back({"lean", whole, {}, {}});
+    Json absent = Json::object();
+    const auto strips = [&] { (void)make_restart_strip(mesh->indices, mesh->vertex_count); };
+    const Result<void> orders = check_valences(mesh->indices, mesh->vertex_count);
+    if (orders) {
+        construct.candidates.push_back({"strips", strips, {}, {}});
+    } else {
+        absent["strips"] = orders.error().message;
+    }
+    // From a corner table of a pseudo-manifold to the tables, ring included.
+    CornerTable split = *table;
+    split_fans(split);
+    const auto make_lr = [&](std::uint32_t k) {
+        return build_lr(split, expand_rings(split, {options.seeds, 1, k, true}));
+    };
+    const auto hybrid = [&] { expand_rings(*table, {options.seeds, 1, kHybridPeriod}); };
+    const auto compact = [&] {
+        if (const auto lr = make_lr(kHybridPeriod)) (void)build_compact_lr(lr->view());
+    };
+    construct.candidates.push_back({"ring_hybrid", hybrid, {}, {}});
+    construct.candidates.push_back({"lr", [&] { (void)make_lr(0); }, {}, {}});
+    construct.candidates.push_back({"lr_compact", compact, {}, {}});
+    construct.candidates.push_back({"squad", [&] { (void)build_squad(split); }, {}, {}});
+    // The optimiser alone, at its default, and from index list to packed stream with it.
+    const OptimizeOptions optimize{.cost = packed_ring_cost};
+    const auto whole_packed = [&] {
+        const Result<CornerTable> t = build();
+        (void)encode_packed(*t, optimize_rings(*t, expand_rings(*t, ring_choice), optimize));
+    };
+    construct.candidates.push_back({"optimize", [&] { (void)optimize_rings(*table, rings, optimize); }, {}, {}});
+    construct.candidates.push_back({"packed_encode", [&] { (void)encode_packed(*table, rings); }, {}, {}});
+    construct.candidates.push_back(
+        {"packed_cache_encode", [&] { (void)encode_packed(*table, rings, PackedProfile::cache); }, {}, {}});
+    construct.candidates.push_back({"packed", whole_packed, {}, {}});
+    measure(construct, options.rounds);
+
+    Section decode{"decode_cpu", {}};
+    std::vector<std::uint32_t> indices(std::size_t{3} * view->slots()), copy(indices.size());
+    decode.candidates.push_back({"lean", [&] { decode_lean(*view, indices); }, {}, {}});
+    decode.candidates.push_back({"copy", [&] { std::copy(indices.begin(), indices.end(), copy.begin()); }, {}, {}});
+    const Rings optimised = optimize_rings(*table, rings, optimize);
+    const Result<PackedStream> small = encode_packed(*table, optimised),
+                               cache = encode_packed(*table, optimised, PackedProfile::cache);
+    if (!small || !cache) return fail(path, small ? cache.error() : small.error());
+    const Result<PackedView> packed = view_packed(small->words), packed_cache = view_packed(cache->words);
+    if (!packed || !packed_cache) return fail(path, packed ? packed_cache.error() : packed.error());
+    std::vector<std::uint32_t> unpacked(std::size_t{3} * packed->triangles), decoded(unpacked.size());
+    std::vector<std::uint32_t> proper;  // the rival takes no degenerate triangles
+    for (const std::uint32_t t : small->triangle_order) {
+        for (std::size_t k = 0; k < 3; ++k) proper.push_back(mesh->indices[std::size_t{3} * t + k]);
+    }
+    const Result<CodedIndices> codec = encode_meshopt_indices(proper, mesh->vertex_count);
+    decode.candidates.push_back({"packed", [&] { decode_packed(*packed, unpacked); }, {}, {}});
+    decode.candidates.push_back({"packed_2_threads", [&] { decode_packed(*packed, unpacked, 2); }, {}, {}});
+    decode.candidates.push_back({"packed_cache", [&] { decode_packed(*packed_cache, unpacked); }, {}, {}});
+    if (codec) {
         decode.candidates.push_back(
-            {"meshopt_index_codec", [&] { (void)decode_meshopt_indices(codec.bytes, decoded); }, {}, {}});
-        run_interleaved(decode.candidates, options.rounds * 3);
+            {"meshopt_index_codec", [&] { (void)decode_meshopt_indices(codec->bytes, decoded); }, {}, {}});
+    } else {
+        absent["meshopt_index_codec"] = codec.error().message;
+    }
+    measure(decode, options.rounds * 3);
 
-        std::vector<OperatorFigures> operators;
-        Json operators_json = Json::object();
-        if (options.operators) {
-            Result<std::vector<OperatorFigures>> measured = measure_operators(*mesh, *table, options.rounds);
-            if (!measured) return fail(path, measured.error());
-            operators = std::move(*measured);
-            for (const OperatorFigures& structure : operators) {
-                Json& entry = operators_json[structure.structure];
-                for (const auto& row : structure.rows) entry[row.name] = {{"ns_per_op", row.ns_per_op()}};
-            }
-        }
-
-        std::optional<ResidentFigures> resident;
-        if (options.resident) {
-            ResidentOptions limits = options.limits;
-            limits.rounds = options.rounds;
-            Result<ResidentFigures> measured = measure_resident(*mesh, *table, limits);
-            if (!measured) return fail(path, measured.error());
-            resident = std::move(*measured);
-        }
-
-        Section decode_gpu{"decode_gpu (wall)", {}};
-        Json draw = Json::object();
-        std::string device, gpu_skipped = "built without Vulkan";
-        Json peak = Json::object();
-#ifdef LACEDRING_GPU
-        Result<GpuFigures> gpu = Error{ErrorCode::no_device, ""};
-        if (options.no_gpu) {
-            gpu_skipped = "--no-gpu";
-        } else if (gpu = measure_gpu(*mesh, options.context, options.rounds); gpu) {
-            gpu_skipped.clear();
-            device = gpu->device;
-            decode_gpu.candidates = gpu->decode;
-            draw = to_json({"", gpu->draw}, triangles);
-            add_costs(draw, *gpu);
-            peak["gpu"] = gpu->device_bytes;
-        } else if (gpu.error().code == ErrorCode::no_device && options.context.device.empty()) {
-            gpu_skipped = gpu.error().message;
-        } else {
-            return fail(path, gpu.error());
-        }
-#endif
-        peak.update(Json{{"lean", peak_bytes(whole)},
-                         {"packed", peak_bytes(whole_packed)},
-                         {"strips", peak_bytes([&] { make_restart_strip(mesh->indices, mesh->vertex_count); })}});
-        const double ratio = construct.candidates[4].median() / construct.candidates[3].median();
-        if (options.json) {
-            meshes.push_back({{"file", path},
-                              {"triangles", mesh->triangle_count()},
-                              {"construct", to_json(construct, triangles)},
-                              {"construct_ratio", {{"strips_over_lean", ratio}}},
-                              {"decode_cpu", to_json(decode, triangles)},
-                              {"decode_gpu", to_json(decode_gpu, triangles)},
-                              {"draw", draw},
-                              {"device", device},
-                              {"gpu_skipped", gpu_skipped},
-                              {"operators", operators_json},
-                              {"resident", resident ? to_json(*resident) : Json::object()},
-                              {"peak_bytes", peak}});
-            continue;
-        }
-        fmt::print("{}: {} triangles; medians of {} rounds\n", path, mesh->triangle_count(), options.rounds);
-        for (const Section& section : {construct, decode, decode_gpu}) {
-            if (section.candidates.empty()) continue;
-            fmt::print("  {}\n", section.name);
-            for (const Candidate& c : section.candidates) {
-                fmt::print("    {:<24}{:>11.3f} ms{:>10.1f} Mtri/s\n", c.name, c.median() * 1e3,
-                           triangles / c.median() / 1e6);
-            }
-        }
-#ifdef LACEDRING_GPU
-        if (gpu) print_draw(*gpu, triangles);
-#endif
-        fmt::print("  {}\n", gpu_skipped.empty() ? "drawn at 1280x720 on " + device : "not drawn: " + gpu_skipped);
-        if (!operators.empty()) {
-            fmt::print("  operators, ns each{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "refs/tri", "c.v", "c.o, c.s",
-                       "valence", "normal", "contour");
-        }
+    std::vector<OperatorFigures> operators;
+    Json operators_json = Json::object();
+    if (options.operators) {
+        Result<OperatorBench> measured = measure_operators(*mesh, *table, options.rounds);
+        if (!measured) return failed(path, measured.error());
+        operators = std::move(measured->structures);
+        for (const auto& [name, reason] : measured->absent) absent[name + "_operators"] = reason;
         for (const OperatorFigures& structure : operators) {
-            fmt::print("    {:<16}{:>10.3f}", structure.structure, structure.references_per_triangle);
-            for (const auto& row : structure.rows) fmt::print("{:>10.2f}", row.ns_per_op());
-            fmt::print("\n");
-        }
-        if (resident) print_resident(*resident);
-        fmt::print("  lean is built {:.2f} times as fast as strips\n  peak memory beyond the input\n", ratio);
-        for (const auto& [name, bytes] : peak.items()) {
-            fmt::print("    {:<24}{:>11.1f} MB{:>10.1f} bytes a triangle\n", name, bytes.get<double>() / 1e6,
-                       bytes.get<double>() / triangles);
+            Json& entry = operators_json[structure.structure];
+            for (const auto& row : structure.rows) entry[row.name] = {{"ns_per_op", row.ns_per_op()}};
         }
     }
-    if (options.json) print_json(Json{{"schema", 1}, {"meshes", std::move(meshes)}});
+
+    std::optional<ResidentFigures> resident;
+    if (options.resident) {
+        ResidentOptions limits = options.limits;
+        limits.rounds = options.rounds;
+        Result<ResidentFigures> measured = measure_resident(*mesh, *table, limits);
+        if (!measured) return failed(path, measured.error());
+        resident = std::move(*measured);
+    }
+
+    Section decode_gpu{"decode_gpu (wall)", {}};
+    Json draw = Json::object();
+    std::string device, gpu_skipped = "built without Vulkan";
+    Json peak = Json::object();
+#ifdef LACEDRING_GPU
+    Result<GpuFigures> gpu = Error{ErrorCode::no_device, ""};
+    if (options.no_gpu) {
+        gpu_skipped = "--no-gpu";
+    } else if (gpu = measure_gpu(*mesh, options.context, options.rounds); gpu) {
+        gpu_skipped.clear();
+        device = gpu->device;
+        decode_gpu.candidates = gpu->decode;
+        draw = to_json({"", gpu->draw}, triangles);
+        add_costs(draw, *gpu);
+        peak["gpu"] = gpu->device_bytes;
+        for (const auto& [name, reason] : gpu->absent) absent[name] = reason;
+        messages += gpu->validation_messages;
+    } else if (gpu.error().code == ErrorCode::no_device && !asks_for_device(options.context)) {
+        gpu_skipped = gpu.error().message;
+    } else {
+        return fail(path, gpu.error());
+    }
+#endif
+    {
+        ProgressBar bar("peak memory", 3);
+        const auto add_peak = [&](const char* name, const std::function<void()>& work) {
+            peak[name] = peak_bytes(work);
+            bar.step();
+        };
+        add_peak("lean", whole);
+        add_peak("packed", whole_packed);
+        if (orders) add_peak("strips", strips);
+    }
+    const double ratio = construct.median("strips") / construct.median("lean");
+    if (options.json) {
+        meshes.push_back({{"file", path},
+                          {"triangles", mesh->triangle_count()},
+                          {"construct", to_json(construct, triangles)},
+                          {"construct_ratio", {{"strips_over_lean", orders ? Json(ratio) : Json(nullptr)}}},
+                          {"decode_cpu", to_json(decode, triangles)},
+                          {"decode_gpu", to_json(decode_gpu, triangles)},
+                          {"draw", draw},
+                          {"device", device},
+                          {"gpu_skipped", gpu_skipped},
+                          {"absent", absent},
+                          {"operators", operators_json},
+                          {"resident", resident ? to_json(*resident) : Json::object()},
+                          {"peak_bytes", peak}});
+        return done;
+    }
+    print("{}: {} triangles; medians of {} rounds\n", path, mesh->triangle_count(), options.rounds);
+    for (const Section& section : {construct, decode, decode_gpu}) {
+        if (section.candidates.empty()) continue;
+        print("  {}\n", section.name);
+        for (const Candidate& c : section.candidates) {
+            print("    {:<24}{:>11.3f} ms{:>10.1f} Mtri/s\n", c.name, c.median() * 1e3, triangles / c.median() / 1e6);
+        }
+    }
+#ifdef LACEDRING_GPU
+    if (gpu) print_draw(*gpu, triangles);
+#endif
+    print("  {}\n", gpu_skipped.empty() ? "drawn at 1280x720 on " + device : "not drawn: " + gpu_skipped);
+    if (!operators.empty()) {
+        print("  operators, ns each{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "refs/tri", "c.v", "c.o, c.s", "valence",
+              "normal", "contour");
+    }
+    for (const OperatorFigures& structure : operators) {
+        print("    {:<16}{:>10.3f}", structure.structure, structure.references_per_triangle);
+        for (const auto& row : structure.rows) print("{:>10.2f}", row.ns_per_op());
+        print("\n");
+    }
+    if (resident) print_resident(*resident);
+    if (orders) print("  lean is built {:.2f} times as fast as strips\n", ratio);
+    for (const auto& [name, reason] : absent.items()) {
+        print("  {} absent: {}\n", name, reason.get<std::string>());
+    }
+    print("  peak memory beyond the input\n");
+    for (const auto& [name, bytes] : peak.items()) {
+        print("    {:<24}{:>11.1f} MB{:>10.1f} bytes a triangle\n", name, bytes.get<double>() / 1e6,
+              bytes.get<double>() / triangles);
+    }
     return done;
+}
+
+int run(const Options& options, RunLog& log) {
+    Json meshes = Json::array();
+    std::size_t messages = 0;
+    const int exit = for_each_input(
+        options.paths, log, [&](std::size_t i) { return bench(options, options.paths[i], meshes, messages, log); });
+    if (options.json && (exit == done || !meshes.empty()))
+        print_json(Json{{"schema", 1}, {"meshes", std::move(meshes)}});
+    return exit == done && messages != 0 ? int{check_failed} : exit;
 }
 
 }  // namespace
@@ -269,7 +321,7 @@ void add_bench(CLI::App& program, Action& action) {
     auto options = std::make_shared<Options>();
     CLI::App* command = program.add_subcommand("bench", "time construction, decoding and drawing beside rivals");
     command->add_option("MESH", options->paths, "mesh files")->required();
-    add_weld(*command, options->weld);
+    add_input_options(*command, options->input, 400);
     command->add_option("--rounds", options->rounds, "how often each is run")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
@@ -301,7 +353,12 @@ void add_bench(CLI::App& program, Action& action) {
     add_device_options(*command, options->context);
 #endif
     command->add_flag("--json", options->json, "one JSON document on standard output");
-    command->callback([options, &action] { action = [options] { return run(*options); }; });
+    auto rules = std::make_shared<OptionRules>(*command);
+    rules->never_with({"--device", "--device-memory", "--validation"}, "--no-gpu");
+    command->callback([options, rules, &action] {
+        rules->check();
+        action = [options](RunLog& log) { return run(*options, log); };
+    });
 }
 
 }  // namespace lr::app

@@ -6,12 +6,15 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <span>
 #include <vector>
 
 #include "app/commands.h"
 #include "app/gpu_options.h"
+#include "app/output.h"
+#include "app/progress.h"
 #include "renderer/compare.h"
 
 namespace lr::app {
@@ -19,7 +22,7 @@ namespace {
 
 struct Options {
     MeshInput input;
-    std::string diff;
+    OutputOptions diff;
     std::set<std::string> paths;  ///< empty: all
     PictureSize size;
     gpu::ContextOptions context;
@@ -39,10 +42,15 @@ struct Skipped {
     std::string reason;
 };
 
+/// What is to be seen is the mesh's own: the same for all.
+bool is_blank(std::span<const Compared> all) {
+    return std::any_of(all.begin(), all.end(), [](const Compared& compared) { return compared.comparison.blank; });
+}
+
 nlohmann::ordered_json to_json(const Options& options, const gpu::DeviceInfo& info, std::span<const Compared> all,
                                std::span<const Skipped> skipped, std::size_t messages, const std::string& diff) {
     nlohmann::ordered_json out = {{"schema", 1},
-                                  {"file", options.input.path},
+                                  {"file", input_name(options.input.path)},
                                   {"device", {{"name", info.name}, {"driver", info.driver}, {"api", info.api}}},
                                   {"size", {options.size.width, options.size.height}},
                                   {"views", all[0].comparison.views}};
@@ -63,6 +71,7 @@ nlohmann::ordered_json to_json(const Options& options, const gpu::DeviceInfo& in
                                   {"blank", c.blank},
                                   {"validation_messages", messages}});
     }
+    out["blank"] = is_blank(all);
     out["skipped"] = nlohmann::ordered_json::array();
     for (const Skipped& s : skipped) out["skipped"].push_back({{"path", s.path}, {"reason", s.reason}});
     if (!diff.empty()) out["diff"] = diff;
@@ -71,15 +80,15 @@ nlohmann::ordered_json to_json(const Options& options, const gpu::DeviceInfo& in
 
 void print_table(const Options& options, const gpu::DeviceInfo& info, std::span<const Compared> all,
                  std::size_t messages) {
-    fmt::print("{}: plain against streams, {} views of {}x{} on {}\n", options.input.path, all[0].comparison.views,
-               options.size.width, options.size.height, info.name);
-    fmt::print("  {:<40}", "");
-    for (const Compared& compared : all) fmt::print("{:>10}", compared.source);
-    fmt::print("\n  {:<40}", "");
-    for (const Compared& compared : all) fmt::print("{:>10}", compared.path);
+    print("{}: plain against streams, {} views of {}x{} on {}\n", options.input.path, all[0].comparison.views,
+          options.size.width, options.size.height, info.name);
+    print("  {:<40}", "");
+    for (const Compared& compared : all) print("{:>10}", compared.source);
+    print("\n  {:<40}", "");
+    for (const Compared& compared : all) print("{:>10}", compared.path);
     const auto row = [&](const char* what, const auto& value) {
-        fmt::print("\n  {:<40}", what);
-        for (const Compared& compared : all) fmt::print("{:>10}", value(compared.comparison));
+        print("\n  {:<40}", what);
+        for (const Compared& compared : all) print("{:>10}", value(compared.comparison));
     };
     row("pixels that differ", [](const gpu::Comparison& c) { return c.pixels_different; });
     row("largest difference, of 255", [](const gpu::Comparison& c) { return c.max_channel_difference; });
@@ -92,16 +101,27 @@ void print_table(const Options& options, const gpu::DeviceInfo& info, std::span<
     });
     row("  by more than 1/255", [](const gpu::Comparison& c) { return c.raw_pixels_beyond_one; });
     row("  at most, of 255", [](const gpu::Comparison& c) { return c.raw_max_channel_difference; });
-    row("pixels covered",
-        [](const gpu::Comparison& c) { return fmt::format("{}{}", c.blank ? "BLANK " : "", c.covered_pixels); });
+    row("pixels covered", [](const gpu::Comparison& c) { return c.covered_pixels; });
     row("triangles seen", [](const gpu::Comparison& c) { return c.distinct_ids; });
-    if (options.context.validation) fmt::print("\n  {:<40}{:>10}", "validation messages", messages);
-    fmt::print("\n");
+    if (options.context.validation) print("\n  {:<40}{:>10}", "validation messages", messages);
+    print("\n");
 }
 
-int run(const Options& options) {
-    const Result<Mesh> mesh = load(options.input);
+std::string verdict(bool passed, std::span<const Compared> all, std::uint32_t triangles) {
+    if (!passed) return "DIFFERENT";
+    if (!is_blank(all)) return "the same pictures";
+    const gpu::Comparison& c = all[0].comparison;
+    return fmt::format("nothing to be seen: {} of {} triangles on {} pixels; nothing differs", c.distinct_ids,
+                       triangles, c.covered_pixels);
+}
+
+int run(const Options& options, RunLog& log) {
+    const Result<Mesh> mesh = load(options.input, log);
     if (!mesh) return fail(options.input.path, mesh.error());
+    constexpr std::string_view kExtensions[] = {".png"};
+    if (const auto good = check_output(options.diff.path, options.diff, log, kExtensions); !good) {
+        return fail(options.diff.path, good.error());
+    }
     const Result<gpu::Model> model = gpu::make_model(*mesh, {.packed = true});
     if (!model) return fail(options.input.path, model.error());
     const Result<std::unique_ptr<gpu::Context>> context = gpu::Context::create(options.context);
@@ -126,7 +146,14 @@ int run(const Options& options) {
     compare_options.height = options.size.height;
     std::vector<gpu::Subject> subjects;
     for (const Compared& compared : all) subjects.push_back(compared.subject);
-    Result<std::vector<gpu::Comparison>> comparisons = gpu::compare(**context, *model, subjects, compare_options);
+    Result<std::vector<gpu::Comparison>> comparisons = [&] {
+        std::optional<ProgressBar> bar;
+        compare_options.progress = [&bar](std::uint32_t done, std::uint32_t total) {
+            if (!bar) bar.emplace("comparing", total);
+            bar->show(done);
+        };
+        return gpu::compare(**context, *model, subjects, compare_options);
+    }();
     if (!comparisons) {
         print_validation(**context);
         return fail(options.input.path, comparisons.error());
@@ -138,7 +165,7 @@ int run(const Options& options) {
     const auto other =
         std::find_if(all.begin(), all.end(), [](const Compared& compared) { return !compared.comparison.same(); });
     const bool same = other == all.end();
-    std::string diff = options.diff;
+    std::string diff = options.diff.path;
     if (diff.empty() && !same) diff = std::filesystem::path(options.input.path).stem().string() + ".diff.png";
     if (!diff.empty()) {
         const Compared& shown = same ? all.front() : *other;
@@ -151,9 +178,9 @@ int run(const Options& options) {
         print_json(to_json(options, (*context)->info(), all, skipped, messages, diff));
     } else {
         print_table(options, (*context)->info(), all, messages);
-        for (const Skipped& s : skipped) fmt::print("  {} not compared: {}\n", s.path, s.reason);
-        if (!diff.empty()) fmt::print("  differences drawn in {}\n", diff);
-        fmt::print("{}\n", passed ? "the same pictures" : "DIFFERENT");
+        for (const Skipped& s : skipped) print("  {} not compared: {}\n", s.path, s.reason);
+        if (!diff.empty()) print("  differences drawn in {}\n", diff);
+        print("{}\n", verdict(passed, all, model->triangle_count()));
     }
     return passed ? done : check_failed;
 }
@@ -165,17 +192,18 @@ void add_compare(CLI::App& program, Action& action) {
     CLI::App* command =
         program.add_subcommand("compare", "draw a mesh plain and from its streams, and compare the pixels");
     command->add_option("MESH", options->input.path, "mesh file")->required();
-    add_weld(*command, options->input.weld);
+    add_input_options(*command, options->input.options, 250);
+    add_force(*command, options->diff);
     add_size(*command, options->size);
     command
         ->add_option("--path", options->paths, "compute, pull, geometry or mesh, with commas; all of them unless told")
         ->delimiter(',')
         ->check(CLI::IsMember(std::set<std::string>{"compute", "pull", "geometry", "mesh"}));
-    command->add_option("--diff", options->diff, "write a picture of the differences, even if there are none")
+    command->add_option("--diff", options->diff.path, "write a picture of the differences, even if there are none")
         ->type_name("FILE.png");
     add_device_options(*command, options->context);
     command->add_flag("--json", options->json, "one JSON document on standard output");
-    command->callback([options, &action] { action = [options] { return run(*options); }; });
+    command->callback([options, &action] { action = [options](RunLog& log) { return run(*options, log); }; });
 }
 
 }  // namespace lr::app

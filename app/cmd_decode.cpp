@@ -1,28 +1,71 @@
-// lacedring decode IN.lr -o OUT.glb|.ply|.obj
+// lacedring decode IN.lr... -o OUT.glb|.ply|.obj
+
+#include <unistd.h>
 
 #include <memory>
 
 #include "app/commands.h"
+#include "app/output.h"
 #include "lrcore/file/lr_file.h"
 #include "lrcore/mesh/write.h"
 
 namespace lr::app {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct Options {
-    std::string input, output;
+    std::vector<std::string> inputs;
+    InputOptions input;  ///< its memory limit
+    OutputOptions output;
+    std::string format;  ///< "" by the extension
     bool original_order = false;
 };
 
-int run(const Options& options) {
-    const Result<LrFile> file = read_lr(options.input);
-    if (!file) return fail(options.input, file.error());
-    const Result<Mesh> mesh = options.original_order ? decode_lr_original_order(*file) : Result<Mesh>(decode_lr(*file));
-    if (!mesh) return fail(options.input, mesh.error());
-    if (const Result<void> written = write_mesh(*mesh, options.output); !written) {
-        return fail(options.output, written.error());
+/// "glb" as write_mesh knows it.
+MeshFormat output_format(const Options& options, const fs::path& path) {
+    return writable_format(options.format.empty() ? path : fs::path("x." + options.format));
+}
+
+Result<void> write(const Mesh& mesh, const Options& options, const fs::path& path, WriteNotes& notes) {
+    if (path == "-") return write_mesh(mesh, output_format(options, path), STDOUT_FILENO, &notes);
+    return write_mesh(mesh, path, &notes);
+}
+
+/// Returns an Exit.
+int decode(const Options& options, const std::string& input, const fs::path& output, RunLog& log) {
+    const auto bytes = read_input(input, options.input, log);
+    if (!bytes) return fail(input, bytes.error());
+    const Result<LrFile> file = parse_lr(*bytes);
+    if (!file) return fail(input, file.error());
+    constexpr std::string_view kExtensions[] = {".glb", ".ply", ".obj"};
+    if (const auto good = check_output(output, options.output, log, kExtensions); !good) {
+        return fail(output_name(output), good.error());
     }
+    const Result<Mesh> mesh = options.original_order ? decode_lr_original_order(*file) : Result<Mesh>(decode_lr(*file));
+    if (!mesh) return fail(input, mesh.error());
+    WriteNotes notes;
+    if (const Result<void> written = write(*mesh, options, output, notes); !written) {
+        return fail(output_name(output), written.error());
+    }
+    for (const std::string& note : notes) log.note(output_name(output), note);
     return done;
+}
+
+int run(const Options& options, RunLog& log) {
+    const bool named = options.output.path == "-" || options.output.path.ends_with('/') || options.inputs.size() > 1;
+    if (named && options.format.empty()) {
+        return fail(output_name(options.output.path),
+                    Error{ErrorCode::invalid_argument, "needs --output-format glb, ply or obj"});
+    }
+    if (!named && !options.format.empty()) {
+        return fail(options.output.path,
+                    Error{ErrorCode::invalid_argument, "--output-format goes with -o - and -o FOLDER/"});
+    }
+    const auto outputs = output_paths(options.inputs, options.output, "." + options.format);
+    if (!outputs) return fail(output_name(options.output.path), outputs.error());
+    return for_each_input(options.inputs, log,
+                          [&](std::size_t i) { return decode(options, options.inputs[i], (*outputs)[i], log); });
 }
 
 }  // namespace
@@ -30,11 +73,15 @@ int run(const Options& options) {
 void add_decode(CLI::App& program, Action& action) {
     auto options = std::make_shared<Options>();
     CLI::App* command = program.add_subcommand("decode", "write an .lr file as .glb, .ply or .obj");
-    command->add_option("IN.lr", options->input, "the .lr file")->required();
-    command->add_option("-o,--output", options->output, "the mesh file")->required();
+    command->add_option("IN.lr", options->inputs, ".lr files; - is standard input")->required();
+    add_output(*command, options->output, "the mesh file; FOLDER/ for several, - for standard output");
+    command->add_option("--output-format", options->format, "with -o - and -o FOLDER/")
+        ->check(CLI::IsMember({"glb", "ply", "obj"}));
     command->add_flag("--original-order", options->original_order,
-                      "vertices and triangles in the order of the file that was encoded (with --keep-order)");
-    command->callback([options, &action] { action = [options] { return run(*options); }; });
+                      "vertices, triangles and their first corners in the order of the file that was encoded (with "
+                      "--keep-order)");
+    add_max_memory(*command, options->input);
+    command->callback([options, &action] { action = [options](RunLog& log) { return run(*options, log); }; });
 }
 
 }  // namespace lr::app

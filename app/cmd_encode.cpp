@@ -5,6 +5,8 @@
 #include <memory>
 
 #include "app/commands.h"
+#include "app/option_rules.h"
+#include "app/output.h"
 #include "lrcore/file/lr_file.h"
 #include "lrcore/lean/lean_stream.h"
 #include "lrcore/lr/lr_encode.h"
@@ -14,8 +16,9 @@ namespace lr::app {
 namespace {
 
 struct Options {
-    MeshInput input;
-    std::string output;
+    std::vector<std::string> inputs;
+    InputOptions input;
+    OutputOptions output;
     std::string format = "lean";
     std::string profile = "small";
     RingChoice ring;
@@ -28,9 +31,10 @@ Result<LrFile> encode(const Options& options, const Mesh& mesh, CornerTable tabl
     if (options.format == "lean") {
         const Rings rings =
             optimize_rings(table, expand_rings(table, ring), optimize_options(options.ring, lean_ring_cost));
-        LeanStream lean = encode_lean(table, rings, {.wart_skipping = !options.no_warts});
-        return make_lr_file(mesh, Connectivity::lean, std::move(lean.words), std::move(lean.vertex_order),
-                            std::move(lean.slot_triangle), options.keep_order);
+        Result<LeanStream> lean = encode_lean(table, rings, {.wart_skipping = !options.no_warts});
+        if (!lean) return lean.error();
+        return make_lr_file(mesh, Connectivity::lean, std::move(lean->words), std::move(lean->vertex_order),
+                            std::move(lean->slot_triangle), options.keep_order);
     }
     if (options.format == "packed") {
         Result<PackedChoice> choice =
@@ -51,24 +55,42 @@ Result<LrFile> encode(const Options& options, const Mesh& mesh, CornerTable tabl
                         std::move(lr->vertex_order), std::move(lr->triangle_order), options.keep_order);
 }
 
-int run(const Options& options) {
-    const Result<Mesh> mesh = load(options.input);
-    if (!mesh) return fail(options.input.path, mesh.error());
-    Result<CornerTable> table = build_corner_table(mesh->indices, mesh->vertex_count);
-    if (!table) return fail(options.input.path, table.error());
-    const std::uint32_t degenerate = table->topology.degenerate;
-    const Result<LrFile> encoded = encode(options, *mesh, std::move(*table));
-    if (!encoded) return fail(options.input.path, encoded.error());
-    const LrFile& file = *encoded;
-    if (const Result<void> written = write_lr(file, options.output); !written) {
-        return fail(options.output, written.error());
+/// Returns an Exit.
+int encode_file(const Options& options, const std::string& input, const std::filesystem::path& output, RunLog& log) {
+    const Result<Mesh> mesh = load({input, options.input}, log);
+    if (!mesh) return fail(input, mesh.error());
+    constexpr std::string_view kExtensions[] = {".lr"};
+    if (const auto good = check_output(output, options.output, log, kExtensions); !good) {
+        return fail(output_name(output), good.error());
     }
-    if (degenerate > 0) fmt::print(stderr, "{}: {} degenerate triangles dropped\n", options.input.path, degenerate);
-    const auto triangles = static_cast<double>(mesh->triangle_count());
-    const auto bytes = static_cast<double>(file.words.size()) * 4;
-    fmt::print(stderr, "{}: {} triangles, connectivity {:.0f} bytes, {:.2f} bits per triangle\n", options.output,
-               mesh->triangle_count() - degenerate, bytes, 8 * bytes / triangles);
+    Result<CornerTable> table = build_corner_table(mesh->indices, mesh->vertex_count);
+    if (!table) return fail(input, table.error());
+    const std::uint32_t degenerate = table->topology.degenerate;
+    const std::size_t triangles = mesh->triangle_count() - degenerate;
+    if (triangles == 0) {
+        return fail(input,
+                    Error{ErrorCode::malformed, fmt::format("no triangle is left: all {} are degenerate", degenerate)});
+    }
+    const Result<LrFile> file = encode(options, *mesh, std::move(*table));
+    if (!file) return fail(input, file.error());
+    const std::vector<std::byte> bytes = serialize_lr(*file);
+    const std::span<const std::byte> parts[] = {bytes};
+    if (const Result<void> written = write_output(output, parts); !written) {
+        return fail(output_name(output), written.error());
+    }
+    if (degenerate > 0) log.note(input_name(input), fmt::format("{} degenerate triangles dropped", degenerate));
+    const std::size_t connectivity = 4 * file->words.size();
+    log.flush();
+    say("{}: {} triangles, {} bytes; connectivity {} bytes, {:.2f} bits per triangle\n", output_name(output), triangles,
+        bytes.size(), connectivity, 8 * static_cast<double>(connectivity) / static_cast<double>(triangles));
     return done;
+}
+
+int run(const Options& options, RunLog& log) {
+    const auto outputs = output_paths(options.inputs, options.output, ".lr");
+    if (!outputs) return fail(output_name(options.output.path), outputs.error());
+    return for_each_input(options.inputs, log,
+                          [&](std::size_t i) { return encode_file(options, options.inputs[i], (*outputs)[i], log); });
 }
 
 }  // namespace
@@ -76,20 +98,35 @@ int run(const Options& options) {
 void add_encode(CLI::App& program, Action& action) {
     auto options = std::make_shared<Options>();
     CLI::App* command = program.add_subcommand("encode", "write a mesh as an .lr file");
-    command->add_option("MESH", options->input.path, "mesh file")->required();
-    command->add_option("-o,--output", options->output, "the .lr file")->required();
+    command->add_option("MESH", options->inputs, "mesh files; - is standard input")->required();
+    add_output(*command, options->output, "the .lr file; FOLDER/ for several, - for standard output");
     command->add_option("--format", options->format, "stream format")
         ->check(CLI::IsMember({"lean", "packed", "lr", "lr-compact"}))
         ->capture_default_str();
     command->add_option("--profile", options->profile, "of packed: the fewest bits, or an order for the vertex cache")
         ->check(CLI::IsMember({"small", "cache"}))
         ->capture_default_str();
-    add_weld(*command, options->input.weld);
+    add_input_options(*command, options->input, 85);
     add_ring_options(*command, options->ring);
     command->add_flag("--no-warts", options->no_warts, "no wart skipping (lean and lr)");
     command->add_flag("--keep-order", options->keep_order,
                       "store the vertex and triangle permutations, for decode --original-order");
-    command->callback([options, &action] { action = [options] { return run(*options); }; });
+    auto rules = std::make_shared<OptionRules>(*command);
+    const auto is = [options](std::string_view format) { return options->format == format; };
+    rules->only_with({"--profile"}, "--format packed", [is] { return is("packed"); });
+    rules->only_with({"--no-warts"}, "--format lean or lr", [is] { return is("lean") || is("lr"); });
+    rules->only_with({"--optimize"}, "--format lean, packed or lr", [is] { return !is("lr-compact"); });
+    rules->only_with({"--k"}, "--ring hybrid or --format lr-compact", [options, is] {
+        return options->ring.ring == "hybrid" || (is("lr-compact") && options->ring.ring.empty());
+    });
+    rules->only_with({"--random-seed"}, "several --seeds, or --optimize", [options, is] {
+        return options->ring.seeds > 1 ||
+               (!is("lr-compact") && (options->ring.seeds == 0 || options->ring.optimize != "0"));
+    });
+    command->callback([options, rules, &action] {
+        rules->check();
+        action = [options](RunLog& log) { return run(*options, log); };
+    });
 }
 
 }  // namespace lr::app

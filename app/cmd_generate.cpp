@@ -1,10 +1,12 @@
 // lacedring generate KIND -o OUT --triangles N [--seed S]
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <memory>
 
 #include "app/commands.h"
+#include "app/output.h"
 #include "lrcore/generate/generate.h"
 #include "lrcore/mesh/write.h"
 
@@ -12,17 +14,28 @@ namespace lr::app {
 namespace {
 
 struct Options {
-    std::string kind, output;
+    std::string kind, format;
+    OutputOptions output;
     std::uint64_t triangles = 10000, seed = 1;
 };
 
-int run(const Options& options) {
+int run(const Options& options, RunLog& log) {
+    const std::string& output = options.output.path;
+    const bool standard = output == "-";
+    if (standard == options.format.empty()) {
+        return fail(output_name(output),
+                    Error{ErrorCode::invalid_argument,
+                          standard ? "needs --output-format glb, ply or obj" : "--output-format goes with -o -"});
+    }
+    constexpr std::string_view kExtensions[] = {".glb", ".ply", ".obj"};
+    if (const auto good = check_output(output, options.output, log, kExtensions); !good)
+        return fail(output_name(output), good.error());
     const Result<Mesh> mesh = generate(options.kind, options.triangles, options.seed);
     if (!mesh) return fail("generate", mesh.error());
-    if (const Result<void> written = write_mesh(*mesh, options.output); !written) {
-        return fail(options.output, written.error());
-    }
-    fmt::print(stderr, "{}: {} triangles, {} vertices\n", options.output, mesh->triangle_count(), mesh->vertex_count);
+    const Result<void> written =
+        standard ? write_mesh(*mesh, writable_format("x." + options.format), STDOUT_FILENO) : write_mesh(*mesh, output);
+    if (!written) return fail(output_name(output), written.error());
+    say("{}: {} triangles, {} vertices\n", output_name(output), mesh->triangle_count(), mesh->vertex_count);
     return done;
 }
 
@@ -35,10 +48,11 @@ void add_generate(CLI::App& program, Action& action) {
     for (const GeneratorInfo& kind : generators()) kinds += fmt::format("\n  {:<9}{}", kind.name, kind.description);
     command->footer("Kinds:" + kinds);
     command->add_option("KIND", options->kind, "see below")->required();
-    command->add_option("-o,--output", options->output, ".glb, .ply or .obj")->required();
+    add_output(*command, options->output, ".glb, .ply or .obj; - for standard output");
+    command->add_option("--output-format", options->format, "with -o -")->check(CLI::IsMember({"glb", "ply", "obj"}));
     command->add_option("--triangles", options->triangles, "about how many")->capture_default_str();
     command->add_option("--seed", options->seed, "same seed, same file")->capture_default_str();
-    command->callback([options, &action] { action = [options] { return run(*options); }; });
+    command->callback([options, &action] { action = [options](RunLog& log) { return run(*options, log); }; });
 }
 
 }  // namespace lr::app

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/lr_contents.h"
 #include "lrcore/corner_table/geometry.h"
 #include "lrcore/corner_table/report.h"
 #include "lrcore/corner_table/smesh.h"
@@ -17,11 +18,6 @@ struct Options {
     MeshInput input;
     bool json = false;
 };
-
-const char* type_name(ComponentType type) {
-    constexpr const char* kNames[] = {"i8", "u8", "i16", "u16", "i32", "u32", "f32", "f64"};
-    return kNames[static_cast<std::size_t>(type)];
-}
 
 /// The closed shells of a mesh, summed up.
 struct Solid {
@@ -49,9 +45,10 @@ std::string describe(const Solid& solid, bool all_closed) {
     return text;
 }
 
-int run(const Options& options) {
-    const Result<Mesh> mesh = load(options.input);
-    if (!mesh) return fail(options.input.path, mesh.error());
+int run(const Options& options, RunLog& log) {
+    const Result<LoadedMesh> loaded = load_file(options.input, log);
+    if (!loaded) return fail(options.input.path, loaded.error());
+    const Mesh* mesh = &loaded->mesh;
     const Result<CornerTable> table = build_corner_table(mesh->indices, mesh->vertex_count);
     if (!table) return fail(options.input.path, table.error());
     const TopologyReport r = report_topology(*table);
@@ -66,39 +63,41 @@ int run(const Options& options) {
         for (const Attribute& a : mesh->attributes) {
             attributes.push_back({{"name", a.name}, {"type", type_name(a.type)}, {"components", a.components}});
         }
-        const nlohmann::ordered_json out = {{"schema", 1},
-                                            {"file", options.input.path},
-                                            {"triangles", mesh->triangle_count()},
-                                            {"vertices", mesh->vertex_count},
-                                            {"unused_vertices", mesh->vertex_count - r.used_vertices},
-                                            {"components", r.components},
-                                            {"shells", r.shells},
-                                            {"border_edges", t.border_edges},
-                                            {"border_loops", r.border_loops},
-                                            {"nonmanifold_edges", t.nonmanifold_edges},
-                                            {"nonmanifold_vertices", r.nonmanifold_vertices},
-                                            {"degenerate_dropped", t.degenerate},
-                                            {"flipped", t.flipped},
-                                            {"cut_edges", t.cut_edges},
-                                            {"orientable", r.orientable},
-                                            {"closed", r.closed},
-                                            {"euler_characteristic", r.euler_characteristic},
-                                            {"genus", r.genus},
-                                            {"valence6_percent", r.valence6_percent},
-                                            {"max_valence", r.max_valence},
-                                            {"handles", r.orientable ? nlohmann::ordered_json(r.genus) : nullptr},
-                                            {"smesh", smesh.is_smesh()},
-                                            {"smesh_reason", smesh.reason},
-                                            {"closed_shells", solid.shells},
-                                            {"inside_out_shells", solid.inside_out},
-                                            {"flat_shells", solid.flat},
-                                            {"volume", has_volume ? nlohmann::ordered_json(solid.volume) : nullptr},
-                                            {"attributes", attributes}};
+        nlohmann::ordered_json out = {{"schema", 1},
+                                      {"file", input_name(options.input.path)},
+                                      {"triangles", mesh->triangle_count()},
+                                      {"vertices", mesh->vertex_count},
+                                      {"unused_vertices", mesh->vertex_count - r.used_vertices},
+                                      {"components", r.components},
+                                      {"shells", r.shells},
+                                      {"border_edges", t.border_edges},
+                                      {"border_loops", r.border_loops},
+                                      {"nonmanifold_edges", t.nonmanifold_edges},
+                                      {"nonmanifold_vertices", r.nonmanifold_vertices},
+                                      {"degenerate_dropped", t.degenerate},
+                                      {"flipped", t.flipped},
+                                      {"cut_edges", t.cut_edges},
+                                      {"orientable", r.orientable},
+                                      {"closed", r.closed},
+                                      {"euler_characteristic", r.euler_characteristic},
+                                      {"genus", r.genus},
+                                      {"valence6_percent", r.valence6_percent},
+                                      {"max_valence", r.max_valence},
+                                      {"handles", r.orientable ? nlohmann::ordered_json(r.genus) : nullptr},
+                                      {"smesh", smesh.is_smesh()},
+                                      {"smesh_reason", smesh.reason},
+                                      {"closed_shells", solid.shells},
+                                      {"inside_out_shells", solid.inside_out},
+                                      {"flat_shells", solid.flat},
+                                      {"volume", has_volume ? nlohmann::ordered_json(solid.volume) : nullptr},
+                                      {"attributes", attributes}};
+        if (loaded->lr) out["lr"] = to_json(*loaded->lr);
         print_json(out);
         return done;
     }
-    fmt::print("{}\n", options.input.path);
-    const auto line = [](const char* name, const std::string& value) { fmt::print("  {:<22} {}\n", name, value); };
+    print("{}\n", input_name(options.input.path));
+    const auto line = [](const char* name, const std::string& value) { print("  {:<22} {}\n", name, value); };
+    if (loaded->lr) print_contents(*loaded->lr);
     line("triangles", fmt::format("{}{}", mesh->triangle_count(),
                                   t.degenerate > 0 ? fmt::format(", {} of them degenerate", t.degenerate) : ""));
     const std::uint32_t unused = mesh->vertex_count - r.used_vertices;
@@ -129,11 +128,11 @@ int run(const Options& options) {
 
 void add_info(CLI::App& program, Action& action) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = program.add_subcommand("info", "topology report");
+    CLI::App* command = program.add_subcommand("info", "topology report; of an .lr file its sections, too");
     command->add_option("MESH", options->input.path, "mesh file")->required();
-    add_weld(*command, options->input.weld);
+    add_input_options(*command, options->input.options, 50);
     command->add_flag("--json", options->json, "one JSON document on standard output");
-    command->callback([options, &action] { action = [options] { return run(*options); }; });
+    command->callback([options, &action] { action = [options](RunLog& log) { return run(*options, log); }; });
 }
 
 }  // namespace lr::app

@@ -9,30 +9,44 @@
 #include "app/camera_options.h"
 #include "app/commands.h"
 #include "app/gpu_options.h"
+#include "app/option_rules.h"
+#include "app/output.h"
+#include "renderer/png.h"
 #include "renderer/renderer.h"
 
 namespace lr::app {
 namespace {
 
 struct Options {
-    MeshInput input;
-    std::string output;
+    std::vector<std::string> inputs;
+    InputOptions input;
+    OutputOptions output;
     std::string source = "lean";
     std::string path = "compute";
     std::string view = "smooth";
     RingChoice ring;
     bool no_warts = false;
     PictureSize size;
-    std::uint32_t samples = 3;
+    std::uint32_t samples = 0;  ///< 0: kSamples, or as many as the device draws
     double crease = 40;
     gpu::CameraOptions camera;
     gpu::ContextOptions context;
     bool json = false;
 };
 
-int run(const Options& options) {
-    const Result<Mesh> mesh = load(options.input);
-    if (!mesh) return fail(options.input.path, mesh.error());
+constexpr std::uint32_t kSamples = 3;
+
+using ContextPointer = std::unique_ptr<gpu::Context>;
+
+/// Returns an Exit. Makes `context`, once, when a mesh has been read.
+int render(const Options& options, const std::string& input, const std::filesystem::path& output,
+           ContextPointer& context, RunLog& log) {
+    const Result<Mesh> mesh = load({input, options.input}, log);
+    if (!mesh) return fail(input, mesh.error());
+    constexpr std::string_view kExtensions[] = {".png"};
+    if (const auto good = check_output(output, options.output, log, kExtensions); !good) {
+        return fail(output_name(output), good.error());
+    }
     // Pictures show the ring as the paper makes it, unless the optimiser is asked for.
     OptimizeOptions optimize = optimize_options(options.ring, lean_ring_cost);
     if (options.ring.optimize == "auto") optimize.passes = 0;
@@ -41,14 +55,20 @@ int run(const Options& options) {
                                           options.source == "packed",
                                           std::move(optimize)};
     const Result<gpu::Model> model = gpu::make_model(*mesh, model_options);
-    if (!model) return fail(options.input.path, model.error());
-    const Result<std::unique_ptr<gpu::Context>> context = gpu::Context::create(options.context);
-    if (!context) return fail(options.input.path, context.error());
+    if (!model) return fail(input, model.error());
+    if (!context) {
+        Result<ContextPointer> made = gpu::Context::create(options.context);
+        if (!made) return fail(input, made.error());
+        context = std::move(*made);
+    }
 
     gpu::RendererOptions renderer_options;
     renderer_options.view = gpu::view_named(options.view).value_or(gpu::View::smooth);
+    // What was asked for is drawn, or is an error of the device; else fewer samples do.
     const std::uint32_t samples =
-        gpu::Target::fitting_samples(**context, {options.size.width, options.size.height}, options.samples);
+        options.samples != 0
+            ? options.samples
+            : gpu::Target::fitting_samples(*context, {options.size.width, options.size.height}, kSamples);
     renderer_options.samples = samples;
     renderer_options.crease = options.crease;
     renderer_options.width = options.size.width * samples;
@@ -56,14 +76,13 @@ int run(const Options& options) {
     constexpr std::uint64_t kWorthSaying = std::uint64_t{1} << 30;
     std::uint64_t device_bytes = 0;
     Result<gpu::Picture> drawn = [&]() -> Result<gpu::Picture> {
-        Result<gpu::Renderer> renderer = gpu::Renderer::create(**context, renderer_options);
+        Result<gpu::Renderer> renderer = gpu::Renderer::create(*context, renderer_options);
         if (!renderer) return renderer.error();
         const gpu::Source source = gpu::source_named(options.source).value_or(gpu::Source::lean);
         const gpu::Path path = gpu::path_named(options.path).value_or(gpu::Path::compute);
-        device_bytes = (*context)->arena().used() + renderer->device_bytes(*model, source, path);
+        device_bytes = context->arena().used() + renderer->device_bytes(*model, source, path);
         if (device_bytes > kWorthSaying) {
-            fmt::print(stderr, "lacedring: drawing takes {:.1f} GB of device memory\n",
-                       static_cast<double>(device_bytes) / 1e9);
+            say("lacedring: drawing takes {:.1f} GB of device memory\n", static_cast<double>(device_bytes) / 1e9);
         }
         Result<gpu::Drawable> drawable = renderer->upload(*model, source, path);
         if (!drawable) return drawable.error();
@@ -72,20 +91,22 @@ int run(const Options& options) {
         if (!camera) return camera.error();
         return renderer->draw(*drawable, *model, *camera, true);
     }();
-    const std::size_t messages = print_validation(**context);
-    if (!drawn) return fail(options.input.path, drawn.error());
-    const gpu::Picture picture = gpu::finish(*drawn, samples);
-    if (const Result<void> written = gpu::write_png(options.output, picture); !written) {
-        return fail(options.output, written.error());
+    const std::size_t messages = print_validation(*context);
+    if (!drawn) return fail(input, drawn.error());
+    const Result<std::vector<std::byte>> png = gpu::encode_png(gpu::finish(*drawn, samples));
+    if (!png) return fail(output_name(output), png.error());
+    const std::span<const std::byte> parts[] = {*png};
+    if (const Result<void> written = write_output(output, parts); !written) {
+        return fail(output_name(output), written.error());
     }
     std::uint64_t covered = 0;
     for (const std::uint32_t id : drawn->triangles) covered += id != 0 ? 1 : 0;
     const double share = static_cast<double>(covered) / static_cast<double>(drawn->pixels());
     if (options.json) {
-        const gpu::DeviceInfo& info = (*context)->info();
+        const gpu::DeviceInfo& info = context->info();
         nlohmann::ordered_json out = {{"schema", 1},
-                                      {"file", options.input.path},
-                                      {"output", options.output},
+                                      {"file", input_name(input)},
+                                      {"output", output.string()},
                                       {"device", {{"name", info.name}, {"driver", info.driver}, {"api", info.api}}},
                                       {"size", {options.size.width, options.size.height}},
                                       {"samples", samples * samples},
@@ -98,11 +119,22 @@ int run(const Options& options) {
                                       {"validation_messages", messages}};
         print_json(out);
     } else {
-        fmt::print("{}: {}x{}, {} triangles, {} {}, covers {:.1f} % of the picture; {}\n", options.output,
-                   options.size.width, options.size.height, model->triangle_count(), options.source, options.view,
-                   100 * share, (*context)->info().name);
+        const std::string line =
+            fmt::format("{}: {}x{}, {} triangles, {} {}, covers {:.1f} % of the picture; {}\n", output_name(output),
+                        options.size.width, options.size.height, model->triangle_count(), options.source, options.view,
+                        100 * share, context->info().name);
+        output == "-" ? say("{}", line) : print("{}", line);
     }
     return messages == 0 ? done : check_failed;
+}
+
+int run(const Options& options, RunLog& log) {
+    const auto outputs = output_paths(options.inputs, options.output, ".png");
+    if (!outputs) return fail(output_name(options.output.path), outputs.error());
+    ContextPointer context;
+    return for_each_input(options.inputs, log, [&](std::size_t i) {
+        return render(options, options.inputs[i], (*outputs)[i], context, log);
+    });
 }
 
 }  // namespace
@@ -110,9 +142,9 @@ int run(const Options& options) {
 void add_render(CLI::App& program, Action& action) {
     auto options = std::make_shared<Options>();
     CLI::App* command = program.add_subcommand("render", "draw a mesh into a PNG file");
-    command->add_option("MESH", options->input.path, "mesh file")->required();
-    command->add_option("-o,--output", options->output, "the PNG file")->required();
-    add_weld(*command, options->input.weld);
+    command->add_option("MESH", options->inputs, "mesh files; - is standard input")->required();
+    add_output(*command, options->output, "the PNG file; FOLDER/ for several, - for standard output");
+    add_input_options(*command, options->input, 150);
     command->add_option("--source", options->source, "what the triangles come from")
         ->check(CLI::IsMember({"plain", "lean", "packed"}))
         ->capture_default_str();
@@ -132,11 +164,34 @@ void add_render(CLI::App& program, Action& action) {
     add_size(*command, options->size);
     command->add_option("--samples", options->samples, "samples a pixel along each side")
         ->check(CLI::Range(1, 8))
-        ->capture_default_str();
+        ->default_str(std::to_string(kSamples));
     add_camera(*command, options->camera);
     add_device_options(*command, options->context);
     command->add_flag("--json", options->json, "one JSON document on standard output");
-    command->callback([options, &action] { action = [options] { return run(*options); }; });
+
+    const auto shows_ring = [options] {
+        return options->view == "class" || options->view == "ring" || options->view == "offsets";
+    };
+    auto rules = std::make_shared<OptionRules>(*command);
+    rules->forbid("--json goes with one mesh, and not with -o -",
+                  [options] { return options->json && (options->inputs.size() != 1 || options->output.path == "-"); });
+    rules->forbid("--source plain goes with --path compute only",
+                  [options] { return options->source == "plain" && options->path != "compute"; });
+    rules->only_with({"--crease"}, "--view silhouette", [options] { return options->view == "silhouette"; });
+    rules->only_with({"--ring", "--k", "--seeds", "--random-seed", "--optimize"},
+                     "--source lean or packed, or --view class, ring or offsets",
+                     [options, shows_ring] { return options->source != "plain" || shows_ring(); });
+    rules->only_with({"--no-warts"}, "--source lean, or --view class, ring or offsets",
+                     [options, shows_ring] { return options->source == "lean" || shows_ring(); });
+    rules->only_with({"--k"}, "--ring hybrid", [options] { return options->ring.ring == "hybrid"; });
+    rules->only_with({"--random-seed"}, "several --seeds, or --optimize", [options] {
+        const std::string& passes = options->ring.optimize;
+        return options->ring.seeds != 1 || (passes != "auto" && passes != "0");
+    });
+    command->callback([options, rules, &action] {
+        rules->check();
+        action = [options](RunLog& log) { return run(*options, log); };
+    });
 }
 
 }  // namespace lr::app

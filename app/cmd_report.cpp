@@ -7,9 +7,10 @@
 #include <span>
 
 #include "app/commands.h"
+#include "app/option_rules.h"
+#include "app/output.h"
 #include "app/report_html.h"
 #include "app/report_page.h"
-#include "lrcore/base/file.h"
 #ifdef LACEDRING_GPU
 #include "app/camera_options.h"
 #include "app/report_pictures.h"
@@ -20,8 +21,8 @@ namespace {
 
 struct Options {
     std::vector<std::string> paths;
-    std::string output;
-    std::string weld;
+    OutputOptions output;
+    InputOptions input;
     RingChoice ring;
     bool no_gpu = false;
 #ifdef LACEDRING_GPU
@@ -62,7 +63,7 @@ Result<std::unique_ptr<gpu::Context>> open_device(const Options& options, std::s
         return std::unique_ptr<gpu::Context>();
     }
     Result<std::unique_ptr<gpu::Context>> context = gpu::Context::create(options.context);
-    if (!context && context.error().code == ErrorCode::no_device && options.context.device.empty()) {
+    if (!context && context.error().code == ErrorCode::no_device && !asks_for_device(options.context)) {
         skipped = context.error().message;
         return std::unique_ptr<gpu::Context>();
     }
@@ -70,7 +71,7 @@ Result<std::unique_ptr<gpu::Context>> open_device(const Options& options, std::s
 }
 #endif
 
-int run(const Options& options) {
+int run(const Options& options, RunLog& log) {
     ReportPage page;
     page.command = options.command;
     page.version = LACEDRING_VERSION;
@@ -90,13 +91,13 @@ int run(const Options& options) {
     std::vector<MeshReport> meshes;
     std::size_t messages = 0;
     for (const std::string& path : options.paths) {
-        const Result<Mesh> mesh = load({path, options.weld});
+        const Result<Mesh> mesh = load({path, options.input}, log);
         if (!mesh) return fail(path, mesh.error());
         std::string invalid;
         Result<MeshReport> report = measure_mesh(path, *mesh, options.ring, invalid);
         if (!report) return fail(path, report.error());
         if (!invalid.empty()) {
-            fmt::print(stderr, "lacedring: {}: {}\n", path, invalid);
+            say("lacedring: {}: {}\n", path, invalid);
             return check_failed;
         }
         report->no_pictures = skipped;
@@ -116,14 +117,20 @@ int run(const Options& options) {
         skipped = meshes.front().no_pictures;
     }
 #endif
+    constexpr std::string_view kExtensions[] = {".html", ".htm"};
+    if (const auto good = check_output(options.output.path, options.output, log, kExtensions); !good) {
+        return fail(output_name(options.output.path), good.error());
+    }
     page.meshes = meshes;
     const std::string text = report_page(page);
     const std::span<const std::byte> part = std::as_bytes(std::span(text));
-    if (const Result<void> written = write_file(options.output, std::span(&part, 1)); !written) {
-        return fail(options.output, written.error());
+    if (const Result<void> written = write_output(options.output.path, std::span(&part, 1)); !written) {
+        return fail(output_name(options.output.path), written.error());
     }
-    fmt::print("{}: {}, {} bytes; {}\n", options.output, counted(meshes.size(), "mesh", "meshes"), text.size(),
-               skipped.empty() ? "drawn on " + page.device : "no pictures: " + skipped);
+    const std::string line = fmt::format("{}: {}, {} bytes; {}\n", output_name(options.output.path),
+                                         counted(meshes.size(), "mesh", "meshes"), text.size(),
+                                         skipped.empty() ? "drawn on " + page.device : "no pictures: " + skipped);
+    options.output.path == "-" ? say("{}", line) : print("{}", line);
     return messages == 0 ? done : check_failed;
 }
 
@@ -133,8 +140,8 @@ void add_report(CLI::App& program, Action& action) {
     auto options = std::make_shared<Options>();
     CLI::App* command = program.add_subcommand("report", "figures, charts and pictures of meshes as one HTML page");
     command->add_option("MESH", options->paths, "mesh files")->required();
-    command->add_option("-o,--output", options->output, "the HTML file")->required();
-    add_weld(*command, options->weld);
+    add_output(*command, options->output, "the HTML file; - for standard output");
+    add_input_options(*command, options->input, 350);
     add_ring_options(*command, options->ring);
     command->add_flag("--no-gpu", options->no_gpu, "no pictures");
 #ifdef LACEDRING_GPU
@@ -143,9 +150,15 @@ void add_report(CLI::App& program, Action& action) {
     add_camera(*command, options->camera);
     add_device_options(*command, options->context);
 #endif
-    command->callback([options, &action, command] {
+    auto rules = std::make_shared<OptionRules>(*command);
+    rules->never_with({"--size", "--up", "--camera-position", "--camera-focal-point", "--camera-azimuth-angle",
+                       "--camera-elevation-angle", "--camera-zoom-factor", "--camera-view-angle", "--device",
+                       "--device-memory", "--validation"},
+                      "--no-gpu");
+    command->callback([options, rules, &action, command] {
+        rules->check();
         options->command = command_line(*command);
-        action = [options] { return run(*options); };
+        action = [options](RunLog& log) { return run(*options, log); };
     });
 }
 

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/lr_contents.h"
+#include "app/option_rules.h"
 #include "app/paper_tables.h"
 #include "lrcore/baseline/strips.h"
 #include "lrcore/packed/packed_format.h"
@@ -17,15 +19,15 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
     std::vector<std::string> paths;
-    std::string weld;
+    InputOptions input;
     RingChoice ring;
     bool paper = false;
     std::string table = "sizes";
     bool json = false;
 };
 
-Json to_json(const std::string& path, const Mesh& mesh, const FormatSet& set) {
-    Json out = {{"file", path},
+Json sizes_to_json(const std::string& path, const Mesh& mesh, const FormatSet& set) {
+    Json out = {{"file", input_name(path)},
                 {"triangles", mesh.triangle_count()},
                 {"vertices", mesh.vertex_count},
                 {"components", set.report.components},
@@ -44,7 +46,7 @@ Json to_json(const std::string& path, const Mesh& mesh, const FormatSet& set) {
                   {"seeds", set.ring.seeds}}},
                 {"formats", Json::object()},
                 {"absent", Json::object()}};
-    const auto triangles = static_cast<double>(mesh.triangle_count());
+    const double triangles = set.triangles();
     for (const Format& format : set.formats) {
         const CacheFigures cache = analyze_fifo32(format.indices, format.vertex_count(mesh));
         Json entry = {{"bytes", format.bytes},
@@ -70,7 +72,10 @@ Json to_json(const std::string& path, const Mesh& mesh, const FormatSet& set) {
         {"t2", set.lr_compact.t2},     {"irregular", set.lr_compact.t1_irregular + set.lr_compact.t2_irregular},
         {"long", set.lr_compact_long}, {"isolated", set.lr_compact.isolated}};
     for (const auto& [name, reason] : set.absent) out["absent"][name] = reason;
-    out["best_order"] = {{"acmr_fifo32", set.best_order.acmr}, {"atvr_fifo32", set.best_order.atvr}};
+    out["best_order"] = nullptr;
+    if (set.best_order) {
+        out["best_order"] = {{"acmr_fifo32", set.best_order->acmr}, {"atvr_fifo32", set.best_order->atvr}};
+    }
     out["packed"] = {{"ring_vertices", set.packed.ring_vertices},
                      {"warts", set.packed.events[LR_PACKED_WART]},
                      {"splits", set.packed.events[LR_PACKED_SPLIT]},
@@ -79,49 +84,58 @@ Json to_json(const std::string& path, const Mesh& mesh, const FormatSet& set) {
     return out;
 }
 
-void print(const std::string& path, const Mesh& mesh, const FormatSet& set) {
-    const auto triangles = static_cast<double>(mesh.triangle_count());
+void print_sizes(const std::string& path, const Mesh& mesh, const FormatSet& set, const std::optional<LrContents>& lr) {
+    const double triangles = set.triangles();
     const auto share = [&](std::uint32_t count) { return 100.0 * count / triangles; };
-    fmt::print("{}: {} triangles, {} vertices, {} component{}, {} border edges", path, mesh.triangle_count(),
-               mesh.vertex_count, set.report.components, set.report.components == 1 ? "" : "s",
-               set.topology.border_edges);
-    if (set.topology.nonmanifold_edges > 0) fmt::print(", {} non-manifold edges", set.topology.nonmanifold_edges);
-    if (set.topology.degenerate > 0) fmt::print(", {} degenerate triangles dropped", set.topology.degenerate);
-    fmt::print("\n  ring: {} vertices on it, {} isolated; T0 {:.2f} %, in warts {:.2f} %, T2 {:.2f} %\n\n",
-               set.lean.ring_vertices, set.lean.isolated, share(set.lean.t0), share(set.lean.t0_wart),
-               share(set.lean.t2));
-    fmt::print("  {:<20}{:>11}{:>10}{:>10}{:>10}{:>10}{:>10}{:>11}\n", "format", "bytes", "bits/tri", "refs/tri",
-               "of u32", "ACMR(32)", "ATVR(32)", "deflated");
+    print("{}: {} triangles, {} vertices, {} component{}, {} border edges", path, mesh.triangle_count(),
+          mesh.vertex_count, set.report.components, set.report.components == 1 ? "" : "s", set.topology.border_edges);
+    if (set.topology.nonmanifold_edges > 0) print(", {} non-manifold edges", set.topology.nonmanifold_edges);
+    if (set.topology.degenerate > 0) print(", {} degenerate triangles dropped", set.topology.degenerate);
+    print("\n");
+    if (lr) print_contents(*lr);
+    print("  ring: {} vertices on it, {} isolated; T0 {:.2f} %, in warts {:.2f} %, T2 {:.2f} %\n\n",
+          set.lean.ring_vertices, set.lean.isolated, share(set.lean.t0), share(set.lean.t0_wart), share(set.lean.t2));
+    print("  {:<20}{:>11}{:>10}{:>10}{:>10}{:>10}{:>10}{:>11}\n", "format", "bytes", "bits/tri", "refs/tri", "of u32",
+          "ACMR(32)", "ATVR(32)", "deflated");
     const auto base = static_cast<double>(set.formats.front().bytes);
     for (const Format& format : set.formats) {
         const auto bytes = static_cast<double>(format.bytes);
         const CacheFigures cache = analyze_fifo32(format.indices, format.vertex_count(mesh));
-        fmt::print(
-            "  {:<20}{:>11}{:>10.2f}{:>10}{:>8.1f} %{:>10.3f}{:>10.3f}{:>11}\n", format.name, format.bytes,
-            8 * bytes / triangles,
-            format.references == 0 ? "" : fmt::format("{:.3f}", static_cast<double>(format.references) / triangles),
-            base > 0 ? 100 * bytes / base : 0.0, cache.acmr, cache.atvr,
-            format.deflated == 0 ? "" : fmt::format("{}", format.deflated));
+        print("  {:<20}{:>11}{:>10.2f}{:>10}{:>8.1f} %{:>10.3f}{:>10.3f}{:>11}\n", format.name, format.bytes,
+              8 * bytes / triangles,
+              format.references == 0 ? "" : fmt::format("{:.3f}", static_cast<double>(format.references) / triangles),
+              base > 0 ? 100 * bytes / base : 0.0, cache.acmr, cache.atvr,
+              format.deflated == 0 ? "" : fmt::format("{}", format.deflated));
     }
-    fmt::print("  meshoptimizer's best order for the vertex cache: ACMR(32) {:.3f}, ATVR(32) {:.3f}\n",
-               set.best_order.acmr, set.best_order.atvr);
-    fmt::print("\n");
+    if (set.best_order) {
+        print("  meshoptimizer's best order for the vertex cache: ACMR(32) {:.3f}, ATVR(32) {:.3f}\n",
+              set.best_order->acmr, set.best_order->atvr);
+    }
+    for (const auto& [name, reason] : set.absent) print("  {:<20}absent: {}\n", name, reason);
+    print("\n");
+}
+
+/// Tables of rings that are made for them alone.
+bool makes_rings(const Options& options) {
+    return options.table == "offsets" || options.table == "periods" || options.table == "seeds";
 }
 
 /// Every format, and the rows of size tables. Returns an Exit.
-int add_sizes(const Options& options, const std::string& path, const Mesh& mesh, Json& meshes,
+int add_sizes(const Options& options, const std::string& path, const LoadedMesh& loaded, Json& json,
               std::vector<MeshRow>& rows) {
+    const Mesh& mesh = loaded.mesh;
     const Result<FormatSet> set = make_formats(mesh, options.ring, options.paper);
     if (!set) return fail(path, set.error());
     for (const Format& format : set->formats) {
         if (format.invalid.empty()) continue;
-        fmt::print(stderr, "lacedring: {}: {}: {}\n", path, format.name, format.invalid);
+        say("lacedring: {}: {}: {}\n", path, format.name, format.invalid);
         return check_failed;
     }
     if (options.json) {
-        meshes.push_back(to_json(path, mesh, *set));
+        json = sizes_to_json(path, mesh, *set);
+        if (loaded.lr) json["lr"] = to_json(*loaded.lr);
     } else if (options.table == "sizes") {
-        print(path, mesh, *set);
+        print_sizes(path, mesh, *set, loaded.lr);
     } else {
         MeshRow& row = rows.emplace_back(MeshRow{path, {}});
         for (const Column& column : size_table(options.table)) row.values.push_back(column.value(mesh, *set));
@@ -147,35 +161,40 @@ int add_ring_figures(const Options& options, const std::string& path, const Mesh
     if (json != nullptr) {
         (*json)["by_period"] = to_json(*periods);
     } else {
-        (figure8 ? print_offsets : print_periods)(path, mesh, *periods);
+        (figure8 ? print_offsets : print_periods)(path, *periods);
     }
     return done;
 }
 
-int run(const Options& options) {
+int run(const Options& options, RunLog& log) {
     Json meshes = Json::array();
     std::vector<MeshRow> mesh_rows;
     std::vector<SeedRow> seed_rows;
-    const bool rings = options.table == "offsets" || options.table == "periods" || options.table == "seeds";
-    for (const std::string& path : options.paths) {
-        const Result<Mesh> mesh = load({path, options.weld});
-        if (!mesh) return fail(path, mesh.error());
+    const bool rings = makes_rings(options);
+    const int exit = for_each_input(options.paths, log, [&](std::size_t i) {
+        const std::string& path = options.paths[i];
+        const Result<LoadedMesh> loaded = load_file({path, options.input}, log);
+        if (!loaded) return fail(path, loaded.error());
+        const Mesh& mesh = loaded->mesh;
+        Json json;
         if (options.json || !rings) {
-            if (const int exit = add_sizes(options, path, *mesh, meshes, mesh_rows); exit != done) return exit;
+            if (const int code = add_sizes(options, path, *loaded, json, mesh_rows); code != done) return code;
         }
         if (rings) {
-            Json* json = options.json ? &meshes.back() : nullptr;
-            if (const int exit = add_ring_figures(options, path, *mesh, json, seed_rows); exit != done) return exit;
+            const int code = add_ring_figures(options, path, mesh, options.json ? &json : nullptr, seed_rows);
+            if (code != done) return code;
         }
-    }
+        if (options.json) meshes.push_back(std::move(json));
+        return int{done};
+    });
     if (options.json) {
-        print_json(Json{{"schema", 1}, {"meshes", std::move(meshes)}});
+        if (exit == done || !meshes.empty()) print_json(Json{{"schema", 1}, {"meshes", std::move(meshes)}});
     } else if (!mesh_rows.empty()) {
         print(size_table(options.table), mesh_rows);
     } else if (!seed_rows.empty()) {
         print(seed_rows);
     }
-    return done;
+    return exit;
 }
 
 }  // namespace
@@ -184,7 +203,7 @@ void add_stats(CLI::App& program, Action& action) {
     auto options = std::make_shared<Options>();
     CLI::App* command = program.add_subcommand("stats", "size of every format, side by side");
     command->add_option("MESH", options->paths, "mesh files")->required();
-    add_weld(*command, options->weld);
+    add_input_options(*command, options->input, 350);
     add_ring_options(*command, options->ring);
     command->add_flag(
         "--paper", options->paper,
@@ -193,7 +212,16 @@ void add_stats(CLI::App& program, Action& action) {
         ->check(CLI::IsMember({"sizes", "packed", "table1", "lean", "storage", "offsets", "periods", "seeds"}))
         ->capture_default_str();
     command->add_flag("--json", options->json, "one JSON document on standard output");
-    command->callback([options, &action] { action = [options] { return run(*options); }; });
+    auto rules = std::make_shared<OptionRules>(*command);
+    rules->never_with({"--optimize"}, "--paper");
+    const auto makes_sizes = [options] { return options->json || !makes_rings(*options); };
+    rules->only_with({"--paper", "--ring", "--k", "--optimize"}, "--json, or a table of sizes", makes_sizes);
+    rules->only_with({"--seeds"}, "--json, or another --table than seeds",
+                     [options, makes_sizes] { return makes_sizes() || options->table != "seeds"; });
+    command->callback([options, rules, &action] {
+        rules->check();
+        action = [options](RunLog& log) { return run(*options, log); };
+    });
 }
 
 }  // namespace lr::app

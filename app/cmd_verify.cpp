@@ -52,8 +52,8 @@ std::string check_order(const Format& format, std::uint32_t vertices) {
     return format.order.size() == vertices + format.copies ? "" : "some vertices are lost";
 }
 
-int run(const Options& options) {
-    const Result<Mesh> mesh = load(options.input);
+int run(const Options& options, RunLog& log) {
+    const Result<Mesh> mesh = load(options.input, log);
     if (!mesh) return fail(options.input.path, mesh.error());
     const Result<FormatSet> set = make_formats(*mesh, options.ring);
     if (!set) return fail(options.input.path, set.error());
@@ -73,10 +73,16 @@ int run(const Options& options) {
         }
         all = all && why.empty();
         formats[format.name] = {{"ok", why.empty()}, {"why", why}};
-        if (!options.json) fmt::print("{:<18} {}\n", format.name, why.empty() ? "ok" : "FAILED: " + why);
+        if (!options.json) print("{:<20} {}\n", format.name, why.empty() ? "ok" : "FAILED: " + why);
+    }
+    nlohmann::ordered_json absent = nlohmann::ordered_json::object();
+    for (const auto& [name, reason] : set->absent) {
+        absent[name] = reason;
+        if (!options.json) print("{:<20} absent: {}\n", name, reason);
     }
     if (options.json) {
-        const nlohmann::ordered_json out = {{"schema", 1}, {"file", options.input.path}, {"formats", formats}};
+        const nlohmann::ordered_json out = {
+            {"schema", 1}, {"file", input_name(options.input.path)}, {"formats", formats}, {"absent", absent}};
         print_json(out);
     }
     return all ? done : check_failed;
@@ -88,10 +94,10 @@ void add_verify(CLI::App& program, Action& action) {
     auto options = std::make_shared<Options>();
     CLI::App* command = program.add_subcommand("verify", "check that every format round-trips");
     command->add_option("MESH|IN.lr", options->input.path, "mesh file or .lr file")->required();
-    add_weld(*command, options->input.weld);
+    add_input_options(*command, options->input.options, 350);
     add_ring_options(*command, options->ring);
     command->add_flag("--json", options->json, "one JSON document on standard output");
-    command->callback([options, &action] { action = [options] { return run(*options); }; });
+    command->callback([options, &action] { action = [options](RunLog& log) { return run(*options, log); }; });
 }
 
 }  // namespace lr::app

@@ -24,7 +24,7 @@ int run(const std::vector<std::string>& arguments) {
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
     execv(viewer.c_str(), argv.data());
-    fmt::print(stderr, "lacedring: {}: cannot be run: {}\n", viewer, std::strerror(errno));
+    say("lacedring: {}: cannot be run: {}\n", viewer, std::strerror(errno));
     return no_device;
 }
 
@@ -34,7 +34,7 @@ void add_view(CLI::App& program, Action& action) {
     CLI::App* command = program.add_subcommand("view", "interactive viewer");
     command->set_help_flag();  // the viewer's own
     command->prefix_command();
-    command->callback([command, &action] { action = [words = command->remaining()] { return run(words); }; });
+    command->callback([command, &action] { action = [words = command->remaining()](RunLog&) { return run(words); }; });
 }
 
 }  // namespace lr::app

@@ -1,27 +1,16 @@
 #include "app/command.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <charconv>
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <system_error>
 
-#include "lrcore/file/lr_file.h"
+#include "app/progress.h"
 #include "lrcore/lr/search.h"
-#include "lrcore/mesh/read.h"
-#include "lrcore/mesh/weld.h"
 
 namespace lr::app {
-
-void add_weld(CLI::App& command, std::string& weld) {
-    command
-        .add_flag("--weld{attributes}", weld,
-                  "merge vertices whose attributes are all identical; --weld=position: whose positions are")
-        ->check(CLI::IsMember({"attributes", "position"}));
-}
 
 void add_ring_options(CLI::App& command, RingChoice& choice) {
     command
@@ -84,28 +73,6 @@ std::vector<std::uint32_t> ring_periods(const RingChoice& choice, std::size_t tr
     return periods;
 }
 
-namespace {
-
-/// A bar on standard error, if that is a terminal and the work takes longer than a moment. Gone when all is done.
-std::function<bool(std::uint32_t)> progress_bar(const char* what, std::uint32_t total) {
-    if (isatty(STDERR_FILENO) == 0) return {};
-    const auto begun = std::chrono::steady_clock::now();
-    return [=](std::uint32_t done) {
-        constexpr std::uint32_t kWidth = 40;
-        if (std::chrono::steady_clock::now() - begun < std::chrono::milliseconds(500)) return true;
-        const std::uint32_t full = kWidth * done / total;
-        if (done < total) {
-            fmt::print(stderr, "\r{} [{:=<{}}{:{}}] {}/{}", what, "", full, "", kWidth - full, done, total);
-        } else {
-            fmt::print(stderr, "\r{:{}}\r", "", kWidth + 40);
-        }
-        std::fflush(stderr);
-        return true;
-    };
-}
-
-}  // namespace
-
 OptimizeOptions optimize_options(const RingChoice& choice, const RingCost& cost) {
     OptimizeOptions options;
     options.cost = cost;
@@ -119,27 +86,31 @@ OptimizeOptions optimize_options(const RingChoice& choice, const RingCost& cost)
     return options;
 }
 
-Result<Mesh> load(const MeshInput& input) {
-    Result<Mesh> mesh = [&]() -> Result<Mesh> {
-        if (!is_lr(input.path)) return read_mesh(input.path);
-        Result<LrFile> file = read_lr(input.path);
-        if (!file) return file.error();
-        return decode_lr(*file);
-    }();
-    if (!mesh || input.weld.empty()) return mesh;
-    return weld(*mesh, input.weld == "position" ? Weld::position : Weld::attributes);
+int for_each_input(const std::vector<std::string>& inputs, RunLog& log, const std::function<int(std::size_t)>& work) {
+    int exit = done;
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        const int code = work(i);
+        if (code == done || code == check_failed) {
+            log.flush();
+        } else {
+            log.discard();
+        }
+        if (exit == done) exit = code;
+    }
+    return exit;
 }
 
 void print_json(const nlohmann::ordered_json& document) {
-    fmt::print("{}\n", document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    print("{}\n", document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
 int fail(const std::string& file, const Error& error) {
-    std::string line = fmt::format("lacedring: {}: {}", file, error.message);
+    std::string line = fmt::format("lacedring: {}: {}", input_name(file), error.message);
+    if (error.code == ErrorCode::memory_limit) line += " (--max-memory)";
     for (char& c : line) {
         if (static_cast<unsigned char>(c) < 0x20) c = ' ';  // one line, whatever the file is called
     }
-    fmt::print(stderr, "{}\n", line);
+    say("{}\n", line);
     switch (error.code) {
         case ErrorCode::no_device:
         case ErrorCode::device_failure:

@@ -1,5 +1,5 @@
 #pragma once
-// What the commands share: how each registers itself, how a mesh is named, how errors end.
+// What the commands share: how each registers itself, how rings are chosen, how errors end.
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
@@ -7,8 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "app/input.h"
+#include "app/print.h"
+#include "app/run_log.h"
 #include "lrcore/base/result.h"
-#include "lrcore/mesh/mesh.h"
 #include "lrcore/ring/optimize.h"
 #include "lrcore/ring/ring.h"
 
@@ -18,16 +20,7 @@ namespace lr::app {
 enum Exit : int { done = 0, check_failed = 1, wrong_usage = 2, bad_input = 3, no_device = 4 };
 
 /// What main runs once the command line is parsed; the command that was chosen sets it. Returns an Exit.
-using Action = std::function<int()>;
-
-/// A mesh argument and its --weld option.
-struct MeshInput {
-    std::string path;
-    std::string weld;  ///< "", "attributes" or "position"
-};
-
-/// Adds `--weld` / `--weld=position` to a command that reads meshes.
-void add_weld(CLI::App& command, std::string& weld);
+using Action = std::function<int(RunLog&)>;
 
 /// How the rings are to be made.
 struct RingChoice {
@@ -48,8 +41,9 @@ std::vector<std::uint32_t> ring_periods(const RingChoice& choice, std::size_t tr
 /// which ring it is to be, unless --optimize does.
 OptimizeOptions optimize_options(const RingChoice& choice, const RingCost& cost);
 
-/// Reads and welds. The input may also be an .lr file, which is validated and decoded.
-Result<Mesh> load(const MeshInput& input);
+/// Calls work(i), which returns an Exit, for each input, and says each one's notes behind it. One bad input does not
+/// keep the others from their results. Returns the first exit code that is not done.
+int for_each_input(const std::vector<std::string>& inputs, RunLog& log, const std::function<int(std::size_t)>& work);
 
 /// Prints a JSON document on standard output. Bytes that are no UTF-8 (of file or attribute names) are replaced.
 void print_json(const nlohmann::ordered_json& document);

@@ -4,15 +4,11 @@
 
 #include <algorithm>
 
+#include "app/format_rivals.h"
 #include "lrcore/baseline/codecs.h"
-#include "lrcore/baseline/strips.h"
-#include "lrcore/corner_table/split.h"
 #include "lrcore/lr/lr_encode.h"
 #include "lrcore/lr/offsets.h"
 #include "lrcore/packed/packed_stream.h"
-#include "lrcore/rivals/corner_table_c.h"
-#include "lrcore/rivals/squad.h"
-#include "lrcore/rivals/winged_edge.h"
 
 namespace lr::app {
 namespace {
@@ -124,73 +120,6 @@ Result<void> add_packed(FormatSet& set, const CornerTable& table, const RingChoi
     return {};
 }
 
-/// The formats of meshoptimizer that are no index buffers.
-void add_codecs(FormatSet& set, const Mesh& mesh, const std::vector<std::uint32_t>& triangles) {
-    set.best_order = analyze_fifo32(best_cache_order(triangles, mesh.vertex_count), mesh.vertex_count);
-    CodedIndices coded = encode_meshopt_indices(triangles, mesh.vertex_count);
-    Format codec{.name = "meshopt_index_codec", .bytes = coded.bytes.size()};
-    codec.deflated = deflated_size(std::as_bytes(std::span(coded.bytes)));
-    codec.indices = std::move(coded.indices);
-    codec.order = std::move(coded.order);
-    set.formats.push_back(std::move(codec));
-    Meshlets meshlets = make_meshlets(triangles, positions_f32(mesh));
-    set.formats.push_back({.name = "meshlets", .bytes = meshlets.bytes, .indices = std::move(meshlets.indices)});
-}
-
-/// A structure that answers the corner operators, read back triangle by triangle. Arrays alone: these have no file.
-template <class View>
-Format rival_format(const char* name, const View& view, std::vector<std::uint32_t> order,
-                    const std::vector<bool>& flipped) {
-    Format format;
-    format.name = name;
-    format.references = view.references();
-    format.bytes = 4 * format.references;
-    for (std::uint32_t t = 0; t < view.triangle_numbers(); ++t) {
-        if (!view.is_canonical({t})) continue;
-        CornerId c = view.corner(TriangleId{t});
-        std::uint32_t v[3];
-        for (std::uint32_t& u : v) {
-            u = view.vertex(c).value;
-            c = view.next(c);
-        }
-        if (!flipped.empty() && flipped[t]) std::swap(v[0], v[2]);  // the structures hold the oriented mesh
-        format.indices.insert(format.indices.end(), v, v + 3);
-    }
-    format.order = std::move(order);
-    return format;
-}
-
-void add_rivals(FormatSet& set, CornerTable table, std::uint32_t mesh_vertices) {
-    const std::vector<VertexId> originals = split_fans(table);
-    std::vector<std::uint32_t> order(table.vertex_count);
-    const auto original = [&](std::uint32_t v) { return v < mesh_vertices ? v : originals[v - mesh_vertices].value; };
-    for (std::uint32_t v = 0; v < order.size(); ++v) order[v] = original(v);
-    std::vector<bool> flipped(table.triangle_count());
-    for (std::uint32_t t = 0; t < flipped.size(); ++t) flipped[t] = table.flipped({t});
-    const auto add = [&](Format format) {
-        format.copies = originals.size();
-        set.formats.push_back(std::move(format));
-    };
-    {
-        const WingedEdge winged = build_winged_edge(table);
-        add(rival_format("winged_edge", winged.view(), order, flipped));
-        const CornerTableC corner_table = build_corner_table_c(table);
-        add(rival_format("corner_table", corner_table.view(), order, flipped));
-    }
-    LrMap map;
-    const Result<Squad> squad = build_squad(table, {}, &map);
-    if (!squad) {
-        set.absent.emplace_back("squad", squad.error().message);
-        return;
-    }
-    std::vector<bool> squad_flipped(map.triangle.size());
-    for (std::uint32_t t = 0; t < map.triangle.size(); ++t) {
-        squad_flipped[t] = !map.triangle[t].is_null() && table.flipped(map.triangle[t]);
-    }
-    for (std::uint32_t v = 0; v < map.vertex.size(); ++v) order[v] = original(map.vertex[v].value);
-    add(rival_format("squad", squad->view(), std::move(order), squad_flipped));
-}
-
 }  // namespace
 
 Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool paper, const FormatProgress& progress) {
@@ -203,33 +132,30 @@ Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool 
     set.ring = ring_options(choice, mesh.triangle_count());
 
     const std::vector<std::uint32_t> triangles = without_degenerate(mesh.indices);
-    const auto add_list = [&](const char* name, std::size_t width, const std::vector<std::uint32_t>& references,
-                              std::vector<std::uint32_t> indices) {
-        set.formats.push_back({.name = name,
-                               .bytes = references.size() * width,
-                               .references = references.size(),
-                               .indices = std::move(indices)});
+    const auto add_list = [&](const char* name, std::size_t width) {
+        set.formats.push_back(
+            {.name = name, .bytes = triangles.size() * width, .references = triangles.size(), .indices = triangles});
     };
-    add_list("index_u32", 4, triangles, triangles);
+    add_list("index_u32", 4);
     if (mesh.vertex_count <= 65536) {
-        add_list("index_u16", 2, triangles, triangles);
+        add_list("index_u16", 2);
     } else {
         set.absent.emplace_back("index_u16", "more than 65,536 vertices");
     }
     if (stop(0.0, "strips")) return set;
-    {
-        const Strips strips = make_strips(triangles, mesh.vertex_count);
-        add_list("strip_restart", 4, strips.restart, unstrip(strips.restart, true));
-        add_list("strip_degenerate", 4, strips.degenerate, unstrip(strips.degenerate, false));
-    }
+    add_strips(set, mesh, triangles);
     if (stop(0.1, "lean")) return set;
     const OptimizeOptions optimize = optimizer(choice, lean_ring_cost, paper, progress, 0.1, "lean");
     const Rings rings = optimize_rings(*table, expand_rings(*table, set.ring), optimize);
-    LeanStream lean = encode_lean(*table, rings);
-    set.lean = lean.statistics;
-    set.formats.push_back(lean_format("lean", set.ring.k, optimize.passes, std::move(lean)));
-    set.formats.push_back(lean_format("lean_no_warts", set.ring.k, optimize.passes,
-                                      encode_lean(*table, rings, {.wart_skipping = false})));
+    for (const bool warts : {true, false}) {
+        const char* const name = warts ? "lean" : "lean_no_warts";
+        if (Result<LeanStream> lean = encode_lean(*table, rings, {.wart_skipping = warts})) {
+            if (warts) set.lean = lean->statistics;
+            set.formats.push_back(lean_format(name, set.ring.k, optimize.passes, std::move(*lean)));
+        } else {
+            set.absent.emplace_back(name, lean.error().message);
+        }
+    }
     if (stop(0.25, "lr")) return set;
     const OptimizeOptions optimize_lr = optimizer(choice, lr_ring_cost, paper, progress, 0.25, "lr");
     if (Result<EncodedLr> lr = encode_lr(*table, set.ring, optimize_lr)) {
@@ -255,7 +181,7 @@ Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool 
     if (stop(0.85, "meshoptimizer's formats")) return set;
     add_codecs(set, mesh, triangles);
     if (stop(0.93, "winged edge, corner table, SQuad")) return set;
-    add_rivals(set, std::move(*table), mesh.vertex_count);
+    add_structures(set, std::move(*table), mesh.vertex_count);
     return set;
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 // Every format that one mesh can be stored in, made and measured. Shared by stats and verify.
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,10 +44,13 @@ struct FormatSet {
     LrStatistics lr_compact;
     std::uint32_t lr_compact_long = 0;  ///< n_l of section 8
     PackedStatistics packed;
-    CacheFigures best_order;  ///< meshoptimizer's order for the vertex cache
-    RingOptions ring;         ///< lean's
+    std::optional<CacheFigures> best_order;  ///< of meshoptimizer's vertex-cache order; empty if absent
+    RingOptions ring;                        ///< lean's
     std::vector<Format> formats;
     std::vector<std::pair<std::string, std::string>> absent;  ///< name, reason
+
+    /// What bits and references are divided by: the triangles encoded, which degenerate ones are not; 1 at least.
+    double triangles() const { return std::max(1.0, static_cast<double>(report.triangles)); }
 };
 
 /// Told what is made next, and which share of the work is done. false: stop, what there is so far is the result.

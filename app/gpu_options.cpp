@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cstdio>
 
+#include "app/print.h"
+
 namespace lr::app {
 namespace {
 
@@ -20,7 +22,8 @@ bool parse_size(const std::string& text, PictureSize& size) {
 }  // namespace
 
 void add_device_options(CLI::App& command, gpu::ContextOptions& options) {
-    command.add_option("--device", options.device, "part of the name of the Vulkan device to use")->type_name("NAME");
+    command.add_option("--device", options.device, "part of the name of the Vulkan device to use, or of its driver")
+        ->type_name("NAME");
     command
         .add_option_function<std::uint64_t>(
             "--device-memory", [&options](const std::uint64_t& mebibytes) { options.memory = mebibytes << 20; },
@@ -28,6 +31,10 @@ void add_device_options(CLI::App& command, gpu::ContextOptions& options) {
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 30))
         ->type_name("MiB");
     command.add_flag("--validation", options.validation, "Vulkan validation layers, with synchronization validation");
+}
+
+bool asks_for_device(const gpu::ContextOptions& options) {
+    return !options.device.empty() || options.memory != 0 || options.validation;
 }
 
 void add_size(CLI::App& command, PictureSize& size) {
@@ -43,7 +50,7 @@ void add_size(CLI::App& command, PictureSize& size) {
 
 std::size_t print_validation(gpu::Context& context) {
     const std::vector<std::string> messages = context.validation().messages();
-    for (const std::string& message : messages) fmt::print(stderr, "lacedring: validation: {}\n", message);
+    for (const std::string& message : messages) say("lacedring: validation: {}\n", message);
     return messages.size();
 }
 

@@ -9,8 +9,11 @@
 
 namespace lr::app {
 
-/// --device, --validation
+/// --device, --device-memory, --validation
 void add_device_options(CLI::App& command, gpu::ContextOptions& options);
+
+/// Was any of them given? Then a command that also works without a device must not go on without one.
+bool asks_for_device(const gpu::ContextOptions& options);
 
 /// A WIDTHxHEIGHT option.
 struct PictureSize {

@@ -1,51 +1,79 @@
 // lacedring: parses the command line, runs one command, and turns what went wrong into one line and an exit code.
 
-#include <fmt/format.h>
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <sstream>
 
+#include "app/arguments.h"
 #include "app/command.h"
 #include "app/commands.h"
 
 namespace {
 
+/// Opens what the caller closed of the standard streams, so that no file of ours gets their numbers. Reading finds
+/// nothing, and writing fails, as it does on a closed stream.
+void open_standard_streams() {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+        if (::fcntl(stream, F_GETFD) == -1) (void)::open("/dev/null", O_RDONLY);  // takes the lowest number
+    }
+}
+
+/// An exit code, once what was printed has arrived.
+int finish(int code) {
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+    lr::app::say("lacedring: standard output: cannot be written\n");
+    return code == lr::app::done ? lr::app::bad_input : code;
+}
+
 int run(int argc, char** argv) {
-    CLI::App program("LacedRing: mesh connectivity in one reference per triangle, drawn straight from the GPU");
+    CLI::App program("LacedRing: triangle meshes in about one and a half bits a triangle, usable as they are");
     program.name("lacedring");
-    program.set_version_flag("--version", LACEDRING_VERSION);
+    program.set_version_flag("-V,--version", LACEDRING_VERSION);
     program.require_subcommand(1);
-    program.failure_message([](const CLI::App*, const CLI::Error& error) {
-        return fmt::format("lacedring: {} (lacedring --help lists the commands)\n", error.what());
-    });
+    program.footer("lacedring COMMAND --help lists a command's options.");
     lr::app::Action action;
     lr::app::add_commands(program, action);
+    std::vector<std::string> words = lr::app::arguments(argc, argv);
+    if (const std::string wrong = lr::app::check_command(program, words); !wrong.empty()) {
+        lr::app::say("lacedring: {} (lacedring --help lists the commands)\n", wrong);
+        return lr::app::wrong_usage;
+    }
     try {
-        program.parse(argc, argv);
+        std::reverse(words.begin(), words.end());  // as CLI11 takes them
+        program.parse(std::move(words));
     } catch (const CLI::ParseError& error) {
-        const int code = program.exit(error);
-        return code == 0 ? lr::app::done : lr::app::wrong_usage;
+        if (error.get_exit_code() != 0) {
+            lr::app::say("lacedring: {} (lacedring --help lists the commands)\n", lr::app::one_line(error.what()));
+            return lr::app::wrong_usage;
+        }
+        std::ostringstream out;  // the help or the version
+        program.exit(error, out, out);
+        lr::app::print("{}", out.str());
+        return finish(lr::app::done);
     }
-    const int code = action();
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-        std::fputs("lacedring: standard output: cannot be written\n", stderr);
-        return code == lr::app::done ? lr::app::bad_input : code;
-    }
-    return code;
+    lr::app::RunLog log;
+    const int code = action(log);
+    if (code == lr::app::done || code == lr::app::check_failed) log.flush();
+    return finish(code);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    std::signal(SIGXFSZ, SIG_IGN);  // a file past its size limit is an error to report, not a death
+    std::signal(SIGXFSZ, SIG_IGN);  // a file past its size limit, and
+    std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone, are errors to report, not deaths
+    open_standard_streams();
     try {
         return run(argc, argv);
     } catch (const std::bad_alloc&) {
         std::fputs("lacedring: not enough memory\n", stderr);
     } catch (const std::exception& error) {  // a bug: nothing of ours throws
-        fmt::print(stderr, "lacedring: internal error: {}\n", error.what());
+        std::fprintf(stderr, "lacedring: internal error: %s\n", error.what());
     }
     return lr::app::bad_input;
 }

@@ -60,9 +60,12 @@ double Candidate::median() const {
     return app::median(seconds);
 }
 
-void run_interleaved(std::vector<Candidate>& candidates, int rounds) {
+void run_interleaved(std::vector<Candidate>& candidates, int rounds, const std::function<void()>& ran) {
     for (int round = 0; round < rounds; ++round) {
-        for (Candidate& candidate : candidates) candidate.seconds.push_back(seconds(candidate.work));
+        for (Candidate& candidate : candidates) {
+            candidate.seconds.push_back(seconds(candidate.work));
+            ran();
+        }
     }
 }
 

@@ -31,7 +31,8 @@ struct Candidate {
 
 double median(std::vector<double> values);
 
-/// Runs every candidate once per round, so that a slow spell of the machine meets all of them.
-void run_interleaved(std::vector<Candidate>& candidates, int rounds);
+/// Runs every candidate once per round, so that a slow spell of the machine meets all of them. `ran` is told after each
+/// run, outside the times.
+void run_interleaved(std::vector<Candidate>& candidates, int rounds, const std::function<void()>& ran);
 
 }  // namespace lr::app

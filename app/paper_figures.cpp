@@ -1,10 +1,19 @@
 // The figures of paper_tables.h: rings made with several periods and several numbers of seeds.
 
+#include <algorithm>
+
 #include "app/paper_tables.h"
 #include "lrcore/baseline/strips.h"
 #include "lrcore/corner_table/split.h"
 
 namespace lr::app {
+namespace {
+
+double encoded_triangles(const CornerTable& table) {
+    return std::max(1.0, static_cast<double>(table.triangle_count() - table.topology.degenerate));
+}
+
+}  // namespace
 
 Result<std::vector<PeriodFigures>> figures_by_period(const Mesh& mesh, RingOptions ring,
                                                      std::span<const std::uint32_t> periods) {
@@ -12,11 +21,12 @@ Result<std::vector<PeriodFigures>> figures_by_period(const Mesh& mesh, RingOptio
     if (!table) return table.error();
     CornerTable split = *table;
     split_fans(split);
-    const auto triangles = static_cast<double>(mesh.triangle_count());
+    const double triangles = encoded_triangles(*table);
     std::vector<PeriodFigures> out;
     for (const std::uint32_t k : periods) {
         PeriodFigures& figures = out.emplace_back();
         figures.k = ring.k = k;
+        figures.triangles = triangles;
         ring.one_per_shell = true;
         const Result<LrTable> lr = build_lr(split, expand_rings(split, ring));
         if (!lr) return lr.error();
@@ -27,8 +37,9 @@ Result<std::vector<PeriodFigures>> figures_by_period(const Mesh& mesh, RingOptio
         figures.compact_bits = 8 * static_cast<double>(compact->view().bytes()) / triangles;
 
         ring.one_per_shell = false;
-        const LeanStream lean = encode_lean(*table, expand_rings(*table, ring));
-        const Result<LeanView> view = view_lean(lean.words);
+        const Result<LeanStream> lean = encode_lean(*table, expand_rings(*table, ring));
+        if (!lean) return lean.error();
+        const Result<LeanView> view = view_lean(lean->words);
         if (!view) return view.error();
         figures.lean_references = static_cast<double>(view->references()) / triangles;
         std::vector<std::uint32_t> indices(std::size_t{3} * view->slots());
@@ -52,9 +63,8 @@ Result<SeedRow> figures_by_seeds(const std::string& path, const Mesh& mesh, Ring
         const Result<LrTable> lr = build_lr(*table, expand_rings(*table, ring));
         if (!lr) return lr.error();
         out.vertices = lr->view().used_vertices();
-        out.figures.push_back(
-            {seeds, lr->statistics.isolated, lr->statistics.t0,
-             static_cast<double>(lr->view().references()) / static_cast<double>(mesh.triangle_count())});
+        out.figures.push_back({seeds, lr->statistics.isolated, lr->statistics.t0,
+                               static_cast<double>(lr->view().references()) / encoded_triangles(*table)});
     }
     return out;
 }

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <limits>
 
+#include "app/print.h"
+
 namespace lr::app {
 namespace {
 
@@ -17,23 +19,23 @@ const Format* find(const FormatSet& set, std::string_view name) {
     return found == set.formats.end() ? nullptr : &*found;
 }
 
-double triangles(const Mesh& mesh) {
-    return static_cast<double>(mesh.triangle_count());
+double percent(std::uint32_t count, double triangles) {
+    return 100.0 * count / triangles;
 }
-double percent(std::uint32_t count, const Mesh& mesh) {
-    return 100.0 * count / triangles(mesh);
+double percent(std::uint32_t count, const FormatSet& set) {
+    return percent(count, set.triangles());
 }
-double references(const Mesh& mesh, const FormatSet& set, std::string_view name) {
+double references(const FormatSet& set, std::string_view name) {
     const Format* format = find(set, name);
-    return format == nullptr ? kNone : static_cast<double>(format->references) / triangles(mesh);
+    return format == nullptr ? kNone : static_cast<double>(format->references) / set.triangles();
 }
-double bits(const Mesh& mesh, const FormatSet& set, std::string_view name) {
+double bits(const FormatSet& set, std::string_view name) {
     const Format* format = find(set, name);
-    return format == nullptr ? kNone : 8 * static_cast<double>(format->bytes) / triangles(mesh);
+    return format == nullptr ? kNone : 8 * static_cast<double>(format->bytes) / set.triangles();
 }
 
 double mesh_triangles(const Mesh& mesh, const FormatSet&) {
-    return triangles(mesh);
+    return static_cast<double>(mesh.triangle_count());
 }
 
 // Table 1. Without tables (too_large) the shares are 0 and the references missing.
@@ -41,11 +43,11 @@ constexpr Column kTable1[] = {
     {"n", 0, mesh_triangles},
     {"%v6", 1, [](const Mesh&, const FormatSet& s) { return s.report.valence6_percent; }},
     {"LR: m_i", 0, [](const Mesh&, const FormatSet& s) { return double(s.lr.isolated); }},
-    {"%T0", 2, [](const Mesh& m, const FormatSet& s) { return percent(s.lr.t0, m); }},
-    {"%T0w", 2, [](const Mesh& m, const FormatSet& s) { return percent(s.lr.t0_wart, m); }},
-    {"%Ti", 2, [](const Mesh& m, const FormatSet& s) { return percent(s.lr.t1_irregular + s.lr.t2_irregular, m); }},
-    {"rpt", 3, [](const Mesh& m, const FormatSet& s) { return references(m, s, "lr"); }},
-    {"SQuad rpt", 3, [](const Mesh& m, const FormatSet& s) { return references(m, s, "squad"); }},
+    {"%T0", 2, [](const Mesh&, const FormatSet& s) { return percent(s.lr.t0, s); }},
+    {"%T0w", 2, [](const Mesh&, const FormatSet& s) { return percent(s.lr.t0_wart, s); }},
+    {"%Ti", 2, [](const Mesh&, const FormatSet& s) { return percent(s.lr.t1_irregular + s.lr.t2_irregular, s); }},
+    {"rpt", 3, [](const Mesh&, const FormatSet& s) { return references(s, "lr"); }},
+    {"SQuad rpt", 3, [](const Mesh&, const FormatSet& s) { return references(s, "squad"); }},
     {"compact: k", 0,
      [](const Mesh&, const FormatSet& s) {
          const Format* format = find(s, "lr_compact");
@@ -53,27 +55,25 @@ constexpr Column kTable1[] = {
          return format->k == 0 ? std::numeric_limits<double>::infinity() : double(format->k);
      }},
     {"m_i", 0, [](const Mesh&, const FormatSet& s) { return double(s.lr_compact.isolated); }},
-    {"%T0", 2, [](const Mesh& m, const FormatSet& s) { return percent(s.lr_compact.t0, m); }},
-    {"%T0w", 2, [](const Mesh& m, const FormatSet& s) { return percent(s.lr_compact.t0_wart, m); }},
-    {"%Tl", 2, [](const Mesh& m, const FormatSet& s) { return percent(s.lr_compact_long, m); }},
+    {"%T0", 2, [](const Mesh&, const FormatSet& s) { return percent(s.lr_compact.t0, s); }},
+    {"%T0w", 2, [](const Mesh&, const FormatSet& s) { return percent(s.lr_compact.t0_wart, s); }},
+    {"%Tl", 2, [](const Mesh&, const FormatSet& s) { return percent(s.lr_compact_long, s); }},
     {"%Ti", 2,
-     [](const Mesh& m, const FormatSet& s) {
-         return percent(s.lr_compact.t1_irregular + s.lr_compact.t2_irregular, m);
-     }},
-    {"bpt", 2, [](const Mesh& m, const FormatSet& s) { return bits(m, s, "lr_compact"); }},
+     [](const Mesh&, const FormatSet& s) { return percent(s.lr_compact.t1_irregular + s.lr_compact.t2_irregular, s); }},
+    {"bpt", 2, [](const Mesh&, const FormatSet& s) { return bits(s, "lr_compact"); }},
 };
 
 // Section 8, last paragraph.
 constexpr Column kLean[] = {
     {"triangles", 0, mesh_triangles},
     {"components", 0, [](const Mesh&, const FormatSet& s) { return double(s.report.components); }},
-    {"lean", 4, [](const Mesh& m, const FormatSet& s) { return references(m, s, "lean"); }},
-    {"lean, no warts", 4, [](const Mesh& m, const FormatSet& s) { return references(m, s, "lean_no_warts"); }},
-    {"strips, restart", 3, [](const Mesh& m, const FormatSet& s) { return references(m, s, "strip_restart"); }},
-    {"strips, degenerate", 3, [](const Mesh& m, const FormatSet& s) { return references(m, s, "strip_degenerate"); }},
-    {"%T0", 2, [](const Mesh& m, const FormatSet& s) { return percent(s.lean.t0, m); }},
-    {"%T0w", 2, [](const Mesh& m, const FormatSet& s) { return percent(s.lean.t0_wart, m); }},
-    {"lean, bytes", 0, [](const Mesh&, const FormatSet& s) { return static_cast<double>(find(s, "lean")->bytes); }},
+    {"lean", 4, [](const Mesh&, const FormatSet& s) { return references(s, "lean"); }},
+    {"lean, no warts", 4, [](const Mesh&, const FormatSet& s) { return references(s, "lean_no_warts"); }},
+    {"strips, restart", 3, [](const Mesh&, const FormatSet& s) { return references(s, "strip_restart"); }},
+    {"strips, degenerate", 3, [](const Mesh&, const FormatSet& s) { return references(s, "strip_degenerate"); }},
+    {"%T0", 2, [](const Mesh&, const FormatSet& s) { return percent(s.lean.t0, s); }},
+    {"%T0w", 2, [](const Mesh&, const FormatSet& s) { return percent(s.lean.t0_wart, s); }},
+    {"lean, bytes", 0, [](const Mesh&, const FormatSet& s) { return bits(s, "lean") / 8 * s.triangles(); }},
 };
 
 double acmr(const Mesh& mesh, const FormatSet& set, std::string_view name) {
@@ -84,46 +84,46 @@ double acmr(const Mesh& mesh, const FormatSet& set, std::string_view name) {
 // Not the paper's: the packed stream and its rivals.
 constexpr Column kPacked[] = {
     {"triangles", 0, mesh_triangles},
-    {"packed, bits", 3, [](const Mesh& m, const FormatSet& s) { return bits(m, s, "packed"); }},
-    {"cache profile, bits", 3, [](const Mesh& m, const FormatSet& s) { return bits(m, s, "packed_cache"); }},
+    {"packed, bits", 3, [](const Mesh&, const FormatSet& s) { return bits(s, "packed"); }},
+    {"cache profile, bits", 3, [](const Mesh&, const FormatSet& s) { return bits(s, "packed_cache"); }},
     {"its ACMR(32)", 3, [](const Mesh& m, const FormatSet& s) { return acmr(m, s, "packed_cache"); }},
-    {"best order's", 3, [](const Mesh&, const FormatSet& s) { return s.best_order.acmr; }},
-    {"index codec, bits", 2, [](const Mesh& m, const FormatSet& s) { return bits(m, s, "meshopt_index_codec"); }},
+    {"best order's", 3, [](const Mesh&, const FormatSet& s) { return s.best_order ? s.best_order->acmr : kNone; }},
+    {"index codec, bits", 2, [](const Mesh&, const FormatSet& s) { return bits(s, "meshopt_index_codec"); }},
     {"over packed", 1,
-     [](const Mesh& m, const FormatSet& s) { return bits(m, s, "meshopt_index_codec") / bits(m, s, "packed"); }},
-    {"meshlets, bits", 1, [](const Mesh& m, const FormatSet& s) { return bits(m, s, "meshlets"); }},
-    {"strips, bits", 1, [](const Mesh& m, const FormatSet& s) { return bits(m, s, "strip_restart"); }},
-    {"LR, rpt", 3, [](const Mesh& m, const FormatSet& s) { return bits(m, s, "lr") / 32; }},
+     [](const Mesh&, const FormatSet& s) { return bits(s, "meshopt_index_codec") / bits(s, "packed"); }},
+    {"meshlets, bits", 1, [](const Mesh&, const FormatSet& s) { return bits(s, "meshlets"); }},
+    {"strips, bits", 1, [](const Mesh&, const FormatSet& s) { return bits(s, "strip_restart"); }},
+    {"LR, rpt", 3, [](const Mesh&, const FormatSet& s) { return bits(s, "lr") / 32; }},
 };
 
 // Section 1: three 16-bit coordinates a vertex in use beside the connectivity, in bits per triangle. The corner table
 // is the paper's, V and O alone.
-double coordinate_bits(const Mesh& mesh, const FormatSet& set) {
-    return 48.0 * set.report.used_vertices / triangles(mesh);
+double coordinate_bits(const FormatSet& set) {
+    return 48.0 * set.report.used_vertices / set.triangles();
 }
-double corner_table_bits(const Mesh& mesh, const FormatSet& set) {
-    return 192.0 * set.report.triangles / triangles(mesh);
+double corner_table_bits(const FormatSet& set) {
+    return 192.0 * set.report.triangles / set.triangles();
 }
-double total(const Mesh& mesh, const FormatSet& set, std::string_view name) {
-    return bits(mesh, set, name) + coordinate_bits(mesh, set);
+double total(const FormatSet& set, std::string_view name) {
+    return bits(set, name) + coordinate_bits(set);
 }
-double saved_percent(const Mesh& mesh, const FormatSet& set, std::string_view name) {
-    return 100 - 100 * total(mesh, set, name) / (corner_table_bits(mesh, set) + coordinate_bits(mesh, set));
+double saved_percent(const FormatSet& set, std::string_view name) {
+    return 100 - 100 * total(set, name) / (corner_table_bits(set) + coordinate_bits(set));
 }
 constexpr Column kStorage[] = {
-    {"coordinates", 1, coordinate_bits},
+    {"coordinates", 1, [](const Mesh&, const FormatSet& s) { return coordinate_bits(s); }},
     {"corner table: total", 1,
-     [](const Mesh& m, const FormatSet& s) { return corner_table_bits(m, s) + coordinate_bits(m, s); }},
+     [](const Mesh&, const FormatSet& s) { return corner_table_bits(s) + coordinate_bits(s); }},
     {"connectivity %", 1,
-     [](const Mesh& m, const FormatSet& s) {
-         return 100 * corner_table_bits(m, s) / (corner_table_bits(m, s) + coordinate_bits(m, s));
+     [](const Mesh&, const FormatSet& s) {
+         return 100 * corner_table_bits(s) / (corner_table_bits(s) + coordinate_bits(s));
      }},
-    {"LR: total", 1, [](const Mesh& m, const FormatSet& s) { return total(m, s, "lr"); }},
-    {"saved %", 1, [](const Mesh& m, const FormatSet& s) { return saved_percent(m, s, "lr"); }},
-    {"compact: total", 1, [](const Mesh& m, const FormatSet& s) { return total(m, s, "lr_compact"); }},
-    {"saved %", 1, [](const Mesh& m, const FormatSet& s) { return saved_percent(m, s, "lr_compact"); }},
-    {"lean: total", 1, [](const Mesh& m, const FormatSet& s) { return total(m, s, "lean"); }},
-    {"saved %", 1, [](const Mesh& m, const FormatSet& s) { return saved_percent(m, s, "lean"); }},
+    {"LR: total", 1, [](const Mesh&, const FormatSet& s) { return total(s, "lr"); }},
+    {"saved %", 1, [](const Mesh&, const FormatSet& s) { return saved_percent(s, "lr"); }},
+    {"compact: total", 1, [](const Mesh&, const FormatSet& s) { return total(s, "lr_compact"); }},
+    {"saved %", 1, [](const Mesh&, const FormatSet& s) { return saved_percent(s, "lr_compact"); }},
+    {"lean: total", 1, [](const Mesh&, const FormatSet& s) { return total(s, "lean"); }},
+    {"saved %", 1, [](const Mesh&, const FormatSet& s) { return saved_percent(s, "lean"); }},
 };
 
 using Row = std::vector<std::string>;
@@ -136,16 +136,16 @@ void print_cells(const std::vector<Row>& rows) {
     }
     for (std::size_t r = 0; r < rows.size(); ++r) {
         for (std::size_t i = 0; i < width.size(); ++i) {
-            i == 0 ? fmt::print("| {:<{}} |", rows[r][i], width[i]) : fmt::print(" {:>{}} |", rows[r][i], width[i]);
+            i == 0 ? print("| {:<{}} |", rows[r][i], width[i]) : print(" {:>{}} |", rows[r][i], width[i]);
         }
-        fmt::print("\n");
+        print("\n");
         if (r > 0) continue;
         for (std::size_t i = 0; i < width.size(); ++i) {
-            i == 0 ? fmt::print("|:{:-<{}}|", "", width[i] + 1) : fmt::print("{:-<{}}:|", "", width[i] + 1);
+            i == 0 ? print("|:{:-<{}}|", "", width[i] + 1) : print("{:-<{}}:|", "", width[i] + 1);
         }
-        fmt::print("\n");
+        print("\n");
     }
-    fmt::print("\n");
+    print("\n");
 }
 
 std::string cell(double value, int decimals) {
@@ -198,7 +198,7 @@ void print(std::span<const Column> columns, std::span<const MeshRow> rows) {
     print_cells(cells);
 }
 
-void print_offsets(const std::string& path, const Mesh& mesh, std::span<const PeriodFigures> periods) {
+void print_offsets(const std::string& path, std::span<const PeriodFigures> periods) {
     std::vector<Row> cells{{name_of(path) + ", % of triangles"}};
     std::size_t largest = 1;
     for (const PeriodFigures& period : periods) {
@@ -209,7 +209,8 @@ void print_offsets(const std::string& path, const Mesh& mesh, std::span<const Pe
     }
     const auto add = [&](std::string title, const auto& count) {
         Row& line = cells.emplace_back(Row{std::move(title)});
-        for (const PeriodFigures& period : periods) line.push_back(cell(percent(count(period.offsets), mesh), 2));
+        for (const PeriodFigures& period : periods)
+            line.push_back(cell(percent(count(period.offsets), period.triangles), 2));
     };
     for (std::size_t b = 1; b <= largest; ++b) {
         add(fmt::format("{} bit{}", b, b == 1 ? "" : "s"), [&](const OffsetCounts& o) { return o.bits[b]; });
@@ -219,15 +220,15 @@ void print_offsets(const std::string& path, const Mesh& mesh, std::span<const Pe
     print_cells(cells);
 }
 
-void print_periods(const std::string& path, const Mesh& mesh, std::span<const PeriodFigures> periods) {
+void print_periods(const std::string& path, std::span<const PeriodFigures> periods) {
     std::vector<Row> cells{{name_of(path) + ", k", "%T0", "up to 14 bits %", "LR rpt", "compact bpt", "lean rpt",
                             "ACMR(16)", "ACMR(32)", "without T0"}};
     for (const PeriodFigures& p : periods) {
         std::uint32_t small = 0;
         for (std::size_t b = 0; b <= 14; ++b) small += p.offsets.bits[b];
-        cells.push_back({period_name(p.k), cell(percent(p.offsets.t0, mesh), 2), cell(percent(small, mesh), 2),
-                         cell(p.lr_references, 3), cell(p.compact_bits, 2), cell(p.lean_references, 3),
-                         cell(p.acmr16, 3), cell(p.acmr32, 3), cell(p.acmr32_ring, 3)});
+        cells.push_back({period_name(p.k), cell(percent(p.offsets.t0, p.triangles), 2),
+                         cell(percent(small, p.triangles), 2), cell(p.lr_references, 3), cell(p.compact_bits, 2),
+                         cell(p.lean_references, 3), cell(p.acmr16, 3), cell(p.acmr32, 3), cell(p.acmr32_ring, 3)});
     }
     print_cells(cells);
 }

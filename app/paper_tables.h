@@ -29,7 +29,8 @@ void print(std::span<const Column> columns, std::span<const MeshRow> rows);
 
 /// One period of the hybrid: sections 6.1 and 7, Figure 8.
 struct PeriodFigures {
-    std::uint32_t k = 0;  ///< 0: depth first
+    double triangles = 0;  ///< that are encoded
+    std::uint32_t k = 0;   ///< 0: depth first
     OffsetCounts offsets;
     double lr_references = 0, lean_references = 0, compact_bits = 0;  ///< a triangle, without headers
     double acmr16 = 0, acmr32 = 0;                                    ///< of the triangles in lean's order
@@ -40,8 +41,8 @@ constexpr std::uint32_t kPeriods[] = {1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 102
 /// `ring.k` is ignored. Errors: those of build_corner_table, build_lr and build_compact_lr.
 Result<std::vector<PeriodFigures>> figures_by_period(const Mesh& mesh, RingOptions ring,
                                                      std::span<const std::uint32_t> periods);
-void print_offsets(const std::string& path, const Mesh& mesh, std::span<const PeriodFigures> periods);
-void print_periods(const std::string& path, const Mesh& mesh, std::span<const PeriodFigures> periods);
+void print_offsets(const std::string& path, std::span<const PeriodFigures> periods);
+void print_periods(const std::string& path, std::span<const PeriodFigures> periods);
 nlohmann::ordered_json to_json(std::span<const PeriodFigures> periods);
 
 /// Some seed corners per component, standard LR: section 4.2.

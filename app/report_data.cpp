@@ -32,7 +32,7 @@ Result<MeshReport> measure_mesh(const std::string& path, const Mesh& mesh, const
     {
         Result<FormatSet> set = make_formats(mesh, choice);
         if (!set) return set.error();
-        const auto triangles = static_cast<double>(mesh.triangle_count());
+        const double triangles = set->triangles();
         const auto base = static_cast<double>(set->formats.front().bytes);
         for (const Format& format : set->formats) {
             if (invalid.empty() && !format.invalid.empty()) invalid = format.name + ": " + format.invalid;

@@ -1,6 +1,7 @@
 #pragma once
 // What a report says of one mesh: the figures of `stats`, without the index lists that they were taken from.
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,7 +36,7 @@ struct MeshReport {
     TopologyReport report;
     Topology topology;
     LeanStatistics lean;
-    CacheFigures best_order;
+    std::optional<CacheFigures> best_order;  ///< as in FormatSet
     std::vector<FormatFigures> formats;
     std::vector<std::pair<std::string, std::string>> absent;  ///< name, reason
     std::vector<PeriodFigures> periods;                       ///< one each of kFigure8Periods

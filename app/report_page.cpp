@@ -129,10 +129,12 @@ std::string size_table(const MeshReport& mesh, const std::string& title) {
            fmt::format(
                "</tbody></table></div>\n<p class=\"note\">Connectivity alone, headers included; per triangle of the "
                "input. ACMR and ATVR: vertices transformed per triangle and per vertex, in the format’s order, "
-               "with a FIFO cache of 32. meshoptimizer’s best order for the vertex cache: ACMR {}, ATVR {}. "
+               "with a FIFO cache of 32.{} "
                "Deflated: where the format is for transmission. Ring: how it was grown, and passes of the "
                "optimiser.</p>\n",
-               fixed(mesh.best_order.acmr, 3), fixed(mesh.best_order.atvr, 3));
+               mesh.best_order ? fmt::format(" meshoptimizer’s best order for the vertex cache: ACMR {}, ATVR {}.",
+                                             fixed(mesh.best_order->acmr, 3), fixed(mesh.best_order->atvr, 3))
+                               : "");
 }
 
 /// "meshopt_index_codec", with places to break it.
@@ -165,7 +167,7 @@ std::string overview(std::span<const MeshReport> meshes) {
         }
         const FormatFigures* cache = meshes[i].find("packed_cache");
         rows += fmt::format("<td>{}</td><td>{}</td></tr>\n", cache == nullptr ? "" : fixed(cache->cache.acmr, 3),
-                            fixed(meshes[i].best_order.acmr, 3));
+                            meshes[i].best_order ? fixed(meshes[i].best_order->acmr, 3) : "absent");
     }
     rows += "<tr class=\"sum\"><th scope=\"row\">median</th><td></td><td></td>";
     const auto add_median = [&](auto value, int decimals) {
@@ -182,7 +184,7 @@ std::string overview(std::span<const MeshReport> meshes) {
             return cache == nullptr ? NAN : cache->cache.acmr;
         },
         3);
-    add_median([](const MeshReport& mesh) { return mesh.best_order.acmr; }, 3);
+    add_median([](const MeshReport& mesh) { return mesh.best_order ? mesh.best_order->acmr : NAN; }, 3);
     rows += "</tr>\n";
     return fmt::format(
         "<section aria-labelledby=\"overview\"><h2 id=\"overview\">Overview</h2>\n"

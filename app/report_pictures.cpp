@@ -46,10 +46,7 @@ Result<void> draw_pictures(gpu::Context& context, const PictureSize& size, const
         Result<ReportPicture> picture = draw(context, size, camera, *model, *gpu::view_named(name));
         if (!picture) {
             const ErrorCode code = picture.error().code;
-            if (code == ErrorCode::no_device || code == ErrorCode::device_failure ||
-                code == ErrorCode::invalid_argument) {
-                return picture.error();
-            }
+            if (code == ErrorCode::device_failure || code == ErrorCode::invalid_argument) return picture.error();
             report.pictures.clear();
             report.no_pictures = picture.error().message;
             return {};

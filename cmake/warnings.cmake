@@ -9,3 +9,7 @@ if(LACEDRING_SANITIZE)
                                                        -fno-omit-frame-pointer)
     target_link_options(lacedring_options INTERFACE -fsanitize=address,undefined)
 endif()
+if(LACEDRING_FUZZ)  # the standard library's own bounds checks, too
+    target_compile_definitions(lacedring_options INTERFACE _GLIBCXX_ASSERTIONS)
+    target_compile_options(lacedring_options INTERFACE -Wno-bitwise-instead-of-logical)
+endif()

@@ -56,12 +56,12 @@ std::uint32_t Arena::choose_type(std::uint32_t allowed, Memory memory) const {
 Result<void> Arena::check_room(VkDeviceSize bytes, VkDeviceSize largest) const {
     const auto mebibytes = [](VkDeviceSize n) { return std::to_string((n + (1U << 20) - 1) >> 20) + " MiB"; };
     if (largest > max_allocation_) {
-        return Error{ErrorCode::too_large, "a buffer of " + mebibytes(largest) +
+        return Error{ErrorCode::no_device, "a buffer of " + mebibytes(largest) +
                                                " is needed; the device gives at most " + mebibytes(max_allocation_)};
     }
     const VkDeviceSize room = limit_ - std::min(used(), limit_);
     if (bytes <= room) return {};
-    return Error{ErrorCode::too_large,
+    return Error{ErrorCode::no_device,
                  mebibytes(bytes) + " of device memory are needed; " + mebibytes(room) + " are left"};
 }
 
@@ -124,7 +124,7 @@ Result<Allocation> Arena::allocate(const VkMemoryRequirements& requirements, Mem
     const std::uint32_t type = choose_type(requirements.memoryTypeBits, memory);
     if (type == kNoType) return Error{ErrorCode::device_failure, "no memory type fits a resource"};
     if (requirements.size > max_allocation_) {
-        return Error{ErrorCode::too_large, std::to_string(requirements.size) +
+        return Error{ErrorCode::no_device, std::to_string(requirements.size) +
                                                " bytes in one resource; the device gives " +
                                                std::to_string(max_allocation_)};
     }
@@ -138,7 +138,7 @@ Result<Allocation> Arena::allocate(const VkMemoryRequirements& requirements, Mem
     const VkDeviceSize usual = std::min({kBlockSize, max_allocation_, std::max(limit_ / 16, VkDeviceSize{1} << 20)});
     const VkDeviceSize room = limit_ - std::min(held(), limit_);
     if (requirements.size > room) {
-        return Error{ErrorCode::too_large, std::to_string(requirements.size) + " bytes; " + std::to_string(room) +
+        return Error{ErrorCode::no_device, std::to_string(requirements.size) + " bytes; " + std::to_string(room) +
                                                " are left of the device memory that may be held"};
     }
     LR_ASSIGN(const std::uint32_t index, add_block(type, std::max(std::min(usual, room), requirements.size), tiling));

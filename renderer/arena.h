@@ -43,11 +43,11 @@ class Arena {
     Arena(const Arena&) = delete;
     Arena& operator=(const Arena&) = delete;
 
-    /// Errors: too_large (past maxMemoryAllocationSize, or out of memory), device_failure.
+    /// Errors: no_device (past maxMemoryAllocationSize, or out of memory), device_failure.
     Result<Allocation> allocate(const VkMemoryRequirements& requirements, Memory memory, Tiling tiling);
     void free(const Allocation& allocation);
 
-    /// Is there room for resources of so many bytes in all, the largest of them of `largest`? too_large says what is
+    /// Is there room for resources of so many bytes in all, the largest of them of `largest`? no_device says what is
     /// missing. Nothing is allocated; other programs may take the room meanwhile.
     Result<void> check_room(VkDeviceSize bytes, VkDeviceSize largest) const;
 

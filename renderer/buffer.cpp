@@ -12,7 +12,7 @@ Result<Buffer> Buffer::create(Context& context, const std::string& name, VkDevic
                               Memory memory) {
     size = std::max<VkDeviceSize>(size, 16);
     if (size > context.info().max_buffer_size) {
-        return Error{ErrorCode::too_large, name + ": " + std::to_string(size) +
+        return Error{ErrorCode::no_device, name + ": " + std::to_string(size) +
                                                " bytes; the device allows buffers of " +
                                                std::to_string(context.info().max_buffer_size)};
     }

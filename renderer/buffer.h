@@ -17,7 +17,7 @@ class Buffer {
   public:
     Buffer() = default;
     /// Transfer source and destination are always allowed. A size of 0 becomes 16 bytes, so that every buffer can be
-    /// bound. Errors: too_large, device_failure.
+    /// bound. Errors: no_device (not enough memory), device_failure.
     static Result<Buffer> create(Context& context, const std::string& name, VkDeviceSize size, VkBufferUsageFlags usage,
                                  Memory memory = Memory::gpu);
     Buffer(Buffer&& other) noexcept;

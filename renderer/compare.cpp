@@ -89,7 +89,21 @@ struct Reference {
     std::uint64_t covered = 0, distinct_ids = 0;
 };
 
-Result<Reference> draw_reference(Renderer& renderer, const Model& model) {
+/// Counts pictures for who waits.
+class Counter {
+  public:
+    Counter(const CompareProgress& progress, std::size_t subjects)
+        : progress_(progress), total_(2 * kViews * static_cast<std::uint32_t>(1 + subjects)) {}
+    void count() {
+        if (progress_) progress_(++done_, total_);
+    }
+
+  private:
+    const CompareProgress& progress_;
+    std::uint32_t done_ = 0, total_;
+};
+
+Result<Reference> draw_reference(Renderer& renderer, const Model& model, Counter& counter) {
     Reference out;
     const auto [width, height] = renderer.target().extent();
     LR_ASSIGN(Drawable plain, renderer.upload(model, Source::plain));
@@ -101,6 +115,7 @@ Result<Reference> draw_reference(Renderer& renderer, const Model& model) {
     for (const bool exact : {false, true}) {
         for (std::uint32_t v = 0; v < kViews; ++v) {
             LR_ASSIGN((exact ? out.exact : out.raw)[v], renderer.draw(plain, model, out.cameras[v], exact));
+            counter.count();
         }
     }
     std::vector<bool> seen(model.triangle_count());
@@ -113,7 +128,7 @@ Result<Reference> draw_reference(Renderer& renderer, const Model& model) {
 }
 
 Result<Comparison> compare_one(Renderer& renderer, const Model& model, const Reference& reference,
-                               const Subject& subject) {
+                               const Subject& subject, Counter& counter) {
     const auto [width, height] = renderer.target().extent();
     LR_ASSIGN(Drawable stream, renderer.upload(model, subject.source, subject.path));
     Comparison out;
@@ -132,6 +147,7 @@ Result<Comparison> compare_one(Renderer& renderer, const Model& model, const Ref
         out.raw_max_channel_difference = std::max(out.raw_max_channel_difference, d.channel);
         marks[v].assign(picture.pixels(), 0);
         mark(marks[v], reference.raw[v], picture, 2);
+        counter.count();
     }
     LR_ASSIGN(out.indices_equal_cpu, indices_equal_cpu(renderer, stream, model));
 
@@ -146,9 +162,10 @@ Result<Comparison> compare_one(Renderer& renderer, const Model& model, const Ref
         out.triangle_ids_different += d.triangles;
         mark(marks[v], reference.exact[v], picture, 1);
         paste(out.picture, reference.exact[v], marks[v], v);
+        counter.count();
     }
-    // A mesh may hide most of its triangles, and a needle covers little: the bars are low, but nothing drawn, or all
-    // drawn as one, does not pass. The cameras fit the mesh to the picture, so a thousandth is less than a needle.
+    // A mesh may hide most of its triangles, and a needle covers little: the bars are low. The cameras fit the mesh to
+    // the picture, so a thousandth is less than a needle.
     const std::uint64_t pixels = std::uint64_t{width} * height * kViews;
     const std::uint64_t visible = std::min<std::uint64_t>(model.triangle_count(), out.covered_pixels);
     out.blank = out.covered_pixels * 1000 < pixels || out.distinct_ids < std::max<std::uint64_t>(1, visible / 1000);
@@ -165,14 +182,16 @@ Result<std::vector<Comparison>> compare(Context& context, const Model& model, st
     renderer_options.max_range = options.max_range;
     renderer_options.omit_decode_barrier = options.omit_decode_barrier;
     LR_ASSIGN(Renderer renderer, Renderer::create(context, renderer_options));
-    return compare(renderer, model, subjects);
+    return compare(renderer, model, subjects, options.progress);
 }
 
-Result<std::vector<Comparison>> compare(Renderer& renderer, const Model& model, std::span<const Subject> subjects) {
-    LR_ASSIGN(const Reference reference, draw_reference(renderer, model));
+Result<std::vector<Comparison>> compare(Renderer& renderer, const Model& model, std::span<const Subject> subjects,
+                                        const CompareProgress& progress) {
+    Counter counter(progress, subjects.size());
+    LR_ASSIGN(const Reference reference, draw_reference(renderer, model, counter));
     std::vector<Comparison> out;
     for (const Subject& subject : subjects) {
-        LR_ASSIGN(Comparison comparison, compare_one(renderer, model, reference, subject));
+        LR_ASSIGN(Comparison comparison, compare_one(renderer, model, reference, subject, counter));
         out.push_back(std::move(comparison));
     }
     return out;

@@ -17,7 +17,7 @@
 namespace lr::gpu {
 
 struct ContextOptions {
-    std::string device;       ///< part of a device's name; empty: the best one
+    std::string device;       ///< part of a device's or driver's name (choose_device); empty: the best one
     bool validation = false;  ///< VK_LAYER_KHRONOS_validation with synchronization validation
     /// GPU-assisted validation instead of synchronization validation: accesses past what is bound, as shaders make
     /// them. Slow. Only with `validation`.

@@ -17,6 +17,34 @@ std::string lower(std::string text) {
     return text;
 }
 
+/// The name by which documents know a driver that calls itself something else; null for others.
+const char* usual_name(VkDriverId driver) {
+    switch (driver) {
+        case VK_DRIVER_ID_MESA_LLVMPIPE:
+            return "lavapipe";
+        case VK_DRIVER_ID_INTEL_OPEN_SOURCE_MESA:
+            return "ANV";
+        default:
+            return nullptr;
+    }
+}
+
+/// Everything that a device may be asked for by.
+std::vector<std::string> names_of(VkPhysicalDevice device) {
+    VkPhysicalDeviceDriverProperties driver{};
+    driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    vkGetPhysicalDeviceProperties(device, &properties.properties);
+    std::vector<std::string> out{properties.properties.deviceName};
+    if (properties.properties.apiVersion < VK_API_VERSION_1_2) return out;
+    properties.pNext = &driver;
+    vkGetPhysicalDeviceProperties2(device, &properties);
+    out.emplace_back(driver.driverName);
+    if (const char* usual = usual_name(driver.driverID); usual != nullptr) out.emplace_back(usual);
+    return out;
+}
+
 std::optional<std::uint32_t> graphics_compute_family(VkPhysicalDevice device) {
     std::uint32_t count = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
@@ -141,28 +169,25 @@ Result<DeviceChoice> choose_device(VkInstance instance, const std::string& name)
     int best_rank = -1;
     std::vector<std::string> rejected;
     for (const VkPhysicalDevice device : devices) {
-        VkPhysicalDeviceDriverProperties driver{};
-        driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
-        VkPhysicalDeviceProperties2 properties{};
-        properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
-        vkGetPhysicalDeviceProperties(device, &properties.properties);
-        if (properties.properties.apiVersion >= VK_API_VERSION_1_2) {
-            properties.pNext = &driver;
-            vkGetPhysicalDeviceProperties2(device, &properties);
-        }
-        const std::string device_name = properties.properties.deviceName;
-        if (!name.empty() && lower(device_name).find(lower(name)) == std::string::npos &&
-            lower(driver.driverName).find(lower(name)) == std::string::npos) {
-            rejected.push_back(device_name + ": not named \"" + name + "\"");
+        const std::vector<std::string> names = names_of(device);
+        const bool named = std::any_of(names.begin(), names.end(), [&](const std::string& one) {
+            return lower(one).find(lower(name)) != std::string::npos;
+        });
+        if (!named) {
+            const std::string drivers = join({names.begin() + 1, names.end()}, ", ");
+            rejected.push_back(names[0] + (drivers.empty() ? "" : " (driver " + drivers + ")") + ": not named \"" +
+                               name + "\"");
             continue;
         }
         if (const auto missing = missing_features(device); !missing.empty()) {
-            rejected.push_back(device_name + ": lacks " + join(missing, ", "));
+            rejected.push_back(names[0] + ": lacks " + join(missing, ", "));
             continue;
         }
-        if (rank(properties.properties.deviceType) > best_rank) {
+        VkPhysicalDeviceProperties properties{};
+        vkGetPhysicalDeviceProperties(device, &properties);
+        if (rank(properties.deviceType) > best_rank) {
             best = device;
-            best_rank = rank(properties.properties.deviceType);
+            best_rank = rank(properties.deviceType);
         }
     }
     if (best == VK_NULL_HANDLE) {

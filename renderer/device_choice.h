@@ -23,8 +23,9 @@ struct DeviceChoice {
 /// What a device lacks of what the renderer needs: names of features, formats and versions. Empty: usable.
 std::vector<std::string> missing_features(VkPhysicalDevice device);
 
-/// The best usable device: a GPU before a software one. `name`, if not empty, must be part of the device's or driver's
-/// name (case does not matter). Errors: no_device, one line with every device and what is wrong with it.
+/// The best usable device: a GPU before a software one. `name`, if not empty, must be part of the device's name, of the
+/// driver's, or of the name by which that driver is usually known ("lavapipe" calls itself llvmpipe); case does not
+/// matter. Errors: no_device, one line with every device and what is wrong with it.
 Result<DeviceChoice> choose_device(VkInstance instance, const std::string& name);
 
 }  // namespace lr::gpu

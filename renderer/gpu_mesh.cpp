@@ -38,13 +38,13 @@ Result<GpuMesh> prepare(Context& context, const Model& model, Source source, con
     if (slots == 0) return Error{ErrorCode::unsupported, "the mesh has no triangles to draw"};
     if (slots > UINT32_MAX / 3) return Error{ErrorCode::too_large, "more than 2^32 indices"};
     if (model.vertex_count() - 1 > context.info().max_index) {
-        return Error{ErrorCode::too_large, std::to_string(model.vertex_count()) +
+        return Error{ErrorCode::no_device, std::to_string(model.vertex_count()) +
                                                " vertices; the device's indices go to " +
                                                std::to_string(context.info().max_index)};
     }
     mesh.path = options.path;
     if (mesh.path == Path::mesh && context.info().max_mesh_groups == 0) {
-        return Error{ErrorCode::unsupported, "the device has no mesh shaders (VK_EXT_mesh_shader)"};
+        return Error{ErrorCode::no_device, "the device has no mesh shaders (VK_EXT_mesh_shader)"};
     }
     const MeshBytes bytes = mesh_bytes(model, source, options);
     LR_TRY(context.arena().check_room(bytes.all, bytes.largest));
@@ -222,7 +222,7 @@ MeshBytes mesh_bytes(const Model& model, Source source, const UploadOptions& opt
 
 Result<GpuMesh> upload_plain(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options) {
     if (options.path != Path::compute)
-        return Error{ErrorCode::invalid_argument, "an index list has Path::compute only"};
+        return Error{ErrorCode::invalid_argument, "the pull, geometry and mesh paths draw streams, not an index list"};
     LR_ASSIGN(GpuMesh mesh, prepare(context, model, Source::plain, options));
     const auto indices = std::as_bytes(model.indices);
     LR_TRY(transfer.upload(

@@ -93,9 +93,9 @@ struct Vertex {
     float ring;  ///< place along the rings in [0, 1]; -1 off the rings
 };
 
-/// Errors: unsupported (Path::mesh where the device has none), too_large (indices past the device's; more memory than
-/// is left, found out before any is allocated), invalid_argument (max_range), unsupported (only degenerate triangles),
-/// and Vulkan's.
+/// Errors: no_device (Path::mesh where the device has none, indices past the device's, more memory than is left, which
+/// is found out before any is allocated), too_large (more than 2^32 indices), invalid_argument (max_range), unsupported
+/// (only degenerate triangles), and Vulkan's.
 Result<GpuMesh> upload_plain(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options);
 /// The model's stream must be valid, as encode_lean makes it.
 Result<GpuMesh> upload_lean(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options);

@@ -12,7 +12,7 @@ Result<Image> Image::create(Context& context, const std::string& name, VkExtent2
     const std::uint32_t limit = context.limits().maxImageDimension2D;
     if (extent.width == 0 || extent.height == 0) return Error{ErrorCode::invalid_argument, "an image of no size"};
     if (extent.width > limit || extent.height > limit) {
-        return Error{ErrorCode::too_large, std::to_string(extent.width) + "x" + std::to_string(extent.height) +
+        return Error{ErrorCode::no_device, std::to_string(extent.width) + "x" + std::to_string(extent.height) +
                                                " pixels; the device draws at most " + std::to_string(limit) +
                                                " a side"};
     }

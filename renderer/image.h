@@ -14,7 +14,7 @@ class Context;
 class Image {
   public:
     Image() = default;
-    /// Errors: too_large (past maxImageDimension2D, or out of memory), device_failure.
+    /// Errors: no_device (past maxImageDimension2D, or out of memory), device_failure.
     static Result<Image> create(Context& context, const std::string& name, VkExtent2D extent, VkFormat format,
                                 VkImageUsageFlags usage);
     Image(Image&& other) noexcept;

@@ -85,7 +85,7 @@ Result<Model> make_model(const Mesh& mesh, const ModelOptions& options) {
         optimize.cost = cost;
         return optimize_rings(table, rings, optimize);
     };
-    model.lean = encode_lean(table, optimised(lean_ring_cost), options.lean);
+    LR_ASSIGN(model.lean, encode_lean(table, optimised(lean_ring_cost), options.lean));
     if (options.packed) {
         LR_ASSIGN(model.packed, encode_packed(table, optimised(packed_ring_cost)));
     }

@@ -96,7 +96,7 @@ Result<std::uint64_t> Renderer::words_read(const Drawable& drawable) {
 }
 
 Result<std::uint64_t> Renderer::vertex_invocations(Drawable& drawable) {
-    if (!context_->info().statistics) return Error{ErrorCode::unsupported, "the device counts no shader runs"};
+    if (!context_->info().statistics) return Error{ErrorCode::no_device, "the device counts no shader runs"};
     VkQueryPoolCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
     info.queryType = VK_QUERY_TYPE_PIPELINE_STATISTICS;

@@ -46,7 +46,7 @@ class Renderer {
     Result<std::uint64_t> words_read(const Drawable& drawable);
 
     /// Runs of vertex shaders for one picture in one pass, as the device counts them. What draws it must be decoded.
-    /// Errors: unsupported (DeviceInfo::statistics).
+    /// Errors: no_device (DeviceInfo::statistics).
     Result<std::uint64_t> vertex_invocations(Drawable& drawable);
 
     Context& context() { return *context_; }

@@ -74,6 +74,7 @@ Swapchain::Swapchain(Swapchain&& other) noexcept
       surface_(other.surface_),
       format_(other.format_),
       swapchain_(std::exchange(other.swapchain_, VK_NULL_HANDLE)),
+      window_(other.window_),
       extent_(other.extent_),
       images_(std::move(other.images_)),
       drawn_(std::move(other.drawn_)),
@@ -92,15 +93,26 @@ void Swapchain::drop() {
     swapchain_ = VK_NULL_HANDLE;
 }
 
-Result<bool> Swapchain::rebuild() {
+Result<Swapchain::Fit> Swapchain::rebuild() {
     context_->wait_idle();
     VkSurfaceCapabilitiesKHR surface{};
     LR_TRY_VK(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(context_->physical(), surface_, &surface));
     VkExtent2D extent = surface.currentExtent;
-    if (extent.width == UINT32_MAX) extent = extent_;  // the window follows its pictures
+    const std::uint32_t limit = context_->limits().maxImageDimension2D;
+    if (extent.width == UINT32_MAX) {  // the window follows its images, and scales them if it must
+        const auto fitting = [&](std::uint32_t wanted, std::uint32_t least, std::uint32_t most) {
+            return std::max(least, std::min({wanted, most, limit}));
+        };
+        extent = {fitting(window_.width, surface.minImageExtent.width, surface.maxImageExtent.width),
+                  fitting(window_.height, surface.minImageExtent.height, surface.maxImageExtent.height)};
+    }
     if (extent.width == 0 || extent.height == 0) {
         drop();
-        return false;
+        return Fit::no_size;
+    }
+    if (extent.width > limit || extent.height > limit) {
+        drop();
+        return Fit::too_large;
     }
     VkSwapchainCreateInfoKHR info{};
     info.sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR;
@@ -121,6 +133,7 @@ Result<bool> Swapchain::rebuild() {
     VkSwapchainKHR made = VK_NULL_HANDLE;
     const VkResult result = vkCreateSwapchainKHR(context_->device(), &info, nullptr, &made);
     drop();
+    if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY) return Fit::too_large;
     LR_TRY(check(result, "vkCreateSwapchainKHR"));
     swapchain_ = made;
     extent_ = extent;
@@ -133,7 +146,7 @@ Result<bool> Swapchain::rebuild() {
         LR_ASSIGN(SemaphoreHandle semaphore, create_semaphore(*context_));
         drawn_.push_back(std::move(semaphore));
     }
-    return true;
+    return Fit::shown;
 }
 
 void Swapchain::record(VkImage to, const Image& image, VkExtent2D extent) const {
@@ -147,8 +160,9 @@ void Swapchain::record(VkImage to, const Image& image, VkExtent2D extent) const 
     region.srcOffsets[1] = {static_cast<std::int32_t>(extent.width), static_cast<std::int32_t>(extent.height), 1};
     region.dstSubresource = {kColour, 0, 0, 1};
     region.dstOffsets[1] = {static_cast<std::int32_t>(extent_.width), static_cast<std::int32_t>(extent_.height), 1};
+    const bool same = extent.width == extent_.width && extent.height == extent_.height;
     vkCmdBlitImage(commands_, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to,
-                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_NEAREST);
+                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, same ? VK_FILTER_NEAREST : VK_FILTER_LINEAR);
     image_barrier(commands_, to, kColour, kBlit, {VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE},
                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
 }
@@ -156,24 +170,24 @@ void Swapchain::record(VkImage to, const Image& image, VkExtent2D extent) const 
 // A window system that keeps all its images (a locked screen, a window that nobody sees) must not stop the program.
 constexpr std::uint64_t kPatience = 200'000'000;  // nanoseconds
 
-Result<void> Swapchain::show(const Image& image, VkExtent2D extent) {
+Result<bool> Swapchain::show(const Image& image, VkExtent2D extent, VkExtent2D window) {
     const VkDevice device = context_->device();
     const VkFence fence = fence_.get();
     LR_TRY_VK(vkWaitForFences(device, 1, &fence, VK_TRUE, UINT64_MAX));
-    if (extent_.width != extent.width || extent_.height != extent.height || swapchain_ == VK_NULL_HANDLE) {
-        extent_ = extent;
-        LR_ASSIGN(const bool there, rebuild());
-        if (!there) return {};
+    if (window_.width != window.width || window_.height != window.height || swapchain_ == VK_NULL_HANDLE) {
+        window_ = window;
+        LR_ASSIGN(const Fit fit, rebuild());
+        if (fit != Fit::shown) return fit == Fit::no_size;
     }
     std::uint32_t index = 0;
     VkResult acquired = vkAcquireNextImageKHR(device, swapchain_, kPatience, acquired_.get(), VK_NULL_HANDLE, &index);
     if (acquired == VK_ERROR_OUT_OF_DATE_KHR) {
-        LR_ASSIGN(const bool there, rebuild());
-        if (!there) return {};
+        LR_ASSIGN(const Fit fit, rebuild());
+        if (fit != Fit::shown) return fit == Fit::no_size;
         acquired = vkAcquireNextImageKHR(device, swapchain_, kPatience, acquired_.get(), VK_NULL_HANDLE, &index);
-        if (acquired == VK_ERROR_OUT_OF_DATE_KHR) return {};  // it is being resized still: the next frame will do
+        if (acquired == VK_ERROR_OUT_OF_DATE_KHR) return true;  // it is being resized still: the next frame will do
     }
-    if (acquired == VK_TIMEOUT || acquired == VK_NOT_READY) return {};
+    if (acquired == VK_TIMEOUT || acquired == VK_NOT_READY) return true;
     if (acquired != VK_SUBOPTIMAL_KHR) LR_TRY(check(acquired, "vkAcquireNextImageKHR"));
 
     LR_TRY_VK(vkResetCommandPool(device, pool_.get(), 0));
@@ -214,10 +228,11 @@ Result<void> Swapchain::show(const Image& image, VkExtent2D extent) {
     present.pImageIndices = &index;
     const VkResult presented = context_->present(present);
     if (presented == VK_ERROR_OUT_OF_DATE_KHR || presented == VK_SUBOPTIMAL_KHR) {
-        LR_TRY(rebuild());
-        return {};
+        LR_ASSIGN(const Fit fit, rebuild());
+        return fit != Fit::too_large;
     }
-    return check(presented, "vkQueuePresentKHR");
+    LR_TRY(check(presented, "vkQueuePresentKHR"));
+    return true;
 }
 
 }  // namespace lr::gpu

@@ -24,14 +24,16 @@ class Swapchain {
     Swapchain& operator=(const Swapchain&) = delete;
     ~Swapchain();
 
-    /// Scales the image to the window and shows it. The image must be in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, written
-    /// by earlier submissions; the next one must wait for reads of it (Commands::begin does). Nothing where the window
-    /// has no size. A window that changed gets new pictures first.
-    Result<void> show(const Image& image, VkExtent2D extent);
+    /// Scales an image of `extent` pixels to the window, `window` pixels, and shows it. The image must be in
+    /// VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, written by earlier submissions; the next one must wait for reads of it
+    /// (Commands::begin does). A window that changed gets new images first. Where the window has no size, or keeps all
+    /// its images, nothing is shown. False: the window is larger than any image of the device, and shows nothing.
+    Result<bool> show(const Image& image, VkExtent2D extent, VkExtent2D window);
 
   private:
     Swapchain() = default;
-    Result<bool> rebuild();  ///< false: the window has no size
+    enum class Fit { shown, no_size, too_large };  ///< what a window is to the device
+    Result<Fit> rebuild();
     void drop();
     void record(VkImage to, const Image& image, VkExtent2D extent) const;
 
@@ -39,7 +41,8 @@ class Swapchain {
     VkSurfaceKHR surface_ = VK_NULL_HANDLE;
     VkSurfaceFormatKHR format_{};
     VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
-    VkExtent2D extent_{};
+    VkExtent2D window_{};  // as it was when the images were made
+    VkExtent2D extent_{};  // of the images
     std::vector<VkImage> images_;
     std::vector<SemaphoreHandle> drawn_;  // one an image: that many may wait to be shown
     SemaphoreHandle acquired_;

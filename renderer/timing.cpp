@@ -2,7 +2,9 @@
 
 #include <functional>
 #include <list>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include "lrcore/baseline/codecs.h"
 #include "renderer/renderer.h"
@@ -19,7 +21,10 @@ struct Work {
 
 /// Runs each piece of work between timestamps, in turns. The first round is not counted: pages are touched, shaders
 /// compiled.
-Result<void> run_in_turns(Commands& commands, std::uint32_t repeats, std::span<const Work> works) {
+Result<void> run_in_turns(Commands& commands, const TimingOptions& options, std::span<const Work> works) {
+    const std::uint32_t repeats = options.repeats;
+    const auto total = static_cast<std::uint32_t>((repeats + 1) * works.size());
+    std::uint32_t done = 0;
     for (std::uint32_t i = 0; i <= repeats; ++i) {
         for (const Work& work : works) {
             LR_ASSIGN(const VkCommandBuffer buffer, commands.begin());
@@ -28,6 +33,7 @@ Result<void> run_in_turns(Commands& commands, std::uint32_t repeats, std::span<c
             commands.stop_timer();
             LR_ASSIGN(const Elapsed elapsed, commands.run());
             if (i != 0) work.times->push_back(elapsed);
+            if (options.progress) options.progress(++done, total);
         }
     }
     return {};
@@ -38,7 +44,7 @@ struct BestOrder {
     std::vector<std::uint32_t> indices;
     Model model;
 
-    explicit BestOrder(const Model& from) : indices(best_cache_order(from.indices, from.vertex_count())) {
+    BestOrder(const Model& from, std::vector<std::uint32_t> order) : indices(std::move(order)) {
         std::vector<std::uint32_t> number(from.vertex_count(), UINT32_MAX);
         std::uint32_t next = 0;
         model.positions.resize(from.positions.size());
@@ -102,8 +108,14 @@ Result<DeviceTimes> measure_device(Context& context, const Model& model, const T
         return count_bytes(renderer, all.back(), stream_bytes);
     };
     LR_TRY(add("plain", model, Source::plain, Path::compute, 0));
-    const BestOrder best(model);
-    LR_TRY(add("plain_best_order", best.model, Source::plain, Path::compute, 0));
+    DeviceTimes out;
+    std::optional<BestOrder> best;  // must outlive the upload
+    if (Result<std::vector<std::uint32_t>> order = best_cache_order(model.indices, model.vertex_count())) {
+        best.emplace(model, std::move(*order));
+        LR_TRY(add("plain_best_order", best->model, Source::plain, Path::compute, 0));
+    } else {
+        out.absent.emplace_back("plain_best_order", order.error().message);
+    }
     for (const auto& [path_name, path] : kPaths) {
         if (path == Path::mesh && context.info().max_mesh_groups == 0) continue;
         const std::string suffix = path == Path::compute ? "" : std::string("_") + path_name;
@@ -121,7 +133,6 @@ Result<DeviceTimes> measure_device(Context& context, const Model& model, const T
         drawable.mesh.decoded = false;
         renderer.decode(buffer, drawable);
     };
-    DeviceTimes out;
     std::vector<Work> works;
     const Buffer* lean_indices = nullptr;
     for (Uploaded& uploaded : all) {
@@ -145,7 +156,7 @@ Result<DeviceTimes> measure_device(Context& context, const Model& model, const T
                          const VkBufferCopy region{0, 0, out.index_bytes};
                          vkCmdCopyBuffer(buffer, lean_indices->handle(), copy.handle(), 1, &region);
                      }});
-    LR_TRY(run_in_turns(renderer.commands(), options.repeats, works));
+    LR_TRY(run_in_turns(renderer.commands(), options, works));
     for (Uploaded& uploaded : all) {
         if (uploaded.way.path != Path::mesh && context.info().statistics) {
             LR_ASSIGN(uploaded.way.vertex_invocations, renderer.vertex_invocations(uploaded.drawable));

@@ -2,8 +2,10 @@
 // How long the device takes. For `lacedring bench`.
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "renderer/commands.h"
@@ -20,6 +22,8 @@ struct TimingOptions {
     std::uint32_t repeats = 5;
     std::uint32_t width = 1280;
     std::uint32_t height = 720;
+    /// Told after each submission, outside the times, how many of how many are done.
+    std::function<void(std::uint32_t done, std::uint32_t total)> progress = {};
 };
 
 /// One way to draw the model.
@@ -42,12 +46,13 @@ struct DeviceTimes {
     Times copy;                      ///< vkCmdCopyBuffer of lean's index buffer. Trust its wall time only on lavapipe
     std::uint64_t index_bytes = 0;   ///< of lean's index buffer
     std::uint64_t device_bytes = 0;  ///< device memory held at most
+    std::vector<std::pair<std::string, std::string>> absent;  ///< name of a missing way, reason
 };
 
 /// Every source and path that model and device have, and the index list again in the order that meshoptimizer thinks
-/// best for the vertex cache, vertices in the order of their use. Pictures are drawn in one pass with smooth normals,
-/// from the default camera, and not read back. Every repetition is one submission, waited for; all kinds take turns.
-/// Device memory: all of them at the same time.
+/// best for the vertex cache, vertices in the order of their use (absent where that order takes too long). Pictures are
+/// drawn in one pass with smooth normals, from the default camera, and not read back. Every repetition is one
+/// submission, waited for; all kinds take turns. Device memory: all of them at the same time.
 Result<DeviceTimes> measure_device(Context& context, const Model& model, const TimingOptions& options = {});
 
 }  // namespace lr::gpu

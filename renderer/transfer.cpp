@@ -27,6 +27,7 @@ Result<void> Transfer::upload(const Buffer& to, VkDeviceSize offset, std::size_t
     if (offset + bytes > to.size()) return Error{ErrorCode::invalid_argument, "upload past a buffer's end"};
     const std::size_t piece = kPiece / unit * unit;
     for (std::size_t from = 0; from < bytes; from += piece) {
+        if (stop_ != nullptr && *stop_) return Error{ErrorCode::device_failure, "stopped"};
         const std::size_t size = std::min(piece, bytes - from);
         fill(up_.mapped(), from, size);
         LR_ASSIGN(const VkCommandBuffer commands, commands_->begin());

@@ -1,6 +1,7 @@
 #pragma once
 // Bytes between the host and device buffers, through one staging buffer each way.
 
+#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <span>
@@ -26,6 +27,10 @@ class Transfer {
         return upload(to, std::as_bytes(values));
     }
 
+    /// From now on every upload ends between two pieces once `stop` is true. It must outlive this; null: none does.
+    /// Errors of such an upload: device_failure, which nobody needs to hear of.
+    void stop_when(const std::atomic<bool>* stop) { stop_ = stop; }
+
     /// Reads out.size() bytes from `offset`. Waits for the device.
     Result<void> read(const Buffer& from, VkDeviceSize offset, std::span<std::byte> out);
 
@@ -33,6 +38,7 @@ class Transfer {
     Transfer() = default;
 
     Context* context_ = nullptr;
+    const std::atomic<bool>* stop_ = nullptr;
     std::optional<Commands> commands_;
     Buffer up_;
     Buffer down_;

@@ -49,7 +49,7 @@ Result<void> check(VkResult result, const char* call) {
     if (result == VK_SUCCESS) return {};
     const bool memory = result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY;
     const std::string_view text(call);
-    return Error{memory ? ErrorCode::too_large : ErrorCode::device_failure,
+    return Error{memory ? ErrorCode::no_device : ErrorCode::device_failure,
                  std::string(text.substr(0, text.find('('))) + ": " + result_name(result)};
 }
 

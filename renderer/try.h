@@ -13,7 +13,7 @@ namespace lr::gpu {
 /// "VK_ERROR_DEVICE_LOST", or the number of a code that is not known here.
 std::string result_name(VkResult result);
 
-/// device_failure, naming the call, unless the result is VK_SUCCESS. Out of memory is too_large.
+/// device_failure, naming the call, unless the result is VK_SUCCESS. Out of memory is no_device.
 Result<void> check(VkResult result, const char* call);
 
 }  // namespace lr::gpu

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "app/mesh_input.h"
 #include "lrcore/corner_table/corner_table.h"
 #include "lrcore/lr/lr_encode.h"
 #include "lrcore/ring/expansion.h"
@@ -17,11 +18,7 @@ struct FormatSet;  // app/formats.h, which is slow to compile
 
 namespace lr::view {
 
-/// What is opened: app::MeshInput.
-struct Input {
-    std::string path;
-    std::string weld;
-};
+using Input = app::MeshInput;
 
 /// How the ring is made, as the panel has it.
 struct RingSettings {

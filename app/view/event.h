@@ -29,7 +29,7 @@ enum Key : int {
 
 enum Modifier : unsigned { mod_shift = 1, mod_control = 2, mod_alt = 4 };
 
-/// Places and sizes are in pixels of the picture, from its upper left corner.
+/// Places and sizes are in pixels of the window, from its upper left corner.
 struct Event {
     enum Kind { key, text, move, button, scroll, drop, resize, close, refresh } kind = refresh;
     int code = 0;  ///< Key; or 0 left, 1 right, 2 middle; or a Unicode character

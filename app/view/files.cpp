@@ -4,7 +4,10 @@
 #include <array>
 #include <cctype>
 #include <cstdlib>
-#include <fstream>
+#include <span>
+#include <sstream>
+
+#include "lrcore/base/file.h"
 
 namespace lr::view {
 namespace {
@@ -45,9 +48,12 @@ std::vector<std::string> meshes_beside(const fs::path& path) {
 }
 
 std::vector<std::string> read_recent() {
+    constexpr std::uint64_t kMost = std::uint64_t{1} << 20;  // a dozen paths
+    const Result<std::vector<std::byte>> bytes = read_file(recent_file(), kMost);
     std::vector<std::string> out;
-    std::ifstream file(recent_file());
-    for (std::string line; out.size() < kMostRecent && std::getline(file, line);) {
+    if (!bytes) return out;
+    std::istringstream lines(std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()));
+    for (std::string line; out.size() < kMostRecent && std::getline(lines, line);) {
         if (!line.empty()) out.push_back(line);
     }
     return out;
@@ -63,8 +69,13 @@ void add_recent(std::vector<std::string>& recent, const std::string& path, bool 
     const fs::path to = recent_file();
     if (!write || to.empty()) return;
     fs::create_directories(to.parent_path(), error);
-    std::ofstream file(to, std::ios::trunc);
-    for (const std::string& line : recent) file << line << '\n';
+    // A pipe or a device of that name is left alone: writing to one may block.
+    const fs::file_type there = fs::status(to, error).type();
+    if (there != fs::file_type::regular && there != fs::file_type::not_found) return;
+    std::string text;
+    for (const std::string& line : recent) text += line + '\n';
+    const std::span<const std::byte> part = std::as_bytes(std::span(text));
+    (void)write_file(to, std::span(&part, 1));  // the list is lost then, and nothing else
 }
 
 std::string free_name(const std::string& prefix, const std::string& suffix) {

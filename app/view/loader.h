@@ -1,24 +1,23 @@
 #pragma once
-// Reads, encodes and measures on a thread of its own. The newest request is the one that counts: it ends what is being
-// done for an older one.
+// Reads, encodes and measures on threads beside the window's. The newest request is the one that counts: it stops the
+// one before it, and does not wait for a disk that the one before it waits for.
 
-#include <atomic>
-#include <condition_variable>
 #include <functional>
-#include <mutex>
+#include <memory>
 #include <optional>
 #include <string>
-#include <thread>
+#include <vector>
 
 #include "app/view/document.h"
+#include "app/view/threads.h"
 
 namespace lr::view {
 
 class Loader {
   public:
-    /// `wake` is called by the thread when there is news.
-    explicit Loader(std::function<void()> wake);
-    ~Loader();  ///< ends what is being done, and waits for that
+    /// `wake` is called, by other threads, when there is news; not after the loader is gone.
+    Loader(Threads& threads, std::function<void()> wake);
+    ~Loader();  ///< Stops what is being done, without waiting for it.
     Loader(const Loader&) = delete;
     Loader& operator=(const Loader&) = delete;
 
@@ -28,6 +27,8 @@ class Loader {
     /// Makes another ring over the same mesh.
     void encode(std::shared_ptr<const Document> document, const RingSettings& settings);
     void cancel();
+    /// Lists the meshes in the folder of `path`: a folder may be as slow as a file.
+    void list(const std::string& path);
 
     struct Progress {
         bool busy = false;
@@ -42,7 +43,8 @@ class Loader {
         std::shared_ptr<const Document> document;
         std::shared_ptr<const Tables> tables;
         std::shared_ptr<const app::FormatSet> formats;
-        std::optional<std::string> error;  ///< one line, with the file's name
+        std::optional<std::vector<std::string>> files;  ///< of the folder listed last
+        std::optional<std::string> error;               ///< one line, with the file's name
     };
     News take();
     bool has_news() const;
@@ -53,26 +55,12 @@ class Loader {
         std::shared_ptr<const Document> document;
         RingSettings settings;
     };
-    void run();
-    void work(const Request& request);
-    Result<void> finish(Document& document, const Request& request, bool quick);
-    bool stopped() const { return stop_.load(); }
-    double since_asked() const;  ///< seconds
-    void say(const std::string& what, double share, bool background = false);
-    void publish(const Document& document);
+    struct Shared;
+    class Job;
     void request(Request request);
 
-    std::function<void()> wake_window_;
-    mutable std::mutex mutex_;
-    std::condition_variable wake_;
-    std::optional<Request> next_;
-    News news_;
-    Progress progress_;
-    std::chrono::steady_clock::time_point asked_{};
-    std::atomic<bool> stop_ = false;
-    bool quit_ = false;
-    std::weak_ptr<const Mesh> measured_;  // whose formats were; of the thread alone
-    std::thread thread_;
+    Threads& threads_;
+    std::shared_ptr<Shared> shared_;  // with the threads
 };
 
 }  // namespace lr::view

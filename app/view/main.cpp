@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <deque>
 #include <exception>
 #include <thread>
@@ -11,7 +12,9 @@
 #include "app/camera_options.h"
 #include "app/command.h"
 #include "app/gpu_options.h"
+#include "app/option_rules.h"
 #include "app/view/script.h"
+#include "app/view/threads.h"
 #include "app/view/viewer.h"
 #include "app/view/window.h"
 #include "renderer/swapchain.h"
@@ -22,6 +25,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 const Clock::time_point kStart = Clock::now();
+constexpr std::chrono::milliseconds kPatience{500};  // with threads, when the window is closed
 
 struct Options {
     ViewerOptions viewer;
@@ -65,6 +69,7 @@ Result<void> loop(Viewer& viewer, Window& window, gpu::Swapchain& swapchain, Scr
         }
         const bool asleep = script == nullptr && events.empty() && viewer.idle();
         feed(viewer, events);
+        if (viewer.closing()) break;  // nobody waits for another picture
         const Clock::time_point now = Clock::now();
         // A script's time is its frames', so that what it sees is the same on every machine.
         const double seconds = script != nullptr ? 1.0 / 60 : std::chrono::duration<double>(now - last).count();
@@ -72,7 +77,9 @@ Result<void> loop(Viewer& viewer, Window& window, gpu::Swapchain& swapchain, Scr
         if (asleep) continue;
         if (const Result<void> drawn = viewer.frame(seconds); !drawn) return drawn;
         if (viewer.visible()) {
-            if (const Result<void> shown = swapchain.show(viewer.image(), viewer.extent()); !shown) return shown;
+            const Result<bool> shown = swapchain.show(viewer.image(), viewer.extent(), viewer.window());
+            if (!shown) return shown.error();
+            viewer.state().window_too_large = !*shown;
             viewer.presented(std::chrono::duration<double>(Clock::now() - now).count());
             double& started = viewer.state().started;
             if (started == 0) started = std::chrono::duration<double>(Clock::now() - kStart).count();
@@ -80,7 +87,7 @@ Result<void> loop(Viewer& viewer, Window& window, gpu::Swapchain& swapchain, Scr
         if (std::string next = viewer.title(); next != title) window.set_title(title = std::move(next));
         if (const std::string text = viewer.take_clipboard(); !text.empty()) {
             window.set_clipboard(text);
-            if (script == nullptr) fmt::print("{}\n", text);
+            if (script == nullptr) app::print("{}\n", text);
         }
         if (script != nullptr) continue;  // as fast as it goes
         // Not every driver waits for the display.
@@ -92,7 +99,13 @@ Result<void> loop(Viewer& viewer, Window& window, gpu::Swapchain& swapchain, Scr
     return {};
 }
 
-int run(Options& options) {
+/// Ends the process at once, where returning from main would destroy what threads still use.
+[[noreturn]] void leave(int code) {
+    std::fflush(stdout);
+    std::_Exit(code);
+}
+
+int run(Options& options, Threads& threads) {
     std::optional<Script> script;
     if (!options.script.empty()) {
         Result<Script> read = Script::read(options.script);
@@ -109,40 +122,53 @@ int run(Options& options) {
     if (!window) return app::fail("view", window.error());
     options.context.instance_extensions = (*window)->extensions();
     options.context.device_extensions = {VK_KHR_SWAPCHAIN_EXTENSION_NAME};
+    // Hiding the window speaks to its system first: a connection that is lost is the one error to tell of.
+    const auto fail = [&](const std::string& on, const Error& what) {
+        (*window)->hide();
+        return app::fail(on, what);
+    };
     const Result<std::unique_ptr<gpu::Context>> context = gpu::Context::create(options.context);
-    if (!context) return app::fail("view", context.error());
+    if (!context) return fail("view", context.error());
     const Result<VkSurfaceKHR> surface = (*window)->surface((*context)->instance());
-    if (!surface) return app::fail("view", surface.error());
+    if (!surface) return fail("view", surface.error());
+    (*window)->limit_size((*context)->limits().maxImageDimension2D);
     options.viewer.scale = options.scale > 0 ? options.scale : (*window)->scale();
     options.viewer.panels = !options.no_panels;
     options.viewer.keep_recent = !script.has_value();
     options.viewer.wake = Window::wake;
+    const auto exit_code = [&](const std::string& failed_on, const Result<void>& done) {
+        const std::size_t messages = app::print_validation(**context);
+        if (!done) return fail(failed_on, done.error());
+        return static_cast<int>(messages == 0 ? app::done : app::check_failed);
+    };
     std::string failed_on = "view";
     const Result<void> done = [&]() -> Result<void> {
         Result<gpu::Swapchain> swapchain = gpu::Swapchain::create(**context, *surface);
         if (!swapchain) return swapchain.error();
-        Result<std::unique_ptr<Viewer>> viewer = Viewer::create(**context, options.viewer);
+        Result<std::unique_ptr<Viewer>> viewer = Viewer::create(**context, threads, options.viewer);
         if (!viewer) return viewer.error();
         Result<void> looped = loop(**viewer, **window, *swapchain, script ? &*script : nullptr);
         // A picture of a mesh that could not be read is none.
         if (looped && !options.screenshot.empty() && !(*viewer)->state().document) {
             failed_on = "--screenshot";
-            return Error{ErrorCode::malformed, (*viewer)->state().error};
+            looped = Error{ErrorCode::malformed, (*viewer)->state().error};
         }
+        (*window)->hide();
+        // What the device does must end before anything of it is destroyed. A thread that computes for long in between
+        // is not waited for: then nothing is destroyed.
+        if (!(*viewer)->stop(kPatience)) leave(exit_code(failed_on, looped));
         return looped;
     }();
     vkDestroySurfaceKHR((*context)->instance(), *surface, nullptr);
-    const std::size_t messages = app::print_validation(**context);
-    if (!done) return app::fail(failed_on, done.error());
-    return messages == 0 ? app::done : app::check_failed;
+    return exit_code(failed_on, done);
 }
 
-int start(int argc, char** argv) {
+int start(int argc, char** argv, Threads& threads) {
     CLI::App program("interactive viewer");
     program.name("lacedring view");
     Options options;
-    program.add_option("MESH", options.viewer.input.path, "mesh file");
-    app::add_weld(program, options.viewer.input.weld);
+    auto* mesh = program.add_option("MESH", options.viewer.input.path, "mesh file");
+    app::add_input_options(program, options.viewer.input.options, 250);
     app::add_size(program, options.size);
     program.add_option("--scale", options.scale, "pixels a nominal pixel of the panels; the display's unless told")
         ->check(CLI::Range(0.5, 8.0));
@@ -152,7 +178,8 @@ int start(int argc, char** argv) {
         ->capture_default_str();
     auto* screenshot =
         program.add_option("--screenshot", options.screenshot, "write a PNG file when all is shown, and end")
-            ->type_name("PNG");
+            ->type_name("PNG")
+            ->needs(mesh);
     program.add_option("--script", options.script, "do what the lines of a file say (docs/viewer.md)")
         ->type_name("FILE")
         ->excludes(screenshot);
@@ -161,27 +188,40 @@ int start(int argc, char** argv) {
         ->type_name("DIR");
     app::add_camera(program, options.viewer.camera);
     app::add_device_options(program, options.context);
+    app::OptionRules rules(program);
+    rules.never_with({"--fps"}, "--screenshot");
+    rules.forbid("--scale has no effect with --screenshot and --no-panels",
+                 [&] { return options.scale > 0 && options.no_panels && !options.screenshot.empty(); });
     program.failure_message([](const CLI::App*, const CLI::Error& error) {
         return fmt::format("lacedring: {} (lacedring view --help lists the options)\n", error.what());
     });
     try {
         program.parse(argc, argv);
+        rules.check();
     } catch (const CLI::ParseError& error) {
         return program.exit(error) == 0 ? app::done : app::wrong_usage;
     }
-    return run(options);
+    return run(options, threads);
 }
 
 }  // namespace
 }  // namespace lr::view
 
 int main(int argc, char** argv) {
+    lr::view::Threads threads;
+    int code = lr::app::bad_input;
     try {
-        return lr::view::start(argc, argv);
+        code = lr::view::start(argc, argv, threads);
     } catch (const std::bad_alloc&) {
         std::fputs("lacedring: not enough memory\n", stderr);
     } catch (const std::exception& error) {  // a bug: nothing of ours throws
-        fmt::print(stderr, "lacedring: internal error: {}\n", error.what());
+        lr::app::say("lacedring: internal error: {}\n", error.what());
     }
-    return lr::app::bad_input;
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+        std::fputs("lacedring: standard output: cannot be written\n", stderr);
+        if (code == lr::app::done) code = lr::app::bad_input;
+    }
+    // A thread that waits for a disk, or computes for long, is left behind.
+    if (!threads.finish(lr::view::kPatience)) lr::view::leave(code);
+    return code;
 }

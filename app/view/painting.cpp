@@ -1,6 +1,8 @@
 #include "app/view/painting.h"
 
-#include <chrono>
+#include <atomic>
+#include <new>
+#include <utility>
 
 #include "lrcore/ring/expansion.h"
 #include "renderer/triangle_class.h"
@@ -90,24 +92,37 @@ Painting make_painting(const Document& document, Paint paint) {
     return out;
 }
 
-void Paintings::take() {
-    if (!job_.valid() || job_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-    made_[static_cast<std::size_t>(job_paint_)] = {std::move(job_of_), job_.get()};
-}
+struct Paintings::Job {
+    std::atomic<bool> done = false;
+    std::shared_ptr<const Painting> painting;  // once done; null: there was not enough memory
+};
 
-std::shared_ptr<const Painting> Paintings::get(const std::shared_ptr<const Document>& document, Paint paint) {
-    take();
+Result<std::shared_ptr<const Painting>> Paintings::get(const std::shared_ptr<const Document>& document, Paint paint) {
+    if (job_ && job_->done) {
+        const std::shared_ptr<Job> job = std::exchange(job_, nullptr);
+        if (!job->painting) return Error{ErrorCode::too_large, "not enough memory for these colours"};
+        made_[static_cast<std::size_t>(job_paint_)] = {std::move(job_of_), job->painting};
+    }
     for (std::size_t i = 0; i < kPaints; ++i) {  // nothing of another mesh or ring is kept
         if (made_[i].of != part(*document, static_cast<Paint>(i))) made_[i] = {};
     }
-    if (paint == Paint::none) return nullptr;
+    if (paint == Paint::none) return std::shared_ptr<const Painting>();
     const Made& made = made_[static_cast<std::size_t>(paint)];
-    if (made.painting || job_.valid()) return made.painting;
+    if (made.painting || job_) return made.painting;
+    auto job = std::make_shared<Job>();
+    const Result<void> started = threads_.start([job, document, paint] {
+        try {
+            job->painting = std::make_shared<const Painting>(make_painting(*document, paint));
+        } catch (const std::bad_alloc&) {
+            job->painting.reset();
+        }
+        job->done = true;
+    });
+    if (!started) return started.error();
+    job_ = std::move(job);
     job_paint_ = paint;
     job_of_ = part(*document, paint);
-    job_ = std::async(std::launch::async,
-                      [document, paint] { return std::make_shared<const Painting>(make_painting(*document, paint)); });
-    return nullptr;
+    return std::shared_ptr<const Painting>();
 }
 
 }  // namespace lr::view

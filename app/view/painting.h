@@ -2,11 +2,11 @@
 // Colours by triangle that take a look at the whole mesh to know. Made beside drawing, and kept while they are of use.
 
 #include <array>
-#include <future>
 #include <memory>
 #include <vector>
 
 #include "app/view/state.h"
+#include "app/view/threads.h"
 #include "shaders/compose_shared.h"
 
 namespace lr::view {
@@ -24,12 +24,15 @@ Painting make_painting(const Document& document, Paint paint);
 /// triangles.
 std::vector<std::uint32_t> corridors(const Document& document);
 
-/// Makes one painting at a time, on a thread of its own.
+/// Makes one painting at a time, on a thread beside the window's, which may outlive this.
 class Paintings {
   public:
+    explicit Paintings(Threads& threads) : threads_(threads) {}
+
     /// The document's, if it is made; null while it is being made, which this begins, and for Paint::none. One that is
-    /// asked for again is made once.
-    std::shared_ptr<const Painting> get(const std::shared_ptr<const Document>& document, Paint paint);
+    /// asked for again is made once. Errors: device_failure (no thread), too_large (not enough memory); the next call
+    /// tries again.
+    Result<std::shared_ptr<const Painting>> get(const std::shared_ptr<const Document>& document, Paint paint);
 
   private:
     static constexpr std::size_t kPaints = 4;
@@ -37,10 +40,11 @@ class Paintings {
         std::shared_ptr<const void> of;  ///< what of the document it shows
         std::shared_ptr<const Painting> painting;
     };
-    void take();
+    struct Job;
 
+    Threads& threads_;
     std::array<Made, kPaints> made_;
-    std::future<std::shared_ptr<const Painting>> job_;  // waited for where it is dropped
+    std::shared_ptr<Job> job_;  // with its thread; null: nothing is being made
     Paint job_paint_ = Paint::none;
     std::shared_ptr<const void> job_of_;
 };

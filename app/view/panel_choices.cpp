@@ -23,15 +23,16 @@ void label(const char* text, const char* explained) {
     ImGui::SetNextItemWidth(-1);
 }
 
+/// `other`: what the list shows of a value that it does not have.
 template <class T, std::size_t N>
 bool choose(const char* name, const std::array<std::pair<const char*, T>, N>& values, T& value, const char* explained,
-            float width = -1) {
+            float width = -1, const char* other = "") {
     const auto at = std::find_if(values.begin(), values.end(), [&](const auto& v) { return v.second == value; });
     bool changed = false;
     label(name, explained);
     ImGui::SetNextItemWidth(width);
     ImGui::PushID(name);
-    if (ImGui::BeginCombo("##", at == values.end() ? "" : at->first)) {
+    if (ImGui::BeginCombo("##", at == values.end() ? other : at->first)) {
         for (const auto& [text, v] : values) {
             if (ImGui::Selectable(text, v == value)) {
                 value = v;
@@ -172,7 +173,8 @@ void draw_view(State& state) {
     check("outlines", state.outlines, "Silhouettes, borders and creases, asked of the LR tables");
     constexpr std::array<std::pair<const char*, std::uint32_t>, 4> kCaps{
         {{"30 a second", 30}, {"60 a second", 60}, {"120 a second", 120}, {"no limit", 0}}};
-    choose("Pictures", kCaps, state.frame_cap, "At most so many are drawn while something moves");
+    choose("Pictures", kCaps, state.frame_cap, "At most so many are drawn while something moves", -1,
+           (std::to_string(state.frame_cap) + " a second").c_str());
     state.choices_changed |= changed;
     label("Turntable", "Turns around the mesh, so many degrees a second");
     auto speed = static_cast<float>(state.turntable_speed);

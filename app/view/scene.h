@@ -69,6 +69,8 @@ class Scene {
     /// Has what the picture needs put on the device, beside this thread; true once it is there. Errors: unsupported (a
     /// stream that the model does not have), and the device's.
     Result<bool> prepare(const Shown& shown);
+    /// Stops putting models on the device for good. False: that still goes on after `patience`.
+    bool stop(std::chrono::milliseconds patience) { return uploader_->stop(patience); }
     /// Nothing has been drawn since the last resize: compose cannot be recorded.
     bool blank() const { return blank_; }
     /// Records empty pictures, from that side on, to be composed.

@@ -1,17 +1,22 @@
 #include "app/view/script.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <charconv>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "app/camera_options.h"
+#include "app/print.h"
+#include "lrcore/base/file.h"
+#include "renderer/try.h"
 
 namespace lr::view {
 namespace {
@@ -24,7 +29,11 @@ Error wrong(const std::string& why) {
 
 bool parse(const std::string& text, double& out) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
-    return error == std::errc() && end == text.data() + text.size();
+    return error == std::errc() && end == text.data() + text.size() && std::isfinite(out);
+}
+
+bool is_whole(double number) {
+    return number == std::floor(number);
 }
 
 std::optional<int> key_named(const std::string& name) {
@@ -35,8 +44,9 @@ std::optional<int> key_named(const std::string& name) {
         {"delete", key_delete}, {"f1", key_f1},       {"f5", key_f5},
         {"f12", key_f12},       {"?", '/'},           {"backspace", key_backspace}};
     if (const auto at = kNames.find(name); at != kNames.end()) return at->second;
-    if (name.size() == 1) return std::toupper(static_cast<unsigned char>(name[0]));
-    return std::nullopt;
+    if (name.size() != 1) return std::nullopt;
+    const auto c = static_cast<unsigned char>(name[0]);
+    return std::isalnum(c) != 0 || c == '.' ? std::optional(std::toupper(c)) : std::nullopt;
 }
 
 std::optional<int> button_named(const std::string& name) {
@@ -46,13 +56,49 @@ std::optional<int> button_named(const std::string& name) {
     return std::nullopt;
 }
 
+/// `set NAME on|off`
+struct Switch {
+    const char* name;
+    void (*set)(State& state, bool on);
+};
+constexpr std::array<Switch, 8> kSwitches{
+    {{"warts", [](State& state, bool on) { state.ring.warts = on; }},
+     {"panels", [](State& state, bool on) { state.panels = on; }},
+     {"outlines", [](State& state, bool on) { state.outlines = on; }},
+     {"help", [](State& state, bool on) { state.help = on; }},
+     {"turntable", [](State& state, bool on) { state.turntable = on; }},
+     {"choices", [](State& state, bool on) { state.drawer = on ? Drawer::choices : Drawer::none; }},
+     {"numbers", [](State& state, bool on) { state.drawer = on ? Drawer::numbers : Drawer::none; }},
+     {"decode", [](State& state, bool on) { state.shown.decode_again = on; }}}};
+
+/// `set NAME NUMBER`: what the panels take, so that they show it.
+struct NumberSetting {
+    const char* name;
+    double low, high;
+    bool whole;
+    void (*set)(State& state, double number);
+};
+constexpr std::array<NumberSetting, 9> kNumbers{
+    {{"samples", 1, 3, true, [](State& state, double n) { state.samples = static_cast<std::uint32_t>(n); }},
+     {"divider", 0, 1, false, [](State& state, double n) { state.divider = n; }},
+     {"k", 1, 1e6, true, [](State& state, double n) { state.ring.k = static_cast<std::uint32_t>(n); }},
+     {"seeds", 1, 1e4, true, [](State& state, double n) { state.ring.seeds = static_cast<std::uint32_t>(n); }},
+     {"seed", 0, 1e6, true, [](State& state, double n) { state.ring.random_seed = static_cast<std::uint64_t>(n); }},
+     {"passes", 0, 1e4, true, [](State& state, double n) { state.ring.passes = static_cast<std::uint32_t>(n); }},
+     {"growth", 0, 4e9, true, [](State& state, double n) { state.growth = n; }},
+     {"speed", 1, 1e6, false, [](State& state, double n) { state.growth_speed = n; }},
+     {"fps", 0, 1000, true, [](State& state, double n) { state.frame_cap = static_cast<std::uint32_t>(n); }}}};
+
 }  // namespace
 
 Result<Script> Script::read(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    if (!file) return Error{ErrorCode::cannot_open, "cannot be opened"};
+    constexpr std::uint64_t kMost = std::uint64_t{64} << 20;
+    const bool standard_input = path == "-";
+    LR_ASSIGN(const std::vector<std::byte> bytes,
+              standard_input ? read_descriptor(STDIN_FILENO, kMost) : read_file(path, kMost));
+    std::istringstream file(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
     Script out;
-    out.name_ = path.string();
+    out.name_ = standard_input ? "standard input" : path.string();
     std::size_t number = 0;
     for (std::string text; std::getline(file, text);) {
         ++number;
@@ -80,7 +126,10 @@ Result<void> Script::advance(Viewer& viewer, Window& window, std::deque<Event>& 
             --frames_;
             return {};
         }
-        if (at_ >= lines_.size()) return {};
+        if (at_ >= lines_.size()) {
+            events.push_back({.kind = Event::close});  // nobody else could
+            return {};
+        }
         const Line& line = lines_[at_];
         if (waited_ == 0) waiting_since_ = std::chrono::steady_clock::now();
         const Result<bool> ran = run(line, viewer, window, events);
@@ -99,7 +148,7 @@ Result<void> Script::advance(Viewer& viewer, Window& window, std::deque<Event>& 
 }
 
 Result<bool> Script::wait(const Line& line, Viewer& viewer) {
-    const std::string what = line.words.size() > 1 ? line.words[1] : "settled";
+    const std::string what = line.words.size() == 2 ? line.words[1] : "";
     const State& state = viewer.state();
     const bool failed = !state.error.empty() && !state.progress.busy && !state.open;
     // What lines before this one changed shows in the next frame.
@@ -126,14 +175,11 @@ Result<bool> Script::set(const Line& line, Viewer& viewer) {
     if (line.words.size() != 3) return wrong("set NAME VALUE");
     const std::string &name = line.words[1], &value = line.words[2];
     State& state = viewer.state();
-    double number = 0;
-    const bool is_number = parse(value, number);
-    const bool on = value == "on";
+    state.choices_changed = true;
     const auto named = [&](const auto& names, auto& out) -> Result<bool> {
         for (const auto& [text, v] : names) {
             if (text == value) {
                 out = v;
-                state.choices_changed = true;
                 return true;
             }
         }
@@ -142,8 +188,9 @@ Result<bool> Script::set(const Line& line, Viewer& viewer) {
     if (name == "view") {
         const auto view = gpu::view_named(value);
         if (!view) return wrong("no such view: " + value);
+        // It needs LR tables, which come later than the surface, and goes with every view.
+        if (*view == gpu::View::silhouette) return wrong("the viewer has no view silhouette: set outlines on");
         state.shown.view = *view;
-        state.choices_changed = true;
         return true;
     }
     if (name == "mode") {
@@ -156,10 +203,12 @@ Result<bool> Script::set(const Line& line, Viewer& viewer) {
         const auto source = gpu::source_named(value);
         if (!source) return wrong("no such source: " + value);
         state.shown.source = *source;
-        state.choices_changed = true;
         return true;
     }
-    if (name == "path") return named(gpu::kPaths, state.shown.path);
+    if (name == "path") {
+        if (value == "mesh" && !state.mesh_shaders) return wrong("the device has no mesh shaders: " + state.device);
+        return named(gpu::kPaths, state.shown.path);
+    }
     if (name == "paint") {
         return named(std::map<std::string, Paint>{{"none", Paint::none},
                                                   {"corridors", Paint::corridors},
@@ -169,69 +218,53 @@ Result<bool> Script::set(const Line& line, Viewer& viewer) {
     }
     if (name == "ring")
         return named(std::map<std::string, bool>{{"expander", false}, {"hybrid", true}}, state.ring.hybrid);
-    if (name == "warts")
-        state.ring.warts = on;
-    else if (name == "panels")
-        state.panels = on;
-    else if (name == "outlines")
-        state.outlines = on;
-    else if (name == "help")
-        state.help = on;
-    else if (name == "turntable")
-        state.turntable = on;
-    else if (name == "choices" || name == "numbers")
-        state.drawer = !on ? Drawer::none : name == "choices" ? Drawer::choices : Drawer::numbers;
-    else if (name == "decode")
-        state.shown.decode_again = on;
-    else if (!is_number)
-        return wrong(name + " is a number");
-    else if (name == "samples")
-        state.samples = static_cast<std::uint32_t>(std::clamp(number, 1.0, 4.0));
-    else if (name == "divider")
-        state.divider = std::clamp(number, 0.0, 1.0);
-    else if (name == "k")
-        state.ring.k = static_cast<std::uint32_t>(number);
-    else if (name == "seeds")
-        state.ring.seeds = static_cast<std::uint32_t>(number);
-    else if (name == "seed")
-        state.ring.random_seed = static_cast<std::uint64_t>(number);
-    else if (name == "passes")
-        state.ring.passes = static_cast<std::uint32_t>(number);
-    else if (name == "growth")
-        state.growth = std::clamp(std::floor(number), 0.0, 4e9);
-    else if (name == "speed")
-        state.growth_speed = std::clamp(number, 1.0, 1e9);
-    else if (name == "fps")
-        state.frame_cap = static_cast<std::uint32_t>(std::clamp(number, 0.0, 1000.0));
-    else
-        return wrong("nothing is called " + name);
-    state.choices_changed = true;
-    return true;
+    for (const Switch& one : kSwitches) {
+        if (name != one.name) continue;
+        if (value != "on" && value != "off") return wrong(name + " is on or off");
+        one.set(state, value == "on");
+        return true;
+    }
+    for (const NumberSetting& one : kNumbers) {
+        if (name != one.name) continue;
+        double number = 0;
+        if (!parse(value, number) || number < one.low || number > one.high || (one.whole && !is_whole(number))) {
+            return wrong(
+                fmt::format("{} is a {}number from {} to {}", name, one.whole ? "whole " : "", one.low, one.high));
+        }
+        one.set(state, number);
+        return true;
+    }
+    return wrong("nothing is called " + name);
 }
 
 Result<bool> Script::run(const Line& line, Viewer& viewer, Window& window, std::deque<Event>& events) {
     const std::vector<std::string>& words = line.words;
     const std::string& what = words[0];
     const auto number = [&](std::size_t i, double& out) { return i < words.size() && parse(words[i], out); };
+    const auto alone = [&] { return words.size() == 1; };
     double x = 0, y = 0, x2 = 0, y2 = 0;
     State& state = viewer.state();
     if (what == "wait") return wait(line, viewer);
     if (what == "set") return set(line, viewer);
     if (what == "open" || what == "drop") {
-        if (words.size() < 2) return wrong(what + " PATH");
+        if (words.size() < 2 || (what == "open" && words.size() > 2)) {
+            return wrong(what == "open" ? "open PATH" : "drop PATH...");
+        }
         events.push_back({.kind = Event::drop, .paths = {words.begin() + 1, words.end()}});
     } else if (what == "move") {
-        if (!number(1, x) || !number(2, y)) return wrong("move X Y");
+        if (words.size() != 3 || !number(1, x) || !number(2, y)) return wrong("move X Y");
         events.push_back({.kind = Event::move, .x = x, .y = y});
     } else if (what == "click" || what == "press" || what == "release") {
-        if (!number(1, x) || !number(2, y)) return wrong(what + " X Y [left|right|middle]");
+        if (words.size() > 4 || !number(1, x) || !number(2, y)) return wrong(what + " X Y [left|right|middle]");
         const auto button = button_named(words.size() > 3 ? words[3] : "left");
         if (!button) return wrong("a button is left, right or middle");
         events.push_back({.kind = Event::move, .x = x, .y = y});
         if (what != "release") events.push_back({.kind = Event::button, .code = *button, .down = true, .x = x, .y = y});
         if (what != "press") events.push_back({.kind = Event::button, .code = *button, .down = false, .x = x, .y = y});
     } else if (what == "drag") {
-        if (!number(1, x) || !number(2, y) || !number(3, x2) || !number(4, y2)) return wrong("drag X Y X Y [BUTTON]");
+        if (words.size() > 6 || !number(1, x) || !number(2, y) || !number(3, x2) || !number(4, y2)) {
+            return wrong("drag X Y X Y [BUTTON]");
+        }
         const auto button = button_named(words.size() > 5 ? words[5] : "left");
         if (!button) return wrong("a button is left, right or middle");
         events.push_back({.kind = Event::move, .x = x, .y = y});
@@ -242,7 +275,7 @@ Result<bool> Script::run(const Line& line, Viewer& viewer, Window& window, std::
         }
         events.push_back({.kind = Event::button, .code = *button, .down = false, .x = x2, .y = y2});
     } else if (what == "scroll") {
-        if (!number(1, x) || !number(2, y) || !number(3, y2)) return wrong("scroll X Y STEPS");
+        if (words.size() != 4 || !number(1, x) || !number(2, y) || !number(3, y2)) return wrong("scroll X Y STEPS");
         events.push_back({.kind = Event::move, .x = x, .y = y});
         events.push_back({.kind = Event::scroll, .y = y2});
     } else if (what == "key") {
@@ -250,34 +283,39 @@ Result<bool> Script::run(const Line& line, Viewer& viewer, Window& window, std::
         if (!code) return wrong("key NAME [shift] [control]");
         unsigned modifiers = 0;
         for (std::size_t i = 2; i < words.size(); ++i) {
-            modifiers |= words[i] == "shift" ? mod_shift : words[i] == "control" ? mod_control : 0U;
+            if (words[i] != "shift" && words[i] != "control") return wrong("key NAME [shift] [control]");
+            modifiers |= words[i] == "shift" ? mod_shift : mod_control;
         }
         events.push_back({.kind = Event::key, .code = *code, .down = true, .modifiers = modifiers});
         events.push_back({.kind = Event::key, .code = *code, .down = false});
     } else if (what == "resize") {
-        if (!number(1, x) || !number(2, y)) return wrong("resize W H");
+        constexpr double kMost = 32767;  // X's
+        const auto fits = [](double n) { return n >= 1 && n <= kMost && is_whole(n); };
+        if (words.size() != 3 || !number(1, x) || !number(2, y) || !fits(x) || !fits(y)) return wrong("resize W H");
         if (waited_ == 0) window.set_size(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
         // The window system decides; a second is enough for it to.
-        if (viewer.extent().width == static_cast<std::uint32_t>(x) &&
-            viewer.extent().height == static_cast<std::uint32_t>(y)) {
+        if (viewer.window().width == static_cast<std::uint32_t>(x) &&
+            viewer.window().height == static_cast<std::uint32_t>(y)) {
             return true;
         }
         return waited_ > 60;
-    } else if (what == "minimise") {
+    } else if (what == "minimise" && alone()) {
         window.minimise(true);
         events.push_back({.kind = Event::resize});
-    } else if (what == "restore") {
+    } else if (what == "restore" && alone()) {
         window.minimise(false);
         const VkExtent2D extent = window.extent();
         events.push_back({.kind = Event::resize, .x = double(extent.width), .y = double(extent.height)});
-    } else if (what == "close") {
+    } else if (what == "close" && alone()) {
         events.push_back({.kind = Event::close});
     } else if (what == "frames") {
-        if (!number(1, x)) return wrong("frames N");
+        constexpr double kMost = 1e6;
+        if (words.size() != 2 || !number(1, x) || x < 0 || x > kMost || !is_whole(x)) return wrong("frames N");
         frames_ = static_cast<int>(x);
     } else if (what == "camera") {
         Result<gpu::CameraOptions> camera = app::parse_camera({words.begin() + 1, words.end()});
         if (!camera) return camera.error();
+        if (!state.document) return wrong("there is no mesh to look at yet: wait mesh");
         if (const Result<void> framed = viewer.frame_all(*camera); !framed) return framed.error();
     } else if (what == "screenshot") {
         const bool now = words.size() == 3 && words[2] == "now";
@@ -287,7 +325,7 @@ Result<bool> Script::run(const Line& line, Viewer& viewer, Window& window, std::
             if (waited_ < 2 || state.document)
                 return waited_ > 600 ? wrong("nothing settles: no screenshot") : Result<bool>(false);
         }
-        const Result<gpu::Picture> picture = now ? viewer.window() : viewer.picture();
+        const Result<gpu::Picture> picture = now ? viewer.window_picture() : viewer.picture();
         if (!picture) return picture.error();
         if (const Result<void> written = gpu::write_png(words[1], *picture); !written) {
             return Error{written.error().code, words[1] + ": " + written.error().message};
@@ -313,25 +351,28 @@ Result<bool> Script::run(const Line& line, Viewer& viewer, Window& window, std::
         return false;
     } else if (what == "ray") {
         // The triangle that a ray through the pixel hits, by looking at all of them.
-        if (!number(1, x) || !number(2, y)) return wrong("ray X Y");
+        if (words.size() != 3 || !number(1, x) || !number(2, y)) return wrong("ray X Y");
         std::int64_t hit = -1;
         if (state.document) {
             const auto found = ray_hit(*state.document, viewer.orbit().eye(), viewer.ray(x, y));
             if (found) hit = *found;
         }
         const std::int64_t selected = state.selection.any() ? std::int64_t{triangle(state.selection.corner).value} : -1;
-        fmt::print("{}\n", nlohmann::ordered_json{{"ray", hit}, {"selected", selected}}.dump());
+        app::print("{}\n", nlohmann::ordered_json{{"ray", hit}, {"selected", selected}}.dump());
     } else if (what == "copy") {
         if (words.size() != 3) return wrong("copy FROM TO");
         std::error_code error;
         if (!std::filesystem::copy_file(words[1], words[2], std::filesystem::copy_options::overwrite_existing, error)) {
             return Error{ErrorCode::cannot_write, words[2] + ": " + error.message()};
         }
-    } else if (what == "print") {
-        fmt::print("{}\n", state_text(viewer));
+    } else if (what == "print" && alone()) {
+        app::print("{}\n", state_text(viewer));
         state.longest_frame = 0;
         std::fflush(stdout);
     } else {
+        for (const char* known : {"minimise", "restore", "close", "print"}) {
+            if (what == known) return wrong(what + " stands alone");
+        }
         return wrong("no such line: " + what);
     }
     return true;

@@ -14,7 +14,9 @@ std::string Script::state_text(Viewer& viewer) {
                                {"note", state.note},
                                {"busy", state.progress.busy},
                                {"camera", viewer.orbit().text()},
-                               {"size", {viewer.extent().width, viewer.extent().height}}};
+                               {"size", {viewer.extent().width, viewer.extent().height}},
+                               {"title", viewer.title()},
+                               {"window", {viewer.window().width, viewer.window().height}}};
     out["fps"] = state.frame_cap;
     if (state.document) out["growth"] = {state.growth, state.growth_end()};
     out["start"] =

@@ -4,11 +4,12 @@
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
 
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <set>
 #include <sstream>
+
+#include "lrcore/base/file.h"
 
 namespace lr::view {
 namespace {
@@ -18,10 +19,10 @@ constexpr std::size_t kDepth = 40;  // of includes: one that includes itself end
 
 std::optional<std::string> read(const fs::path& file, std::map<std::string, Stamp>& files) {
     files[file.string()] = stamp_of(file);  // before it is read: what is written meanwhile is seen next time
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    if (!stream || !(text << stream.rdbuf())) return std::nullopt;
-    return std::move(text).str();
+    constexpr std::uint64_t kMost = std::uint64_t{16} << 20;  // no shader is that long
+    const Result<std::vector<std::byte>> bytes = read_file(file, kMost);
+    if (!bytes) return std::nullopt;
+    return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
 }
 
 class Includer : public glslang::TShader::Includer {

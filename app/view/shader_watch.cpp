@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <new>
 #include <optional>
 #include <set>
 
@@ -98,58 +101,89 @@ std::string told(const std::vector<Known>& shaders) {
 
 }  // namespace
 
-ShaderWatch::ShaderWatch(fs::path folder, fs::path built_from)
-    : folder_(std::move(folder)), built_from_(std::move(built_from)), thread_([this] { run(); }) {}
+/// What the watch shares with its thread, which may outlive it.
+struct ShaderWatch::Shared {
+    Shared(fs::path watched, fs::path built) : folder(std::move(watched)), built_from(std::move(built)) {}
+
+    const fs::path folder, built_from;
+    std::mutex mutex;
+    std::condition_variable wake;
+    News news;
+    std::uint64_t begun = 0;  // looks
+    bool force = false, quit = false;
+
+    void run();
+    void watch();
+};
+
+Result<std::unique_ptr<ShaderWatch>> ShaderWatch::create(Threads& threads, fs::path folder, fs::path built_from) {
+    auto shared = std::make_shared<Shared>(std::move(folder), std::move(built_from));
+    if (const Result<void> started = threads.start([shared] { shared->run(); }); !started) return started.error();
+    return std::unique_ptr<ShaderWatch>(new ShaderWatch(std::move(shared)));
+}
 
 ShaderWatch::~ShaderWatch() {
     {
-        const std::lock_guard lock(mutex_);
-        quit_ = true;
+        const std::lock_guard lock(shared_->mutex);
+        shared_->quit = true;
     }
-    wake_.notify_all();
-    thread_.join();
+    shared_->wake.notify_all();
+}
+
+const fs::path& ShaderWatch::folder() const {
+    return shared_->folder;
 }
 
 void ShaderWatch::force() {
     {
-        const std::lock_guard lock(mutex_);
-        force_ = true;
+        const std::lock_guard lock(shared_->mutex);
+        shared_->force = true;
     }
-    wake_.notify_all();
+    shared_->wake.notify_all();
 }
 
 ShaderWatch::News ShaderWatch::take() {
-    const std::lock_guard lock(mutex_);
-    News out = news_;
-    news_.fresh = news_.changed = false;
+    const std::lock_guard lock(shared_->mutex);
+    News out = shared_->news;
+    shared_->news.fresh = shared_->news.changed = false;
     return out;
 }
 
 bool ShaderWatch::has_news() const {
-    const std::lock_guard lock(mutex_);
-    return news_.fresh;
+    const std::lock_guard lock(shared_->mutex);
+    return shared_->news.fresh;
 }
 
 std::uint64_t ShaderWatch::next_look() const {
-    const std::lock_guard lock(mutex_);
-    return begun_ + 1;
+    const std::lock_guard lock(shared_->mutex);
+    return shared_->begun + 1;
 }
 
-void ShaderWatch::run() {
+void ShaderWatch::Shared::run() {
+    try {
+        watch();
+    } catch (const std::bad_alloc&) {
+        const std::lock_guard lock(mutex);
+        news.fresh = true;
+        news.error = "not enough memory to compile shaders: they are not watched any more";
+    }
+}
+
+void ShaderWatch::Shared::watch() {
     std::vector<Known> shaders;
     for (const gpu::Shader& shader : spirv_all) shaders.push_back({&shader, {}, {}, nullptr});
     // What a shader that was not compiled yet may have been built from; of another folder nothing was built.
     std::optional<Files> built;
-    if (folder_ == built_from_) built = built_files(folder_);
+    if (folder == built_from) built = built_files(folder);
     std::optional<ShaderCompiler> compiler;  // until it is needed, not even its tables are made
     for (bool first = true;; first = false) {
         bool forced = false;
         {
-            std::unique_lock lock(mutex_);
-            if (!first) wake_.wait_for(lock, kBetweenLooks, [this] { return quit_ || force_; });
-            if (quit_) return;
-            forced = std::exchange(force_, false);
-            ++begun_;
+            std::unique_lock lock(mutex);
+            if (!first) wake.wait_for(lock, kBetweenLooks, [this] { return quit || force; });
+            if (quit) return;
+            forced = std::exchange(force, false);
+            ++begun;
         }
         const bool as_built = built && as_they_were(*built);
         std::vector<Known*> changed;
@@ -159,29 +193,29 @@ void ShaderWatch::run() {
         }
         // A file that is being written is waited for: half of it has errors that nobody made.
         for (int i = 0; !changed.empty() && i < kMostWaits; ++i) {
-            const Files files = files_of(folder_);
+            const Files files = files_of(folder);
             std::this_thread::sleep_for(kWriting);
             if (as_they_were(files)) break;
         }
         for (Known* shader : changed) {
-            if (!compiler) compiler.emplace(folder_, built_from_);
+            if (!compiler) compiler.emplace(folder, built_from);
             compile(*compiler, *shader);
-            const std::lock_guard lock(mutex_);
-            ++news_.compiled;
-            if (quit_) return;
+            const std::lock_guard lock(mutex);
+            ++news.compiled;
+            if (quit) return;
         }
-        const std::lock_guard lock(mutex_);
-        ++news_.looks;
+        const std::lock_guard lock(mutex);
+        ++news.looks;
         if (changed.empty()) continue;
-        news_.fresh = true;
-        news_.error = told(shaders);
-        if (!news_.error.empty()) continue;
+        news.fresh = true;
+        news.error = told(shaders);
+        if (!news.error.empty()) continue;
         ShaderSet::Replaced replaced;
         for (const Known& shader : shaders) {
             if (shader.words) replaced.emplace(shader.built_in->name, shader.words);
         }
-        if (forced || !same(replaced, news_.replaced)) news_.changed = true;
-        news_.replaced = std::move(replaced);
+        if (forced || !same(replaced, news.replaced)) news.changed = true;
+        news.replaced = std::move(replaced);
     }
 }
 

@@ -2,12 +2,11 @@
 // Looks after a folder of shaders on a thread of its own: compiles what changes, and what includes what changes, and
 // gives the words once all of it compiles. Knows of no device.
 
-#include <condition_variable>
 #include <filesystem>
-#include <mutex>
+#include <memory>
 #include <string>
-#include <thread>
 
+#include "app/view/threads.h"
 #include "renderer/shader_set.h"
 
 namespace lr::view {
@@ -15,13 +14,14 @@ namespace lr::view {
 class ShaderWatch {
   public:
     /// `built_from`: the folder that the program was built from, or empty. If `folder` is that one, only what changed
-    /// after the program was built is compiled; of another one everything is.
-    ShaderWatch(std::filesystem::path folder, std::filesystem::path built_from);
-    ~ShaderWatch();  ///< waits for what is being compiled
+    /// after the program was built is compiled; of another one everything is. Errors: device_failure (no thread).
+    static Result<std::unique_ptr<ShaderWatch>> create(Threads& threads, std::filesystem::path folder,
+                                                       std::filesystem::path built_from);
+    ~ShaderWatch();  ///< Ends the watch, without waiting for what is being compiled.
     ShaderWatch(const ShaderWatch&) = delete;
     ShaderWatch& operator=(const ShaderWatch&) = delete;
 
-    const std::filesystem::path& folder() const { return folder_; }
+    const std::filesystem::path& folder() const;
     /// Compiles everything, changed or not, and gives it even if it is what was given before.
     void force();
 
@@ -39,15 +39,10 @@ class ShaderWatch {
     std::uint64_t next_look() const;
 
   private:
-    void run();
+    struct Shared;
+    explicit ShaderWatch(std::shared_ptr<Shared> shared) : shared_(std::move(shared)) {}
 
-    const std::filesystem::path folder_, built_from_;
-    mutable std::mutex mutex_;
-    std::condition_variable wake_;
-    News news_;
-    std::uint64_t begun_ = 0;  // looks
-    bool force_ = false, quit_ = false;
-    std::thread thread_;
+    std::shared_ptr<Shared> shared_;  // with the thread
 };
 
 }  // namespace lr::view

@@ -63,6 +63,7 @@ struct State {
     double started = 0;        ///< seconds from the program's start to its first picture
     std::uint64_t device_bytes = 0, device_held = 0;  ///< in use; allocated
     double covered_below = 0;                         ///< pixels of the window under bar and selection
+    bool window_too_large = false;                    ///< for the device, which shows nothing in it
     std::string device;
     bool mesh_shaders = false;
     std::optional<gpu::Difference> difference;

@@ -1,7 +1,9 @@
 #include "app/view/uploader.h"
 
+#include <new>
 #include <utility>
 
+#include "app/view/threads.h"
 #include "renderer/try.h"
 
 namespace lr::view {
@@ -21,18 +23,22 @@ gpu::UploadOptions options_of(const UploadKey& key) {
 Result<std::unique_ptr<Uploader>> Uploader::create(gpu::Context& context, std::function<void()> wake) {
     LR_ASSIGN(gpu::Transfer transfer, gpu::Transfer::create(context));
     std::unique_ptr<Uploader> out(new Uploader(std::move(transfer), std::move(wake)));
-    out->thread_ = std::thread([uploader = out.get()] { uploader->run(); });
+    out->transfer_.stop_when(&out->stop_);
+    LR_ASSIGN(out->thread_, start_thread([uploader = out.get()] { uploader->run(); }));
     return out;
 }
 
 Uploader::~Uploader() {
-    {
-        const std::lock_guard lock(mutex_);
-        next_.reset();
-        quit_ = true;
-    }
+    stop(std::chrono::milliseconds(0));
+    if (thread_.joinable()) thread_.join();
+}
+
+bool Uploader::stop(std::chrono::milliseconds patience) {
+    std::unique_lock lock(mutex_);
+    next_.reset();
+    quit_ = stop_ = true;
     changed_.notify_all();
-    thread_.join();
+    return changed_.wait_for(lock, patience, [this] { return !working_; });
 }
 
 void Uploader::ask(Job job, const gpu::Expander& expander) {
@@ -42,6 +48,7 @@ void Uploader::ask(Job job, const gpu::Expander& expander) {
         last_ = job;
         next_ = std::move(job);
         done_.reset();
+        stop_ = working_;
     }
     changed_.notify_all();
 }
@@ -63,6 +70,18 @@ void Uploader::finish() {
     changed_.wait(lock, [&] { return !working_ && !next_; });
 }
 
+Result<void> Uploader::upload(Done& done, const gpu::Expander& expander) {
+    try {
+        for (const UploadKey& key : done.job.keys) {
+            LR_ASSIGN(gpu::Drawable drawable, expander.upload(transfer_, *done.job.model, key.source, options_of(key)));
+            done.drawables.push_back(std::move(drawable));
+        }
+    } catch (const std::bad_alloc&) {
+        return Error{ErrorCode::too_large, "not enough memory"};
+    }
+    return {};
+}
+
 void Uploader::run() {
     std::unique_lock lock(mutex_);
     for (;;) {
@@ -71,19 +90,16 @@ void Uploader::run() {
         Done done{*std::exchange(next_, std::nullopt), {}, std::nullopt};
         const gpu::Expander& expander = *expander_;
         working_ = true;
+        stop_ = false;
         lock.unlock();
-        for (const UploadKey& key : done.job.keys) {
-            Result<gpu::Drawable> made = expander.upload(transfer_, *done.job.model, key.source, options_of(key));
-            if (!made) {
-                done.error = made.error();
-                done.drawables.clear();
-                break;
-            }
-            done.drawables.push_back(std::move(*made));
+        if (const Result<void> made = upload(done, expander); !made) {
+            done.error = made.error();
+            done.drawables.clear();
         }
         lock.lock();
         working_ = false;
-        if (last_ == done.job) done_ = std::move(done);  // else something else is wanted by now
+        // Else something else is wanted by now, or the same again after it was stopped.
+        if (last_ == done.job && !next_ && !quit_) done_ = std::move(done);
         changed_.notify_all();
         wake_();
     }

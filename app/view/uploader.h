@@ -1,6 +1,8 @@
 #pragma once
 // Puts models on the device on a thread of its own, so that the window goes on with what it has.
 
+#include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <memory>
@@ -41,13 +43,14 @@ class Uploader {
         std::optional<Error> error;            ///< then there are none
     };
 
-    /// `wake` is called by the thread when something is done.
+    /// `wake` is called by the thread when something is done. Errors: device_failure (no thread, and Vulkan's).
     static Result<std::unique_ptr<Uploader>> create(gpu::Context& context, std::function<void()> wake);
-    ~Uploader();  ///< ends what is being done, and waits for that
+    ~Uploader();  ///< Stops what is being done, and waits for that: it uses the device.
     Uploader(const Uploader&) = delete;
     Uploader& operator=(const Uploader&) = delete;
 
-    /// Begins it, after what is being done, in the place of what was not begun yet. `expander` must outlive the job.
+    /// Queues the job, in the place of the one before it: that one is stopped if it has begun. `expander` must outlive
+    /// the job.
     void ask(Job job, const gpu::Expander& expander);
     /// Asked for last, and not taken yet.
     bool asked(const Job& job) const;
@@ -55,11 +58,14 @@ class Uploader {
     std::optional<Done> take();
     /// Waits until nothing is being done. What is done by then can still be taken.
     void finish();
+    /// Stops what is being done for good. False: it still runs after `patience`.
+    bool stop(std::chrono::milliseconds patience);
 
   private:
     Uploader(gpu::Transfer transfer, std::function<void()> wake)
         : transfer_(std::move(transfer)), wake_(std::move(wake)) {}
     void run();
+    Result<void> upload(Done& done, const gpu::Expander& expander);
 
     gpu::Transfer transfer_;
     std::function<void()> wake_;
@@ -68,6 +74,7 @@ class Uploader {
     const gpu::Expander* expander_ = nullptr;
     std::optional<Job> next_, last_;  // not begun; asked for and not taken
     std::optional<Done> done_;
+    std::atomic<bool> stop_ = false;  // what is being done
     bool working_ = false, quit_ = false;
     std::thread thread_;
 };

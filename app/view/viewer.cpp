@@ -28,21 +28,21 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
-Result<std::unique_ptr<Viewer>> Viewer::create(gpu::Context& context, const ViewerOptions& options) {
+Result<std::unique_ptr<Viewer>> Viewer::create(gpu::Context& context, Threads& threads, const ViewerOptions& options) {
     LR_ASSIGN(Scene scene, Scene::create(context, options.wake));
-    std::unique_ptr<Viewer> out(new Viewer(context, options, std::move(scene)));
+    std::unique_ptr<Viewer> out(new Viewer(context, threads, options, std::move(scene)));
     LR_ASSIGN(out->overlay_, Overlay::create(context, options.scale));
     LR_ASSIGN(out->commands_, gpu::Commands::create(context));
     State& state = out->state_;
     state.panels = options.panels;
     state.frame_cap = options.frame_cap;
     state.device = context.info().name;
+    out->largest_ = context.limits().maxImageDimension2D;
     state.mesh_shaders = context.info().max_mesh_groups != 0;
     state.samples = context.info().software ? 1 : 2;
     state.recent = read_recent();
     std::error_code error;
-    state.files =
-        meshes_beside(options.input.path.empty() ? std::filesystem::current_path(error).string() : options.input.path);
+    out->loader_.list(options.input.path.empty() ? std::filesystem::current_path(error).string() : options.input.path);
     out->asked_ = state.ring;
     out->watch_shaders();
     if (!options.input.path.empty()) state.open = options.input.path;
@@ -50,6 +50,7 @@ Result<std::unique_ptr<Viewer>> Viewer::create(gpu::Context& context, const View
 }
 
 std::string Viewer::title() const {
+    if (state_.window_too_large) return "LacedRing: this window is larger than the device draws: make it smaller";
     if (!state_.document) return "LacedRing";
     return std::filesystem::path(state_.document->path).filename().string() + " - LacedRing";
 }
@@ -63,13 +64,46 @@ Shown Viewer::shown(bool moving, const gpu::Model* model) const {
     return out;
 }
 
+void Viewer::set_window(VkExtent2D window) {
+    window_ = window;
+    extent_ = window;
+    const std::uint32_t side = std::max(window.width, window.height);
+    if (side <= largest_) return;
+    const auto fitting = [&](std::uint32_t n) {
+        return static_cast<std::uint32_t>(std::max<std::uint64_t>(1, std::uint64_t{n} * largest_ / side));
+    };
+    if (visible()) extent_ = {fitting(window.width), fitting(window.height)};
+}
+
+Result<void> Viewer::make_images(std::uint32_t samples) {
+    LR_TRY(scene_.resize(extent_, samples));
+    return overlay_->resize(extent_);
+}
+
+/// Makes images of the picture's size. What the device does not hold is made smaller, and scaled up by the window.
 Result<void> Viewer::resize() {
-    const std::uint32_t samples = gpu::Target::fitting_samples(context_, extent_, state_.samples);
+    std::uint32_t samples = gpu::Target::fitting_samples(context_, extent_, state_.samples);
     if (made_.width == extent_.width && made_.height == extent_.height && made_samples_ == samples) return {};
     end_turntable();       // its pictures are of one size
     context_.wait_idle();  // the window may still be taking the last picture
-    LR_TRY(scene_.resize(extent_, samples));
-    LR_TRY(overlay_->resize(extent_));
+    constexpr std::uint32_t kSmallest = 64;
+    for (;;) {
+        const Result<void> made = make_images(samples);
+        if (made) break;
+        if (made.error().code == ErrorCode::device_failure) return made;
+        if (samples > 1) {
+            state_.samples = --samples;
+            continue;
+        }
+        largest_ = std::max(extent_.width, extent_.height) / 2;  // until the window changes
+        if (largest_ < kSmallest) return made;
+        set_window(window_);
+        samples = gpu::Target::fitting_samples(context_, extent_, state_.samples);
+    }
+    if (extent_.width != window_.width) {
+        state_.tell(fmt::format("drawn at {} x {}: the device draws no larger picture", extent_.width, extent_.height),
+                    4);
+    }
     made_ = extent_;
     made_samples_ = samples;
     dirty_ = true;
@@ -98,7 +132,7 @@ void Viewer::opened(const std::string& path) {
     state_.ring.start = asked_.start = null_corner;
     end_turntable();
     state_.costs.clear();
-    state_.files = meshes_beside(path);
+    loader_.list(path);
     add_recent(state_.recent, path, options_.keep_recent);
 }
 
@@ -108,6 +142,10 @@ void Viewer::take_news() {
     if (news.document) news_.document = std::move(news.document);
     if (news.tables) news_.tables = std::move(news.tables);
     if (news.formats) news_.formats = std::move(news.formats);
+    if (news.files) {
+        state_.files = std::move(*news.files);
+        quiet_frames_ = 0;
+    }
     if (news_.document && visible()) take_document();
     if (news_.document) {
         // Tables and formats are of what is still to come.

@@ -28,7 +28,9 @@ struct ViewerOptions {
 
 class Viewer {
   public:
-    static Result<std::unique_ptr<Viewer>> create(gpu::Context& context, const ViewerOptions& options);
+    /// `threads` must outlive the viewer; those that it starts may outlive it.
+    static Result<std::unique_ptr<Viewer>> create(gpu::Context& context, Threads& threads,
+                                                  const ViewerOptions& options);
 
     void handle(const Event& event);
     /// Everything for one picture `seconds` after the last one. Nothing is drawn while the picture has no size.
@@ -39,14 +41,21 @@ class Viewer {
 
     /// The last picture, panels and all, in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL.
     const gpu::Image& image() const { return overlay_->image(); }
+    /// Pixels of the picture: the window's, or fewer of the same shape where the device draws no picture that large.
     VkExtent2D extent() const { return extent_; }
+    VkExtent2D window() const { return window_; }
     bool visible() const { return extent_.width != 0 && extent_.height != 0; }
     /// The last picture, with panels if they are on; else with nothing over it. Waits for the device.
-    Result<gpu::Picture> picture() { return state_.panels || state_.help ? window() : picture_of(scene_.composed()); }
+    Result<gpu::Picture> picture() {
+        return picture_of(state_.panels || state_.help ? overlay_->image() : scene_.composed());
+    }
     /// All that is in the window, notices too.
-    Result<gpu::Picture> window() { return picture_of(overlay_->image()); }
+    Result<gpu::Picture> window_picture() { return picture_of(overlay_->image()); }
 
     bool closing() const { return closing_; }
+    /// Stops what threads do for it. False: one of them still uses the device after `patience`, and nothing on the
+    /// device may be destroyed.
+    bool stop(std::chrono::milliseconds patience) { return scene_.stop(patience); }
     /// The next picture will be another one by itself.
     bool moving() const { return quiet_frames_ <= 3 || animated_; }
     /// Nothing moves, nothing is awaited: the next picture would be the last one.
@@ -73,10 +82,17 @@ class Viewer {
     Result<void> frame_all(const gpu::CameraOptions& options);
 
   private:
-    Viewer(gpu::Context& context, const ViewerOptions& options, Scene scene)
-        : options_(options), context_(context), scene_(std::move(scene)), loader_(options.wake) {}
+    Viewer(gpu::Context& context, Threads& threads, const ViewerOptions& options, Scene scene)
+        : options_(options),
+          context_(context),
+          threads_(threads),
+          scene_(std::move(scene)),
+          loader_(threads, options.wake),
+          paintings_(threads) {}
     bool news() const { return loader_.has_news() || news_.document || (watch_ && watch_->has_news()); }
     Result<void> resize();
+    Result<void> make_images(std::uint32_t samples);
+    void set_window(VkExtent2D window);
     Shown shown(bool moving, const gpu::Model* model) const;
     void take_news();
     void take_document();
@@ -101,6 +117,7 @@ class Viewer {
 
     ViewerOptions options_;
     gpu::Context& context_;
+    Threads& threads_;
     Scene scene_;
     std::unique_ptr<Overlay> overlay_;
     std::optional<gpu::Commands> commands_;
@@ -111,7 +128,8 @@ class Viewer {
     RingSettings asked_;
     std::vector<std::string> queue_;  // dropped, to be tried in turn
 
-    VkExtent2D extent_{}, made_{};
+    VkExtent2D window_{}, extent_{}, made_{};
+    std::uint32_t largest_ = 0;  // side of a picture; less than the device's limit where its memory does not hold that
     std::uint32_t made_samples_ = 0;
     int dragging_ = -1;
     bool dragging_divider_ = false;

@@ -35,13 +35,19 @@ std::optional<Vector> side(int key, const Vector& up) {
 
 }  // namespace
 
-void Viewer::handle(const Event& event) {
+void Viewer::handle(const Event& in_window) {
     quiet_frames_ = 0;
+    Event event = in_window;
+    if ((event.kind == Event::move || event.kind == Event::button) && visible()) {
+        event.x *= static_cast<double>(extent_.width) / window_.width;
+        event.y *= static_cast<double>(extent_.height) / window_.height;
+    }
     Overlay::feed(event);
     switch (event.kind) {
         case Event::resize:
-            extent_ = {static_cast<std::uint32_t>(std::max(0.0, event.x)),
-                       static_cast<std::uint32_t>(std::max(0.0, event.y))};
+            largest_ = context_.limits().maxImageDimension2D;
+            set_window({static_cast<std::uint32_t>(std::max(0.0, event.x)),
+                        static_cast<std::uint32_t>(std::max(0.0, event.y))});
             break;
         case Event::close:
             closing_ = true;

@@ -27,7 +27,13 @@ Result<void> Viewer::take_paint_away() {
 Result<void> Viewer::update_paint() {
     const Painted wanted = wanted_paint();
     if (wanted == painted_ || !state_.document) return {};
-    const std::shared_ptr<const Painting> painting = paintings_.get(state_.document, state_.paint);
+    const Result<std::shared_ptr<const Painting>> got = paintings_.get(state_.document, state_.paint);
+    if (!got) {
+        state_.error = got.error().message;
+        state_.paint = Paint::none;  // not tried again every frame
+        return {};
+    }
+    const std::shared_ptr<const Painting>& painting = *got;
     const bool made = painting || state_.paint == Paint::none;
     if (made && painting != laid_) {
         LR_TRY(scene_.set_paint(painting ? painting->colours : std::span<const std::uint32_t>{}));

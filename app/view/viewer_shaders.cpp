@@ -12,8 +12,14 @@ void Viewer::watch_shaders() {
     std::filesystem::path folder =
         options_.shaders.empty() ? built_from : std::filesystem::canonical(options_.shaders, error);
     if (error || folder.empty()) return;
-    state_.shaders.folder = folder.string();
-    watch_ = std::make_unique<ShaderWatch>(std::move(folder), built_from);
+    std::string name = folder.string();
+    Result<std::unique_ptr<ShaderWatch>> watch = ShaderWatch::create(threads_, std::move(folder), built_from);
+    if (!watch) {
+        state_.error = name + ": not watched: " + watch.error().message;
+        return;
+    }
+    state_.shaders.folder = std::move(name);
+    watch_ = std::move(*watch);
 }
 
 void Viewer::take_shaders() {

@@ -2,9 +2,16 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <dlfcn.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
+
+#include "app/command.h"
+
+struct _XDisplay;  // Xlib's Display
 
 namespace lr::view {
 namespace {
@@ -13,6 +20,27 @@ Error failed(const char* what) {
     const char* text = nullptr;
     glfwGetError(&text);
     return {ErrorCode::no_device, std::string(what) + (text != nullptr ? std::string(": ") + text : "")};
+}
+
+/// Called by Xlib, on the thread that notices, when the connection to the X server is lost. Xlib ends the process with
+/// a message and a code of its own if this returns. The state of everything else is unknown here, so nothing is
+/// destroyed.
+int display_lost(_XDisplay*) {
+    constexpr std::string_view kLine = "lacedring: display: the connection to the X server is lost\n";
+    // Standard error may be lost as well: then there is nobody to tell.
+    (void)!::write(STDERR_FILENO, kLine.data(), kLine.size());
+    ::_exit(app::no_device);
+}
+
+/// Has Xlib call display_lost, if GLFW has Xlib loaded: nothing else here knows of X.
+void watch_connection() {
+    void* const xlib = ::dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD);
+    if (xlib == nullptr) return;
+    using Handler = int (*)(_XDisplay*);
+    using SetHandler = Handler (*)(Handler);
+    const auto set = reinterpret_cast<SetHandler>(::dlsym(xlib, "XSetIOErrorHandler"));
+    if (set != nullptr) set(display_lost);
+    ::dlclose(xlib);  // GLFW keeps it loaded
 }
 
 unsigned modifiers(int mods) {
@@ -27,7 +55,9 @@ unsigned modifiers(int mods) {
 
 Result<std::unique_ptr<Window>> Window::create(std::uint32_t width, std::uint32_t height) {
     std::unique_ptr<Window> out(new Window);
+    watch_connection();
     if (glfwInit() != GLFW_TRUE) return failed("no usable display");
+    watch_connection();  // GLFW 3.4 loads Xlib in glfwInit
     if (glfwVulkanSupported() != GLFW_TRUE) return failed("no Vulkan for windows");
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     out->window_ = glfwCreateWindow(static_cast<int>(width), static_cast<int>(height), "LacedRing", nullptr, nullptr);
@@ -89,6 +119,7 @@ void Window::listen() {
         self(w).events_.push_back({.kind = Event::drop, .paths = {paths, paths + count}});
     });
     glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int x, int y) {
+        self(w).shrink(x, y);
         self(w).events_.push_back({.kind = Event::resize, .x = double(x), .y = double(y)});
     });
     glfwSetWindowCloseCallback(window_, [](GLFWwindow* w) { self(w).events_.push_back({.kind = Event::close}); });
@@ -133,12 +164,34 @@ void Window::set_size(std::uint32_t width, std::uint32_t height) {
     glfwSetWindowSize(window_, static_cast<int>(width / scale), static_cast<int>(height / scale));
 }
 
+void Window::limit_size(std::uint32_t side) {
+    limit_ = side;
+    const int most = static_cast<int>(std::min(side / pixels(), 65535.0));  // of any window system
+    glfwSetWindowSizeLimits(window_, GLFW_DONT_CARE, GLFW_DONT_CARE, most, most);
+    const VkExtent2D now = extent();
+    shrink(now.width, now.height);
+}
+
+void Window::shrink(double width, double height) {
+    if (std::max(width, height) <= limit_ || (width == shrunk_width_ && height == shrunk_height_)) return;
+    shrunk_width_ = width;
+    shrunk_height_ = height;
+    const double most = limit_;
+    set_size(static_cast<std::uint32_t>(std::min(width, most)), static_cast<std::uint32_t>(std::min(height, most)));
+}
+
 void Window::minimise(bool minimised) {
     if (minimised) {
         glfwIconifyWindow(window_);
     } else {
         glfwRestoreWindow(window_);
     }
+}
+
+void Window::hide() {
+    glfwHideWindow(window_);
+    glfwPollEvents();  // sends it
+    events_.clear();
 }
 
 void Window::set_title(const std::string& title) {

@@ -34,7 +34,11 @@ class Window {
     VkExtent2D extent() const;  ///< pixels; zero while minimised
     double scale() const;       ///< pixels of the display a nominal pixel
     void set_size(std::uint32_t width, std::uint32_t height);
+    /// Keeps the window from getting larger than `side` pixels: the window system is asked to, and a window that is
+    /// larger all the same is asked to shrink, once for each size.
+    void limit_size(std::uint32_t side);
     void minimise(bool minimised);
+    void hide();
     void set_title(const std::string& title);
     void set_clipboard(const std::string& text);
 
@@ -43,8 +47,11 @@ class Window {
     /// Pixels a unit of the window's coordinates.
     double pixels() const;
     void listen();
+    void shrink(double width, double height);
 
     GLFWwindow* window_ = nullptr;
+    std::uint32_t limit_ = UINT32_MAX;
+    double shrunk_width_ = 0, shrunk_height_ = 0;  // that was too large last
     std::vector<Event> events_;
 };
 

@@ -15,7 +15,8 @@ enum class ErrorCode {
     unsupported,      ///< the format is right, but this part of it is not read here
     invalid_argument, ///< a parameter is out of its range
     too_large,        ///< more elements than the representation numbers, or than memory holds
-    no_device,        ///< no usable Vulkan device
+    memory_limit,     ///< would take more memory than the caller allows
+    no_device,        ///< no usable Vulkan device, or it lacks what was asked for: memory, sizes, features
     device_failure,   ///< a Vulkan call failed
 };
 

@@ -1,9 +1,14 @@
 #include "lrcore/baseline/codecs.h"
 
+#include <fmt/format.h>
 #include <meshoptimizer.h>
 #include <zlib.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lrcore/baseline/limit.h"
 
 namespace lr {
 namespace {
@@ -27,9 +32,20 @@ CodedIndices encode(std::vector<std::uint32_t> ordered, std::uint32_t vertex_cou
     return out;
 }
 
+/// Scale that keeps squared areas within the range of floats: 1, or a power of two, which rounds nothing.
+float down_scale(std::span<const float> positions) {
+    constexpr float kLarge = 0x1p30F;
+    float largest = 0;
+    for (const float x : positions)
+        largest = std::max(largest, std::min(std::abs(x), std::numeric_limits<float>::max()));
+    return largest > kLarge ? std::ldexp(1.0F, -std::ilogb(largest)) : 1.0F;
+}
+
 }  // namespace
 
-std::vector<std::uint32_t> best_cache_order(std::span<const std::uint32_t> indices, std::uint32_t vertex_count) {
+Result<std::vector<std::uint32_t>> best_cache_order(std::span<const std::uint32_t> indices,
+                                                    std::uint32_t vertex_count) {
+    if (const Result<void> good = check_valences(indices, vertex_count); !good) return good.error();
     std::vector<std::uint32_t> ordered(indices.size());
     if (!indices.empty()) {
         meshopt_optimizeVertexCache(ordered.data(), indices.data(), indices.size(), vertex_count);
@@ -41,19 +57,31 @@ bool decode_meshopt_indices(std::span<const std::uint8_t> bytes, std::span<std::
     return meshopt_decodeIndexBuffer(indices.data(), indices.size(), bytes.data(), bytes.size()) == 0;
 }
 
-CodedIndices encode_meshopt_indices(std::span<const std::uint32_t> indices, std::uint32_t vertex_count) {
+Result<CodedIndices> encode_meshopt_indices(std::span<const std::uint32_t> indices, std::uint32_t vertex_count) {
     if (indices.empty()) return encode({}, vertex_count);
-    CodedIndices cache = encode(best_cache_order(indices, vertex_count), vertex_count);
+    Result<std::vector<std::uint32_t>> best = best_cache_order(indices, vertex_count);
+    if (!best) return best.error();
+    CodedIndices cache = encode(std::move(*best), vertex_count);
     std::vector<std::uint32_t> ordered(indices.size());
     meshopt_optimizeVertexCacheStrip(ordered.data(), indices.data(), indices.size(), vertex_count);
     CodedIndices strip = encode(std::move(ordered), vertex_count);
     return strip.bytes.size() < cache.bytes.size() ? strip : cache;
 }
 
-Meshlets make_meshlets(std::span<const std::uint32_t> indices, std::span<const float> positions) {
+Result<Meshlets> make_meshlets(std::span<const std::uint32_t> indices, std::span<const float> positions) {
     constexpr std::size_t kVertices = 64, kTriangles = 124;
     Meshlets out;
     if (indices.empty()) return out;
+    const auto vertex_count = static_cast<std::uint32_t>(positions.size() / 3);
+    if (const Result<void> good = check_valences(indices, vertex_count); !good) return good.error();
+    std::vector<float> scaled;
+    if (const float scale = down_scale(positions); scale != 1) {
+        constexpr float kMost = std::numeric_limits<float>::max();  // positions given as doubles may round to infinity
+        scaled.reserve(positions.size());
+        for (const float x : positions) scaled.push_back(std::clamp(x, -kMost, kMost) * scale);
+        positions = scaled;
+    }
+    if (const Result<void> good = check_places(indices, positions); !good) return good.error();
     const std::size_t most = meshopt_buildMeshletsBound(indices.size(), kVertices, kTriangles);
     std::vector<meshopt_Meshlet> meshlets(most);
     std::vector<unsigned int> vertices(most * kVertices);
@@ -67,6 +95,10 @@ Meshlets make_meshlets(std::span<const std::uint32_t> indices, std::span<const f
         for (unsigned i = 0; i < 3 * m.triangle_count; ++i) {
             out.indices.push_back(vertices[m.vertex_offset + corners[m.triangle_offset + i]]);
         }
+    }
+    if (out.indices.size() != indices.size()) {
+        return Error{ErrorCode::unsupported, fmt::format("meshoptimizer gives back {} of {} triangles",
+                                                         out.indices.size() / 3, indices.size() / 3)};
     }
     return out;
 }

@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "lrcore/base/result.h"
+
 namespace lr {
 
 /// A mesh's triangles in an order of the rival's choosing, and what they are stored in. `order[new] = old` vertex.
@@ -17,21 +19,24 @@ struct CodedIndices {
 
 /// meshopt_encodeIndexBuffer, in the better of meshopt_optimizeVertexCache's order and that for strips, vertices in the
 /// order in which they are used. Decoding starts at the first triangle. `indices` has no degenerate triangles.
-CodedIndices encode_meshopt_indices(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);
+/// Errors: those of check_valences.
+Result<CodedIndices> encode_meshopt_indices(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);
 
 /// meshopt_decodeIndexBuffer. False if `bytes` are no such stream of so many indices.
 bool decode_meshopt_indices(std::span<const std::uint8_t> bytes, std::span<std::uint32_t> indices);
 
-/// The triangles in the order that meshopt_optimizeVertexCache thinks best.
-std::vector<std::uint32_t> best_cache_order(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);
+/// The triangles in the order that meshopt_optimizeVertexCache thinks best. Errors: those of check_valences.
+Result<std::vector<std::uint32_t>> best_cache_order(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);
 
 /// meshopt_buildMeshlets, 64 vertices and 124 triangles each, as a mesh shader reads them: 16 bytes a meshlet, 4 for
-/// each of its vertices, 3 for each triangle, filled up to 4. `positions` has three a vertex.
+/// each of its vertices, 3 for each triangle, filled up to 4. `positions` has three a vertex. Positions
+/// above 2^30 are scaled down first, so that areas do not overflow.
+/// Errors: those of check_valences and check_places; unsupported (meshoptimizer loses triangles).
 struct Meshlets {
     std::size_t bytes = 0;
     std::vector<std::uint32_t> indices;  ///< as they come out, in the mesh's numbers
 };
-Meshlets make_meshlets(std::span<const std::uint32_t> indices, std::span<const float> positions);
+Result<Meshlets> make_meshlets(std::span<const std::uint32_t> indices, std::span<const float> positions);
 
 /// Bytes that zlib's deflate makes of `bytes`, at its best.
 std::size_t deflated_size(std::span<const std::byte> bytes);

@@ -2,6 +2,8 @@
 
 #include <meshoptimizer.h>
 
+#include "lrcore/baseline/limit.h"
+
 namespace lr {
 
 namespace {
@@ -24,12 +26,15 @@ std::vector<std::uint32_t> stripify(std::span<const std::uint32_t> ordered, std:
 
 }  // namespace
 
-Strips make_strips(std::span<const std::uint32_t> indices, std::uint32_t vertex_count) {
+Result<Strips> make_strips(std::span<const std::uint32_t> indices, std::uint32_t vertex_count) {
+    if (const Result<void> good = check_valences(indices, vertex_count); !good) return good.error();
     const std::vector<std::uint32_t> ordered = strip_order(indices, vertex_count);
-    return {stripify(ordered, vertex_count, kStripRestart), stripify(ordered, vertex_count, 0)};
+    return Strips{stripify(ordered, vertex_count, kStripRestart), stripify(ordered, vertex_count, 0)};
 }
 
-std::vector<std::uint32_t> make_restart_strip(std::span<const std::uint32_t> indices, std::uint32_t vertex_count) {
+Result<std::vector<std::uint32_t>> make_restart_strip(std::span<const std::uint32_t> indices,
+                                                      std::uint32_t vertex_count) {
+    if (const Result<void> good = check_valences(indices, vertex_count); !good) return good.error();
     return stripify(strip_order(indices, vertex_count), vertex_count, kStripRestart);
 }
 

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "lrcore/base/result.h"
+
 namespace lr {
 
 constexpr std::uint32_t kStripRestart = UINT32_MAX;
@@ -15,10 +17,12 @@ struct Strips {
 };
 
 /// meshopt_optimizeVertexCacheStrip, then meshopt_stripify both ways. `indices` has no degenerate triangles.
-Strips make_strips(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);
+/// Errors: those of check_valences.
+Result<Strips> make_strips(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);
 
-/// The first of them alone: what an engine that wants strips would run.
-std::vector<std::uint32_t> make_restart_strip(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);
+/// The first of them alone: what an engine that wants strips would run. Errors: those of check_valences.
+Result<std::vector<std::uint32_t>> make_restart_strip(std::span<const std::uint32_t> indices,
+                                                      std::uint32_t vertex_count);
 
 /// The triangles of a strip list as an index list (meshopt_unstripify). With `restart`, kStripRestart separates strips.
 std::vector<std::uint32_t> unstrip(std::span<const std::uint32_t> strip, bool restart);

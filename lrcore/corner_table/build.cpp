@@ -9,13 +9,16 @@ namespace lr {
 
 Result<CornerTable> build_corner_table(std::span<const std::uint32_t> indices, std::uint32_t vertex_count) {
     constexpr std::uint32_t kMostVertices = 1U << 29;
-    constexpr std::size_t kMostTriangles = UINT32_MAX / 3 - 1;
+    // split_fans adds at most one vertex a corner: the sum must not exceed 32 bits.
+    constexpr std::size_t kMostCorners = UINT32_MAX - 1;
     if (vertex_count > kMostVertices) {
-        return Error{ErrorCode::too_large, fmt::format("{} vertices; at most {} are supported", vertex_count, kMostVertices)};
-    }
-    if (indices.size() / 3 > kMostTriangles) {
         return Error{ErrorCode::too_large,
-                     fmt::format("{} triangles; at most {} are supported", indices.size() / 3, kMostTriangles)};
+                     fmt::format("{} vertices; at most {} are supported", vertex_count, kMostVertices)};
+    }
+    if (indices.size() > kMostCorners - vertex_count) {
+        return Error{ErrorCode::too_large,
+                     fmt::format("{} triangles; at most {} are supported with {} vertices", indices.size() / 3,
+                                 (kMostCorners - vertex_count) / 3, vertex_count)};
     }
     CornerTable table;
     table.vertex_count = vertex_count;

@@ -69,7 +69,8 @@ struct CornerTable {
 /// Edges of two triangles are joined; at an edge of more, opposed half-edges are paired so that few vertices split into
 /// several fans (after Rossignac and Cardoze's Matchmaker). Orientation is made consistent per component where it can be.
 /// Cost: O(T) time; 24 bytes a triangle, and 26 more while it runs.
-/// Errors: too_large (2^29 vertices, or 2^32 / 3 triangles), malformed (index out of range). Untrusted input: safe.
+/// Errors: too_large (2^29 vertices; or 2^32 corners and vertices together), malformed (index out of range). Untrusted
+/// input: safe.
 Result<CornerTable> build_corner_table(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);
 
 /// Checks V and O against each other: involution, shared edges opposed, no degenerate joined. Empty if all is well.

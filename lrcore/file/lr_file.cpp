@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
-#include <memory>
 #include <numeric>
 
 #include "lrcore/base/bits.h"
 #include "lrcore/base/crc32.h"
 #include "lrcore/base/file.h"
+#include "lrcore/base/signature.h"
 #include "lrcore/lean/lean_stream.h"
 #include "lrcore/lr/lr_stream.h"
 #include "lrcore/packed/packed_stream.h"
@@ -23,13 +22,13 @@ namespace {
 static_assert(std::endian::native == std::endian::little, ".lr files are little-endian");
 
 constexpr std::uint32_t kMagic = 0x4c46524c;  // "LRFL"
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 enum Kind : std::uint32_t {
     kLean = 1,
     kAttribute = 2,
     kVertexOrder = 3,
-    kTriangleOrder = 4,
+    kCornerOrder = 4,
     kLr = 5,
     kLrCompact = 6,
     kPacked = 7
@@ -41,12 +40,13 @@ struct FileHeader {
     std::uint32_t header_crc;  // of the seven words before
 };
 static_assert(sizeof(FileHeader) == 32);
+static_assert(kMagic == magic::kLrFile);
 
 struct Section {
     std::uint32_t kind;
     std::uint32_t crc;  // of the contents
     std::uint64_t offset, size;
-    std::uint32_t layout;       // attributes: type | components << 8 | normalized << 16
+    std::uint32_t layout;       // attributes: type | components << 8 | normalized << 16 | v_up << 17
     std::uint32_t name_length;  // attributes: the contents begin with the name, padded with zeros to 8 bytes
 };
 static_assert(sizeof(Section) == 32);
@@ -64,7 +64,7 @@ Error malformed(std::string message) { return {ErrorCode::malformed, "lr file: "
 struct Decoded {
     std::uint32_t vertices = 0;
     std::vector<std::uint32_t> indices;
-    std::vector<bool> copy;  // empty if none is
+    std::vector<bool> copy;  // empty if there is none; vertices beyond its end are no copies
 };
 
 Result<Decoded> decode(const LrFile& file, bool untrusted) {
@@ -73,7 +73,7 @@ Result<Decoded> decode(const LrFile& file, bool untrusted) {
         if (!stream) return stream.error();
         out.vertices = stream->view.vertices;
         out.indices = decode_lr(*stream);
-        if (!stream->copies.empty()) out.copy.assign(out.vertices, false);
+        if (!stream->copies.empty()) out.copy.assign(stream->view.used_vertices(), false);
         for (std::size_t i = 0; i < stream->copies.size(); i += 2) out.copy[stream->copies[i]] = true;
         return out;
     };
@@ -110,9 +110,18 @@ void remove_copies(const Decoded& decoded, std::vector<std::uint32_t>& values) {
     if (decoded.copy.empty()) return;
     std::size_t kept = 0;
     for (std::size_t v = 0; v < values.size(); ++v) {
-        if (!decoded.copy[v]) values[kept++] = values[v];
+        if (v >= decoded.copy.size() || !decoded.copy[v]) values[kept++] = values[v];
     }
     values.resize(kept);
+}
+
+/// Empty if the bytes begin as an .lr file, else an error message that names their kind if it is known.
+std::string not_an_lr_file(std::span<const std::byte> bytes) {
+    std::uint32_t magic_number = 0;
+    if (bytes.size() >= sizeof magic_number) std::memcpy(&magic_number, bytes.data(), sizeof magic_number);
+    if (magic_number == kMagic) return {};
+    const std::string_view kind = kind_by_signature(bytes);
+    return kind.empty() ? "not an .lr file" : fmt::format("not an .lr file: it looks like {}", kind);
 }
 
 /// Checks header and section table and calls visit(section, contents) for each section; what visit returns, if not empty,
@@ -120,9 +129,9 @@ void remove_copies(const Decoded& decoded, std::vector<std::uint32_t>& values) {
 template <class Visit>
 Result<FileHeader> visit_sections(std::span<const std::byte> bytes, Visit visit) {
     FileHeader header;
+    if (std::string why = not_an_lr_file(bytes); !why.empty()) return Error{ErrorCode::malformed, std::move(why)};
     if (bytes.size() < sizeof header) return malformed("shorter than its header");
     std::memcpy(&header, bytes.data(), sizeof header);
-    if (header.magic != kMagic) return malformed("wrong magic number");
     if (header.version != kVersion) return malformed(fmt::format("version {} is not {}", header.version, kVersion));
     if (header.header_crc != crc32(bytes.first(28)) || header.reserved != 0) return malformed("damaged header");
     const std::uint64_t table = std::uint64_t{header.sections} * sizeof(Section);
@@ -171,7 +180,7 @@ class Reader {
             case kLrCompact:
             case kPacked: file_.format = Connectivity{section.kind}; return read_words(contents, file_.words);
             case kVertexOrder: return read_words(contents, file_.vertex_order);
-            case kTriangleOrder: return read_words(contents, file_.triangle_order);
+            case kCornerOrder: return read_words(contents, file_.corner_order);
             case kAttribute: return read_attribute(section, contents);
             default: return fmt::format("unknown kind {}", section.kind);
         }
@@ -190,7 +199,8 @@ class Reader {
         const std::uint32_t type = section.layout & 0xff;
         attribute.components = static_cast<std::uint8_t>(section.layout >> 8 & 0xff);
         attribute.normalized = (section.layout >> 16 & 1) != 0;
-        if (type > static_cast<std::uint32_t>(ComponentType::f64) || attribute.components == 0 || section.layout >> 17 != 0) {
+        attribute.v_up = (section.layout >> 17 & 1) != 0;
+        if (type > static_cast<std::uint32_t>(ComponentType::f64) || attribute.components == 0 || section.layout >> 18 != 0) {
             return "unknown attribute layout";
         }
         attribute.type = static_cast<ComponentType>(type);
@@ -217,7 +227,7 @@ class Reader {
             (file_.attributes[0].type != ComponentType::f32 && file_.attributes[0].type != ComponentType::f64)) {
             return "the first attribute is not POSITION";
         }
-        if (!finite(file_.attributes[0])) return "a position is not finite";
+        if (!finite(file_.attributes[0])) return "a position is not finite as a float";
         if (!file_.vertex_order.empty()) {
             if (file_.vertex_order.size() != file_.vertex_count) return "the vertex order has another size";
             std::vector<std::uint32_t> order = file_.vertex_order;
@@ -225,12 +235,15 @@ class Reader {
             const auto kept = static_cast<std::uint32_t>(order.size());
             if (!permutation_into(order, kept, kept)) return "the vertex order is no permutation";
         }
-        if (!file_.triangle_order.empty() && !permutation_into(file_.triangle_order, triangles, file_.input_triangles)) {
-            return "the triangle order is no permutation";
+        if (!file_.corner_order.empty()) {
+            std::vector<std::uint32_t> order = file_.corner_order;
+            for (std::uint32_t& corner : order) corner /= 3;
+            if (!permutation_into(order, triangles, file_.input_triangles)) return "the corner order is no permutation";
         }
         return {};
     }
 
+    /// As floats: what draws or exports a mesh has no other.
     static bool finite(const Attribute& attribute) {
         const std::size_t size = size_of(attribute.type);
         for (std::size_t i = 0; i < attribute.data.size(); i += size) {
@@ -242,7 +255,7 @@ class Reader {
                 std::memcpy(&single, attribute.data.data() + i, sizeof single);
                 value = static_cast<double>(single);
             }
-            if (!std::isfinite(value)) return false;
+            if (!std::isfinite(static_cast<float>(value))) return false;
         }
         return true;
     }
@@ -268,6 +281,28 @@ class Reader {
 
 }  // namespace
 
+namespace {
+
+/// The input's corner that each decoded triangle begins with. `triangles` are those of the input, in decoded order.
+std::vector<std::uint32_t> find_corners(const Mesh& mesh, const LrFile& file, std::span<const std::uint32_t> triangles,
+                                        std::span<const std::uint32_t> vertex_order) {
+    const Result<Decoded> decoded = decode(file, false);
+    std::vector<std::uint32_t> out;
+    if (!decoded) return out;
+    out.reserve(decoded->indices.size() / 3);
+    for (const std::uint32_t t : triangles) {
+        if (t == UINT32_MAX) continue;
+        const std::uint32_t* now = decoded->indices.data() + 3 * out.size();
+        const std::uint32_t* before = mesh.indices.data() + std::size_t{3} * t;
+        std::uint32_t place = 0;  // its three vertices differ, so that one of them is it
+        while (place < 2 && before[place] != vertex_order[now[0]]) ++place;
+        out.push_back(3 * t + place);
+    }
+    return out;
+}
+
+}  // namespace
+
 LrFile make_lr_file(const Mesh& mesh, Connectivity format, std::vector<std::uint32_t> words,
                     std::vector<std::uint32_t> vertex_order, std::vector<std::uint32_t> triangle_order, bool keep_order) {
     LrFile file;
@@ -277,9 +312,8 @@ LrFile make_lr_file(const Mesh& mesh, Connectivity format, std::vector<std::uint
     file.words = std::move(words);
     file.attributes = permute_attributes(mesh.attributes, vertex_order);
     if (keep_order) {
+        file.corner_order = find_corners(mesh, file, triangle_order, vertex_order);
         file.vertex_order = std::move(vertex_order);
-        file.triangle_order = std::move(triangle_order);
-        std::erase(file.triangle_order, UINT32_MAX);
     }
     return file;
 }
@@ -297,13 +331,13 @@ std::vector<std::byte> serialize_lr(const LrFile& file) {
     for (const Attribute& attribute : file.attributes) {
         add(kAttribute, attribute.data);
         sections.back().layout = static_cast<std::uint32_t>(attribute.type) | std::uint32_t{attribute.components} << 8 |
-                                 (attribute.normalized ? 1U << 16 : 0U);
+                                 (attribute.normalized ? 1U << 16 : 0U) | (attribute.v_up ? 1U << 17 : 0U);
         sections.back().name_length = static_cast<std::uint32_t>(attribute.name.size());
         names.back().resize(align8(attribute.name.size()));
         std::memcpy(names.back().data(), attribute.name.data(), attribute.name.size());
     }
     if (!file.vertex_order.empty()) add(kVertexOrder, std::as_bytes(std::span(file.vertex_order)));
-    if (!file.triangle_order.empty()) add(kTriangleOrder, std::as_bytes(std::span(file.triangle_order)));
+    if (!file.corner_order.empty()) add(kCornerOrder, std::as_bytes(std::span(file.corner_order)));
 
     std::size_t end = sizeof(FileHeader) + sections.size() * sizeof(Section);
     for (std::size_t i = 0; i < sections.size(); ++i) {
@@ -342,12 +376,36 @@ Result<LrFile> read_lr(const std::filesystem::path& path) {
     return parse_lr(*bytes);
 }
 
-bool is_lr(const std::filesystem::path& path) {
-    std::error_code status;
-    if (!std::filesystem::is_regular_file(path, status)) return false;
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
+bool is_lr(std::span<const std::byte> bytes) {
     std::uint32_t magic = 0;
-    return file && std::fread(&magic, sizeof magic, 1, file.get()) == 1 && magic == kMagic;
+    if (bytes.size() < sizeof magic) return false;
+    std::memcpy(&magic, bytes.data(), sizeof magic);
+    return magic == kMagic;
+}
+
+Result<LrContents> list_lr(std::span<const std::byte> bytes) {
+    LrContents out;
+    const Result<FileHeader> header = visit_sections(
+        bytes, [&](const FileHeader&, const Section& section, std::span<const std::byte> contents) -> std::string {
+            constexpr const char* kNames[] = {"",           "lean",         "attribute", "vertex_order",
+                                              "corner_order", "lr", "lr_compact", "packed"};
+            if (section.kind == 0 || section.kind >= std::size(kNames)) return fmt::format("unknown kind {}", section.kind);
+            LrSection& listed = out.sections.emplace_back();
+            listed.kind = kNames[section.kind];
+            listed.bytes = section.size;
+            if (section.kind != kAttribute) return {};
+            if (section.name_length > contents.size()) return "attribute of the wrong size";
+            listed.name.assign(reinterpret_cast<const char*>(contents.data()), section.name_length);
+            listed.type = static_cast<ComponentType>(std::min(section.layout & 0xffU, 7U));
+            listed.components = static_cast<std::uint8_t>(section.layout >> 8 & 0xff);
+            return {};
+        });
+    if (!header) return header.error();
+    out.version = header->version;
+    out.vertices = header->vertices;
+    out.input_triangles = header->input_triangles;
+    out.bytes = bytes.size();
+    return out;
 }
 
 Result<ConnectivityWords> connectivity_in(std::span<const std::byte> bytes) {
@@ -398,7 +456,7 @@ Mesh decode_lr(const LrFile& file) {
 
 Result<Mesh> decode_lr_original_order(const LrFile& file) {
     Mesh stream = decode_lr(file);
-    if (file.vertex_order.size() != file.vertex_count || file.triangle_order.size() != stream.triangle_count()) {
+    if (file.vertex_order.size() != file.vertex_count || file.corner_order.size() != stream.triangle_count()) {
         return Error{ErrorCode::invalid_argument, "the file does not keep the input's order (encode --keep-order does)"};
     }
     const Result<Decoded> decoded = decode(file, false);
@@ -411,15 +469,18 @@ Result<Mesh> decode_lr_original_order(const LrFile& file) {
     Mesh mesh;
     mesh.vertex_count = stream.vertex_count;
     mesh.attributes = permute_attributes(stream.attributes, number);
-    std::vector<std::uint32_t> by_input(file.triangle_order.size());
+    std::vector<std::uint32_t> by_input(file.corner_order.size());
     std::iota(by_input.begin(), by_input.end(), 0U);
     std::sort(by_input.begin(), by_input.end(),
-              [&](std::uint32_t a, std::uint32_t b) { return file.triangle_order[a] < file.triangle_order[b]; });
-    mesh.indices.reserve(stream.indices.size());
+              [&](std::uint32_t a, std::uint32_t b) { return file.corner_order[a] < file.corner_order[b]; });
+    mesh.indices.resize(stream.indices.size());
+    std::uint32_t* out = mesh.indices.data();
     for (const std::uint32_t i : by_input) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            mesh.indices.push_back(vertex_order[stream.indices[std::size_t{3} * i + k]]);
+        const std::uint32_t first = file.corner_order[i] % 3;
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            out[(first + k) % 3] = vertex_order[stream.indices[std::size_t{3} * i + k]];
         }
+        out += 3;
     }
     return mesh;
 }

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "lrcore/base/result.h"
@@ -24,12 +25,14 @@ struct LrFile {
     std::vector<std::uint32_t> words;   ///< the connectivity, its own header included (lean_format.h, lr_stream.h, packed_format.h)
     std::vector<Attribute> attributes;  ///< in ring order, one value for each of vertex_count
     std::vector<std::uint32_t> vertex_order;    ///< vertex_order[new] = old; empty unless kept
-    std::vector<std::uint32_t> triangle_order;  ///< triangle_order[i] = input triangle of the i-th decoded; empty unless kept
+    /// corner_order[i] = 3 * triangle + place: the corner of the input's index list that the i-th triangle decoded begins
+    /// with; empty unless kept.
+    std::vector<std::uint32_t> corner_order;
 };
 
-/// An encoded mesh. words, vertex_order (a permutation, but for the old numbers that copies repeat) and triangle_order (in
-/// the order in which the words decode, UINT32_MAX for degenerate slots) are kept only with `keep_order`: 4 bytes a vertex
-/// and 4 a triangle.
+/// An encoded mesh. vertex_order is a permutation, but for the old numbers that copies repeat; triangle_order is in the order
+/// in which the words decode, UINT32_MAX for degenerate slots. The way back to the input's order is kept only with
+/// `keep_order`: 4 bytes a vertex and 4 a triangle. Cost: O(T), or O(T) more with `keep_order`.
 LrFile make_lr_file(const Mesh& mesh, Connectivity format, std::vector<std::uint32_t> words,
                     std::vector<std::uint32_t> vertex_order, std::vector<std::uint32_t> triangle_order, bool keep_order);
 
@@ -43,8 +46,26 @@ Result<LrFile> parse_lr(std::span<const std::byte> bytes);
 Result<void> write_lr(const LrFile& file, const std::filesystem::path& path);
 Result<LrFile> read_lr(const std::filesystem::path& path);
 
-/// Does the file begin as .lr files do? False where it cannot be read.
-bool is_lr(const std::filesystem::path& path);
+/// Do the bytes begin as an .lr file does?
+bool is_lr(std::span<const std::byte> bytes);
+
+/// What a file consists of, in its own order.
+struct LrSection {
+    std::string kind;  ///< "lean", "packed", "lr", "lr_compact", "attribute", "vertex_order" or "corner_order"
+    std::string name;  ///< of an attribute
+    ComponentType type = ComponentType::f32;
+    std::uint8_t components = 0;
+    std::uint64_t bytes = 0;  ///< of its contents
+};
+struct LrContents {
+    std::uint32_t version = 0;
+    std::uint32_t vertices = 0;         ///< copies included
+    std::uint32_t input_triangles = 0;  ///< degenerate ones included
+    std::uint64_t bytes = 0;            ///< of the whole file
+    std::vector<LrSection> sections;
+};
+/// Checks the structure of the file, not what is in the sections. Errors: malformed. Untrusted input: safe.
+Result<LrContents> list_lr(std::span<const std::byte> bytes);
 
 /// The connectivity's words where they lie in a file's bytes (memory-mapped, at an address that is a multiple of 8), for
 /// view_lean, view_packed, view_lr or view_compact_lr. Checks the structure of the file, not the words: validate them, or trust them.
@@ -58,8 +79,8 @@ Result<ConnectivityWords> connectivity_in(std::span<const std::byte> bytes);
 /// Decodes to a mesh in stream order, copies of non-manifold vertices left out again. `file` is valid (parse_lr checked it, or make_lr_file made it).
 Mesh decode_lr(const LrFile& file);
 
-/// Decodes to the input's order of vertices and triangles; triangles are rotated, degenerate ones missing.
-/// Errors: invalid_argument if the permutations were not kept.
+/// Decodes to the input's index list: its order of vertices and of triangles, each beginning with its first corner.
+/// Degenerate triangles are missing. Errors: invalid_argument if the order was not kept.
 Result<Mesh> decode_lr_original_order(const LrFile& file);
 
 }  // namespace lr

@@ -1,12 +1,12 @@
 // LR 2011, section 7, with the wart skipping of section 5. Differs from the paper:
 // - a ring that has triangles on (almost) one side only stores the left side alone, the few others go verbatim. The
-// left
-//   side is a tree of triangles, more than a third of which have a ring edge, so this is never worse than storing them
-//   all verbatim: no mesh takes more than three references a triangle;
+//   left side is a tree of triangles, more than a third of which have a ring edge, so this is never worse than storing
+//   them all verbatim: no mesh takes more than three references a triangle;
 // - a ring is rotated so that its closing edge has a free slot (a border, or a T2's redundant copy), which holds the
-// ring's
-//   first vertex: several components cost nothing;
+//   ring's first vertex: several components cost nothing;
 // - a triangle that was turned round to orient the mesh has a flag in its word.
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -25,6 +25,8 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "streams are little-endian words");
 
 constexpr std::uint32_t kNone = UINT32_MAX;
+constexpr std::uint32_t kMostVertices = LR_LEAN_TIP_MASK + 1;
+constexpr std::uint32_t kMostSlots = UINT32_MAX / 3;  // three indices a slot, numbered by 32 bits
 
 /// How many sides of a ring are stored as slots: the left one, or both.
 using Sides = std::uint32_t;
@@ -38,7 +40,11 @@ class Encoder {
           rung_(table.triangle_count()),
           covered_(table.triangle_count()) {}
 
-    LeanStream encode() {
+    Result<LeanStream> encode() {
+        if (table_.vertex_count > kMostVertices) {
+            return Error{ErrorCode::too_large, fmt::format("{} vertices; a lean stream numbers at most {}",
+                                                           table_.vertex_count, kMostVertices)};
+        }
         for (const RingEdge& edge : rings_.edges) {
             rung_.set(triangle(edge.left).value);
             if (!edge.right.is_null()) rung_.set(triangle(edge.right).value);
@@ -64,6 +70,10 @@ class Encoder {
             }
         }
         const std::uint32_t verbatim = emit_verbatim();
+        if (out_.slot_triangle.size() > kMostSlots) {
+            return Error{ErrorCode::too_large,
+                         fmt::format("{} slots; a lean stream has at most {}", out_.slot_triangle.size(), kMostSlots)};
+        }
         renumber();
         write_header(rings2, rings1, verbatim);
         return std::move(out_);
@@ -261,7 +271,7 @@ class Encoder {
 
 }  // namespace
 
-LeanStream encode_lean(const CornerTable& table, const Rings& rings, const LeanOptions& options) {
+Result<LeanStream> encode_lean(const CornerTable& table, const Rings& rings, const LeanOptions& options) {
     return Encoder(table, rings, options).encode();
 }
 

@@ -43,8 +43,9 @@ struct LeanStream {
 };
 
 /// Encodes every triangle of the table that is not degenerate.
-/// Cost: O(T) time; 4 bytes a reference for the words, 4 for slot_triangle, 4 a vertex for vertex_order, 4 while it runs.
-LeanStream encode_lean(const CornerTable& table, const Rings& rings, const LeanOptions& options = {});
+/// Cost: O(T) time; 4 bytes a reference for the words, 4 for slot_triangle, 4 a vertex for vertex_order, 4 while it
+/// runs. Errors: too_large (2^29 vertices, or 2^32 / 3 slots).
+Result<LeanStream> encode_lean(const CornerTable& table, const Rings& rings, const LeanOptions& options = {});
 
 /// A lean stream somewhere in memory, its header read. Holds no copy.
 struct LeanView {

@@ -3,13 +3,18 @@
 #include <fmt/format.h>
 
 #include "lrcore/base/crc32.h"
+#include "lrcore/base/signature.h"
 #include "lrcore/lean/lean_format.h"
 #include "lrcore/lean/lean_stream.h"
 
 namespace lr {
 namespace {
 
-Error malformed(std::string message) { return {ErrorCode::malformed, "lean stream: " + std::move(message)}; }
+static_assert(LR_LEAN_MAGIC == magic::kLean);
+
+Error malformed(std::string message) {
+    return {ErrorCode::malformed, "lean stream: " + std::move(message)};
+}
 
 /// Checks the rings of one section. Ring vertices are begin..end-1, with `sides` words each.
 class SectionChecker {
@@ -78,7 +83,9 @@ class SectionChecker {
 
 }  // namespace
 
-std::size_t LeanView::bytes() const { return (LR_LEAN_HEADER_WORDS + references()) * sizeof(std::uint32_t); }
+std::size_t LeanView::bytes() const {
+    return (LR_LEAN_HEADER_WORDS + references()) * sizeof(std::uint32_t);
+}
 
 std::uint32_t lean_checksum(std::span<const std::uint32_t> words) {
     const std::uint32_t header = crc32(std::as_bytes(words.first(LR_LEAN_WORD_CHECKSUM)));
@@ -87,7 +94,7 @@ std::uint32_t lean_checksum(std::span<const std::uint32_t> words) {
 
 Result<LeanView> view_lean(std::span<const std::uint32_t> words) {
     if (words.size() < LR_LEAN_HEADER_WORDS) return malformed("shorter than its header");
-    if (words[LR_LEAN_WORD_MAGIC] != LR_LEAN_MAGIC) return malformed("wrong magic number");
+    if (words[LR_LEAN_WORD_MAGIC] != LR_LEAN_MAGIC) return malformed(wrong_magic(words, "a lean stream"));
     if (words[LR_LEAN_WORD_VERSION] != LR_LEAN_VERSION) {
         return malformed(fmt::format("version {} is not {}", words[LR_LEAN_WORD_VERSION], LR_LEAN_VERSION));
     }
@@ -104,7 +111,8 @@ Result<LeanView> view_lean(std::span<const std::uint32_t> words) {
     if (references != view.payload.size()) {
         return malformed(fmt::format("{} references, where the header says {}", view.payload.size(), references));
     }
-    if (std::uint64_t{2} * view.rings2 + view.rings1 + view.verbatim > UINT32_MAX / 3) return malformed("too many slots");
+    if (std::uint64_t{2} * view.rings2 + view.rings1 + view.verbatim > UINT32_MAX / 3)
+        return malformed("too many slots");
     return view;
 }
 

@@ -27,7 +27,7 @@ class Builder {
           number_(table.vertex_count, UINT32_MAX),
           place_(std::make_unique_for_overwrite<std::uint32_t[]>(table.triangle_count())) {}
 
-    LrTable build(LrMap* map) {
+    Result<LrTable> build(LrMap* map) {
         out_.vertices = table_.vertex_count;
         out_.ring_vertices = static_cast<std::uint32_t>(rings_.edges.size());
         out_.lr.resize(2 * rings_.edges.size());
@@ -35,6 +35,9 @@ class Builder {
         for (std::size_t r = 0; r < rings_.count(); ++r) place_ring(rings_.ring(r), rings_.first[r]);
         out_.statistics.t0_wart = static_cast<std::uint32_t>(warts_.size());
         number_t0();
+        if (std::uint64_t{8} * out_.ring_vertices + std::uint64_t{4} * t0_.size() > UINT32_MAX) {
+            return Error{ErrorCode::too_large, "more corners than 32 bits number"};
+        }
         number_isolated();
         // Until here words hold the corner table's vertices.
         for (std::size_t i = 0; i < out_.lr.size(); ++i) {
@@ -44,7 +47,7 @@ class Builder {
         }
         fill_t0();
         mark_irregular();
-        fill_irregular();
+        if (!fill_irregular()) return Error{ErrorCode::too_large, "VO* outgrows its 28-bit index"};
         if (map != nullptr) fill(*map);
         return std::move(out_);
     }
@@ -248,12 +251,14 @@ class Builder {
         for (const CornerId c : irregular) mark(c);
     }
 
-    void fill_irregular() {
+    /// Returns false if VO* outgrows its index.
+    bool fill_irregular() {
         std::vector<Slot> irregular;
         for_slots([](std::uint32_t w) { return (w & word::kIrregular) != 0; },
                   [&](std::uint32_t slot, CornerId tip) {
                       irregular.push_back({slot, tip});
                   });
+        if (irregular.size() * 3 > word::kTip) return false;
         out_.star.reserve(irregular.size() * 3);
         for (std::size_t i = 0; i < irregular.size(); ++i) {
             if (i + kAhead < irregular.size()) fetch(irregular[i + kAhead].tip);
@@ -272,6 +277,7 @@ class Builder {
                 out_.star[k] = lr_corner({out_.star[k]}).value;
             }
         }
+        return true;
     }
     void fetch_place(CornerId c) const {
         if (!c.is_null()) __builtin_prefetch(&place_[triangle(c).value]);
@@ -346,12 +352,7 @@ Result<LrTable> build_lr(const CornerTable& table, const Rings& rings, const LrO
         return Error{ErrorCode::too_large,
                      fmt::format("{} vertices; LR tables number at most {}", table.vertex_count, word::kTip - 1)};
     }
-    LrTable out = Builder(table, rings, options).build(map);
-    if (std::uint64_t{8} * out.ring_vertices + std::uint64_t{4} * (out.vo.size() / 6) > UINT32_MAX) {
-        return Error{ErrorCode::too_large, "more corners than 32 bits number"};
-    }
-    if (out.star.size() > word::kTip) return Error{ErrorCode::too_large, "VO* outgrows its 28-bit index"};
-    return out;
+    return Builder(table, rings, options).build(map);
 }
 
 }  // namespace lr

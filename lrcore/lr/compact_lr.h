@@ -15,6 +15,7 @@
 // v+2, a redundant T2 over a ring's end, a closing edge and a triangle that was turned round take a record. T0,
 // isolated vertices and all numbering are as in the standard representation.
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -116,8 +117,8 @@ struct CompactLrView {
         return row(l, fan.left_count, 0) && row(r, fan.right_count, 1);
     }
 
-    std::uint32_t t0_vertex(std::uint32_t i) const { return vo[i / 3 * 6 + i % 3] & ~word::kT0Flip; }
-    std::uint32_t t0_opposite(std::uint32_t i) const { return vo[i / 3 * 6 + 3 + i % 3]; }
+    std::uint32_t t0_vertex(std::uint32_t i) const { return vo[std::size_t{i / 3} * 6 + i % 3] & ~word::kT0Flip; }
+    std::uint32_t t0_opposite(std::uint32_t i) const { return vo[std::size_t{i / 3} * 6 + 3 + i % 3]; }
     std::uint32_t isolated_corner(std::uint32_t i) const { return c[i]; }
 
     /// Do the slots first .. first + count - 1 have the plain tip v? Four at most. False where one of their words

@@ -35,9 +35,10 @@ struct LrStream {
 Result<LrStream<LrView>> view_lr(std::span<const std::uint32_t> words);
 Result<LrStream<CompactLrView>> view_compact_lr(std::span<const std::uint32_t> words);
 
-/// Checks the checksum, every reference, that the rings tile and close, and that every operator's result is one of the
-/// mesh's elements and is undone by its inverse: then each operator stays in bounds and each walk around a vertex ends.
-/// Cost: O(T). Untrusted input: safe.
+/// Checks the checksum and every reference; that rings tile and close; that opposite is an involution; that the star of
+/// each used vertex has all corners of the vertex; and that near_neighbours agrees with the stars. Then each operator
+/// stays in bounds, ends, and agrees with the others. Cost: O(T), and the neighbors of one vertex in memory.
+/// Untrusted input: safe.
 Result<LrStream<LrView>> validate_lr(std::span<const std::uint32_t> words);
 Result<LrStream<CompactLrView>> validate_compact_lr(std::span<const std::uint32_t> words);
 

@@ -5,6 +5,7 @@
 // triangle. Triangle 2v is (v, L[v], v.n), triangle 2v+1 is (v.n, R[v], v), triangles from 2 ring_vertices on are T0.
 // Corners are 8v+0, 1, 2 (left: v, v.l, v.n) and 8v+4, 5, 6 (right: v.n, v.r, v); T0 triangle t has 4t, 4t+1, 4t+2.
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -89,8 +90,8 @@ struct LrView {
     static bool skips(std::uint32_t w) { return (w & (word::kSpecial | word::kWart)) == word::kWart; }
     static bool closing(std::uint32_t w) { return (w & word::kKind) == word::kClosing; }
 
-    std::uint32_t t0_vertex(std::uint32_t i) const { return vo[i / 3 * 6 + i % 3] & ~word::kT0Flip; }
-    std::uint32_t t0_opposite(std::uint32_t i) const { return vo[i / 3 * 6 + 3 + i % 3]; }
+    std::uint32_t t0_vertex(std::uint32_t i) const { return vo[std::size_t{i / 3} * 6 + i % 3] & ~word::kT0Flip; }
+    std::uint32_t t0_opposite(std::uint32_t i) const { return vo[std::size_t{i / 3} * 6 + 3 + i % 3]; }
     std::uint32_t isolated_corner(std::uint32_t i) const { return c[i]; }
 
     /// Do the slots first .. first + count - 1 have the plain tip v? Four at most; no branch on how many.

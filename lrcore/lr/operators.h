@@ -173,6 +173,19 @@ class LrOperators {
     /// border at last the other end. O(valence).
     template <class Visit>
     void neighbours(VertexId v, Visit visit) const {
+        if (near_neighbours(v, visit)) return;
+        CornerId last = null_corner;
+        star(v, [&](CornerId c) {
+            visit(vertex(next(c)));
+            last = c;
+        });
+        if (!last.is_null() && left(last).is_null()) visit(vertex(previous(last)));
+    }
+
+    /// Visits the same vertices in the same order and returns true, if the slots near v give them in constant time.
+    /// Else returns false and visits nothing; always so on a border. valence and star use the same shortcut.
+    template <class Visit>
+    bool near_neighbours(VertexId v, Visit visit) const {
         if constexpr (kHasFans) {
             typename Store::PlainFan fan;
             if (s_.plain_fan(v.value, fan)) {
@@ -181,7 +194,7 @@ class LrOperators {
                 for (std::uint32_t i = 0; i <= fan.right_count; ++i) visit(VertexId{fan.right + i});
                 visit(VertexId{v.value - 1});
                 for (std::uint32_t i = fan.left_count; i > 0; --i) visit(VertexId{fan.left + i});
-                return;
+                return true;
             }
             FanSide<Store> left, right;
             if (find_sides(v.value, left, right)) {
@@ -195,18 +208,13 @@ class LrOperators {
                 }
                 visit(VertexId{v.value + 1});
                 for (std::uint32_t i = 0; i < right.size; ++i) visit(VertexId{right.vertex[i]});
-                if (left.size == 0) return;
+                if (left.size == 0) return true;
                 visit(VertexId{v.value - 1});
                 for (std::uint32_t i = left.size - 1; i > first; --i) visit(VertexId{left.vertex[i]});
-                return;
+                return true;
             }
         }
-        CornerId last = null_corner;
-        star(v, [&](CornerId c) {
-            visit(vertex(next(c)));
-            last = c;
-        });
-        if (!last.is_null() && left(last).is_null()) visit(vertex(previous(last)));
+        return false;
     }
 
   private:

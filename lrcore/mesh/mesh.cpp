@@ -80,7 +80,7 @@ std::vector<Attribute> permute_attributes(std::span<const Attribute> attributes,
     std::vector<Attribute> out;
     out.reserve(attributes.size());
     for (const Attribute& from : attributes) {
-        Attribute to{from.name, from.type, from.components, from.normalized, {}};
+        Attribute to{from.name, from.type, from.components, from.normalized, {}, from.v_up};
         const std::size_t stride = from.stride();
         to.data.resize(order.size() * stride);
         for (std::size_t i = 0; i < order.size(); ++i) {

@@ -22,6 +22,7 @@ struct Attribute {
     std::uint8_t components = 3;
     bool normalized = false;  ///< integers stand for [0,1] or [-1,1]
     std::vector<std::byte> data;
+    bool v_up = false;  ///< of texture coordinates: v is 0 at the image's lower edge (OBJ), not at its upper one (glTF)
 
     std::size_t stride() const { return size_of(type) * components; }
 };

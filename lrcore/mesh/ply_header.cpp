@@ -124,10 +124,11 @@ class HeaderParser {
         if (!text.starts_with(ply_note_prefix)) return;
         TextScanner note(text.substr(ply_note_prefix.size()));
         PlyAttributeNote out;
-        int normalized = 0;
-        if (!parse_number(note.next_word(), out.components) || !parse_number(note.next_word(), normalized)) return;
+        unsigned flags = 0;
+        if (!parse_number(note.next_word(), out.components) || !parse_number(note.next_word(), flags)) return;
         note.skip_blanks();
-        out.normalized = normalized == 1;
+        out.normalized = (flags & 1U) != 0;
+        out.v_up = (flags & 2U) != 0;
         out.name = unescape_ply_name(text.substr(text.size() - note.remaining()));
         header_.notes.push_back(std::move(out));
     }
@@ -146,7 +147,7 @@ std::vector<PlyAttribute> plan_from_notes(const PlyElement& vertex, const std::v
     for (const PlyAttributeNote& note : notes) {
         if (note.components == 0 || note.components > vertex.properties.size() - next) return {};
         PlyAttribute entry;
-        entry.attribute = {note.name, vertex.properties[next].type, note.components, note.normalized, {}};
+        entry.attribute = {note.name, vertex.properties[next].type, note.components, note.normalized, {}, note.v_up};
         for (std::size_t i = 0; i < note.components; ++i, ++next) {
             const PlyProperty& property = vertex.properties[next];
             if (property.is_list || property.type != entry.attribute.type) return {};
@@ -216,7 +217,8 @@ class PropertyPlanner {
     void add(std::string_view name, ComponentType type, bool normalized, std::vector<std::size_t> properties) {
         for (const std::size_t i : properties) taken_[i] = true;
         const auto components = static_cast<std::uint8_t>(properties.size());
-        plan_.push_back({{std::string(name), type, components, normalized, {}}, std::move(properties)});
+        const bool v_up = name == "TEXCOORD_0";
+        plan_.push_back({{std::string(name), type, components, normalized, {}, v_up}, std::move(properties)});
     }
 
     const PlyElement& vertex_;

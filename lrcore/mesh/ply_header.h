@@ -28,11 +28,13 @@ struct PlyElement {
     std::vector<PlyProperty> properties;
 };
 
-/// What one line `comment lacedring attribute COMPONENTS NORMALIZED NAME` says: write_ply makes them, so that names and
-/// groups survive. The attributes take the vertex's properties in their order.
+/// What one line `comment lacedring attribute COMPONENTS FLAGS NAME` says: write_ply makes them, so that names and
+/// groups survive. The attributes take the vertex's properties in their order. FLAGS is 1 for a normalized attribute, and
+/// 2 more for one that is v_up.
 struct PlyAttributeNote {
     std::uint8_t components = 1;
     bool normalized = false;
+    bool v_up = false;
     std::string name;
 };
 

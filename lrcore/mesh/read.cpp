@@ -159,7 +159,7 @@ Result<void> Reading::check_memory(double vertices, double stride, double triang
     const double bytes = vertices * stride + triangles * (12.0 + options.triangle_bytes);
     if (bytes <= most) return {};
     constexpr double kMebibyte = 1024.0 * 1024;
-    return Error{ErrorCode::too_large, fmt::format("{:.0f} triangles take about {:.0f} MiB, and {:.0f} MiB are allowed",
+    return Error{ErrorCode::memory_limit, fmt::format("{:.0f} triangles take about {:.0f} MiB, and {:.0f} MiB are allowed",
                                                    triangles, bytes / kMebibyte, most / kMebibyte)};
 }
 

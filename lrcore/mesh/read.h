@@ -38,7 +38,7 @@ struct ReadReport {
 /// Reads glTF/GLB, OBJ, PLY, OFF/COFF or STL. Several meshes or primitives become one list of all triangles, node
 /// transforms applied, attributes kept where every primitive has them. Polygons are cut into triangles that cover them
 /// (docs/formats-read.md). STL vertices at one position are merged. `report`, if given, is filled even on an error.
-/// Errors: cannot_open, malformed, unsupported, too_large. Untrusted input: safe. Cost: O(what is read).
+/// Errors: cannot_open, malformed, unsupported, too_large, memory_limit. Untrusted input: safe. Cost: O(what is read).
 Result<Mesh> read_mesh(const std::filesystem::path& path, const ReadOptions& options = {},
                        ReadReport* report = nullptr);
 

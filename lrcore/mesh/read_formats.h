@@ -29,7 +29,7 @@ struct Reading {
 
     void leave_out(std::uint64_t count, std::string_view one, std::string_view many);
     /// Is there room for a mesh of so many vertices of `stride` bytes and so many triangles, read from `file_bytes`?
-    /// Doubles: a hostile file's counts overflow integers. Errors: too_large.
+    /// Doubles: a hostile file's counts overflow integers. Errors: memory_limit.
     Result<void> check_memory(double vertices, double stride, double triangles, double file_bytes) const;
 };
 

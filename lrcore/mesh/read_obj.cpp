@@ -338,7 +338,10 @@ class ObjReader {
             vt.resize(v.size(), none);
             vn.resize(v.size(), none);
             if (normals_.used()) mesh.attributes.push_back(gather("NORMAL", normals_, vn));
-            if (textures_.used()) mesh.attributes.push_back(gather("TEXCOORD_0", textures_, vt));
+            if (textures_.used()) {
+                mesh.attributes.push_back(gather("TEXCOORD_0", textures_, vt));
+                mesh.attributes.back().v_up = true;
+            }
         }
         if (!colors_.empty() && colors_.size() == vertices_.values.size()) {
             List colors{"color", 3, std::move(colors_), {}};

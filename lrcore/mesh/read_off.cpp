@@ -228,7 +228,10 @@ class OffReader {
             const std::size_t first = colors_first ? color_width_ : 0;
             mesh.attributes.push_back(float_attribute("NORMAL", 3, columns(others_, width, first, 3)));
         }
-        if (header_.texture) mesh.attributes.push_back(float_attribute("TEXCOORD_0", 2, textures_));
+        if (header_.texture) {
+            mesh.attributes.push_back(float_attribute("TEXCOORD_0", 2, textures_));
+            mesh.attributes.back().v_up = true;
+        }
         if (!header_.color) return;
         const std::vector<float> colors = columns(others_, width, colors_first ? 0 : normals, color_width_);
         Attribute color = float_attribute("COLOR_0", static_cast<std::uint8_t>(color_width_), colors);

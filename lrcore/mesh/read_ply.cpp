@@ -220,7 +220,8 @@ class PlyReader {
             const ComponentType type = entry.attribute.type;
             const bool is_position = mesh_.attributes.empty();
             entry.attribute.data.resize(stride * mesh_.vertex_count);
-            for (std::size_t i = 0; i < entry.properties.size(); ++i) {
+            // Without vertices there are no bytes to point at.
+            for (std::size_t i = 0; mesh_.vertex_count != 0 && i < entry.properties.size(); ++i) {
                 targets[entry.properties[i]] = {entry.attribute.data.data() + i * size_of(type), stride, type,
                                                 is_position};
             }

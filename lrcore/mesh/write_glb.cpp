@@ -1,15 +1,11 @@
-// GLB: one mesh, one primitive, one node. What glTF allows decides what becomes of the other attributes.
+// GLB: one mesh, one primitive, one node.
 
 #include <algorithm>
-#include <cctype>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <string>
 
-#include "lrcore/mesh/read_formats.h"
 #include "lrcore/mesh/write_formats.h"
 
 namespace lr::detail {
@@ -37,7 +33,7 @@ int gltf_component_type(ComponentType type) {
     }
 }
 
-/// glTF's name for that many components, or nullptr.
+/// glTF's name for that many components.
 const char* gltf_type(const Attribute& attribute) {
     switch (attribute.components) {
         case 1:
@@ -57,89 +53,19 @@ const char* gltf_type(const Attribute& attribute) {
     }
 }
 
-template <class From>
-bool to_floats(const Attribute& from, bool exact_only, Attribute& to) {
-    const std::size_t count = from.data.size() / sizeof(From);
-    to.data.resize(count * sizeof(float));
-    for (std::size_t i = 0; i < count; ++i) {
-        From value{};
-        std::memcpy(&value, from.data.data() + i * sizeof(From), sizeof(From));
-        const auto rounded = static_cast<float>(value);
-        if (exact_only && static_cast<double>(rounded) != static_cast<double>(value)) return false;
-        std::memcpy(to.data.data() + i * sizeof(float), &rounded, sizeof(float));
-    }
-    return true;
-}
-
-/// glTF has no doubles and no 32-bit integers but for indices: doubles are rounded, and integers become floats where
-/// every one of them stays what it is. false: the attribute cannot be kept.
-bool convert(const Attribute& from, Attribute& to) {
-    to = {from.name, ComponentType::f32, from.components, false, {}};
-    switch (from.type) {
-        case ComponentType::f64:
-            return to_floats<double>(from, false, to);
-        case ComponentType::i32:
-            return !from.normalized && to_floats<std::int32_t>(from, true, to);
-        case ComponentType::u32:
-            return !from.normalized && to_floats<std::uint32_t>(from, true, to);
-        default:
-            to = from;
-            return true;
-    }
-}
-
-enum class Fit { core, quantized, no };
-
-bool has_numbered_name(const std::string& name, std::string_view prefix) {
-    if (!name.starts_with(prefix) || name.size() == prefix.size()) return false;
-    return std::all_of(name.begin() + static_cast<std::ptrdiff_t>(prefix.size()), name.end(),
-                       [](char c) { return c >= '0' && c <= '9'; });
-}
-
-/// May an attribute of this name have this type? `quantized`: with KHR_mesh_quantization.
-Fit fit(const Attribute& a) {
-    const bool is_float = a.type == ComponentType::f32;
-    const bool is_signed = a.type == ComponentType::i8 || a.type == ComponentType::i16;
-    const bool is_unsigned = a.type == ComponentType::u8 || a.type == ComponentType::u16;
-    const auto choose = [](bool core, bool quantized) {
-        return core ? Fit::core : quantized ? Fit::quantized : Fit::no;
-    };
-    if (a.name == "POSITION") return choose(a.components == 3 && is_float, false);
-    if (a.name == "NORMAL") return a.components == 3 ? choose(is_float, is_signed && a.normalized) : Fit::no;
-    if (a.name == "TANGENT") return a.components == 4 ? choose(is_float, is_signed && a.normalized) : Fit::no;
-    if (has_numbered_name(a.name, "TEXCOORD_")) {
-        return a.components == 2 ? choose(is_float || (is_unsigned && a.normalized), is_signed || is_unsigned)
-                                 : Fit::no;
-    }
-    if (has_numbered_name(a.name, "COLOR_")) {
-        return choose((a.components == 3 || a.components == 4) && (is_float || (is_unsigned && a.normalized)), false);
-    }
-    if (has_numbered_name(a.name, "JOINTS_")) return choose(a.components == 4 && is_unsigned && !a.normalized, false);
-    if (has_numbered_name(a.name, "WEIGHTS_")) {
-        return choose(a.components == 4 && (is_float || (is_unsigned && a.normalized)), false);
-    }
-    return a.name.starts_with('_') ? Fit::core : Fit::no;
-}
-
 class GlbMaker {
   public:
     explicit GlbMaker(const Mesh& mesh) : mesh_(mesh) {}
 
-    Result<void> make(Bytes& head, Bytes& body) {
-        if (mesh_.indices.empty())
-            return Error{ErrorCode::invalid_argument, "GLB cannot hold a mesh without triangles"};
-        Json attributes = Json::object();
-        for (const Attribute& attribute : mesh_.attributes) {
-            Attribute converted;
-            if (!convert(attribute, converted) || gltf_type(converted) == nullptr) continue;
-            const Fit how = fit(converted);
-            quantized_ = quantized_ || how == Fit::quantized;
-            std::string name = how == Fit::no ? "_" + converted.name : converted.name;
-            while (attributes.contains(name)) name.insert(0, 1, '_');
-            if (name == "POSITION") {
-                if (auto good = add_bounds(converted); !good) return good;
-            }
-            attributes[name] = add_attribute(converted, name == "POSITION");
+    Result<void> make(Bytes& head, Bytes& body, WriteNotes& notes) {
+        Result<GltfAttributes> fitted = fit_to_gltf(mesh_, notes);
+        if (!fitted) return fitted.error();
+        quantized_ = fitted->quantized;
+        find_bounds(fitted->attributes.front());
+        nlohmann::json attributes = nlohmann::json::object();
+        for (const Attribute& attribute : fitted->attributes) {
+            const std::size_t accessor = add_attribute(attribute, attributes.empty());
+            attributes.emplace(attribute.name, accessor);
         }
         const std::size_t indices = add_indices();
         const std::string json = document(attributes, indices);
@@ -162,20 +88,16 @@ class GlbMaker {
   private:
     static void add_word(Bytes& to, std::uint32_t word) { append(to, std::as_bytes(std::span(&word, 1))); }
 
-    /// glTF wants the bounds of POSITION, and finite ones.
-    Result<void> add_bounds(const Attribute& position) {
+    /// glTF wants the bounds of POSITION.
+    void find_bounds(const Attribute& position) {
         low_.assign(3, std::numeric_limits<float>::infinity());
         high_.assign(3, -std::numeric_limits<float>::infinity());
         for (std::size_t i = 0; i < std::size_t{mesh_.vertex_count} * 3; ++i) {
             float value = 0;
             std::memcpy(&value, position.data.data() + i * sizeof(float), sizeof(float));
-            if (!std::isfinite(value)) {
-                return Error{ErrorCode::invalid_argument, fmt::format("vertex {} is not finite as floats", i / 3)};
-            }
             low_[i % 3] = std::min(low_[i % 3], value);
             high_[i % 3] = std::max(high_[i % 3], value);
         }
-        return {};
     }
 
     std::size_t add_attribute(const Attribute& attribute, bool is_position) {
@@ -226,7 +148,7 @@ class GlbMaker {
         return accessors_.size() - 1;
     }
 
-    std::string document(const Json& attributes, std::size_t indices) const {
+    std::string document(const nlohmann::json& attributes, std::size_t indices) const {
         Json out{{"asset", {{"version", "2.0"}, {"generator", "LacedRing"}}}};
         if (quantized_) {
             out["extensionsUsed"] = Json::array({"KHR_mesh_quantization"});
@@ -240,7 +162,7 @@ class GlbMaker {
         out["accessors"] = accessors_;
         out["bufferViews"] = views_;
         out["buffers"] = Json::array({Json{{"byteLength", bin_.size()}}});
-        std::string text = out.dump(-1, ' ', false, Json::error_handler_t::replace);  // names may be no UTF-8
+        std::string text = out.dump();
         text.resize((text.size() + 3) / 4 * 4, ' ');
         return text;
     }
@@ -256,8 +178,8 @@ class GlbMaker {
 
 }  // namespace
 
-Result<void> make_glb(const Mesh& mesh, Bytes& head, Bytes& body) {
-    return GlbMaker(mesh).make(head, body);
+Result<void> make_glb(const Mesh& mesh, Bytes& head, Bytes& body, WriteNotes& notes) {
+    return GlbMaker(mesh).make(head, body, notes);
 }
 
 }  // namespace lr::detail

@@ -6,62 +6,90 @@
 #include <cstring>
 #include <iterator>
 
+#include "lrcore/mesh/read_formats.h"
 #include "lrcore/mesh/write_formats.h"
 
 namespace lr::detail {
 namespace {
 
-template <class Real>
-void add_values(std::string_view keyword, const Attribute& attribute, std::size_t count, fmt::memory_buffer& out) {
-    for (std::size_t v = 0; v < count; ++v) {
-        out.append(keyword);
-        for (std::size_t i = 0; i < attribute.components; ++i) {
+/// Values of one attribute, as the lines of one keyword.
+struct Values {
+    const Attribute* attribute = nullptr;
+    bool turn_v = false;  ///< texture coordinates whose v is downwards: OBJ's is upwards
+
+    /// Of floats, and of so many components? Else it is not written.
+    static Values of(const Mesh& mesh, std::string_view name, std::size_t components) {
+        const Attribute* a = find_attribute(mesh, name);
+        const bool fits = a != nullptr && a->components == components &&
+                          (a->type == ComponentType::f32 || a->type == ComponentType::f64);
+        return fits ? Values{a, name == "TEXCOORD_0" && !a->v_up} : Values{};
+    }
+    explicit operator bool() const { return attribute != nullptr; }
+
+    void add(std::size_t v, fmt::memory_buffer& out) const {
+        attribute->type == ComponentType::f32 ? add_as<float>(v, out) : add_as<double>(v, out);
+    }
+
+  private:
+    template <class Real>
+    void add_as(std::size_t v, fmt::memory_buffer& out) const {
+        for (std::size_t i = 0; i < attribute->components; ++i) {
             Real value{};
-            std::memcpy(&value, attribute.data.data() + (v * attribute.components + i) * sizeof(Real), sizeof(Real));
+            std::memcpy(&value, attribute->data.data() + (v * attribute->components + i) * sizeof(Real), sizeof(Real));
+            if (turn_v && i == 1) value = Real{1} - value;
             fmt::format_to(std::back_inserter(out), FMT_COMPILE(" {}"), value);
         }
+    }
+};
+
+void add_lines(std::string_view keyword, const Values& values, const Values& behind, std::size_t count,
+               fmt::memory_buffer& out) {
+    for (std::size_t v = 0; v < count && values; ++v) {
+        out.append(keyword);
+        values.add(v, out);
+        if (behind) behind.add(v, out);
         out.push_back('\n');
     }
 }
 
-/// Floats of the right number of components, or nothing is written.
-bool add_attribute(std::string_view keyword, const Attribute* attribute, std::size_t components, std::size_t count,
-                   fmt::memory_buffer& out) {
-    if (attribute == nullptr || attribute->components != components) return false;
-    if (attribute->type == ComponentType::f32) {
-        add_values<float>(keyword, *attribute, count, out);
-    } else if (attribute->type == ComponentType::f64) {
-        add_values<double>(keyword, *attribute, count, out);
-    } else {
-        return false;
-    }
-    return true;
-}
-
 }  // namespace
 
-void make_obj(const Mesh& mesh, Bytes& body) {
+void make_obj(const Mesh& mesh, Bytes& body, WriteNotes& notes) {
     fmt::memory_buffer out;
     out.append(std::string_view("# made by LacedRing\n"));
     const std::size_t count = mesh.vertex_count;
-    add_attribute("v", &mesh.attributes.front(), 3, count, out);
-    const bool vt = add_attribute("vt", find_attribute(mesh, "TEXCOORD_0"), 2, count, out);
-    const bool vn = add_attribute("vn", find_attribute(mesh, "NORMAL"), 3, count, out);
+    const Values v = Values::of(mesh, "POSITION", 3), vt = Values::of(mesh, "TEXCOORD_0", 2),
+                 vn = Values::of(mesh, "NORMAL", 3);
+    Values colors = Values::of(mesh, "COLOR_0", 3);
+    if (colors && colors.attribute->type != ComponentType::f32) colors = {};
+    add_lines("v", v, colors, count, out);
+    add_lines("vt", vt, {}, count, out);
+    add_lines("vn", vn, {}, count, out);
     for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
-        const std::uint64_t v = std::uint64_t{mesh.indices[i]} + 1;
+        const std::uint64_t number = std::uint64_t{mesh.indices[i]} + 1;
         if (i % 3 == 0) out.push_back('f');
         if (vt && vn) {
-            fmt::format_to(std::back_inserter(out), FMT_COMPILE(" {}/{}/{}"), v, v, v);
+            fmt::format_to(std::back_inserter(out), FMT_COMPILE(" {}/{}/{}"), number, number, number);
         } else if (vt) {
-            fmt::format_to(std::back_inserter(out), FMT_COMPILE(" {}/{}"), v, v);
+            fmt::format_to(std::back_inserter(out), FMT_COMPILE(" {}/{}"), number, number);
         } else if (vn) {
-            fmt::format_to(std::back_inserter(out), FMT_COMPILE(" {}//{}"), v, v);
+            fmt::format_to(std::back_inserter(out), FMT_COMPILE(" {}//{}"), number, number);
         } else {
-            fmt::format_to(std::back_inserter(out), FMT_COMPILE(" {}"), v);
+            fmt::format_to(std::back_inserter(out), FMT_COMPILE(" {}"), number);
         }
         if (i % 3 == 2) out.push_back('\n');
     }
     append(body, std::string_view(out.data(), out.size()));
+    std::string dropped;
+    for (const Attribute& a : mesh.attributes) {
+        if (&a == v.attribute || &a == vt.attribute || &a == vn.attribute || &a == colors.attribute) continue;
+        dropped += (dropped.empty() ? "" : ", ") + shown(a.name);
+        if (dropped.size() > 200) {
+            dropped += ", ...";
+            break;
+        }
+    }
+    if (!dropped.empty()) notes.push_back("OBJ has no place for " + dropped + ": left out");
 }
 
 }  // namespace lr::detail

@@ -1,9 +1,7 @@
 // Binary PLY with every attribute bit for bit. Comment lines carry what PLY has no words for (ply_header.h).
 
-#include <array>
 #include <cctype>
 #include <cstring>
-#include <set>
 #include <string>
 
 #include "lrcore/mesh/ply_header.h"
@@ -57,13 +55,12 @@ std::vector<std::string> component_names(const Attribute& attribute) {
 std::string header(const Mesh& mesh, std::string_view index_type) {
     std::string out = "ply\nformat binary_little_endian 1.0\ncomment made by LacedRing\n";
     std::string properties;
-    std::set<std::string> used;
+    UniqueNames names;
     for (const Attribute& attribute : mesh.attributes) {
-        out += fmt::format("comment {}{} {} {}\n", ply_note_prefix, attribute.components, attribute.normalized ? 1 : 0,
-                           escape_ply_name(attribute.name));
-        for (std::string name : component_names(attribute)) {
-            while (!used.insert(name).second) name += '_';
-            properties += fmt::format("property {} {}\n", ply_type(attribute.type), name);
+        out += fmt::format("comment {}{} {} {}\n", ply_note_prefix, attribute.components,
+                           (attribute.normalized ? 1 : 0) + (attribute.v_up ? 2 : 0), escape_ply_name(attribute.name));
+        for (const std::string& name : component_names(attribute)) {
+            properties += fmt::format("property {} {}\n", ply_type(attribute.type), names.take(name));
         }
     }
     out += fmt::format("element vertex {}\n{}", mesh.vertex_count, properties);

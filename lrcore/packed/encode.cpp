@@ -1,6 +1,8 @@
 // Writes the steps of walk_corridors as turn bits and events. The writer keeps the state that a reader of the block
 // has, and says in events whatever the next triangle needs and that state does not give.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -23,6 +25,7 @@ struct Edge {
 };
 
 constexpr std::uint32_t kNoEvent = UINT32_MAX;
+constexpr std::uint32_t kMostVertices = 1U << 29;  // keeps folded BESIDE steps below 2^30
 
 class Encoder {
   public:
@@ -350,6 +353,10 @@ class Encoder {
 }  // namespace
 
 Result<PackedStream> encode_packed(const CornerTable& table, const Rings& rings, PackedProfile profile) {
+    if (table.vertex_count > kMostVertices) {
+        return Error{ErrorCode::too_large,
+                     fmt::format("{} vertices; a packed stream numbers at most {}", table.vertex_count, kMostVertices)};
+    }
     Corridors corridors = profile == PackedProfile::small ? walk_corridors(table, rings) : walk_pieces(table, rings);
     Result<PackedStream> encoded = Encoder(table, corridors).encode();
     if (!encoded) return encoded;

@@ -40,7 +40,7 @@ enum class PackedProfile {
 
 /// Encodes every triangle of the table that is not degenerate.
 /// Cost: O(T) time; beside the result 5 bytes a triangle, 5 a vertex and 4 bits a triangle while it runs.
-/// Errors: too_large (records of 4 GiB: at least 300 million triangles).
+/// Errors: too_large (2^29 vertices; records of 4 GiB: at least 300 million triangles).
 Result<PackedStream> encode_packed(const CornerTable& table, const Rings& rings,
                                    PackedProfile profile = PackedProfile::small);
 
@@ -80,7 +80,8 @@ Result<PackedView> view_packed(std::span<const std::uint32_t> words);
 Result<PackedView> validate_packed(std::span<const std::uint32_t> words);
 
 /// Expands all triangles: indices holds 3 * view.triangles entries. The stream must be valid (validate_packed).
-/// Cost: O(T), no allocation; with more `threads` than one, those threads.
+/// Cost: O(T), no allocation. Runs on at most `threads` threads, including the calling one; on fewer if the stream is
+/// small or the system creates no more. Never throws.
 void decode_packed(const PackedView& view, std::span<std::uint32_t> indices, unsigned threads = 1);
 
 /// Expands one block: triangles [256 * block, ...), 3 * 256 entries or what the last block has.

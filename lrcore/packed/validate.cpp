@@ -5,10 +5,13 @@
 #include <algorithm>
 
 #include "lrcore/base/crc32.h"
+#include "lrcore/base/signature.h"
 #include "lrcore/packed/record.h"
 
 namespace lr {
 namespace {
+
+static_assert(LR_PACKED_MAGIC == magic::kPacked);
 
 Error malformed(std::string message) {
     return {ErrorCode::malformed, "packed stream: " + std::move(message)};
@@ -71,7 +74,7 @@ std::uint32_t packed_checksum(std::span<const std::uint32_t> words) {
 
 Result<PackedView> view_packed(std::span<const std::uint32_t> words) {
     if (words.size() < LR_PACKED_HEADER_WORDS) return malformed("shorter than its header");
-    if (words[LR_PACKED_WORD_MAGIC] != LR_PACKED_MAGIC) return malformed("wrong magic number");
+    if (words[LR_PACKED_WORD_MAGIC] != LR_PACKED_MAGIC) return malformed(wrong_magic(words, "a packed stream"));
     if (words[LR_PACKED_WORD_VERSION] != LR_PACKED_VERSION) {
         return malformed(fmt::format("version {} is not {}", words[LR_PACKED_WORD_VERSION], LR_PACKED_VERSION));
     }

@@ -12,6 +12,7 @@ namespace lr {
 namespace {
 
 constexpr std::uint32_t kNone = UINT32_MAX;
+static_assert(std::uint64_t{8} * SquadView::kMaxRecords <= SquadView::kBorder, "corners 8r+0 to 8r+6 leave two bits");
 
 class Builder {
   public:
@@ -148,6 +149,9 @@ Error too_large(std::size_t count, const char* what) {
 }  // namespace
 
 Result<Squad> build_squad(const CornerTable& table, const SquadOptions& options, LrMap* map) {
+    // A record has at most two triangles: too many triangles mean too many records.
+    const std::size_t triangles = table.triangle_count() - table.topology.degenerate;
+    if (triangles / 2 > SquadView::kMaxRecords) return too_large(triangles, "triangles");
     SquadMatching matching = match_squad(table, options.renumber, options.reach);
     if (matching.records.size() > SquadView::kMaxRecords)
         return too_large(matching.records.size(), "quads and triangles");

@@ -220,8 +220,10 @@ class Wrong(CliTest):
                     self.fails(arguments[0], source, *arguments[1:], mentions=[source])
             self.fails("decode", source, "-o", self.path("out.ply"), mentions=[source])
         good = self.generate("torus", 100)
-        self.fails("decode", good, "-o", self.path("out.ply"), mentions=[good])
-        self.fails("stats", good, self.path("missing.ply"), "--json", mentions=["missing.ply"])
+        self.fails("decode", good, "-o", self.path("out.ply"), mentions=[good, "not an .lr file: it looks like a PLY file"])
+        outcome = run("stats", good, self.path("missing.ply"), "--json")  # the good one's figures come all the same
+        self.assertEqual((outcome.code, len(json.loads(outcome.out)["meshes"])), (BAD_INPUT, 1), str(outcome))
+        self.assertRegex(outcome.err, r"\Alacedring: [^\n]*missing.ply: [^\n]*\n\Z")
 
     def test_not_finite(self):
         for bad in (NAN, INFINITE, -INFINITE):

@@ -37,9 +37,10 @@ struct Stream {
 };
 
 Stream lean_stream(const lr::CornerTable& table, const lr::Rings& rings) {
-    lr::LeanStream lean = lr::encode_lean(table, rings);
-    const std::uint32_t slots = lr::view_lean(lean.words)->slots();
-    return {true, std::move(lean.words), std::move(lean.vertex_order), slots};
+    auto lean = lr::encode_lean(table, rings);
+    if (!lean) throw std::runtime_error(lean.error().message);
+    const std::uint32_t slots = lr::view_lean(lean->words)->slots();
+    return {true, std::move(lean->words), std::move(lean->vertex_order), slots};
 }
 
 Stream packed_stream(const lr::CornerTable& table, const lr::Rings& rings) {

@@ -70,11 +70,12 @@ def compare(wanted, got):
 
 
 def in_order(mesh, decoded):
-    """Is each triangle of the .lr file, up to rotation, the mesh's triangle of the number that the file gives?"""
-    for i, t in enumerate(decoded.triangle_order):
-        a, b, c = (decoded.positions[v] for v in decoded.indices[3 * i:3 * i + 3])
-        if tuple(mesh.positions[v] for v in mesh.indices[3 * t:3 * t + 3]) not in ((a, b, c), (b, c, a), (c, a, b)):
-            return f"triangle {i} is not number {t} of the input"
+    """Does each triangle of the .lr file begin with the mesh's corner that the file gives?"""
+    for i, corner in enumerate(decoded.corner_order):
+        t, first = divmod(corner, 3)
+        wanted = [mesh.indices[3 * t + (first + k) % 3] for k in range(3)]
+        if [mesh.positions[v] for v in wanted] != [decoded.positions[v] for v in decoded.indices[3 * i:3 * i + 3]]:
+            return f"triangle {i} does not begin with corner {corner} of the input"
     return None
 
 
@@ -99,7 +100,7 @@ def main():
             why = compare(wanted, got)
             if why is None and repeated and not options.allow_degenerate:
                 why = f"{repeated} degenerate triangles"
-            if why is None and decoded.triangle_order is not None:
+            if why is None and decoded.corner_order is not None:
                 why = in_order(mesh, decoded)
             if why is not None:
                 print(f"FAIL {options.input}: {path}: {why}")

@@ -10,7 +10,7 @@ from lr_tables_reader import Tables, decode_tables
 from mesh_readers import BadFile, Mesh, split_keys
 from packed_reader import decode_packed
 
-ATTRIBUTE, VERTEX_ORDER, TRIANGLE_ORDER = 2, 3, 4
+ATTRIBUTE, VERTEX_ORDER, CORNER_ORDER = 2, 3, 4
 
 
 def tables_in(words, compact):
@@ -28,8 +28,8 @@ DECODERS = {1: lambda words: (*decode_lean(words), {}), 5: lambda words: tables_
 def sections(data):
     """(kind, contents, layout, length of the name) of each section."""
     magic, version, count, _, _, zero, table_crc, header_crc = struct.unpack_from("<8I", data)
-    if magic != 0x4C46524C or version != 1 or zero != 0:
-        raise BadFile("not an .lr file of version 1")
+    if magic != 0x4C46524C or version != 2 or zero != 0:
+        raise BadFile("not an .lr file of version 2")
     if zlib.crc32(data[:28]) != header_crc or zlib.crc32(data[32:32 + 32 * count]) != table_crc:
         raise BadFile("the .lr file's header is damaged")
     end = 32 + 32 * count
@@ -59,7 +59,7 @@ def order(parts, kind):
 def read_lr(data):
     parts = sections(data)
     vertices, triangles = struct.unpack_from("<II", data, 12)
-    if any(kind not in DECODERS and kind not in (ATTRIBUTE, VERTEX_ORDER, TRIANGLE_ORDER) for kind, *_ in parts):
+    if any(kind not in DECODERS and kind not in (ATTRIBUTE, VERTEX_ORDER, CORNER_ORDER) for kind, *_ in parts):
         raise BadFile("the .lr file has a section of unknown kind")
     streams = [(kind, contents) for kind, contents, _, _ in parts if kind in DECODERS]
     attributes = [part[1:] for part in parts if part[0] == ATTRIBUTE]
@@ -78,15 +78,15 @@ def read_lr(data):
     if any(positions[copy] != positions[original] for copy, original in copies.items()):
         raise BadFile("a copy is not where its original is")
     mesh = Mesh(positions, [copies.get(v, v) for v in indices])
-    mesh.vertex_order, mesh.triangle_order = (order(parts, kind) for kind in (VERTEX_ORDER, TRIANGLE_ORDER))
+    mesh.vertex_order, mesh.corner_order = (order(parts, kind) for kind in (VERTEX_ORDER, CORNER_ORDER))
     if mesh.vertex_order is not None:
         kept = sorted(v for i, v in enumerate(mesh.vertex_order) if i not in copies)
         if len(mesh.vertex_order) != vertices or kept != list(range(len(kept))):
             raise BadFile("the vertex order is no permutation")
         if any(mesh.vertex_order[copy] != mesh.vertex_order[original] for copy, original in copies.items()):
             raise BadFile("a copy has not its original's number")
-    if mesh.triangle_order is not None:
-        used = set(mesh.triangle_order)
-        if len(used) != len(mesh.triangle_order) or 3 * len(used) != len(indices) or any(t >= triangles for t in used):
-            raise BadFile("the triangle order does not fit the triangles")
+    if mesh.corner_order is not None:
+        used = set(corner // 3 for corner in mesh.corner_order)
+        if len(used) != len(mesh.corner_order) or 3 * len(used) != len(indices) or any(t >= triangles for t in used):
+            raise BadFile("the corner order does not fit the triangles")
     return mesh

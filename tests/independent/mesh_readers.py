@@ -24,7 +24,7 @@ class Mesh:
     def __init__(self, positions, indices):
         self.positions = positions
         self.indices = indices
-        self.vertex_order = self.triangle_order = None  # of an .lr file that keeps them
+        self.vertex_order = self.corner_order = None  # of an .lr file that keeps them
 
 
 def split_keys(buffer, size=12):

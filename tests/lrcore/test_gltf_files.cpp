@@ -282,7 +282,7 @@ TEST_CASE("glTF: skins and instances") {
                                     small.glb_file(R"("nodes":[{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":
             {"attributes":{"TRANSLATION":1}}}}])" + mesh));
         REQUIRE(!bomb);
-        CHECK(bomb.error().code == ErrorCode::too_large);
+        CHECK(bomb.error().code == ErrorCode::memory_limit);
     }
 }
 
@@ -365,7 +365,7 @@ TEST_CASE("what a mesh may take is limited by the bytes that were read, or by th
     CHECK(!read({.max_bytes = 147999, .triangle_bytes = 100}));
     const auto refused = read({.triangle_bytes = 1U << 20});
     REQUIRE(!refused);
-    CHECK(refused.error().code == ErrorCode::too_large);
+    CHECK(refused.error().code == ErrorCode::memory_limit);
     const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     CHECK(!read_mesh(std::as_bytes(std::span(obj)), "x.obj", {.max_bytes = 47}));
     CHECK(read_mesh(std::as_bytes(std::span(obj)), "x.obj", {.max_bytes = 48}).has_value());

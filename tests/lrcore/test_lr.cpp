@@ -6,6 +6,7 @@
 
 #include "lrcore/corner_table/split.h"
 #include "lrcore/lr/compact_lr.h"
+#include "lrcore/lr/lr_stream.h"
 #include "lrcore/lr/lr_table.h"
 #include "lrcore/lr/operators.h"
 #include "lrcore/mesh/read.h"
@@ -63,6 +64,8 @@ void check(const Mesh& mesh, const RingOptions& rings_options, const LrOptions& 
     const LrStatistics& s = lr->statistics;
     CHECK(lr->view().references() == std::size_t{2} * lr->ring_vertices + std::size_t{6} * s.t0 +
                                          std::size_t{3} * (s.t1_irregular + s.t2_irregular) + s.isolated);
+    const auto valid = validate_lr(serialize(*lr, {}));
+    CHECK_MESSAGE(valid, (valid ? "" : valid.error().message));
     test::check_operators(*table, LrOperators<LrView>(lr->view()), map);
     check_border_order(*table, LrOperators<LrView>(lr->view()), map);
 
@@ -70,6 +73,8 @@ void check(const Mesh& mesh, const RingOptions& rings_options, const LrOptions& 
     REQUIRE(compact);
     CHECK(compact->view().bytes() == 4 * (std::size_t{compact->ring_vertices} + std::size_t{6} * s.t0 +
                                           std::size_t{3} * compact->irregular + compact->long_tips + s.isolated));
+    const auto valid_compact = validate_compact_lr(serialize(*compact, {}));
+    CHECK_MESSAGE(valid_compact, (valid_compact ? "" : valid_compact.error().message));
     test::check_operators(*table, LrOperators<CompactLrView>(compact->view()), map);
     check_border_order(*table, LrOperators<CompactLrView>(compact->view()), map);
 }

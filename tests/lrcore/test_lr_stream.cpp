@@ -8,6 +8,7 @@
 #include "lrcore/lr/lr_stream.h"
 #include "lrcore/lr/operators.h"
 #include "lrcore/lr/search.h"
+#include "tests/support/lr_consistency.h"
 #include "tests/support/meshes.h"
 
 using namespace lr;
@@ -47,37 +48,26 @@ Words make(const Mesh& mesh, std::uint32_t k = 0) {
 template <class Stream>
 void check_decoded(const Mesh& mesh, const Words& words, const Result<Stream>& stream) {
     REQUIRE_MESSAGE(stream, stream.error().message);
+    CHECK(test::inconsistency(stream->view) == "");
     std::vector<std::uint32_t> indices = decode_lr(*stream);
     for (std::uint32_t& v : indices) v = words.original[v];
     CHECK(test::oriented_triangles(indices) == test::oriented_triangles(mesh.indices));
 }
 
-/// Every operator at every corner and vertex of tables that were found valid: in bounds, and every walk ends.
-template <class View>
-void walk(const View& view) {
-    const LrOperators<View> ops(view);
-    for (std::uint32_t t = 0; t < view.triangle_numbers(); ++t) {
-        for (std::uint32_t k = 0; k < 3; ++k) {
-            const CornerId c{4 * t + k};
-            ops.vertex(c);
-            ops.opposite(c);
-            ops.swing(c);
-        }
-    }
-    for (std::uint32_t v = 0; v < view.used_vertices(); ++v) CHECK(ops.valence({v}) < 3 * view.triangle_numbers() + 3);
+std::vector<std::uint32_t> with_checksum(std::vector<std::uint32_t> words) {
+    words[9] = crc32(std::as_bytes(std::span(words).subspan(10)), crc32(std::as_bytes(std::span(words).first(9))));
+    return words;
 }
 
 /// Refused, or harmless. Returns whether it was accepted.
 template <class Validate>
 bool try_damaged(std::vector<std::uint32_t> bad, Validate validate) {
     const auto exact = std::make_unique<std::uint32_t[]>(bad.size());
-    if (bad.size() >= kLrHeaderWords) {  // with a checksum that fits
-        bad[9] = crc32(std::as_bytes(std::span(bad).subspan(10)), crc32(std::as_bytes(std::span(bad).first(9))));
-    }
+    if (bad.size() >= kLrHeaderWords) bad = with_checksum(std::move(bad));
     std::copy(bad.begin(), bad.end(), exact.get());
     const auto stream = validate(std::span<const std::uint32_t>(exact.get(), bad.size()));
     if (!stream) return false;
-    walk(stream->view);
+    CHECK(test::inconsistency(stream->view) == "");
     decode_lr(*stream);
     return true;
 }
@@ -103,6 +93,63 @@ TEST_CASE("LR streams give back the triangles of random soups") {
         check_decoded(mesh, words, validate_lr(words.standard));
         check_decoded(mesh, words, validate_compact_lr(words.compact));
     }
+}
+
+TEST_CASE("a used vertex without a corner is refused") {
+    // Three vertices on a ring of one triangle twice; the left slot of vertex 1 is a border, so that v.c is null there.
+    const std::vector<std::uint32_t> null_corner =
+        with_checksum({0x5443524c, 1, 4, 3, 0, 3, 0, 0, 0, 0, 2, 0x40000000, 0x5fffffff, 0, 0x90000000, 0x10000001, 2,
+                       UINT32_MAX, UINT32_MAX});
+    const auto refused = validate_lr(null_corner);
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().message == "LR tables: vertex 1: no corner");
+}
+
+TEST_CASE("one vertex for several fans is refused") {
+    // Two tetrahedra that share vertex 0: a copy of it takes the second fan. Without the copy, v.c leads to one of them
+    // alone.
+    const Mesh mesh = test::make_mesh({0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2, 0, 4, 5, 0, 5, 6, 0, 6, 4, 4, 6, 5}, 7);
+    for (const std::uint32_t k : {0U, 2U}) {
+        const Words words = make(mesh, k);
+        REQUIRE(validate_lr(words.standard));
+        REQUIRE(words.standard[7] == 1);
+        const std::uint32_t copy = words.standard.end()[-2], original = words.standard.end()[-1];
+        std::size_t replaced = 0;
+        std::vector<std::uint32_t> joined = words.standard;
+        for (std::size_t i = kLrHeaderWords; i + 2 < joined.size(); ++i) {
+            if ((joined[i] & word::kTip) != copy) continue;
+            joined[i] = (joined[i] & ~word::kTip) | original;
+            ++replaced;
+        }
+        CHECK(replaced > 0);
+        CHECK_FALSE(validate_lr(with_checksum(joined)));
+    }
+}
+
+TEST_CASE("a redundant T2 names v.n.n, and VO* the opposites that the operators give") {
+    const Mesh mesh = test::random_gluing(60, 200, 5);
+    const Words words = make(mesh);
+    const LrView view = view_lr(words.standard)->view;
+    std::size_t redundant = 0, entries = 0;
+    for (std::uint32_t slot = 0; slot < view.lr.size(); ++slot) {
+        const std::uint32_t w = view.lr[slot];
+        std::vector<std::uint32_t> bad = words.standard;
+        if ((w & word::kKind) == word::kRedundant) {
+            bad[kLrHeaderWords + slot] ^= (w & word::kTip) == 0 ? 1 : w & word::kTip;
+            CHECK_FALSE(validate_lr(with_checksum(bad)));
+            ++redundant;
+        }
+        if ((w & (word::kSpecial | word::kIrregular)) != word::kIrregular) continue;
+        for (std::size_t end = 1; end <= 2; ++end) {
+            bad = words.standard;
+            std::uint32_t& entry = bad[kLrHeaderWords + view.lr.size() + view.vo.size() + (w & word::kTip) + end];
+            entry = entry == UINT32_MAX ? 0 : UINT32_MAX;
+            CHECK_FALSE(validate_lr(with_checksum(bad)));
+            ++entries;
+        }
+    }
+    CHECK(redundant > 5);
+    CHECK(entries > 20);
 }
 
 TEST_CASE("damaged LR streams are refused or harmless") {
@@ -132,9 +179,15 @@ TEST_CASE("damaged LR streams are refused or harmless") {
                 for (std::uint32_t n = 0; n <= random(3); ++n) {
                     std::uint32_t& word = bad[random(static_cast<std::uint32_t>(bad.size()))];
                     switch (random(3)) {
-                        case 0: word ^= 1U << random(32); break;
-                        case 1: word = (word & 0xf0000000U) | random(80); break;
-                        default: word = random(2) == 0 ? UINT32_MAX : random(400); break;
+                        case 0:
+                            word ^= 1U << random(32);
+                            break;
+                        case 1:
+                            word = (word & 0xf0000000U) | random(80);
+                            break;
+                        default:
+                            word = random(2) == 0 ? UINT32_MAX : random(400);
+                            break;
                     }
                 }
                 ++(run(bad) ? accepted : refused);

@@ -239,5 +239,5 @@ TEST_CASE("glTF: nesting, and a mesh placed too often") {
     const auto often =
         read_text("often.glb", big.glb_file(nodes + "]," + mesh_of(R"({"attributes":{"POSITION":0},"indices":1})")));
     REQUIRE(!often);
-    CHECK(often.error().code == ErrorCode::too_large);
+    CHECK(often.error().code == ErrorCode::memory_limit);
 }

@@ -104,7 +104,9 @@ TEST_CASE("GLB: what glTF knows stays, the rest is renamed or converted") {
         attribute<std::uint8_t>("COLOR_0", ComponentType::u8, 3, std::vector<std::uint8_t>(12, 200), true));
     mesh.attributes.push_back(
         attribute<std::uint8_t>("JOINTS_0", ComponentType::u8, 4, std::vector<std::uint8_t>(16, 3)));
-    mesh.attributes.push_back(attribute<float>("NORMAL", ComponentType::f32, 3, Floats(12, .5F)));
+    mesh.attributes.push_back(
+        attribute<float>("NORMAL", ComponentType::f32, 3, {0, 0, 1, 1, 0, 0, 0, 1, 0, .6F, 0, .8F}));
+    mesh.attributes.push_back(attribute<float>("WEIGHTS_0", ComponentType::f32, 4, Floats(16, .25F)));
     mesh.attributes.push_back(attribute<std::int16_t>("_short", ComponentType::i16, 1, {-1, -2, -3, -4}));
     CHECK(same(round_trip(mesh, "w.glb"), mesh));
     const auto json = glb_json("w.glb");
@@ -122,7 +124,7 @@ TEST_CASE("GLB: what glTF knows stays, the rest is renamed or converted") {
     mesh.attributes.push_back(attribute<std::int32_t>("exact", ComponentType::i32, 1, {-1, 2, 3, 16777216}));
     mesh.attributes.push_back(attribute<double>("half", ComponentType::f64, 1, {.5, 0.1, 0, 0}));
     mesh.attributes.push_back(
-        attribute<std::int8_t>("NORMAL", ComponentType::i8, 3, std::vector<std::int8_t>(12, 127), true));
+        attribute<std::int8_t>("NORMAL", ComponentType::i8, 3, {0, 0, 127, 127, 0, 0, 0, -128, 0, 0, 127, 0}, true));
     mesh.attributes.push_back(attribute<float>("TEXCOORD_0", ComponentType::f32, 3, Floats(12, .5F)));
     mesh.attributes.push_back(attribute<float>("\xFF", ComponentType::f32, 1, Floats(4, .5F)));
     mesh.attributes.push_back(attribute<float>("six", ComponentType::f32, 6, Floats(24, .5F)));  // dropped
@@ -137,6 +139,93 @@ TEST_CASE("GLB: what glTF knows stays, the rest is renamed or converted") {
     CHECK(attributes_of(round_trip(doubles, "d.glb")) == "POSITION:f32x3");
     doubles.attributes.front() = attribute<double>("POSITION", ComponentType::f64, 3, std::vector<double>(12, 1e300));
     CHECK(write_mesh(doubles, folder() / "d.glb").error().code == ErrorCode::invalid_argument);
+}
+
+TEST_CASE("GLB: values that glTF forbids are mended, and it is said") {
+    const auto notes_of = [](const Mesh& mesh) {
+        WriteNotes notes;
+        REQUIRE(write_mesh(mesh, folder() / "m.glb", &notes));
+        return notes;
+    };
+    const float nan = std::nanf(""), inf = std::numeric_limits<float>::infinity();
+    Mesh mesh = square();
+    mesh.attributes.front() = attribute<float>("POSITION", ComponentType::f32, 3, {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
+    CHECK(notes_of(mesh).empty());
+    mesh.attributes.push_back(
+        attribute<float>("NORMAL", ComponentType::f32, 3, {0, 0, 0, nan, 0, 1, 0, 0, 2, 0, inf, 0}));
+    mesh.attributes.push_back(
+        attribute<float>("TANGENT", ComponentType::f32, 4, {0, 0, 0, 1, 0, 3, 0, -1, 1, 0, 0, .5F, 1, 0, 0, -1}));
+    mesh.attributes.push_back(
+        attribute<float>("TEXCOORD_0", ComponentType::f32, 2, {0, nan, .25F, .25F, inf, 1, 2, -1}));
+    mesh.attributes.push_back(
+        attribute<float>("COLOR_0", ComponentType::f32, 3, {0, 1, 255, 0, 0, 0, 0, 0, 0, 0, 0, 0}));
+    mesh.attributes.push_back(attribute<float>("TEXCOORD_2", ComponentType::f32, 2, Floats(8, .5F)));
+    mesh.attributes.push_back(
+        attribute<std::uint8_t>("JOINTS_0", ComponentType::u8, 4, std::vector<std::uint8_t>(16, 3)));
+    const WriteNotes notes = notes_of(mesh);
+    const auto back = read_mesh(folder() / "m.glb");
+    REQUIRE(back);
+    CHECK(values_of<float>(*back, "NORMAL") == Floats{0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1});  // as the triangles have it
+    CHECK(values_of<float>(*back, "TANGENT") == Floats{1, 0, 0, 1, 0, 1, 0, -1, 1, 0, 0, 1, 1, 0, 0, -1});
+    CHECK(values_of<float>(*back, "TEXCOORD_0") == Floats{0, 0, .25F, .25F, 0, 1, 2, -1});
+    CHECK(attributes_of(*back) ==
+          "POSITION:f32x3 NORMAL:f32x3 TANGENT:f32x4 TEXCOORD_0:f32x2 _COLOR_0:f32x3 _JOINTS_0:u8x4 _TEXCOORD_2:f32x2");
+    REQUIRE(notes.size() == 6);
+    CHECK(notes[0] == "NORMAL: 1 were not of unit length and were made so");
+    CHECK(notes[1] == "NORMAL: 3 without a direction were made from the triangles");
+    CHECK(notes[2] == "TANGENT: 2 were not of unit length and were made so");
+    CHECK(notes[3] == "TANGENT: 1 without a direction became (1, 0, 0)");
+    CHECK(notes[4] == "TEXCOORD_0: 2 values that are not finite became 0");
+    CHECK(notes[5] == "not as glTF defines it, so named _NAME: 'COLOR_0', 'TEXCOORD_2', 'JOINTS_0'");
+}
+
+TEST_CASE("texture coordinates keep their origin, and change it for formats that have the other one") {
+    Mesh mesh = square();
+    const Floats down{0, 0, .1F, .25F, .3F, 1, 1, -3}, up{0, 1, .1F, .75F, .3F, 0, 1, 4};
+    mesh.attributes.push_back(attribute<float>("TEXCOORD_0", ComponentType::f32, 2, down));
+    for (const bool v_up : {false, true}) {
+        mesh.attributes.back().v_up = v_up;
+        for (const char* name : {"o.obj", "o.ply", "o.glb"}) {
+            CAPTURE(name);
+            CAPTURE(v_up);
+            const Mesh back = round_trip(mesh, name);
+            const Attribute* texture = find_attribute(back, "TEXCOORD_0");
+            REQUIRE(texture != nullptr);
+            const bool obj = name[2] == 'o', ply = name[2] == 'p';
+            CHECK(texture->v_up == (obj || (ply && v_up)));
+            CHECK(values_of<float>(back, "TEXCOORD_0") == (texture->v_up == v_up ? down : up));
+        }
+    }
+    CHECK(find_attribute(must_read("p.ply",
+                                   "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                                   "property float z\nproperty float s\nproperty float t\nelement face 1\n"
+                                   "property list uchar int vertex_indices\nend_header\n0 0 0 0 0\n1 0 0 0 1\n"
+                                   "0 1 0 1 0\n3 0 1 2\n"),
+                         "TEXCOORD_0")
+              ->v_up);
+}
+
+TEST_CASE("attributes of one name get numbers, in linear time") {
+    Mesh mesh = square();
+    constexpr int kMany = 20000;
+    for (int i = 0; i < kMany; ++i) {
+        mesh.attributes.push_back(attribute<std::uint8_t>(i % 2 == 0 ? "same" : fmt::format("same_{}", i),
+                                                          ComponentType::u8, 1,
+                                                          std::vector<std::uint8_t>(4, static_cast<std::uint8_t>(i))));
+    }
+    CHECK(round_trip(mesh, "u.glb").attributes.size() == kMany + 1);
+    CHECK(same(round_trip(mesh, "u.ply"), mesh));
+}
+
+TEST_CASE("OBJ: colors are kept, and what has no place is said") {
+    Mesh mesh = square();
+    mesh.attributes.push_back(
+        attribute<float>("COLOR_0", ComponentType::f32, 3, {0, .1F, 1, 0, 0, 0, .5F, 0, 0, 0, 0, 7}));
+    CHECK(same(round_trip(mesh, "c.obj"), mesh));
+    mesh.attributes.push_back(attribute<std::uint8_t>("q", ComponentType::u8, 1, {1, 2, 3, 4}));
+    WriteNotes notes;
+    REQUIRE(write_mesh(mesh, folder() / "c.obj", &notes));
+    CHECK(notes == WriteNotes{"OBJ has no place for 'q': left out"});
 }
 
 TEST_CASE("GLB: indices are 16 bits wide up to 65,535 vertices") {
@@ -159,6 +248,7 @@ TEST_CASE("OBJ: shortest decimals that read back the same") {
         attribute<float>("NORMAL", ComponentType::f32, 3, {0, 0, 1, 0, 1, 0, 1, 0, 0, .6F, .8F, 0}));
     CHECK(same(round_trip(mesh, "n.obj"), mesh));
     mesh.attributes.push_back(attribute<float>("TEXCOORD_0", ComponentType::f32, 2, {0, 0, .1F, .2F, .3F, .4F, 1, 1}));
+    mesh.attributes.back().v_up = true;
     CHECK(same(round_trip(mesh, "t.obj"), mesh));
     mesh.attributes.erase(mesh.attributes.begin() + 1);
     CHECK(same(round_trip(mesh, "u.obj"), mesh));
@@ -191,9 +281,11 @@ TEST_CASE("write_mesh refuses") {
     mesh.attributes.front().data.pop_back();
     CHECK(write_mesh(mesh, folder() / "a.glb").error().code == ErrorCode::invalid_argument);
     mesh = square();
-    mesh.indices.clear();
-    CHECK(write_mesh(mesh, folder() / "a.glb").error().code == ErrorCode::invalid_argument);
-    CHECK(!std::filesystem::exists(folder() / "a.glb"));
+    mesh.indices.clear();  // no reader takes it, and so no writer
+    for (const char* name : {"none.glb", "none.ply", "none.obj"}) {
+        CHECK(write_mesh(mesh, folder() / name).error().code == ErrorCode::unsupported);
+        CHECK(!std::filesystem::exists(folder() / name));
+    }
 }
 
 TEST_CASE("weld") {

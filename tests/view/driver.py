@@ -48,10 +48,10 @@ class Scripted(unittest.TestCase):
         return [json.loads(line) for line in done.stdout.splitlines()]
 
 
-def start_display(size="1600x1200"):
+def start_display(size="1600x1200", *options):
     """Xvfb on a free number; its process and name."""
     read, write = os.pipe()
-    server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", f"{size}x24", "-nolisten", "tcp"],
+    server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", f"{size}x24", "-nolisten", "tcp", *options],
                               pass_fds=[write], stderr=subprocess.DEVNULL)
     os.close(write)
     with os.fdopen(read) as file:
@@ -59,6 +59,11 @@ def start_display(size="1600x1200"):
     if not number:
         sys.exit("Xvfb does not start")
     return server, ":" + number
+
+
+def stop(server):
+    server.kill()
+    server.wait()
 
 
 def main():

@@ -1,4 +1,4 @@
-"""Reads PNG files of 8 bits a channel, without any library."""
+"""Reads PNG files of 8 bits a channel, and what a screen shows, without any library."""
 
 import struct
 import zlib
@@ -42,6 +42,23 @@ def read(path):
                 row[i] = (row[i] + (a if pa <= pb and pa <= pc else b if pb <= pc else c)) & 255
         previous = row
         rows.append(bytes(row) if step == 3 else bytes(v for i, v in enumerate(row) if i % 4 != 3))
+    return width, height, rows
+
+
+def read_screen(folder):
+    """What an Xvfb with the option -fbdir FOLDER shows (an XWD file of 32 bits a pixel), as read."""
+    with open(f"{folder}/Xvfb_screen0", "rb") as file:
+        data = file.read()
+    header = struct.unpack(">20I", data[:80])
+    size, width, height, big_endian, bits, stride, colours = (header[i] for i in (0, 4, 5, 7, 11, 12, 19))
+    assert bits == 32 and big_endian == 0, header
+    rows = []
+    for y in range(height):
+        at = size + 12 * colours + y * stride
+        row = bytearray(3 * width)
+        for channel in range(3):
+            row[channel::3] = data[at + 2 - channel:at + 4 * width:4]
+        rows.append(bytes(row))
     return width, height, rows
 
 

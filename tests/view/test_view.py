@@ -3,6 +3,7 @@
 
 import os
 import random
+import subprocess
 import sys
 import time
 
@@ -46,6 +47,44 @@ class View(driver.Scripted):
         done = run("view", "--script", file.name)
         self.assertEqual(done.returncode, 2)
         self.assertIn("wrong.txt:2: no such line: fly", done.stderr)
+
+    def wrong_line(self, line, *why, before=""):
+        name = os.path.join(driver.folder, "wrong.txt")
+        with open(name, "w") as file:
+            file.write(f"{before}{line}\n")
+        done = run("view", mesh("torus", 500), "--size", "320x200", "--script", name)
+        self.assertEqual((done.returncode, done.stdout), (2, ""), line)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        for text in (f"wrong.txt:{before.count(chr(10)) + 1}: ", *why):
+            self.assertIn(text, done.stderr, line)
+
+    def test_what_a_script_may_not_say(self):
+        """Nothing is ignored, and no number is changed to one that fits."""
+        self.wrong_line("set view silhouette", "set outlines on")
+        self.wrong_line("set path mesh", "mesh shaders", before="frames 1\n")  # as long as the device has none
+        for line in ("set warts yes", "set panels 1", "set samples 4", "set samples 0", "set samples 1.5", "set divider 1.1",
+                     "set k 0", "set k -5", "set k nan", "set seeds 1e9", "set passes 2x", "set growth -1", "set speed 0",
+                     "set fps 1001", "set seed 0.5", "set colour red", "set view", "set view smooth flat",
+                     "wait", "wait dinner", "wait mesh now", "frames", "frames -1", "frames 1e99", "frames 2 3", "resize 0 5",
+                     "resize 1e9 5", "resize 5", "move 1", "move inf 2", "move 1 2 3", "click 1 2 both", "click 1 2 left twice",
+                     "drag 1 2 3", "drag 1 2 3 4 left now", "scroll 1 2", "key", "key %", "key a alt", "open", "open a b", "drop",
+                     "minimise now", "print all", "close it", "ray 1", "copy a", "camera --up=+Z", "camera --no-such 1"):
+            self.wrong_line(line)
+
+    def test_a_script_ends_with_its_last_line(self):
+        name = os.path.join(driver.folder, "ends.txt")
+        with open(name, "w") as file:
+            file.write("wait mesh\nprint\n")
+        done = run("view", mesh("torus", 500), "--size", "320x200", "--script", name, timeout=60)
+        self.assertEqual((done.returncode, done.stderr, len(done.stdout.splitlines())), (0, "", 1))
+
+    def test_a_script_from_standard_input(self):
+        done = subprocess.run([driver.program, "view", mesh("torus", 500), "--size", "320x200", "--script", "-"], text=True,
+                              input="wait mesh\nprint\nset k 0\n", capture_output=True, cwd=driver.folder, timeout=120,
+                              env=dict(os.environ, DISPLAY=driver.display, XDG_STATE_HOME=driver.folder))
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual(len(done.stdout.splitlines()), 1)
+        self.assertIn("standard input:3: k is a whole number", done.stderr)
 
     def test_screenshots_are_what_render_draws(self):
         blob = mesh("blob", 3000)

@@ -1,0 +1,124 @@
+#include "app/input.h"
+
+#include <unistd.h>
+
+#include <utility>
+
+#include "lrcore/base/file.h"
+#include "lrcore/mesh/read.h"
+#include "lrcore/mesh/weld.h"
+
+namespace lr::app {
+namespace {
+
+constexpr std::pair<const char*, MeshFormat> kFormats[] = {{"gltf", MeshFormat::gltf}, {"glb", MeshFormat::gltf},
+                                                           {"obj", MeshFormat::obj},   {"off", MeshFormat::off},
+                                                           {"ply", MeshFormat::ply},   {"stl", MeshFormat::stl}};
+
+MeshFormat format_named(const std::string& name) {
+    for (const auto& [known, format] : kFormats) {
+        if (name == known) return format;
+    }
+    return MeshFormat::any;
+}
+
+std::string listed(const std::vector<std::string>& items) {
+    std::string out;
+    for (const std::string& item : items) out += (out.empty() ? "" : ", ") + item;
+    return out;
+}
+
+/// What an .lr file becomes is known only once it is decoded.
+Result<void> check_memory(const Mesh& mesh, const InputOptions& options) {
+    double bytes = static_cast<double>(mesh.triangle_count()) * (12.0 + options.triangle_bytes);
+    for (const Attribute& attribute : mesh.attributes) bytes += static_cast<double>(attribute.data.size());
+    constexpr double kMebibyte = 1 << 20;
+    if (options.max_memory == 0 || bytes <= static_cast<double>(options.max_memory) * kMebibyte) return {};
+    return Error{ErrorCode::memory_limit, fmt::format("{} triangles take about {:.0f} MiB, and {} MiB are allowed",
+                                                      mesh.triangle_count(), bytes / kMebibyte, options.max_memory)};
+}
+
+Result<LoadedMesh> read(const MeshInput& input, RunLog& log) {
+    const InputOptions& options = input.options;
+    const auto bytes = read_input(input.path, options, log);
+    if (!bytes) return bytes.error();
+    if (is_lr(*bytes) && options.format.empty()) {
+        Result<LrContents> contents = list_lr(*bytes);
+        if (!contents) return contents.error();
+        const Result<LrFile> file = parse_lr(*bytes);
+        if (!file) return file.error();
+        LoadedMesh out{decode_lr(*file), std::move(*contents)};
+        if (const Result<void> room = check_memory(out.mesh, options); !room) return room.error();
+        return out;
+    }
+    ReadReport report;
+    const ReadOptions how{.format = format_named(options.format),
+                          .allow_outside = options.allow_outside,
+                          .max_bytes = options.max_memory << 20,
+                          .triangle_bytes = options.triangle_bytes};
+    Result<Mesh> mesh = read_mesh(*bytes, input.path == "-" ? "" : input.path, how, &report);
+    for (std::filesystem::path& file : report.files) log.read(std::move(file));
+    if (!mesh) return mesh.error();
+    if (!report.left_out.empty()) log.note(input_name(input.path), "not kept: " + listed(report.left_out));
+    return LoadedMesh{std::move(*mesh), {}};
+}
+
+}  // namespace
+
+void add_input_options(CLI::App& command, InputOptions& options, std::uint32_t triangle_bytes) {
+    options.triangle_bytes = triangle_bytes;
+    command
+        .add_flag("--weld{attributes}", options.weld,
+                  "merge vertices that are the same in all attributes; --weld=position: that are at one position")
+        ->check(CLI::IsMember({"attributes", "position"}))
+        ->option_text("[=attributes|position]");
+    std::set<std::string> formats;
+    for (const auto& [name, format] : kFormats) formats.insert(name);
+    command.add_option("--input-format", options.format, "of meshes whose format does not show")
+        ->check(CLI::IsMember(formats));
+    command.add_flag("--allow-outside", options.allow_outside, "a glTF may name files outside its folder");
+    add_max_memory(command, options);
+}
+
+void add_max_memory(CLI::App& command, InputOptions& options) {
+    command
+        .add_option("--max-memory", options.max_memory,
+                    "what a mesh may take; unless told 512, or 128 times the file where that is more")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 30))
+        ->type_name("MiB");
+}
+
+std::string input_name(const std::string& path) {
+    return path == "-" ? "standard input" : path;
+}
+
+Result<std::vector<std::byte>> read_input(const std::string& path, const InputOptions& options, RunLog& log) {
+    constexpr std::uint64_t kMostFromPipe = std::uint64_t{4} << 30;  // that may never end
+    const std::uint64_t limit = options.max_memory << 20;
+    if (path == "-") return read_descriptor(STDIN_FILENO, limit != 0 ? limit : kMostFromPipe);
+    log.read(path);
+    Result<std::vector<std::byte>> bytes = read_file(path, limit != 0 ? limit : UINT64_MAX);
+    if (bytes || bytes.error().code != ErrorCode::too_large) return bytes;
+    return Error{ErrorCode::memory_limit, bytes.error().message};
+}
+
+Result<LoadedMesh> load_file(const MeshInput& input, RunLog& log) {
+    Result<LoadedMesh> loaded = read(input, log);
+    if (!loaded || input.options.weld.empty()) return loaded;
+    WeldReport report;
+    const bool position = input.options.weld == "position";
+    loaded->mesh = weld(loaded->mesh, position ? Weld::position : Weld::attributes, &report);
+    if (report.vertices > 0) {
+        log.note(input_name(input.path), fmt::format("--weld=position: {} vertices lose their own {}", report.vertices,
+                                                     listed(report.attributes)));
+    }
+    return loaded;
+}
+
+Result<Mesh> load(const MeshInput& input, RunLog& log) {
+    Result<LoadedMesh> loaded = load_file(input, log);
+    if (!loaded) return loaded.error();
+    return std::move(loaded->mesh);
+}
+
+}  // namespace lr::app

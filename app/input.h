@@ -1,0 +1,40 @@
+#pragma once
+// Meshes that commands read: files, .lr files, standard input.
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/mesh_input.h"
+#include "app/run_log.h"
+#include "lrcore/base/result.h"
+#include "lrcore/file/lr_file.h"
+#include "lrcore/mesh/mesh.h"
+
+namespace lr::app {
+
+/// Adds --weld, --input-format, --allow-outside and --max-memory. `triangle_bytes`: InputOptions.
+void add_input_options(CLI::App& command, InputOptions& options, std::uint32_t triangle_bytes);
+
+/// --max-memory alone.
+void add_max_memory(CLI::App& command, InputOptions& options);
+
+/// As messages and JSON name it.
+std::string input_name(const std::string& path);
+
+/// The whole file, or standard input. Errors: those of read_file.
+Result<std::vector<std::byte>> read_input(const std::string& path, const InputOptions& options, RunLog& log);
+
+/// A mesh, and of an .lr file what it consists of.
+struct LoadedMesh {
+    Mesh mesh;
+    std::optional<LrContents> lr;
+};
+
+/// Reads and welds. An .lr file is validated and decoded. `log` is told what is not kept.
+Result<LoadedMesh> load_file(const MeshInput& input, RunLog& log);
+Result<Mesh> load(const MeshInput& input, RunLog& log);
+
+}  // namespace lr::app

@@ -1,0 +1,62 @@
+#include "app/lr_contents.h"
+
+#include <algorithm>
+
+#include "app/print.h"
+
+namespace lr::app {
+namespace {
+
+bool has_section(const LrContents& lr, std::string_view kind) {
+    return std::ranges::any_of(lr.sections, [kind](const LrSection& section) { return section.kind == kind; });
+}
+
+/// The kind of the section that holds the triangles.
+std::string connectivity(const LrContents& lr) {
+    for (const LrSection& section : lr.sections) {
+        if (section.kind != "attribute" && !section.kind.ends_with("_order")) return section.kind;
+    }
+    return "";
+}
+
+}  // namespace
+
+const char* type_name(ComponentType type) {
+    constexpr const char* kNames[] = {"i8", "u8", "i16", "u16", "i32", "u32", "f32", "f64"};
+    return kNames[static_cast<std::size_t>(type)];
+}
+
+/// Of an .lr file: what it consists of.
+nlohmann::ordered_json to_json(const LrContents& lr) {
+    nlohmann::ordered_json sections = nlohmann::ordered_json::array();
+    for (const LrSection& section : lr.sections) {
+        nlohmann::ordered_json entry = {{"kind", section.kind}, {"bytes", section.bytes}};
+        if (section.kind == "attribute") {
+            entry["name"] = section.name;
+            entry["type"] = type_name(section.type);
+            entry["components"] = section.components;
+        }
+        sections.push_back(std::move(entry));
+    }
+    return {{"version", lr.version},
+            {"format", connectivity(lr)},
+            {"bytes", lr.bytes},
+            {"vertex_order", has_section(lr, "vertex_order")},
+            {"corner_order", has_section(lr, "corner_order")},
+            {"sections", sections}};
+}
+
+void print_contents(const LrContents& lr) {
+    print("  {:<22} .lr version {}, {} bytes, {}\n", "file", lr.version, lr.bytes,
+          has_section(lr, "vertex_order") && has_section(lr, "corner_order") ? "the input's order is kept"
+                                                                             : "the input's order is not kept");
+    for (const LrSection& section : lr.sections) {
+        const bool attribute = section.kind == "attribute";
+        const std::string what =
+            attribute ? fmt::format("{} ({} x {})", section.name, section.components, type_name(section.type))
+                      : section.kind;
+        print("    {:<30}{:>12} bytes\n", what, section.bytes);
+    }
+}
+
+}  // namespace lr::app

@@ -1,0 +1,19 @@
+#pragma once
+// What an .lr file consists of, for info and stats.
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "lrcore/file/lr_file.h"
+
+namespace lr::app {
+
+const char* type_name(ComponentType type);
+
+/// {"version","format","bytes","vertex_order","corner_order","sections":[{"kind","bytes","name","type","components"}]}
+nlohmann::ordered_json to_json(const LrContents& lr);
+
+/// Lines of text, indented.
+void print_contents(const LrContents& lr);
+
+}  // namespace lr::app

@@ -1,0 +1,25 @@
+#pragma once
+// Which mesh is read, and how.
+
+#include <cstdint>
+#include <string>
+
+namespace lr::app {
+
+/// How a mesh is read. Every command that reads meshes has these options.
+struct InputOptions {
+    std::string weld;    ///< "", "attributes" or "position"
+    std::string format;  ///< "" as read_mesh tells, or "gltf", "obj", ...
+    bool allow_outside = false;
+    std::uint64_t max_memory = 0;  ///< MiB; 0: by the file's size (ReadOptions)
+    /// Bytes that the command takes for each triangle at its peak, the mesh aside (docs/reliability.md).
+    std::uint32_t triangle_bytes = 0;
+};
+
+/// One mesh. The path "-" is standard input.
+struct MeshInput {
+    std::string path;
+    InputOptions options;
+};
+
+}  // namespace lr::app

@@ -1,0 +1,31 @@
+#pragma once
+// Text on standard output and standard error. A stream that is closed, or whose disk is full, ends no command: main
+// looks at standard output once the command is done, and what standard error cannot say is lost.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <iterator>
+#include <utility>
+
+namespace lr::app {
+
+inline void write_text(std::FILE* stream, fmt::string_view format, fmt::format_args args) {
+    fmt::memory_buffer text;
+    fmt::vformat_to(std::back_inserter(text), format, args);
+    (void)std::fwrite(text.data(), 1, text.size(), stream);  // a failure stays with the stream
+}
+
+/// Writes results on standard output.
+template <class... Args>
+void print(fmt::format_string<Args...> format, Args&&... args) {
+    write_text(stdout, format, fmt::make_format_args(args...));
+}
+
+/// Writes errors, notes and progress on standard error.
+template <class... Args>
+void say(fmt::format_string<Args...> format, Args&&... args) {
+    write_text(stderr, format, fmt::make_format_args(args...));
+}
+
+}  // namespace lr::app

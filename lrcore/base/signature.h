@@ -1,0 +1,29 @@
+#pragma once
+// Recognizes streams and files by their first bytes, so that an error can name the kind that was given.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace lr {
+
+/// First word of each stream, and of an .lr file.
+namespace magic {
+constexpr std::uint32_t kLean = 0x4e4c524c;       // "LRLN"
+constexpr std::uint32_t kPacked = 0x4b50524c;     // "LRPK"
+constexpr std::uint32_t kLr = 0x5443524c;         // "LRCT"
+constexpr std::uint32_t kCompactLr = 0x4243524c;  // "LRCB"
+constexpr std::uint32_t kLrFile = 0x4c46524c;     // "LRFL"
+}  // namespace magic
+
+/// Returns the kind as a phrase: "a lean stream", "a packed stream", "LR tables", "bit-efficient LR tables", "an .lr
+/// file", "a GLB file", "a PLY file", ...; empty if the first 4 KiB do not tell. Untrusted input: safe. Cost: O(1).
+std::string_view kind_by_signature(std::span<const std::byte> bytes);
+
+/// Error message for words with another magic number than `wanted` (a phrase as above): "these are LR tables, not a
+/// packed stream", or "wrong magic number" if the kind is unknown.
+std::string wrong_magic(std::span<const std::uint32_t> words, std::string_view wanted);
+
+}  // namespace lr

@@ -1,0 +1,34 @@
+#pragma once
+// Limits of meshoptimizer: meshes on which its orders would take quadratic time.
+
+#include <cstdint>
+#include <span>
+
+#include "lrcore/base/result.h"
+
+namespace lr {
+
+/// Numbers of triangles at the vertices of a mesh.
+struct Valences {
+    std::uint64_t squares = 0;  ///< sum of squares over the vertices
+    std::uint64_t triangles = 0;
+    std::uint32_t most = 0;  ///< largest number at one vertex
+
+    /// Returns whether an algorithm that is quadratic in the valence may be run: the sum of squares is at most 64 a
+    /// triangle (real meshes have 18 to 40), plus that of one vertex of 2,048 triangles.
+    bool moderate() const { return squares <= 64 * triangles + std::uint64_t{2048} * 2048; }
+};
+/// Cost: O(T), 4 bytes a vertex.
+Valences count_valences(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);
+
+/// Checks that meshoptimizer's orders (vertex cache, strips, meshlets) end in linear time. For each triangle they look
+/// at all triangles left at its vertices: a fan of 100,000 takes minutes. Cost: that of count_valences.
+/// Errors: too_large (the valences are not moderate).
+Result<void> check_valences(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);
+
+/// The same for meshlets of many components: where a component ends, meshoptimizer searches the next triangle by its
+/// centroid, among all triangles with the same centroid. `positions` has three a vertex. Cost: O(T log T), 8 bytes a
+/// triangle. Errors: too_large.
+Result<void> check_places(std::span<const std::uint32_t> indices, std::span<const float> positions);
+
+}  // namespace lr

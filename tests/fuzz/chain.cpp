@@ -1,0 +1,346 @@
+// The whole chain: mesh -> weld -> corner table -> rings -> every stream and file -> decode -> compare with the mesh.
+// The last bytes of an input are the options; before them lie an index list or a mesh file.
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <string>
+#include <unordered_map>
+
+#include "lrcore/baseline/strips.h"
+#include "lrcore/corner_table/geometry.h"
+#include "lrcore/corner_table/report.h"
+#include "lrcore/corner_table/smesh.h"
+#include "lrcore/corner_table/split.h"
+#include "lrcore/lr/lr_encode.h"
+#include "lrcore/mesh/read.h"
+#include "lrcore/mesh/weld.h"
+#include "lrcore/ring/expansion.h"
+#include "lrcore/ring/optimize.h"
+#include "lrcore/rivals/corner_table_c.h"
+#include "lrcore/rivals/squad.h"
+#include "lrcore/rivals/winged_edge.h"
+#include "tests/fuzz/streams.h"
+#include "tests/fuzz/use.h"
+
+namespace lr::fuzz {
+namespace {
+
+constexpr std::size_t kOptionBytes = 9;
+
+struct Options {
+    explicit Options(std::span<const std::byte> bytes) {
+        for (std::size_t i = 0; i < kOptionBytes; ++i) byte[i] = std::to_integer<std::uint32_t>(bytes[i]);
+    }
+
+    Weld welding() const { return static_cast<Weld>(byte[0] % 3); }
+    bool wart_skipping() const { return (byte[0] & 0x80) == 0; }
+    bool keep_order() const { return (byte[0] & 0x60) != 0; }
+    bool one_per_shell() const { return (byte[0] & 0x10) != 0; }
+    /// Zero runs everything; an input that leaves steps out runs faster.
+    bool wants(std::uint32_t step) const { return (byte[8] >> step & 1) == 0; }
+    RingOptions ring(const CornerTable& table) const {
+        RingOptions out{
+            .seeds = 1 + byte[2] % 3, .random_seed = byte[4], .k = byte[1], .one_per_shell = one_per_shell()};
+        const CornerId start{byte[5]};
+        if (start.value < table.corners.size() && !table.degenerate(triangle(start))) out.start = start;
+        return out;
+    }
+    OptimizeOptions optimize(const RingCost& cost) const {
+        return {.cost = cost, .passes = byte[3] % 4, .random_seed = byte[4], .anneal = (byte[3] & 0x80) == 0};
+    }
+
+    std::array<std::uint32_t, kOptionBytes> byte{};
+};
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// The rotation that comes first.
+Triangle rotated(const Triangle& t) {
+    return std::min({t, Triangle{t[1], t[2], t[0]}, Triangle{t[2], t[0], t[1]}});
+}
+
+/// The triangles that are not degenerate, rotated, their vertices replaced by id(vertex).
+template <class Id>
+std::vector<Triangle> triangles_of(std::span<const std::uint32_t> indices, Id id) {
+    std::vector<Triangle> out;
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+        const std::uint32_t a = indices[i], b = indices[i + 1], c = indices[i + 2];
+        if (a != b && b != c && c != a) out.push_back(rotated({id(a), id(b), id(c)}));
+    }
+    return out;
+}
+
+std::vector<Triangle> triangles_of(std::span<const std::uint32_t> indices) {
+    return triangles_of(indices, [](std::uint32_t v) { return v; });
+}
+
+std::vector<Triangle> sorted(std::vector<Triangle> triangles) {
+    std::sort(triangles.begin(), triangles.end());
+    return triangles;
+}
+
+/// Numbers the values that vertices have in all attributes, or in the first ones, the same for several meshes.
+class VertexValues {
+  public:
+    /// With `welding`, -0 is 0 in POSITION.
+    explicit VertexValues(std::size_t attributes = SIZE_MAX, bool welding = false)
+        : attributes_(attributes), welding_(welding) {}
+
+    std::uint32_t operator()(const Mesh& mesh, std::uint32_t v) {
+        std::string value;
+        for (std::size_t i = 0; i < std::min(attributes_, mesh.attributes.size()); ++i) {
+            const Attribute& a = mesh.attributes[i];
+            value.append(reinterpret_cast<const char*>(a.data.data()) + a.stride() * v, a.stride());
+        }
+        const std::size_t size = size_of(mesh.attributes[0].type);
+        for (std::size_t end = size; welding_ && end <= 3 * size; end += size) {
+            const bool zero = value.find_first_not_of('\0', end - size) == end - 1 && value[end - 1] == '\x80';
+            if (zero) value[end - 1] = '\0';
+        }
+        return numbers_.try_emplace(std::move(value), static_cast<std::uint32_t>(numbers_.size())).first->second;
+    }
+
+    /// The multiset of the mesh's oriented triangles, by the values at their corners.
+    std::vector<Triangle> triangles(const Mesh& mesh) {
+        return sorted(triangles_of(mesh.indices, [&](std::uint32_t v) { return (*this)(mesh, v); }));
+    }
+
+  private:
+    std::size_t attributes_;
+    bool welding_;
+    std::unordered_map<std::string, std::uint32_t> numbers_;
+};
+
+bool same_attributes(const Mesh& a, const Mesh& b) {
+    return std::equal(a.attributes.begin(), a.attributes.end(), b.attributes.begin(), b.attributes.end(),
+                      [](const Attribute& x, const Attribute& y) {
+                          return x.name == y.name && x.type == y.type && x.components == y.components &&
+                                 x.normalized == y.normalized && x.data == y.data && x.v_up == y.v_up;
+                      });
+}
+
+Mesh welded(const Mesh& mesh, Weld mode) {
+    Mesh out = weld(mesh, mode);
+    REQUIRE(out.indices.size() == mesh.indices.size() && out.attributes.size() == mesh.attributes.size());
+    if (mode == Weld::none) {
+        REQUIRE(out.vertex_count == mesh.vertex_count && out.indices == mesh.indices && same_attributes(out, mesh));
+        return out;
+    }
+    const std::size_t keys = mode == Weld::position ? 1 : SIZE_MAX;
+    VertexValues values(keys, true), distinct(keys, true);
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+        REQUIRE(out.indices[i] < out.vertex_count);
+        REQUIRE(values(out, out.indices[i]) == values(mesh, mesh.indices[i]));
+    }
+    for (std::uint32_t v = 0; v < out.vertex_count; ++v) REQUIRE(distinct(out, v) == v);
+    return out;
+}
+
+void check_table(const Mesh& mesh, const CornerTable& table) {
+    REQUIRE(validate(table).empty());
+    REQUIRE(table.vertex_count == mesh.vertex_count && table.corners.size() == mesh.indices.size());
+    for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
+        const std::uint32_t second = table.flipped({t}) ? 2 : 1;
+        REQUIRE(table.vertex(corner({t}, 0)).value == mesh.indices[3 * std::size_t{t}]);
+        REQUIRE(table.vertex(corner({t}, second)).value == mesh.indices[3 * std::size_t{t} + 1]);
+        REQUIRE(table.vertex(corner({t}, 3 - second)).value == mesh.indices[3 * std::size_t{t} + 2]);
+    }
+}
+
+/// A stream of `mesh` as the encoder gave it: valid, decoded to the same triangles, and so is the file made of it.
+void check_stream(const Mesh& mesh, Connectivity kind, Words words, Words vertex_order, Words triangle_order,
+                  bool keep_order) {
+    const std::optional<Words> indices = use_stream(kind, words);
+    REQUIRE(indices);
+    for (const std::uint32_t v : vertex_order) REQUIRE(v < mesh.vertex_count);
+    const std::vector<Triangle> got = triangles_of(*indices, [&](std::uint32_t v) { return vertex_order[v]; });
+    REQUIRE(sorted(got) == sorted(triangles_of(mesh.indices)));
+    Words order = triangle_order;
+    std::erase(order, UINT32_MAX);
+    REQUIRE(order.size() == got.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        REQUIRE(order[i] < mesh.triangle_count());
+        const std::uint32_t* t = mesh.indices.data() + 3 * std::size_t{order[i]};
+        REQUIRE(got[i] == rotated({t[0], t[1], t[2]}));
+    }
+
+    const std::vector<std::byte> bytes = serialize_lr(
+        make_lr_file(mesh, kind, std::move(words), std::move(vertex_order), std::move(triangle_order), keep_order));
+    const Result<LrFile> file = parse_lr(bytes);
+    REQUIRE(file);
+    REQUIRE(serialize_lr(*file) == bytes);
+    const Mesh decoded = decode_lr(*file);
+    REQUIRE(decoded.vertex_count == mesh.vertex_count);
+    VertexValues values;
+    REQUIRE(values.triangles(mesh) == values.triangles(decoded));
+    const Result<Mesh> original = decode_lr_original_order(*file);
+    if (!keep_order) return;
+    REQUIRE(original);
+    REQUIRE(original->vertex_count == mesh.vertex_count && same_attributes(*original, mesh));
+    std::vector<std::uint32_t> kept;  // the input's index list, but for degenerate triangles
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const std::uint32_t* t = mesh.indices.data() + i;
+        if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) kept.insert(kept.end(), t, t + 3);
+    }
+    REQUIRE(original->indices == kept);
+}
+
+void check_lean(const Mesh& mesh, const CornerTable& table, const Options& options) {
+    Expansion expansion;
+    Rings rings = expand_rings(table, options.ring(table), &expansion);
+    REQUIRE(validate(table, rings).empty());
+    REQUIRE(settling_steps(table, expansion).size() == table.triangle_count());
+    rings = optimize_rings(table, std::move(rings), options.optimize(lean_ring_cost));
+    REQUIRE(validate(table, rings).empty());
+    Result<LeanStream> lean = encode_lean(table, rings, {.wart_skipping = options.wart_skipping()});
+    REQUIRE(lean);
+    check_stream(mesh, Connectivity::lean, std::move(lean->words), std::move(lean->vertex_order),
+                 std::move(lean->slot_triangle), options.keep_order());
+}
+
+void check_packed(const Mesh& mesh, const CornerTable& table, const Options& options, PackedProfile profile) {
+    Result<PackedChoice> packed =
+        encode_smallest_packed(table, options.ring(table), options.optimize(packed_ring_cost), profile);
+    REQUIRE(packed);
+    PackedStream& stream = packed->stream;
+    check_stream(mesh, Connectivity::packed, std::move(stream.words), std::move(stream.vertex_order),
+                 std::move(stream.triangle_order), options.keep_order());
+}
+
+void check_lr(const Mesh& mesh, const CornerTable& table, const Options& options, Connectivity kind) {
+    RingOptions ring = options.ring(table);
+    ring.start = null_corner;  // of the table before its fans are split
+    const std::array<std::uint32_t, 2> periods{0, options.byte[1]};
+    Result<EncodedLr> lr = kind == Connectivity::lr
+                               ? encode_lr(table, ring, options.optimize(lr_ring_cost), options.wart_skipping())
+                               : encode_compact_lr(table, ring, std::span(periods).first(options.byte[1] == 0 ? 1 : 2));
+    REQUIRE(lr);
+    check_stream(mesh, kind, std::move(lr->words), std::move(lr->vertex_order), std::move(lr->triangle_order),
+                 options.keep_order());
+}
+
+/// The triangles that a structure holds, by its operators.
+template <class View>
+std::vector<Triangle> triangles_by_operators(const View& view, auto&& vertex_of) {
+    std::vector<Triangle> out;
+    for (std::uint32_t t = 0; t < view.triangle_numbers(); ++t) {
+        if (!view.is_canonical({t})) continue;
+        const CornerId c = view.corner(TriangleId{t});
+        out.push_back(rotated({vertex_of(view.vertex(c)), vertex_of(view.vertex(view.next(c))),
+                               vertex_of(view.vertex(view.previous(c)))}));
+    }
+    return sorted(std::move(out));
+}
+
+void check_rivals(const Mesh& mesh, CornerTable table) {
+    split_fans(table);
+    std::vector<std::uint32_t> corners;
+    for (const CornerTable::Corner& c : table.corners) corners.push_back(c.vertex.value);
+    const std::vector<Triangle> want = sorted(triangles_of(corners));
+    const auto check = [&](const auto& view, auto&& vertex_of) {
+        check_operators(view, view.triangle_numbers(), view.vertices);
+        REQUIRE(triangles_by_operators(view, vertex_of) == want);
+    };
+    const auto same = [](VertexId v) { return v.value; };
+    const WingedEdge winged = build_winged_edge(table);
+    check(winged.view(), same);
+    const CornerTableC flat = build_corner_table_c(table);
+    check(flat.view(), same);
+    LrMap map;
+    const Result<Squad> squad = build_squad(table, {}, &map);
+    REQUIRE(squad);
+    check(squad->view(), [&](VertexId v) { return map.vertex[v.value].value; });
+
+    std::vector<std::uint32_t> proper;
+    for (const Triangle& t : triangles_of(mesh.indices)) proper.insert(proper.end(), t.begin(), t.end());
+    if (proper.empty()) return;
+    const Result<Strips> strips = make_strips(proper, mesh.vertex_count);
+    if (!strips) return;
+    REQUIRE(sorted(triangles_of(unstrip(strips->restart, true))) == sorted(triangles_of(proper)));
+    REQUIRE(sorted(triangles_of(unstrip(strips->degenerate, false))) == sorted(triangles_of(proper)));
+}
+
+void run_chain(const Mesh& input, const Options& options) {
+    const Mesh mesh = welded(input, options.welding());
+    const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
+    REQUIRE(table);
+    check_table(mesh, *table);
+    const Positions positions(mesh);
+    REQUIRE(vertex_normals(*table, positions).size() == std::size_t{3} * mesh.vertex_count);
+    const std::vector<ClosedShell> shells = closed_shells(*table, positions);
+    const SmeshCheck smesh = check_smesh(*table, report_topology(*table), shells);
+    REQUIRE(smesh.is_smesh() == smesh.reason.empty());
+
+    if (options.wants(0)) check_lean(mesh, *table, options);
+    if (options.wants(1)) check_packed(mesh, *table, options, PackedProfile::small);
+    if (options.wants(2)) check_packed(mesh, *table, options, PackedProfile::cache);
+    if (options.wants(3)) check_lr(mesh, *table, options, Connectivity::lr);
+    if (options.wants(4)) check_lr(mesh, *table, options, Connectivity::lr_compact);
+    if (options.wants(5)) check_rivals(mesh, *table);
+}
+
+template <class T>
+void append(std::vector<std::byte>& data, T value) {
+    const auto bytes = std::as_bytes(std::span(&value, 1));
+    data.insert(data.end(), bytes.begin(), bytes.end());
+}
+
+/// Bytes as an index list of one or two bytes an index. Several copies, each with its vertices a little further on,
+/// make meshes of many blocks from few bytes.
+Mesh mesh_of_indices(std::span<const std::byte> bytes, const Options& options) {
+    const std::uint32_t width = 1 + (options.byte[6] & 1), copies = 1 + (options.byte[6] >> 1) % 16;
+    const std::uint32_t shift = options.byte[7];
+    Mesh mesh;
+    for (std::uint32_t copy = 0; copy < copies; ++copy) {
+        for (std::size_t i = 0; i + 3 * width <= bytes.size(); i += 3 * width) {
+            for (std::size_t k = 0; k < 3 * width; k += width) {
+                std::uint32_t v = std::to_integer<std::uint32_t>(bytes[i + k]);
+                if (width == 2) v |= (std::to_integer<std::uint32_t>(bytes[i + k + 1]) & 0xf) << 8;
+                mesh.indices.push_back(v + copy * shift);
+                mesh.vertex_count = std::max(mesh.vertex_count, mesh.indices.back() + 1);
+            }
+        }
+    }
+    mesh.vertex_count += options.byte[1] % 3;  // of no triangle
+    Attribute position{"POSITION", ComponentType::f32, 3, false, {}}, color{"COLOR_0", ComponentType::u8, 3, true, {}};
+    Attribute weight{"weight", ComponentType::f64, 1, false, {}};
+    const std::uint32_t period = options.byte[5] % 4 == 0 ? 1 + options.byte[5] : UINT32_MAX;  // equal positions
+    for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
+        const auto x = static_cast<float>(v % period);
+        for (const float value : {x, x * x, x / 3.0F}) append(position.data, value);
+        for (std::uint32_t k = 0; k < 3; ++k) append(color.data, static_cast<std::uint8_t>(v / (k + 1) & 0x7f));
+        append(weight.data, static_cast<double>(v % 11));
+    }
+    mesh.attributes = {position, color, weight};
+    return mesh;
+}
+
+bool run_indices(std::span<const std::byte> bytes) {
+    if (bytes.size() < kOptionBytes + 3) return false;
+    const Options options(bytes.last(kOptionBytes));
+    const Mesh mesh = mesh_of_indices(bytes.first(bytes.size() - kOptionBytes), options);
+    if (mesh.indices.empty()) return false;
+    run_chain(mesh, options);
+    return true;
+}
+
+bool run_file(std::span<const std::byte> bytes) {
+    if (bytes.size() < kOptionBytes) return false;
+    const Options options(bytes.last(kOptionBytes));
+    const auto format = static_cast<MeshFormat>(options.byte[7] % 6);  // any at first
+    const std::vector<std::byte> file(bytes.begin(), bytes.end() - kOptionBytes);
+    const Result<Mesh> mesh = read_mesh(file, {}, {.format = format, .max_bytes = 1 << 20});
+    if (!mesh) return false;
+    check_mesh(*mesh);
+    if (mesh->triangle_count() > 2000 || mesh->vertex_count > 5000) return false;
+    run_chain(*mesh, options);
+    return true;
+}
+
+}  // namespace
+
+extern const Target chain_indices_target{"chain_indices", run_indices, nullptr};
+extern const Target chain_mesh_target{"chain_mesh", run_file, nullptr};
+
+}  // namespace lr::fuzz

@@ -1,0 +1,172 @@
+// The .lr file: mutates sections, lays them out again and mends every checksum (docs/lr-file.md).
+
+#include "lrcore/file/lr_file.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "lrcore/base/crc32.h"
+#include "tests/fuzz/streams.h"
+#include "tests/fuzz/use.h"
+
+namespace lr::fuzz {
+namespace {
+
+struct Header {
+    std::uint32_t magic, version, sections, vertices, input_triangles, reserved, table_crc, header_crc;
+};
+struct Entry {
+    std::uint32_t kind, crc;
+    std::uint64_t offset, size;
+    std::uint32_t layout, name_length;
+};
+struct Section {
+    Entry entry;
+    Bytes contents;
+};
+constexpr std::uint32_t kAttribute = 2, kVertexOrder = 3, kCornerOrder = 4;
+
+bool run(std::span<const std::byte> bytes) {
+    // The view that a memory-mapped file is used by needs an aligned address: operator new's is.
+    const Result<ConnectivityWords> in_place = connectivity_in(bytes);
+    const Result<LrFile> file = parse_lr(bytes);
+    if (!in_place) check_message(in_place.error());
+    if (!file) {
+        check_message(file.error());
+        return false;
+    }
+    REQUIRE(in_place && in_place->format == file->format && std::ranges::equal(in_place->words, file->words));
+    const std::optional<Words> indices = use_stream(file->format, file->words);
+    REQUIRE(indices);
+    REQUIRE(indices->size() / 3 <= file->input_triangles);
+    const Mesh mesh = decode_lr(*file);
+    REQUIRE(mesh.indices.size() == indices->size());
+    if (!mesh.indices.empty()) check_mesh(mesh);
+    const bool ordered = !file->vertex_order.empty() && !file->corner_order.empty();
+    const Result<Mesh> original = decode_lr_original_order(*file);
+    if (!original) check_message(original.error());
+    REQUIRE(!ordered || original);
+    if (original && !mesh.indices.empty()) {
+        check_mesh(*original);
+        REQUIRE(original->vertex_count == mesh.vertex_count && original->indices.size() == mesh.indices.size());
+    }
+    const Result<LrFile> again = parse_lr(serialize_lr(*file));
+    REQUIRE(again && again->words == file->words && again->vertex_order == file->vertex_order &&
+            again->corner_order == file->corner_order && again->attributes.size() == file->attributes.size());
+    return true;
+}
+
+/// Header and sections, as far as the bytes have them.
+std::vector<Section> take_apart(const Bytes& bytes, Header& header) {
+    std::vector<Section> out;
+    std::memcpy(&header, bytes.data(), sizeof header);
+    for (std::size_t at = sizeof header; out.size() < header.sections; at += sizeof(Entry)) {
+        Section section;
+        if (at + sizeof section.entry > bytes.size()) break;
+        std::memcpy(&section.entry, bytes.data() + at, sizeof section.entry);
+        const std::uint64_t begin = std::min<std::uint64_t>(section.entry.offset, bytes.size());
+        const std::uint64_t size = std::min<std::uint64_t>(section.entry.size, bytes.size() - begin);
+        const auto from = bytes.begin() + static_cast<std::ptrdiff_t>(begin);
+        section.contents.assign(from, from + static_cast<std::ptrdiff_t>(size));
+        out.push_back(std::move(section));
+    }
+    return out;
+}
+
+Bytes put_together(Header header, std::vector<Section>& sections) {
+    header.sections = static_cast<std::uint32_t>(sections.size());
+    Bytes out(sizeof header + sections.size() * sizeof(Entry));
+    for (Section& section : sections) {
+        out.resize((out.size() + 7) / 8 * 8);
+        section.entry.offset = out.size();
+        section.entry.size = section.contents.size();
+        section.entry.crc = crc32(section.contents);
+        out.insert(out.end(), section.contents.begin(), section.contents.end());
+    }
+    for (std::size_t i = 0; i < sections.size(); ++i) {
+        std::memcpy(out.data() + sizeof header + i * sizeof(Entry), &sections[i].entry, sizeof(Entry));
+    }
+    header.table_crc = crc32(std::span(out).subspan(sizeof header, sections.size() * sizeof(Entry)));
+    header.header_crc = crc32(std::as_bytes(std::span(&header, 1)).first(28));
+    std::memcpy(out.data(), &header, sizeof header);
+    return out;
+}
+
+void mutate_number(std::uint32_t& number, Random& random) {
+    number =
+        random_below(random, 2) == 0 ? number + random_below(random, 5) - 2 : number ^ 1U << random_below(random, 32);
+}
+
+void mutate_section(Section& section, std::size_t room, Random& random) {
+    Bytes& contents = section.contents;
+    const std::size_t most = contents.size() + room;
+    switch (section.entry.kind) {
+        case kAttribute: {
+            const std::size_t size = contents.size();
+            mutate_bytes(contents, most, random);
+            if (random_below(random, 4) != 0) contents.resize(size);
+            return;
+        }
+        case kVertexOrder:
+        case kCornerOrder:
+            if (contents.size() >= 8 && random_below(random, 2) == 0) {  // still a permutation
+                const auto word = [&] {
+                    return contents.begin() + std::ptrdiff_t{4} * random_below(random, contents.size() / 4);
+                };
+                const auto a = word();
+                std::swap_ranges(a, a + 4, word());
+                return;
+            }
+            mutate_bytes(contents, most, random);
+            return;
+        default: {
+            Words words(contents.size() / 4);
+            if (!words.empty()) std::memcpy(words.data(), contents.data(), 4 * words.size());
+            mutate_stream(Connectivity{section.entry.kind}, words, most / 4, random);
+            const auto bytes = std::as_bytes(std::span(words));
+            contents.assign(bytes.begin(), bytes.end());
+        }
+    }
+}
+
+void mutate(Bytes& bytes, std::size_t max_size, Random& random) {
+    if (bytes.size() < sizeof(Header) || random_below(random, 8) == 0) return mutate_bytes(bytes, max_size, random);
+    Header header;
+    std::vector<Section> sections = take_apart(bytes, header);
+    if (sections.empty()) return mutate_bytes(bytes, max_size, random);
+    const std::size_t room = max_size > bytes.size() + 64 ? max_size - bytes.size() - 64 : 0;
+    const std::uint32_t chosen = random_below(random, sections.size());
+    Section& section = sections[chosen];
+    switch (random_below(random, 16)) {
+        case 0:
+            mutate_number(random_below(random, 2) == 0 ? header.vertices : header.input_triangles, random);
+            break;
+        case 1:
+            mutate_number(section.entry.layout, random);
+            break;
+        case 2:
+            mutate_number(section.entry.name_length, random);
+            break;
+        case 3:
+            mutate_number(section.entry.kind, random);
+            break;
+        case 4:
+            std::swap(section, sections[random_below(random, sections.size())]);
+            break;
+        case 5:
+            sections.erase(sections.begin() + chosen);
+            break;
+        case 6:
+            if (section.contents.size() + 64 <= room) sections.push_back(Section(section));
+            break;
+        default:
+            mutate_section(section, room, random);
+    }
+    bytes = put_together(header, sections);
+}
+
+}  // namespace
+
+extern const Target lr_file_target{"lr_file", run, mutate};
+
+}  // namespace lr::fuzz

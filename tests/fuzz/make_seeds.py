@@ -1,0 +1,157 @@
+#!/usr/bin/env python3
+"""Writes the seeds of every fuzz target: make_seeds.py STREAM_SEEDS_PROGRAM FOLDER makes FOLDER/TARGET/NAME.
+
+Streams come from the program (stream_seeds.cpp), mesh files from here, and what once failed from regressions/TARGET.
+"""
+
+import json
+import pathlib
+import shutil
+import struct
+import subprocess
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "independent"))
+import mesh_writers as w  # noqa: E402
+
+FORMATS = ["any", "gltf", "obj", "off", "ply", "stl"]  # as MeshFormat counts
+
+TETRAHEDRON = ([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)])
+QUADS = ([(x * 0.5, y * 1e-3, 0.25) for y in range(3) for x in range(3)],
+         [(0, 1, 4, 3), (1, 2, 5, 4), (3, 4, 7, 6), (4, 5, 8, 7)])
+STRIP = [0, 1, 2, 3, 4, 5, -1, 6, 7, 8]
+
+
+def grid(size):
+    points = [(x, y, (x * y) % 3) for y in range(size) for x in range(size)]
+    cells = [y * size + x for y in range(size - 1) for x in range(size - 1)]
+    return points, [t for c in cells for t in ((c, c + 1, c + size), (c + 1, c + size + 1, c + size))]
+
+
+def gltf_with(attributes, indices, primitive=None, accessor=None, **more):
+    """A GLB of one primitive: attributes are NAME: (componentType, type, count, bytes, stride), indices 16-bit or None."""
+    blob, views, accessors, named = b"", [], [], {}
+    for name, (component, kind, count, data, stride) in attributes.items():
+        views.append({"buffer": 0, "byteOffset": len(blob), "byteLength": len(data)})
+        if stride:
+            views[-1]["byteStride"] = stride
+        accessors.append({"bufferView": len(views) - 1, "componentType": component, "type": kind, "count": count,
+                          "normalized": component != 5126})
+        blob += data + bytes(-len(data) % 4)
+        named[name] = len(accessors) - 1
+    made = {"attributes": named, **(primitive or {})}
+    if indices is not None:
+        views.append({"buffer": 0, "byteOffset": len(blob), "byteLength": 2 * len(indices)})
+        accessors.append({"bufferView": len(views) - 1, "componentType": 5123, "type": "SCALAR", "count": len(indices)})
+        blob += struct.pack(f"<{len(indices)}H", *indices) + bytes(2 * (len(indices) % 2))
+        made["indices"] = len(accessors) - 1
+    accessors[0].update(accessor or {})
+    text = json.dumps({"asset": {"version": "2.0"}, "meshes": [{"primitives": [made]}], "bufferViews": views,
+                       "accessors": accessors, "buffers": [{"byteLength": len(blob)}], **more},
+                      separators=(",", ":")).encode()
+    text += b" " * (-len(text) % 4)
+    return (struct.pack("<4sIIII", b"glTF", 2, 28 + len(text) + len(blob), len(text), 0x4e4f534a) + text +
+            struct.pack("<II", len(blob), 0x004e4942) + blob)
+
+
+def gltf_seeds():
+    points, triangles = TETRAHEDRON
+    flat = w.flat(triangles)
+    turned = [{"children": [1, 2], "rotation": [0, 0, 0.6, 0.8], "scale": [1, 2, -1]},
+              {"mesh": 0, "translation": [1, 2, 3]},
+              {"mesh": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1]}]
+    yield "json", w.gltf(points, [(4, flat)])
+    yield "glb", w.gltf(points, [(4, flat)], binary=True)
+    yield "nodes", w.gltf(points, [(4, flat)], nodes=turned)
+    yield "strips", w.gltf(QUADS[0], [(5, [0, 1, 2, 3, 4, 5, 6]), (6, [0, 1, 4, 3, 6])], binary=True)
+    yield "sparse", w.gltf(points, [(4, flat), (4, flat[:3])], sparse=(2, (0.5, 0.5, 0.5)))
+    yield "points", w.gltf(points, [(0, [0, 1]), (4, flat)])
+    position = struct.pack("<12f", *w.flat(points))
+    interleaved = b"".join(struct.pack("<3f4B", *p, 1, 2, 3, 255) for p in points)
+    yield "unindexed", gltf_with({"POSITION": (5126, "VEC3", 3, position[:36], 0)}, None)
+    yield "attributes", gltf_with(
+        {"POSITION": (5126, "VEC3", 4, position, 12), "NORMAL": (5120, "VEC3", 4, bytes(range(16)), 4),
+         "TEXCOORD_0": (5123, "VEC2", 4, bytes(range(16)), 0), "COLOR_0": (5121, "VEC4", 4, bytes(16), 0),
+         "_ID": (5125, "SCALAR", 4, bytes(16), 0)}, flat)
+    yield "quantized", gltf_with({"POSITION": (5122, "VEC3", 4, bytes(range(32)), 8)}, flat,
+                                 extensionsUsed=["KHR_mesh_quantization"],
+                                 extensionsRequired=["KHR_mesh_quantization"],
+                                 nodes=[{"mesh": 0, "scale": [0.5, 0.5, 0.5]}], scenes=[{"nodes": [0]}], scene=0)
+    yield "strided", gltf_with({"POSITION": (5126, "VEC3", 4, interleaved, 16)}, flat)
+    yield "no-view", gltf_with({"POSITION": (5126, "VEC3", 4, position, 0)}, flat, accessor={"min": [0], "max": [1]})
+
+
+def obj_seeds():
+    yield "plain", w.obj(*TETRAHEDRON)
+    yield "quads", w.obj(*QUADS)
+    yield "corners", (b"# x\nmtllib a.mtl\no b\nv 0 0 0\nv 1 0 0 1.0\nv 0 1 0\nvt 0 0\nvt 1 0.5 0\nvn 0 0 1\nvn 0 0 -1\ng c\n"
+                      b"usemtl d\ns off\nf 1/1/1 2/2/1 3/1/2\nf -1//-1 -2//-2 -3//1\nf 1/1 2/2 3/\nl 1 2\n")
+    yield "colors", b"v 0 0 0 1 0 0\nv 1 0 0 0 1 0\r\nv 0 1e-3 .5 0 0 1\nf 1 2 \\\n3\n"
+    yield "before", b"f 1 2 3 4\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 9 9 9\n"
+
+
+def off_seeds():
+    yield "plain", w.off(*TETRAHEDRON)
+    yield "quads", w.off(*QUADS)
+    yield "headless", b"3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 255 0 0\n"
+    yield "colors", b"COFF # c\n3 1 0\n0 0 0 255 0 0 255\n1 0 0 0 255 0 255\n0 1 0 0.5 0 0 1\n3 0 1 2\n"
+    yield "all", (b"STCNOFF\n4 1 0\n0 0 0 0 0 1 1 2 3 0 0\n1 0 0 0 0 1 4 5 6 1 0\n1 1 0 0 0 1 7 8 9 1 1\n"
+                  b"0 1 0 0 0 1 1 2 3 0 1\n4 0 1 2 3\n")
+
+
+def ply_seeds():
+    for name, order in (("text", ""), ("little", "<"), ("big", ">")):
+        yield name, w.ply(*QUADS, order=order)
+        yield name + "-strips", w.ply(QUADS[0], None, order=order, strips=STRIP, real="double")
+    yield "decoded", w.decoded(*TETRAHEDRON)
+    yield "names", (b"ply\nformat ascii 1.0\nobj_info x\ncomment lacedring attribute 3 0 POSITION\n"
+                    b"comment lacedring attribute 2 0 TEXCOORD_0\ncomment lacedring attribute 1 0 we%20ight\n"
+                    b"comment lacedring attribute 3 1 COLOR_0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                    b"property float z\nproperty float s\nproperty float t\nproperty double we\nproperty uchar red\n"
+                    b"property uchar green\nproperty uchar blue\nelement face 1\nproperty list uchar uint vertex_indices\n"
+                    b"property list int float texcoord\nend_header\n0 0 0 0 0 1 9 9 9\n1 0 0 1 0 2 9 9 9\n0 1 0 0 1 3 9 9 9\n"
+                    b"3 0 1 2 2 0.5 0.5\n")
+    yield "other", (b"ply\r\nformat ascii 1.0\r\nelement material 1\r\nproperty int a\r\nelement vertex 3\r\nproperty float x\r\n"
+                    b"property float y\r\nproperty float z\r\nproperty float nx\r\nproperty float ny\r\nproperty float nz\r\n"
+                    b"element face 1\r\nproperty list uchar int vertex_index\r\nend_header\r\n7\r\n0 0 0 0 0 1\r\n1 0 0 0 0 1\r\n"
+                    b"0 1 0 0 0 1\r\n3 0 1 2\r\n")
+
+
+def stl_seeds():
+    yield "binary", w.stl(*TETRAHEDRON)
+    yield "text", w.stl_text(*TETRAHEDRON)
+    yield "two-solids", w.stl_text(*TETRAHEDRON) + w.stl_text(TETRAHEDRON[0], TETRAHEDRON[1][:1])
+
+
+def regressions():
+    """Inputs that once failed: as they are, or in hexadecimal digits where the name ends in .hex."""
+    for path in sorted((HERE / "regressions").glob("*/*")):
+        data = path.read_bytes()
+        yield path.parent.name, path.stem, bytes.fromhex(data.decode()) if path.suffix == ".hex" else data
+
+
+def main():
+    program, folder = sys.argv[1], pathlib.Path(sys.argv[2])
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    subprocess.run([program, folder], check=True)
+
+    def write(target, name, data):
+        (folder / target).mkdir(exist_ok=True)
+        (folder / target / name).write_bytes(data)
+
+    for number, (target, seeds) in enumerate({"gltf": gltf_seeds, "obj": obj_seeds, "off": off_seeds, "ply": ply_seeds,
+                                              "stl": stl_seeds}.items()):
+        for name, data in seeds():
+            write(target, name, data)
+            options = bytes([0x40 + number, number, 1, number % 4, 1, 255, 0, FORMATS.index(target), 0])
+            write("chain_mesh", f"{target}-{name}", data + options)
+    for name, data in (("grid-ply", w.decoded(*grid(12))), ("grid-off", w.off(*grid(6)))):
+        write("chain_mesh", name, data + bytes([0x42, 3, 2, 2, 1, 255, 0, FORMATS.index("any"), 0]))
+    for target, name, data in regressions():
+        write(target, f"regression-{name}", data)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,210 @@
+#include "tests/fuzz/streams.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <memory>
+
+#include "lrcore/base/crc32.h"
+#include "lrcore/lean/lean_format.h"
+#include "lrcore/lean/lean_stream.h"
+#include "lrcore/lr/lr_stream.h"
+#include "lrcore/packed/packed_format.h"
+#include "lrcore/packed/packed_stream.h"
+#include "lrcore/packed/record.h"
+#include "tests/fuzz/use.h"
+
+namespace lr::fuzz {
+namespace {
+
+/// Sizes from the number of words, and triangles from the slots that are not degenerate (docs/lean-format.md).
+void mend_lean(Words& words) {
+    const std::uint64_t rings2 = words[LR_LEAN_WORD_RINGS2], rings1 = words[LR_LEAN_WORD_RINGS1];
+    const std::uint64_t payload = words.size() - LR_LEAN_HEADER_WORDS, ring_slots = 2 * rings2 + rings1;
+    if (ring_slots > payload) return;
+    const auto verbatim = static_cast<std::uint32_t>((payload - ring_slots) / 3);
+    words.resize(LR_LEAN_HEADER_WORDS + ring_slots + std::size_t{3} * verbatim);
+    words[LR_LEAN_WORD_VERBATIM] = verbatim;
+    std::uint32_t triangles = verbatim;
+    for (std::uint32_t v = 0; v < rings2 + rings1; ++v) {
+        const bool two = v < rings2;
+        const std::uint32_t* slots = words.data() + LR_LEAN_HEADER_WORDS + (two ? 2 * v : rings2 + v);
+        std::uint32_t next = v + 1;
+        for (std::uint32_t side = 0; side < (two ? 2U : 1U); ++side) {
+            if ((slots[side] & LR_LEAN_CLOSE_FLAG) != 0) next = slots[side] & LR_LEAN_TIP_MASK;
+        }
+        for (std::uint32_t side = 0; side < (two ? 2U : 1U); ++side) {
+            const bool degenerate = (slots[side] & LR_LEAN_CLOSE_FLAG) != 0 || slots[side] == (side == 0 ? v : next);
+            if (!degenerate) ++triangles;
+        }
+    }
+    words[LR_LEAN_WORD_TRIANGLES] = triangles;
+}
+
+/// Record bytes and the last block's length from the number of words; zeros where they have to be.
+void mend_packed(Words& words) {
+    PackedView view;
+    view.vertices = words[LR_PACKED_WORD_VERTICES];
+    view.triangles = words[LR_PACKED_WORD_TRIANGLES];
+    view.vertex_bits = words[LR_PACKED_WORD_WIDTHS] & 0xff;
+    if (view.triangles == 0 || view.triangles > 8 * 4 * words.size()) return;  // a turn bit each
+    const std::size_t records = view.records_word();
+    if (records + LR_PACKED_TAIL_WORDS > words.size()) return;
+    const auto most = static_cast<std::uint32_t>(4 * (words.size() - records - LR_PACKED_TAIL_WORDS));
+    std::uint32_t& bytes = words[LR_PACKED_WORD_RECORD_BYTES];
+    if (bytes > most || most - bytes > 3) bytes = most;
+
+    const std::uint32_t blocks = view.blocks();
+    std::uint32_t offset = 0;
+    for (std::uint32_t block = 0; block < blocks; ++block) {
+        std::uint32_t* group =
+            words.data() + view.directory_word() + std::size_t{block / LR_PACKED_GROUP} * LR_PACKED_GROUP_WORDS;
+        if (block % LR_PACKED_GROUP == 0) group[0] = offset;
+        std::uint32_t& four = group[1 + block % LR_PACKED_GROUP / 4];
+        const std::uint32_t shift = 8 * (block % 4),
+                            count = std::min(view.triangles - block * LR_PACKED_BLOCK, LR_PACKED_BLOCK);
+        const std::uint32_t length = four >> shift & 0xff;
+        if (block + 1 == blocks && length <= LR_PACKED_MAX_RECORD && bytes >= offset &&
+            bytes - offset <= LR_PACKED_MAX_RECORD) {
+            four = (four & ((1U << shift) - 1)) | (bytes - offset) << shift;  // and no lengths behind it
+        }
+        offset += block_bytes(four >> shift & 0xff, count, view.vertex_bits);
+    }
+    if (offset <= most && most - offset <= 3) bytes = offset;
+    if (const std::uint32_t last = view.triangles % 32; last != 0) {
+        words[LR_PACKED_HEADER_WORDS + view.triangles / 32] &= (1U << last) - 1;
+    }
+    auto* at = reinterpret_cast<std::uint8_t*>(words.data() + records);
+    std::fill(at + bytes, reinterpret_cast<std::uint8_t*>(words.data() + words.size()), std::uint8_t{0});
+}
+
+/// The entries of VO* from the number of words: nothing else says how many they are.
+void mend_lr(Words& words, std::uint64_t words_per_vertex) {
+    constexpr std::size_t ring = 3, t0 = 4, star = 5, isolated = 6, copies = 7;
+    const std::uint64_t others = kLrHeaderWords + words[ring] * words_per_vertex + std::uint64_t{6} * words[t0] +
+                                 words[isolated] + std::uint64_t{2} * words[copies];
+    if (others <= words.size()) words[star] = static_cast<std::uint32_t>(words.size() - others);
+}
+
+void mend(Connectivity kind, Words& words) {
+    constexpr std::size_t lr_checksum = 9;
+    switch (kind) {
+        case Connectivity::lean:
+            if (words.size() < LR_LEAN_HEADER_WORDS) return;
+            words[LR_LEAN_WORD_MAGIC] = LR_LEAN_MAGIC;
+            words[LR_LEAN_WORD_VERSION] = LR_LEAN_VERSION;
+            mend_lean(words);
+            words[LR_LEAN_WORD_CHECKSUM] = lean_checksum(words);
+            return;
+        case Connectivity::packed:
+            if (words.size() < LR_PACKED_HEADER_WORDS) return;
+            words[LR_PACKED_WORD_MAGIC] = LR_PACKED_MAGIC;
+            words[LR_PACKED_WORD_VERSION] = LR_PACKED_VERSION;
+            mend_packed(words);
+            words[LR_PACKED_WORD_CHECKSUM] = packed_checksum(words);
+            return;
+        default: {
+            if (words.size() < kLrHeaderWords) return;
+            mend_lr(words, kind == Connectivity::lr ? 2 : 1);
+            const auto bytes = std::as_bytes(std::span(words));
+            words[lr_checksum] = crc32(bytes.subspan(4 * kLrHeaderWords), crc32(bytes.first(4 * lr_checksum)));
+        }
+    }
+}
+
+void mutate_words(Words& words, Random& random) {
+    const auto any = [&] { return random_below(random, words.size()); };
+    const auto place = [&](std::size_t i) { return words.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::uint32_t& word = words[any()];
+    switch (random_below(random, 8)) {
+        case 0:
+            word ^= 1U << random_below(random, 32);
+            break;
+        case 1:
+            word ^= 1U << (28 + random_below(random, 4));  // flags
+            break;
+        case 2:
+            word += random_below(random, 5) - 2;
+            break;
+        case 3:
+            word = (word & 0xe0000000U) | random_below(random, words.size());
+            break;
+        case 4:
+            word = words[any()];
+            break;
+        case 5:
+            std::swap(word, words[any()]);
+            break;
+        case 6: {
+            const Words piece(place(any()), words.end());
+            const std::size_t size = std::min<std::size_t>(piece.size(), 1 + random_below(random, 6));
+            words.insert(place(any()), piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(size));
+            break;
+        }
+        default: {
+            const std::size_t begin = any(), size = 1 + random_below(random, 6);
+            words.erase(place(begin), place(std::min(begin + size, words.size())));
+        }
+    }
+}
+
+template <Connectivity kind>
+bool run(std::span<const std::byte> bytes) {
+    const std::size_t size = bytes.size() / 4;
+    const auto words = std::make_unique<std::uint32_t[]>(size);
+    if (size > 0) std::memcpy(words.get(), bytes.data(), 4 * size);
+    return use_stream(kind, {words.get(), size}).has_value();
+}
+
+template <Connectivity kind>
+void mutate(Bytes& bytes, std::size_t max_size, Random& random) {
+    Words words(bytes.size() / 4);
+    if (!words.empty()) std::memcpy(words.data(), bytes.data(), 4 * words.size());
+    mutate_stream(kind, words, max_size / 4, random);
+    const auto out = std::as_bytes(std::span(words));
+    bytes.assign(out.begin(), out.end());
+}
+
+template <class Stream, class Use>
+std::optional<Words> used(const Result<Stream>& stream, Use use) {
+    if (stream) return use(*stream);
+    check_message(stream.error());
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Words> use_stream(Connectivity kind, std::span<const std::uint32_t> words) {
+    switch (kind) {
+        case Connectivity::lean:
+            return used(validate_lean(words), use_lean);
+        case Connectivity::packed:
+            return used(validate_packed(words), use_packed);
+        case Connectivity::lr:
+            return used(validate_lr(words), [](const auto& stream) { return use_lr(stream); });
+        case Connectivity::lr_compact:
+            return used(validate_compact_lr(words), [](const auto& stream) { return use_lr(stream); });
+    }
+    return std::nullopt;
+}
+
+void mutate_stream(Connectivity kind, Words& words, std::size_t max_words, Random& random) {
+    if (words.empty() || random_below(random, 2) == 0) {
+        Bytes bytes(4 * words.size());
+        if (!words.empty()) std::memcpy(bytes.data(), words.data(), bytes.size());
+        mutate_bytes(bytes, 4 * max_words, random);
+        words.resize(bytes.size() / 4);
+        if (!words.empty()) std::memcpy(words.data(), bytes.data(), 4 * words.size());
+    } else {
+        mutate_words(words, random);
+        words.resize(std::min(words.size(), max_words));
+    }
+    if (random_below(random, 16) != 0) mend(kind, words);  // else the checks of the header are tested
+}
+
+extern const Target lean_target{"lean", run<Connectivity::lean>, mutate<Connectivity::lean>};
+extern const Target packed_target{"packed", run<Connectivity::packed>, mutate<Connectivity::packed>};
+extern const Target lr_target{"lr", run<Connectivity::lr>, mutate<Connectivity::lr>};
+extern const Target lr_compact_target{"lr_compact", run<Connectivity::lr_compact>, mutate<Connectivity::lr_compact>};
+
+}  // namespace lr::fuzz

@@ -1,0 +1,22 @@
+#pragma once
+// What the targets know about streams: how to use a valid one, and how to mutate one so that it may stay valid.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "lrcore/file/lr_file.h"
+#include "tests/fuzz/targets.h"
+
+namespace lr::fuzz {
+
+using Words = std::vector<std::uint32_t>;
+
+/// Validates the words and uses the stream (use.h). Its triangles, or nothing if it is refused.
+std::optional<Words> use_stream(Connectivity kind, std::span<const std::uint32_t> words);
+
+/// Mutates bytes or whole words, then makes sizes and checksum in the header fit again, mostly.
+void mutate_stream(Connectivity kind, Words& words, std::size_t max_words, Random& random);
+
+}  // namespace lr::fuzz

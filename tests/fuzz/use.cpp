@@ -1,0 +1,260 @@
+#include "tests/fuzz/use.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <memory>
+
+#include "lrcore/lr/offsets.h"
+#include "lrcore/mesh/read.h"
+#include "lrcore/mesh/write_formats.h"
+#include "lrcore/packed/packed_format.h"
+
+namespace lr::fuzz {
+namespace {
+
+/// An array of exactly `size` words, so that a sanitizer sees what is written behind it.
+struct ExactWords {
+    explicit ExactWords(std::size_t count) : data(new std::uint32_t[count]()), size(count) {}
+    std::span<std::uint32_t> span() const { return {data.get(), size}; }
+
+    std::unique_ptr<std::uint32_t[]> data;
+    std::size_t size;
+};
+
+template <class Real>
+bool all_finite(std::span<const std::byte> data) {
+    for (std::size_t i = 0; i + sizeof(Real) <= data.size(); i += sizeof(Real)) {
+        Real value{};
+        std::memcpy(&value, data.data() + i, sizeof value);
+        if (!std::isfinite(value)) return false;
+    }
+    return true;
+}
+
+void check_triangles(std::span<const std::uint32_t> indices, std::uint32_t vertices) {
+    REQUIRE(indices.size() % 3 == 0);
+    for (std::size_t i = 0; i < indices.size(); i += 3) {
+        const std::uint32_t a = indices[i], b = indices[i + 1], c = indices[i + 2];
+        REQUIRE(a < vertices && b < vertices && c < vertices);
+        REQUIRE(a != b && b != c && c != a);
+    }
+}
+
+template <class View>
+std::vector<std::uint32_t> use_tables(const LrStream<View>& stream) {
+    const LrOperators<View> ops(stream.view);
+    std::vector<bool> seen(stream.view.ring_vertices);
+    for (std::uint32_t v = 0; v < stream.view.ring_vertices; ++v) {
+        const std::uint32_t n = ops.ring_next(v);
+        REQUIRE(n < stream.view.ring_vertices && !seen[n]);
+        REQUIRE(ops.ring_previous(n) == v);
+        seen[n] = true;
+    }
+    // Of the vertices of no triangle, which a header may give any number of, a few are enough.
+    const std::uint32_t vertices = std::min(stream.view.vertices, stream.view.used_vertices() + 3);
+    check_operators(ops, stream.view.triangle_numbers(), vertices);
+    for (const std::uint32_t v : stream.copies) REQUIRE(v < stream.view.vertices);
+    std::vector<std::uint32_t> indices = decode_lr(stream);
+    for (const std::uint32_t v : indices) REQUIRE(v < stream.view.vertices);
+    if (stream.copies.empty()) check_triangles(indices, stream.view.vertices);  // copies may be of one vertex
+    return indices;
+}
+
+Result<Mesh> write_and_read(const Mesh& mesh, MeshFormat format) {
+    detail::Bytes head, body;
+    WriteNotes notes;
+    if (format == MeshFormat::gltf) {
+        if (const auto made = detail::make_glb(mesh, head, body, notes); !made) return made.error();
+    } else if (format == MeshFormat::ply) {
+        detail::make_ply(mesh, head, body);
+    } else {
+        detail::make_obj(mesh, body, notes);
+    }
+    for (const std::string& note : notes) check_message({ErrorCode::malformed, note});
+    head.insert(head.end(), body.begin(), body.end());
+    return read_mesh(head, {}, {.format = format});
+}
+
+const Attribute* floats(const Mesh& mesh, std::string_view name, std::size_t components) {
+    const Attribute* attribute = find_attribute(mesh, name);
+    if (attribute == nullptr || attribute->components != components) return nullptr;
+    return attribute->type == ComponentType::f32 || attribute->type == ComponentType::f64 ? attribute : nullptr;
+}
+
+double component(const Attribute& attribute, std::size_t vertex, std::size_t i) {
+    const std::byte* from = attribute.data.data() + vertex * attribute.stride();
+    if (attribute.type == ComponentType::f64) {
+        double wide = 0;
+        std::memcpy(&wide, from + i * sizeof wide, sizeof wide);
+        return wide;
+    }
+    float narrow = 0;
+    std::memcpy(&narrow, from + i * sizeof narrow, sizeof narrow);
+    return static_cast<double>(narrow);
+}
+
+/// What a writer makes of the values of one vertex.
+using Rewrite = std::function<void(const Attribute&, std::span<double>)>;
+
+/// glTF has no numbers that are not finite, and v downwards; OBJ has v upwards.
+void to_gltf(const Attribute& attribute, std::span<double> values) {
+    for (double& value : values) {
+        if (!std::isfinite(static_cast<float>(value))) value = 0;
+    }
+    if (attribute.v_up) values[1] = static_cast<double>(1.0F - static_cast<float>(values[1]));
+}
+void to_obj(const Attribute& attribute, std::span<double> values) {
+    if (attribute.name != "TEXCOORD_0" || attribute.v_up) return;
+    values[1] = attribute.type == ComponentType::f32 ? static_cast<double>(1.0F - static_cast<float>(values[1]))
+                                                     : 1.0 - values[1];
+}
+
+/// Has `back` at every corner the values that `mesh` has, rewritten, as floats? From doubles by way of decimals, the
+/// last bit may differ; not-a-number is one value.
+void check_corners(const Mesh& mesh, const Mesh& back, std::string_view name, std::size_t components,
+                   const Rewrite& rewrite) {
+    const Attribute* want = floats(mesh, name, components);
+    if (want == nullptr) return;
+    const Attribute* got = floats(back, name, components);
+    REQUIRE(got != nullptr);
+    REQUIRE(back.indices.size() == mesh.indices.size());
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+        double values[3];
+        for (std::size_t k = 0; k < components; ++k) values[k] = component(*want, mesh.indices[i], k);
+        rewrite(*want, std::span(values, components));
+        for (std::size_t k = 0; k < components; ++k) {
+            const double a = values[k], b = component(*got, back.indices[i], k);
+            const auto x = static_cast<float>(std::clamp(a, -3.5e38, 3.5e38)), y = static_cast<float>(b);
+            const bool exact = std::memcmp(&x, &y, sizeof x) == 0 || (std::isnan(a) && std::isnan(b)) ||
+                               (std::isinf(x) && std::isinf(y) && std::signbit(x) == std::signbit(y));
+            const bool near = want->type == ComponentType::f64 && std::nextafter(x, y) == y;
+            REQUIRE(exact || near);
+        }
+    }
+}
+
+/// glTF's normals have unit length, and those that had it are kept.
+void check_gltf_normals(const Mesh& mesh, const Mesh& back) {
+    const Attribute *want = floats(mesh, "NORMAL", 3), *got = floats(back, "NORMAL", 3);
+    if (want == nullptr) return;
+    REQUIRE(got != nullptr);
+    for (std::size_t v = 0; v < mesh.vertex_count; ++v) {
+        double before = 0, after = 0, change = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto a = static_cast<double>(static_cast<float>(component(*want, v, k)));
+            const double b = component(*got, v, k);
+            before += a * a;
+            after += b * b;
+            change += (a - b) * (a - b);
+        }
+        REQUIRE(std::abs(std::sqrt(after) - 1) < 0.0051);
+        if (std::abs(std::sqrt(before) - 1) < 0.0049) REQUIRE(change == 0);
+    }
+}
+
+}  // namespace
+
+void check_message(const Error& error) {
+    REQUIRE(!error.message.empty() && error.message.size() < 1000);
+    REQUIRE(std::all_of(error.message.begin(), error.message.end(), [](char c) { return c >= ' ' && c <= '~'; }));
+}
+
+void check_mesh(const Mesh& mesh) {
+    REQUIRE(!mesh.indices.empty() && mesh.indices.size() % 3 == 0);
+    for (const std::uint32_t v : mesh.indices) REQUIRE(v < mesh.vertex_count);
+    REQUIRE(!mesh.attributes.empty());
+    for (const Attribute& attribute : mesh.attributes) {
+        REQUIRE(size_of(attribute.type) != 0 && attribute.components != 0);
+        REQUIRE(attribute.data.size() == attribute.stride() * mesh.vertex_count);
+    }
+    const Attribute& position = mesh.attributes.front();
+    REQUIRE(position.name == "POSITION" && position.components == 3);
+    REQUIRE(position.type == ComponentType::f32
+                ? all_finite<float>(position.data)
+                : position.type == ComponentType::f64 && all_finite<double>(position.data));
+    REQUIRE(positions_f32(mesh).size() == std::size_t{3} * mesh.vertex_count);
+    REQUIRE(normals_f32(mesh).size() == std::size_t{3} * mesh.vertex_count);
+}
+
+void check_writers(const Mesh& mesh) {
+    if (mesh.triangle_count() > 2000 || mesh.vertex_count > 5000) return;
+    const Result<Mesh> ply = write_and_read(mesh, MeshFormat::ply);
+    REQUIRE(ply);
+    REQUIRE(ply->vertex_count == mesh.vertex_count && ply->indices == mesh.indices);
+    REQUIRE(ply->attributes.size() == mesh.attributes.size());
+    for (std::size_t i = 0; i < mesh.attributes.size(); ++i) {
+        const Attribute &a = mesh.attributes[i], &b = ply->attributes[i];
+        REQUIRE(a.name == b.name && a.type == b.type && a.components == b.components && a.normalized == b.normalized);
+        REQUIRE(a.data == b.data && a.v_up == b.v_up);
+    }
+    const std::vector<float> positions = positions_f32(mesh);
+    const bool finite = all_finite<float>(std::as_bytes(std::span(positions)));  // rounding may overflow
+    const Result<Mesh> glb = write_and_read(mesh, MeshFormat::gltf);
+    REQUIRE(glb.has_value() == finite);
+    const Result<Mesh> obj = write_and_read(mesh, MeshFormat::obj);
+    REQUIRE(obj.has_value() == finite);
+    if (!finite) return;
+    REQUIRE(glb->vertex_count == mesh.vertex_count && glb->indices == mesh.indices);
+    check_mesh(*glb);
+    check_corners(mesh, *glb, "POSITION", 3, [](const Attribute&, std::span<double>) {});
+    check_corners(mesh, *glb, "TEXCOORD_0", 2, to_gltf);
+    check_gltf_normals(mesh, *glb);
+    check_mesh(*obj);
+    for (const auto& [name, components] :
+         {std::pair("POSITION", 3U), std::pair("NORMAL", 3U), std::pair("TEXCOORD_0", 2U)}) {
+        check_corners(mesh, *obj, name, components, to_obj);
+    }
+}
+
+std::vector<std::uint32_t> use_lean(const LeanView& view) {
+    const ExactWords decoded(std::size_t{3} * view.slots());
+    decode_lean(view, decoded.span());
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t slot = 0; slot < view.slots(); ++slot) {
+        const LeanTriangle triangle = decode_lean_slot(view, slot);
+        const auto whole = decoded.span().subspan(std::size_t{3} * slot, 3);
+        REQUIRE(std::equal(whole.begin(), whole.end(), triangle.v));
+        for (const std::uint32_t v : triangle.v) REQUIRE(v < view.vertices);
+        if (!triangle.degenerate()) indices.insert(indices.end(), triangle.v, triangle.v + 3);
+    }
+    check_triangles(indices, view.vertices);
+    REQUIRE(indices.size() == std::size_t{3} * view.triangles);
+    return indices;
+}
+
+std::vector<std::uint32_t> use_packed(const PackedView& view) {
+    const ExactWords decoded(std::size_t{3} * view.triangles);
+    decode_packed(view, decoded.span());
+    check_triangles(decoded.span(), view.vertices);
+    const ExactWords threaded(decoded.size);
+    decode_packed(view, threaded.span(), 3);
+    REQUIRE(std::ranges::equal(decoded.span(), threaded.span()));
+    for (std::uint32_t block = 0; block < view.blocks(); ++block) {
+        const std::uint32_t first = block * LR_PACKED_BLOCK;
+        const ExactWords alone(std::size_t{3} * std::min(view.triangles - first, LR_PACKED_BLOCK));
+        decode_packed_block(view, block, alone.span());
+        REQUIRE(std::ranges::equal(alone.span(), decoded.span().subspan(std::size_t{3} * first, alone.size)));
+    }
+    const std::uint32_t step = view.triangles / 512 + 1;  // each one costs up to a block
+    for (std::uint32_t t = 0; t < view.triangles; t += step) {
+        const PackedTriangle triangle = decode_packed_triangle(view, t);
+        const auto whole = decoded.span().subspan(std::size_t{3} * t, 3);
+        REQUIRE(std::equal(whole.begin(), whole.end(), triangle.v));
+    }
+    return {decoded.span().begin(), decoded.span().end()};
+}
+
+std::vector<std::uint32_t> use_lr(const LrStream<LrView>& stream) {
+    const OffsetCounts offsets = count_offsets(stream.view);
+    REQUIRE(offsets.t0 == stream.view.vo.size() / 6);
+    return use_tables(stream);
+}
+
+std::vector<std::uint32_t> use_lr(const LrStream<CompactLrView>& stream) {
+    REQUIRE(count_long_tips(stream.view) <= 2 * std::uint64_t{stream.view.ring_vertices});
+    return use_tables(stream);
+}
+
+}  // namespace lr::fuzz

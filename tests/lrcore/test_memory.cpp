@@ -1,0 +1,131 @@
+// Streams whose headers count more elements than the streams hold: decoders and validators must not allocate by such a
+// count. A separate binary, because it replaces operator new.
+
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "lrcore/base/crc32.h"
+#include "lrcore/file/lr_file.h"
+#include "lrcore/lean/lean_format.h"
+#include "lrcore/lean/lean_stream.h"
+#include "lrcore/lr/lr_encode.h"
+#include "lrcore/packed/packed_format.h"
+#include "lrcore/packed/packed_stream.h"
+#include "tests/support/meshes.h"
+
+namespace {
+std::size_t allocated = 0;  // bytes requested since the last reset, freed or not
+}
+
+// Not inlined: the compiler would see free() of what it takes for the standard operator new's.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+    allocated += size;
+    void* const out = std::malloc(size);
+    if (out == nullptr) throw std::bad_alloc();
+    return out;
+}
+[[gnu::noinline]] void operator delete(void* p) noexcept {
+    std::free(p);
+}
+[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept {
+    std::free(p);
+}
+
+using namespace lr;
+
+namespace {
+
+constexpr std::size_t kLittle = 64 * 1024;  // far above the needs of the streams below
+
+/// Bytes that work() requests.
+template <class Work>
+std::size_t bytes_of(const Work& work) {
+    allocated = 0;
+    work();
+    return allocated;
+}
+
+CornerTable table_of(const Mesh& mesh) {
+    return build_corner_table(mesh.indices, mesh.vertex_count).value();
+}
+
+/// Two tetrahedra that share vertex 0, so that LR tables have a copy of it.
+Mesh pinched() {
+    return test::make_mesh({0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2, 0, 4, 5, 0, 5, 6, 0, 6, 4, 4, 6, 5}, 7);
+}
+
+std::vector<std::uint32_t> lr_words(bool compact, std::uint32_t vertices) {
+    const std::uint32_t periods[] = {0};
+    Result<EncodedLr> encoded =
+        compact ? encode_compact_lr(table_of(pinched()), {}, periods) : encode_lr(table_of(pinched()), {});
+    REQUIRE(encoded);
+    REQUIRE(encoded->copies == 1);
+    std::vector<std::uint32_t> words = std::move(encoded->words);
+    words[2] = vertices;
+    const std::span<const std::uint32_t> all(words);
+    words[9] = crc32(std::as_bytes(all.subspan(kLrHeaderWords)), crc32(std::as_bytes(all.first(9))));
+    return words;
+}
+
+template <class Stream>
+void check_lr(const Stream& stream) {
+    REQUIRE(stream);
+    CHECK(stream->view.vertices == (1U << 28) - 2);
+    std::size_t indices = 0;
+    CHECK(bytes_of([&] { indices = decode_lr(*stream).size(); }) < kLittle);
+    CHECK(indices == 24);
+}
+
+}  // namespace
+
+TEST_CASE("LR tables with vertices of no triangle decode in the memory that their words pay for") {
+    const std::vector<std::uint32_t> standard = lr_words(false, (1U << 28) - 2),
+                                     compact = lr_words(true, (1U << 28) - 2);
+    CHECK(bytes_of([&] { CHECK(validate_lr(standard)); }) < kLittle);
+    CHECK(bytes_of([&] { CHECK(validate_compact_lr(compact)); }) < kLittle);
+    check_lr(view_lr(standard));
+    check_lr(view_compact_lr(compact));
+}
+
+TEST_CASE("a lean stream with vertices of no triangle") {
+    std::vector<std::uint32_t> words = encode_lean(table_of(pinched()), expand_rings(table_of(pinched())))->words;
+    words[LR_LEAN_WORD_VERTICES] = 1U << 29;
+    words[LR_LEAN_WORD_CHECKSUM] = lean_checksum(words);
+    CHECK(bytes_of([&] { CHECK(validate_lean(words)); }) < kLittle);
+    for (const std::size_t count : {LR_LEAN_WORD_RINGS2, LR_LEAN_WORD_RINGS1, LR_LEAN_WORD_VERBATIM}) {
+        std::vector<std::uint32_t> bad = words;
+        bad[count] = 1U << 28;
+        bad[LR_LEAN_WORD_CHECKSUM] = lean_checksum(bad);
+        CHECK(bytes_of([&] { CHECK_FALSE(validate_lean(bad)); }) < kLittle);
+    }
+}
+
+TEST_CASE("a packed stream with vertices of no triangle") {
+    std::vector<std::uint32_t> words = encode_packed(table_of(pinched()), expand_rings(table_of(pinched())))->words;
+    words[LR_PACKED_WORD_VERTICES] = UINT32_MAX;
+    words[LR_PACKED_WORD_CHECKSUM] = packed_checksum(words);
+    CHECK(bytes_of([&] { CHECK(validate_packed(words)); }) < kLittle);
+    for (const std::size_t count : {LR_PACKED_WORD_TRIANGLES, LR_PACKED_WORD_RECORD_BYTES}) {
+        std::vector<std::uint32_t> bad = words;
+        bad[count] = 1U << 30;
+        bad[LR_PACKED_WORD_CHECKSUM] = packed_checksum(bad);
+        CHECK(bytes_of([&] { CHECK_FALSE(validate_packed(bad)); }) < kLittle);
+    }
+}
+
+TEST_CASE("an .lr file whose connectivity promises more vertices than the file has") {
+    for (const Connectivity format : {Connectivity::lr, Connectivity::lr_compact}) {
+        CAPTURE(static_cast<int>(format));
+        const Mesh mesh = pinched();
+        LrFile file;
+        file.vertex_count = mesh.vertex_count;
+        file.input_triangles = 8;
+        file.format = format;
+        file.words = lr_words(format == Connectivity::lr_compact, (1U << 28) - 2);
+        file.attributes = mesh.attributes;
+        const std::vector<std::byte> bytes = serialize_lr(file);
+        CHECK(bytes_of([&] { CHECK_FALSE(parse_lr(bytes)); }) < kLittle);
+    }
+}

@@ -1,0 +1,106 @@
+// decode_packed with threads, and without the permission to create any: this file replaces pthread_create.
+
+#include <dlfcn.h>
+#include <doctest/doctest.h>
+#include <pthread.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <climits>
+#include <cstdlib>
+
+#include "lrcore/generate/generate.h"
+#include "lrcore/packed/packed_stream.h"
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool kSanitized = true;  // RLIMIT_AS does not work with its shadow memory
+#else
+constexpr bool kSanitized = false;
+#endif
+
+namespace {
+std::atomic<int> allowed = INT_MAX, made = 0;  // threads that may be created; threads created
+}
+
+extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*start)(void*),
+                              void* argument) {
+    static const auto real = reinterpret_cast<decltype(&pthread_create)>(dlsym(RTLD_NEXT, "pthread_create"));
+    if (made >= allowed) return EAGAIN;
+    ++made;
+    return real(thread, attributes, start, argument);
+}
+
+using namespace lr;
+
+namespace {
+
+struct Sample {
+    std::vector<std::uint32_t> words, indices;
+    PackedView view;
+};
+
+const Sample& sample() {
+    static const Sample only = [] {
+        Sample out;
+        const Mesh mesh = generate("sphere", 200000, 1).value();
+        const CornerTable table = build_corner_table(mesh.indices, mesh.vertex_count).value();
+        out.words = encode_packed(table, expand_rings(table)).value().words;
+        out.view = validate_packed(out.words).value();
+        out.indices.resize(std::size_t{3} * out.view.triangles);
+        decode_packed(out.view, out.indices);
+        return out;
+    }();
+    return only;
+}
+
+bool decodes(unsigned threads) {
+    std::vector<std::uint32_t> out(sample().indices.size());
+    decode_packed(sample().view, out, threads);
+    return out == sample().indices;
+}
+
+}  // namespace
+
+TEST_CASE("decode_packed with any number of threads") {
+    for (const unsigned threads : {0U, 1U, 2U, 3U, 7U, 64U, 1000U, UINT_MAX}) {
+        CAPTURE(threads);
+        made = 0;
+        CHECK(decodes(threads));
+        CHECK(static_cast<unsigned>(made) <= (threads == 0 ? 0 : threads - 1));
+        if (threads == 2) CHECK(made == 1);
+    }
+}
+
+TEST_CASE("decode_packed where no more threads can be made") {
+    for (const int most : {0, 1, 2}) {
+        for (const unsigned threads : {2U, 4U, 1000U, UINT_MAX}) {
+            CAPTURE(most);
+            CAPTURE(threads);
+            made = 0;
+            allowed = most;
+            CHECK(decodes(threads));
+            allowed = INT_MAX;
+            CHECK(made <= most);
+        }
+    }
+}
+
+TEST_CASE("decode_packed where no stack of a thread fits the address space" * doctest::skip(kSanitized)) {
+    REQUIRE(decodes(1));
+    const pid_t child = fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+        std::vector<std::uint32_t> out(sample().indices.size());
+        const rlimit limit{64U << 20, 64U << 20};  // no room for another stack
+        if (setrlimit(RLIMIT_AS, &limit) != 0) _exit(2);
+        decode_packed(sample().view, out, 1000);
+        _exit(out == sample().indices ? 0 : 1);
+    }
+    int status = 0;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    CHECK(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 0);
+}
