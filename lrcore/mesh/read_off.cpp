@@ -97,6 +97,7 @@ class OffReader {
     Result<void> read_elements() {
         const TextScanner start = scanner_;
         by_line_ = true;
+        color_width_ = header_.color ? 3 : 0;
         auto good = read_vertices_and_faces();
         if (good || !ended_early_) return good;
         by_line_ = false;

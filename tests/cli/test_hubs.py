@@ -104,7 +104,7 @@ class Hubs(CliTest):
             verdict = self.json("verify", source, "--json")
             self.assertIn("meshlets", verdict["formats"])
             self.assertTrue(all(entry["ok"] for entry in verdict["formats"].values()), verdict)
-        source = self.write("double.ply", write.ply([(1e300, 0, 0), (0, -1e300, 0), (0, 0, 1e300), (0, 0, 0)],
+        source = self.write("double.ply", write.ply([(3e38, 0, 0), (0, -3e38, 0), (0, 0, 3e38), (0, 0, 0)],
                                                     [(0, 1, 2), (0, 2, 3)], real="double"))
         self.ok("verify", source)
 
