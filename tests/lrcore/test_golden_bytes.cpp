@@ -1,4 +1,5 @@
 // The bytes of every format, kept as text in tests/golden: a format must not change without a new version number.
+// Those of .lr files: test_lr_file.cpp.
 //
 // Each file holds the words and the vertex order of a stream. After an intended change of a format,
 // LACEDRING_WRITE_GOLDEN=1 test_core -tc='golden*' rewrites the files.
@@ -64,7 +65,6 @@ Words decode_tables(const Words& words) {
 
 constexpr std::uint32_t kPeriods[] = {0, 7};
 
-// TODO: add an .lr file of each connectivity once the file format is at version 2.
 const Format kFormats[] = {
     {"lean", [](const CornerTable& t) { return stream_of(encode_lean(t, expand_rings(t))); }, decode_lean},
     {"lean-no-warts",

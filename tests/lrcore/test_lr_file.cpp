@@ -1,7 +1,10 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <memory>
 
 #include "lrcore/file/lr_file.h"
@@ -52,6 +55,16 @@ Mesh with_attributes() {
     return mesh;
 }
 
+/// The index list without degenerate triangles.
+std::vector<std::uint32_t> indices_of_kept(const Mesh& mesh) {
+    std::vector<std::uint32_t> out;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const auto triangle = std::span(mesh.indices).subspan(i, 3);
+        if (!test::oriented_triangles(triangle).empty()) out.insert(out.end(), triangle.begin(), triangle.end());
+    }
+    return out;
+}
+
 }  // namespace
 
 TEST_CASE("lr files give back the mesh") {
@@ -63,13 +76,7 @@ TEST_CASE("lr files give back the mesh") {
             REQUIRE_MESSAGE(file, file.error().message);
             const Result<Mesh> original = decode_lr_original_order(*file);
             REQUIRE(original);
-            // The input's index list, but for degenerate triangles.
-            std::vector<std::uint32_t> want;
-            for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-                const auto triangle = std::span(mesh.indices).subspan(i, 3);
-                if (!test::oriented_triangles(triangle).empty()) want.insert(want.end(), triangle.begin(), triangle.end());
-            }
-            CHECK(original->indices == want);
+            CHECK(original->indices == indices_of_kept(mesh));
             REQUIRE(original->attributes.size() == mesh.attributes.size());
             for (std::size_t a = 0; a < mesh.attributes.size(); ++a) {
                 CHECK(original->attributes[a].data == mesh.attributes[a].data);
@@ -125,6 +132,44 @@ TEST_CASE("every truncation and every flipped bit of an lr file is refused") {
         bad[i] ^= static_cast<std::byte>(1U << (i % 8));
         CAPTURE(i);
         CHECK_FALSE(parse_lr(bad));
+    }
+}
+
+// The bytes in hexadecimal. After an intended change of the format, which needs a new version number,
+// LACEDRING_WRITE_GOLDEN=1 test_core -tc='golden*' rewrites them.
+TEST_CASE("golden bytes: lr files are written as they were, and read as they were") {
+    const Mesh mesh = with_attributes();
+    const char* names[] = {"lean", "lr", "lr-compact", "packed"};
+    for (std::size_t f = 0; f < std::size(kFormats); ++f) {
+        const std::string path = std::string(GOLDEN_FOLDER) + "/file-" + names[f] + ".hex";
+        CAPTURE(path);
+        const LrFile file = make(mesh, true, kFormats[f]);
+        std::string now;
+        for (const std::byte b : serialize_lr(file)) {
+            if (!now.empty() && now.size() % 97 == 96) now += '\n';
+            now += "0123456789abcdef"[std::to_integer<unsigned>(b) >> 4U];
+            now += "0123456789abcdef"[std::to_integer<unsigned>(b) & 15U];
+        }
+        now += '\n';
+        if (std::getenv("LACEDRING_WRITE_GOLDEN") != nullptr) std::ofstream(path) << now;
+        std::ifstream in(path);
+        const std::string golden((std::istreambuf_iterator<char>(in)), {});
+        CHECK(now == golden);
+        std::vector<std::byte> bytes;
+        for (std::size_t i = 0; i + 1 < golden.size(); i += golden[i + 2] == '\n' ? 3 : 2) {
+            bytes.push_back(static_cast<std::byte>(std::stoi(golden.substr(i, 2), nullptr, 16)));
+        }
+        const Result<LrFile> read = parse_lr(bytes);
+        REQUIRE_MESSAGE(read, read.error().message);
+        const Result<Mesh> back = decode_lr_original_order(*read);
+        REQUIRE_MESSAGE(back, back.error().message);
+        CHECK(back->indices == indices_of_kept(mesh));
+        REQUIRE(back->attributes.size() == mesh.attributes.size());
+        for (std::size_t a = 0; a < mesh.attributes.size(); ++a) {
+            CHECK(back->attributes[a].name == mesh.attributes[a].name);
+            CHECK(back->attributes[a].v_up == mesh.attributes[a].v_up);
+            CHECK(back->attributes[a].data == mesh.attributes[a].data);
+        }
     }
 }
 
