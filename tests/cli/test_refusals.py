@@ -8,6 +8,7 @@ import socket
 import struct
 import subprocess
 import time
+import unittest
 
 import cli_support
 from cli_support import BAD_INPUT, DONE, WRONG_USAGE, CliTest, main, run
@@ -16,6 +17,7 @@ import mesh_writers as write
 
 POINTS = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)]
 TRIANGLES = [(0, 1, 2), (0, 2, 3)]
+SANITIZED = os.environ.get("LACEDRING_SANITIZED", "0") == "1"
 
 
 def shell(command, **more):
@@ -385,6 +387,25 @@ class Faults(CliTest):
             with self.subTest(command):
                 self.write(name, b"old")
                 self.fails(*command, self.path(name), mentions=[name], preexec_fn=small_files)
+
+    @unittest.skipIf(SANITIZED, "the sanitizer takes terabytes of addresses")
+    def test_little_memory(self):
+        """With 12 to 64 MiB of data: the whole output, or one line and the old file."""
+        import resource
+        codes = set()
+        for command, name in self.commands():
+            if command[0] == "render":  # what the driver does then is not ours
+                continue
+            self.write(name, b"old")
+            for mebibytes in (64, 48, 32, 24, 20, 16, 12):
+                with self.subTest(command=command, mebibytes=mebibytes):
+                    def little_memory(size=mebibytes << 20):
+                        resource.setrlimit(resource.RLIMIT_DATA, (size, size))
+                    outcome = cli_support.run(*command, self.path(name), preexec_fn=little_memory)
+                    codes.add(outcome.code)
+                    if outcome.code != 0:
+                        self.fails(*command, self.path(name), mentions=["not enough memory"], preexec_fn=little_memory)
+        self.assertEqual(codes, {0, 3})
 
 
 if __name__ == "__main__":
