@@ -90,26 +90,33 @@ int run(const Options& options, RunLog& log) {
 #endif
     std::vector<MeshReport> meshes;
     std::size_t messages = 0;
-    for (const std::string& path : options.paths) {
+    const int exit = for_each_input(options.paths, log, [&](std::size_t i) {
+        const std::string& path = options.paths[i];
+        const auto leave_out = [&](const std::string& why, int code) {
+            page.left_out.emplace_back(path, why);
+            return code;
+        };
         const Result<Mesh> mesh = load({path, options.input}, log);
-        if (!mesh) return fail(path, mesh.error());
+        if (!mesh) return leave_out(mesh.error().message, fail(path, mesh.error()));
         std::string invalid;
         Result<MeshReport> report = measure_mesh(path, *mesh, options.ring, invalid);
-        if (!report) return fail(path, report.error());
+        if (!report) return leave_out(report.error().message, fail(path, report.error()));
         if (!invalid.empty()) {
             say("lacedring: {}: {}\n", path, invalid);
-            return check_failed;
+            return leave_out(invalid, check_failed);
         }
         report->no_pictures = skipped;
 #ifdef LACEDRING_GPU
         if (context != nullptr) {
             const Result<void> drawn =
                 draw_pictures(*context, options.size, options.camera, *mesh, options.ring, *report);
-            if (!drawn) return fail(path, drawn.error());
+            if (!drawn) return leave_out(drawn.error().message, fail(path, drawn.error()));
         }
 #endif
         meshes.push_back(std::move(*report));
-    }
+        return int{done};
+    });
+    if (meshes.empty()) return exit;
 #ifdef LACEDRING_GPU
     if (context != nullptr) messages = print_validation(*context);
     if (std::ranges::all_of(meshes, [](const MeshReport& mesh) { return mesh.pictures.empty(); })) {
@@ -131,7 +138,7 @@ int run(const Options& options, RunLog& log) {
                                          counted(meshes.size(), "mesh", "meshes"), text.size(),
                                          skipped.empty() ? "drawn on " + page.device : "no pictures: " + skipped);
     options.output.path == "-" ? say("{}", line) : print("{}", line);
-    return messages == 0 ? done : check_failed;
+    return exit == done && messages != 0 ? check_failed : exit;
 }
 
 }  // namespace

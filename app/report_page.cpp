@@ -210,6 +210,15 @@ std::string section(const MeshReport& mesh, std::size_t number, const ReportPage
     return out + offset_histograms(mesh) + "</section>\n";
 }
 
+std::string left_out(const ReportPage& page) {
+    std::string out;
+    for (const auto& [path, why] : page.left_out) {
+        out +=
+            fmt::format("\n<p class=\"note\">Not in it: <code>{}</code> ({}).</p>", name_html(path), escape_html(why));
+    }
+    return out;
+}
+
 }  // namespace
 
 std::string report_page(const ReportPage& page) {
@@ -227,9 +236,9 @@ std::string report_page(const ReportPage& page) {
         "<meta name=\"generator\" content=\"lacedring {}\">\n<title>LacedRing report: {}</title>\n<style>{}</style>\n"
         "</head>\n<body>\n<header><h1>LacedRing report{}</h1>\n"
         "<p class=\"note\">What the connectivity of {} costs in every format, measured after each was made and decoded "
-        "again.</p></header>\n<main>\n",
+        "again.</p>{}</header>\n<main>\n",
         kPolicy, escape_html(page.version), escape_html(subject), kReportStyle, count == 1 ? "" : ": " + subject,
-        count == 1 ? "this mesh" : "these meshes");
+        count == 1 ? "this mesh" : "these meshes", left_out(page));
     if (count > 1) out += overview(page.meshes);
     const BitScale scale = bit_scale(page.meshes);
     for (std::size_t i = 0; i < count; ++i) out += section(page.meshes[i], i + 1, page, scale);

@@ -3,6 +3,8 @@
 
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "app/report_data.h"
 
@@ -14,6 +16,7 @@ struct ReportPage {
     std::string device;         ///< that drew; empty if none did
     std::uint32_t samples = 0;  ///< a pixel
     std::span<const MeshReport> meshes;
+    std::vector<std::pair<std::string, std::string>> left_out;  ///< meshes that failed, and why
 };
 
 std::string report_page(const ReportPage& page);

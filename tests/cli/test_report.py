@@ -13,7 +13,7 @@ import tempfile
 import zlib
 
 import cli_support
-from cli_support import CliTest, NO_DEVICE, WRONG_USAGE, main, run
+from cli_support import BAD_INPUT, CliTest, NO_DEVICE, WRONG_USAGE, main, run
 
 VOID = {"meta", "img", "br", "wbr", "link", "hr", "input"}
 SVG_LEAVES = {"line"}  # written <line .../>: the parser reports those apart
@@ -299,13 +299,25 @@ class Report(CliTest):
         self.assertEqual(page.images, [])
         self.assertIn("No pictures: ", page.words())
 
+    def test_one_bad_file_among_good_ones(self):
+        good, bad = self.generate("sphere", 200), self.write("bad.ply", b"ply\nformat ascii 1.0\nelement vertex 3\n")
+        out, alone = self.path("some.html"), self.path("alone.html")
+        result = run("report", bad, good, self.path("missing.ply"), "--no-gpu", "-o", out)
+        self.assertEqual(result.code, BAD_INPUT)
+        self.assertEqual(len(result.err.splitlines()), 2, result)
+        with open(out, encoding="utf-8") as file:
+            left_out = re.findall("Not in it: <code><bdi>([^<]*)</bdi></code> .([^)]*)", file.read())
+        self.assertEqual(left_out, [(bad, "line 4: the header has no end_header"),
+                                    (self.path("missing.ply"), "No such file or directory")])
+        self.ok("report", good, "--no-gpu", "-o", alone)
+        with open(alone, encoding="utf-8") as file:
+            self.assertFalse("Not in it" in file.read())
+
     def test_errors(self):
         good = self.generate("sphere", 200)
         bad = self.write("bad.ply", b"ply\nformat ascii 1.0\nelement vertex 3\n")
         out = self.write("kept.html", b"what was there before")
         self.fails("report", bad, "--no-gpu", "-o", out, mentions=("bad.ply",))
-        self.fails("report", good, bad, "--no-gpu", "-o", out, mentions=("bad.ply",))
-        self.fails("report", good, self.path("missing.ply"), "--no-gpu", "-o", self.path("new.html"))
         self.fails("report", good, "--no-gpu", "-o", self.path("no/such/folder.html"), mentions=("no/such",))
         self.fails("report", good, "--no-gpu", "-o", self.folder)
         self.fails("report", good, codes=(WRONG_USAGE,))
