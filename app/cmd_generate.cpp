@@ -50,8 +50,10 @@ void add_generate(CLI::App& program, Action& action) {
     command->add_option("KIND", options->kind, "see below")->required();
     add_output(*command, options->output, ".glb, .ply or .obj; - for standard output");
     command->add_option("--output-format", options->format, "with -o -")->check(CLI::IsMember({"glb", "ply", "obj"}));
-    command->add_option("--triangles", options->triangles, "about how many")->capture_default_str();
-    command->add_option("--seed", options->seed, "same seed, same file")->capture_default_str();
+    command->add_option("--triangles", options->triangles, "about how many")
+        ->check(refuse_negative)
+        ->capture_default_str();
+    command->add_option("--seed", options->seed, "same seed, same file")->check(refuse_negative)->capture_default_str();
     command->callback([options, &action] { action = [options](RunLog& log) { return run(*options, log); }; });
 }
 

@@ -12,6 +12,10 @@
 
 namespace lr::app {
 
+std::string refuse_negative(const std::string& number) {
+    return number.starts_with('-') ? number + " is negative" : std::string();
+}
+
 void add_ring_options(CLI::App& command, RingChoice& choice) {
     command
         .add_option("--ring", choice.ring, "ring construction for every format, not for each the one it is best with")
@@ -27,7 +31,9 @@ void add_ring_options(CLI::App& command, RingChoice& choice) {
     command.add_option("--seeds", choice.seeds, "seed corners tried per component; 0: by the mesh's size")
         ->check(CLI::Range(0, 100000))
         ->capture_default_str();
-    command.add_option("--random-seed", choice.random_seed, "for the choice of seed corners")->capture_default_str();
+    command.add_option("--random-seed", choice.random_seed, "for the choice of seed corners")
+        ->check(refuse_negative)
+        ->capture_default_str();
     command.add_option("--optimize", choice.optimize, "passes of the ring optimiser: a number, 0 for none, or auto")
         ->check([](const std::string& text) {
             std::uint32_t passes = 0;

@@ -257,6 +257,12 @@ class Usage(CliTest):
         self.assertEqual(self.json("info", "--json", "--weld", "attributes", mesh)["vertices"], 4)
         self.wrong("info", "--weld=nonsense", mesh)
 
+    def test_negative_numbers(self):
+        mesh = self.generate("blob", 300)
+        for arguments in (["generate", "blob", "--triangles", "-5"], ["generate", "blob", "--seed", "-1"],
+                          ["encode", mesh, "--random-seed", "-1"]):
+            self.fails(*arguments, "-o", self.path("x.ply"), mentions=[f"{arguments[-2]}: {arguments[-1]} is negative"], codes=(WRONG_USAGE,))
+
     def test_options_without_effect(self):
         mesh, lr = self.generate("blob", 300), self.path("x.lr")
         for options in (["--profile", "cache"], ["--profile", "small", "--format", "lr"], ["--k", "5"], ["--k", "5", "--format", "lr"],
