@@ -9,7 +9,7 @@
 namespace lr::app {
 namespace {
 
-/// How many letters have to be put in, taken out or changed. O(lengths' product).
+/// Edit distance (insertions, deletions, substitutions). Cost: O(|a| * |b|).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});

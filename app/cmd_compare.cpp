@@ -42,7 +42,7 @@ struct Skipped {
     std::string reason;
 };
 
-/// What is to be seen is the mesh's own: the same for all.
+/// Visibility is a property of the mesh: the same for every result.
 bool is_blank(std::span<const Compared> all) {
     return std::any_of(all.begin(), all.end(), [](const Compared& compared) { return compared.comparison.blank; });
 }

@@ -64,7 +64,7 @@ int render(const Options& options, const std::string& input, const std::filesyst
 
     gpu::RendererOptions renderer_options;
     renderer_options.view = gpu::view_named(options.view).value_or(gpu::View::smooth);
-    // What was asked for is drawn, or is an error of the device; else fewer samples do.
+    // An explicit --samples is drawn or fails; the default falls back to fewer samples.
     const std::uint32_t samples =
         options.samples != 0
             ? options.samples

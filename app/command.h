@@ -1,5 +1,5 @@
 #pragma once
-// What the commands share: how each registers itself, how rings are chosen, how errors end.
+// Shared by all commands: registration, ring options, exit codes.
 
 #include <CLI/CLI.hpp>
 #include <cstdint>

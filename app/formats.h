@@ -49,7 +49,7 @@ struct FormatSet {
     std::vector<Format> formats;
     std::vector<std::pair<std::string, std::string>> absent;  ///< name, reason
 
-    /// What bits and references are divided by: the triangles encoded, which degenerate ones are not; 1 at least.
+    /// Divisor of bits and references per triangle: triangles without degenerate ones, at least 1.
     double triangles() const { return std::max(1.0, static_cast<double>(report.triangles)); }
 };
 

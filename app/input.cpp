@@ -28,7 +28,7 @@ std::string listed(const std::vector<std::string>& items) {
     return out;
 }
 
-/// What an .lr file becomes is known only once it is decoded.
+/// Checks the limit after decoding: an .lr file does not state the size of its mesh.
 Result<void> check_memory(const Mesh& mesh, const InputOptions& options) {
     double bytes = static_cast<double>(mesh.triangle_count()) * (12.0 + options.triangle_bytes);
     for (const Attribute& attribute : mesh.attributes) bytes += static_cast<double>(attribute.data.size());

@@ -1,5 +1,5 @@
 #pragma once
-// What an .lr file consists of, for info and stats.
+// The sections of an .lr file, for info and stats.
 
 #include <nlohmann/json.hpp>
 #include <string>

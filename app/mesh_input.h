@@ -1,12 +1,12 @@
 #pragma once
-// Which mesh is read, and how.
+// A mesh named on the command line.
 
 #include <cstdint>
 #include <string>
 
 namespace lr::app {
 
-/// How a mesh is read. Every command that reads meshes has these options.
+/// Options of every command that reads meshes.
 struct InputOptions {
     std::string weld;    ///< "", "attributes" or "position"
     std::string format;  ///< "" as read_mesh tells, or "gltf", "obj", ...

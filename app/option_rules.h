@@ -24,7 +24,7 @@ class OptionRules {
     /// Each of `options`, where given, is an error unless `applies`: "--crease applies only with --view silhouette".
     /// Names of options that the command does not have (in a build without Vulkan) are passed over.
     OptionRules& only_with(std::initializer_list<const char*> options, std::string with, std::function<bool()> applies);
-    /// Likewise, an error where `other` is given: "--size has no effect with --no-gpu".
+    /// Makes the options an error beside `other`: "--size has no effect with --no-gpu".
     OptionRules& never_with(std::initializer_list<const char*> options, const char* other);
     /// An error that says `message` where `wrong`.
     OptionRules& forbid(std::string message, std::function<bool()> wrong);

@@ -33,7 +33,7 @@ Result<void> check_output(const std::filesystem::path& path, const OutputOptions
 /// Writes to the path, or to standard output. Errors: cannot_write.
 Result<void> write_output(const std::filesystem::path& path, std::span<const std::span<const std::byte>> parts);
 
-/// Where the results of several inputs go: the output itself for one input; else FOLDER/STEM + `extension` for each.
+/// Output paths, one an input: the output itself for one input, else FOLDER/STEM + `extension` for each.
 /// Errors: invalid_argument (several inputs and no folder, or two of one name).
 Result<std::vector<std::filesystem::path>> output_paths(const std::vector<std::string>& inputs,
                                                         const OutputOptions& options, std::string_view extension);

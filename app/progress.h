@@ -1,5 +1,5 @@
 #pragma once
-// How far a long command is: a bar on standard error, where that is a terminal.
+// Progress bars on standard error, if that is a terminal.
 
 #include <chrono>
 #include <cstdint>

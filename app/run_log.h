@@ -1,5 +1,5 @@
 #pragma once
-// What a command has to tell beside its result, and which files it has read.
+// Notes for standard error, and the files that a command has read.
 
 #include <filesystem>
 #include <string>

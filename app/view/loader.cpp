@@ -63,7 +63,7 @@ RingOptions ring_options(const RingSettings& settings, bool quick) {
 
 }  // namespace
 
-/// What the loader shares with its threads, which may outlive it.
+/// State shared by the loader and its threads, which may outlive it.
 struct Loader::Shared {
     std::mutex mutex;
     std::condition_variable changed;

@@ -154,7 +154,7 @@ int run(Options& options, Threads& threads) {
             looped = Error{ErrorCode::malformed, (*viewer)->state().error};
         }
         (*window)->hide();
-        // What the device does must end before anything of it is destroyed. A thread that computes for long in between
+        // The device must be idle before its objects are destroyed. A thread that computes for long in between
         // is not waited for: then nothing is destroyed.
         if (!(*viewer)->stop(kPatience)) leave(exit_code(failed_on, looped));
         return looped;

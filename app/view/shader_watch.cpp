@@ -101,7 +101,7 @@ std::string told(const std::vector<Known>& shaders) {
 
 }  // namespace
 
-/// What the watch shares with its thread, which may outlive it.
+/// State shared by the watch and its thread, which may outlive it.
 struct ShaderWatch::Shared {
     Shared(fs::path watched, fs::path built) : folder(std::move(watched)), built_from(std::move(built)) {}
 

@@ -73,7 +73,7 @@ Result<OpenFile> open_regular(const fs::path& path) {
     if (S_ISDIR(what.st_mode)) return cannot_open("is a folder");
     constexpr const char* kNotRegular = "is not a regular file";
     if (!S_ISREG(what.st_mode)) return cannot_open(kNotRegular);
-    // What was a file a moment ago may be a pipe by now: never wait for it.
+    // O_NONBLOCK: a pipe may have replaced the file since it was examined.
     Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
     if (!file.good()) return cannot_open(std::strerror(errno));
     if (::fstat(file.number(), &what) != 0 || !S_ISREG(what.st_mode) || is_system_table(file.number())) {
@@ -145,7 +145,7 @@ Result<void> write_descriptor(int descriptor, std::span<const std::span<const st
 
 namespace {
 
-/// Where a path leads: to another path, which need not exist yet, or to something that is written where it is.
+/// The target of a path: a path (which need not exist yet) to replace, or an object to write in place.
 struct Destination {
     fs::path path;
     bool in_place = false;

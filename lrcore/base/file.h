@@ -23,9 +23,9 @@ Result<std::vector<std::byte>> read_file_start(const std::filesystem::path& path
 Result<std::vector<std::byte>> read_descriptor(int descriptor, std::uint64_t most = UINT64_MAX);
 
 /// Writes `parts` one after the other to a file without a name, then gives it the name `path`: `path` is whole or
-/// untouched, whatever ends the process, and keeps its permissions. Threads and processes may write one path at once; the
-/// last one stays. Links are followed; devices, pipes and descriptors (/dev/stdout) are written in place.
-/// Errors: cannot_write (a loop of links, too).
+/// untouched, whatever ends the process, and keeps its permissions. Threads and processes may write one path at once;
+/// the last one stays. Links are followed; devices, pipes and descriptors (/dev/stdout) are written in place. Errors:
+/// cannot_write (a loop of links, too).
 Result<void> write_file(const std::filesystem::path& path, std::span<const std::span<const std::byte>> parts);
 
 /// Writes `parts` to an open descriptor. Errors: cannot_write.

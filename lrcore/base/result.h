@@ -9,15 +9,15 @@
 namespace lr {
 
 enum class ErrorCode {
-    cannot_open,      ///< the file does not exist, is a folder, or may not be read
-    cannot_write,     ///< the output cannot be made
-    malformed,        ///< the bytes do not follow their format
-    unsupported,      ///< the format is right, but this part of it is not read here
-    invalid_argument, ///< a parameter is out of its range
-    too_large,        ///< more elements than the representation numbers, or than memory holds
-    memory_limit,     ///< would take more memory than the caller allows
-    no_device,        ///< no usable Vulkan device, or it lacks what was asked for: memory, sizes, features
-    device_failure,   ///< a Vulkan call failed
+    cannot_open,       ///< the file does not exist, is a folder, or may not be read
+    cannot_write,      ///< the output cannot be made
+    malformed,         ///< the bytes do not follow their format
+    unsupported,       ///< the format is right, but this part of it is not read here
+    invalid_argument,  ///< a parameter is out of its range
+    too_large,         ///< more elements than the representation numbers, or than memory holds
+    memory_limit,      ///< would take more memory than the caller allows
+    no_device,         ///< no usable Vulkan device, or it lacks what was asked for: memory, sizes, features
+    device_failure,    ///< a Vulkan call failed
 };
 
 /// What went wrong. `message` is one line: the place and the cause, without the file's name (the caller knows it).

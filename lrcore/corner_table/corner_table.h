@@ -21,10 +21,18 @@
 
 namespace lr {
 
-constexpr TriangleId triangle(CornerId c) { return {c.value / 3}; }
-constexpr CornerId corner(TriangleId t, std::uint32_t i) { return {t.value * 3 + i}; }
-constexpr CornerId next(CornerId c) { return {c.value % 3 == 2 ? c.value - 2 : c.value + 1}; }
-constexpr CornerId previous(CornerId c) { return {c.value % 3 == 0 ? c.value + 2 : c.value - 1}; }
+constexpr TriangleId triangle(CornerId c) {
+    return {c.value / 3};
+}
+constexpr CornerId corner(TriangleId t, std::uint32_t i) {
+    return {t.value * 3 + i};
+}
+constexpr CornerId next(CornerId c) {
+    return {c.value % 3 == 2 ? c.value - 2 : c.value + 1};
+}
+constexpr CornerId previous(CornerId c) {
+    return {c.value % 3 == 0 ? c.value + 2 : c.value - 1};
+}
 
 /// How the triangles of an index list were joined into a manifold.
 struct Topology {
@@ -32,7 +40,7 @@ struct Topology {
     std::uint32_t border_edges = 0;       ///< edges of the input with one triangle
     std::uint32_t nonmanifold_edges = 0;  ///< edges of the input with more than two triangles
     std::uint32_t flipped = 0;            ///< triangles turned round to orient their component
-    std::uint32_t cut_edges = 0;          ///< manifold edges left unjoined because no orientation fits (a Moebius strip)
+    std::uint32_t cut_edges = 0;  ///< manifold edges left unjoined because no orientation fits (a Moebius strip)
 };
 
 /// Corner table of any triangle soup, made manifold by leaving edges unjoined and oriented by flipping triangles.
@@ -67,10 +75,9 @@ struct CornerTable {
 
 /// Builds the corner table of `indices` (3 per triangle, each < vertex_count).
 /// Edges of two triangles are joined; at an edge of more, opposed half-edges are paired so that few vertices split into
-/// several fans (after Rossignac and Cardoze's Matchmaker). Orientation is made consistent per component where it can be.
-/// Cost: O(T) time; 24 bytes a triangle, and 26 more while it runs.
-/// Errors: too_large (2^29 vertices; or 2^32 corners and vertices together), malformed (index out of range). Untrusted
-/// input: safe.
+/// several fans (after Rossignac and Cardoze's Matchmaker). Orientation is made consistent per component where it can
+/// be. Cost: O(T) time; 24 bytes a triangle, and 26 more while it runs. Errors: too_large (2^29 vertices; or 2^32
+/// corners and vertices together), malformed (index out of range). Untrusted input: safe.
 Result<CornerTable> build_corner_table(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);
 
 /// Checks V and O against each other: involution, shared edges opposed, no degenerate joined. Empty if all is well.

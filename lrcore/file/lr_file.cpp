@@ -51,14 +51,18 @@ struct Section {
 };
 static_assert(sizeof(Section) == 32);
 
-constexpr std::size_t align8(std::size_t size) { return (size + 7) / 8 * 8; }
+constexpr std::size_t align8(std::size_t size) {
+    return (size + 7) / 8 * 8;
+}
 
 template <class T>
 std::span<const std::byte> bytes_of(const T& value) {
     return std::as_bytes(std::span(&value, 1));
 }
 
-Error malformed(std::string message) { return {ErrorCode::malformed, "lr file: " + std::move(message)}; }
+Error malformed(std::string message) {
+    return {ErrorCode::malformed, "lr file: " + std::move(message)};
+}
 
 /// The triangles that a file's connectivity holds, degenerate slots left out, and which of its vertices are copies.
 struct Decoded {
@@ -124,8 +128,8 @@ std::string not_an_lr_file(std::span<const std::byte> bytes) {
     return kind.empty() ? "not an .lr file" : fmt::format("not an .lr file: it looks like {}", kind);
 }
 
-/// Checks header and section table and calls visit(section, contents) for each section; what visit returns, if not empty,
-/// is an error. The contents' checksums are visit's to look at.
+/// Checks header and section table and calls visit(section, contents) for each section; what visit returns, if not
+/// empty, is an error. The contents' checksums are visit's to look at.
 template <class Visit>
 Result<FileHeader> visit_sections(std::span<const std::byte> bytes, Visit visit) {
     FileHeader header;
@@ -142,7 +146,8 @@ Result<FileHeader> visit_sections(std::span<const std::byte> bytes, Visit visit)
     for (std::uint32_t i = 0; i < header.sections; ++i) {
         Section section;
         std::memcpy(&section, table_bytes.data() + std::size_t{i} * sizeof section, sizeof section);
-        if (section.offset != align8(end) || section.offset > bytes.size() || section.size > bytes.size() - section.offset) {
+        if (section.offset != align8(end) || section.offset > bytes.size() ||
+            section.size > bytes.size() - section.offset) {
             return malformed(fmt::format("section {} lies outside the file", i));
         }
         for (; end < section.offset; ++end) {
@@ -161,7 +166,8 @@ class Reader {
   public:
     Result<LrFile> read(std::span<const std::byte> bytes) {
         const Result<FileHeader> header = visit_sections(
-            bytes, [this](const FileHeader& h, const Section& section, std::span<const std::byte> contents) -> std::string {
+            bytes,
+            [this](const FileHeader& h, const Section& section, std::span<const std::byte> contents) -> std::string {
                 file_.vertex_count = h.vertices;
                 file_.input_triangles = h.input_triangles;
                 if (section.crc != crc32(contents)) return "is damaged";
@@ -178,11 +184,17 @@ class Reader {
             case kLean:
             case kLr:
             case kLrCompact:
-            case kPacked: file_.format = Connectivity{section.kind}; return read_words(contents, file_.words);
-            case kVertexOrder: return read_words(contents, file_.vertex_order);
-            case kCornerOrder: return read_words(contents, file_.corner_order);
-            case kAttribute: return read_attribute(section, contents);
-            default: return fmt::format("unknown kind {}", section.kind);
+            case kPacked:
+                file_.format = Connectivity{section.kind};
+                return read_words(contents, file_.words);
+            case kVertexOrder:
+                return read_words(contents, file_.vertex_order);
+            case kCornerOrder:
+                return read_words(contents, file_.corner_order);
+            case kAttribute:
+                return read_attribute(section, contents);
+            default:
+                return fmt::format("unknown kind {}", section.kind);
         }
     }
 
@@ -200,12 +212,14 @@ class Reader {
         attribute.components = static_cast<std::uint8_t>(section.layout >> 8 & 0xff);
         attribute.normalized = (section.layout >> 16 & 1) != 0;
         attribute.v_up = (section.layout >> 17 & 1) != 0;
-        if (type > static_cast<std::uint32_t>(ComponentType::f64) || attribute.components == 0 || section.layout >> 18 != 0) {
+        if (type > static_cast<std::uint32_t>(ComponentType::f64) || attribute.components == 0 ||
+            section.layout >> 18 != 0) {
             return "unknown attribute layout";
         }
         attribute.type = static_cast<ComponentType>(type);
         const std::uint64_t name = align8(section.name_length);
-        if (name > contents.size() || contents.size() - name != std::uint64_t{file_.vertex_count} * attribute.stride()) {
+        if (name > contents.size() ||
+            contents.size() - name != std::uint64_t{file_.vertex_count} * attribute.stride()) {
             return "attribute of the wrong size";
         }
         for (std::size_t i = section.name_length; i < name; ++i) {
@@ -266,7 +280,8 @@ class Reader {
         if (range / 64 > size) {  // mostly degenerate input, or a hostile count: no flag for each
             std::vector<std::uint32_t> sorted(order.begin(), order.end());
             std::sort(sorted.begin(), sorted.end());
-            return sorted.empty() || (sorted.back() < range && std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end());
+            return sorted.empty() ||
+                   (sorted.back() < range && std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end());
         }
         BitVector seen(range);
         for (const std::uint32_t i : order) {
@@ -304,7 +319,8 @@ std::vector<std::uint32_t> find_corners(const Mesh& mesh, const LrFile& file, st
 }  // namespace
 
 LrFile make_lr_file(const Mesh& mesh, Connectivity format, std::vector<std::uint32_t> words,
-                    std::vector<std::uint32_t> vertex_order, std::vector<std::uint32_t> triangle_order, bool keep_order) {
+                    std::vector<std::uint32_t> vertex_order, std::vector<std::uint32_t> triangle_order,
+                    bool keep_order) {
     LrFile file;
     file.vertex_count = static_cast<std::uint32_t>(vertex_order.size());
     file.input_triangles = static_cast<std::uint32_t>(mesh.triangle_count());
@@ -346,8 +362,14 @@ std::vector<std::byte> serialize_lr(const LrFile& file) {
         sections[i].crc = crc32(contents[i], crc32(names[i]));
         end = sections[i].offset + sections[i].size;
     }
-    FileHeader header{kMagic, kVersion, static_cast<std::uint32_t>(sections.size()), file.vertex_count,
-                      file.input_triangles, 0, crc32(std::as_bytes(std::span(sections))), 0};
+    FileHeader header{kMagic,
+                      kVersion,
+                      static_cast<std::uint32_t>(sections.size()),
+                      file.vertex_count,
+                      file.input_triangles,
+                      0,
+                      crc32(std::as_bytes(std::span(sections))),
+                      0};
     header.header_crc = crc32(bytes_of(header).first(28));
     std::vector<std::byte> out(end);
     const auto put = [&](std::size_t offset, std::span<const std::byte> data) {
@@ -362,7 +384,9 @@ std::vector<std::byte> serialize_lr(const LrFile& file) {
     return out;
 }
 
-Result<LrFile> parse_lr(std::span<const std::byte> bytes) { return Reader().read(bytes); }
+Result<LrFile> parse_lr(std::span<const std::byte> bytes) {
+    return Reader().read(bytes);
+}
 
 Result<void> write_lr(const LrFile& file, const std::filesystem::path& path) {
     const std::vector<std::byte> bytes = serialize_lr(file);
@@ -387,9 +411,10 @@ Result<LrContents> list_lr(std::span<const std::byte> bytes) {
     LrContents out;
     const Result<FileHeader> header = visit_sections(
         bytes, [&](const FileHeader&, const Section& section, std::span<const std::byte> contents) -> std::string {
-            constexpr const char* kNames[] = {"",           "lean",         "attribute", "vertex_order",
-                                              "corner_order", "lr", "lr_compact", "packed"};
-            if (section.kind == 0 || section.kind >= std::size(kNames)) return fmt::format("unknown kind {}", section.kind);
+            constexpr const char* kNames[] = {"",   "lean",       "attribute", "vertex_order", "corner_order",
+                                              "lr", "lr_compact", "packed"};
+            if (section.kind == 0 || section.kind >= std::size(kNames))
+                return fmt::format("unknown kind {}", section.kind);
             LrSection& listed = out.sections.emplace_back();
             listed.kind = kNames[section.kind];
             listed.bytes = section.size;
@@ -417,8 +442,10 @@ Result<ConnectivityWords> connectivity_in(std::span<const std::byte> bytes) {
                 case kLean:
                 case kLr:
                 case kLrCompact:
-                case kPacked: break;
-                default: return {};
+                case kPacked:
+                    break;
+                default:
+                    return {};
             }
             if (found) return "occurs twice";
             if (contents.size() % 4 != 0) return "no whole number of words";
@@ -457,7 +484,8 @@ Mesh decode_lr(const LrFile& file) {
 Result<Mesh> decode_lr_original_order(const LrFile& file) {
     Mesh stream = decode_lr(file);
     if (file.vertex_order.size() != file.vertex_count || file.corner_order.size() != stream.triangle_count()) {
-        return Error{ErrorCode::invalid_argument, "the file does not keep the input's order (encode --keep-order does)"};
+        return Error{ErrorCode::invalid_argument,
+                     "the file does not keep the input's order (encode --keep-order does)"};
     }
     const Result<Decoded> decoded = decode(file, false);
     if (!decoded) return decoded.error();

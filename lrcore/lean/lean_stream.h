@@ -5,7 +5,8 @@
 // A mesh's stream is at most 3 references a triangle and a 32-byte header, whatever its shape.
 //
 // Slots are numbered: [0, 2*rings2) two-sided, then rings1 one-sided, then verbatim. Each slot is one triangle of the
-// index buffer, degenerate (its first two vertices equal) where it is the redundant copy of a T2, a border, or closes a ring.
+// index buffer, degenerate (its first two vertices equal) where it is the redundant copy of a T2, a border, or closes a
+// ring.
 
 #include <cstddef>
 #include <cstdint>
@@ -36,9 +37,9 @@ struct LeanStatistics {
 
 /// A lean stream and how it maps to the mesh that it was made from.
 struct LeanStream {
-    std::vector<std::uint32_t> words;         ///< header and payload (lean_format.h); this is the whole stream
-    std::vector<std::uint32_t> vertex_order;  ///< vertex_order[new] = old, a permutation of the mesh's vertices
-    std::vector<std::uint32_t> slot_triangle; ///< triangle of the mesh at each slot, UINT32_MAX where degenerate
+    std::vector<std::uint32_t> words;          ///< header and payload (lean_format.h); this is the whole stream
+    std::vector<std::uint32_t> vertex_order;   ///< vertex_order[new] = old, a permutation of the mesh's vertices
+    std::vector<std::uint32_t> slot_triangle;  ///< triangle of the mesh at each slot, UINT32_MAX where degenerate
     LeanStatistics statistics;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Which corners of a polygon lie in a triangle? Internal to lrcore/mesh.
+// Finds the corners of a polygon that lie in a triangle. Internal to lrcore/mesh.
 
 #include <cstddef>
 #include <cstdint>

@@ -39,7 +39,7 @@ bool has_scheme(std::string_view uri) {
     });
 }
 
-/// What follows "data:": a media type, which nobody needs, and the bytes.
+/// Decodes the part of a data URI after "data:": a media type, ignored, and the bytes.
 Result<std::vector<std::byte>> decode_data_uri(std::string_view rest) {
     const std::size_t comma = rest.find(',');
     if (comma == std::string_view::npos) return malformed("a data URI without a comma");

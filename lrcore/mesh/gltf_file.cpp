@@ -202,8 +202,8 @@ void tell_what_is_left_out(const Json& document, Reading& reading) {
     }
 }
 
-/// What tinygltf is given: the geometry alone, and a buffer view for accessors that have none, which it refuses as
-/// indices. `zeros` are these accessors.
+/// The document for tinygltf: geometry alone, with a buffer view for accessors that have none, since tinygltf refuses
+/// them as indices. `zeros` marks these accessors.
 Json geometry_of(const Json& document, std::vector<bool>& zeros) {
     Json out = Json::object();
     for (const char* name : {"asset", "scene", "scenes", "nodes", "meshes", "accessors", "bufferViews"}) {

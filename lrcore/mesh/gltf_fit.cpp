@@ -1,4 +1,4 @@
-// What becomes of a mesh's attributes in glTF, which allows few types and not every value.
+// Converts a mesh's attributes to the types and values that glTF allows.
 
 #include <algorithm>
 #include <array>

@@ -8,13 +8,17 @@ namespace lr {
 std::size_t size_of(ComponentType type) {
     switch (type) {
         case ComponentType::i8:
-        case ComponentType::u8: return 1;
+        case ComponentType::u8:
+            return 1;
         case ComponentType::i16:
-        case ComponentType::u16: return 2;
+        case ComponentType::u16:
+            return 2;
         case ComponentType::i32:
         case ComponentType::u32:
-        case ComponentType::f32: return 4;
-        case ComponentType::f64: return 8;
+        case ComponentType::f32:
+            return 4;
+        case ComponentType::f64:
+            return 8;
     }
     return 0;
 }

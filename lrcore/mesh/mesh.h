@@ -17,7 +17,7 @@ std::size_t size_of(ComponentType type);
 
 /// One value per vertex. `data` holds vertex_count * components values, little-endian, tightly packed.
 struct Attribute {
-    std::string name;  ///< glTF's names where they fit (POSITION, NORMAL, TEXCOORD_0, COLOR_0, ...), else the file's own
+    std::string name;  ///< glTF's (POSITION, NORMAL, TEXCOORD_0, COLOR_0, ...) where one fits, else the file's own
     ComponentType type = ComponentType::f32;
     std::uint8_t components = 3;
     bool normalized = false;  ///< integers stand for [0,1] or [-1,1]

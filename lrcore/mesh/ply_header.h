@@ -28,9 +28,9 @@ struct PlyElement {
     std::vector<PlyProperty> properties;
 };
 
-/// What one line `comment lacedring attribute COMPONENTS FLAGS NAME` says: write_ply makes them, so that names and
-/// groups survive. The attributes take the vertex's properties in their order. FLAGS is 1 for a normalized attribute, and
-/// 2 more for one that is v_up.
+/// A line `comment lacedring attribute COMPONENTS FLAGS NAME`, with which write_ply keeps names and groups. The
+/// attributes take the vertex's properties in order. FLAGS is the sum of 1 for a normalized attribute and 2 for one
+/// that is v_up.
 struct PlyAttributeNote {
     std::uint8_t components = 1;
     bool normalized = false;

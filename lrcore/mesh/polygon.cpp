@@ -14,7 +14,7 @@ constexpr std::uint32_t none = UINT32_MAX;
 constexpr std::uint64_t kFreeSteps = 100'000, kStepsACorner = 1000;
 constexpr std::size_t kOneTree = 64;  // blockers up to which one tree does
 
-/// Of the components of a normal: the last one if several are.
+/// The largest component of a normal; the last one among equals.
 std::size_t largest_of(const double (&size)[3]) {
     return size[2] >= size[0] && size[2] >= size[1] ? 2 : size[1] >= size[0] ? 1 : 0;
 }

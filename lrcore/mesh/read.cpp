@@ -89,7 +89,7 @@ std::string lower_extension(const std::filesystem::path& path) {
     return extension;
 }
 
-/// What kind of file it is, by its first bytes, else by its extension; any: neither tells.
+/// The format by the first bytes, else by the extension; `any` if neither tells.
 MeshFormat recognise(std::string_view raw, std::string_view text, const std::filesystem::path& name) {
     // Signatures first: files with the wrong extension are common.
     const std::size_t start = text.find_first_not_of(" \t\r\n");
@@ -159,8 +159,9 @@ Result<void> Reading::check_memory(double vertices, double stride, double triang
     const double bytes = vertices * stride + triangles * (12.0 + options.triangle_bytes);
     if (bytes <= most) return {};
     constexpr double kMebibyte = 1024.0 * 1024;
-    return Error{ErrorCode::memory_limit, fmt::format("{:.0f} triangles take about {:.0f} MiB, and {:.0f} MiB are allowed",
-                                                   triangles, bytes / kMebibyte, most / kMebibyte)};
+    return Error{ErrorCode::memory_limit,
+                 fmt::format("{:.0f} triangles take about {:.0f} MiB, and {:.0f} MiB are allowed", triangles,
+                             bytes / kMebibyte, most / kMebibyte)};
 }
 
 }  // namespace detail

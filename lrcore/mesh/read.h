@@ -30,7 +30,7 @@ struct ReadOptions {
 };
 
 struct ReadReport {
-    /// What the file holds and the mesh does not, each with its count: "3 materials".
+    /// Contents of the file that the mesh lacks, each with its count: "3 materials".
     std::vector<std::string> left_out;
     std::vector<std::filesystem::path> files;  ///< opened beside the file
 };

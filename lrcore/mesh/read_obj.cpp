@@ -36,7 +36,7 @@ struct Corner {
     std::uint32_t vn = none;
 };
 
-/// How many different names there are. Memory: O(those).
+/// Counts distinct names. Memory: O(distinct names).
 class DistinctNames {
   public:
     void add(std::string_view name) {
@@ -55,7 +55,7 @@ class DistinctNames {
     std::size_t distinct_ = 0;
 };
 
-/// What a file holds beside v, vt, vn and f.
+/// Counts the statements other than v, vt, vn and f.
 class OtherStatements {
   public:
     void add(std::string_view keyword, TextScanner& rest) {

@@ -421,8 +421,8 @@ class PlyReader {
     PolygonList polygons_;
 };
 
-/// Where the data have as many lines as elements, each element has a line, and what is over in it is skipped. Else, and
-/// where lines are too short for that, line ends are blanks like others.
+/// If there are as many lines of data as elements, reads an element from each line and skips the rest of the line.
+/// Otherwise, or if a line is too short, line ends are blanks.
 Result<Mesh> read_ascii(std::string_view bytes, const PlyHeader& header, Reading& reading) {
     double elements = 0;  // not an integer: the counts may be anything
     for (const PlyElement& element : header.elements) {

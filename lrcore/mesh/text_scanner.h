@@ -148,7 +148,7 @@ class TextScanner {
         return {from, static_cast<std::size_t>(to - from)};
     }
 
-    /// Where the text goes on behind a '\\' that continues the line, or null: it does not.
+    /// The place after a '\\' that continues the line; null if it does not continue.
     const char* continued(const char* at) const {
         if (!is(*at, backslash & ends_word_)) return nullptr;
         ++at;
@@ -206,8 +206,8 @@ bool parse_number(std::string_view word, Integer& out) {
 /// Is the decimal number, whose value no double holds, too small rather than too big?
 bool is_underflow(std::string_view word);
 
-/// What std::from_chars does not read: Microsoft's "1.#INF", "-1.#IND", "1.#QNAN" and "1.#SNAN", with zeros and an
-/// exponent behind them where the program asked for more digits.
+/// Parses Microsoft's "1.#INF", "-1.#IND", "1.#QNAN" and "1.#SNAN", which std::from_chars does not read. Zeros and an
+/// exponent may follow.
 template <std::floating_point Real>
 bool parse_msvc(std::string_view word, Real& out) {
     const std::size_t hash = word.find('#');

@@ -10,7 +10,7 @@ namespace lr {
 
 namespace {
 
-/// What is compared of one attribute, tightly packed.
+/// The bytes of one attribute that are compared, tightly packed.
 struct Key {
     std::size_t stride;
     const std::byte* data;
@@ -30,7 +30,7 @@ std::vector<std::byte> without_negative_zero(const std::vector<std::byte>& data)
     return out;
 }
 
-/// What the vertices that are merged have otherwise than those that are kept.
+/// Counts merged vertices whose attributes differ from those of the vertex that is kept.
 WeldReport differences(const Mesh& mesh, const detail::Groups& groups, const std::vector<std::uint32_t>& kept) {
     WeldReport out;
     std::vector<bool> differs(mesh.vertex_count, false);

@@ -13,7 +13,7 @@ enum class Weld {
     position,    ///< vertices at the same POSITION become one; the first one's attributes are kept
 };
 
-/// What Weld::position takes from vertices that had it otherwise than the one that is kept.
+/// Attribute values that Weld::position drops: those that differ from the kept vertex's.
 struct WeldReport {
     std::uint32_t vertices = 0;           ///< that lose some attribute's value
     std::vector<std::string> attributes;  ///< of which values are lost

@@ -9,7 +9,7 @@
 
 namespace lr {
 
-/// What a written file has otherwise than the mesh, a line each: "NORMAL: 3 of no length were made from the triangles".
+/// Differences of a written file from the mesh, a line each: "NORMAL: 3 of no length were made from the triangles".
 using WriteNotes = std::vector<std::string>;
 
 /// Writes GLB, binary PLY or OBJ by the extension of `path` (.glb, .ply, .obj). PLY keeps every attribute bit for bit;

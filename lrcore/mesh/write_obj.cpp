@@ -17,7 +17,7 @@ struct Values {
     const Attribute* attribute = nullptr;
     bool turn_v = false;  ///< texture coordinates whose v is downwards: OBJ's is upwards
 
-    /// Of floats, and of so many components? Else it is not written.
+    /// Only attributes of floats with `components` components are written.
     static Values of(const Mesh& mesh, std::string_view name, std::size_t components) {
         const Attribute* a = find_attribute(mesh, name);
         const bool fits = a != nullptr && a->components == components &&

@@ -1,5 +1,5 @@
 #pragma once
-// What the targets know about streams: how to use a valid one, and how to mutate one so that it may stay valid.
+// Uses valid streams, and mutates streams so that they may stay valid.
 
 #include <cstdint>
 #include <optional>

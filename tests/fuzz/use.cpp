@@ -52,7 +52,7 @@ std::vector<std::uint32_t> use_tables(const LrStream<View>& stream) {
         REQUIRE(ops.ring_previous(n) == v);
         seen[n] = true;
     }
-    // Of the vertices of no triangle, which a header may give any number of, a few are enough.
+    // A header may promise any number of vertices without triangles: a few are enough.
     const std::uint32_t vertices = std::min(stream.view.vertices, stream.view.used_vertices() + 3);
     check_operators(ops, stream.view.triangle_numbers(), vertices);
     for (const std::uint32_t v : stream.copies) REQUIRE(v < stream.view.vertices);
@@ -95,7 +95,7 @@ double component(const Attribute& attribute, std::size_t vertex, std::size_t i) 
     return static_cast<double>(narrow);
 }
 
-/// What a writer makes of the values of one vertex.
+/// The values of one vertex as a writer stores them.
 using Rewrite = std::function<void(const Attribute&, std::span<double>)>;
 
 /// glTF has no numbers that are not finite, and v downwards; OBJ has v upwards.

@@ -175,7 +175,7 @@ TEST_CASE_FIXTURE(GpuTest, "a blank picture is told, and is no difference") {
         CHECK(c.blank);
         CHECK(c.same());
     }
-    // What differs is found out even so: the one triangle that is seen is another.
+    // A difference is still found: another triangle is the visible one.
     for (std::uint32_t& t : model.lean.slot_triangle) t = t == 0 ? 2001U : t;
     const auto wrong =
         gpu::compare(renderer, model, std::vector<gpu::Subject>{{gpu::Source::lean, gpu::Path::compute}});

@@ -1,7 +1,7 @@
 // Runs the README's example, which check.cmake puts into readme.h.
-#include "readme.h"
-
 #include <cstdio>
+
+#include "readme.h"
 
 int main(int argc, char** argv) {
     const auto indices = there_and_back(argc > 1 ? argv[1] : "");

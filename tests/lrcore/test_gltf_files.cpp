@@ -1,4 +1,4 @@
-// What a glTF may open beside itself, and what it may say that is read all the same.
+// Files that a glTF may open, and unusual glTF files that are read.
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 
@@ -334,7 +334,7 @@ TEST_CASE("glTF: what is left out is told") {
                                             "1 primitive without positions",
                                             "1 attribute that not every primitive has alike ('TEXCOORD_0')"};
     CHECK(report.left_out == expected);
-    // Of a file as this project writes it, nothing is.
+    // Files written by this project lose nothing.
     ReadReport plain;
     const std::string own = maker.glb_file(one_node + mesh_of(R"({"attributes":{"POSITION":0}})"));
     REQUIRE(read_mesh(std::as_bytes(std::span(own)), "x.glb", {}, &plain).has_value());

@@ -1,5 +1,5 @@
 // The bytes of every format, kept as text in tests/golden: a format must not change without a new version number.
-// Those of .lr files: test_lr_file.cpp.
+// test_lr_file.cpp has those of .lr files.
 //
 // Each file holds the words and the vertex order of a stream. After an intended change of a format,
 // LACEDRING_WRITE_GOLDEN=1 test_core -tc='golden*' rewrites the files.

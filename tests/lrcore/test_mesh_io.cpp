@@ -13,7 +13,7 @@ using namespace lr::test;
 
 namespace {
 
-/// What the file holds and the mesh does not, "a; b".
+/// ReadReport::left_out as "a; b".
 std::string left_out(const std::string& name, std::string_view content) {
     ReadReport report;
     const auto mesh = read_mesh(write_text(name, content), {}, &report);

@@ -309,7 +309,7 @@ TEST_CASE("weld") {
     CHECK(report.vertices == 2);  // the q of 4 and 6; another one had 2 as well
     CHECK(report.attributes == std::vector<std::string>{"q"});
 
-    // What is kept is kept as it is.
+    // The kept vertex keeps its values.
     mesh.indices = {3, 4, 5};
     std::swap(mesh.attributes[0].data[3], mesh.attributes[0].data[39]);  // the sign of vertex 0's x, and of 3's
     const Mesh negative = weld(mesh, Weld::position);
