@@ -104,7 +104,8 @@ int run(const Options& options, RunLog& log) {
     line("vertices", fmt::format("{}{}", mesh->vertex_count, unused > 0 ? fmt::format(", {} unused", unused) : ""));
     line("components", fmt::format("{}{}", r.components,
                                    r.shells != r.components ? fmt::format(", {} pieces of surface", r.shells) : ""));
-    line("borders", fmt::format("{} edges in {} loops", t.border_edges, r.border_loops));
+    line("borders",
+         fmt::format("{} edges in {} loop{}", t.border_edges, r.border_loops, r.border_loops == 1 ? "" : "s"));
     line("non-manifold", fmt::format("{} edges, {} vertices", t.nonmanifold_edges, r.nonmanifold_vertices));
     line("orientation", !r.orientable    ? fmt::format("not orientable: cut at {} edges", t.cut_edges)
                         : t.flipped == 0 ? "consistent"

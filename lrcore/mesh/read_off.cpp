@@ -63,6 +63,8 @@ class OffReader {
         if (header_.higher_dimension) return unsupported("OFF with more than 3 dimensions");
         if (auto good = read_counts(); !good) return good.error();
         if (auto good = read_elements(); !good) return good.error();
+        scanner_.skip_space();
+        reading.leave_out(scanner_.remaining(), "byte behind the last face", "bytes behind the last face");
         return build(reading);
     }
 

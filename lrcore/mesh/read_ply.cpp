@@ -98,6 +98,11 @@ class AsciiSource {
     /// Lines that have more values than their element.
     std::uint64_t longer_lines() const { return longer_; }
 
+    std::size_t bytes_left() {
+        scanner_.skip_space();
+        return scanner_.remaining();
+    }
+
     Error bad_value(std::string_view element, std::uint64_t number) const {
         if (word_.empty()) {
             const std::string_view what = by_line && !scanner_.at_end() ? "line" : "file";
@@ -146,6 +151,7 @@ class BinarySource {
 
     void end_element() {}
     static std::uint64_t longer_lines() { return 0; }
+    std::size_t bytes_left() const { return static_cast<std::size_t>(end_ - at_); }
 
     Error bad_value(std::string_view element, std::uint64_t number) const {
         return malformed("byte {}: the file ends in {} {}", at_ - begin_, element, number);
@@ -186,6 +192,7 @@ class PlyReader {
             if (!good) return good.error();
         }
         tell(reading, *vertex);
+        reading.leave_out(source_.bytes_left(), "byte behind the last element", "bytes behind the last element");
         const Attribute& position = mesh_.attributes.front();
         polygons_.cut({position.data.data(), position.type == ComponentType::f64}, {&mesh_.indices}, reading);
         return checked(std::move(mesh_));

@@ -88,6 +88,8 @@ Result<Mesh> read_binary(std::string_view bytes, Reading& reading) {
         attributes += end[-1] != 0 || end[-2] != 0 ? 1 : 0;
     }
     reading.leave_out(attributes, "color or attribute of a triangle", "colors or attributes of triangles");
+    reading.leave_out(bytes.size() - header_bytes - static_cast<std::size_t>(claimed) * triangle_bytes,
+                      "byte behind the last triangle", "bytes behind the last triangle");
     return merged(corners);
 }
 

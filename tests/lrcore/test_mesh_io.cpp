@@ -158,6 +158,8 @@ TEST_CASE("PLY ascii: elements by lines, and by words") {
     CHECK(left_out("g.ply", head(3, 2) + vertices + "3 0 1\n2 3 2 1 0\n").empty());
     // more lines than elements
     CHECK(must_read("h.ply", head(3, 2) + vertices + "3 0 1 2\n3 2 1 0\nand more\n").indices == both);
+    CHECK(left_out("h.ply", head(3, 2) + vertices + "3 0 1 2\n3 2 1 0\nand more\n") ==
+          "9 bytes behind the last element");
     const std::string cr = head(3, 2) + vertices + "3 0 1 2 7\n3 2 1 0 7\n";
     std::string old_mac = cr;
     std::replace(old_mac.begin(), old_mac.end(), '\n', '\r');
@@ -533,6 +535,7 @@ TEST_CASE("OFF") {
         CHECK(left_out("l.off", vertices + "4 0 1 2 3\n3 0 1 2\n").empty());
         CHECK(left_out("l.off", vertices + "4 0 1 2 3 9\n3 0 1 2 1 2 3\n") == "2 colors of faces");
         CHECK(left_out("l.off", vertices + "4 0 1 2 3\n2 0 1\n") == "1 face with fewer than 3 corners");
+        CHECK(left_out("l.off", vertices + "4 0 1 2 3\n3 0 1 2\n# end\n7") == "1 byte behind the last face");
         CHECK(left_out("l.off", "OFF 3 1 0\n0 0 0 255 0 0\n1 0 0 255 0 0\n0 1 0 255 0 0\n3 0 1 2\n") ==
               "3 vertices with numbers behind their own");
     }
@@ -553,6 +556,7 @@ TEST_CASE("STL: corners at one place are one vertex") {
         CHECK(attributes_of(mesh) == "POSITION:f32x3");
     }
     CHECK(must_read("b.stl", binary_stl(corners) + "trailing").indices == indices);
+    CHECK(left_out("b.stl", binary_stl(corners) + "trailing") == "8 bytes behind the last triangle");
     CHECK(must_read("no-extension", binary_stl(corners)).indices == indices);
 
     std::string text;
