@@ -1,9 +1,12 @@
 #pragma once
 // The words of the command line before CLI11 sees them.
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace lr::app {
 

@@ -1,5 +1,6 @@
 #include "app/bench_resident.h"
 
+#include <nlohmann/json.hpp>
 #include <fmt/format.h>
 
 #include <filesystem>

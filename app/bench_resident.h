@@ -5,7 +5,7 @@
 // a limit, with the same policy for all. Vertex positions, the elements to visit and the results stay in memory: the
 // limit is on connectivity alone.
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
 #include <vector>

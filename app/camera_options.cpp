@@ -1,5 +1,6 @@
 #include "app/camera_options.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <charconv>

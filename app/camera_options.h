@@ -1,12 +1,15 @@
 #pragma once
 // The camera on the command line, as f3d has it.
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
 #include "lrcore/base/result.h"
 #include "renderer/camera.h"
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace lr::app {
 

@@ -1,5 +1,6 @@
 // lacedring bench MESH...: construction, decoding and drawing, each beside a rival in the same run.
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // lacedring compare MESH: the mesh's own index list against its streams, pixel by pixel.
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

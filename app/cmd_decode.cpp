@@ -1,5 +1,6 @@
 // lacedring decode IN.lr... -o OUT.glb|.ply|.obj
 
+#include <CLI/CLI.hpp>
 #include <unistd.h>
 
 #include <memory>

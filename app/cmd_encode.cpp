@@ -1,5 +1,6 @@
 // lacedring encode MESH -o OUT.lr
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <memory>

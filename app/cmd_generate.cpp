@@ -1,5 +1,6 @@
 // lacedring generate KIND -o OUT --triangles N [--seed S]
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <unistd.h>
 

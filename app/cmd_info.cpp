@@ -1,5 +1,6 @@
 // lacedring info MESH: what the file holds and what its topology is.
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <memory>

@@ -1,5 +1,6 @@
 // lacedring render MESH -o OUT.png
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

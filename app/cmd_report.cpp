@@ -1,5 +1,6 @@
 // lacedring report MESH... -o OUT.html: figures, charts and pictures of meshes as one page.
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

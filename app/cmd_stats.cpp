@@ -1,5 +1,6 @@
 // lacedring stats MESH...: the size of every format, side by side.
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <memory>

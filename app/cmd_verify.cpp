@@ -1,5 +1,6 @@
 // lacedring verify MESH|IN.lr: every format gives back the same multiset of oriented triangles.
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

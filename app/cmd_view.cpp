@@ -1,6 +1,7 @@
 // lacedring view [MESH]: hands over to lacedring-view beside this program, so that no other command loads a window
 // library.
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <unistd.h>
 

@@ -1,5 +1,7 @@
 #include "app/command.h"
 
+#include <nlohmann/json.hpp>
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <charconv>

@@ -1,10 +1,9 @@
 #pragma once
 // Shared by all commands: registration, ring options, exit codes.
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "app/input.h"
@@ -13,6 +12,10 @@
 #include "lrcore/base/result.h"
 #include "lrcore/ring/optimize.h"
 #include "lrcore/ring/ring.h"
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace lr::app {
 

@@ -1,5 +1,6 @@
 #include "app/gpu_options.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <charconv>

@@ -1,11 +1,14 @@
 #pragma once
 // Options of every command that uses Vulkan.
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 
 #include "renderer/context.h"
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace lr::app {
 

@@ -1,5 +1,6 @@
 #include "app/input.h"
 
+#include <CLI/CLI.hpp>
 #include <unistd.h>
 
 #include <utility>

@@ -1,7 +1,6 @@
 #pragma once
 // Meshes that commands read: files, .lr files, standard input.
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -12,6 +11,10 @@
 #include "lrcore/base/result.h"
 #include "lrcore/file/lr_file.h"
 #include "lrcore/mesh/mesh.h"
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace lr::app {
 

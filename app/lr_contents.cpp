@@ -1,5 +1,6 @@
 #include "app/lr_contents.h"
 
+#include <nlohmann/json.hpp>
 #include <algorithm>
 
 #include "app/print.h"

@@ -1,7 +1,7 @@
 #pragma once
 // The sections of an .lr file, for info and stats.
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "lrcore/file/lr_file.h"

@@ -1,5 +1,6 @@
 // lacedring: parses the command line, runs one command, and turns what went wrong into one line and an exit code.
 
+#include <CLI/CLI.hpp>
 #include <fcntl.h>
 #include <unistd.h>
 

@@ -1,5 +1,6 @@
 #include "app/option_rules.h"
 
+#include <CLI/CLI.hpp>
 #include <utility>
 
 namespace lr::app {

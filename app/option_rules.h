@@ -1,11 +1,14 @@
 #pragma once
 // Options that have an effect only beside others: elsewhere they are wrong usage, never ignored.
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <initializer_list>
 #include <string>
 #include <vector>
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace lr::app {
 

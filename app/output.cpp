@@ -1,5 +1,6 @@
 #include "app/output.h"
 
+#include <CLI/CLI.hpp>
 #include <unistd.h>
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 #pragma once
 // Files that commands write. What the user did not mean is refused before anything is written.
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -10,6 +9,10 @@
 
 #include "app/run_log.h"
 #include "lrcore/base/result.h"
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace lr::app {
 

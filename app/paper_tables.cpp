@@ -1,5 +1,6 @@
 #include "app/paper_tables.h"
 
+#include <nlohmann/json.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // lacedring view [MESH]
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <chrono>
