@@ -1,8 +1,8 @@
 // lacedring info MESH: what the file holds and what its topology is.
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -119,8 +119,8 @@ int run(const Options& options, RunLog& log) {
     line("valence 6", fmt::format("{:.1f} % of vertices; largest valence {}", r.valence6_percent, r.max_valence));
     std::string attributes;
     for (const Attribute& a : mesh->attributes) {
-        attributes +=
-            fmt::format("{}{} ({} x {})", attributes.empty() ? "" : ", ", a.name, a.components, type_name(a.type));
+        attributes += fmt::format("{}{} ({} x {})", attributes.empty() ? "" : ", ", printable(a.name), a.components,
+                                  type_name(a.type));
     }
     line("attributes", attributes);
     return done;

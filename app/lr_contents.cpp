@@ -1,7 +1,7 @@
 #include "app/lr_contents.h"
 
-#include <nlohmann/json.hpp>
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "app/print.h"
 
@@ -53,9 +53,9 @@ void print_contents(const LrContents& lr) {
                                                                              : "the input's order is not kept");
     for (const LrSection& section : lr.sections) {
         const bool attribute = section.kind == "attribute";
-        const std::string what =
-            attribute ? fmt::format("{} ({} x {})", section.name, section.components, type_name(section.type))
-                      : section.kind;
+        const std::string what = attribute ? fmt::format("{} ({} x {})", printable(section.name), section.components,
+                                                         type_name(section.type))
+                                           : section.kind;
         print("    {:<30}{:>12} bytes\n", what, section.bytes);
     }
 }

@@ -6,6 +6,7 @@
 
 #include <cstdio>
 #include <iterator>
+#include <string>
 #include <utility>
 
 namespace lr::app {
@@ -26,6 +27,14 @@ void print(fmt::format_string<Args...> format, Args&&... args) {
 template <class... Args>
 void say(fmt::format_string<Args...> format, Args&&... args) {
     write_text(stderr, format, fmt::make_format_args(args...));
+}
+
+/// A name out of a file, without the control characters that a terminal would obey.
+inline std::string printable(std::string name) {
+    for (char& c : name) {
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+    }
+    return name;
 }
 
 }  // namespace lr::app

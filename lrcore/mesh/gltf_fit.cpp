@@ -171,7 +171,8 @@ class Fitter {
                 store(a.data, i, 0.0F);
                 ++count;
             }
-            if (count > 0) notes_.push_back(fmt::format("{}: {} values that are not finite became 0", a.name, count));
+            if (count > 0)
+                notes_.push_back(fmt::format("{}: {} values that are not finite became 0", shown(a.name), count));
         }
         if (a.v_up && has_numbered_name(a.name, "TEXCOORD_") && a.components == 2) turn_v(a);
     }

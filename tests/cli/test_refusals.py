@@ -298,6 +298,15 @@ class Notes(CliTest):
         # An error is one line, without the notes.
         self.fails("encode", gltf, "-o", self.path("missing/a.lr"), mentions=["missing/a.lr"])
 
+    def test_names_do_not_command_the_terminal(self):
+        named = write.ply(POINTS, TRIANGLES).replace(b"uchar red", b"uchar \x1b[31mred\x07")
+        mesh, lr = self.write("named.ply", named), self.path("named.lr")
+        self.ok("encode", mesh, "-o", lr)
+        for path in (mesh, lr):
+            out = self.ok("info", path).out
+            self.assertIn("?[31mred?", out)
+            self.assertNotIn("\x1b", out)
+
     def test_weld_tells_what_vertices_lose(self):
         mesh = self.write("m.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nvt 1 1\nf 1/1 2/1 3/1\nf 2/2 4/1 3/2\n")
         outcome = self.ok("info", "--weld=position", mesh)

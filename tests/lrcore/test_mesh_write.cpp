@@ -175,7 +175,7 @@ TEST_CASE("GLB: values that glTF forbids are mended, and it is said") {
     CHECK(notes[1] == "NORMAL: 3 without a direction were made from the triangles");
     CHECK(notes[2] == "TANGENT: 2 were not of unit length and were made so");
     CHECK(notes[3] == "TANGENT: 1 without a direction became (1, 0, 0)");
-    CHECK(notes[4] == "TEXCOORD_0: 2 values that are not finite became 0");
+    CHECK(notes[4] == "'TEXCOORD_0': 2 values that are not finite became 0");
     CHECK(notes[5] == "not as glTF defines it, so named _NAME: 'COLOR_0', 'TEXCOORD_2', 'JOINTS_0'");
 }
 
