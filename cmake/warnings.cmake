@@ -8,6 +8,7 @@ if(LACEDRING_SANITIZE)
     target_compile_options(lacedring_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all
                                                        -fno-omit-frame-pointer)
     target_link_options(lacedring_options INTERFACE -fsanitize=address,undefined)
+    target_compile_definitions(lacedring_options INTERFACE LACEDRING_SANITIZE)
 endif()
 if(LACEDRING_FUZZ)  # the standard library's own bounds checks, too
     target_compile_definitions(lacedring_options INTERFACE _GLIBCXX_ASSERTIONS)

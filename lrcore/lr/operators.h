@@ -221,9 +221,7 @@ class LrOperators {
     // What the representation answers itself where nothing special is near.
     static constexpr bool kHasOpposites = requires(const Store& store) { store.plain_opposite(0); };
 
-    static constexpr bool kHasFans = requires(const Store& store, typename Store::PlainFan& fan) {
-        store.plain_fan(0, fan);
-    };
+    static constexpr bool kHasFans = requires { typename Store::PlainFan; };
 
     /// v.c, or if v is on a border the corner that no swing leads to.
     CornerId star_begin(VertexId v) const {

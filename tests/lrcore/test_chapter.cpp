@@ -10,6 +10,7 @@
 #include "lrcore/corner_table/smesh.h"
 #include "lrcore/corner_table/split.h"
 #include "lrcore/corner_table/swirl.h"
+#include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 #include "tests/support/shapes.h"
 
@@ -51,7 +52,7 @@ TEST_CASE("section 15: O is what the chapter's quadratic procedure finds") {
         const CornerTable table = build(mesh);
         if (mesh.triangle_count() > 600 || table.topology.nonmanifold_edges > 0) continue;
         if (table.topology.flipped > 0 || table.topology.cut_edges > 0 || table.topology.degenerate > 0) continue;
-        CAPTURE(name);
+        CAPTURE_COPY(name);
         std::vector<CornerId> o(table.corners.size(), null_corner);
         for (std::uint32_t i = 0; i < o.size(); ++i) {
             for (std::uint32_t j = i + 1; j < o.size(); ++j) {
@@ -71,7 +72,7 @@ TEST_CASE("section 15: O is what the chapter's quadratic procedure finds") {
 
 TEST_CASE("section 9: a swirl visits every triangle of a shell once, in the chapter's order") {
     for (const auto& [name, mesh] : test::named_meshes()) {
-        CAPTURE(name);
+        CAPTURE_COPY(name);
         const CornerTable table = build(mesh);
         const std::uint32_t triangles = table.triangle_count();
         const std::uint32_t step = std::max(1U, triangles / 12) * 3 + 1;
@@ -125,7 +126,7 @@ TEST_CASE("section 9: a swirl a million triangles deep") {
 
 TEST_CASE("section 8: edge-connected components by swirls are the report's shells") {
     for (const auto& [name, mesh] : test::named_meshes()) {
-        CAPTURE(name);
+        CAPTURE_COPY(name);
         const CornerTable table = build(mesh);
         const TopologyReport report = report_topology(table);
         std::uint32_t visits = 0, last = 0;
@@ -188,7 +189,7 @@ TEST_CASE("section 12: the smesh test and why not") {
 TEST_CASE("section 12: Equations 1 and 2 say the same of every closed manifold, and both mean genus 0") {
     std::size_t spheres = 0, others = 0;
     for (const auto& [name, mesh] : test::named_meshes()) {
-        CAPTURE(name);
+        CAPTURE_COPY(name);
         const CornerTable table = build(mesh);
         const TopologyReport report = report_topology(table);
         const SmeshCheck check = check_smesh(table, report);

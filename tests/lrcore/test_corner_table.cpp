@@ -5,6 +5,7 @@
 
 #include "lrcore/corner_table/corner_table.h"
 #include "lrcore/corner_table/report.h"
+#include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 
 using namespace lr;
@@ -69,7 +70,7 @@ CornerTable check(const Mesh& mesh) {
 
 TEST_CASE("corner table equals the edges of named meshes") {
     for (const auto& [name, mesh] : test::named_meshes()) {
-        CAPTURE(name);
+        CAPTURE_COPY(name);
         check(mesh);
     }
 }
@@ -77,7 +78,8 @@ TEST_CASE("corner table equals the edges of named meshes") {
 TEST_CASE("corner table equals the edges of random soups") {
     for (std::uint64_t seed = 1; seed <= 300; ++seed) {
         CAPTURE(seed);
-        check(test::random_soup(4 + static_cast<std::uint32_t>(seed % 17), 1 + static_cast<std::uint32_t>(seed % 61), seed));
+        check(test::random_soup(4 + static_cast<std::uint32_t>(seed % 17), 1 + static_cast<std::uint32_t>(seed % 61),
+                                seed));
         check(test::random_gluing(30, 100, seed));
     }
 }

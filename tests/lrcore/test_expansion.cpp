@@ -6,6 +6,7 @@
 
 #include "lrcore/ring/expansion.h"
 #include "lrcore/ring/ring.h"
+#include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 
 using namespace lr;
@@ -126,7 +127,7 @@ void check(const Mesh& mesh, const RingOptions& options) {
 
 TEST_CASE("the expansion of named meshes is what their rings enclose") {
     for (const auto& [name, mesh] : test::named_meshes()) {
-        CAPTURE(name);
+        CAPTURE_COPY(name);
         check(mesh, {});
         check(mesh, {.seeds = 6, .random_seed = 3});
         check(mesh, {.seeds = 3, .random_seed = 2, .k = 7});

@@ -11,6 +11,7 @@
 #include "lrcore/corner_table/report.h"
 #include "lrcore/corner_table/smesh.h"
 #include "lrcore/generate/generate.h"
+#include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 #include "tests/support/shapes.h"
 
@@ -268,7 +269,7 @@ TEST_CASE("section 12: making every closed shell counterclockwise") {
     }
     SUBCASE("every named mesh stays the same surface") {
         for (const auto& [name, mesh] : test::named_meshes()) {
-            CAPTURE(name);
+            CAPTURE_COPY(name);
             CornerTable table = build(mesh);
             const TopologyReport before = report_topology(table);
             const auto shells = closed_shells(table, Positions(mesh));
@@ -330,7 +331,7 @@ TEST_CASE("section 6: vertex normals") {
         for (const auto& [name, mesh] : test::named_meshes()) {
             const CornerTable table = build(mesh);
             if (table.topology.flipped > 0) continue;
-            CAPTURE(name);
+            CAPTURE_COPY(name);
             const std::vector<float> expected = normals_f32(mesh), normals = vertex_normals(table, Positions(mesh));
             REQUIRE(normals.size() == expected.size());
             // Triangles at a vertex may cancel out: the sum's error is relative to their areas, not to what is left.

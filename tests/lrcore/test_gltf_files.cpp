@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include "tests/lrcore/gltf_maker.h"
+#include "tests/support/capture.h"
 
 using namespace lr;
 using namespace lr::test;
@@ -143,7 +144,7 @@ TEST_CASE("glTF: URIs with blanks and percent signs") {
     for (const auto& [name, uri] :
          {std::pair("ten 10%.bin", "ten 10%.bin"), std::pair("a b.bin", "a%20b.bin"), std::pair("100%", "100%"),
           std::pair("5%2.bin", "5%2.bin"), std::pair("%zz.bin", "%zz.bin"), std::pair("\xC3\xA4.bin", "%C3%A4.bin")}) {
-        CAPTURE(uri);
+        CAPTURE_COPY(uri);
         write_text(name, kPositions);
         CHECK(message(read_named(folder() / "a.gltf", triangle_in(uri))) == "");
     }

@@ -5,6 +5,7 @@
 
 #include "lrcore/lean/lean_format.h"
 #include "lrcore/lean/lean_stream.h"
+#include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 
 using namespace lr;
@@ -92,7 +93,7 @@ void check_all(const Mesh& mesh) {
 
 TEST_CASE("lean streams of named meshes") {
     for (const auto& [name, mesh] : test::named_meshes()) {
-        CAPTURE(name);
+        CAPTURE_COPY(name);
         check_all(mesh);
     }
 }

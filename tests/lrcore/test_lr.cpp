@@ -13,6 +13,7 @@
 #include "lrcore/mesh/weld.h"
 #include "lrcore/ring/optimize.h"
 #include "tests/lrcore/operator_oracle.h"
+#include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 
 using namespace lr;
@@ -83,7 +84,7 @@ void check(const Mesh& mesh, const RingOptions& rings_options, const LrOptions& 
 
 TEST_CASE("LR operators equal the corner table's on named meshes") {
     for (const auto& [name, mesh] : test::named_meshes()) {
-        CAPTURE(name);
+        CAPTURE_COPY(name);
         check(mesh, {1, 1}, {});
         check(mesh, {1, 1}, {.wart_skipping = false});
         check(mesh, {4, 9}, {});
@@ -94,7 +95,7 @@ TEST_CASE("LR operators equal the corner table's on named meshes") {
 
 TEST_CASE("LR operators equal the corner table's on optimised rings") {
     for (const auto& [name, mesh] : test::named_meshes()) {
-        CAPTURE(name);
+        CAPTURE_COPY(name);
         check(mesh, {}, {}, {.cost = lr_ring_cost, .passes = 6});
         check(mesh, {.k = 9}, {.wart_skipping = false}, {.cost = lean_ring_cost, .passes = 3});
     }

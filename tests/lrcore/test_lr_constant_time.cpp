@@ -9,6 +9,7 @@
 #include "lrcore/lr/compact_lr.h"
 #include "lrcore/lr/lr_table.h"
 #include "lrcore/lr/operators.h"
+#include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 
 using namespace lr;
@@ -89,7 +90,7 @@ void check(const Most& most) {
 
 TEST_CASE("LR operators read a bounded number of words on every mesh") {
     for (const auto& [name, mesh] : test::named_meshes()) {
-        CAPTURE(name);
+        CAPTURE_COPY(name);
         Most most;
         count(mesh, 0, most);
         count(mesh, 4, most);

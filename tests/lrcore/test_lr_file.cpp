@@ -11,6 +11,7 @@
 #include "lrcore/lean/lean_stream.h"
 #include "lrcore/lr/lr_encode.h"
 #include "lrcore/packed/packed_stream.h"
+#include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 
 using namespace lr;
@@ -69,7 +70,7 @@ std::vector<std::uint32_t> indices_of_kept(const Mesh& mesh) {
 
 TEST_CASE("lr files give back the mesh") {
     for (const auto& [name, mesh] : test::named_meshes()) {
-        CAPTURE(name);
+        CAPTURE_COPY(name);
         for (const Connectivity format : kFormats) {
             CAPTURE(static_cast<int>(format));
             const Result<LrFile> file = parse_lr(serialize_lr(make(mesh, true, format)));

@@ -8,6 +8,7 @@
 #include "lrcore/lr/lr_stream.h"
 #include "lrcore/lr/operators.h"
 #include "lrcore/lr/search.h"
+#include "tests/support/capture.h"
 #include "tests/support/lr_consistency.h"
 #include "tests/support/meshes.h"
 
@@ -76,7 +77,7 @@ bool try_damaged(std::vector<std::uint32_t> bad, Validate validate) {
 
 TEST_CASE("LR streams give back the triangles of named meshes") {
     for (const auto& [name, mesh] : test::named_meshes()) {
-        CAPTURE(name);
+        CAPTURE_COPY(name);
         for (const std::uint32_t k : {0U, 5U}) {
             const Words words = make(mesh, k);
             check_decoded(mesh, words, validate_lr(words.standard));

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "tests/lrcore/mesh_files.h"
+#include "tests/support/capture.h"
 
 using namespace lr;
 using namespace lr::test;
@@ -345,7 +346,7 @@ TEST_CASE("numbers that are none, as all programs write them, in every format of
         return std::isnan(expected) ? std::isnan(got) : got == static_cast<float>(expected);
     };
     for (const auto& [word, value] : numbers) {
-        CAPTURE(word);
+        CAPTURE_COPY(word);
         const std::string w = word;
         const Mesh obj =
             must_read("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn " + w + " 0 " + w + "# c\nf 1//1 2//1 3//1\n");

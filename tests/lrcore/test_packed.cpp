@@ -10,6 +10,7 @@
 #include "lrcore/packed/packed_format.h"
 #include "lrcore/packed/packed_stream.h"
 #include "lrcore/packed/record.h"
+#include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 
 using namespace lr;
@@ -118,7 +119,7 @@ void check_random_access(const PackedStream& stream) {
 
 TEST_CASE("packed streams of named meshes") {
     for (const auto& [name, mesh] : test::named_meshes()) {
-        CAPTURE(name);
+        CAPTURE_COPY(name);
         check_random_access(check(mesh, {}));
         check(mesh, {.seeds = 3, .random_seed = 2, .k = 7}, PackedProfile::small, 4);
         check_random_access(check(mesh, {}, PackedProfile::cache));

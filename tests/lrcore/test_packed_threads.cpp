@@ -15,7 +15,7 @@
 #include "lrcore/generate/generate.h"
 #include "lrcore/packed/packed_stream.h"
 
-#if defined(__SANITIZE_ADDRESS__)
+#ifdef LACEDRING_SANITIZE
 constexpr bool kSanitized = true;  // RLIMIT_AS does not work with its shadow memory
 #else
 constexpr bool kSanitized = false;

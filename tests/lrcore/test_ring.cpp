@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "lrcore/ring/ring.h"
+#include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 
 using namespace lr;
@@ -31,7 +32,7 @@ void check(const Mesh& mesh, const RingOptions& options) {
 
 TEST_CASE("rings of named meshes are cycles that cannot grow") {
     for (const auto& [name, mesh] : test::named_meshes()) {
-        CAPTURE(name);
+        CAPTURE_COPY(name);
         check(mesh, {1, 1});
         check(mesh, {5, 7});
         check(mesh, {1, 1, 1});
@@ -42,7 +43,9 @@ TEST_CASE("rings of named meshes are cycles that cannot grow") {
 TEST_CASE("rings of random soups") {
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
         CAPTURE(seed);
-        check(test::random_soup(4 + static_cast<std::uint32_t>(seed % 23), 1 + static_cast<std::uint32_t>(seed % 71), seed), {3, seed});
+        check(test::random_soup(4 + static_cast<std::uint32_t>(seed % 23), 1 + static_cast<std::uint32_t>(seed % 71),
+                                seed),
+              {3, seed});
         check(test::random_gluing(40, 120, seed), {3, seed});
     }
 }

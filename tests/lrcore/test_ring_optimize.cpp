@@ -12,6 +12,7 @@
 #include "lrcore/mesh/weld.h"
 #include "lrcore/ring/optimize.h"
 #include "lrcore/ring/ring_walk.h"
+#include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 
 using namespace lr;
@@ -92,7 +93,7 @@ constexpr RingCost kCosts[] = {lean_ring_cost, lr_ring_cost, packed_ring_cost, {
 
 TEST_CASE("optimised rings of named meshes") {
     for (const auto& [name, mesh] : test::named_meshes()) {
-        CAPTURE(name);
+        CAPTURE_COPY(name);
         for (const RingCost& cost : kCosts) check(mesh, {}, options_of(cost, 12, 1));
         check(mesh, {}, options_of(lean_ring_cost, 5, 2, false));
         RingOptions per_shell;

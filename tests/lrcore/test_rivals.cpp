@@ -8,6 +8,7 @@
 #include "lrcore/rivals/squad.h"
 #include "lrcore/rivals/winged_edge.h"
 #include "tests/lrcore/operator_oracle.h"
+#include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 
 using namespace lr;
@@ -109,7 +110,7 @@ void check(const Mesh& mesh) {
 
 TEST_CASE("corner table with C, winged edge and SQuad equal the corner table on named meshes") {
     for (const auto& [name, mesh] : test::named_meshes()) {
-        CAPTURE(name);
+        CAPTURE_COPY(name);
         check(mesh);
     }
 }
