@@ -1,11 +1,11 @@
 #include "app/bench_resident.h"
 
-#include <nlohmann/json.hpp>
 #include <fmt/format.h>
 
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <span>
 

@@ -1,8 +1,8 @@
 // lacedring bench MESH...: construction, decoding and drawing, each beside a rival in the same run.
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>

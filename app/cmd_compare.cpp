@@ -1,8 +1,8 @@
 // lacedring compare MESH: the mesh's own index list against its streams, pixel by pixel.
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <memory>

@@ -1,8 +1,8 @@
 // lacedring decode IN.lr... -o OUT.glb|.ply|.obj
 
-#include <CLI/CLI.hpp>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "app/commands.h"

@@ -1,8 +1,8 @@
 // lacedring encode MESH -o OUT.lr
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "app/commands.h"

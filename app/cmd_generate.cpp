@@ -1,9 +1,9 @@
 // lacedring generate KIND -o OUT --triangles N [--seed S]
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "app/commands.h"

@@ -1,8 +1,8 @@
 // lacedring report MESH... -o OUT.html: figures, charts and pictures of meshes as one page.
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 #include <span>

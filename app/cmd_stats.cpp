@@ -1,8 +1,8 @@
 // lacedring stats MESH...: the size of every format, side by side.
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 

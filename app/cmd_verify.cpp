@@ -1,8 +1,8 @@
 // lacedring verify MESH|IN.lr: every format gives back the same multiset of oriented triangles.
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <memory>

@@ -1,10 +1,10 @@
 // lacedring view [MESH]: hands over to lacedring-view beside this program, so that no other command loads a window
 // library.
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>

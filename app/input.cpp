@@ -1,8 +1,8 @@
 #include "app/input.h"
 
-#include <CLI/CLI.hpp>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <utility>
 
 #include "lrcore/base/file.h"

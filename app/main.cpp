@@ -1,9 +1,9 @@
 // lacedring: parses the command line, runs one command, and turns what went wrong into one line and an exit code.
 
-#include <CLI/CLI.hpp>
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
 #include <exception>
