@@ -7,6 +7,8 @@
 #include <cctype>
 #include <numeric>
 
+#include "app/print.h"
+
 namespace lr::app {
 namespace {
 
@@ -77,9 +79,7 @@ std::string check_command(const CLI::App& program, std::vector<std::string>& wor
 }
 
 std::string one_line(std::string text) {
-    for (char& c : text) {
-        if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-    }
+    text = printable(std::move(text), ' ');
     text.erase(text.find_last_not_of(' ') + 1);
     return text;
 }

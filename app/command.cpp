@@ -115,10 +115,7 @@ void print_json(const nlohmann::ordered_json& document) {
 int fail(const std::string& file, const Error& error) {
     std::string line = fmt::format("lacedring: {}: {}", input_name(file), error.message);
     if (error.code == ErrorCode::memory_limit) line += " (--max-memory)";
-    for (char& c : line) {
-        if (static_cast<unsigned char>(c) < 0x20) c = ' ';  // one line, whatever the file is called
-    }
-    say("{}\n", line);
+    say("{}\n", printable(std::move(line), ' '));
     switch (error.code) {
         case ErrorCode::no_device:
         case ErrorCode::device_failure:

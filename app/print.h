@@ -29,12 +29,12 @@ void say(fmt::format_string<Args...> format, Args&&... args) {
     write_text(stderr, format, fmt::make_format_args(args...));
 }
 
-/// A name out of a file, without the control characters that a terminal would obey.
-inline std::string printable(std::string name) {
-    for (char& c : name) {
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+/// Text out of a file, or a file's name, without line ends and other control characters that a terminal would obey.
+inline std::string printable(std::string text, char instead = '?') {
+    for (char& c : text) {
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = instead;
     }
-    return name;
+    return text;
 }
 
 }  // namespace lr::app

@@ -21,12 +21,7 @@ class RunLog {
 
     /// Says the notes.
     void flush() {
-        for (std::string& line : std::exchange(notes_, {})) {
-            for (char& c : line) {
-                if (static_cast<unsigned char>(c) < 0x20) c = ' ';  // one line, whatever a file is called
-            }
-            say("lacedring: {}\n", line);
-        }
+        for (std::string& line : std::exchange(notes_, {})) say("lacedring: {}\n", printable(std::move(line), ' '));
     }
     /// Forgets the notes of what failed.
     void discard() { notes_.clear(); }

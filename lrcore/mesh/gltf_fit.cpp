@@ -135,20 +135,12 @@ class Fitter {
         rename_lonely(known);
         UniqueNames names;
         for (Attribute& attribute : out_.attributes) attribute.name = names.take(utf8(attribute.name));
-        if (!left_out_.empty()) notes_.push_back("glTF has no type for " + listed(left_out_) + ": left out");
-        if (!renamed_.empty()) notes_.push_back("not as glTF defines it, so named _NAME: " + listed(renamed_));
+        if (!left_out_.empty()) notes_.push_back("glTF has no type for " + shown_names(left_out_) + ": left out");
+        if (!renamed_.empty()) notes_.push_back("not as glTF defines it, so named _NAME: " + shown_names(renamed_));
         return std::move(out_);
     }
 
   private:
-    static std::string listed(const std::vector<std::string>& names) {
-        constexpr std::size_t kMost = 8;
-        std::string out;
-        for (std::size_t i = 0; i < names.size() && i < kMost; ++i) out += (i == 0 ? "" : ", ") + shown(names[i]);
-        if (names.size() > kMost) out += fmt::format(" and {} more", names.size() - kMost);
-        return out;
-    }
-
     static Result<void> check_positions(const Attribute& position) {
         for (std::size_t i = 0; i * sizeof(float) < position.data.size(); ++i) {
             if (!std::isfinite(load<float>(position.data, i))) {

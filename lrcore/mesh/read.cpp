@@ -22,6 +22,14 @@ std::string shown(std::string_view text) {
     return out + "'";
 }
 
+std::string shown_names(std::span<const std::string> names) {
+    constexpr std::size_t kMost = 8;
+    std::string out;
+    for (std::size_t i = 0; i < names.size() && i < kMost; ++i) out += (i == 0 ? "" : ", ") + shown(names[i]);
+    if (names.size() > kMost) out += fmt::format(" and {} more", names.size() - kMost);
+    return out;
+}
+
 Attribute float_attribute(std::string name, std::uint8_t components, std::span<const float> values) {
     Attribute out{std::move(name), ComponentType::f32, components, false, {}};
     const std::span<const std::byte> bytes = std::as_bytes(values);

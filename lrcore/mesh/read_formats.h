@@ -69,6 +69,9 @@ inline Error too_many_vertices() {
 /// A piece of the file for an error message: short, on one line, printable.
 std::string shown(std::string_view text);
 
+/// The first 8 names, shown, with commas between them, and how many more there are.
+std::string shown_names(std::span<const std::string> names);
+
 /// A vertex attribute of floats.
 Attribute float_attribute(std::string name, std::uint8_t components, std::span<const float> values);
 

@@ -327,14 +327,7 @@ class GltfReader {
         reading_.leave_out(lines_, "primitive of lines", "primitives of lines");
         reading_.leave_out(without_position_, "primitive without positions", "primitives without positions");
         if (dropped_.empty()) return;
-        std::string names;
-        for (const std::string& name : dropped_) {
-            names += (names.empty() ? "" : ", ") + shown(name);
-            if (names.size() > 200) {
-                names += ", ...";
-                break;
-            }
-        }
+        const std::string names = shown_names(std::vector<std::string>(dropped_.begin(), dropped_.end()));
         reading_.leave_out(dropped_.size(), fmt::format("attribute that not every primitive has alike ({})", names),
                            fmt::format("attributes that not every primitive has alike ({})", names));
     }

@@ -80,16 +80,12 @@ void make_obj(const Mesh& mesh, Bytes& body, WriteNotes& notes) {
         if (i % 3 == 2) out.push_back('\n');
     }
     append(body, std::string_view(out.data(), out.size()));
-    std::string dropped;
+    std::vector<std::string> dropped;
     for (const Attribute& a : mesh.attributes) {
         if (&a == v.attribute || &a == vt.attribute || &a == vn.attribute || &a == colors.attribute) continue;
-        dropped += (dropped.empty() ? "" : ", ") + shown(a.name);
-        if (dropped.size() > 200) {
-            dropped += ", ...";
-            break;
-        }
+        dropped.push_back(a.name);
     }
-    if (!dropped.empty()) notes.push_back("OBJ has no place for " + dropped + ": left out");
+    if (!dropped.empty()) notes.push_back("OBJ has no place for " + shown_names(dropped) + ": left out");
 }
 
 }  // namespace lr::detail
