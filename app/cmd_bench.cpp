@@ -34,7 +34,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct BenchOptions {
     std::vector<std::string> paths;
     InputOptions input;
     int rounds = 5;
@@ -115,7 +115,7 @@ int failed(const std::string& path, const Error& error) {
 }
 
 /// One mesh: its figures printed, or put into `meshes`. Returns an Exit.
-int bench(const Options& options, const std::string& path, Json& meshes, std::size_t& messages, RunLog& log) {
+int bench(const BenchOptions& options, const std::string& path, Json& meshes, std::size_t& messages, RunLog& log) {
     const Result<Mesh> mesh = load({path, options.input}, log);
     if (!mesh) return fail(path, mesh.error());
     const auto build = [&] { return build_corner_table(mesh->indices, mesh->vertex_count); };
@@ -306,7 +306,7 @@ int bench(const Options& options, const std::string& path, Json& meshes, std::si
     return done;
 }
 
-int run(const Options& options, RunLog& log) {
+int run_bench(const BenchOptions& options, RunLog& log) {
     Json meshes = Json::array();
     std::size_t messages = 0;
     const int exit = for_each_input(
@@ -319,7 +319,7 @@ int run(const Options& options, RunLog& log) {
 }  // namespace
 
 void add_bench(CLI::App& program, Action& action) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<BenchOptions>();
     CLI::App* command = program.add_subcommand("bench", "time construction, decoding and drawing beside rivals");
     command->add_option("MESH", options->paths, "mesh files")->required();
     add_input_options(*command, options->input, 400);
@@ -358,7 +358,7 @@ void add_bench(CLI::App& program, Action& action) {
     rules->never_with({"--device", "--device-memory", "--validation"}, "--no-gpu");
     command->callback([options, rules, &action] {
         rules->check();
-        action = [options](RunLog& log) { return run(*options, log); };
+        action = [options](RunLog& log) { return run_bench(*options, log); };
     });
 }
 

@@ -21,7 +21,7 @@
 namespace lr::app {
 namespace {
 
-struct Options {
+struct CompareOptions {
     MeshInput input;
     OutputOptions diff;
     std::set<std::string> paths;  ///< empty: all
@@ -48,7 +48,7 @@ bool is_blank(std::span<const Compared> all) {
     return std::any_of(all.begin(), all.end(), [](const Compared& compared) { return compared.comparison.blank; });
 }
 
-nlohmann::ordered_json to_json(const Options& options, const gpu::DeviceInfo& info, std::span<const Compared> all,
+nlohmann::ordered_json to_json(const CompareOptions& options, const gpu::DeviceInfo& info, std::span<const Compared> all,
                                std::span<const Skipped> skipped, std::size_t messages, const std::string& diff) {
     nlohmann::ordered_json out = {{"schema", 1},
                                   {"file", input_name(options.input.path)},
@@ -79,7 +79,7 @@ nlohmann::ordered_json to_json(const Options& options, const gpu::DeviceInfo& in
     return out;
 }
 
-void print_table(const Options& options, const gpu::DeviceInfo& info, std::span<const Compared> all,
+void print_table(const CompareOptions& options, const gpu::DeviceInfo& info, std::span<const Compared> all,
                  std::size_t messages) {
     print("{}: plain against streams, {} views of {}x{} on {}\n", options.input.path, all[0].comparison.views,
           options.size.width, options.size.height, info.name);
@@ -116,7 +116,7 @@ std::string verdict(bool passed, std::span<const Compared> all, std::uint32_t tr
                        triangles, c.covered_pixels);
 }
 
-int run(const Options& options, RunLog& log) {
+int run_compare(const CompareOptions& options, RunLog& log) {
     const Result<Mesh> mesh = load(options.input, log);
     if (!mesh) return fail(options.input.path, mesh.error());
     constexpr std::string_view kExtensions[] = {".png"};
@@ -189,7 +189,7 @@ int run(const Options& options, RunLog& log) {
 }  // namespace
 
 void add_compare(CLI::App& program, Action& action) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<CompareOptions>();
     CLI::App* command =
         program.add_subcommand("compare", "draw a mesh plain and from its streams, and compare the pixels");
     command->add_option("MESH", options->input.path, "mesh file")->required();
@@ -204,7 +204,7 @@ void add_compare(CLI::App& program, Action& action) {
         ->type_name("FILE.png");
     add_device_options(*command, options->context);
     command->add_flag("--json", options->json, "one JSON document on standard output");
-    command->callback([options, &action] { action = [options](RunLog& log) { return run(*options, log); }; });
+    command->callback([options, &action] { action = [options](RunLog& log) { return run_compare(*options, log); }; });
 }
 
 }  // namespace lr::app

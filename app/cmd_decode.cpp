@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct DecodeOptions {
     std::vector<std::string> inputs;
     InputOptions input;  ///< its memory limit
     OutputOptions output;
@@ -24,17 +24,17 @@ struct Options {
 };
 
 /// "glb" as write_mesh knows it.
-MeshFormat output_format(const Options& options, const fs::path& path) {
+MeshFormat output_format(const DecodeOptions& options, const fs::path& path) {
     return writable_format(options.format.empty() ? path : fs::path("x." + options.format));
 }
 
-Result<void> write(const Mesh& mesh, const Options& options, const fs::path& path, WriteNotes& notes) {
+Result<void> write(const Mesh& mesh, const DecodeOptions& options, const fs::path& path, WriteNotes& notes) {
     if (path == "-") return write_mesh(mesh, output_format(options, path), STDOUT_FILENO, &notes);
     return write_mesh(mesh, path, &notes);
 }
 
 /// Returns an Exit.
-int decode(const Options& options, const std::string& input, const fs::path& output, RunLog& log) {
+int decode(const DecodeOptions& options, const std::string& input, const fs::path& output, RunLog& log) {
     const auto bytes = read_input(input, options.input, log);
     if (!bytes) return fail(input, bytes.error());
     const Result<LrFile> file = parse_lr(*bytes);
@@ -53,7 +53,7 @@ int decode(const Options& options, const std::string& input, const fs::path& out
     return done;
 }
 
-int run(const Options& options, RunLog& log) {
+int run_decode(const DecodeOptions& options, RunLog& log) {
     const bool named = options.output.path == "-" || options.output.path.ends_with('/') || options.inputs.size() > 1;
     if (named && options.format.empty()) {
         return fail(output_name(options.output.path),
@@ -72,7 +72,7 @@ int run(const Options& options, RunLog& log) {
 }  // namespace
 
 void add_decode(CLI::App& program, Action& action) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<DecodeOptions>();
     CLI::App* command = program.add_subcommand("decode", "write an .lr file as .glb, .ply or .obj");
     command->add_option("IN.lr", options->inputs, ".lr files; - is standard input")->required();
     add_output(*command, options->output, "the mesh file; FOLDER/ for several, - for standard output");
@@ -82,7 +82,7 @@ void add_decode(CLI::App& program, Action& action) {
                       "vertices, triangles and their first corners in the order of the file that was encoded (with "
                       "--keep-order)");
     add_max_memory(*command, options->input);
-    command->callback([options, &action] { action = [options](RunLog& log) { return run(*options, log); }; });
+    command->callback([options, &action] { action = [options](RunLog& log) { return run_decode(*options, log); }; });
 }
 
 }  // namespace lr::app

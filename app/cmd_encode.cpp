@@ -16,7 +16,7 @@
 namespace lr::app {
 namespace {
 
-struct Options {
+struct EncodeOptions {
     std::vector<std::string> inputs;
     InputOptions input;
     OutputOptions output;
@@ -27,7 +27,7 @@ struct Options {
     bool keep_order = false;
 };
 
-Result<LrFile> encode(const Options& options, const Mesh& mesh, CornerTable table) {
+Result<LrFile> encode(const EncodeOptions& options, const Mesh& mesh, CornerTable table) {
     const RingOptions ring = ring_options(options.ring, mesh.triangle_count());
     if (options.format == "lean") {
         const Rings rings =
@@ -57,7 +57,7 @@ Result<LrFile> encode(const Options& options, const Mesh& mesh, CornerTable tabl
 }
 
 /// Returns an Exit.
-int encode_file(const Options& options, const std::string& input, const std::filesystem::path& output, RunLog& log) {
+int encode_file(const EncodeOptions& options, const std::string& input, const std::filesystem::path& output, RunLog& log) {
     const Result<Mesh> mesh = load({input, options.input}, log);
     if (!mesh) return fail(input, mesh.error());
     constexpr std::string_view kExtensions[] = {".lr"};
@@ -87,7 +87,7 @@ int encode_file(const Options& options, const std::string& input, const std::fil
     return done;
 }
 
-int run(const Options& options, RunLog& log) {
+int run_encode(const EncodeOptions& options, RunLog& log) {
     const auto outputs = output_paths(options.inputs, options.output, ".lr");
     if (!outputs) return fail(output_name(options.output.path), outputs.error());
     return for_each_input(options.inputs, log,
@@ -97,7 +97,7 @@ int run(const Options& options, RunLog& log) {
 }  // namespace
 
 void add_encode(CLI::App& program, Action& action) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<EncodeOptions>();
     CLI::App* command = program.add_subcommand("encode", "write a mesh as an .lr file");
     command->add_option("MESH", options->inputs, "mesh files; - is standard input")->required();
     add_output(*command, options->output, "the .lr file; FOLDER/ for several, - for standard output");
@@ -126,7 +126,7 @@ void add_encode(CLI::App& program, Action& action) {
     });
     command->callback([options, rules, &action] {
         rules->check();
-        action = [options](RunLog& log) { return run(*options, log); };
+        action = [options](RunLog& log) { return run_encode(*options, log); };
     });
 }
 

@@ -14,13 +14,13 @@
 namespace lr::app {
 namespace {
 
-struct Options {
+struct GenerateOptions {
     std::string kind, format;
     OutputOptions output;
     std::uint64_t triangles = 10000, seed = 1;
 };
 
-int run(const Options& options, RunLog& log) {
+int run_generate(const GenerateOptions& options, RunLog& log) {
     const std::string& output = options.output.path;
     const bool standard = output == "-";
     if (standard == options.format.empty()) {
@@ -43,7 +43,7 @@ int run(const Options& options, RunLog& log) {
 }  // namespace
 
 void add_generate(CLI::App& program, Action& action) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<GenerateOptions>();
     CLI::App* command = program.add_subcommand("generate", "procedural meshes of any size");
     std::string kinds;
     for (const GeneratorInfo& kind : generators()) kinds += fmt::format("\n  {:<9}{}", kind.name, kind.description);
@@ -55,7 +55,7 @@ void add_generate(CLI::App& program, Action& action) {
         ->check(refuse_negative)
         ->capture_default_str();
     command->add_option("--seed", options->seed, "same seed, same file")->check(refuse_negative)->capture_default_str();
-    command->callback([options, &action] { action = [options](RunLog& log) { return run(*options, log); }; });
+    command->callback([options, &action] { action = [options](RunLog& log) { return run_generate(*options, log); }; });
 }
 
 }  // namespace lr::app

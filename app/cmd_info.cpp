@@ -15,7 +15,7 @@
 namespace lr::app {
 namespace {
 
-struct Options {
+struct InfoOptions {
     MeshInput input;
     bool json = false;
 };
@@ -46,7 +46,7 @@ std::string describe(const Solid& solid, bool all_closed) {
     return text;
 }
 
-int run(const Options& options, RunLog& log) {
+int run_info(const InfoOptions& options, RunLog& log) {
     const Result<LoadedMesh> loaded = load_file(options.input, log);
     if (!loaded) return fail(options.input.path, loaded.error());
     const Mesh* mesh = &loaded->mesh;
@@ -129,12 +129,12 @@ int run(const Options& options, RunLog& log) {
 }  // namespace
 
 void add_info(CLI::App& program, Action& action) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<InfoOptions>();
     CLI::App* command = program.add_subcommand("info", "topology report; of an .lr file its sections, too");
     command->add_option("MESH", options->input.path, "mesh file")->required();
     add_input_options(*command, options->input.options, 50);
     command->add_flag("--json", options->json, "one JSON document on standard output");
-    command->callback([options, &action] { action = [options](RunLog& log) { return run(*options, log); }; });
+    command->callback([options, &action] { action = [options](RunLog& log) { return run_info(*options, log); }; });
 }
 
 }  // namespace lr::app

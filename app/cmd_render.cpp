@@ -18,7 +18,7 @@
 namespace lr::app {
 namespace {
 
-struct Options {
+struct RenderOptions {
     std::vector<std::string> inputs;
     InputOptions input;
     OutputOptions output;
@@ -40,7 +40,7 @@ constexpr std::uint32_t kSamples = 3;
 using ContextPointer = std::unique_ptr<gpu::Context>;
 
 /// Returns an Exit. Makes `context`, once, when a mesh has been read.
-int render(const Options& options, const std::string& input, const std::filesystem::path& output,
+int render(const RenderOptions& options, const std::string& input, const std::filesystem::path& output,
            ContextPointer& context, RunLog& log) {
     const Result<Mesh> mesh = load({input, options.input}, log);
     if (!mesh) return fail(input, mesh.error());
@@ -129,7 +129,7 @@ int render(const Options& options, const std::string& input, const std::filesyst
     return messages == 0 ? done : check_failed;
 }
 
-int run(const Options& options, RunLog& log) {
+int run_render(const RenderOptions& options, RunLog& log) {
     const auto outputs = output_paths(options.inputs, options.output, ".png");
     if (!outputs) return fail(output_name(options.output.path), outputs.error());
     ContextPointer context;
@@ -141,7 +141,7 @@ int run(const Options& options, RunLog& log) {
 }  // namespace
 
 void add_render(CLI::App& program, Action& action) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<RenderOptions>();
     CLI::App* command = program.add_subcommand("render", "draw a mesh into a PNG file");
     command->add_option("MESH", options->inputs, "mesh files; - is standard input")->required();
     add_output(*command, options->output, "the PNG file; FOLDER/ for several, - for standard output");
@@ -191,7 +191,7 @@ void add_render(CLI::App& program, Action& action) {
     });
     command->callback([options, rules, &action] {
         rules->check();
-        action = [options](RunLog& log) { return run(*options, log); };
+        action = [options](RunLog& log) { return run_render(*options, log); };
     });
 }
 

@@ -20,7 +20,7 @@
 namespace lr::app {
 namespace {
 
-struct Options {
+struct ReportOptions {
     std::vector<std::string> paths;
     OutputOptions output;
     InputOptions input;
@@ -58,7 +58,7 @@ std::string command_line(const CLI::App& command) {
 
 #ifdef LACEDRING_GPU
 /// The device, unless there shall or can be none: then `skipped` says why. Errors: those of a device asked for.
-Result<std::unique_ptr<gpu::Context>> open_device(const Options& options, std::string& skipped) {
+Result<std::unique_ptr<gpu::Context>> open_device(const ReportOptions& options, std::string& skipped) {
     if (options.no_gpu) {
         skipped = "--no-gpu";
         return std::unique_ptr<gpu::Context>();
@@ -72,7 +72,7 @@ Result<std::unique_ptr<gpu::Context>> open_device(const Options& options, std::s
 }
 #endif
 
-int run(const Options& options, RunLog& log) {
+int run_report(const ReportOptions& options, RunLog& log) {
     ReportPage page;
     page.command = options.command;
     page.version = LACEDRING_VERSION;
@@ -145,7 +145,7 @@ int run(const Options& options, RunLog& log) {
 }  // namespace
 
 void add_report(CLI::App& program, Action& action) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ReportOptions>();
     CLI::App* command = program.add_subcommand("report", "figures, charts and pictures of meshes as one HTML page");
     command->add_option("MESH", options->paths, "mesh files")->required();
     add_output(*command, options->output, "the HTML file; - for standard output");
@@ -166,7 +166,7 @@ void add_report(CLI::App& program, Action& action) {
     command->callback([options, rules, &action, command] {
         rules->check();
         options->command = command_line(*command);
-        action = [options](RunLog& log) { return run(*options, log); };
+        action = [options](RunLog& log) { return run_report(*options, log); };
     });
 }
 

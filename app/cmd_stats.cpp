@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct StatsOptions {
     std::vector<std::string> paths;
     InputOptions input;
     RingChoice ring;
@@ -117,12 +117,12 @@ void print_sizes(const std::string& path, const Mesh& mesh, const FormatSet& set
 }
 
 /// Tables of rings that are made for them alone.
-bool makes_rings(const Options& options) {
+bool makes_rings(const StatsOptions& options) {
     return options.table == "offsets" || options.table == "periods" || options.table == "seeds";
 }
 
 /// Every format, and the rows of size tables. Returns an Exit.
-int add_sizes(const Options& options, const std::string& path, const LoadedMesh& loaded, Json& json,
+int add_sizes(const StatsOptions& options, const std::string& path, const LoadedMesh& loaded, Json& json,
               std::vector<MeshRow>& rows) {
     const Mesh& mesh = loaded.mesh;
     const Result<FormatSet> set = make_formats(mesh, options.ring, options.paper);
@@ -145,7 +145,7 @@ int add_sizes(const Options& options, const std::string& path, const LoadedMesh&
 }
 
 /// What more rings show, as text or into the mesh's JSON. Returns an Exit.
-int add_ring_figures(const Options& options, const std::string& path, const Mesh& mesh, Json* json,
+int add_ring_figures(const StatsOptions& options, const std::string& path, const Mesh& mesh, Json* json,
                      std::vector<SeedRow>& rows) {
     const RingOptions ring = compact_ring_options(options.ring);
     if (options.table == "seeds") {
@@ -167,7 +167,7 @@ int add_ring_figures(const Options& options, const std::string& path, const Mesh
     return done;
 }
 
-int run(const Options& options, RunLog& log) {
+int run_stats(const StatsOptions& options, RunLog& log) {
     Json meshes = Json::array();
     std::vector<MeshRow> mesh_rows;
     std::vector<SeedRow> seed_rows;
@@ -201,7 +201,7 @@ int run(const Options& options, RunLog& log) {
 }  // namespace
 
 void add_stats(CLI::App& program, Action& action) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<StatsOptions>();
     CLI::App* command = program.add_subcommand("stats", "size of every format, side by side");
     command->add_option("MESH", options->paths, "mesh files")->required();
     add_input_options(*command, options->input, 350);
@@ -221,7 +221,7 @@ void add_stats(CLI::App& program, Action& action) {
                      [options, makes_sizes] { return makes_sizes() || options->table != "seeds"; });
     command->callback([options, rules, &action] {
         rules->check();
-        action = [options](RunLog& log) { return run(*options, log); };
+        action = [options](RunLog& log) { return run_stats(*options, log); };
     });
 }
 

@@ -14,7 +14,7 @@
 namespace lr::app {
 namespace {
 
-struct Options {
+struct VerifyOptions {
     MeshInput input;
     RingChoice ring;
     bool json = false;
@@ -53,7 +53,7 @@ std::string check_order(const Format& format, std::uint32_t vertices) {
     return format.order.size() == vertices + format.copies ? "" : "some vertices are lost";
 }
 
-int run(const Options& options, RunLog& log) {
+int run_verify(const VerifyOptions& options, RunLog& log) {
     const Result<Mesh> mesh = load(options.input, log);
     if (!mesh) return fail(options.input.path, mesh.error());
     const Result<FormatSet> set = make_formats(*mesh, options.ring);
@@ -92,13 +92,13 @@ int run(const Options& options, RunLog& log) {
 }  // namespace
 
 void add_verify(CLI::App& program, Action& action) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<VerifyOptions>();
     CLI::App* command = program.add_subcommand("verify", "check that every format round-trips");
     command->add_option("MESH|IN.lr", options->input.path, "mesh file or .lr file")->required();
     add_input_options(*command, options->input.options, 350);
     add_ring_options(*command, options->ring);
     command->add_flag("--json", options->json, "one JSON document on standard output");
-    command->callback([options, &action] { action = [options](RunLog& log) { return run(*options, log); }; });
+    command->callback([options, &action] { action = [options](RunLog& log) { return run_verify(*options, log); }; });
 }
 
 }  // namespace lr::app

@@ -98,7 +98,7 @@ std::string pictures(const MeshReport& mesh, const std::string& title) {
     return out + "</div>\n";
 }
 
-std::string size_table(const MeshReport& mesh, const std::string& title) {
+std::string table_of_sizes(const MeshReport& mesh, const std::string& title) {
     std::string out = fmt::format(
         "<h3>Sizes</h3>\n<div class=\"wide\" role=\"region\" aria-label=\"Sizes of {}\" tabindex=\"0\">"
         "<table class=\"sizes\"><thead><tr><th scope=\"col\" class=\"left\">format</th>"
@@ -206,7 +206,7 @@ std::string section(const MeshReport& mesh, std::size_t number, const ReportPage
     out += topology(mesh) + ring_line(mesh);
     out += pictures(mesh, title);
     out += "<h3>Bits per triangle</h3>\n" + bit_bars(mesh, scale);
-    out += size_table(mesh, title);
+    out += table_of_sizes(mesh, title);
     return out + offset_histograms(mesh) + "</section>\n";
 }
 

@@ -11,7 +11,7 @@
 namespace lr::gpu {
 namespace {
 
-constexpr std::uint64_t kSlotStep = 64;  // 64 slots are 768 bytes of the index buffer: aligned
+constexpr std::uint64_t kDispatchStep = 64;  // 64 slots are 768 bytes of the index buffer: aligned
 
 std::uint32_t in_groups(std::uint64_t triangles) {
     constexpr std::uint64_t kPerGroup = std::uint64_t{LR_COMPUTE_GROUP} * LR_TRIANGLES_PER_INVOCATION;
@@ -36,16 +36,16 @@ Result<LeanDecoder> LeanDecoder::create(Context& context) {
 
 Result<DecodePlan> LeanDecoder::plan(Descriptors& descriptors, const GpuMesh& mesh, const LeanView& view) const {
     constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    const std::uint64_t two_sided = std::uint64_t{2} * view.rings2 / kSlotStep * kSlotStep,
+    const std::uint64_t two_sided = std::uint64_t{2} * view.rings2 / kDispatchStep * kDispatchStep,
                         ring_slots = view.ring_slots();
     const auto word_of = [&](std::uint64_t slot) {
         return LR_LEAN_HEADER_WORDS + (slot <= ring_slots ? slot : ring_slots + 3 * (slot - ring_slots));
     };
     // A slot is at most 12 bytes of either buffer; the rest is for alignment and for the words looked ahead at.
-    const std::uint64_t by_range = (mesh.max_range - 512) / 12 / kSlotStep * kSlotStep;
+    const std::uint64_t by_range = (mesh.max_range - 512) / 12 / kDispatchStep * kDispatchStep;
     const std::uint64_t by_groups =
         std::uint64_t{context_->limits().maxComputeWorkGroupCount[0]} * LR_COMPUTE_GROUP * LR_TRIANGLES_PER_INVOCATION;
-    const std::uint64_t step = std::min(by_range, by_groups / kSlotStep * kSlotStep);
+    const std::uint64_t step = std::min(by_range, by_groups / kDispatchStep * kDispatchStep);
     DecodePlan plan;
     for (std::uint64_t first = 0, slots = 0; first < mesh.slots; first += slots) {
         slots = std::min(step, (first < two_sided ? two_sided : mesh.slots) - first);

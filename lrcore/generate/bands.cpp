@@ -35,7 +35,7 @@ Grid fit(std::uint64_t quads, std::uint64_t aspect, std::uint64_t least_width, s
 
 Result<Mesh> make_torus(std::uint64_t triangles, std::uint64_t) {
     const Grid grid = fit(std::max<std::uint64_t>(triangles / 2, 9), 2, 3, 3);
-    if (grid.length * grid.width > max_vertices) return too_many_vertices();
+    if (grid.length * grid.width > kMostVertices) return too_many_generated();
     const auto length = static_cast<std::uint32_t>(grid.length);
     const auto width = static_cast<std::uint32_t>(grid.width);
     Builder builder;
@@ -61,7 +61,7 @@ Result<Mesh> make_torus(std::uint64_t triangles, std::uint64_t) {
 
 Result<Mesh> make_moebius(std::uint64_t triangles, std::uint64_t) {
     const Grid grid = fit(std::max<std::uint64_t>(triangles / 2, 5), 12, 1, 5);
-    if (grid.length * (grid.width + 1) > max_vertices) return too_many_vertices();
+    if (grid.length * (grid.width + 1) > kMostVertices) return too_many_generated();
     const auto length = static_cast<std::uint32_t>(grid.length);
     const auto width = static_cast<std::uint32_t>(grid.width);
     Builder builder;

@@ -136,7 +136,7 @@ class Flipper {
 
 Result<Mesh> make_blob(std::uint64_t triangles, std::uint64_t seed) {
     const SphereShape shape = sphere_shape(triangles);
-    if (shape.vertices() > max_vertices) return too_many_vertices();
+    if (shape.vertices() > kMostVertices) return too_many_generated();
     Mesh mesh = build_sphere(shape).finish();
     std::vector<std::byte>& positions = mesh.attributes[0].data;
     Random random(seed);

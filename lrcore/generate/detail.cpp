@@ -98,7 +98,7 @@ std::uint64_t square_root(std::uint64_t n) {
     return root;
 }
 
-Error too_many_vertices() {
+Error too_many_generated() {
     return {ErrorCode::invalid_argument, "the mesh would have more than 2^29 vertices"};
 }
 

@@ -10,7 +10,7 @@
 namespace lr::detail {
 
 /// Vertices that a mesh of ours may have: the lean stream numbers no more.
-constexpr std::uint64_t max_vertices = std::uint64_t{1} << 29;
+constexpr std::uint64_t kMostVertices = std::uint64_t{1} << 29;
 
 /// Splitmix64's finaliser: a good hash of one word.
 constexpr std::uint64_t mix(std::uint64_t x) {
@@ -58,7 +58,7 @@ double fractal_noise(Point p, int octaves, std::uint64_t seed);
 class Builder {
   public:
     void reserve(std::uint64_t vertices, std::uint64_t triangles);
-    /// The caller sees to it that there are at most max_vertices.
+    /// The caller sees to it that there are at most kMostVertices.
     std::uint32_t vertex(Point p);
     void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         const std::uint32_t abc[3] = {a, b, c};
@@ -99,7 +99,7 @@ constexpr double misfit(std::uint64_t made, std::uint64_t wanted) {
 /// Rounded down.
 std::uint64_t square_root(std::uint64_t n);
 
-Error too_many_vertices();
+Error too_many_generated();
 
 /// One corner-opposite table's worth of sphere: rings of latitude of mesh sizes m*min(i, f, 2f+e-i), 0 <= i <= 2f+e,
 /// that is m sectors, caps of f rings and a band of e rows (m = 5, e = f: the subdivided icosahedron).

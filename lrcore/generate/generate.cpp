@@ -35,7 +35,7 @@ Result<Mesh> generate(std::string_view kind, std::uint64_t triangles, std::uint6
     for (std::size_t i = 0; i < std::size(infos); ++i) {
         if (infos[i].name != kind) continue;
         // No kind has clearly fewer than T/2 vertices; this also keeps the arithmetic of the makers far from overflow.
-        if (triangles > 2 * detail::max_vertices) return detail::too_many_vertices();
+        if (triangles > 2 * detail::kMostVertices) return detail::too_many_generated();
         try {
             return makers[i](triangles, seed);
         } catch (const std::bad_alloc&) {

@@ -139,7 +139,7 @@ Result<Mesh> make_parts(std::uint64_t triangles, std::uint64_t seed) {
     std::uint64_t side = 1;
     while (side * side * side * 8 < triangles) ++side;
     for (std::uint64_t piece = 0; builder.triangles() < triangles; ++piece) {
-        if (builder.vertices() + 200 > max_vertices) return too_many_vertices();
+        if (builder.vertices() + 200 > kMostVertices) return too_many_generated();
         const Point centre{static_cast<double>(piece % side) + 0.25 * random.signed_unit(),
                            static_cast<double>(piece / side % side) + 0.25 * random.signed_unit(),
                            static_cast<double>(piece / side / side) + 0.25 * random.signed_unit()};

@@ -80,7 +80,7 @@ Plate fit(std::uint64_t triangles, std::uint64_t genus) {
 
 Result<Mesh> make_genus(std::uint64_t triangles, std::uint64_t seed) {
     const Plate plate = fit(triangles, 2 + seed % 30);
-    if (plate.vertices() > max_vertices) return too_many_vertices();
+    if (plate.vertices() > kMostVertices) return too_many_generated();
     const auto width = static_cast<std::uint32_t>(plate.width);
     const auto height = static_cast<std::uint32_t>(plate.height);
 

@@ -146,7 +146,7 @@ Result<Mesh> make_soup(std::uint64_t triangles, std::uint64_t seed) {
         // Each kind once, so that a mesh of 400 triangles or more has them all; then at random.
         const auto kind = i < piece_kinds ? static_cast<std::uint32_t>(i) : random.below(piece_kinds);
         Piece piece = make_piece(kind, random);
-        if (builder.vertices() + std::uint64_t{piece.vertices} > max_vertices) return too_many_vertices();
+        if (builder.vertices() + std::uint64_t{piece.vertices} > kMostVertices) return too_many_generated();
         const Point centre{static_cast<double>(i % side), static_cast<double>(i / side % side),
                            static_cast<double>(i / side / side)};
         number.clear();

@@ -79,7 +79,7 @@ Builder build_sphere(const SphereShape& shape) {
 
 Result<Mesh> make_sphere(std::uint64_t triangles, std::uint64_t) {
     const SphereShape shape = sphere_shape(triangles);
-    if (shape.vertices() > max_vertices) return too_many_vertices();
+    if (shape.vertices() > kMostVertices) return too_many_generated();
     return build_sphere(shape).finish();
 }
 

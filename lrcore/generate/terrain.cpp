@@ -120,7 +120,7 @@ Ground fit(std::uint64_t triangles, std::uint64_t seed) {
 
 Result<Mesh> make_terrain(std::uint64_t triangles, std::uint64_t seed) {
     const Ground ground = fit(triangles, seed);
-    if (ground.triangles() / 2 > max_vertices) return too_many_vertices();
+    if (ground.triangles() / 2 > kMostVertices) return too_many_generated();
     Builder builder;
     builder.reserve(ground.triangles() / 2 + 4 * (ground.width + ground.height), ground.triangles());
     const double scale = 2.0 / static_cast<double>(std::max(ground.width, ground.height));
@@ -145,7 +145,7 @@ Result<Mesh> make_terrain(std::uint64_t triangles, std::uint64_t seed) {
             const double px = scale * static_cast<double>(x) - 1;
             const double py = scale * static_cast<double>(y) - 1;
             z[x] = 0.3 * fractal_noise({2 * px, 2 * py, 0.5}, 6, mix(seed));
-            if (builder.vertices() == max_vertices) return too_many_vertices();
+            if (builder.vertices() == kMostVertices) return too_many_generated();
             here[x] = builder.vertex({px, py, z[x]});
         }
         for (std::uint64_t x = 0; y > 0 && x < ground.width; ++x) {

@@ -15,7 +15,7 @@
 namespace lr {
 namespace {
 
-constexpr std::uint32_t kAhead = 24;  // elements for which memory is fetched before their turn
+constexpr std::uint32_t kPrefetched = 24;  // elements for which memory is fetched before their turn
 
 class Builder {
   public:
@@ -41,7 +41,7 @@ class Builder {
         number_isolated();
         // Until here words hold the corner table's vertices.
         for (std::size_t i = 0; i < out_.lr.size(); ++i) {
-            if (i + kAhead < out_.lr.size()) __builtin_prefetch(number_.data() + (out_.lr[i + kAhead] & word::kTip));
+            if (i + kPrefetched < out_.lr.size()) __builtin_prefetch(number_.data() + (out_.lr[i + kPrefetched] & word::kTip));
             std::uint32_t& w = out_.lr[i];
             if ((w & word::kKind) != word::kBorder) w = (w & ~word::kTip) | number_[w & word::kTip];
         }
@@ -150,11 +150,11 @@ class Builder {
     void take_warts(const RingWalk& walk, std::uint32_t side) {
         std::vector<DeadEnd>& ends = dead_ends_[side];
         for (std::size_t i = 0; i < ends.size(); ++i) {
-            if (i + kAhead < ends.size()) fetch(walk.face(side, ends[i + kAhead].edge));
+            if (i + kPrefetched < ends.size()) fetch(walk.face(side, ends[i + kPrefetched].edge));
             ends[i].wart = walk.across_t2(table_, side, ends[i].edge);
         }
         for (std::size_t i = 0; i < ends.size(); ++i) {
-            if (i + kAhead < ends.size()) fetch(ends[i + kAhead].wart);
+            if (i + kPrefetched < ends.size()) fetch(ends[i + kPrefetched].wart);
             CornerId& wart = ends[i].wart;
             if (wart.is_null()) continue;
             if (rung_.test(triangle(wart).value)) {
@@ -203,8 +203,8 @@ class Builder {
     void fill_t0() {
         out_.vo.reserve(t0_.size() * 6);
         for (std::size_t i = 0; i < t0_.size(); ++i) {
-            for (std::uint32_t k = 0; k < 3 && i + kAhead < t0_.size(); ++k) {
-                const CornerId c = corner(t0_[i + kAhead], k);
+            for (std::uint32_t k = 0; k < 3 && i + kPrefetched < t0_.size(); ++k) {
+                const CornerId c = corner(t0_[i + kPrefetched], k);
                 __builtin_prefetch(&number_[table_.vertex(c).value]);
                 fetch_place(table_.opposite(c));
             }
@@ -261,7 +261,7 @@ class Builder {
         if (irregular.size() * 3 > word::kTip) return false;
         out_.star.reserve(irregular.size() * 3);
         for (std::size_t i = 0; i < irregular.size(); ++i) {
-            if (i + kAhead < irregular.size()) fetch(irregular[i + kAhead].tip);
+            if (i + kPrefetched < irregular.size()) fetch(irregular[i + kPrefetched].tip);
             const auto [slot, tip] = irregular[i];
             std::uint32_t& w = out_.lr[slot];
             const bool t2 = slot >= 2 && precedes_t2(slot - 2);
@@ -273,7 +273,7 @@ class Builder {
         }
         for (std::size_t i = 0; i < out_.star.size(); i += 3) {  // until here, corners of the corner table
             for (const std::size_t k : {i + 1, i + 2}) {
-                if (k + kAhead < out_.star.size()) fetch_place({out_.star[k + kAhead]});
+                if (k + kPrefetched < out_.star.size()) fetch_place({out_.star[k + kPrefetched]});
                 out_.star[k] = lr_corner({out_.star[k]}).value;
             }
         }

@@ -5,9 +5,9 @@
 namespace lr {
 namespace {
 
-class Walker {
+class CorridorWalker {
   public:
-    Walker(const CornerTable& table, const Rings& rings) : table_(table), rings_(rings), polygons_(table, rings) {}
+    CorridorWalker(const CornerTable& table, const Rings& rings) : table_(table), rings_(rings), polygons_(table, rings) {}
 
     Corridors walk() {
         out_.ring_vertices = static_cast<std::uint32_t>(rings_.edges.size());
@@ -79,7 +79,7 @@ class Walker {
 }  // namespace
 
 Corridors walk_corridors(const CornerTable& table, const Rings& rings) {
-    return Walker(table, rings).walk();
+    return CorridorWalker(table, rings).walk();
 }
 
 }  // namespace lr

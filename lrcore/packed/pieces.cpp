@@ -16,9 +16,9 @@ constexpr std::size_t kPiece = 32;  // triangles of a piece, or a few more: one 
 constexpr std::uint32_t kWhole = 8;  // what would be left of a corridor, or a part of a T0, of so many is taken along
 constexpr double kStart = 8;         // a piece's start costs as much as so many vertices
 
-class Walker {
+class PieceWalker {
   public:
-    Walker(const CornerTable& table, const Rings& rings)
+    PieceWalker(const CornerTable& table, const Rings& rings)
         : table_(table), rings_(rings), polygons_(table, rings), inserted_(table.vertex_count, 0) {}
 
     Corridors walk() {
@@ -236,7 +236,7 @@ class Walker {
 }  // namespace
 
 Corridors walk_pieces(const CornerTable& table, const Rings& rings) {
-    Corridors out = Walker(table, rings).walk();
+    Corridors out = PieceWalker(table, rings).walk();
     out.events += static_cast<std::uint32_t>(out.corners.size() / kPiece);
     return out;
 }

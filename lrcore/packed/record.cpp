@@ -89,7 +89,7 @@ Lanes load(const std::uint32_t* from) {
     return out;
 }
 
-struct Edge {
+struct Gate {
     std::uint32_t a, b;
 };
 
@@ -253,18 +253,18 @@ class Expander {
             if (split) enters = 3;
         }
         store(i, a, x, b);
-        const Edge low{a, x}, high{x, b};
+        const Gate low{a, x}, high{x, b};
         if (enters == 3) push(along_a ? high : low);
         now_ = enters == 3 ? (along_a ? low : high) : enters == 2 ? high : low;
         finished = enters == 0;
         return next_event() && event_ > i;
     }
 
-    void push(Edge edge) {
+    void push(Gate edge) {
         stack_[top_++ % LR_PACKED_STACK] = edge;
         depth_ = std::min(depth_ + 1, LR_PACKED_STACK);
     }
-    Edge pop() {
+    Gate pop() {
         --depth_;
         return stack_[--top_ % LR_PACKED_STACK];
     }
@@ -326,7 +326,7 @@ class Expander {
         const bool along_a = turn(i);
         const std::uint32_t a = out[0], b = out[reversed_ ? 2 : 1];
         if (b - a < 4) return false;  // its polygon would be finished, or never have been one
-        const Edge inner = along_a ? Edge{a, a + 2} : Edge{b - 2, b};
+        const Gate inner = along_a ? Gate{a, a + 2} : Gate{b - 2, b};
         out[reversed_ ? 1 : 2] = along_a ? inner.b : inner.a;
         if (i + 1 == count_) return true;
         store(i + 1, inner.a, inner.a + 1, inner.b);
@@ -337,12 +337,12 @@ class Expander {
     const std::uint32_t* turns_;
     std::uint32_t* out_;
     std::uint32_t width_, gap_bits_, triangles_, count_;
-    Edge now_{}, begun_{};
+    Gate now_{}, begun_{};
     bool reversed_ = false, begun_reversed_ = false;
     std::uint32_t event_ = 0, code_ = 0;
     std::uint32_t depth_ = 0;
     std::uint32_t top_ = 0;  // stack_ goes round
-    std::array<Edge, LR_PACKED_STACK> stack_;
+    std::array<Gate, LR_PACKED_STACK> stack_;
     std::array<std::uint8_t, LR_PACKED_BLOCK> warts_;
 };
 

@@ -153,10 +153,10 @@ class GpuOptions(CliTest):
                   "hidden": obj(cube + inside, shell + hidden)}
         for name, data in meshes.items():
             path = self.write(name + ".obj", data)
-            text = self.ok("compare", path, "--size", "160x120", "--path", "compute").out
+            text = self.ok("compare", path, "--size", "80x60", "--path", "compute").out
             self.assertIn("nothing to be seen", text.splitlines()[-1], name)
             self.assertNotIn("DIFFERENT", text)
-            document = self.json("compare", path, "--size", "160x120", "--path", "compute,pull", "--json")
+            document = self.json("compare", path, "--size", "80x60", "--path", "compute,pull", "--json")
             self.assertIs(document["blank"], True, name)
             self.assertNotIn("diff", document)
             for result in document["results"]:
@@ -165,15 +165,15 @@ class GpuOptions(CliTest):
                 for key in ("pixels_different", "triangle_ids_different"):
                     self.assertEqual(result[key], 0)
         blob = self.generate("blob", 2000)
-        self.assertIn("the same pictures", self.ok("compare", blob, "--size", "160x120", "--path", "compute").out)
-        self.assertIs(self.json("compare", blob, "--size", "160x120", "--path", "compute", "--json")["blank"], False)
+        self.assertIn("the same pictures", self.ok("compare", blob, "--size", "80x60", "--path", "compute").out)
+        self.assertIs(self.json("compare", blob, "--size", "80x60", "--path", "compute", "--json")["blank"], False)
 
     def test_messages_of_validation_fail_a_bench(self):
         self.ok("bench", self.generate("torus", 200), "--rounds", "1", "--validation")
 
     def test_progress_is_for_terminals(self):
-        mesh = self.generate("blob", 30000)
-        for arguments in (("compare", mesh, "--size", "400x300"), ("bench", mesh, "--rounds", "1", "--operators")):
+        mesh = self.generate("blob", 8000)
+        for arguments in (("compare", mesh, "--size", "160x120"), ("bench", mesh, "--rounds", "1", "--operators")):
             code, out, said = on_a_terminal(*arguments)
             self.assertEqual(code, DONE, said)
             self.assertIn("[", said, arguments)

@@ -41,14 +41,14 @@ std::string encode_base64(const Bytes& bytes) {
 
 void mutate_buffer(Bytes& buffer, std::size_t max_size, Random& random) {
     const std::size_t size = buffer.size();
-    mutate_bytes(buffer, max_size, random);
+    mutate_bytes(buffer, max_size);
     if (random_below(random, 4) != 0) buffer.resize(size);  // the JSON says its length
 }
 
 void mutate_json(Bytes& json, std::size_t max_size, Random& random) {
     const std::string_view text(reinterpret_cast<const char*>(json.data()), json.size());
     const std::size_t marker = text.find(kMarker);
-    if (marker == std::string_view::npos || random_below(random, 2) == 0) return mutate_bytes(json, max_size, random);
+    if (marker == std::string_view::npos || random_below(random, 2) == 0) return mutate_bytes(json, max_size);
     const std::size_t begin = marker + kMarker.size();
     std::size_t length = 0;
     Bytes buffer = decode_base64(text.substr(begin), length);
@@ -84,7 +84,7 @@ void mutate_gltf(Bytes& bytes, std::size_t max_size, Random& random) {
     constexpr std::size_t header = 12, chunk_header = 8;
     if (bytes.size() < header + chunk_header || word_at(bytes, 0) != glb_magic)
         return mutate_json(bytes, max_size, random);
-    if (random_below(random, 8) == 0 || max_size < 64) return mutate_bytes(bytes, max_size, random);
+    if (random_below(random, 8) == 0 || max_size < 64) return mutate_bytes(bytes, max_size);
     Bytes json = piece(bytes, header + chunk_header, word_at(bytes, header));
     Bytes bin = piece(bytes, header + chunk_header + json.size() + chunk_header, SIZE_MAX);
     if (random_below(random, 2) == 0) {

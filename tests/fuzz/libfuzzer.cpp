@@ -34,7 +34,7 @@ double most_seconds = 0;  // no limit
 
 }  // namespace
 
-void lr::fuzz::mutate_bytes(Bytes& bytes, std::size_t max_size, Random&) {
+void lr::fuzz::mutate_bytes(Bytes& bytes, std::size_t max_size) {
     if (max_size == 0) return bytes.clear();  // LLVMFuzzerMutate wants room
     const std::size_t size = std::min(bytes.size(), max_size);
     bytes.resize(max_size);

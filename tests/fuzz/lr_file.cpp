@@ -103,7 +103,7 @@ void mutate_section(Section& section, std::size_t room, Random& random) {
     switch (section.entry.kind) {
         case kAttribute: {
             const std::size_t size = contents.size();
-            mutate_bytes(contents, most, random);
+            mutate_bytes(contents, most);
             if (random_below(random, 4) != 0) contents.resize(size);
             return;
         }
@@ -117,7 +117,7 @@ void mutate_section(Section& section, std::size_t room, Random& random) {
                 std::swap_ranges(a, a + 4, word());
                 return;
             }
-            mutate_bytes(contents, most, random);
+            mutate_bytes(contents, most);
             return;
         default: {
             Words words(contents.size() / 4);
@@ -130,10 +130,10 @@ void mutate_section(Section& section, std::size_t room, Random& random) {
 }
 
 void mutate(Bytes& bytes, std::size_t max_size, Random& random) {
-    if (bytes.size() < sizeof(Header) || random_below(random, 8) == 0) return mutate_bytes(bytes, max_size, random);
+    if (bytes.size() < sizeof(Header) || random_below(random, 8) == 0) return mutate_bytes(bytes, max_size);
     Header header;
     std::vector<Section> sections = take_apart(bytes, header);
-    if (sections.empty()) return mutate_bytes(bytes, max_size, random);
+    if (sections.empty()) return mutate_bytes(bytes, max_size);
     const std::size_t room = max_size > bytes.size() + 64 ? max_size - bytes.size() - 64 : 0;
     const std::uint32_t chosen = random_below(random, sections.size());
     Section& section = sections[chosen];

@@ -192,7 +192,7 @@ void mutate_stream(Connectivity kind, Words& words, std::size_t max_words, Rando
     if (words.empty() || random_below(random, 2) == 0) {
         Bytes bytes(4 * words.size());
         if (!words.empty()) std::memcpy(bytes.data(), words.data(), bytes.size());
-        mutate_bytes(bytes, 4 * max_words, random);
+        mutate_bytes(bytes, 4 * max_words);
         words.resize(bytes.size() / 4);
         if (!words.empty()) std::memcpy(words.data(), bytes.data(), 4 * words.size());
     } else {

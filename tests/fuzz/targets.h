@@ -1,6 +1,6 @@
 #pragma once
 // The fuzz targets. Each takes any bytes, and decodes, walks and compares whatever the library accepts of them.
-// Two programs run them: libfuzzer.cpp (coverage-guided, clang) and blind.cpp (random mutations, any compiler).
+// libfuzzer.cpp runs them, guided by coverage.
 
 #include <cstddef>
 #include <cstdint>
@@ -25,9 +25,8 @@ struct Target {
 
 std::span<const Target> targets();
 
-/// Mutates `bytes` without knowing what they are; the result has at most max_size bytes. LLVMFuzzerMutate, or
-/// blind.cpp's.
-void mutate_bytes(Bytes& bytes, std::size_t max_size, Random& random);
+/// Mutates `bytes` without knowing what they are (LLVMFuzzerMutate); the result has at most max_size bytes.
+void mutate_bytes(Bytes& bytes, std::size_t max_size);
 
 inline std::uint32_t random_below(Random& random, std::size_t n) {
     return std::uniform_int_distribution<std::uint32_t>(0, static_cast<std::uint32_t>(n) - 1)(random);

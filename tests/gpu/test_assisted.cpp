@@ -9,7 +9,7 @@ using namespace lr::test;
 
 namespace {
 
-constexpr std::uint32_t kSide = 48;
+constexpr std::uint32_t kPicture = 48;
 
 std::unique_ptr<gpu::Context> assisted() {
     auto made = gpu::Context::create({.device = {}, .validation = true, .gpu_assisted = true});
@@ -58,7 +58,7 @@ std::size_t messages(gpu::Context& context, const std::vector<Range>& ranges) {
 gpu::Drawable draw(gpu::Renderer& renderer, const gpu::Model& model, const gpu::Subject& subject) {
     auto drawable = renderer.upload(model, subject.source, subject.path);
     REQUIRE_MESSAGE(drawable, drawable.error().message);
-    const auto camera = gpu::make_camera(model, {}, kSide, kSide);
+    const auto camera = gpu::make_camera(model, {}, kPicture, kPicture);
     REQUIRE(camera);
     const auto picture = renderer.draw(*drawable, model, *camera, false);
     REQUIRE_MESSAGE(picture, picture.error().message);
@@ -70,7 +70,7 @@ gpu::Drawable draw(gpu::Renderer& renderer, const gpu::Model& model, const gpu::
 TEST_CASE("GPU-assisted validation is clean on every source and path") {
     const auto context = assisted();
     gpu::RendererOptions options;
-    options.width = options.height = kSide;
+    options.width = options.height = kPicture;
     options.max_range = kSmallRange;
     auto renderer = gpu::Renderer::create(*context, options);
     REQUIRE(renderer);
@@ -94,7 +94,7 @@ TEST_CASE("GPU-assisted validation is clean where shaders ask for neighbours") {
     const gpu::Model model = model_of(mesh);
     gpu::RendererOptions options;
     options.view = gpu::View::silhouette;
-    options.width = options.height = kSide;
+    options.width = options.height = kPicture;
     auto renderer = gpu::Renderer::create(*context, options);
     REQUIRE(renderer);
     const gpu::Drawable drawable = draw(*renderer, model, {gpu::Source::lean, gpu::Path::compute});
@@ -107,7 +107,7 @@ TEST_CASE("GPU-assisted validation sees a vertex fetched past the last") {
     gpu::Model model = model_of(mesh);
     model.lean.words[LR_LEAN_HEADER_WORDS + 20] = mesh.vertex_count;  // a tip; validate_lean would refuse it
     gpu::RendererOptions options;
-    options.width = options.height = kSide;
+    options.width = options.height = kPicture;
     auto renderer = gpu::Renderer::create(*context, options);
     REQUIRE(renderer);
     const gpu::Drawable drawable = draw(*renderer, model, {gpu::Source::lean, gpu::Path::pull});

@@ -12,6 +12,7 @@ using namespace lr::test;
 namespace {
 
 constexpr std::uint32_t kWidth = 160, kHeight = 120;
+constexpr std::uint32_t kTinyWidth = 48, kTinyHeight = 36;  // for triangles in the same place: every pixel once for each
 
 /// Every source by every path that the device has.
 std::vector<gpu::Subject> all_subjects(const gpu::Context& context) {
@@ -24,10 +25,11 @@ std::vector<gpu::Subject> all_subjects(const gpu::Context& context) {
 }
 
 /// Pipelines for many models: they take lavapipe long to make.
-gpu::Renderer small_renderer(gpu::Context& context, std::uint64_t max_range = 0) {
+gpu::Renderer small_renderer(gpu::Context& context, std::uint64_t max_range = 0, std::uint32_t width = kWidth,
+                             std::uint32_t height = kHeight) {
     gpu::RendererOptions options;
-    options.width = kWidth;
-    options.height = kHeight;
+    options.width = width;
+    options.height = height;
     options.max_range = max_range;
     Result<gpu::Renderer> out = gpu::Renderer::create(context, options);
     REQUIRE_MESSAGE(out, out.error().message);
@@ -79,12 +81,19 @@ TEST_CASE_FIXTURE(GpuTest, "every generated mesh gives the same pictures by ever
         CHECK(!all[0].blank);
         CHECK(all[0].distinct_ids > 1000);
         CHECK(all[0].covered_pixels > 6 * kWidth * kHeight / 20);
+        // Raw pictures of clean surfaces differ by the rounding of normals only.
+        const std::string_view name = kind.name;
+        if (name != "sphere" && name != "torus" && name != "genus" && name != "blob") continue;
+        for (const gpu::Comparison& c : all) {
+            CHECK(c.raw_max_channel_difference <= 1);
+            CHECK(c.raw_pixels_different * 1000 <= c.covered_pixels);
+        }
     }
 }
 
 TEST_CASE_FIXTURE(GpuTest, "meshes in many parts give the same pictures by every path") {
     gpu::Renderer renderer = small_renderer(*context, kSmallRange);
-    for (const char* kind : {"blob", "parts", "terrain"}) {
+    for (const char* kind : {"parts", "terrain"}) {
         CAPTURE(kind);
         const Mesh mesh = generated(kind, 4000, 2);
         check_same(compared(renderer, model_of(mesh)));
@@ -96,18 +105,6 @@ TEST_CASE("mesh shaders are there where they are asked for") {
     const auto context = gpu::Context::create({{}, true});
     REQUIRE(context);
     CHECK((*context)->info().max_mesh_groups > 0);
-}
-
-TEST_CASE_FIXTURE(GpuTest, "raw pictures of clean surfaces differ by the rounding of normals only") {
-    gpu::Renderer renderer = small_renderer(*context);
-    for (const char* kind : {"sphere", "torus", "genus", "blob"}) {
-        CAPTURE(kind);
-        const Mesh mesh = generated(kind, 4000, 1);
-        for (const gpu::Comparison& c : compared(renderer, model_of(mesh))) {
-            CHECK(c.raw_max_channel_difference <= 1);
-            CHECK(c.raw_pixels_different * 1000 <= c.covered_pixels);
-        }
-    }
 }
 
 TEST_CASE_FIXTURE(GpuTest, "meshes of every local shape give the same pictures") {
@@ -157,7 +154,7 @@ TEST_CASE_FIXTURE(GpuTest, "a mesh far from the origin, tiny or large, gives the
 TEST_CASE_FIXTURE(GpuTest, "a blank picture is told, and is no difference") {
     // Triangles without area: nothing is drawn, and nothing differs.
     const Mesh mesh = from_points({0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0}, {0, 1, 2, 1, 3, 2});
-    gpu::Renderer renderer = small_renderer(*context);
+    gpu::Renderer renderer = small_renderer(*context, 0, kTinyWidth, kTinyHeight);
     for (const gpu::Comparison& c : compared(renderer, model_of(mesh))) {
         CHECK(c.pixels_different == 0);
         CHECK(c.covered_pixels == 0);
@@ -170,7 +167,7 @@ TEST_CASE_FIXTURE(GpuTest, "a blank picture is told, and is no difference") {
     const Mesh coinciding = from_points({0, 0, 0, 1, 0, 0, 0, 1, 0}, indices);
     gpu::Model model = model_of(coinciding);
     for (const gpu::Comparison& c : compared(renderer, model)) {
-        CHECK(c.covered_pixels > 1000);
+        CHECK(c.covered_pixels > kTinyWidth * kTinyHeight);  // a sixth of all views
         CHECK(c.distinct_ids == 1);
         CHECK(c.blank);
         CHECK(c.same());

@@ -15,7 +15,7 @@ namespace {
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
 /// The corner table against maps over edges. Returns it for more checks.
-CornerTable check(const Mesh& mesh) {
+CornerTable check_table(const Mesh& mesh) {
     Result<CornerTable> built = build_corner_table(mesh.indices, mesh.vertex_count);
     REQUIRE(built);
     const CornerTable& table = *built;
@@ -71,22 +71,22 @@ CornerTable check(const Mesh& mesh) {
 TEST_CASE("corner table equals the edges of named meshes") {
     for (const auto& [name, mesh] : test::named_meshes()) {
         CAPTURE_COPY(name);
-        check(mesh);
+        check_table(mesh);
     }
 }
 
 TEST_CASE("corner table equals the edges of random soups") {
     for (std::uint64_t seed = 1; seed <= 300; ++seed) {
         CAPTURE(seed);
-        check(test::random_soup(4 + static_cast<std::uint32_t>(seed % 17), 1 + static_cast<std::uint32_t>(seed % 61),
+        check_table(test::random_soup(4 + static_cast<std::uint32_t>(seed % 17), 1 + static_cast<std::uint32_t>(seed % 61),
                                 seed));
-        check(test::random_gluing(30, 100, seed));
+        check_table(test::random_gluing(30, 100, seed));
     }
 }
 
 TEST_CASE("operators around a vertex of an octahedron") {
     const Mesh mesh = test::make_mesh({0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5}, 6);
-    const CornerTable table = check(mesh);
+    const CornerTable table = check_table(mesh);
     for (std::uint32_t i = 0; i < table.corners.size(); ++i) {
         const CornerId c{i};
         CHECK(previous(next(c)) == c);
@@ -108,7 +108,7 @@ TEST_CASE("operators around a vertex of an octahedron") {
 }
 
 TEST_CASE("topology report") {
-    const auto report = [](const Mesh& mesh) { return report_topology(check(mesh)); };
+    const auto report = [](const Mesh& mesh) { return report_topology(check_table(mesh)); };
     SUBCASE("two triangles at one vertex: one vertex, two fans") {
         const TopologyReport r = report(test::make_mesh({0, 1, 2, 0, 3, 4}, 5));
         CHECK(r.components == 1);
@@ -125,7 +125,7 @@ TEST_CASE("topology report") {
     }
     SUBCASE("a triangle turned round is turned back") {
         const Mesh mesh = test::make_mesh({0, 1, 2, 1, 2, 3, 2, 4, 3}, 5);  // the middle one runs the wrong way
-        const CornerTable table = check(mesh);
+        const CornerTable table = check_table(mesh);
         CHECK(table.topology.flipped == 1);
         CHECK(table.topology.cut_edges == 0);
         CHECK(report_topology(table).components == 1);

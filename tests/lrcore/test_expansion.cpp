@@ -103,7 +103,7 @@ void check_steps(const CornerTable& table, const Rings& rings, const Expansion& 
     }
 }
 
-void check(const Mesh& mesh, const RingOptions& options) {
+void check_expansion(const Mesh& mesh, const RingOptions& options) {
     CAPTURE(options.seeds);
     CAPTURE(options.random_seed);
     CAPTURE(options.k);
@@ -128,15 +128,15 @@ void check(const Mesh& mesh, const RingOptions& options) {
 TEST_CASE("the expansion of named meshes is what their rings enclose") {
     for (const auto& [name, mesh] : test::named_meshes()) {
         CAPTURE_COPY(name);
-        check(mesh, {});
-        check(mesh, {.seeds = 6, .random_seed = 3});
-        check(mesh, {.seeds = 3, .random_seed = 2, .k = 7});
-        check(mesh, {.k = 1});
-        check(mesh, {.seeds = 2, .one_per_shell = true});
+        check_expansion(mesh, {});
+        check_expansion(mesh, {.seeds = 6, .random_seed = 3});
+        check_expansion(mesh, {.seeds = 3, .random_seed = 2, .k = 7});
+        check_expansion(mesh, {.k = 1});
+        check_expansion(mesh, {.seeds = 2, .one_per_shell = true});
         const auto corners = static_cast<std::uint32_t>(mesh.indices.size());
         for (const std::uint32_t start : {corners / 2, corners - 1, corners}) {
-            check(mesh, {.start = {start}});
-            check(mesh, {.seeds = 3, .k = 3, .one_per_shell = true, .start = {start}});
+            check_expansion(mesh, {.start = {start}});
+            check_expansion(mesh, {.seeds = 3, .k = 3, .one_per_shell = true, .start = {start}});
         }
     }
 }
@@ -148,11 +148,11 @@ TEST_CASE("the expansion of random soups") {
         CAPTURE(seed);
         const auto vertices = 4 + static_cast<std::uint32_t>(seed % 23);
         const auto seeds = 1 + static_cast<std::uint32_t>(seed % 9), k = static_cast<std::uint32_t>(seed % 4);
-        check(test::random_soup(vertices, 1 + static_cast<std::uint32_t>(seed % 71), seed),
+        check_expansion(test::random_soup(vertices, 1 + static_cast<std::uint32_t>(seed % 71), seed),
               {.seeds = seeds, .random_seed = seed, .k = k});
-        check(test::random_gluing(40, 120, seed), {.seeds = seeds, .random_seed = seed, .k = k});
+        check_expansion(test::random_gluing(40, 120, seed), {.seeds = seeds, .random_seed = seed, .k = k});
         const CornerId start{static_cast<std::uint32_t>(seed % 400)};
-        check(test::random_gluing(40, 120, seed), {.random_seed = seed, .k = k, .start = start});
+        check_expansion(test::random_gluing(40, 120, seed), {.random_seed = seed, .k = k, .start = start});
     }
 }
 

@@ -11,22 +11,15 @@
 #include "lrcore/corner_table/report.h"
 #include "lrcore/corner_table/smesh.h"
 #include "lrcore/generate/generate.h"
+#include "tests/lrcore/built.h"
 #include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 #include "tests/support/shapes.h"
 
 using namespace lr;
+using lr::test::build;
 
 namespace {
-
-CornerTable build(const std::vector<std::uint32_t>& indices, std::uint32_t vertex_count) {
-    Result<CornerTable> table = build_corner_table(indices, vertex_count);
-    REQUIRE(table);
-    return std::move(*table);
-}
-CornerTable build(const Mesh& mesh) {
-    return build(mesh.indices, mesh.vertex_count);
-}
 
 /// A box with counterclockwise triangles, or clockwise ones.
 struct Solid {

@@ -20,7 +20,7 @@ Triangle leading_smallest(Triangle t) {
 }
 
 /// Encodes and checks everything there is to check. Returns the stream.
-LeanStream check(const Mesh& mesh, const RingOptions& ring_options, const LeanOptions& options) {
+LeanStream check_lean(const Mesh& mesh, const RingOptions& ring_options, const LeanOptions& options) {
     const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
     REQUIRE(table);
     Result<LeanStream> encoded = encode_lean(*table, expand_rings(*table, ring_options), options);
@@ -83,10 +83,10 @@ LeanStream check(const Mesh& mesh, const RingOptions& ring_options, const LeanOp
 }
 
 void check_all(const Mesh& mesh) {
-    const LeanStream warts = check(mesh, {1, 1}, {});
-    const LeanStream none = check(mesh, {1, 1}, {.wart_skipping = false});
+    const LeanStream warts = check_lean(mesh, {1, 1}, {});
+    const LeanStream none = check_lean(mesh, {1, 1}, {.wart_skipping = false});
     CHECK(warts.words.size() <= none.words.size());
-    check(mesh, {4, 3}, {});
+    check_lean(mesh, {4, 3}, {});
 }
 
 }  // namespace
@@ -113,7 +113,7 @@ TEST_CASE("one side suffices for a strip of triangles") {
     for (std::uint32_t i = 0; i < 8; ++i) {
         indices.insert(indices.end(), {i, i + 1 + i % 2, i + 2 - i % 2});
     }
-    const LeanStream stream = check(test::make_mesh(indices, 10), {}, {});
+    const LeanStream stream = check_lean(test::make_mesh(indices, 10), {}, {});
     const Result<LeanView> view = view_lean(stream.words);
     REQUIRE(view);
     CHECK(view->references() == 10);

@@ -49,7 +49,7 @@ void check_border_order(const CornerTable& table, const Operators& ops, const Lr
     }
 }
 
-void check(const Mesh& mesh, const RingOptions& rings_options, const LrOptions& options,
+void check_lr(const Mesh& mesh, const RingOptions& rings_options, const LrOptions& options,
            const OptimizeOptions& optimize = {.passes = 0}) {
     Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
     REQUIRE(table);
@@ -85,24 +85,24 @@ void check(const Mesh& mesh, const RingOptions& rings_options, const LrOptions& 
 TEST_CASE("LR operators equal the corner table's on named meshes") {
     for (const auto& [name, mesh] : test::named_meshes()) {
         CAPTURE_COPY(name);
-        check(mesh, {1, 1}, {});
-        check(mesh, {1, 1}, {.wart_skipping = false});
-        check(mesh, {4, 9}, {});
-        check(mesh, {1, 1, 1}, {});
-        check(mesh, {2, 5, 32}, {});
+        check_lr(mesh, {1, 1}, {});
+        check_lr(mesh, {1, 1}, {.wart_skipping = false});
+        check_lr(mesh, {4, 9}, {});
+        check_lr(mesh, {1, 1, 1}, {});
+        check_lr(mesh, {2, 5, 32}, {});
     }
 }
 
 TEST_CASE("LR operators equal the corner table's on optimised rings") {
     for (const auto& [name, mesh] : test::named_meshes()) {
         CAPTURE_COPY(name);
-        check(mesh, {}, {}, {.cost = lr_ring_cost, .passes = 6});
-        check(mesh, {.k = 9}, {.wart_skipping = false}, {.cost = lean_ring_cost, .passes = 3});
+        check_lr(mesh, {}, {}, {.cost = lr_ring_cost, .passes = 6});
+        check_lr(mesh, {.k = 9}, {.wart_skipping = false}, {.cost = lean_ring_cost, .passes = 3});
     }
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
         CAPTURE(seed);
         const auto n = static_cast<std::uint32_t>(seed);
-        check(test::random_gluing(10 + n % 50, 150, seed), {}, {.wart_skipping = n % 3 != 0},
+        check_lr(test::random_gluing(10 + n % 50, 150, seed), {}, {.wart_skipping = n % 3 != 0},
               {.cost = n % 2 == 0 ? lean_ring_cost : packed_ring_cost, .passes = 5, .random_seed = seed});
     }
 }
@@ -111,10 +111,10 @@ TEST_CASE("LR operators equal the corner table's on random soups") {
     for (std::uint64_t seed = 1; seed <= 400; ++seed) {
         CAPTURE(seed);
         const bool warts = seed % 3 != 0;
-        check(test::random_soup(4 + static_cast<std::uint32_t>(seed % 29), 1 + static_cast<std::uint32_t>(seed % 83),
+        check_lr(test::random_soup(4 + static_cast<std::uint32_t>(seed % 29), 1 + static_cast<std::uint32_t>(seed % 83),
                                 seed),
               {2, seed}, {warts});
-        check(test::random_gluing(10 + static_cast<std::uint32_t>(seed % 50), 150, seed),
+        check_lr(test::random_gluing(10 + static_cast<std::uint32_t>(seed % 50), 150, seed),
               {1, seed, static_cast<std::uint32_t>(seed % 7)}, {warts});
     }
 }
@@ -125,9 +125,9 @@ TEST_CASE("LR operators equal the corner table's on the meshes of LACEDRING_MESH
         REQUIRE(mesh);
         for (const Weld mode : {Weld::none, Weld::position}) {
             const Mesh welded = weld(*mesh, mode);
-            check(welded, {1, 1}, {});
-            check(welded, {1, 1, 50}, {.wart_skipping = false});
-            check(welded, {}, {}, {.cost = lr_ring_cost, .passes = 4});
+            check_lr(welded, {1, 1}, {});
+            check_lr(welded, {1, 1, 50}, {.wart_skipping = false});
+            check_lr(welded, {}, {}, {.cost = lr_ring_cost, .passes = 4});
         }
     });
     CHECK(checked.value_or(1) > 0);  // where the variable is set

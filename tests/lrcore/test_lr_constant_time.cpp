@@ -78,7 +78,7 @@ void count(const Mesh& mesh, std::uint32_t k, Most& most) {
 }
 
 /// Each of these is a call that reads at most three words (a word of L or R, an entry of VO*, its neighbour).
-void check(const Most& most) {
+void check_most(const Most& most) {
     CHECK(most.vertex <= 6);
     CHECK(most.canonical <= 6);
     CHECK(most.corner <= 6);
@@ -94,7 +94,7 @@ TEST_CASE("LR operators read a bounded number of words on every mesh") {
         Most most;
         count(mesh, 0, most);
         count(mesh, 4, most);
-        check(most);
+        check_most(most);
     }
 }
 
@@ -107,7 +107,7 @@ TEST_CASE("LR operators read no more on larger meshes") {
             REQUIRE(mesh);
             Most most;
             count(*mesh, 0, most);
-            check(most);
+            check_most(most);
         }
     }
 }

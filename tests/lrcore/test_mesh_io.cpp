@@ -1,5 +1,4 @@
 // PLY, OBJ, OFF and STL: what each of them can say, and the real meshes where LACEDRING_MESHES names their folder.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include <cstdlib>

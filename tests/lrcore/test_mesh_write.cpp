@@ -25,7 +25,7 @@ Attribute attribute(std::string name, ComponentType type, std::uint8_t component
     return out;
 }
 
-Mesh square() {
+Mesh square_mesh() {
     Mesh mesh;
     mesh.vertex_count = 4;
     mesh.indices = {0, 1, 2, 0, 2, 3};
@@ -58,7 +58,7 @@ nlohmann::json glb_json(const std::string& name) {
 }  // namespace
 
 TEST_CASE("PLY keeps every attribute bit for bit, with its name") {
-    Mesh mesh = square();
+    Mesh mesh = square_mesh();
     mesh.attributes.push_back(attribute<float>("NORMAL", ComponentType::f32, 3, Floats(12, std::nanf("7"))));
     mesh.attributes.push_back(
         attribute<std::uint8_t>("COLOR_0", ComponentType::u8, 4, std::vector<std::uint8_t>(16, 200), true));
@@ -72,7 +72,7 @@ TEST_CASE("PLY keeps every attribute bit for bit, with its name") {
     mesh.attributes.push_back(attribute<std::uint32_t>("_JOINTS", ComponentType::u32, 16, Indices(64, 4000000000U)));
     CHECK(same(round_trip(mesh, "w.ply"), mesh));
 
-    Mesh doubles = square();
+    Mesh doubles = square_mesh();
     doubles.attributes.front() = attribute<double>("POSITION", ComponentType::f64, 3, std::vector<double>(12, 0.1));
     CHECK(same(round_trip(doubles, "d.ply"), doubles));
 }
@@ -99,7 +99,7 @@ TEST_CASE("PLY: notes that do not fit the properties are not believed") {
 }
 
 TEST_CASE("GLB: what glTF knows stays, the rest is renamed or converted") {
-    Mesh mesh = square();
+    Mesh mesh = square_mesh();
     mesh.attributes.push_back(
         attribute<std::uint8_t>("COLOR_0", ComponentType::u8, 3, std::vector<std::uint8_t>(12, 200), true));
     mesh.attributes.push_back(
@@ -119,7 +119,7 @@ TEST_CASE("GLB: what glTF knows stays, the rest is renamed or converted") {
         if (view.contains("byteStride")) CHECK(view["byteStride"].get<int>() % 4 == 0);
     }
 
-    mesh = square();
+    mesh = square_mesh();
     mesh.attributes.push_back(attribute<std::uint32_t>("big", ComponentType::u32, 1, {1, 2, 3, 16777217}));  // dropped
     mesh.attributes.push_back(attribute<std::int32_t>("exact", ComponentType::i32, 1, {-1, 2, 3, 16777216}));
     mesh.attributes.push_back(attribute<double>("half", ComponentType::f64, 1, {.5, 0.1, 0, 0}));
@@ -134,7 +134,7 @@ TEST_CASE("GLB: what glTF knows stays, the rest is renamed or converted") {
     CHECK(values_of<float>(back, "_exact") == Floats{-1, 2, 3, 16777216});
     CHECK(glb_json("x.glb")["extensionsRequired"] == nlohmann::json({"KHR_mesh_quantization"}));
 
-    Mesh doubles = square();
+    Mesh doubles = square_mesh();
     doubles.attributes.front() = attribute<double>("POSITION", ComponentType::f64, 3, std::vector<double>(12, 0.1));
     CHECK(attributes_of(round_trip(doubles, "d.glb")) == "POSITION:f32x3");
     doubles.attributes.front() = attribute<double>("POSITION", ComponentType::f64, 3, std::vector<double>(12, 1e300));
@@ -148,7 +148,7 @@ TEST_CASE("GLB: values that glTF forbids are mended, and it is said") {
         return notes;
     };
     const float nan = std::nanf(""), inf = std::numeric_limits<float>::infinity();
-    Mesh mesh = square();
+    Mesh mesh = square_mesh();
     mesh.attributes.front() = attribute<float>("POSITION", ComponentType::f32, 3, {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
     CHECK(notes_of(mesh).empty());
     mesh.attributes.push_back(
@@ -180,7 +180,7 @@ TEST_CASE("GLB: values that glTF forbids are mended, and it is said") {
 }
 
 TEST_CASE("texture coordinates keep their origin, and change it for formats that have the other one") {
-    Mesh mesh = square();
+    Mesh mesh = square_mesh();
     const Floats down{0, 0, .1F, .25F, .3F, 1, 1, -3}, up{0, 1, .1F, .75F, .3F, 0, 1, 4};
     mesh.attributes.push_back(attribute<float>("TEXCOORD_0", ComponentType::f32, 2, down));
     for (const bool v_up : {false, true}) {
@@ -206,7 +206,7 @@ TEST_CASE("texture coordinates keep their origin, and change it for formats that
 }
 
 TEST_CASE("attributes of one name get numbers, in linear time") {
-    Mesh mesh = square();
+    Mesh mesh = square_mesh();
     constexpr int kMany = 20000;
     for (int i = 0; i < kMany; ++i) {
         mesh.attributes.push_back(attribute<std::uint8_t>(i % 2 == 0 ? "same" : fmt::format("same_{}", i),
@@ -218,7 +218,7 @@ TEST_CASE("attributes of one name get numbers, in linear time") {
 }
 
 TEST_CASE("OBJ: colors are kept, and what has no place is said") {
-    Mesh mesh = square();
+    Mesh mesh = square_mesh();
     mesh.attributes.push_back(
         attribute<float>("COLOR_0", ComponentType::f32, 3, {0, .1F, 1, 0, 0, 0, .5F, 0, 0, 0, 0, 7}));
     CHECK(same(round_trip(mesh, "c.obj"), mesh));
@@ -242,8 +242,8 @@ TEST_CASE("GLB: indices are 16 bits wide up to 65,535 vertices") {
 }
 
 TEST_CASE("OBJ: shortest decimals that read back the same") {
-    CHECK(same(round_trip(square(), "w.obj"), square()));
-    Mesh mesh = square();
+    CHECK(same(round_trip(square_mesh(), "w.obj"), square_mesh()));
+    Mesh mesh = square_mesh();
     mesh.attributes.push_back(
         attribute<float>("NORMAL", ComponentType::f32, 3, {0, 0, 1, 0, 1, 0, 1, 0, 0, .6F, .8F, 0}));
     CHECK(same(round_trip(mesh, "n.obj"), mesh));
@@ -271,16 +271,16 @@ TEST_CASE("OBJ: shortest decimals that read back the same") {
 }
 
 TEST_CASE("write_mesh refuses") {
-    CHECK(write_mesh(square(), folder() / "a.xyz").error().code == ErrorCode::invalid_argument);
-    CHECK(write_mesh(square(), folder() / "no" / "folder.ply").error().code == ErrorCode::cannot_write);
+    CHECK(write_mesh(square_mesh(), folder() / "a.xyz").error().code == ErrorCode::invalid_argument);
+    CHECK(write_mesh(square_mesh(), folder() / "no" / "folder.ply").error().code == ErrorCode::cannot_write);
     CHECK(write_mesh(Mesh{}, folder() / "a.ply").error().code == ErrorCode::invalid_argument);
-    Mesh mesh = square();
+    Mesh mesh = square_mesh();
     mesh.indices[1] = 4;
     CHECK(write_mesh(mesh, folder() / "a.ply").error().code == ErrorCode::invalid_argument);
-    mesh = square();
+    mesh = square_mesh();
     mesh.attributes.front().data.pop_back();
     CHECK(write_mesh(mesh, folder() / "a.glb").error().code == ErrorCode::invalid_argument);
-    mesh = square();
+    mesh = square_mesh();
     mesh.indices.clear();  // no reader takes it, and so no writer
     for (const char* name : {"none.glb", "none.ply", "none.obj"}) {
         CHECK(write_mesh(mesh, folder() / name).error().code == ErrorCode::unsupported);

@@ -1,6 +1,5 @@
 // The pager: contents, limit, order of eviction, errors.
 
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 #include <signal.h>
 #include <sys/wait.h>

@@ -8,7 +8,7 @@ using namespace lr;
 
 namespace {
 
-void check(const Mesh& mesh, const RingOptions& options) {
+void check_ring(const Mesh& mesh, const RingOptions& options) {
     const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
     REQUIRE(table);
     const Rings rings = expand_rings(*table, options);
@@ -33,20 +33,20 @@ void check(const Mesh& mesh, const RingOptions& options) {
 TEST_CASE("rings of named meshes are cycles that cannot grow") {
     for (const auto& [name, mesh] : test::named_meshes()) {
         CAPTURE_COPY(name);
-        check(mesh, {1, 1});
-        check(mesh, {5, 7});
-        check(mesh, {1, 1, 1});
-        check(mesh, {3, 1, 20});
+        check_ring(mesh, {1, 1});
+        check_ring(mesh, {5, 7});
+        check_ring(mesh, {1, 1, 1});
+        check_ring(mesh, {3, 1, 20});
     }
 }
 
 TEST_CASE("rings of random soups") {
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
         CAPTURE(seed);
-        check(test::random_soup(4 + static_cast<std::uint32_t>(seed % 23), 1 + static_cast<std::uint32_t>(seed % 71),
+        check_ring(test::random_soup(4 + static_cast<std::uint32_t>(seed % 23), 1 + static_cast<std::uint32_t>(seed % 71),
                                 seed),
               {3, seed});
-        check(test::random_gluing(40, 120, seed), {3, seed});
+        check_ring(test::random_gluing(40, 120, seed), {3, seed});
     }
 }
 

@@ -50,7 +50,7 @@ bool same(const Rings& a, const Rings& b) {
     return a.first == b.first && std::equal(a.edges.begin(), a.edges.end(), b.edges.begin(), b.edges.end(), equal);
 }
 
-void check_lean(const Mesh& mesh, const CornerTable& table, const Rings& rings) {
+void check_lean_of(const Mesh& mesh, const CornerTable& table, const Rings& rings) {
     const LeanStream stream = encode_lean(table, rings).value();
     const Result<LeanView> view = validate_lean(stream.words);
     REQUIRE(view);
@@ -60,7 +60,7 @@ void check_lean(const Mesh& mesh, const CornerTable& table, const Rings& rings) 
     CHECK(test::oriented_triangles(decoded) == test::oriented_triangles(mesh.indices));
 }
 
-void check(const Mesh& mesh, const RingOptions& ring_options, const OptimizeOptions& options) {
+void check_optimized(const Mesh& mesh, const RingOptions& ring_options, const OptimizeOptions& options) {
     Result<CornerTable> made = build_corner_table(mesh.indices, mesh.vertex_count);
     REQUIRE(made);
     CornerTable& table = *made;
@@ -74,7 +74,7 @@ void check(const Mesh& mesh, const RingOptions& ring_options, const OptimizeOpti
     if (ring_options.one_per_shell) {
         CHECK(build_lr(table, after));
     } else {
-        check_lean(mesh, table, after);
+        check_lean_of(mesh, table, after);
     }
 }
 
@@ -94,11 +94,11 @@ constexpr RingCost kCosts[] = {lean_ring_cost, lr_ring_cost, packed_ring_cost, {
 TEST_CASE("optimised rings of named meshes") {
     for (const auto& [name, mesh] : test::named_meshes()) {
         CAPTURE_COPY(name);
-        for (const RingCost& cost : kCosts) check(mesh, {}, options_of(cost, 12, 1));
-        check(mesh, {}, options_of(lean_ring_cost, 5, 2, false));
+        for (const RingCost& cost : kCosts) check_optimized(mesh, {}, options_of(cost, 12, 1));
+        check_optimized(mesh, {}, options_of(lean_ring_cost, 5, 2, false));
         RingOptions per_shell;
         per_shell.one_per_shell = true;
-        check(mesh, per_shell, options_of(lr_ring_cost, 12, 3));
+        check_optimized(mesh, per_shell, options_of(lr_ring_cost, 12, 3));
     }
 }
 
@@ -110,8 +110,8 @@ TEST_CASE("optimised rings of random soups") {
         RingOptions ring;
         ring.k = n % 4;
         ring.one_per_shell = seed % 3 == 0;
-        check(test::random_soup(4 + n % 23, 1 + n % 71, seed), ring, options_of(cost, 20, seed));
-        check(test::random_gluing(5 + n % 40, 120, seed), ring, options_of(cost, 20, seed));
+        check_optimized(test::random_soup(4 + n % 23, 1 + n % 71, seed), ring, options_of(cost, 20, seed));
+        check_optimized(test::random_gluing(5 + n % 40, 120, seed), ring, options_of(cost, 20, seed));
     }
 }
 
@@ -159,10 +159,10 @@ TEST_CASE("optimised rings of the meshes of LACEDRING_MESHES, where that is set"
     const auto checked = test::for_each_real_mesh([&](const std::string& path, const Result<Mesh>& mesh) {
         CAPTURE(path);
         REQUIRE(mesh);
-        check(weld(*mesh, Weld::none), {}, options_of(packed_ring_cost, 4, 1));
+        check_optimized(weld(*mesh, Weld::none), {}, options_of(packed_ring_cost, 4, 1));
         RingOptions per_shell;
         per_shell.one_per_shell = true;
-        check(weld(*mesh, Weld::position), per_shell, options_of(lr_ring_cost, 4, 1));
+        check_optimized(weld(*mesh, Weld::position), per_shell, options_of(lr_ring_cost, 4, 1));
     });
     CHECK(checked.value_or(1) > 0);  // where the variable is set
 }

@@ -91,7 +91,7 @@ Squad check_squad(const CornerTable& table, const SquadOptions& options) {
     return std::move(*squad);
 }
 
-void check(const Mesh& mesh) {
+void check_rivals(const Mesh& mesh) {
     const CornerTable table = pseudo_manifold(mesh);
     const CornerTableC with_c = build_corner_table_c(table);
     CHECK(with_c.view().references() == std::size_t{6} * table.triangle_count() + table.vertex_count);
@@ -111,16 +111,16 @@ void check(const Mesh& mesh) {
 TEST_CASE("corner table with C, winged edge and SQuad equal the corner table on named meshes") {
     for (const auto& [name, mesh] : test::named_meshes()) {
         CAPTURE_COPY(name);
-        check(mesh);
+        check_rivals(mesh);
     }
 }
 
 TEST_CASE("corner table with C, winged edge and SQuad equal the corner table on random soups") {
     for (std::uint64_t seed = 1; seed <= 400; ++seed) {
         CAPTURE(seed);
-        check(test::random_soup(4 + static_cast<std::uint32_t>(seed % 29), 1 + static_cast<std::uint32_t>(seed % 83),
+        check_rivals(test::random_soup(4 + static_cast<std::uint32_t>(seed % 29), 1 + static_cast<std::uint32_t>(seed % 83),
                                 seed));
-        check(test::random_gluing(10 + static_cast<std::uint32_t>(seed % 50), 150, seed));
+        check_rivals(test::random_gluing(10 + static_cast<std::uint32_t>(seed % 50), 150, seed));
     }
 }
 

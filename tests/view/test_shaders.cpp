@@ -1,6 +1,5 @@
 // Shaders compiled while the program runs: the same words as the build's, errors with their place, interfaces that must
 // not change. No device and no window.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include <algorithm>

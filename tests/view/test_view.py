@@ -62,13 +62,10 @@ class View(driver.Scripted):
         """Nothing is ignored, and no number is changed to one that fits."""
         self.wrong_line("set view silhouette", "set outlines on")
         self.wrong_line("set path mesh", "mesh shaders", before="frames 1\n")  # as long as the device has none
-        for line in ("set warts yes", "set panels 1", "set samples 4", "set samples 0", "set samples 1.5", "set divider 1.1",
-                     "set k 0", "set k -5", "set k nan", "set seeds 1e9", "set passes 2x", "set growth -1", "set speed 0",
-                     "set fps 1001", "set seed 0.5", "set colour red", "set view", "set view smooth flat",
-                     "wait", "wait dinner", "wait mesh now", "frames", "frames -1", "frames 1e99", "frames 2 3", "resize 0 5",
-                     "resize 1e9 5", "resize 5", "move 1", "move inf 2", "move 1 2 3", "click 1 2 both", "click 1 2 left twice",
-                     "drag 1 2 3", "drag 1 2 3 4 left now", "scroll 1 2", "key", "key %", "key a alt", "open", "open a b", "drop",
-                     "minimise now", "print all", "close it", "ray 1", "copy a", "camera --up=+Z", "camera --no-such 1"):
+        for line in ("set warts yes", "set samples 4", "set samples 1.5", "set divider 1.1", "set k -5", "set k nan",
+                     "set passes 2x", "set colour red", "set view", "set view smooth flat", "wait dinner", "frames", "frames 1e99",
+                     "frames 2 3", "resize 0 5", "move inf 2", "click 1 2 both", "drag 1 2 3 4 left now", "key %", "key a alt",
+                     "open a b", "minimise now", "ray 1", "camera --up=+Z", "camera --no-such 1"):
             self.wrong_line(line)
 
     def test_a_script_ends_with_its_last_line(self):
