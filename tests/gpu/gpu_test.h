@@ -10,6 +10,8 @@
 
 namespace lr::test {
 
+constexpr std::uint32_t kWidth = 160, kHeight = 120;  // of most pictures
+
 /// Fails, and does not skip, where there is no device or no validation layer.
 struct GpuTest {
     GpuTest() {

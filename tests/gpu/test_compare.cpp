@@ -11,7 +11,6 @@ using namespace lr::test;
 
 namespace {
 
-constexpr std::uint32_t kWidth = 160, kHeight = 120;
 constexpr std::uint32_t kTinyWidth = 48, kTinyHeight = 36;  // for triangles in the same place: every pixel once for each
 
 /// Every source by every path that the device has.

@@ -12,7 +12,7 @@ using namespace lr::test;
 
 namespace {
 
-constexpr std::uint32_t kWidth = 160, kHeight = 120, kSamples = 3;
+constexpr std::uint32_t kSamples = 3;
 
 // Not exact: compilers and processors with other vector units fuse and order multiplications otherwise, which moves a
 // sample of a silhouette or of a line from time to time; one sample of nine is up to 28/255 of a pixel. Lavapipe 22.3
