@@ -14,6 +14,8 @@ def decode_lean(words):
     vertices, rings2, rings1, verbatim, triangles, checksum = words[2:8]
     payload = words[8:]
     ring_slots = 2 * rings2 + rings1
+    if vertices > TIP_MASK + 1 or rings2 + rings1 > vertices:
+        raise BadFile("more vertices than references name, or more ring vertices than vertices")
     if len(payload) != ring_slots + 3 * verbatim:
         raise BadFile(f"the lean stream has {len(payload)} payload words, its header says {ring_slots + 3 * verbatim}")
     if zlib.crc32(payload.tobytes(), zlib.crc32(words[:7].tobytes())) != checksum:
