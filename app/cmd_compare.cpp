@@ -48,8 +48,9 @@ bool is_blank(std::span<const Compared> all) {
     return std::any_of(all.begin(), all.end(), [](const Compared& compared) { return compared.comparison.blank; });
 }
 
-nlohmann::ordered_json to_json(const CompareOptions& options, const gpu::DeviceInfo& info, std::span<const Compared> all,
-                               std::span<const Skipped> skipped, std::size_t messages, const std::string& diff) {
+nlohmann::ordered_json to_json(const CompareOptions& options, const gpu::DeviceInfo& info,
+                               std::span<const Compared> all, std::span<const Skipped> skipped, std::size_t messages,
+                               const std::string& diff) {
     nlohmann::ordered_json out = {{"schema", 1},
                                   {"file", input_name(options.input.path)},
                                   {"device", {{"name", info.name}, {"driver", info.driver}, {"api", info.api}}},

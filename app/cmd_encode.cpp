@@ -57,7 +57,8 @@ Result<LrFile> encode(const EncodeOptions& options, const Mesh& mesh, CornerTabl
 }
 
 /// Returns an Exit.
-int encode_file(const EncodeOptions& options, const std::string& input, const std::filesystem::path& output, RunLog& log) {
+int encode_file(const EncodeOptions& options, const std::string& input, const std::filesystem::path& output,
+                RunLog& log) {
     const Result<Mesh> mesh = load({input, options.input}, log);
     if (!mesh) return fail(input, mesh.error());
     constexpr std::string_view kExtensions[] = {".lr"};

@@ -41,7 +41,8 @@ class Builder {
         number_isolated();
         // Until here words hold the corner table's vertices.
         for (std::size_t i = 0; i < out_.lr.size(); ++i) {
-            if (i + kPrefetched < out_.lr.size()) __builtin_prefetch(number_.data() + (out_.lr[i + kPrefetched] & word::kTip));
+            if (i + kPrefetched < out_.lr.size())
+                __builtin_prefetch(number_.data() + (out_.lr[i + kPrefetched] & word::kTip));
             std::uint32_t& w = out_.lr[i];
             if ((w & word::kKind) != word::kBorder) w = (w & ~word::kTip) | number_[w & word::kTip];
         }

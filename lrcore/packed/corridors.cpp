@@ -7,7 +7,8 @@ namespace {
 
 class CorridorWalker {
   public:
-    CorridorWalker(const CornerTable& table, const Rings& rings) : table_(table), rings_(rings), polygons_(table, rings) {}
+    CorridorWalker(const CornerTable& table, const Rings& rings)
+        : table_(table), rings_(rings), polygons_(table, rings) {}
 
     Corridors walk() {
         out_.ring_vertices = static_cast<std::uint32_t>(rings_.edges.size());

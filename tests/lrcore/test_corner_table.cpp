@@ -78,8 +78,8 @@ TEST_CASE("corner table equals the edges of named meshes") {
 TEST_CASE("corner table equals the edges of random soups") {
     for (std::uint64_t seed = 1; seed <= 300; ++seed) {
         CAPTURE(seed);
-        check_table(test::random_soup(4 + static_cast<std::uint32_t>(seed % 17), 1 + static_cast<std::uint32_t>(seed % 61),
-                                seed));
+        check_table(test::random_soup(4 + static_cast<std::uint32_t>(seed % 17),
+                                      1 + static_cast<std::uint32_t>(seed % 61), seed));
         check_table(test::random_gluing(30, 100, seed));
     }
 }

@@ -149,7 +149,7 @@ TEST_CASE("the expansion of random soups") {
         const auto vertices = 4 + static_cast<std::uint32_t>(seed % 23);
         const auto seeds = 1 + static_cast<std::uint32_t>(seed % 9), k = static_cast<std::uint32_t>(seed % 4);
         check_expansion(test::random_soup(vertices, 1 + static_cast<std::uint32_t>(seed % 71), seed),
-              {.seeds = seeds, .random_seed = seed, .k = k});
+                        {.seeds = seeds, .random_seed = seed, .k = k});
         check_expansion(test::random_gluing(40, 120, seed), {.seeds = seeds, .random_seed = seed, .k = k});
         const CornerId start{static_cast<std::uint32_t>(seed % 400)};
         check_expansion(test::random_gluing(40, 120, seed), {.random_seed = seed, .k = k, .start = start});

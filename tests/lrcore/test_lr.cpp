@@ -50,7 +50,7 @@ void check_border_order(const CornerTable& table, const Operators& ops, const Lr
 }
 
 void check_lr(const Mesh& mesh, const RingOptions& rings_options, const LrOptions& options,
-           const OptimizeOptions& optimize = {.passes = 0}) {
+              const OptimizeOptions& optimize = {.passes = 0}) {
     Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
     REQUIRE(table);
     split_fans(*table);
@@ -103,7 +103,7 @@ TEST_CASE("LR operators equal the corner table's on optimised rings") {
         CAPTURE(seed);
         const auto n = static_cast<std::uint32_t>(seed);
         check_lr(test::random_gluing(10 + n % 50, 150, seed), {}, {.wart_skipping = n % 3 != 0},
-              {.cost = n % 2 == 0 ? lean_ring_cost : packed_ring_cost, .passes = 5, .random_seed = seed});
+                 {.cost = n % 2 == 0 ? lean_ring_cost : packed_ring_cost, .passes = 5, .random_seed = seed});
     }
 }
 
@@ -112,10 +112,10 @@ TEST_CASE("LR operators equal the corner table's on random soups") {
         CAPTURE(seed);
         const bool warts = seed % 3 != 0;
         check_lr(test::random_soup(4 + static_cast<std::uint32_t>(seed % 29), 1 + static_cast<std::uint32_t>(seed % 83),
-                                seed),
-              {2, seed}, {warts});
+                                   seed),
+                 {2, seed}, {warts});
         check_lr(test::random_gluing(10 + static_cast<std::uint32_t>(seed % 50), 150, seed),
-              {1, seed, static_cast<std::uint32_t>(seed % 7)}, {warts});
+                 {1, seed, static_cast<std::uint32_t>(seed % 7)}, {warts});
     }
 }
 

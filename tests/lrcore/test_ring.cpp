@@ -43,9 +43,9 @@ TEST_CASE("rings of named meshes are cycles that cannot grow") {
 TEST_CASE("rings of random soups") {
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
         CAPTURE(seed);
-        check_ring(test::random_soup(4 + static_cast<std::uint32_t>(seed % 23), 1 + static_cast<std::uint32_t>(seed % 71),
-                                seed),
-              {3, seed});
+        check_ring(test::random_soup(4 + static_cast<std::uint32_t>(seed % 23),
+                                     1 + static_cast<std::uint32_t>(seed % 71), seed),
+                   {3, seed});
         check_ring(test::random_gluing(40, 120, seed), {3, seed});
     }
 }

@@ -118,8 +118,8 @@ TEST_CASE("corner table with C, winged edge and SQuad equal the corner table on 
 TEST_CASE("corner table with C, winged edge and SQuad equal the corner table on random soups") {
     for (std::uint64_t seed = 1; seed <= 400; ++seed) {
         CAPTURE(seed);
-        check_rivals(test::random_soup(4 + static_cast<std::uint32_t>(seed % 29), 1 + static_cast<std::uint32_t>(seed % 83),
-                                seed));
+        check_rivals(test::random_soup(4 + static_cast<std::uint32_t>(seed % 29),
+                                       1 + static_cast<std::uint32_t>(seed % 83), seed));
         check_rivals(test::random_gluing(10 + static_cast<std::uint32_t>(seed % 50), 150, seed));
     }
 }
