@@ -11,8 +11,8 @@ using namespace lr::test;
 
 namespace {
 
-constexpr std::uint32_t kTinyWidth = 64,
-                        kTinyHeight = 48;  // for triangles in the same place: every pixel once for each
+// For triangles in the same place, each of which draws every pixel.
+constexpr std::uint32_t kTinyWidth = 64, kTinyHeight = 48;
 
 /// Every source by every path that the device has.
 std::vector<gpu::Subject> all_subjects(const gpu::Context& context) {
