@@ -6,7 +6,7 @@
 
 #include "app/measure.h"
 #include "lrcore/base/result.h"
-#include "lrcore/mesh/mesh.h"
+#include "lrio/mesh/mesh.h"
 #include "renderer/context.h"
 
 namespace lr::app {

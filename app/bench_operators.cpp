@@ -9,13 +9,13 @@
 
 #include "app/operator_kernels.h"
 #include "app/progress.h"
-#include "lrcore/baseline/limit.h"
-#include "lrcore/corner_table/split.h"
-#include "lrcore/lr/operators.h"
-#include "lrcore/lr/search.h"
-#include "lrcore/rivals/corner_table_c.h"
-#include "lrcore/rivals/squad.h"
-#include "lrcore/rivals/winged_edge.h"
+#include "lrcore/codec/tables/operators.h"
+#include "lrcore/codec/tables/search.h"
+#include "lrcore/topology/split.h"
+#include "lrlab/rivals/corner_table_c.h"
+#include "lrlab/rivals/limit.h"
+#include "lrlab/rivals/squad.h"
+#include "lrlab/rivals/winged_edge.h"
 
 namespace lr::app {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "app/measure.h"
 #include "lrcore/base/result.h"
-#include "lrcore/corner_table/corner_table.h"
-#include "lrcore/mesh/mesh.h"
+#include "lrcore/topology/corner_table.h"
+#include "lrio/mesh/mesh.h"
 
 namespace lr::app {
 

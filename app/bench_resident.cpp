@@ -13,12 +13,12 @@
 #include "app/print.h"
 #include "app/progress.h"
 #include "app/resident_visits.h"
-#include "lrcore/corner_table/geometry.h"
-#include "lrcore/corner_table/split.h"
-#include "lrcore/lr/lr_stream.h"
-#include "lrcore/lr/operators.h"
-#include "lrcore/lr/search.h"
-#include "lrcore/rivals/corner_table_c.h"
+#include "lrcore/codec/tables/lr_stream.h"
+#include "lrcore/codec/tables/operators.h"
+#include "lrcore/codec/tables/search.h"
+#include "lrcore/topology/geometry.h"
+#include "lrcore/topology/split.h"
+#include "lrlab/rivals/corner_table_c.h"
 
 namespace lr::app {
 namespace {

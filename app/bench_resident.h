@@ -1,7 +1,7 @@
 #pragma once
 // Figure 10 of LR 2011: the corner operators with resident memory limited.
 //
-// Each structure's arrays are written to a scratch file and mapped by a pager (lrcore/base/paged_file.h) that keeps to
+// Each structure's arrays are written to a scratch file and mapped by a pager (lrlab/pager/paged_file.h) that keeps to
 // a limit, with the same policy for all. Vertex positions, the elements to visit and the results stay in memory: the
 // limit is on connectivity alone.
 
@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "lrcore/base/result.h"
-#include "lrcore/corner_table/corner_table.h"
-#include "lrcore/mesh/mesh.h"
+#include "lrcore/topology/corner_table.h"
+#include "lrio/mesh/mesh.h"
 
 namespace lr::app {
 

@@ -7,8 +7,8 @@
 
 #include "app/commands.h"
 #include "app/output.h"
-#include "lrcore/file/lr_file.h"
-#include "lrcore/mesh/write.h"
+#include "lrio/file/lr_file.h"
+#include "lrio/mesh/write.h"
 
 namespace lr::app {
 namespace {

@@ -8,10 +8,10 @@
 #include "app/commands.h"
 #include "app/option_rules.h"
 #include "app/output.h"
-#include "lrcore/file/lr_file.h"
-#include "lrcore/lean/lean_stream.h"
-#include "lrcore/lr/lr_encode.h"
-#include "lrcore/packed/packed_stream.h"
+#include "lrcore/codec/lean/lean_stream.h"
+#include "lrcore/codec/packed/packed_stream.h"
+#include "lrcore/codec/tables/lr_encode.h"
+#include "lrio/file/lr_file.h"
 
 namespace lr::app {
 namespace {

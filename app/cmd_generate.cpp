@@ -8,8 +8,8 @@
 
 #include "app/commands.h"
 #include "app/output.h"
-#include "lrcore/generate/generate.h"
-#include "lrcore/mesh/write.h"
+#include "lrio/mesh/write.h"
+#include "lrlab/generate/generate.h"
 
 namespace lr::app {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "app/commands.h"
 #include "app/lr_contents.h"
-#include "lrcore/corner_table/geometry.h"
-#include "lrcore/corner_table/report.h"
-#include "lrcore/corner_table/smesh.h"
+#include "lrcore/topology/geometry.h"
+#include "lrcore/topology/report.h"
+#include "lrcore/topology/smesh.h"
 
 namespace lr::app {
 namespace {
@@ -54,7 +54,7 @@ int run_info(const InfoOptions& options, RunLog& log) {
     if (!table) return fail(options.input.path, table.error());
     const TopologyReport r = report_topology(*table);
     const Topology& t = table->topology;
-    const Positions positions(*mesh);
+    const Positions positions = positions_of(*mesh);
     const std::vector<ClosedShell> closed = closed_shells(*table, positions);
     const SmeshCheck smesh = positions.empty() ? check_smesh(*table, r) : check_smesh(*table, r, closed);
     const Solid solid = sum(closed);

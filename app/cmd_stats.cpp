@@ -10,8 +10,8 @@
 #include "app/lr_contents.h"
 #include "app/option_rules.h"
 #include "app/paper_tables.h"
-#include "lrcore/baseline/strips.h"
-#include "lrcore/packed/packed_format.h"
+#include "lrcore/codec/packed/packed_format.h"
+#include "lrlab/rivals/strips.h"
 
 namespace lr::app {
 namespace {

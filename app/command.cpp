@@ -10,7 +10,7 @@
 #include <system_error>
 
 #include "app/progress.h"
-#include "lrcore/lr/search.h"
+#include "lrcore/codec/tables/search.h"
 
 namespace lr::app {
 

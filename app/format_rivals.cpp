@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
-#include "lrcore/baseline/codecs.h"
-#include "lrcore/baseline/strips.h"
-#include "lrcore/corner_table/split.h"
-#include "lrcore/rivals/corner_table_c.h"
-#include "lrcore/rivals/squad.h"
-#include "lrcore/rivals/winged_edge.h"
+#include "lrcore/topology/split.h"
+#include "lrlab/rivals/codecs.h"
+#include "lrlab/rivals/corner_table_c.h"
+#include "lrlab/rivals/squad.h"
+#include "lrlab/rivals/strips.h"
+#include "lrlab/rivals/winged_edge.h"
 
 namespace lr::app {
 namespace {

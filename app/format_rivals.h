@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/formats.h"
-#include "lrcore/corner_table/corner_table.h"
+#include "lrcore/topology/corner_table.h"
 
 namespace lr::app {
 

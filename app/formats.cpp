@@ -5,10 +5,10 @@
 #include <algorithm>
 
 #include "app/format_rivals.h"
-#include "lrcore/baseline/codecs.h"
-#include "lrcore/lr/lr_encode.h"
-#include "lrcore/lr/offsets.h"
-#include "lrcore/packed/packed_stream.h"
+#include "lrcore/codec/packed/packed_stream.h"
+#include "lrcore/codec/tables/lr_encode.h"
+#include "lrlab/paper/offsets.h"
+#include "lrlab/rivals/codecs.h"
 
 namespace lr::app {
 namespace {

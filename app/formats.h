@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "app/command.h"
-#include "lrcore/baseline/strips.h"
-#include "lrcore/corner_table/report.h"
-#include "lrcore/lean/lean_stream.h"
-#include "lrcore/lr/lr_table.h"
-#include "lrcore/packed/packed_stream.h"
+#include "lrcore/codec/lean/lean_stream.h"
+#include "lrcore/codec/packed/packed_stream.h"
+#include "lrcore/codec/tables/lr_table.h"
+#include "lrcore/topology/report.h"
+#include "lrlab/rivals/strips.h"
 
 namespace lr::app {
 

@@ -5,9 +5,9 @@
 #include <CLI/CLI.hpp>
 #include <utility>
 
-#include "lrcore/base/file.h"
-#include "lrcore/mesh/read.h"
-#include "lrcore/mesh/weld.h"
+#include "lrio/file/file.h"
+#include "lrio/mesh/read.h"
+#include "lrio/mesh/weld.h"
 
 namespace lr::app {
 namespace {

@@ -9,8 +9,8 @@
 #include "app/mesh_input.h"
 #include "app/run_log.h"
 #include "lrcore/base/result.h"
-#include "lrcore/file/lr_file.h"
-#include "lrcore/mesh/mesh.h"
+#include "lrio/file/lr_file.h"
+#include "lrio/mesh/mesh.h"
 
 namespace CLI {
 class App;

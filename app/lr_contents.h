@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "lrcore/file/lr_file.h"
+#include "lrio/file/lr_file.h"
 
 namespace lr::app {
 

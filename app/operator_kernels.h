@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lrcore/base/ids.h"
-#include "lrcore/rivals/squad.h"
+#include "lrlab/rivals/squad.h"
 
 namespace lr::app {
 

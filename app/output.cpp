@@ -7,7 +7,7 @@
 #include <cctype>
 #include <set>
 
-#include "lrcore/base/file.h"
+#include "lrio/file/file.h"
 
 namespace lr::app {
 namespace {

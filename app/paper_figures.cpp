@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "app/paper_tables.h"
-#include "lrcore/baseline/strips.h"
-#include "lrcore/corner_table/split.h"
+#include "lrcore/topology/split.h"
+#include "lrlab/rivals/strips.h"
 
 namespace lr::app {
 namespace {

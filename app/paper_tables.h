@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/formats.h"
-#include "lrcore/lr/offsets.h"
+#include "lrlab/paper/offsets.h"
 
 namespace lr::app {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "lrcore/baseline/strips.h"
+#include "lrlab/rivals/strips.h"
 
 namespace lr::app {
 namespace {

@@ -13,9 +13,9 @@
 #include "app/measure.h"
 #include "app/operator_kernels.h"
 #include "lrcore/base/ids.h"
-#include "lrcore/base/paged_file.h"
-#include "lrcore/rivals/corner_table_c.h"
-#include "lrcore/rivals/squad.h"
+#include "lrlab/pager/paged_file.h"
+#include "lrlab/rivals/corner_table_c.h"
+#include "lrlab/rivals/squad.h"
 
 namespace lr::app {
 

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <numbers>
 
-#include "lrcore/lr/lr_stream.h"
+#include "lrcore/codec/tables/lr_stream.h"
 #include "renderer/context.h"
 #include "renderer/surface.h"
 #include "renderer/try.h"

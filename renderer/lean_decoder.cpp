@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "lrcore/lean/lean_format.h"
+#include "lrcore/codec/lean/lean_format.h"
 #include "renderer/context.h"
 #include "renderer/try.h"
 #include "spirv/lean_decode_comp.h"

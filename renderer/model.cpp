@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "lrcore/corner_table/corner_table.h"
 #include "lrcore/ring/ring.h"
+#include "lrcore/topology/corner_table.h"
 #include "renderer/try.h"
 
 namespace lr::gpu {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "lrcore/base/result.h"
-#include "lrcore/lean/lean_stream.h"
-#include "lrcore/mesh/mesh.h"
-#include "lrcore/packed/packed_stream.h"
+#include "lrcore/codec/lean/lean_stream.h"
+#include "lrcore/codec/packed/packed_stream.h"
 #include "lrcore/ring/optimize.h"
+#include "lrio/mesh/mesh.h"
 
 namespace lr::gpu {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "lrcore/packed/packed_format.h"
-#include "lrcore/packed/record.h"
+#include "lrcore/codec/packed/packed_format.h"
+#include "lrcore/codec/packed/record.h"
 #include "renderer/context.h"
 #include "renderer/try.h"
 #include "spirv/packed_decode_comp.h"

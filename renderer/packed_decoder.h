@@ -1,7 +1,7 @@
 #pragma once
 // The compute pass that expands a packed stream into an index buffer and draw commands.
 
-#include "lrcore/packed/packed_stream.h"
+#include "lrcore/codec/packed/packed_stream.h"
 #include "renderer/decoder.h"
 
 namespace lr::gpu {

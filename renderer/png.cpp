@@ -7,7 +7,7 @@
 
 #include <cstring>
 
-#include "lrcore/base/file.h"
+#include "lrio/file/file.h"
 #include "renderer/try.h"
 
 namespace lr::gpu {

@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "lrcore/baseline/codecs.h"
+#include "lrlab/rivals/codecs.h"
 #include "renderer/renderer.h"
 #include "renderer/try.h"
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "lrcore/lean/lean_format.h"
-#include "lrcore/lr/offsets.h"
+#include "lrcore/codec/lean/lean_format.h"
+#include "lrlab/paper/offsets.h"
 #include "shaders/shared.h"
 
 namespace lr::gpu {

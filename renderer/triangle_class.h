@@ -5,15 +5,15 @@
 #include <span>
 #include <vector>
 
-#include "lrcore/lean/lean_stream.h"
+#include "lrcore/codec/lean/lean_stream.h"
 
 namespace lr::gpu {
 
 /// LR_CLASS_* (shaders/shared.h), one byte a slot. Cost: O(slots). The stream must be valid.
 std::vector<std::uint8_t> slot_classes(const LeanView& lean);
 
-/// Significant bits of each slot's offset along the rings (lrcore/lr/offsets.h), or LR_OFFSET_*. Paper: section 6.1 and
-/// Figure 8. Cost: O(slots). The stream must be valid.
+/// Significant bits of each slot's offset along the rings (lrlab/paper/offsets.h), or LR_OFFSET_*. Paper: section 6.1
+/// and Figure 8. Cost: O(slots). The stream must be valid.
 std::vector<std::uint8_t> slot_offset_bits(const LeanView& lean);
 
 /// One of these bytes a slot as one a triangle of the mesh; LR_CLASS_NONE where no slot has it.

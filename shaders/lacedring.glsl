@@ -13,7 +13,7 @@
 // covers nothing, draw it or skip it. A stream must be valid (lr::validate_lean, lr::validate_packed); on any other, every
 // loop still ends. docs/engine-guide.md has an example of every stage.
 //
-// The constants are those of lrcore/lean/lean_format.h and lrcore/packed/packed_format.h, which say what they mean. A C++
+// The constants are those of lrcore/codec/lean/lean_format.h and lrcore/codec/packed/packed_format.h, which say what they mean. A C++
 // file may include this one behind them: the compiler then checks that they are the same.
 #ifndef LACEDRING_GLSL
 #define LACEDRING_GLSL

@@ -9,7 +9,7 @@
 // What lavapipe wants: it runs through both sides of a branch, and once through a `while` that has nothing to do, so what
 // is rare is kept out of loops and loops end at their end. But in 22.3, invocations that leave a loop at its end before
 // others do have wrong values after it, unless there is a second way out of it: hence the breaks that never happen.
-#include "lrcore/packed/packed_format.h"
+#include "lrcore/codec/packed/packed_format.h"
 #include "shaders/shared.h"
 
 layout(local_size_x_id = 0) in;

@@ -3,7 +3,7 @@
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
 // Smooth normals from positions and LR tables alone: of each vertex, the sum over its star of the cross products of the
-// triangles' sides, so weighted by area, as vertex_normals of lrcore/corner_table/geometry.h has it.
+// triangles' sides, so weighted by area, as vertex_normals of lrcore/topology/geometry.h has it.
 //
 // A needle's cross product is a difference of nearly equal products, and the triangles at a vertex may nearly cancel: one
 // float a number loses everything there. So a number is two floats, hi + lo, of some 46 bits (Dekker 1971; Knuth).

@@ -6,10 +6,10 @@
 #include <string>
 
 #include "app/mesh_input.h"
-#include "lrcore/corner_table/corner_table.h"
-#include "lrcore/lr/lr_encode.h"
+#include "lrcore/codec/tables/lr_encode.h"
 #include "lrcore/ring/expansion.h"
 #include "lrcore/ring/ring.h"
+#include "lrcore/topology/corner_table.h"
 #include "renderer/model.h"
 
 namespace lr::app {

@@ -7,7 +7,7 @@
 #include <span>
 #include <sstream>
 
-#include "lrcore/base/file.h"
+#include "lrio/file/file.h"
 
 namespace lr::view {
 namespace {

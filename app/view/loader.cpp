@@ -9,7 +9,7 @@
 
 #include "app/formats.h"
 #include "app/view/files.h"
-#include "lrcore/baseline/strips.h"
+#include "lrlab/rivals/strips.h"
 #include "renderer/try.h"
 
 namespace lr::view {

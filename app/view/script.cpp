@@ -15,7 +15,7 @@
 
 #include "app/camera_options.h"
 #include "app/print.h"
-#include "lrcore/base/file.h"
+#include "lrio/file/file.h"
 #include "renderer/try.h"
 
 namespace lr::view {

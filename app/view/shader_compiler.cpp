@@ -9,7 +9,7 @@
 #include <set>
 #include <sstream>
 
-#include "lrcore/base/file.h"
+#include "lrio/file/file.h"
 
 namespace lr::view {
 namespace {

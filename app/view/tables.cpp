@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "app/view/document.h"
-#include "lrcore/lr/lr_stream.h"
-#include "lrcore/lr/operators.h"
+#include "lrcore/codec/tables/lr_stream.h"
+#include "lrcore/codec/tables/operators.h"
 
 namespace lr::view {
 namespace {

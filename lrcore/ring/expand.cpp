@@ -5,16 +5,15 @@
 // with flags on them as breadcrumbs; here the edges still to be looked at are on a stack instead, which reads each
 // triangle once and lets those on the way back be fetched ahead.
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <optional>
 
 #include "lrcore/base/bits.h"
-#include "lrcore/corner_table/swirl.h"
+#include "lrcore/base/message.h"
 #include "lrcore/ring/expansion.h"
 #include "lrcore/ring/ring.h"
 #include "lrcore/ring/ring_walk.h"
+#include "lrcore/topology/swirl.h"
 
 namespace lr {
 namespace {
@@ -258,19 +257,20 @@ std::string validate(const CornerTable& table, const Rings& rings) {
     }
     BitVector visited(table.vertex_count);
     for (std::size_t r = 0; r < rings.count(); ++r) {
-        if (rings.first[r + 1] < rings.first[r] + 3) return fmt::format("ring {} has fewer than three edges", r);
+        if (rings.first[r + 1] < rings.first[r] + 3) return detail::message("ring ", r, " has fewer than three edges");
         const std::span<const RingEdge> ring = rings.ring(r);
         for (std::size_t i = 0; i < ring.size(); ++i) {
             const RingEdge &edge = ring[i], &after = ring[i + 1 == ring.size() ? 0 : i + 1];
             if (edge.left.value >= table.corners.size() || table.opposite(edge.left) != edge.right ||
                 table.vertex(previous(edge.left)) != edge.start || table.vertex(edge.left) != edge.left_tip ||
                 edge.right_tip != (edge.right.is_null() ? null_vertex : table.vertex(edge.right))) {
-                return fmt::format("ring {}: edge {} is not the corner table's", r, i);
+                return detail::message("ring ", r, ": edge ", i, " is not the corner table's");
             }
-            if (visited.test(edge.start.value)) return fmt::format("vertex {} is on a ring twice", edge.start.value);
+            if (visited.test(edge.start.value))
+                return detail::message("vertex ", edge.start.value, " is on a ring twice");
             visited.set(edge.start.value);
             if (table.vertex(next(edge.left)) != after.start) {
-                return fmt::format("ring {}: edge {} does not continue", r, i);
+                return detail::message("ring ", r, ": edge ", i, " does not continue");
             }
         }
     }

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "lrcore/base/bits.h"
-#include "lrcore/corner_table/corner_table.h"
 #include "lrcore/ring/optimize.h"
 #include "lrcore/ring/ring.h"
+#include "lrcore/topology/corner_table.h"
 
 namespace lr {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <functional>
 
-#include "lrcore/corner_table/corner_table.h"
 #include "lrcore/ring/ring.h"
+#include "lrcore/topology/corner_table.h"
 
 namespace lr {
 

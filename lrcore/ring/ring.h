@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lrcore/base/ids.h"
-#include "lrcore/corner_table/corner_table.h"
+#include "lrcore/topology/corner_table.h"
 
 namespace lr {
 

@@ -1,11 +1,11 @@
 // A renderer that knows nothing of LacedRing but the installed package: lr::encode_lean and lr::encode_packed on the
 // host, lacedring.glsl on the device. It draws a mesh from its index list and from its streams in every way that there
 // is, and compares the pictures. docs/engine-guide.md explains the ways.
-#include <lrcore/lean/lean_format.h>
-#include <lrcore/lean/lean_stream.h>
-#include <lrcore/mesh/read.h>
-#include <lrcore/packed/packed_format.h>
-#include <lrcore/packed/packed_stream.h>
+#include <lrcore/codec/lean/lean_format.h>
+#include <lrcore/codec/lean/lean_stream.h>
+#include <lrcore/codec/packed/packed_format.h>
+#include <lrcore/codec/packed/packed_stream.h>
+#include <lrio/mesh/read.h>
 
 #include <algorithm>
 #include <cmath>

@@ -7,19 +7,19 @@
 #include <string>
 #include <unordered_map>
 
-#include "lrcore/baseline/strips.h"
-#include "lrcore/corner_table/geometry.h"
-#include "lrcore/corner_table/report.h"
-#include "lrcore/corner_table/smesh.h"
-#include "lrcore/corner_table/split.h"
-#include "lrcore/lr/lr_encode.h"
-#include "lrcore/mesh/read.h"
-#include "lrcore/mesh/weld.h"
+#include "lrcore/codec/tables/lr_encode.h"
 #include "lrcore/ring/expansion.h"
 #include "lrcore/ring/optimize.h"
-#include "lrcore/rivals/corner_table_c.h"
-#include "lrcore/rivals/squad.h"
-#include "lrcore/rivals/winged_edge.h"
+#include "lrcore/topology/geometry.h"
+#include "lrcore/topology/report.h"
+#include "lrcore/topology/smesh.h"
+#include "lrcore/topology/split.h"
+#include "lrio/mesh/read.h"
+#include "lrio/mesh/weld.h"
+#include "lrlab/rivals/corner_table_c.h"
+#include "lrlab/rivals/squad.h"
+#include "lrlab/rivals/strips.h"
+#include "lrlab/rivals/winged_edge.h"
 #include "tests/fuzz/streams.h"
 #include "tests/fuzz/use.h"
 
@@ -266,7 +266,7 @@ void run_chain(const Mesh& input, const Options& options) {
     const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
     REQUIRE(table);
     check_table(mesh, *table);
-    const Positions positions(mesh);
+    const Positions positions = positions_of(mesh);
     REQUIRE(vertex_normals(*table, positions).size() == std::size_t{3} * mesh.vertex_count);
     const std::vector<ClosedShell> shells = closed_shells(*table, positions);
     const SmeshCheck smesh = check_smesh(*table, report_topology(*table), shells);

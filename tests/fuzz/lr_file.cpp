@@ -1,6 +1,6 @@
 // The .lr file: mutates sections, lays them out again and mends every checksum (docs/lr-file.md).
 
-#include "lrcore/file/lr_file.h"
+#include "lrio/file/lr_file.h"
 
 #include <algorithm>
 #include <cstring>

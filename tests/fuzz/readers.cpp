@@ -2,8 +2,8 @@
 
 #include <string_view>
 
-#include "lrcore/corner_table/corner_table.h"
-#include "lrcore/mesh/read.h"
+#include "lrcore/topology/corner_table.h"
+#include "lrio/mesh/read.h"
 #include "tests/fuzz/gltf.h"
 #include "tests/fuzz/use.h"
 

@@ -6,13 +6,13 @@
 #include <filesystem>
 #include <string>
 
-#include "lrcore/base/file.h"
-#include "lrcore/file/lr_file.h"
-#include "lrcore/generate/generate.h"
-#include "lrcore/lean/lean_stream.h"
-#include "lrcore/lr/lr_encode.h"
-#include "lrcore/packed/packed_stream.h"
+#include "lrcore/codec/lean/lean_stream.h"
+#include "lrcore/codec/packed/packed_stream.h"
+#include "lrcore/codec/tables/lr_encode.h"
 #include "lrcore/ring/optimize.h"
+#include "lrio/file/file.h"
+#include "lrio/file/lr_file.h"
+#include "lrlab/generate/generate.h"
 #include "tests/support/meshes.h"
 
 using namespace lr;

@@ -6,12 +6,12 @@
 #include <memory>
 
 #include "lrcore/base/crc32.h"
-#include "lrcore/lean/lean_format.h"
-#include "lrcore/lean/lean_stream.h"
-#include "lrcore/lr/lr_stream.h"
-#include "lrcore/packed/packed_format.h"
-#include "lrcore/packed/packed_stream.h"
-#include "lrcore/packed/record.h"
+#include "lrcore/codec/lean/lean_format.h"
+#include "lrcore/codec/lean/lean_stream.h"
+#include "lrcore/codec/packed/packed_format.h"
+#include "lrcore/codec/packed/packed_stream.h"
+#include "lrcore/codec/packed/record.h"
+#include "lrcore/codec/tables/lr_stream.h"
 #include "tests/fuzz/use.h"
 
 namespace lr::fuzz {

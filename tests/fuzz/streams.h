@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "lrcore/file/lr_file.h"
+#include "lrio/file/lr_file.h"
 #include "tests/fuzz/targets.h"
 
 namespace lr::fuzz {

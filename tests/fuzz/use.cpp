@@ -6,10 +6,10 @@
 #include <functional>
 #include <memory>
 
-#include "lrcore/lr/offsets.h"
-#include "lrcore/mesh/read.h"
-#include "lrcore/mesh/write_formats.h"
-#include "lrcore/packed/packed_format.h"
+#include "lrcore/codec/packed/packed_format.h"
+#include "lrio/mesh/read.h"
+#include "lrio/mesh/write_formats.h"
+#include "lrlab/paper/offsets.h"
 
 namespace lr::fuzz {
 namespace {

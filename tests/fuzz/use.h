@@ -6,11 +6,11 @@
 #include <string>
 
 #include "lrcore/base/result.h"
-#include "lrcore/lean/lean_stream.h"
-#include "lrcore/lr/lr_stream.h"
-#include "lrcore/lr/operators.h"
-#include "lrcore/mesh/mesh.h"
-#include "lrcore/packed/packed_stream.h"
+#include "lrcore/codec/lean/lean_stream.h"
+#include "lrcore/codec/packed/packed_stream.h"
+#include "lrcore/codec/tables/lr_stream.h"
+#include "lrcore/codec/tables/operators.h"
+#include "lrio/mesh/mesh.h"
 #include "tests/fuzz/targets.h"
 
 namespace lr::fuzz {
@@ -18,7 +18,7 @@ namespace lr::fuzz {
 /// One line of printable ASCII, not empty and not long.
 void check_message(const Error& error);
 
-/// Checks the invariant of Mesh (lrcore/mesh/mesh.h).
+/// Checks the invariant of Mesh (lrio/mesh/mesh.h).
 void check_mesh(const Mesh& mesh);
 
 /// Writes a small mesh in memory in each format, reads it back and compares; does nothing with a large one.

@@ -9,10 +9,10 @@
 #include <memory>
 #include <optional>
 
-#include "lrcore/corner_table/geometry.h"
-#include "lrcore/corner_table/split.h"
-#include "lrcore/mesh/read.h"
-#include "lrcore/mesh/weld.h"
+#include "lrcore/topology/geometry.h"
+#include "lrcore/topology/split.h"
+#include "lrio/mesh/read.h"
+#include "lrio/mesh/weld.h"
 #include "renderer/adjacency.h"
 #include "shaders/adjacency_shared.h"
 #include "tests/gpu/gpu_test.h"

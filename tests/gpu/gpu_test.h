@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "lrcore/generate/generate.h"
+#include "lrlab/generate/generate.h"
 #include "renderer/compare.h"
 #include "renderer/renderer.h"
 #include "renderer/timing.h"

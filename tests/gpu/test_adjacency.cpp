@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <random>
 
-#include "lrcore/lr/operators.h"
+#include "lrcore/codec/tables/operators.h"
 #include "shaders/lacedring_operators.glsl"
 #include "spirv/operators_table_comp.h"
 #include "tests/gpu/adjacency_test.h"

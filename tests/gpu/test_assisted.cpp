@@ -1,6 +1,6 @@
 // GPU-assisted validation: what shaders read and write, as they do it. Slow, so it has small meshes.
 
-#include "lrcore/lean/lean_format.h"
+#include "lrcore/codec/lean/lean_format.h"
 #include "renderer/adjacency.h"
 #include "tests/gpu/gpu_test.h"
 

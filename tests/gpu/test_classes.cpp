@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "lrcore/lr/offsets.h"
+#include "lrlab/paper/offsets.h"
 #include "renderer/triangle_class.h"
 #include "shaders/shared.h"
 #include "tests/gpu/gpu_test.h"

@@ -1,8 +1,8 @@
 // Tests of the tests: what must not pass does not pass.
 
-#include "lrcore/lean/lean_format.h"
-#include "lrcore/packed/packed_format.h"
-#include "lrcore/packed/record.h"
+#include "lrcore/codec/lean/lean_format.h"
+#include "lrcore/codec/packed/packed_format.h"
+#include "lrcore/codec/packed/record.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/support/meshes.h"
 

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <vector>
 
-#include "lrcore/corner_table/report.h"
-#include "lrcore/corner_table/smesh.h"
-#include "lrcore/corner_table/split.h"
-#include "lrcore/corner_table/swirl.h"
-#include "tests/lrcore/built.h"
+#include "lrcore/topology/report.h"
+#include "lrcore/topology/smesh.h"
+#include "lrcore/topology/split.h"
+#include "lrcore/topology/swirl.h"
+#include "tests/support/built.h"
 #include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 #include "tests/support/shapes.h"

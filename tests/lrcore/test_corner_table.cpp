@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <map>
 
-#include "lrcore/corner_table/corner_table.h"
-#include "lrcore/corner_table/report.h"
+#include "lrcore/topology/corner_table.h"
+#include "lrcore/topology/report.h"
 #include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <vector>
 
-#include "lrcore/corner_table/geometry.h"
-#include "lrcore/corner_table/report.h"
-#include "lrcore/corner_table/smesh.h"
-#include "lrcore/generate/generate.h"
-#include "tests/lrcore/built.h"
+#include "lrcore/topology/geometry.h"
+#include "lrcore/topology/report.h"
+#include "lrcore/topology/smesh.h"
+#include "lrlab/generate/generate.h"
+#include "tests/support/built.h"
 #include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 #include "tests/support/shapes.h"
@@ -100,7 +100,7 @@ TEST_CASE("section 12: signed volume") {
         }
         const test::Shape shape = test::projective_plane();
         const Mesh plane = test::make_mesh(shape.triangles, shape.vertices);
-        CHECK(closed_shells(build(plane), Positions(plane)).empty());
+        CHECK(closed_shells(build(plane), positions_of(plane)).empty());
     }
     SUBCASE("two triangles back to back are flat, to the last bit of whatever positions") {
         for (std::uint64_t seed = 1; seed < 200; ++seed) {
@@ -180,7 +180,7 @@ TEST_CASE("section 12: signed volume") {
     SUBCASE("any sphere is known from its inside-out twin") {
         for (const std::uint64_t triangles : {100U, 1000U, 30000U}) {
             Mesh mesh = generated("sphere", triangles, 1);
-            const auto shells = closed_shells(build(mesh), Positions(mesh));
+            const auto shells = closed_shells(build(mesh), positions_of(mesh));
             REQUIRE(shells.size() == 1);
             const std::vector<float> p = positions_f32(mesh);
             double radius = 0;
@@ -190,7 +190,7 @@ TEST_CASE("section 12: signed volume") {
             CHECK(shells[0].volume > ball * (1 - 16.0 / static_cast<double>(triangles)));
             for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
                 std::swap(mesh.indices[3 * t], mesh.indices[3 * t + 1]);
-            const auto twin = closed_shells(build(mesh), Positions(mesh));
+            const auto twin = closed_shells(build(mesh), positions_of(mesh));
             CHECK(std::abs(twin[0].volume + shells[0].volume) <= twin[0].error + shells[0].error);
         }
     }
@@ -199,7 +199,7 @@ TEST_CASE("section 12: signed volume") {
             CAPTURE(kind);
             const Mesh mesh = generated(kind, 2000, 3);
             const CornerTable table = build(mesh);
-            const auto shells = closed_shells(table, Positions(mesh));
+            const auto shells = closed_shells(table, positions_of(mesh));
             REQUIRE(shells.size() == 1);
             CHECK_FALSE(shells[0].inside_out());
             const SmeshFault fault = check_smesh(table, report_topology(table), shells).fault;
@@ -265,10 +265,10 @@ TEST_CASE("section 12: making every closed shell counterclockwise") {
             CAPTURE_COPY(name);
             CornerTable table = build(mesh);
             const TopologyReport before = report_topology(table);
-            const auto shells = closed_shells(table, Positions(mesh));
+            const auto shells = closed_shells(table, positions_of(mesh));
             const auto wrong =
                 std::count_if(shells.begin(), shells.end(), [](const ClosedShell& s) { return s.inside_out(); });
-            CHECK(make_counterclockwise(table, Positions(mesh)) == static_cast<std::uint32_t>(wrong));
+            CHECK(make_counterclockwise(table, positions_of(mesh)) == static_cast<std::uint32_t>(wrong));
             CHECK(validate(table) == "");
             const TopologyReport after = report_topology(table);
             CHECK(after.shells == before.shells);
@@ -282,7 +282,7 @@ TEST_CASE("section 12: making every closed shell counterclockwise") {
                       mesh.indices[std::size_t{t} * 3 + 1]);
             }
             CHECK(table.topology.flipped == flipped);
-            for (const ClosedShell& shell : closed_shells(table, Positions(mesh))) CHECK_FALSE(shell.inside_out());
+            for (const ClosedShell& shell : closed_shells(table, positions_of(mesh))) CHECK_FALSE(shell.inside_out());
         }
     }
 }
@@ -306,7 +306,7 @@ TEST_CASE("section 6: vertex normals") {
     }
     SUBCASE("a sphere's point outwards, a vertex of nothing has (0,0,1)") {
         Mesh mesh = generated("sphere", 5000, 1);
-        const std::vector<float> p = positions_f32(mesh), n = vertex_normals(build(mesh), Positions(mesh));
+        const std::vector<float> p = positions_f32(mesh), n = vertex_normals(build(mesh), positions_of(mesh));
         for (std::size_t v = 0; v < mesh.vertex_count; ++v) {
             double dot = 0, length = 0;
             for (std::size_t i = v * 3; i < v * 3 + 3; ++i) {
@@ -316,7 +316,7 @@ TEST_CASE("section 6: vertex normals") {
             CHECK(dot > 0.99 * std::sqrt(length));
         }
         const Mesh loose = test::make_mesh({0, 1, 2}, 5);
-        const std::vector<float> few = vertex_normals(build(loose), Positions(loose));
+        const std::vector<float> few = vertex_normals(build(loose), positions_of(loose));
         CHECK(std::vector<float>(few.begin() + 9, few.end()) == std::vector<float>{0, 0, 1, 0, 0, 1});
     }
     SUBCASE("the same as normals_f32 where no triangle was turned, up to its single precision") {
@@ -325,7 +325,7 @@ TEST_CASE("section 6: vertex normals") {
             const CornerTable table = build(mesh);
             if (table.topology.flipped > 0) continue;
             CAPTURE_COPY(name);
-            const std::vector<float> expected = normals_f32(mesh), normals = vertex_normals(table, Positions(mesh));
+            const std::vector<float> expected = normals_f32(mesh), normals = vertex_normals(table, positions_of(mesh));
             REQUIRE(normals.size() == expected.size());
             // Triangles at a vertex may cancel out: the sum's error is relative to their areas, not to what is left.
             std::vector<double> areas(mesh.vertex_count, 0.0), sums(std::size_t{mesh.vertex_count} * 3, 0.0);

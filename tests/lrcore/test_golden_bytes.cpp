@@ -11,10 +11,10 @@
 #include <fstream>
 #include <iomanip>
 
-#include "lrcore/generate/generate.h"
-#include "lrcore/lean/lean_stream.h"
-#include "lrcore/lr/lr_encode.h"
-#include "lrcore/packed/packed_stream.h"
+#include "lrcore/codec/lean/lean_stream.h"
+#include "lrcore/codec/packed/packed_stream.h"
+#include "lrcore/codec/tables/lr_encode.h"
+#include "lrlab/generate/generate.h"
 #include "tests/support/meshes.h"
 
 using namespace lr;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <memory>
 
-#include "lrcore/lean/lean_format.h"
-#include "lrcore/lean/lean_stream.h"
+#include "lrcore/codec/lean/lean_format.h"
+#include "lrcore/codec/lean/lean_stream.h"
 #include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 

@@ -3,11 +3,11 @@
 #include <doctest/doctest.h>
 #include <sys/mman.h>
 
-#include "lrcore/lean/lean_stream.h"
-#include "lrcore/lr/compact_lr.h"
-#include "lrcore/lr/lr_table.h"
-#include "lrcore/packed/packed_stream.h"
-#include "lrcore/rivals/squad.h"
+#include "lrcore/codec/lean/lean_stream.h"
+#include "lrcore/codec/packed/packed_stream.h"
+#include "lrcore/codec/tables/compact_lr.h"
+#include "lrcore/codec/tables/lr_table.h"
+#include "lrlab/rivals/squad.h"
 
 using namespace lr;
 

@@ -4,17 +4,17 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "lrcore/corner_table/split.h"
-#include "lrcore/lr/compact_lr.h"
-#include "lrcore/lr/lr_stream.h"
-#include "lrcore/lr/lr_table.h"
-#include "lrcore/lr/operators.h"
-#include "lrcore/mesh/read.h"
-#include "lrcore/mesh/weld.h"
+#include "lrcore/codec/tables/compact_lr.h"
+#include "lrcore/codec/tables/lr_stream.h"
+#include "lrcore/codec/tables/lr_table.h"
+#include "lrcore/codec/tables/operators.h"
 #include "lrcore/ring/optimize.h"
-#include "tests/lrcore/operator_oracle.h"
+#include "lrcore/topology/split.h"
+#include "lrio/mesh/read.h"
+#include "lrio/mesh/weld.h"
 #include "tests/support/capture.h"
 #include "tests/support/meshes.h"
+#include "tests/support/operator_oracle.h"
 
 using namespace lr;
 

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "lrcore/corner_table/split.h"
-#include "lrcore/generate/generate.h"
-#include "lrcore/lr/compact_lr.h"
-#include "lrcore/lr/lr_table.h"
-#include "lrcore/lr/operators.h"
+#include "lrcore/codec/tables/compact_lr.h"
+#include "lrcore/codec/tables/lr_table.h"
+#include "lrcore/codec/tables/operators.h"
+#include "lrcore/topology/split.h"
+#include "lrlab/generate/generate.h"
 #include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 

@@ -4,10 +4,10 @@
 #include <memory>
 
 #include "lrcore/base/crc32.h"
-#include "lrcore/corner_table/split.h"
-#include "lrcore/lr/lr_stream.h"
-#include "lrcore/lr/operators.h"
-#include "lrcore/lr/search.h"
+#include "lrcore/codec/tables/lr_stream.h"
+#include "lrcore/codec/tables/operators.h"
+#include "lrcore/codec/tables/search.h"
+#include "lrcore/topology/split.h"
 #include "tests/support/capture.h"
 #include "tests/support/lr_consistency.h"
 #include "tests/support/meshes.h"

@@ -7,12 +7,12 @@
 #include <new>
 
 #include "lrcore/base/crc32.h"
-#include "lrcore/file/lr_file.h"
-#include "lrcore/lean/lean_format.h"
-#include "lrcore/lean/lean_stream.h"
-#include "lrcore/lr/lr_encode.h"
-#include "lrcore/packed/packed_format.h"
-#include "lrcore/packed/packed_stream.h"
+#include "lrcore/codec/lean/lean_format.h"
+#include "lrcore/codec/lean/lean_stream.h"
+#include "lrcore/codec/packed/packed_format.h"
+#include "lrcore/codec/packed/packed_stream.h"
+#include "lrcore/codec/tables/lr_encode.h"
+#include "lrio/file/lr_file.h"
 #include "tests/support/meshes.h"
 
 namespace {

@@ -5,11 +5,11 @@
 #include <filesystem>
 #include <memory>
 
-#include "lrcore/mesh/read.h"
-#include "lrcore/mesh/weld.h"
-#include "lrcore/packed/packed_format.h"
-#include "lrcore/packed/packed_stream.h"
-#include "lrcore/packed/record.h"
+#include "lrcore/codec/packed/packed_format.h"
+#include "lrcore/codec/packed/packed_stream.h"
+#include "lrcore/codec/packed/record.h"
+#include "lrio/mesh/read.h"
+#include "lrio/mesh/weld.h"
 #include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 

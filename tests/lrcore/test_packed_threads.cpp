@@ -12,8 +12,8 @@
 #include <climits>
 #include <cstdlib>
 
-#include "lrcore/generate/generate.h"
-#include "lrcore/packed/packed_stream.h"
+#include "lrcore/codec/packed/packed_stream.h"
+#include "lrlab/generate/generate.h"
 
 #ifdef LACEDRING_SANITIZE
 constexpr bool kSanitized = true;  // RLIMIT_AS does not work with its shadow memory

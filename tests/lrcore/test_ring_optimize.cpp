@@ -4,14 +4,14 @@
 #include <filesystem>
 
 #include "lrcore/base/bits.h"
-#include "lrcore/corner_table/split.h"
-#include "lrcore/generate/generate.h"
-#include "lrcore/lean/lean_stream.h"
-#include "lrcore/lr/lr_table.h"
-#include "lrcore/mesh/read.h"
-#include "lrcore/mesh/weld.h"
+#include "lrcore/codec/lean/lean_stream.h"
+#include "lrcore/codec/tables/lr_table.h"
 #include "lrcore/ring/optimize.h"
 #include "lrcore/ring/ring_walk.h"
+#include "lrcore/topology/split.h"
+#include "lrio/mesh/read.h"
+#include "lrio/mesh/weld.h"
+#include "lrlab/generate/generate.h"
 #include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "lrcore/lr/lr_stream.h"
-#include "lrcore/lr/operators.h"
+#include "lrcore/codec/tables/lr_stream.h"
+#include "lrcore/codec/tables/operators.h"
 
 namespace lr::test {
 

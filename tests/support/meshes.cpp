@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "lrcore/generate/generate.h"
-#include "lrcore/mesh/read.h"
+#include "lrio/mesh/read.h"
+#include "lrlab/generate/generate.h"
 #include "tests/support/shapes.h"
 
 namespace lr::test {

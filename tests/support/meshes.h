@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "lrcore/base/result.h"
-#include "lrcore/mesh/mesh.h"
+#include "lrio/mesh/mesh.h"
 
 namespace lr::test {
 

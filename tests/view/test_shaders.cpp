@@ -84,7 +84,7 @@ TEST_CASE("unchanged shaders come out as the build's words") {
     }
     // What is included is among the files that were read, and so is what lies outside the folder.
     CHECK(sources.files.contains((sources.folder / "shared.h").string()));
-    CHECK(sources.files.contains((sources.from.parent_path() / "lrcore/packed/packed_format.h").string()));
+    CHECK(sources.files.contains((sources.from.parent_path() / "lrcore/codec/packed/packed_format.h").string()));
 }
 
 TEST_CASE("errors say file and line") {

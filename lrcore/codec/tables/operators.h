@@ -1,0 +1,355 @@
+#pragma once
+// The corner operators on a laced ring, each in constant time. Paper: LR 2011, sections 4.4 to 4.7 and 5.
+//
+// Within a slot, corners have roles: start (at v), tip, end (at v.n, or v.n.n where a wart is skipped). Left corners
+// 8v+0, 1, 2 are start, tip, end; right corners 8v+4, 5, 6 are end, tip, start. So one piece of code serves both sides:
+//
+//                 tip                        across the ring edge (start, end): the other side's tip
+//                /   \                       across (tip, end), facing the start corner: see facing_start()
+//               /     \                      across (start, tip), facing the end corner: see facing_end()
+//       v = start ---- end = v.n
+//
+// `Store` is LrView or CompactLrView, or a test's wrapper that counts what is read.
+
+#include <cstdint>
+
+#include "lrcore/base/ids.h"
+#include "lrcore/codec/tables/fan.h"
+#include "lrcore/codec/tables/lr_format.h"
+
+namespace lr {
+
+template <class Store>
+class LrOperators {
+  public:
+    explicit LrOperators(const Store& store) : s_(store), ring_(store.ring_vertices) {}
+
+    const Store& store() const { return s_; }
+
+    // Ring order (paper: v.n, v.p).
+    std::uint32_t ring_next(std::uint32_t v) const { return s_.closes(v) ? s_.first(v) : v + 1; }
+    std::uint32_t ring_previous(std::uint32_t v) const {
+        // The first vertex of a ring has a T2 on its left, between the ring's last edge and its first: its tip is the
+        // last.
+        return v == 0 || s_.closes(v - 1) ? s_.tip(v, 0) : v - 1;
+    }
+
+    bool is_t0(CornerId c) const { return c.value >= 8 * ring_; }
+
+    /// c.t
+    static TriangleId triangle(CornerId c) { return {c.value / 4}; }
+    /// t.c: the triangle's first corner; next gives the others.
+    static CornerId corner(TriangleId t) { return {t.value * 4}; }
+    /// c.n
+    static CornerId next(CornerId c) { return {c.value % 4 == 2 ? c.value - 2 : c.value + 1}; }
+    /// c.p
+    static CornerId previous(CornerId c) { return {c.value % 4 == 0 ? c.value + 2 : c.value - 1}; }
+
+    /// Does the triangle exist, and is this its canonical number (not that of a T2's first copy)?
+    bool is_canonical(TriangleId t) const {
+        return t.value >= 2 * ring_ || (s_.kind(t.value / 2, t.value % 2) & word::kSpecial) == 0;
+    }
+
+    /// The same corner under its canonical number. Null for a corner of no triangle (a border slot).
+    CornerId canonical(CornerId c) const {
+        while (!is_t0(c)) {  // once, or twice in a triangle that is its whole ring
+            const Slot slot = slot_of(c);
+            const std::uint32_t kind = s_.kind(slot.v, slot.side);
+            if ((kind & word::kSpecial) == 0) return c;
+            if (kind == word::kBorder) return null_corner;
+            constexpr Role kTurned[] = {kTip, kEnd, kStart};  // start, tip, end seen from the second copy
+            c = at(ring_next(slot.v), slot.side, kTurned[slot.role]);
+        }
+        return c;
+    }
+
+    /// c.v
+    VertexId vertex(CornerId c) const {
+        if (is_t0(c)) return {s_.t0_vertex(t0_index(c))};
+        const Slot slot = slot_of(c);
+        switch (slot.role) {
+            case kStart:
+                return {slot.v};
+            case kEnd:
+                return {end(slot.v, slot.side)};
+            default: {
+                const std::uint32_t kind = s_.kind(slot.v, slot.side);
+                if (kind == word::kClosing) return {ring_next(s_.first(slot.v))};
+                return kind == word::kBorder ? null_vertex : VertexId{s_.tip(slot.v, slot.side)};
+            }
+        }
+    }
+
+    /// c.o: canonical, or null across a border.
+    CornerId opposite(CornerId c) const {
+        if (is_t0(c)) return {s_.t0_opposite(t0_index(c))};
+        if constexpr (kHasOpposites) {
+            const std::uint32_t plain = s_.plain_opposite(c.value);
+            if (plain != Store::kNotPlain) return {plain};
+        }
+        Slot slot = slot_of(c);
+        std::uint32_t kind = s_.kind(slot.v, slot.side);
+        if ((kind & word::kSpecial) != 0) {
+            c = canonical(c);
+            if (c.is_null()) return c;
+            slot = slot_of(c);
+            kind = s_.kind(slot.v, slot.side);
+        }
+        switch (slot.role) {
+            case kTip:
+                return facing_tip(slot.v, slot.side, kind);
+            case kStart:
+                return facing_start(slot.v, slot.side, kind);
+            default:
+                return facing_end(slot.v, slot.side, kind);
+        }
+    }
+
+    /// c.l = c.n.o
+    CornerId left(CornerId c) const { return opposite(next(c)); }
+    /// c.r = c.p.o
+    CornerId right(CornerId c) const { return opposite(previous(c)); }
+    /// c.s: the next corner around c's vertex, null at a border.
+    CornerId swing(CornerId c) const {
+        const CornerId l = left(c);
+        return l.is_null() ? l : next(l);
+    }
+    /// The corner whose swing is c, null at a border.
+    CornerId swing_back(CornerId c) const {
+        const CornerId r = right(c);
+        return r.is_null() ? r : previous(r);
+    }
+
+    /// v.c: canonical; null for a vertex of no triangle.
+    CornerId corner(VertexId v) const {
+        if (v.value < ring_) return canonical(at(v.value, 0, kStart));  // the left side always has a triangle
+        return v.value < s_.used_vertices() ? CornerId{s_.isolated_corner(v.value - ring_)} : null_corner;
+    }
+
+    /// Is the vertex on a border? O(valence).
+    bool is_border(VertexId v) const {
+        const CornerId first = corner(v);
+        for (CornerId c = first; !c.is_null();) {
+            c = swing(c);
+            if (c == first) return false;
+        }
+        return !first.is_null();
+    }
+
+    /// Calls visit(corner) for every triangle around v in swing order: from v.c, or from the border where there is one.
+    /// O(valence).
+    template <class Visit>
+    void star(VertexId v, Visit visit) const {
+        const CornerId first = star_begin(v);
+        for (CornerId c = first; !c.is_null();) {
+            visit(c);
+            c = swing(c);
+            if (c == first) return;
+        }
+    }
+
+    /// Edges at v: its triangles, and one more on a border. O(valence), constant where LrView::plain_fan sees it.
+    std::uint32_t valence(VertexId v) const {
+        if constexpr (kHasFans) {
+            typename Store::PlainFan fan;
+            if (s_.plain_fan(v.value, fan)) return 4 + fan.left_count + fan.right_count;
+            FanSide<Store> left, right;
+            if (find_sides(v.value, left, right)) return left.size + right.size + 2;
+        }
+        const CornerId first = corner(v);
+        if (first.is_null()) return 0;
+        std::uint32_t count = 0;
+        CornerId c = first;
+        do {
+            ++count;
+            c = swing(c);
+        } while (!c.is_null() && c != first);
+        if (!c.is_null()) return count;
+        for (c = swing_back(first); !c.is_null(); c = swing_back(c)) ++count;
+        return count + 1;
+    }
+
+    /// Calls visit(vertex) for every neighbour of v once, in the order of star: of each triangle that of next, and on a
+    /// border at last the other end. O(valence).
+    template <class Visit>
+    void neighbours(VertexId v, Visit visit) const {
+        if (near_neighbours(v, visit)) return;
+        CornerId last = null_corner;
+        star(v, [&](CornerId c) {
+            visit(vertex(next(c)));
+            last = c;
+        });
+        if (!last.is_null() && left(last).is_null()) visit(vertex(previous(last)));
+    }
+
+    /// Visits the same vertices in the same order and returns true, if the slots near v give them in constant time.
+    /// Else returns false and visits nothing; always so on a border. valence and star use the same shortcut.
+    template <class Visit>
+    bool near_neighbours(VertexId v, Visit visit) const {
+        if constexpr (kHasFans) {
+            typename Store::PlainFan fan;
+            if (s_.plain_fan(v.value, fan)) {
+                visit(VertexId{fan.left});
+                visit(VertexId{v.value + 1});
+                for (std::uint32_t i = 0; i <= fan.right_count; ++i) visit(VertexId{fan.right + i});
+                visit(VertexId{v.value - 1});
+                for (std::uint32_t i = fan.left_count; i > 0; --i) visit(VertexId{fan.left + i});
+                return true;
+            }
+            FanSide<Store> left, right;
+            if (find_sides(v.value, left, right)) {
+                // The first triangle of a star is that of v's left slot; with a T0w there, its T2w comes last.
+                std::uint32_t first = 0;
+                if (left.size == 0) {
+                    visit(VertexId{v.value - 1});
+                } else {
+                    first = skips(v.value, 0) ? 1 : 0;
+                    for (std::uint32_t i = first + 1; i-- > 0;) visit(VertexId{left.vertex[i]});
+                }
+                visit(VertexId{v.value + 1});
+                for (std::uint32_t i = 0; i < right.size; ++i) visit(VertexId{right.vertex[i]});
+                if (left.size == 0) return true;
+                visit(VertexId{v.value - 1});
+                for (std::uint32_t i = left.size - 1; i > first; --i) visit(VertexId{left.vertex[i]});
+                return true;
+            }
+        }
+        return false;
+    }
+
+  private:
+    // What the representation answers itself where nothing special is near.
+    static constexpr bool kHasOpposites = requires(const Store& store) { store.plain_opposite(0); };
+
+    static constexpr bool kHasFans = requires { typename Store::PlainFan; };
+
+    /// v.c, or if v is on a border the corner that no swing leads to.
+    CornerId star_begin(VertexId v) const {
+        const CornerId first = corner(v);
+        if constexpr (kHasFans) {  // with neighbours on all sides
+            typename Store::PlainFan fan;
+            FanSide<Store> left, right;
+            if (v.value < ring_ && (s_.plain_fan(v.value, fan) || find_sides(v.value, left, right))) return first;
+        }
+        for (CornerId c = first; !c.is_null();) {
+            const CornerId back = swing_back(c);
+            if (back.is_null()) return c;
+            if (back == first) break;
+            c = back;
+        }
+        return first;
+    }
+
+    /// Lists the neighbours on both sides; false where v is not well inside a ring, or not all were found.
+    bool find_sides(std::uint32_t v, FanSide<Store>& left, FanSide<Store>& right) const {
+        if (v < 2 || v + 1 >= ring_) return false;
+        const std::uint32_t w = s_.word(v, 0), p = s_.word(v - 1, 0), pp = s_.word(v - 2, 0);
+        const auto closes = [](std::uint32_t x) { return (x & word::kKind) == word::kClosing; };
+        if (closes(w) || closes(p) || closes(pp)) return false;
+        return left.template find<0>(s_, v, w, p, pp) &&
+               right.template find<1>(s_, v, s_.word(v, 1), s_.word(v - 1, 1), s_.word(v - 2, 1));
+    }
+
+    enum Role : std::uint32_t { kStart = 0, kTip = 1, kEnd = 2 };
+    struct Slot {
+        std::uint32_t v, side;
+        Role role;
+    };
+
+    static Slot slot_of(CornerId c) {
+        const std::uint32_t i = c.value % 8;
+        return {c.value / 8, i / 4, static_cast<Role>(i < 4 ? i : 6 - i)};
+    }
+    static CornerId at(std::uint32_t v, std::uint32_t side, Role role) {
+        return {8 * v + (side == 0 ? std::uint32_t{role} : 6 - role)};
+    }
+    std::uint32_t t0_index(CornerId c) const {
+        const std::uint32_t i = c.value - 8 * ring_;
+        return i - i / 4;  // base four to base three
+    }
+
+    /// The vertex at which the slot's edge ends.
+    std::uint32_t end(std::uint32_t v, std::uint32_t side) const {
+        const std::uint32_t n = ring_next(v);
+        return (s_.kind(v, side) & (word::kSpecial | word::kWart)) == word::kWart ? ring_next(n) : n;
+    }
+    /// The slot whose edge ends at v: v.p, or v.p.p where that slot skips v.p.
+    std::uint32_t before(std::uint32_t v, std::uint32_t side) const {
+        const std::uint32_t p = ring_previous(v), pp = ring_previous(p);
+        return skips(pp, side) ? pp : p;
+    }
+    bool skips(std::uint32_t v, std::uint32_t side) const {
+        return (s_.kind(v, side) & (word::kSpecial | word::kWart)) == word::kWart;
+    }
+    /// A triangle with a redundant copy or a T0w in the slot before it has two ring edges.
+    static bool precedes_t2(std::uint32_t kind) { return (kind & word::kWart) != 0 || kind == word::kRedundant; }
+
+    /// What lies across v's ring edge, on side `side`.
+    CornerId across_ring(std::uint32_t v, std::uint32_t side) const {
+        const std::uint32_t kind = s_.kind(v, side);
+        if (kind == word::kBorder) return null_corner;
+        // A T2 whose first copy, real or taken by a T0w, is here: its second copy's end corner faces this edge.
+        if (precedes_t2(kind)) {
+            const CornerId c = at(ring_next(v), side, kEnd);
+            return kind == word::kRedundant || kind == word::kClosing ? canonical(c) : c;
+        }
+        return at(v, side, kTip);
+    }
+
+    CornerId facing_tip(std::uint32_t v, std::uint32_t side, std::uint32_t kind) const {
+        if ((kind & word::kWart) != 0) return at(ring_next(v), side, kStart);  // the T2w's tip corner
+        return across_ring(v, 1 - side);
+    }
+
+    CornerId facing_start(std::uint32_t v, std::uint32_t side, std::uint32_t kind) const {
+        const std::uint32_t p = ring_previous(v);
+        const std::uint32_t before_kind = s_.kind(p, side);
+        if ((before_kind & (word::kSpecial | word::kWart)) == word::kWart)
+            return at(p, side, kTip);  // v is a wart's tip
+        if (precedes_t2(before_kind) && precedes_t2(s_.kind(ring_previous(p), side)) &&
+            (s_.kind(ring_previous(p), side) & word::kSpecial) != 0) {
+            return across_ring(ring_next(v), 1 - side);  // all three edges are ring edges
+        }
+        if ((kind & word::kIrregular) != 0) return {s_.star_opposite(v, side, 0)};
+        return infer_start(v, side);
+    }
+
+    CornerId facing_end(std::uint32_t v, std::uint32_t side, std::uint32_t kind) const {
+        const std::uint32_t p = ring_previous(v);
+        if (precedes_t2(s_.kind(p, side))) return across_ring(p, 1 - side);
+        if ((kind & word::kIrregular) != 0) return {s_.star_opposite(v, side, 1)};
+        return infer_end(v, side);
+    }
+
+  public:
+    /// Across (tip, end) of a regular triangle: the slot that starts at its end, or the one that ends at its tip.
+    CornerId infer_start(std::uint32_t v, std::uint32_t side) const {
+        const std::uint32_t n = end(v, side), u = s_.tip(v, side);
+        if (slot_tip(n, side) == u) return canonical(at(n, side, kEnd));
+        if (u >= ring_) return null_corner;
+        const std::uint32_t p = before(u, side);
+        return slot_tip(p, side) == n ? canonical(at(p, side, kStart)) : null_corner;
+    }
+
+    /// Across (start, tip) of a regular triangle: the slot that ends at its start, or the one that starts at its tip.
+    CornerId infer_end(std::uint32_t v, std::uint32_t side) const {
+        const std::uint32_t u = s_.tip(v, side), q = before(v, side);
+        if (slot_tip(q, side) == u) return canonical(at(q, side, kStart));
+        if (u >= ring_) return null_corner;
+        return slot_tip(u, side) == v ? canonical(at(u, side, kEnd)) : null_corner;
+    }
+
+  private:
+    /// The third vertex of the slot's triangle, whichever copy it is; null where there is none.
+    std::uint32_t slot_tip(std::uint32_t v, std::uint32_t side) const {
+        const std::uint32_t kind = s_.kind(v, side);
+        if (kind == word::kBorder) return null_vertex.value;
+        if (kind == word::kClosing) return ring_next(s_.first(v));
+        return s_.tip(v, side);
+    }
+
+    Store s_;
+    std::uint32_t ring_;
+};
+
+}  // namespace lr

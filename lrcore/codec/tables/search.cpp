@@ -1,0 +1,38 @@
+#include "lrcore/codec/tables/search.h"
+
+#include <utility>
+
+namespace lr {
+
+std::vector<std::uint32_t> recommended_periods(std::size_t triangles) {
+    // Table 1 of the paper has its best between 38 and 720.
+    if (triangles <= 300'000) return {0, 720, 512, 420, 360, 300, 256, 226, 180, 128, 106, 90, 64, 45, 32, 23, 16};
+    if (triangles <= 3'000'000) return {0, 256, 128, 90, 64, 45, 32, 23};
+    return {128, 64, 32};
+}
+
+Result<CompactChoice> smallest_compact_lr(const CornerTable& table, const RingOptions& options,
+                                          std::span<const std::uint32_t> periods) {
+    CompactChoice best;
+    bool any = false;
+    for (const std::uint32_t k : periods) {
+        RingOptions ring = options;
+        ring.k = k;
+        ring.one_per_shell = true;
+        CompactChoice choice;
+        choice.k = k;
+        Result<LrTable> lr = build_lr(table, expand_rings(table, ring), {}, &choice.map);
+        if (!lr) return lr.error();
+        Result<CompactLrTable> compact = build_compact_lr(lr->view());
+        if (!compact) return compact.error();
+        choice.lr = std::move(*lr);
+        choice.compact = std::move(*compact);
+        if (any && choice.compact.view().bytes() >= best.compact.view().bytes()) continue;
+        best = std::move(choice);
+        any = true;
+    }
+    if (!any) return Error{ErrorCode::invalid_argument, "no period to try"};
+    return best;
+}
+
+}  // namespace lr

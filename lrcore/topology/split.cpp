@@ -1,0 +1,37 @@
+#include "lrcore/topology/split.h"
+
+#include "lrcore/base/bits.h"
+
+namespace lr {
+
+std::vector<VertexId> split_fans(CornerTable& table) {
+    const auto corners = static_cast<std::uint32_t>(table.corners.size());
+    std::vector<VertexId> copies;
+    BitVector in_fan(corners), has_fan(table.vertex_count);
+    for (std::uint32_t i = 0; i < corners; ++i) {
+        if (in_fan.test(i) || table.degenerate(triangle(CornerId{i}))) continue;
+        const VertexId v = table.vertex({i});
+        VertexId name = v;
+        if (has_fan.test(v.value)) {
+            name = {table.vertex_count + static_cast<std::uint32_t>(copies.size())};
+            copies.push_back(v);
+        } else {
+            has_fan.set(v.value);
+        }
+        const auto visit = [&](CornerId c) {
+            in_fan.set(c.value);
+            table.corners[c.value].vertex = name;
+        };
+        CornerId c{i};
+        do {  // forwards, until it closes or meets a border
+            visit(c);
+            c = table.swing(c);
+        } while (!c.is_null() && c.value != i);
+        if (!c.is_null()) continue;
+        for (c = table.right({i}); !c.is_null(); c = table.right(previous(c))) visit(previous(c));  // backwards
+    }
+    table.vertex_count += static_cast<std::uint32_t>(copies.size());
+    return copies;
+}
+
+}  // namespace lr

@@ -1,0 +1,516 @@
+#include "lrio/file/lr_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+
+#include "lrcore/base/bits.h"
+#include "lrcore/base/crc32.h"
+#include "lrcore/base/signature.h"
+#include "lrcore/codec/lean/lean_stream.h"
+#include "lrcore/codec/packed/packed_stream.h"
+#include "lrcore/codec/tables/lr_stream.h"
+#include "lrio/file/file.h"
+
+namespace lr {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, ".lr files are little-endian");
+
+constexpr std::uint32_t kMagic = 0x4c46524c;  // "LRFL"
+constexpr std::uint32_t kVersion = 2;
+
+enum Kind : std::uint32_t {
+    kLean = 1,
+    kAttribute = 2,
+    kVertexOrder = 3,
+    kCornerOrder = 4,
+    kLr = 5,
+    kLrCompact = 6,
+    kPacked = 7
+};
+
+struct FileHeader {
+    std::uint32_t magic, version, sections, vertices, input_triangles, reserved;
+    std::uint32_t table_crc;   // of the section table
+    std::uint32_t header_crc;  // of the seven words before
+};
+static_assert(sizeof(FileHeader) == 32);
+static_assert(kMagic == magic::kLrFile);
+
+struct Section {
+    std::uint32_t kind;
+    std::uint32_t crc;  // of the contents
+    std::uint64_t offset, size;
+    std::uint32_t layout;       // attributes: type | components << 8 | normalized << 16 | v_up << 17
+    std::uint32_t name_length;  // attributes: the contents begin with the name, padded with zeros to 8 bytes
+};
+static_assert(sizeof(Section) == 32);
+
+constexpr std::size_t align8(std::size_t size) {
+    return (size + 7) / 8 * 8;
+}
+
+template <class T>
+std::span<const std::byte> bytes_of(const T& value) {
+    return std::as_bytes(std::span(&value, 1));
+}
+
+Error malformed(std::string message) {
+    return {ErrorCode::malformed, "lr file: " + std::move(message)};
+}
+
+/// The triangles that a file's connectivity holds, degenerate slots left out, and which of its vertices are copies.
+struct Decoded {
+    std::uint32_t vertices = 0;
+    std::vector<std::uint32_t> indices;
+    std::vector<bool> copy;  // empty if there is none; vertices beyond its end are no copies
+};
+
+Result<Decoded> decode(const LrFile& file, bool untrusted) {
+    Decoded out;
+    const auto from_tables = [&](const auto& stream) -> Result<Decoded> {
+        if (!stream) return stream.error();
+        out.vertices = stream->view.vertices;
+        out.indices = decode_lr(*stream);
+        if (!stream->copies.empty()) out.copy.assign(stream->view.used_vertices(), false);
+        for (std::size_t i = 0; i < stream->copies.size(); i += 2) out.copy[stream->copies[i]] = true;
+        return out;
+    };
+    const std::span<const std::uint32_t> words = file.words;
+    if (file.format == Connectivity::lr) return from_tables(untrusted ? validate_lr(words) : view_lr(words));
+    if (file.format == Connectivity::lr_compact) {
+        return from_tables(untrusted ? validate_compact_lr(words) : view_compact_lr(words));
+    }
+    if (file.format == Connectivity::packed) {
+        const Result<PackedView> view = untrusted ? validate_packed(words) : view_packed(words);
+        if (!view) return view.error();
+        out.vertices = view->vertices;
+        out.indices.resize(std::size_t{3} * view->triangles);
+        decode_packed(*view, out.indices);
+        return out;
+    }
+    const Result<LeanView> view = untrusted ? validate_lean(words) : view_lean(words);
+    if (!view) return view.error();
+    out.vertices = view->vertices;
+    out.indices.resize(std::size_t{3} * view->slots());
+    decode_lean(*view, out.indices);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < out.indices.size(); i += 3) {
+        if (out.indices[i] == out.indices[i + 1]) continue;  // a degenerate slot
+        for (std::size_t k = 0; k < 3; ++k) out.indices[kept + k] = out.indices[i + k];
+        kept += 3;
+    }
+    out.indices.resize(kept);
+    return out;
+}
+
+/// Leaves out of `values`, one for each vertex, those of copies.
+void remove_copies(const Decoded& decoded, std::vector<std::uint32_t>& values) {
+    if (decoded.copy.empty()) return;
+    std::size_t kept = 0;
+    for (std::size_t v = 0; v < values.size(); ++v) {
+        if (v >= decoded.copy.size() || !decoded.copy[v]) values[kept++] = values[v];
+    }
+    values.resize(kept);
+}
+
+/// Empty if the bytes begin as an .lr file, else an error message that names their kind if it is known.
+std::string not_an_lr_file(std::span<const std::byte> bytes) {
+    std::uint32_t magic_number = 0;
+    if (bytes.size() >= sizeof magic_number) std::memcpy(&magic_number, bytes.data(), sizeof magic_number);
+    if (magic_number == kMagic) return {};
+    const std::string_view kind = kind_by_signature(bytes);
+    return kind.empty() ? "not an .lr file" : fmt::format("not an .lr file: it looks like {}", kind);
+}
+
+/// Checks header and section table and calls visit(section, contents) for each section; what visit returns, if not
+/// empty, is an error. The contents' checksums are visit's to look at.
+template <class Visit>
+Result<FileHeader> visit_sections(std::span<const std::byte> bytes, Visit visit) {
+    FileHeader header;
+    if (std::string why = not_an_lr_file(bytes); !why.empty()) return Error{ErrorCode::malformed, std::move(why)};
+    if (bytes.size() < sizeof header) return malformed("shorter than its header");
+    std::memcpy(&header, bytes.data(), sizeof header);
+    if (header.version != kVersion) return malformed(fmt::format("version {} is not {}", header.version, kVersion));
+    if (header.header_crc != crc32(bytes.first(28)) || header.reserved != 0) return malformed("damaged header");
+    const std::uint64_t table = std::uint64_t{header.sections} * sizeof(Section);
+    if (table > bytes.size() - sizeof header) return malformed("shorter than its section table");
+    const auto table_bytes = bytes.subspan(sizeof header, table);
+    if (header.table_crc != crc32(table_bytes)) return malformed("damaged section table");
+    std::size_t end = sizeof header + table;
+    for (std::uint32_t i = 0; i < header.sections; ++i) {
+        Section section;
+        std::memcpy(&section, table_bytes.data() + std::size_t{i} * sizeof section, sizeof section);
+        if (section.offset != align8(end) || section.offset > bytes.size() ||
+            section.size > bytes.size() - section.offset) {
+            return malformed(fmt::format("section {} lies outside the file", i));
+        }
+        for (; end < section.offset; ++end) {
+            if (bytes[end] != std::byte{0}) return malformed(fmt::format("padding before section {}", i));
+        }
+        end = section.offset + section.size;
+        if (std::string why = visit(header, section, bytes.subspan(section.offset, section.size)); !why.empty()) {
+            return malformed(fmt::format("section {}: {}", i, why));
+        }
+    }
+    if (end != bytes.size()) return malformed("bytes behind the last section");
+    return header;
+}
+
+class Reader {
+  public:
+    Result<LrFile> read(std::span<const std::byte> bytes) {
+        const Result<FileHeader> header = visit_sections(
+            bytes,
+            [this](const FileHeader& h, const Section& section, std::span<const std::byte> contents) -> std::string {
+                file_.vertex_count = h.vertices;
+                file_.input_triangles = h.input_triangles;
+                if (section.crc != crc32(contents)) return "is damaged";
+                return read_section(section, contents);
+            });
+        if (!header) return header.error();
+        if (std::string why = check(); !why.empty()) return malformed(std::move(why));
+        return std::move(file_);
+    }
+
+  private:
+    std::string read_section(const Section& section, std::span<const std::byte> contents) {
+        switch (section.kind) {
+            case kLean:
+            case kLr:
+            case kLrCompact:
+            case kPacked:
+                file_.format = Connectivity{section.kind};
+                return read_words(contents, file_.words);
+            case kVertexOrder:
+                return read_words(contents, file_.vertex_order);
+            case kCornerOrder:
+                return read_words(contents, file_.corner_order);
+            case kAttribute:
+                return read_attribute(section, contents);
+            default:
+                return fmt::format("unknown kind {}", section.kind);
+        }
+    }
+
+    static std::string read_words(std::span<const std::byte> contents, std::vector<std::uint32_t>& words) {
+        if (!words.empty()) return "occurs twice";
+        if (contents.size() % 4 != 0) return "no whole number of words";
+        words.resize(contents.size() / 4);
+        if (!words.empty()) std::memcpy(words.data(), contents.data(), contents.size());
+        return {};
+    }
+
+    std::string read_attribute(const Section& section, std::span<const std::byte> contents) {
+        Attribute attribute;
+        const std::uint32_t type = section.layout & 0xff;
+        attribute.components = static_cast<std::uint8_t>(section.layout >> 8 & 0xff);
+        attribute.normalized = (section.layout >> 16 & 1) != 0;
+        attribute.v_up = (section.layout >> 17 & 1) != 0;
+        if (type > static_cast<std::uint32_t>(ComponentType::f64) || attribute.components == 0 ||
+            section.layout >> 18 != 0) {
+            return "unknown attribute layout";
+        }
+        attribute.type = static_cast<ComponentType>(type);
+        const std::uint64_t name = align8(section.name_length);
+        if (name > contents.size() ||
+            contents.size() - name != std::uint64_t{file_.vertex_count} * attribute.stride()) {
+            return "attribute of the wrong size";
+        }
+        for (std::size_t i = section.name_length; i < name; ++i) {
+            if (contents[i] != std::byte{0}) return "attribute name not padded with zeros";
+        }
+        attribute.name.assign(reinterpret_cast<const char*>(contents.data()), section.name_length);
+        attribute.data.assign(contents.begin() + static_cast<std::ptrdiff_t>(name), contents.end());
+        file_.attributes.push_back(std::move(attribute));
+        return {};
+    }
+
+    std::string check() const {
+        const Result<Decoded> decoded = decode(file_, true);
+        if (!decoded) return decoded.error().message;
+        if (decoded->vertices != file_.vertex_count) return "connectivity and file have different vertex counts";
+        const std::size_t triangles = decoded->indices.size() / 3;
+        if (triangles > file_.input_triangles) return "more triangles than the input had";
+        if (file_.attributes.empty() || file_.attributes[0].name != "POSITION" || file_.attributes[0].components != 3 ||
+            (file_.attributes[0].type != ComponentType::f32 && file_.attributes[0].type != ComponentType::f64)) {
+            return "the first attribute is not POSITION";
+        }
+        if (!finite(file_.attributes[0])) return "a position is not finite as a float";
+        if (!file_.vertex_order.empty()) {
+            if (file_.vertex_order.size() != file_.vertex_count) return "the vertex order has another size";
+            std::vector<std::uint32_t> order = file_.vertex_order;
+            remove_copies(*decoded, order);
+            const auto kept = static_cast<std::uint32_t>(order.size());
+            if (!permutation_into(order, kept, kept)) return "the vertex order is no permutation";
+        }
+        if (!file_.corner_order.empty()) {
+            std::vector<std::uint32_t> order = file_.corner_order;
+            for (std::uint32_t& corner : order) corner /= 3;
+            if (!permutation_into(order, triangles, file_.input_triangles)) return "the corner order is no permutation";
+        }
+        return {};
+    }
+
+    /// As floats: what draws or exports a mesh has no other.
+    static bool finite(const Attribute& attribute) {
+        const std::size_t size = size_of(attribute.type);
+        for (std::size_t i = 0; i < attribute.data.size(); i += size) {
+            double value = 0;
+            if (attribute.type == ComponentType::f64) {
+                std::memcpy(&value, attribute.data.data() + i, sizeof value);
+            } else {
+                float single = 0;
+                std::memcpy(&single, attribute.data.data() + i, sizeof single);
+                value = static_cast<double>(single);
+            }
+            if (!std::isfinite(static_cast<float>(value))) return false;
+        }
+        return true;
+    }
+
+    /// `size` distinct numbers below `range`?
+    static bool permutation_into(std::span<const std::uint32_t> order, std::size_t size, std::uint32_t range) {
+        if (order.size() != size || size > range) return false;
+        if (range / 64 > size) {  // mostly degenerate input, or a hostile count: no flag for each
+            std::vector<std::uint32_t> sorted(order.begin(), order.end());
+            std::sort(sorted.begin(), sorted.end());
+            return sorted.empty() ||
+                   (sorted.back() < range && std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end());
+        }
+        BitVector seen(range);
+        for (const std::uint32_t i : order) {
+            if (i >= range || seen.test(i)) return false;
+            seen.set(i);
+        }
+        return true;
+    }
+
+    LrFile file_;
+};
+
+}  // namespace
+
+namespace {
+
+/// The input's corner that each decoded triangle begins with. `triangles` are those of the input, in decoded order.
+std::vector<std::uint32_t> find_corners(const Mesh& mesh, const LrFile& file, std::span<const std::uint32_t> triangles,
+                                        std::span<const std::uint32_t> vertex_order) {
+    const Result<Decoded> decoded = decode(file, false);
+    std::vector<std::uint32_t> out;
+    if (!decoded) return out;
+    out.reserve(decoded->indices.size() / 3);
+    for (const std::uint32_t t : triangles) {
+        if (t == UINT32_MAX) continue;
+        const std::uint32_t* now = decoded->indices.data() + 3 * out.size();
+        const std::uint32_t* before = mesh.indices.data() + std::size_t{3} * t;
+        std::uint32_t place = 0;  // its three vertices differ, so that one of them is it
+        while (place < 2 && before[place] != vertex_order[now[0]]) ++place;
+        out.push_back(3 * t + place);
+    }
+    return out;
+}
+
+}  // namespace
+
+LrFile make_lr_file(const Mesh& mesh, Connectivity format, std::vector<std::uint32_t> words,
+                    std::vector<std::uint32_t> vertex_order, std::vector<std::uint32_t> triangle_order,
+                    bool keep_order) {
+    LrFile file;
+    file.vertex_count = static_cast<std::uint32_t>(vertex_order.size());
+    file.input_triangles = static_cast<std::uint32_t>(mesh.triangle_count());
+    file.format = format;
+    file.words = std::move(words);
+    file.attributes = permute_attributes(mesh.attributes, vertex_order);
+    if (keep_order) {
+        file.corner_order = find_corners(mesh, file, triangle_order, vertex_order);
+        file.vertex_order = std::move(vertex_order);
+    }
+    return file;
+}
+
+std::vector<std::byte> serialize_lr(const LrFile& file) {
+    std::vector<Section> sections;
+    std::vector<std::vector<std::byte>> names;  // beside sections; empty but for attributes
+    std::vector<std::span<const std::byte>> contents;
+    const auto add = [&](std::uint32_t kind, std::span<const std::byte> data) {
+        sections.push_back({kind, 0, 0, 0, 0, 0});
+        names.emplace_back();
+        contents.push_back(data);
+    };
+    add(static_cast<std::uint32_t>(file.format), std::as_bytes(std::span(file.words)));
+    for (const Attribute& attribute : file.attributes) {
+        add(kAttribute, attribute.data);
+        sections.back().layout = static_cast<std::uint32_t>(attribute.type) | std::uint32_t{attribute.components} << 8 |
+                                 (attribute.normalized ? 1U << 16 : 0U) | (attribute.v_up ? 1U << 17 : 0U);
+        sections.back().name_length = static_cast<std::uint32_t>(attribute.name.size());
+        names.back().resize(align8(attribute.name.size()));
+        std::memcpy(names.back().data(), attribute.name.data(), attribute.name.size());
+    }
+    if (!file.vertex_order.empty()) add(kVertexOrder, std::as_bytes(std::span(file.vertex_order)));
+    if (!file.corner_order.empty()) add(kCornerOrder, std::as_bytes(std::span(file.corner_order)));
+
+    std::size_t end = sizeof(FileHeader) + sections.size() * sizeof(Section);
+    for (std::size_t i = 0; i < sections.size(); ++i) {
+        sections[i].offset = align8(end);
+        sections[i].size = names[i].size() + contents[i].size();
+        sections[i].crc = crc32(contents[i], crc32(names[i]));
+        end = sections[i].offset + sections[i].size;
+    }
+    FileHeader header{kMagic,
+                      kVersion,
+                      static_cast<std::uint32_t>(sections.size()),
+                      file.vertex_count,
+                      file.input_triangles,
+                      0,
+                      crc32(std::as_bytes(std::span(sections))),
+                      0};
+    header.header_crc = crc32(bytes_of(header).first(28));
+    std::vector<std::byte> out(end);
+    const auto put = [&](std::size_t offset, std::span<const std::byte> data) {
+        if (!data.empty()) std::memcpy(out.data() + offset, data.data(), data.size());
+    };
+    put(0, bytes_of(header));
+    put(sizeof header, std::as_bytes(std::span(sections)));
+    for (std::size_t i = 0; i < sections.size(); ++i) {
+        put(sections[i].offset, names[i]);
+        put(sections[i].offset + names[i].size(), contents[i]);
+    }
+    return out;
+}
+
+Result<LrFile> parse_lr(std::span<const std::byte> bytes) {
+    return Reader().read(bytes);
+}
+
+Result<void> write_lr(const LrFile& file, const std::filesystem::path& path) {
+    const std::vector<std::byte> bytes = serialize_lr(file);
+    const std::span<const std::byte> parts[] = {bytes};
+    return write_file(path, parts);
+}
+
+Result<LrFile> read_lr(const std::filesystem::path& path) {
+    Result<std::vector<std::byte>> bytes = read_file(path);
+    if (!bytes) return bytes.error();
+    return parse_lr(*bytes);
+}
+
+bool is_lr(std::span<const std::byte> bytes) {
+    std::uint32_t magic = 0;
+    if (bytes.size() < sizeof magic) return false;
+    std::memcpy(&magic, bytes.data(), sizeof magic);
+    return magic == kMagic;
+}
+
+Result<LrContents> list_lr(std::span<const std::byte> bytes) {
+    LrContents out;
+    const Result<FileHeader> header = visit_sections(
+        bytes, [&](const FileHeader&, const Section& section, std::span<const std::byte> contents) -> std::string {
+            constexpr const char* kNames[] = {"",   "lean",       "attribute", "vertex_order", "corner_order",
+                                              "lr", "lr_compact", "packed"};
+            if (section.kind == 0 || section.kind >= std::size(kNames))
+                return fmt::format("unknown kind {}", section.kind);
+            LrSection& listed = out.sections.emplace_back();
+            listed.kind = kNames[section.kind];
+            listed.bytes = section.size;
+            if (section.kind != kAttribute) return {};
+            if (section.name_length > contents.size()) return "attribute of the wrong size";
+            listed.name.assign(reinterpret_cast<const char*>(contents.data()), section.name_length);
+            listed.type = static_cast<ComponentType>(std::min(section.layout & 0xffU, 7U));
+            listed.components = static_cast<std::uint8_t>(section.layout >> 8 & 0xff);
+            return {};
+        });
+    if (!header) return header.error();
+    out.version = header->version;
+    out.vertices = header->vertices;
+    out.input_triangles = header->input_triangles;
+    out.bytes = bytes.size();
+    return out;
+}
+
+Result<ConnectivityWords> connectivity_in(std::span<const std::byte> bytes) {
+    ConnectivityWords out{Connectivity::lean, {}};
+    bool found = false;
+    const Result<FileHeader> header = visit_sections(
+        bytes, [&](const FileHeader&, const Section& section, std::span<const std::byte> contents) -> std::string {
+            switch (section.kind) {
+                case kLean:
+                case kLr:
+                case kLrCompact:
+                case kPacked:
+                    break;
+                default:
+                    return {};
+            }
+            if (found) return "occurs twice";
+            if (contents.size() % 4 != 0) return "no whole number of words";
+            found = true;
+            out.format = Connectivity{section.kind};
+            out.words = {reinterpret_cast<const std::uint32_t*>(contents.data()), contents.size() / 4};
+            return {};
+        });
+    if (!header) return header.error();
+    if (!found) return malformed("no connectivity");
+    return out;
+}
+
+Mesh decode_lr(const LrFile& file) {
+    Mesh mesh;
+    Result<Decoded> decoded = decode(file, false);
+    if (!decoded) return mesh;
+    mesh.indices = std::move(decoded->indices);
+    if (decoded->copy.empty()) {
+        mesh.vertex_count = file.vertex_count;
+        mesh.attributes = file.attributes;
+        return mesh;
+    }
+    // The vertices that are no copies close ranks. No triangle names a copy.
+    std::vector<std::uint32_t> kept(file.vertex_count);
+    std::iota(kept.begin(), kept.end(), 0U);
+    remove_copies(*decoded, kept);
+    mesh.vertex_count = static_cast<std::uint32_t>(kept.size());
+    mesh.attributes = permute_attributes(file.attributes, kept);
+    std::vector<std::uint32_t> number(file.vertex_count, 0);
+    for (std::uint32_t i = 0; i < kept.size(); ++i) number[kept[i]] = i;
+    for (std::uint32_t& v : mesh.indices) v = number[v];
+    return mesh;
+}
+
+Result<Mesh> decode_lr_original_order(const LrFile& file) {
+    Mesh stream = decode_lr(file);
+    if (file.vertex_order.size() != file.vertex_count || file.corner_order.size() != stream.triangle_count()) {
+        return Error{ErrorCode::invalid_argument,
+                     "the file does not keep the input's order (encode --keep-order does)"};
+    }
+    const Result<Decoded> decoded = decode(file, false);
+    if (!decoded) return decoded.error();
+    std::vector<std::uint32_t> vertex_order = file.vertex_order;
+    remove_copies(*decoded, vertex_order);
+    // Where each new vertex was, inverted: permute_attributes wants the new number of each old vertex.
+    std::vector<std::uint32_t> number(vertex_order.size());
+    for (std::uint32_t i = 0; i < number.size(); ++i) number[vertex_order[i]] = i;
+    Mesh mesh;
+    mesh.vertex_count = stream.vertex_count;
+    mesh.attributes = permute_attributes(stream.attributes, number);
+    std::vector<std::uint32_t> by_input(file.corner_order.size());
+    std::iota(by_input.begin(), by_input.end(), 0U);
+    std::sort(by_input.begin(), by_input.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return file.corner_order[a] < file.corner_order[b]; });
+    mesh.indices.resize(stream.indices.size());
+    std::uint32_t* out = mesh.indices.data();
+    for (const std::uint32_t i : by_input) {
+        const std::uint32_t first = file.corner_order[i] % 3;
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            out[(first + k) % 3] = vertex_order[stream.indices[std::size_t{3} * i + k]];
+        }
+        out += 3;
+    }
+    return mesh;
+}
+
+}  // namespace lr

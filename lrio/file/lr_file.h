@@ -1,0 +1,87 @@
+#pragma once
+// The .lr file: a mesh's connectivity as a lean or packed stream or as LR tables, the vertex attributes in ring order
+// and, on request, the way back to the input's order. docs/lr-file.md has the format to the byte.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lrcore/base/result.h"
+#include "lrio/mesh/mesh.h"
+
+namespace lr {
+
+/// What a file's connectivity is. The values are the section kinds.
+enum class Connectivity : std::uint32_t { lean = 1, lr = 5, lr_compact = 6, packed = 7 };
+
+struct LrFile {
+    std::uint32_t vertex_count = 0;  ///< of the connectivity: with LR tables, copies of non-manifold vertices included
+    std::uint32_t input_triangles = 0;  ///< of the mesh it was made from, degenerate ones included
+    Connectivity format = Connectivity::lean;
+    std::vector<std::uint32_t> words;         ///< the connectivity stream, its header included
+    std::vector<Attribute> attributes;        ///< in ring order, one value for each of vertex_count
+    std::vector<std::uint32_t> vertex_order;  ///< vertex_order[new] = old; empty unless kept
+    /// corner_order[i] = 3 * triangle + place: the corner of the input's index list that the i-th triangle decoded
+    /// begins with; empty unless kept.
+    std::vector<std::uint32_t> corner_order;
+};
+
+/// An encoded mesh. vertex_order is a permutation, but for the old numbers that copies repeat; triangle_order is in the
+/// order in which the words decode, UINT32_MAX for degenerate slots. The way back to the input's order is kept only
+/// with `keep_order`: 4 bytes a vertex and 4 a triangle. Cost: O(T), or O(T) more with `keep_order`.
+LrFile make_lr_file(const Mesh& mesh, Connectivity format, std::vector<std::uint32_t> words,
+                    std::vector<std::uint32_t> vertex_order, std::vector<std::uint32_t> triangle_order,
+                    bool keep_order);
+
+/// The file's bytes. Cost: O(file).
+std::vector<std::byte> serialize_lr(const LrFile& file);
+
+/// Reads and checks everything: structure, checksums, stream, permutations, finite positions.
+/// Errors: malformed, too_large. Untrusted input: safe. Cost: O(file).
+Result<LrFile> parse_lr(std::span<const std::byte> bytes);
+
+Result<void> write_lr(const LrFile& file, const std::filesystem::path& path);
+Result<LrFile> read_lr(const std::filesystem::path& path);
+
+/// Do the bytes begin as an .lr file does?
+bool is_lr(std::span<const std::byte> bytes);
+
+/// The sections of a file, in their order.
+struct LrSection {
+    std::string kind;  ///< "lean", "packed", "lr", "lr_compact", "attribute", "vertex_order" or "corner_order"
+    std::string name;  ///< of an attribute
+    ComponentType type = ComponentType::f32;
+    std::uint8_t components = 0;
+    std::uint64_t bytes = 0;  ///< of its contents
+};
+struct LrContents {
+    std::uint32_t version = 0;
+    std::uint32_t vertices = 0;         ///< copies included
+    std::uint32_t input_triangles = 0;  ///< degenerate ones included
+    std::uint64_t bytes = 0;            ///< of the whole file
+    std::vector<LrSection> sections;
+};
+/// Checks the structure of the file, not what is in the sections. Errors: malformed. Untrusted input: safe.
+Result<LrContents> list_lr(std::span<const std::byte> bytes);
+
+/// The connectivity's words where they lie in a file's bytes (memory-mapped, at an address that is a multiple of 8),
+/// for view_lean, view_packed, view_lr or view_compact_lr. Checks the structure of the file, not the words: validate
+/// them, or trust them. Errors: malformed. Untrusted input: safe. Cost: O(1) in the size of the mesh.
+struct ConnectivityWords {
+    Connectivity format;
+    std::span<const std::uint32_t> words;
+};
+Result<ConnectivityWords> connectivity_in(std::span<const std::byte> bytes);
+
+/// Decodes to a mesh in stream order, copies of non-manifold vertices left out again. `file` is valid (parse_lr checked
+/// it, or make_lr_file made it).
+Mesh decode_lr(const LrFile& file);
+
+/// Decodes to the input's index list: its order of vertices and of triangles, each beginning with its first corner.
+/// Degenerate triangles are missing. Errors: invalid_argument if the order was not kept.
+Result<Mesh> decode_lr_original_order(const LrFile& file);
+
+}  // namespace lr

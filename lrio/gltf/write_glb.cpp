@@ -1,0 +1,185 @@
+// GLB: one mesh, one primitive, one node.
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "lrio/mesh/write_formats.h"
+
+namespace lr::detail {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int gltf_unsigned_short = 5123;
+constexpr int gltf_unsigned_int = 5125;
+constexpr int vertex_target = 34962;
+constexpr int index_target = 34963;
+
+int gltf_component_type(ComponentType type) {
+    switch (type) {
+        case ComponentType::i8:
+            return 5120;
+        case ComponentType::u8:
+            return 5121;
+        case ComponentType::i16:
+            return 5122;
+        case ComponentType::u16:
+            return gltf_unsigned_short;
+        default:
+            return 5126;  // 32-bit integers and doubles have become floats
+    }
+}
+
+/// glTF's name for that many components.
+const char* gltf_type(const Attribute& attribute) {
+    switch (attribute.components) {
+        case 1:
+            return "SCALAR";
+        case 2:
+            return "VEC2";
+        case 3:
+            return "VEC3";
+        case 4:
+            return "VEC4";
+        case 9:
+            return attribute.type == ComponentType::f32 ? "MAT3" : nullptr;  // columns of small integers are padded
+        case 16:
+            return attribute.type == ComponentType::f32 ? "MAT4" : nullptr;
+        default:
+            return nullptr;
+    }
+}
+
+class GlbMaker {
+  public:
+    explicit GlbMaker(const Mesh& mesh) : mesh_(mesh) {}
+
+    Result<void> make(Bytes& head, Bytes& body, WriteNotes& notes) {
+        Result<GltfAttributes> fitted = fit_to_gltf(mesh_, notes);
+        if (!fitted) return fitted.error();
+        quantized_ = fitted->quantized;
+        find_bounds(fitted->attributes.front());
+        nlohmann::json attributes = nlohmann::json::object();
+        for (const Attribute& attribute : fitted->attributes) {
+            const std::size_t accessor = add_attribute(attribute, attributes.empty());
+            attributes.emplace(attribute.name, accessor);
+        }
+        const std::size_t indices = add_indices();
+        const std::string json = document(attributes, indices);
+        const std::uint64_t total = 12 + 8 + json.size() + 8 + bin_.size();
+        if (total > std::numeric_limits<std::uint32_t>::max()) {
+            return Error{ErrorCode::too_large, "the mesh does not fit into GLB's 4 GiB"};
+        }
+        append(head, "glTF");
+        add_word(head, 2);
+        add_word(head, static_cast<std::uint32_t>(total));
+        add_word(head, static_cast<std::uint32_t>(json.size()));
+        append(head, "JSON");
+        append(head, json);
+        add_word(head, static_cast<std::uint32_t>(bin_.size()));
+        append(head, std::string_view("BIN\0", 4));
+        body = std::move(bin_);
+        return {};
+    }
+
+  private:
+    static void add_word(Bytes& to, std::uint32_t word) { append(to, std::as_bytes(std::span(&word, 1))); }
+
+    /// glTF wants the bounds of POSITION.
+    void find_bounds(const Attribute& position) {
+        low_.assign(3, std::numeric_limits<float>::infinity());
+        high_.assign(3, -std::numeric_limits<float>::infinity());
+        for (std::size_t i = 0; i < std::size_t{mesh_.vertex_count} * 3; ++i) {
+            float value = 0;
+            std::memcpy(&value, position.data.data() + i * sizeof(float), sizeof(float));
+            low_[i % 3] = std::min(low_[i % 3], value);
+            high_[i % 3] = std::max(high_[i % 3], value);
+        }
+    }
+
+    std::size_t add_attribute(const Attribute& attribute, bool is_position) {
+        const std::size_t stride = attribute.stride();
+        const std::size_t padded = (stride + 3) / 4 * 4;  // glTF aligns every vertex to 4 bytes
+        const std::size_t offset = bin_.size();
+        bin_.resize(offset + padded * mesh_.vertex_count);
+        for (std::size_t v = 0; v < mesh_.vertex_count; ++v) {
+            std::memcpy(bin_.data() + offset + v * padded, attribute.data.data() + v * stride, stride);
+        }
+        Json view{{"buffer", 0}, {"byteOffset", offset}, {"byteLength", padded * mesh_.vertex_count}};
+        // 252 is the longest stride that may be written down, and no attribute here has more than 64 bytes
+        view["byteStride"] = padded;
+        view["target"] = vertex_target;
+        views_.push_back(std::move(view));
+        Json accessor{{"bufferView", views_.size() - 1},
+                      {"componentType", gltf_component_type(attribute.type)},
+                      {"count", mesh_.vertex_count},
+                      {"type", gltf_type(attribute)}};
+        if (attribute.normalized && attribute.type != ComponentType::f32) accessor["normalized"] = true;
+        if (is_position) {
+            accessor["min"] = low_;
+            accessor["max"] = high_;
+        }
+        accessors_.push_back(std::move(accessor));
+        return accessors_.size() - 1;
+    }
+
+    std::size_t add_indices() {
+        const bool narrow = mesh_.vertex_count <= 65535;  // the highest value restarts strips and is not an index
+        const std::size_t size = narrow ? sizeof(std::uint16_t) : sizeof(std::uint32_t);
+        const std::size_t offset = bin_.size();
+        const std::size_t length = mesh_.indices.size() * size;
+        bin_.resize(offset + (length + 3) / 4 * 4);
+        if (narrow) {
+            for (std::size_t i = 0; i < mesh_.indices.size(); ++i) {
+                const auto index = static_cast<std::uint16_t>(mesh_.indices[i]);
+                std::memcpy(bin_.data() + offset + i * size, &index, size);
+            }
+        } else {
+            std::memcpy(bin_.data() + offset, mesh_.indices.data(), length);
+        }
+        views_.push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", length}, {"target", index_target}});
+        accessors_.push_back({{"bufferView", views_.size() - 1},
+                              {"componentType", narrow ? gltf_unsigned_short : gltf_unsigned_int},
+                              {"count", mesh_.indices.size()},
+                              {"type", "SCALAR"}});
+        return accessors_.size() - 1;
+    }
+
+    std::string document(const nlohmann::json& attributes, std::size_t indices) const {
+        Json out{{"asset", {{"version", "2.0"}, {"generator", "LacedRing"}}}};
+        if (quantized_) {
+            out["extensionsUsed"] = Json::array({"KHR_mesh_quantization"});
+            out["extensionsRequired"] = Json::array({"KHR_mesh_quantization"});
+        }
+        out["scene"] = 0;
+        out["scenes"] = Json::array({Json{{"nodes", Json::array({0})}}});
+        out["nodes"] = Json::array({Json{{"mesh", 0}}});
+        const Json primitive{{"attributes", attributes}, {"indices", indices}, {"mode", 4}};
+        out["meshes"] = Json::array({Json{{"primitives", Json::array({primitive})}}});
+        out["accessors"] = accessors_;
+        out["bufferViews"] = views_;
+        out["buffers"] = Json::array({Json{{"byteLength", bin_.size()}}});
+        std::string text = out.dump();
+        text.resize((text.size() + 3) / 4 * 4, ' ');
+        return text;
+    }
+
+    const Mesh& mesh_;
+    Bytes bin_;
+    Json views_ = Json::array();
+    Json accessors_ = Json::array();
+    std::vector<float> low_;
+    std::vector<float> high_;
+    bool quantized_ = false;
+};
+
+}  // namespace
+
+Result<void> make_glb(const Mesh& mesh, Bytes& head, Bytes& body, WriteNotes& notes) {
+    return GlbMaker(mesh).make(head, body, notes);
+}
+
+}  // namespace lr::detail

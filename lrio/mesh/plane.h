@@ -1,0 +1,21 @@
+#pragma once
+// Points of a plane, and exact orientations. Internal to lrio.
+
+namespace lr::detail {
+
+struct PlanePoint {
+    double u = 0;
+    double v = 0;
+
+    bool operator==(const PlanePoint&) const = default;
+};
+
+/// The sign of a difference of two products of differences is right if it is larger than this times the products.
+/// Shewchuk's (3 + 16 e) e for e = 2^-53.
+inline constexpr double kSureOrientation = 3.3306690738754716e-16;
+
+/// The sign of twice the area of the triangle: 1 counterclockwise, 0 collinear, -1 clockwise. Exact for coordinates
+/// that are 0 or have magnitudes from 2^-400 to 2^400.
+int orientation(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c);
+
+}  // namespace lr::detail

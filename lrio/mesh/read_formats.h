@@ -1,0 +1,118 @@
+#pragma once
+// The readers behind read_mesh and what they share. Internal to lrio.
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "lrcore/base/result.h"
+#include "lrio/mesh/mesh.h"
+#include "lrio/mesh/read.h"
+
+namespace lr::detail {
+
+static_assert(std::endian::native == std::endian::little, "Mesh holds little-endian bits, and so do most files");
+
+/// One call of read_mesh: what the readers are told, and what they tell beside the mesh.
+struct Reading {
+    const ReadOptions& options;
+    ReadReport& report;
+    std::filesystem::path name;  ///< of the file; empty: it has none
+
+    void leave_out(std::uint64_t count, std::string_view one, std::string_view many);
+    /// Is there room for a mesh of so many vertices of `stride` bytes and so many triangles, read from `file_bytes`?
+    /// Doubles: a hostile file's counts overflow integers. Errors: memory_limit.
+    Result<void> check_memory(double vertices, double stride, double triangles, double file_bytes) const;
+};
+
+// Each takes the whole file, never throws on its content but for memory, and returns a mesh that `checked` accepted.
+Result<Mesh> read_gltf(std::span<const std::byte> bytes, Reading& reading);
+Result<Mesh> read_obj(std::string_view text, Reading& reading);
+Result<Mesh> read_off(std::string_view text, Reading& reading);
+Result<Mesh> read_ply(std::string_view bytes, Reading& reading);
+Result<Mesh> read_stl(std::string_view bytes, Reading& reading);
+
+/// Does the text start, after white space and # comments, with one of OFF's header words?
+bool looks_like_off(std::string_view text);
+
+/// Is it binary STL by its length, or else ascii STL by its first word? A byte-order mark may come before the word.
+bool looks_like_stl(std::string_view bytes);
+
+/// What every reader ends with: some triangles, and finite positions (attributes[0]).
+Result<Mesh> checked(Mesh mesh);
+
+/// The index of a vertex is below this, so that UINT32_MAX is free to mean "none".
+inline constexpr std::uint64_t max_vertices = UINT32_MAX - 1;
+
+template <class... Args>
+Error malformed(fmt::format_string<Args...> format, Args&&... args) {
+    return {ErrorCode::malformed, fmt::format(format, std::forward<Args>(args)...)};
+}
+
+template <class... Args>
+Error unsupported(fmt::format_string<Args...> format, Args&&... args) {
+    return {ErrorCode::unsupported, fmt::format(format, std::forward<Args>(args)...)};
+}
+
+inline Error too_many_vertices() {
+    return {ErrorCode::too_large, "has more than 2^32 - 2 vertices"};
+}
+
+/// A piece of the file for an error message: short, on one line, printable.
+std::string shown(std::string_view text);
+
+/// The first 8 names, shown, with commas between them, and how many more there are.
+std::string shown_names(std::span<const std::string> names);
+
+/// A vertex attribute of floats.
+Attribute float_attribute(std::string name, std::uint8_t components, std::span<const float> values);
+
+/// Splits a polygon, given corner by corner, into a fan around its first corner: emit(a, b, c) for each triangle. Fewer
+/// than 3 corners give nothing.
+template <class Corner>
+class Fan {
+  public:
+    template <class Emit>
+    void add(const Corner& corner, const Emit& emit) {
+        if (count_ >= 2) emit(first_, previous_, corner);
+        if (count_ == 0) first_ = corner;
+        previous_ = corner;
+        ++count_;
+    }
+
+  private:
+    Corner first_{};
+    Corner previous_{};
+    std::size_t count_ = 0;
+};
+
+/// Splits a strip, given vertex by vertex, into triangles: every second one is turned round, as OpenGL and glTF have
+/// it.
+class Strip {
+  public:
+    void add(std::uint32_t vertex, std::vector<std::uint32_t>& indices) {
+        if (count_ >= 2) {
+            const bool odd = (count_ & 1U) != 0;
+            indices.insert(indices.end(), {before_, odd ? vertex : previous_, odd ? previous_ : vertex});
+        }
+        before_ = previous_;
+        previous_ = vertex;
+        ++count_;
+    }
+    void restart() { count_ = 0; }
+
+  private:
+    std::uint32_t before_ = 0;
+    std::uint32_t previous_ = 0;
+    std::size_t count_ = 0;
+};
+
+}  // namespace lr::detail

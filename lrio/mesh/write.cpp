@@ -1,0 +1,85 @@
+#include "lrio/mesh/write.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+
+#include "lrio/file/file.h"
+#include "lrio/mesh/write_formats.h"
+
+namespace lr {
+namespace {
+
+/// What the writers rely on: see the invariant of Mesh.
+Result<void> check(const Mesh& mesh) {
+    const auto refuse = [](std::string why) {
+        return Error{ErrorCode::invalid_argument, "the mesh " + std::move(why)};
+    };
+    if (mesh.attributes.empty() || mesh.attributes.front().name != "POSITION") return refuse("has no positions");
+    const Attribute& position = mesh.attributes.front();
+    if (position.components != 3 || (position.type != ComponentType::f32 && position.type != ComponentType::f64)) {
+        return refuse("has positions that are not 3 floats");
+    }
+    for (const Attribute& attribute : mesh.attributes) {
+        if (attribute.data.size() != attribute.stride() * mesh.vertex_count) {
+            return refuse("has attributes of a wrong size");
+        }
+    }
+    const bool in_range = std::all_of(mesh.indices.begin(), mesh.indices.end(),
+                                      [&mesh](std::uint32_t v) { return v < mesh.vertex_count; });
+    if (mesh.indices.size() % 3 != 0 || !in_range) return refuse("has indices out of range");
+    // No reader takes a mesh without triangles, so that none is written.
+    if (mesh.indices.empty()) return Error{ErrorCode::unsupported, "the mesh has no triangles"};
+    return {};
+}
+
+struct File {
+    detail::Bytes head, body;
+};
+
+Result<File> make_file(const Mesh& mesh, MeshFormat format, WriteNotes* notes) {
+    if (auto good = check(mesh); !good) return good.error();
+    WriteNotes unwanted;
+    WriteNotes& told = notes != nullptr ? *notes : unwanted;
+    File file;
+    switch (format) {
+        case MeshFormat::gltf:
+            if (auto made = detail::make_glb(mesh, file.head, file.body, told); !made) return made.error();
+            return file;
+        case MeshFormat::ply:
+            detail::make_ply(mesh, file.head, file.body);
+            return file;
+        case MeshFormat::obj:
+            detail::make_obj(mesh, file.body, told);
+            return file;
+        default:
+            return Error{ErrorCode::invalid_argument, "meshes are written as .glb, .ply or .obj"};
+    }
+}
+
+}  // namespace
+
+MeshFormat writable_format(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (extension == ".glb") return MeshFormat::gltf;
+    if (extension == ".ply") return MeshFormat::ply;
+    if (extension == ".obj") return MeshFormat::obj;
+    return MeshFormat::any;
+}
+
+Result<void> write_mesh(const Mesh& mesh, const std::filesystem::path& path, WriteNotes* notes) {
+    const Result<File> file = make_file(mesh, writable_format(path), notes);
+    if (!file) return file.error();
+    const std::span<const std::byte> parts[] = {file->head, file->body};
+    return write_file(path, parts);
+}
+
+Result<void> write_mesh(const Mesh& mesh, MeshFormat format, int descriptor, WriteNotes* notes) {
+    const Result<File> file = make_file(mesh, format, notes);
+    if (!file) return file.error();
+    const std::span<const std::byte> parts[] = {file->head, file->body};
+    return write_descriptor(descriptor, parts);
+}
+
+}  // namespace lr

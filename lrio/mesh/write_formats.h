@@ -1,0 +1,60 @@
+#pragma once
+// The writers behind write_mesh: each makes the whole file in memory. Internal to lrio.
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "lrcore/base/result.h"
+#include "lrio/mesh/mesh.h"
+#include "lrio/mesh/write.h"
+
+namespace lr::detail {
+
+using Bytes = std::vector<std::byte>;
+
+inline void append(Bytes& to, std::span<const std::byte> bytes) {
+    to.insert(to.end(), bytes.begin(), bytes.end());
+}
+inline void append(Bytes& to, std::string_view text) {
+    append(to, std::as_bytes(std::span(text.data(), text.size())));
+}
+
+/// Gives each name that is asked for once more a number behind it.
+class UniqueNames {
+  public:
+    std::string take(const std::string& wanted) {
+        if (used_.insert(wanted).second) return wanted;
+        std::uint64_t& number = next_.try_emplace(wanted, 2).first->second;
+        while (true) {  // each turn passes a name that is in use, or ends: linear in all names
+            std::string name = fmt::format("{}_{}", wanted, number++);
+            if (used_.insert(name).second) return name;
+        }
+    }
+
+  private:
+    std::unordered_set<std::string> used_;
+    std::unordered_map<std::string, std::uint64_t> next_;
+};
+
+/// The mesh's attributes as glTF can hold them.
+struct GltfAttributes {
+    std::vector<Attribute> attributes;  ///< names are unique UTF-8; types are those that glTF allows them
+    bool quantized = false;             ///< some need KHR_mesh_quantization
+};
+/// Errors: invalid_argument (a position that is not finite as a float).
+Result<GltfAttributes> fit_to_gltf(const Mesh& mesh, WriteNotes& notes);
+
+// The file is `head` and then `body`.
+Result<void> make_glb(const Mesh& mesh, Bytes& head, Bytes& body, WriteNotes& notes);
+void make_ply(const Mesh& mesh, Bytes& head, Bytes& body);
+void make_obj(const Mesh& mesh, Bytes& body, WriteNotes& notes);
+
+}  // namespace lr::detail

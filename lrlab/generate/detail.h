@@ -1,0 +1,132 @@
+#pragma once
+// What the generators share. Private to lrlab/generate.
+
+#include <cstddef>
+#include <cstdint>
+
+#include "lrcore/base/result.h"
+#include "lrio/mesh/mesh.h"
+
+namespace lr::detail {
+
+/// Vertices that a mesh of ours may have: the lean stream numbers no more.
+constexpr std::uint64_t kMostVertices = std::uint64_t{1} << 29;
+
+/// Splitmix64's finaliser: a good hash of one word.
+constexpr std::uint64_t mix(std::uint64_t x) {
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
+    return x ^ (x >> 31);
+}
+
+/// Splitmix64. The standard's engines would do, but not its distributions: they differ between libraries.
+class Random {
+  public:
+    explicit Random(std::uint64_t seed) : state_(mix(seed + 0x9e3779b97f4a7c15ULL)) {}
+    std::uint64_t next() { return mix(state_ += 0x9e3779b97f4a7c15ULL); }
+    /// In [0, n), n in [1, 2^32]. The bias of at most n / 2^32 does not matter here.
+    std::uint32_t below(std::uint64_t n) { return static_cast<std::uint32_t>(((next() >> 32) * n) >> 32); }
+    /// In [low, high].
+    std::uint32_t between(std::uint32_t low, std::uint32_t high) { return low + below(std::uint64_t{high} - low + 1); }
+    /// In [-1, 1), a multiple of 2^-23.
+    double signed_unit() { return static_cast<double>(next() >> 40) * (1.0 / 8388608.0) - 1.0; }
+
+  private:
+    std::uint64_t state_;
+};
+
+struct Point {
+    double x = 0;
+    double y = 0;
+    double z = 0;
+};
+
+/// Cosine and sine of k/n of a full turn; n >= 1, k < 2^60. Exact at multiples of a quarter turn.
+struct Turn {
+    double cos = 1;
+    double sin = 0;
+};
+Turn turn(std::uint64_t k, std::uint64_t n);
+
+/// Smooth random function of space, in [-1, 1], features of size 1; |coordinates| < 2^31.
+double noise(Point p, std::uint64_t seed);
+
+/// Several octaves of noise: `octaves` terms, each of twice the frequency and half the height of the one before.
+double fractal_noise(Point p, int octaves, std::uint64_t seed);
+
+/// A mesh with positions under construction.
+class Builder {
+  public:
+    void reserve(std::uint64_t vertices, std::uint64_t triangles);
+    /// The caller sees to it that there are at most kMostVertices.
+    std::uint32_t vertex(Point p);
+    void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        const std::uint32_t abc[3] = {a, b, c};
+        mesh_.indices.insert(mesh_.indices.end(), abc, abc + 3);
+    }
+    /// Two triangles of the quad a, b, c, d; the diagonal is ac, or bd if `other`.
+    void quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d, bool other = false) {
+        if (other) {
+            triangle(a, b, d);
+            triangle(b, c, d);
+        } else {
+            triangle(a, b, c);
+            triangle(a, c, d);
+        }
+    }
+    std::uint32_t vertices() const { return mesh_.vertex_count; }
+    std::uint64_t triangles() const { return mesh_.indices.size() / 3; }
+    Mesh& mesh() { return mesh_; }
+    /// The mesh, POSITION in place.
+    Mesh finish();
+
+  private:
+    Mesh mesh_;
+    std::vector<std::byte> positions_;
+};
+
+/// True if a mesh of `made` triangles may stand for one of `wanted`: at most 2 % or 64 over.
+constexpr bool within_limit(std::uint64_t made, std::uint64_t wanted) {
+    return made <= wanted + (wanted / 50 > 64 ? wanted / 50 : 64);
+}
+
+/// |made - wanted| relative to wanted: what the searches for grid sizes minimise.
+constexpr double misfit(std::uint64_t made, std::uint64_t wanted) {
+    const std::uint64_t difference = made > wanted ? made - wanted : wanted - made;
+    return static_cast<double>(difference) / static_cast<double>(wanted);
+}
+
+/// Rounded down.
+std::uint64_t square_root(std::uint64_t n);
+
+Error too_many_generated();
+
+/// One corner-opposite table's worth of sphere: rings of latitude of mesh sizes m*min(i, f, 2f+e-i), 0 <= i <= 2f+e,
+/// that is m sectors, caps of f rings and a band of e rows (m = 5, e = f: the subdivided icosahedron).
+struct SphereShape {
+    std::uint64_t sectors = 5;
+    std::uint64_t cap = 1;
+    std::uint64_t band = 0;
+
+    std::uint64_t rows() const { return 2 * cap + band; }
+    std::uint64_t ring_size(std::uint64_t i) const {
+        const std::uint64_t j = i < rows() - i ? i : rows() - i;
+        return sectors * (j < cap ? j : cap);
+    }
+    std::uint64_t triangles() const { return 2 * sectors * cap * (cap + band); }
+    std::uint64_t vertices() const { return triangles() / 2 + 2; }
+};
+SphereShape sphere_shape(std::uint64_t triangles);
+/// Unit sphere, facing outwards, rings from the north pole to the south.
+Builder build_sphere(const SphereShape& shape);
+
+Result<Mesh> make_sphere(std::uint64_t triangles, std::uint64_t seed);
+Result<Mesh> make_torus(std::uint64_t triangles, std::uint64_t seed);
+Result<Mesh> make_genus(std::uint64_t triangles, std::uint64_t seed);
+Result<Mesh> make_terrain(std::uint64_t triangles, std::uint64_t seed);
+Result<Mesh> make_blob(std::uint64_t triangles, std::uint64_t seed);
+Result<Mesh> make_parts(std::uint64_t triangles, std::uint64_t seed);
+Result<Mesh> make_moebius(std::uint64_t triangles, std::uint64_t seed);
+Result<Mesh> make_soup(std::uint64_t triangles, std::uint64_t seed);
+
+}  // namespace lr::detail

@@ -1,0 +1,114 @@
+#include "lrlab/rivals/codecs.h"
+
+#include <fmt/format.h>
+#include <meshoptimizer.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lrlab/rivals/limit.h"
+
+namespace lr {
+namespace {
+
+CodedIndices encode(std::vector<std::uint32_t> ordered, std::uint32_t vertex_count) {
+    CodedIndices out;
+    std::vector<std::uint32_t> number(vertex_count);
+    const std::size_t used =
+        meshopt_optimizeVertexFetchRemap(number.data(), ordered.data(), ordered.size(), vertex_count);
+    std::uint32_t behind = static_cast<std::uint32_t>(used);
+    out.order.resize(vertex_count);
+    for (std::uint32_t v = 0; v < vertex_count; ++v) {
+        if (number[v] == UINT32_MAX) number[v] = behind++;  // of no triangle
+        out.order[number[v]] = v;
+    }
+    for (std::uint32_t& v : ordered) v = number[v];
+    out.bytes.resize(meshopt_encodeIndexBufferBound(ordered.size(), vertex_count));
+    out.bytes.resize(meshopt_encodeIndexBuffer(out.bytes.data(), out.bytes.size(), ordered.data(), ordered.size()));
+    out.indices.resize(ordered.size());
+    if (!decode_meshopt_indices(out.bytes, out.indices)) out.indices.clear();
+    return out;
+}
+
+/// Scale that keeps squared areas within the range of floats: 1, or a power of two, which rounds nothing.
+float down_scale(std::span<const float> positions) {
+    constexpr float kLarge = 0x1p30F;
+    float largest = 0;
+    for (const float x : positions)
+        largest = std::max(largest, std::min(std::abs(x), std::numeric_limits<float>::max()));
+    return largest > kLarge ? std::ldexp(1.0F, -std::ilogb(largest)) : 1.0F;
+}
+
+}  // namespace
+
+Result<std::vector<std::uint32_t>> best_cache_order(std::span<const std::uint32_t> indices,
+                                                    std::uint32_t vertex_count) {
+    if (const Result<void> good = check_valences(indices, vertex_count); !good) return good.error();
+    std::vector<std::uint32_t> ordered(indices.size());
+    if (!indices.empty()) {
+        meshopt_optimizeVertexCache(ordered.data(), indices.data(), indices.size(), vertex_count);
+    }
+    return ordered;
+}
+
+bool decode_meshopt_indices(std::span<const std::uint8_t> bytes, std::span<std::uint32_t> indices) {
+    return meshopt_decodeIndexBuffer(indices.data(), indices.size(), bytes.data(), bytes.size()) == 0;
+}
+
+Result<CodedIndices> encode_meshopt_indices(std::span<const std::uint32_t> indices, std::uint32_t vertex_count) {
+    if (indices.empty()) return encode({}, vertex_count);
+    Result<std::vector<std::uint32_t>> best = best_cache_order(indices, vertex_count);
+    if (!best) return best.error();
+    CodedIndices cache = encode(std::move(*best), vertex_count);
+    std::vector<std::uint32_t> ordered(indices.size());
+    meshopt_optimizeVertexCacheStrip(ordered.data(), indices.data(), indices.size(), vertex_count);
+    CodedIndices strip = encode(std::move(ordered), vertex_count);
+    return strip.bytes.size() < cache.bytes.size() ? strip : cache;
+}
+
+Result<Meshlets> make_meshlets(std::span<const std::uint32_t> indices, std::span<const float> positions) {
+    constexpr std::size_t kVertices = 64, kTriangles = 124;
+    Meshlets out;
+    if (indices.empty()) return out;
+    const auto vertex_count = static_cast<std::uint32_t>(positions.size() / 3);
+    if (const Result<void> good = check_valences(indices, vertex_count); !good) return good.error();
+    std::vector<float> scaled;
+    if (const float scale = down_scale(positions); scale != 1) {
+        constexpr float kMost = std::numeric_limits<float>::max();  // positions given as doubles may round to infinity
+        scaled.reserve(positions.size());
+        for (const float x : positions) scaled.push_back(std::clamp(x, -kMost, kMost) * scale);
+        positions = scaled;
+    }
+    if (const Result<void> good = check_places(indices, positions); !good) return good.error();
+    const std::size_t most = meshopt_buildMeshletsBound(indices.size(), kVertices, kTriangles);
+    std::vector<meshopt_Meshlet> meshlets(most);
+    std::vector<unsigned int> vertices(most * kVertices);
+    std::vector<unsigned char> corners(most * kTriangles * 3);
+    meshlets.resize(meshopt_buildMeshlets(meshlets.data(), vertices.data(), corners.data(), indices.data(),
+                                          indices.size(), positions.data(), positions.size() / 3, 3 * sizeof(float),
+                                          kVertices, kTriangles, 0));
+    for (const meshopt_Meshlet& m : meshlets) {
+        out.bytes +=
+            sizeof m + sizeof(std::uint32_t) * m.vertex_count + (std::size_t{3} * m.triangle_count + 3) / 4 * 4;
+        for (unsigned i = 0; i < 3 * m.triangle_count; ++i) {
+            out.indices.push_back(vertices[m.vertex_offset + corners[m.triangle_offset + i]]);
+        }
+    }
+    if (out.indices.size() != indices.size()) {
+        return Error{ErrorCode::unsupported, fmt::format("meshoptimizer gives back {} of {} triangles",
+                                                         out.indices.size() / 3, indices.size() / 3)};
+    }
+    return out;
+}
+
+std::size_t deflated_size(std::span<const std::byte> bytes) {
+    uLongf size = compressBound(static_cast<uLong>(bytes.size()));
+    std::vector<Bytef> out(size);
+    const int done = compress2(out.data(), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+                               static_cast<uLong>(bytes.size()), Z_BEST_COMPRESSION);
+    return done == Z_OK ? size : bytes.size();
+}
+
+}  // namespace lr

@@ -1,0 +1,309 @@
+// A triangle and a vertex that owns it are told by a byte of the triangle: which of its corners is at the vertex, and
+// on which side of that corner the vertex owns a second triangle. So every step below is a few look-ups beside a
+// corner.
+
+#include "lrlab/rivals/squad_match.h"
+
+#include <utility>
+
+#include "lrcore/base/bits.h"
+
+namespace lr {
+namespace {
+
+// What is known of a triangle, in a byte.
+constexpr std::uint8_t kOwner = 3;      // which of its corners is at the vertex that owns it, or
+constexpr std::uint8_t kFree = 3;       // no vertex owns it
+constexpr std::uint8_t kPairSwing = 4;  // its vertex also owns the triangle of that corner's swing
+constexpr std::uint8_t kPairBack = 8;   // its vertex also owns the one before
+constexpr std::uint8_t kPaired = kPairSwing | kPairBack;
+constexpr std::uint8_t kSeen = 16;   // the walk has been there
+constexpr std::uint8_t kExtra = 32;  // free, and in a record
+
+class Matcher {
+  public:
+    explicit Matcher(const CornerTable& table)
+        : table_(table), state_(table.triangle_count(), kFree), known_(table.vertex_count) {}
+
+    SquadMatching match(bool renumber, std::uint32_t reach) {
+        walk();
+        for (const CornerId seed : seeds_) own_one(seed);
+        pair();
+        for (std::uint32_t t = 0; t < table_.triangle_count(); ++t) {
+            if (!free({3 * t}) && (state_[t] & kPaired) == 0) extend(owner_corner({3 * t}), reach);
+        }
+        add_matched(renumber);
+        add_extras(renumber);
+        return std::move(out_);
+    }
+
+  private:
+    /// One vertex on an alternating path.
+    struct Step {
+        CornerId kept;   // a corner at the vertex, in a triangle that it owns or, extending a quad, keeps
+        CornerId taken;  // a triangle that the vertex gives up: the corner at the vertex of the step before
+        std::size_t before;
+    };
+
+    std::uint8_t& state(CornerId c) { return state_[triangle(c).value]; }
+    bool free(CornerId c) const { return (state_[triangle(c).value] & kOwner) == kFree; }
+    /// The corner at the vertex that owns c's triangle.
+    CornerId owner_corner(CornerId c) const { return corner(triangle(c), state_[triangle(c).value] & kOwner); }
+    void own(CornerId c) { state(c) = static_cast<std::uint8_t>((state(c) & ~kOwner) | c.value % 3); }
+    CornerId swing_back(CornerId c) const {
+        const CornerId r = table_.right(c);
+        return r.is_null() ? r : previous(r);
+    }
+    /// visit(corner) around c's vertex until it returns true.
+    template <class Visit>
+    void around(CornerId first, Visit visit) const {
+        CornerId c = first;
+        do {
+            if (visit(c)) return;
+            c = table_.swing(c);
+        } while (!c.is_null() && c != first);
+        if (!c.is_null()) return;
+        for (c = swing_back(first); !c.is_null(); c = swing_back(c)) {
+            if (visit(c)) return;
+        }
+    }
+
+    void walk() {
+        order_.reserve(table_.vertex_count);
+        for (std::uint32_t t = 0; t < table_.triangle_count(); ++t) {
+            if ((state_[t] & kSeen) != 0 || table_.degenerate({t})) continue;
+            const CornerId seed = corner(TriangleId{t}, 0);
+            for (const CornerId c : {next(seed), previous(seed)}) {  // the two that no triangle is entered for
+                known_.set(table_.vertex(c).value);
+                seeds_.push_back(c);
+                order_.push_back(table_.vertex(c));
+            }
+            later_.push_back(table_.opposite(seed));
+            stack_.push_back(seed);
+            while (true) {
+                if (!stack_.empty()) {
+                    enter(take(stack_));
+                } else if (!later_.empty()) {
+                    enter(take(later_));
+                } else {
+                    break;
+                }
+            }
+        }
+    }
+    static CornerId take(std::vector<CornerId>& stack) {
+        const CornerId c = stack.back();
+        stack.pop_back();
+        return c;
+    }
+    /// Enters a triangle across the edge that faces c, on the way right first. Beyond a triangle whose tip is known,
+    /// the walk goes on only where it would end otherwise: the vertices there are the rings' isolated ones.
+    void enter(CornerId c) {
+        if (c.is_null() || (state(c) & kSeen) != 0) return;
+        state(c) |= kSeen;
+        const VertexId tip = table_.vertex(c);
+        const bool is_new = !known_.test(tip.value);
+        if (is_new) {
+            known_.set(tip.value);
+            order_.push_back(tip);
+            own(c);
+        }
+        std::vector<CornerId>& stack = is_new ? stack_ : later_;
+        stack.push_back(table_.left(c));
+        stack.push_back(table_.right(c));
+    }
+
+    /// Gives the vertex of `seed` a triangle: a free one, best with a free one beside it; else one whose owner finds
+    /// another, by breadth-first search over the owners. Finds one if there is one.
+    void own_one(CornerId seed) {
+        std::vector<Step>& steps = steps_;
+        steps.assign(1, {seed, null_corner, 0});
+        known_.clear(table_.vertex(seed).value);
+        for (std::size_t i = 0; i < steps.size(); ++i) {
+            CornerId best = null_corner;
+            around(steps[i].kept, [&](CornerId c) {
+                if (!free(c)) return false;
+                const CornerId s = table_.swing(c);
+                const bool pair = !s.is_null() && free(s);
+                if (best.is_null() || pair) best = c;
+                return pair;
+            });
+            if (!best.is_null()) {
+                own(best);
+                for (; i != 0; i = steps[i].before) own(steps[i].taken);
+                break;
+            }
+            around(steps[i].kept, [&](CornerId c) {
+                const CornerId owner = owner_corner(c);
+                const std::uint32_t w = table_.vertex(owner).value;
+                if (known_.test(w)) {
+                    known_.clear(w);
+                    steps.push_back({owner, c, i});
+                }
+                return false;
+            });
+        }
+        for (const Step& step : steps) known_.set(table_.vertex(step.kept).value);
+    }
+
+    /// visit(neighbour's corner) for each neighbour that the triangle may be paired with. An owned triangle is paired
+    /// with a free one across an edge at its owner, which is an edge that does not face the owner.
+    template <class Visit>
+    void choices(TriangleId t, Visit visit) const {
+        const std::uint8_t mine = state_[t.value];
+        if ((mine & kPaired) != 0) return;
+        for (std::uint32_t i = 0; i < 3; ++i) {
+            if ((mine & kOwner) == i) continue;
+            const CornerId c = table_.opposite(corner(t, i));
+            if (c.is_null()) continue;
+            const std::uint8_t theirs = state_[triangle(c).value];
+            if ((theirs & kPaired) != 0 || ((mine & kOwner) == kFree) == ((theirs & kOwner) == kFree)) continue;
+            if ((theirs & kOwner) == c.value % 3) continue;
+            visit(c);
+        }
+    }
+    /// Pairs the triangle with its only choice, or with any; then whatever that forces.
+    void settle(TriangleId t, bool forced_only) {
+        forced_.push_back(t);
+        while (!forced_.empty()) {
+            const TriangleId a = forced_.back();
+            forced_.pop_back();
+            CornerId c = null_corner;
+            std::uint32_t count = 0;
+            choices(a, [&](CornerId x) {
+                c = x;
+                ++count;
+            });
+            if (count == 0 || (count > 1 && forced_only)) continue;
+            forced_only = true;
+            const CornerId facing = table_.opposite(c);
+            const CornerId owned = (state_[a.value] & kOwner) == kFree ? c : facing;  // of the two that face the edge
+            const CornerId at = owner_corner(owned);
+            join(at, owned == next(at) ? table_.swing(at) : swing_back(at));
+            for (const TriangleId x : {a, triangle(c)}) {
+                for (std::uint32_t i = 0; i < 3; ++i) {
+                    const CornerId o = table_.opposite(corner(x, i));
+                    if (!o.is_null() && (state(o) & kPaired) == 0) forced_.push_back(triangle(o));
+                }
+            }
+        }
+    }
+    /// Gives the triangles of a and b to their vertex; one corner is the other's swing.
+    void join(CornerId a, CornerId b) {
+        if (table_.swing(a) != b) std::swap(a, b);
+        own(a);
+        own(b);
+        state(a) = static_cast<std::uint8_t>((state(a) & ~kPaired) | kPairSwing);
+        state(b) = static_cast<std::uint8_t>((state(b) & ~kPaired) | kPairBack);
+    }
+    void pair() {
+        for (const bool forced_only : {true, false}) {
+            for (std::uint32_t t = 0; t < table_.triangle_count(); ++t) settle({t}, forced_only);
+        }
+    }
+
+    /// Gives the owner of c's triangle a second one: a neighbour of the first, taken from a vertex that keeps its other
+    /// triangle and takes a neighbour of that, and so on until one is free. Breadth first, from `reach` vertices at
+    /// most.
+    void extend(CornerId c, std::uint32_t reach) {
+        std::vector<Step>& steps = steps_;
+        steps.assign(1, {c, null_corner, 0});
+        known_.clear(table_.vertex(c).value);
+        const auto look = [&](std::size_t i, CornerId x) {
+            if (x.is_null()) return false;
+            if (free(x)) {
+                for (;; x = steps[i].taken, i = steps[i].before) {
+                    join(steps[i].kept, x);
+                    if (i == 0) return true;
+                }
+            }
+            const CornerId other = owner_corner(x);
+            const std::uint8_t s = state(x);
+            const std::uint32_t w = table_.vertex(other).value;
+            if ((s & kPaired) == 0 || !known_.test(w)) return false;
+            known_.clear(w);
+            steps.push_back({(s & kPairSwing) != 0 ? table_.swing(other) : swing_back(other), x, i});
+            return false;
+        };
+        for (std::size_t i = 0; i < steps.size() && i < reach; ++i) {
+            if (look(i, table_.swing(steps[i].kept)) || look(i, swing_back(steps[i].kept))) break;
+        }
+        for (const Step& step : steps) known_.set(table_.vertex(step.kept).value);
+    }
+
+    void add_matched(bool renumber) {
+        std::vector<CornerId> corner_of(table_.vertex_count, null_corner);
+        for (std::uint32_t t = 0; t < table_.triangle_count(); ++t) {
+            if (free({3 * t}) || (state_[t] & kPairBack) != 0) continue;
+            const CornerId c = owner_corner({3 * t});
+            corner_of[table_.vertex(c).value] = c;
+        }
+        if (!renumber) {
+            order_.clear();
+            for (std::uint32_t v = 0; v < table_.vertex_count; ++v) {
+                if (known_.test(v)) order_.push_back({v});
+            }
+        }
+        out_.records.reserve(order_.size());
+        for (const VertexId v : order_) {
+            const CornerId c = corner_of[v.value];
+            if (c.is_null()) {
+                out_.unmatched.push_back(v);
+            } else {
+                out_.records.push_back({c, (state(c) & kPaired) != 0});
+            }
+        }
+        out_.matched = static_cast<std::uint32_t>(out_.records.size());
+    }
+
+    /// Renumbered, in the order in which the records before them meet them.
+    void add_extras(bool renumber) {
+        for (std::uint32_t r = 0; renumber && r < out_.matched; ++r) {
+            const auto [a, quad] = out_.records[r];
+            add_extra_around(triangle(a));
+            if (quad) add_extra_around(triangle(table_.swing(a)));
+        }
+        for (std::uint32_t t = 0; t < table_.triangle_count(); ++t) {
+            if ((state_[t] & kSeen) != 0) add_extra({t});
+        }
+    }
+    void add_extra_around(TriangleId t) {
+        for (std::uint32_t i = 0; i < 3; ++i) {
+            const CornerId o = table_.opposite(corner(t, i));
+            if (!o.is_null()) add_extra(triangle(o));
+        }
+    }
+    /// Makes a record of the triangle, and a free neighbour if there is one, if it is free itself.
+    void add_extra(TriangleId t) {
+        const auto wanted = [&](CornerId c) { return free(c) && (state(c) & kExtra) == 0; };
+        if (!wanted(corner(t, 0))) return;
+        state_[t.value] |= kExtra;
+        SquadRecord record{corner(t, 0), false};
+        for (std::uint32_t i = 0; i < 3 && !record.quad; ++i) {
+            const CornerId c = corner(t, i), o = table_.opposite(c);
+            if (o.is_null() || !wanted(o)) continue;
+            state(o) |= kExtra;
+            record = {previous(c), true};
+        }
+        out_.records.push_back(record);
+    }
+
+    const CornerTable& table_;
+    std::vector<std::uint8_t> state_;  // a byte a triangle
+    BitVector known_;                  // vertices that the walk has met; cleared for a while where a search has been
+    std::vector<VertexId> order_;      // in the order in which it met them
+    std::vector<CornerId> seeds_;      // a corner of each that it gave no triangle
+    std::vector<CornerId> stack_, later_;
+    SquadMatching out_;
+    // Workspaces.
+    std::vector<TriangleId> forced_;
+    std::vector<Step> steps_;
+};
+
+}  // namespace
+
+SquadMatching match_squad(const CornerTable& table, bool renumber, std::uint32_t reach) {
+    return Matcher(table).match(renumber, reach);
+}
+
+}  // namespace lr

@@ -1,0 +1,215 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+#include "lrcore/codec/lean/lean_stream.h"
+#include "lrcore/codec/packed/packed_stream.h"
+#include "lrcore/codec/tables/lr_encode.h"
+#include "lrio/file/lr_file.h"
+#include "tests/support/capture.h"
+#include "tests/support/meshes.h"
+
+using namespace lr;
+
+namespace {
+
+LrFile make(const Mesh& mesh, bool keep_order, Connectivity format = Connectivity::lean) {
+    Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
+    REQUIRE(table);
+    if (format == Connectivity::lean) {
+        LeanStream lean = encode_lean(*table, expand_rings(*table)).value();
+        return make_lr_file(mesh, format, lean.words, lean.vertex_order, lean.slot_triangle, keep_order);
+    }
+    if (format == Connectivity::packed) {
+        const Result<PackedStream> packed = encode_packed(*table, expand_rings(*table));
+        REQUIRE(packed);
+        return make_lr_file(mesh, format, packed->words, packed->vertex_order, packed->triangle_order, keep_order);
+    }
+    constexpr std::uint32_t kPeriods[] = {0, 3};
+    Result<EncodedLr> lr = format == Connectivity::lr ? encode_lr(*table, {}) : encode_compact_lr(*table, {}, kPeriods);
+    REQUIRE(lr);
+    return make_lr_file(mesh, format, lr->words, lr->vertex_order, lr->triangle_order, keep_order);
+}
+
+constexpr Connectivity kFormats[] = {Connectivity::lean, Connectivity::lr, Connectivity::lr_compact,
+                                     Connectivity::packed};
+
+/// A mesh with attributes of several types, all values telling.
+Mesh with_attributes() {
+    Mesh mesh = test::random_gluing(40, 80, 5);
+    Attribute colour{"COLOR_0", ComponentType::u8, 3, true, {}};  // three bytes: nothing is padded
+    Attribute weight{"weight", ComponentType::f64, 1, false, {}};
+    for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
+        for (std::uint32_t k = 0; k < 3; ++k) colour.data.push_back(static_cast<std::byte>(v * 3 + k));
+        const double w = 0.1 * v;
+        const auto* bytes = reinterpret_cast<const std::byte*>(&w);
+        weight.data.insert(weight.data.end(), bytes, bytes + sizeof w);
+    }
+    mesh.attributes.push_back(std::move(colour));
+    weight.v_up = true;
+    mesh.attributes.push_back(std::move(weight));
+    return mesh;
+}
+
+/// The index list without degenerate triangles.
+std::vector<std::uint32_t> indices_of_kept(const Mesh& mesh) {
+    std::vector<std::uint32_t> out;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const auto triangle = std::span(mesh.indices).subspan(i, 3);
+        if (!test::oriented_triangles(triangle).empty()) out.insert(out.end(), triangle.begin(), triangle.end());
+    }
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("lr files give back the mesh") {
+    for (const auto& [name, mesh] : test::named_meshes()) {
+        CAPTURE_COPY(name);
+        for (const Connectivity format : kFormats) {
+            CAPTURE(static_cast<int>(format));
+            const Result<LrFile> file = parse_lr(serialize_lr(make(mesh, true, format)));
+            REQUIRE_MESSAGE(file, file.error().message);
+            const Result<Mesh> original = decode_lr_original_order(*file);
+            REQUIRE(original);
+            CHECK(original->indices == indices_of_kept(mesh));
+            REQUIRE(original->attributes.size() == mesh.attributes.size());
+            for (std::size_t a = 0; a < mesh.attributes.size(); ++a) {
+                CHECK(original->attributes[a].data == mesh.attributes[a].data);
+            }
+            CHECK(decode_lr(*file).vertex_count == mesh.vertex_count);
+        }
+    }
+}
+
+TEST_CASE("attributes of every type travel bit for bit") {
+    const Mesh mesh = with_attributes();
+    const Result<LrFile> file = parse_lr(serialize_lr(make(mesh, true)));
+    REQUIRE(file);
+    const Result<Mesh> back = decode_lr_original_order(*file);
+    REQUIRE(back);
+    REQUIRE(back->attributes.size() == 3);
+    for (std::size_t a = 0; a < 3; ++a) {
+        CHECK(back->attributes[a].name == mesh.attributes[a].name);
+        CHECK(back->attributes[a].type == mesh.attributes[a].type);
+        CHECK(back->attributes[a].components == mesh.attributes[a].components);
+        CHECK(back->attributes[a].normalized == mesh.attributes[a].normalized);
+        CHECK(back->attributes[a].v_up == mesh.attributes[a].v_up);
+        CHECK(back->attributes[a].data == mesh.attributes[a].data);
+    }
+    CHECK_FALSE(decode_lr_original_order(make(mesh, false)));
+}
+
+TEST_CASE("every truncation and every flipped bit of an lr file is refused") {
+    Connectivity format = Connectivity::lean;
+    SUBCASE("lean") {}
+    SUBCASE("lr") {
+        format = Connectivity::lr;
+    }
+    SUBCASE("lr-compact") {
+        format = Connectivity::lr_compact;
+    }
+    const std::vector<std::byte> good = serialize_lr(make(with_attributes(), true, format));
+    REQUIRE(parse_lr(good));
+    const Result<ConnectivityWords> words = connectivity_in(good);
+    REQUIRE(words);
+    CHECK(words->format == format);
+    CHECK(std::ranges::equal(words->words, make(with_attributes(), true, format).words));
+    for (std::size_t size = 0; size < good.size(); ++size) {
+        const std::unique_ptr<std::byte[]> exact(new std::byte[size]);
+        std::copy_n(good.begin(), size, exact.get());
+        CHECK_FALSE(parse_lr(std::span<const std::byte>(exact.get(), size)));
+    }
+    std::vector<std::byte> bad = good;
+    bad.push_back(std::byte{0});
+    CHECK_FALSE(parse_lr(bad));
+    for (std::size_t i = 0; i < good.size(); ++i) {
+        bad = good;
+        bad[i] ^= static_cast<std::byte>(1U << (i % 8));
+        CAPTURE(i);
+        CHECK_FALSE(parse_lr(bad));
+    }
+}
+
+// The bytes in hexadecimal. After an intended change of the format, which needs a new version number,
+// LACEDRING_WRITE_GOLDEN=1 test_core -tc='golden*' rewrites them.
+TEST_CASE("golden bytes: lr files are written as they were, and read as they were") {
+    const Mesh mesh = with_attributes();
+    const char* names[] = {"lean", "lr", "lr-compact", "packed"};
+    for (std::size_t f = 0; f < std::size(kFormats); ++f) {
+        const std::string path = std::string(GOLDEN_FOLDER) + "/file-" + names[f] + ".hex";
+        CAPTURE(path);
+        const LrFile file = make(mesh, true, kFormats[f]);
+        std::string now;
+        for (const std::byte b : serialize_lr(file)) {
+            if (!now.empty() && now.size() % 97 == 96) now += '\n';
+            now += "0123456789abcdef"[std::to_integer<unsigned>(b) >> 4U];
+            now += "0123456789abcdef"[std::to_integer<unsigned>(b) & 15U];
+        }
+        now += '\n';
+        if (std::getenv("LACEDRING_WRITE_GOLDEN") != nullptr) std::ofstream(path) << now;
+        std::ifstream in(path);
+        const std::string golden((std::istreambuf_iterator<char>(in)), {});
+        CHECK(now == golden);
+        std::vector<std::byte> bytes;
+        for (std::size_t i = 0; i + 1 < golden.size(); i += golden[i + 2] == '\n' ? 3 : 2) {
+            bytes.push_back(static_cast<std::byte>(std::stoi(golden.substr(i, 2), nullptr, 16)));
+        }
+        const Result<LrFile> read = parse_lr(bytes);
+        REQUIRE_MESSAGE(read, read.error().message);
+        const Result<Mesh> back = decode_lr_original_order(*read);
+        REQUIRE_MESSAGE(back, back.error().message);
+        CHECK(back->indices == indices_of_kept(mesh));
+        REQUIRE(back->attributes.size() == mesh.attributes.size());
+        for (std::size_t a = 0; a < mesh.attributes.size(); ++a) {
+            CHECK(back->attributes[a].name == mesh.attributes[a].name);
+            CHECK(back->attributes[a].v_up == mesh.attributes[a].v_up);
+            CHECK(back->attributes[a].data == mesh.attributes[a].data);
+        }
+    }
+}
+
+TEST_CASE("hostile lr files with matching checksums") {
+    LrFile file = make(with_attributes(), true);
+    SUBCASE("a position that is not finite") {
+        const float nan = std::numeric_limits<float>::quiet_NaN();
+        std::memcpy(file.attributes[0].data.data() + 8, &nan, sizeof nan);
+    }
+    SUBCASE("no position") {
+        file.attributes.erase(file.attributes.begin());
+    }
+    SUBCASE("an attribute too short") {
+        file.attributes[1].data.pop_back();
+    }
+    SUBCASE("a vertex twice in the order") {
+        file.vertex_order[0] = file.vertex_order[1];
+    }
+    SUBCASE("a triangle twice in the order") {
+        file.corner_order[0] = (file.corner_order[1] + 1) % 3 + file.corner_order[1] / 3 * 3;
+    }
+    SUBCASE("a triangle that the input did not have") {
+        file.corner_order[0] = 3 * file.input_triangles;
+    }
+    SUBCASE("four billion input triangles and an order that says so") {
+        file.input_triangles = UINT32_MAX;
+        file.corner_order[0] = (file.corner_order[1] + 1) % 3 + file.corner_order[1] / 3 * 3;
+    }
+    SUBCASE("more triangles than the input") {
+        file.input_triangles = 3;
+    }
+    SUBCASE("another vertex count") {
+        ++file.vertex_count;
+    }
+    SUBCASE("no stream") {
+        file.words.clear();
+    }
+    SUBCASE("another format's words") {
+        file.format = Connectivity::lr;
+    }
+    CHECK_FALSE(parse_lr(serialize_lr(file)));
+}

@@ -1,0 +1,143 @@
+// Corner table with C, winged edge and SQuad against the corner table that they were built from.
+
+#include <doctest/doctest.h>
+
+#include "lrcore/topology/split.h"
+#include "lrlab/generate/generate.h"
+#include "lrlab/rivals/corner_table_c.h"
+#include "lrlab/rivals/squad.h"
+#include "lrlab/rivals/winged_edge.h"
+#include "tests/support/capture.h"
+#include "tests/support/meshes.h"
+#include "tests/support/operator_oracle.h"
+
+using namespace lr;
+
+namespace {
+
+CornerTable pseudo_manifold(const Mesh& mesh) {
+    Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
+    REQUIRE(table);
+    split_fans(*table);
+    return std::move(*table);
+}
+
+/// The map of a structure that keeps every number.
+LrMap identity(const CornerTable& table) {
+    LrMap map;
+    for (std::uint32_t v = 0; v < table.vertex_count; ++v) map.vertex.push_back({v});
+    for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
+        map.triangle.push_back(table.degenerate({t}) ? null_triangle : TriangleId{t});
+    }
+    map.start.assign(map.triangle.size(), 0);
+    return map;
+}
+
+/// Stars and neighbours in swing order; at a border from one border neighbour to the other.
+template <class Ops>
+void check_order(const Ops& ops) {
+    for (std::uint32_t v = 0; v < ops.vertices; ++v) {
+        CAPTURE(v);
+        std::vector<CornerId> star;
+        std::vector<VertexId> neighbours, expected;
+        ops.star({v}, [&](CornerId c) { star.push_back(c); });
+        ops.neighbours({v}, [&](VertexId u) { neighbours.push_back(u); });
+        for (std::size_t i = 0; i < star.size(); ++i) {
+            expected.push_back(ops.vertex(ops.next(star[i])));
+            const CornerId after = i + 1 < star.size() ? star[i + 1] : ops.is_border({v}) ? null_corner : star[0];
+            REQUIRE(ops.swing(star[i]) == after);
+        }
+        if (star.empty()) continue;
+        if (ops.is_border({v})) {
+            REQUIRE(ops.swing_back(star[0]).is_null());
+            expected.push_back(ops.vertex(ops.previous(star.back())));
+        } else {
+            REQUIRE(star[0] == ops.corner(VertexId{v}));
+        }
+        REQUIRE(neighbours == expected);
+    }
+}
+
+struct Counts {
+    std::uint32_t triangles = 0, used_vertices = 0;
+};
+Counts count(const CornerTable& table) {
+    Counts counts;
+    std::vector<bool> used(table.vertex_count, false);
+    for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
+        if (table.degenerate({t})) continue;
+        ++counts.triangles;
+        for (std::uint32_t i = 0; i < 3; ++i) used[table.vertex(corner(TriangleId{t}, i)).value] = true;
+    }
+    for (const bool u : used) counts.used_vertices += std::uint32_t{u};
+    return counts;
+}
+
+Squad check_squad(const CornerTable& table, const SquadOptions& options) {
+    LrMap map;
+    Result<Squad> squad = build_squad(table, options, &map);
+    REQUIRE(squad);
+    const SquadView view = squad->view();
+    const SquadStatistics& s = squad->statistics;
+    const Counts counts = count(table);
+    const std::uint32_t records = s.quads + s.singles + s.extra_quads + s.extra_singles;
+    CHECK(squad->matched == s.quads + s.singles);
+    CHECK(squad->matched + s.unmatched == counts.used_vertices);
+    CHECK(records + s.quads + s.extra_quads == counts.triangles);
+    CHECK(view.references() == std::size_t{4} * records + s.unmatched);
+    CHECK(view.triangle_numbers() == 2 * records);
+    test::check_operators(table, view, map);
+    check_order(view);
+    return std::move(*squad);
+}
+
+void check_rivals(const Mesh& mesh) {
+    const CornerTable table = pseudo_manifold(mesh);
+    const CornerTableC with_c = build_corner_table_c(table);
+    CHECK(with_c.view().references() == std::size_t{6} * table.triangle_count() + table.vertex_count);
+    test::check_operators(table, with_c.view(), identity(table), 3);
+    check_order(with_c.view());
+    const WingedEdge winged = build_winged_edge(table);
+    CHECK(winged.view().references() == std::size_t{9} * table.triangle_count() + table.vertex_count);
+    test::check_operators(table, winged.view(), identity(table), 3);
+    check_order(winged.view());
+    const Squad squad = check_squad(table, {});
+    const Squad greedy = check_squad(table, {.renumber = false, .reach = 0});
+    CHECK(squad.view().references() <= greedy.view().references());
+}
+
+}  // namespace
+
+TEST_CASE("corner table with C, winged edge and SQuad equal the corner table on named meshes") {
+    for (const auto& [name, mesh] : test::named_meshes()) {
+        CAPTURE_COPY(name);
+        check_rivals(mesh);
+    }
+}
+
+TEST_CASE("corner table with C, winged edge and SQuad equal the corner table on random soups") {
+    for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+        CAPTURE(seed);
+        check_rivals(test::random_soup(4 + static_cast<std::uint32_t>(seed % 29),
+                                       1 + static_cast<std::uint32_t>(seed % 83), seed));
+        check_rivals(test::random_gluing(10 + static_cast<std::uint32_t>(seed % 50), 150, seed));
+    }
+}
+
+TEST_CASE("SQuad's bytes") {
+    const auto references = [](const Mesh& mesh, const SquadOptions& options = {}) {
+        return check_squad(pseudo_manifold(mesh), options).view().references();
+    };
+    CHECK(references(test::make_mesh(std::vector<std::uint32_t>{}, 3)) == 0);
+    CHECK(references(test::make_mesh({0, 1, 2}, 3)) == 4 + 2);               // two vertices without a record
+    CHECK(references(test::make_mesh({0, 1, 2, 2, 1, 3}, 4)) == 2 * 4 + 2);  // each triangle has a vertex
+    CHECK(references(test::make_mesh({0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2}, 4)) == 4 * 4);  // a tetrahedron: all single
+    for (const char* const kind : {"sphere", "torus", "genus", "blob"}) {
+        CAPTURE(kind);
+        const Result<Mesh> mesh = generate(kind, 20000);
+        REQUIRE(mesh);
+        const auto triangles = static_cast<double>(mesh->triangle_count());
+        CHECK(static_cast<double>(references(*mesh)) < 2.1 * triangles);
+        CHECK(static_cast<double>(references(*mesh, {.reach = 0})) < 2.25 * triangles);
+    }
+}

@@ -1,0 +1,23 @@
+#pragma once
+// A corner table that must be built.
+
+#include <doctest/doctest.h>
+
+#include <utility>
+#include <vector>
+
+#include "lrcore/topology/corner_table.h"
+#include "lrio/mesh/mesh.h"
+
+namespace lr::test {
+
+inline CornerTable build(const std::vector<std::uint32_t>& indices, std::uint32_t vertex_count) {
+    Result<CornerTable> table = build_corner_table(indices, vertex_count);
+    REQUIRE(table);
+    return std::move(*table);
+}
+inline CornerTable build(const Mesh& mesh) {
+    return build(mesh.indices, mesh.vertex_count);
+}
+
+}  // namespace lr::test
