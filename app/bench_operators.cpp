@@ -9,6 +9,7 @@
 
 #include "app/operator_kernels.h"
 #include "app/progress.h"
+#include "lrcore/codec/tables/lr_encode.h"
 #include "lrcore/codec/tables/operators.h"
 #include "lrcore/codec/tables/search.h"
 #include "lrcore/topology/split.h"

@@ -13,6 +13,7 @@
 #include "app/print.h"
 #include "app/progress.h"
 #include "app/resident_visits.h"
+#include "lrcore/codec/tables/lr_encode.h"
 #include "lrcore/codec/tables/lr_stream.h"
 #include "lrcore/codec/tables/operators.h"
 #include "lrcore/codec/tables/search.h"

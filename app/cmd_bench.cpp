@@ -15,7 +15,9 @@
 #include "app/measure.h"
 #include "app/option_rules.h"
 #include "app/progress.h"
+#include "lrcore/codec/lean/lean_encode.h"
 #include "lrcore/codec/lean/lean_stream.h"
+#include "lrcore/codec/packed/packed_encode.h"
 #include "lrcore/codec/packed/packed_stream.h"
 #include "lrcore/codec/tables/compact_lr.h"
 #include "lrcore/ring/optimize.h"
@@ -27,6 +29,7 @@
 #ifdef LACEDRING_GPU
 #include "app/bench_gpu.h"
 #include "app/gpu_options.h"
+#include "lrcore/codec/tables/lr_encode.h"
 #endif
 
 namespace lr::app {

@@ -8,8 +8,8 @@
 #include "app/commands.h"
 #include "app/option_rules.h"
 #include "app/output.h"
-#include "lrcore/codec/lean/lean_stream.h"
-#include "lrcore/codec/packed/packed_stream.h"
+#include "lrcore/codec/lean/lean_encode.h"
+#include "lrcore/codec/packed/packed_encode.h"
 #include "lrcore/codec/tables/lr_encode.h"
 #include "lrio/file/lr_file.h"
 

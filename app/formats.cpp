@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "app/format_rivals.h"
+#include "lrcore/codec/lean/lean_encode.h"
+#include "lrcore/codec/packed/packed_encode.h"
 #include "lrcore/codec/packed/packed_stream.h"
 #include "lrcore/codec/tables/lr_encode.h"
 #include "lrlab/paper/offsets.h"

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "app/command.h"
-#include "lrcore/codec/lean/lean_stream.h"
-#include "lrcore/codec/packed/packed_stream.h"
+#include "lrcore/codec/lean/lean_encode.h"
+#include "lrcore/codec/packed/packed_encode.h"
 #include "lrcore/codec/tables/lr_table.h"
 #include "lrcore/topology/report.h"
 #include "lrlab/rivals/strips.h"

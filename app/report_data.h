@@ -9,6 +9,7 @@
 #include "app/format_notes.h"
 #include "app/formats.h"
 #include "app/paper_tables.h"
+#include "lrcore/codec/lean/lean_encode.h"
 
 namespace lr::app {
 

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "lrcore/codec/tables/lr_encode.h"
 #include "lrcore/codec/tables/lr_stream.h"
 #include "renderer/context.h"
 #include "renderer/surface.h"

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "lrcore/codec/lean/lean_encode.h"
+#include "lrcore/codec/packed/packed_encode.h"
 #include "renderer/context.h"
 #include "renderer/triangle_class.h"
 #include "renderer/try.h"

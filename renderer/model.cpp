@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "lrcore/codec/lean/lean_encode.h"
+#include "lrcore/codec/packed/packed_encode.h"
 #include "lrcore/ring/ring.h"
 #include "lrcore/topology/corner_table.h"
 #include "renderer/try.h"

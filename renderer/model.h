@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "lrcore/base/result.h"
-#include "lrcore/codec/lean/lean_stream.h"
-#include "lrcore/codec/packed/packed_stream.h"
+#include "lrcore/codec/lean/lean_encode.h"
+#include "lrcore/codec/packed/packed_encode.h"
 #include "lrcore/ring/optimize.h"
 #include "lrio/mesh/mesh.h"
 

@@ -9,6 +9,9 @@
 
 #include "app/formats.h"
 #include "app/view/files.h"
+#include "lrcore/codec/lean/lean_encode.h"
+#include "lrcore/codec/packed/packed_encode.h"
+#include "lrcore/codec/tables/lr_encode.h"
 #include "lrlab/rivals/strips.h"
 #include "renderer/try.h"
 

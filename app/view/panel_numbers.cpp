@@ -11,6 +11,7 @@
 #include "app/measure.h"
 #include "app/view/panels.h"
 #include "app/view/theme.h"
+#include "lrcore/codec/lean/lean_encode.h"
 
 namespace lr::view {
 namespace {

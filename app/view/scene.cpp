@@ -6,6 +6,7 @@
 #include <cstring>
 #include <utility>
 
+#include "lrcore/codec/tables/lr_encode.h"
 #include "renderer/try.h"
 #include "spirv/compose_comp.h"
 

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "app/view/uploader.h"
+#include "lrcore/codec/tables/lr_encode.h"
 #include "renderer/adjacency.h"
 #include "renderer/renderer.h"
 #include "shaders/compose_shared.h"

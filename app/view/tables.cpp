@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "app/view/document.h"
+#include "lrcore/codec/tables/lr_encode.h"
 #include "lrcore/codec/tables/lr_stream.h"
 #include "lrcore/codec/tables/operators.h"
 

@@ -14,6 +14,8 @@
 #include <exception>
 #include <string>
 
+#include "lrcore/codec/lean/lean_encode.h"
+#include "lrcore/codec/packed/packed_encode.h"
 #include "spirv/blocks_comp.h"
 #include "spirv/colour_frag.h"
 #include "spirv/expand_lean_comp.h"

@@ -7,6 +7,8 @@
 #include <string>
 #include <unordered_map>
 
+#include "lrcore/codec/lean/lean_encode.h"
+#include "lrcore/codec/packed/packed_encode.h"
 #include "lrcore/codec/tables/lr_encode.h"
 #include "lrcore/ring/expansion.h"
 #include "lrcore/ring/optimize.h"

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <string>
 
-#include "lrcore/codec/lean/lean_stream.h"
-#include "lrcore/codec/packed/packed_stream.h"
+#include "lrcore/codec/lean/lean_encode.h"
+#include "lrcore/codec/packed/packed_encode.h"
 #include "lrcore/codec/tables/lr_encode.h"
 #include "lrcore/ring/optimize.h"
 #include "lrio/file/file.h"

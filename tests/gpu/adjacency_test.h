@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 
+#include "lrcore/codec/tables/lr_encode.h"
 #include "lrcore/topology/geometry.h"
 #include "lrcore/topology/split.h"
 #include "lrio/mesh/read.h"

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <map>
 
+#include "lrcore/codec/packed/packed_encode.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/support/meshes.h"
 

@@ -20,6 +20,15 @@ run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
 run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/prefix -DCMAKE_BUILD_TYPE=Release
     -DEXAMPLE=${WORK})
 run(${CMAKE_COMMAND} --build ${WORK}/build)
+# The core alone, where no other package can be found.
+run(${CMAKE_COMMAND} -S ${SOURCE}/core -B ${WORK}/core -G Ninja -Dlacedring_DIR=${WORK}/prefix/lib/cmake/lacedring
+    -DCMAKE_BUILD_TYPE=Release -DCMAKE_FIND_USE_CMAKE_SYSTEM_PATH=OFF -DCMAKE_FIND_USE_SYSTEM_ENVIRONMENT_PATH=OFF
+    -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF)
+run(${CMAKE_COMMAND} --build ${WORK}/core)
+run(${WORK}/core/core)
+if(NOT out STREQUAL "4 triangles\n")
+    message(FATAL_ERROR "the core alone: ${out}")
+endif()
 run(${LACEDRING} generate torus -o ${WORK}/torus.ply --triangles 2000)
 run(${WORK}/build/consumer ${WORK}/torus.ply)
 if(NOT out MATCHES "^[0-9]+ slots")

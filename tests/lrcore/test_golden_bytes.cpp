@@ -11,7 +11,9 @@
 #include <fstream>
 #include <iomanip>
 
+#include "lrcore/codec/lean/lean_encode.h"
 #include "lrcore/codec/lean/lean_stream.h"
+#include "lrcore/codec/packed/packed_encode.h"
 #include "lrcore/codec/packed/packed_stream.h"
 #include "lrcore/codec/tables/lr_encode.h"
 #include "lrlab/generate/generate.h"

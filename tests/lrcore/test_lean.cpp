@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "lrcore/codec/lean/lean_encode.h"
 #include "lrcore/codec/lean/lean_format.h"
 #include "lrcore/codec/lean/lean_stream.h"
 #include "tests/support/capture.h"

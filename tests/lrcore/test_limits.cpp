@@ -3,9 +3,10 @@
 #include <doctest/doctest.h>
 #include <sys/mman.h>
 
-#include "lrcore/codec/lean/lean_stream.h"
-#include "lrcore/codec/packed/packed_stream.h"
+#include "lrcore/codec/lean/lean_encode.h"
+#include "lrcore/codec/packed/packed_encode.h"
 #include "lrcore/codec/tables/compact_lr.h"
+#include "lrcore/codec/tables/lr_encode.h"
 #include "lrcore/codec/tables/lr_table.h"
 #include "lrlab/rivals/squad.h"
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "lrcore/codec/tables/compact_lr.h"
+#include "lrcore/codec/tables/lr_encode.h"
 #include "lrcore/codec/tables/lr_stream.h"
 #include "lrcore/codec/tables/lr_table.h"
 #include "lrcore/codec/tables/operators.h"

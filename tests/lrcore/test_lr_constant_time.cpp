@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "lrcore/codec/tables/compact_lr.h"
+#include "lrcore/codec/tables/lr_encode.h"
 #include "lrcore/codec/tables/lr_table.h"
 #include "lrcore/codec/tables/operators.h"
 #include "lrcore/topology/split.h"

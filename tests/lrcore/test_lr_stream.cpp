@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "lrcore/base/crc32.h"
+#include "lrcore/codec/tables/lr_encode.h"
 #include "lrcore/codec/tables/lr_stream.h"
 #include "lrcore/codec/tables/operators.h"
 #include "lrcore/codec/tables/search.h"

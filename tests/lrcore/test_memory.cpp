@@ -7,8 +7,10 @@
 #include <new>
 
 #include "lrcore/base/crc32.h"
+#include "lrcore/codec/lean/lean_encode.h"
 #include "lrcore/codec/lean/lean_format.h"
 #include "lrcore/codec/lean/lean_stream.h"
+#include "lrcore/codec/packed/packed_encode.h"
 #include "lrcore/codec/packed/packed_format.h"
 #include "lrcore/codec/packed/packed_stream.h"
 #include "lrcore/codec/tables/lr_encode.h"

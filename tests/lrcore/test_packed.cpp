@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "lrcore/codec/packed/packed_encode.h"
 #include "lrcore/codec/packed/packed_format.h"
 #include "lrcore/codec/packed/packed_stream.h"
 #include "lrcore/codec/packed/record.h"

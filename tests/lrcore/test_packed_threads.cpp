@@ -12,6 +12,7 @@
 #include <climits>
 #include <cstdlib>
 
+#include "lrcore/codec/packed/packed_encode.h"
 #include "lrcore/codec/packed/packed_stream.h"
 #include "lrlab/generate/generate.h"
 

@@ -4,8 +4,9 @@
 #include <filesystem>
 
 #include "lrcore/base/bits.h"
+#include "lrcore/codec/lean/lean_encode.h"
 #include "lrcore/codec/lean/lean_stream.h"
-#include "lrcore/codec/tables/lr_table.h"
+#include "lrcore/codec/tables/lr_encode.h"
 #include "lrcore/ring/optimize.h"
 #include "lrcore/ring/ring_walk.h"
 #include "lrcore/topology/split.h"

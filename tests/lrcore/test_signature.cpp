@@ -5,7 +5,9 @@
 #include <array>
 
 #include "lrcore/base/signature.h"
+#include "lrcore/codec/lean/lean_encode.h"
 #include "lrcore/codec/lean/lean_stream.h"
+#include "lrcore/codec/packed/packed_encode.h"
 #include "lrcore/codec/packed/packed_stream.h"
 #include "lrcore/codec/tables/lr_encode.h"
 #include "lrio/file/lr_file.h"

@@ -7,8 +7,8 @@
 #include <iterator>
 #include <memory>
 
-#include "lrcore/codec/lean/lean_stream.h"
-#include "lrcore/codec/packed/packed_stream.h"
+#include "lrcore/codec/lean/lean_encode.h"
+#include "lrcore/codec/packed/packed_encode.h"
 #include "lrcore/codec/tables/lr_encode.h"
 #include "lrio/file/lr_file.h"
 #include "tests/support/capture.h"

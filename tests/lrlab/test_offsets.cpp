@@ -4,6 +4,7 @@
 
 #include <numeric>
 
+#include "lrcore/codec/tables/lr_encode.h"
 #include "lrcore/topology/split.h"
 #include "lrlab/generate/generate.h"
 #include "lrlab/paper/offsets.h"

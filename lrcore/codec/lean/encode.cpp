@@ -14,6 +14,7 @@
 #include "lrcore/base/bits.h"
 #include "lrcore/base/crc32.h"
 #include "lrcore/base/message.h"
+#include "lrcore/codec/lean/lean_encode.h"
 #include "lrcore/codec/lean/lean_format.h"
 #include "lrcore/codec/lean/lean_stream.h"
 #include "lrcore/ring/ring_walk.h"

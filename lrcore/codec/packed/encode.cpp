@@ -10,6 +10,7 @@
 #include "lrcore/base/message.h"
 #include "lrcore/codec/packed/bit_writer.h"
 #include "lrcore/codec/packed/corridors.h"
+#include "lrcore/codec/packed/packed_encode.h"
 #include "lrcore/codec/packed/packed_format.h"
 #include "lrcore/codec/packed/packed_stream.h"
 #include "lrcore/codec/packed/record.h"

@@ -7,6 +7,7 @@
 
 #include "lrcore/base/bits.h"
 #include "lrcore/base/message.h"
+#include "lrcore/codec/tables/lr_encode.h"
 #include "lrcore/codec/tables/lr_table.h"
 #include "lrcore/codec/tables/operators.h"
 #include "lrcore/ring/ring_walk.h"

@@ -1,5 +1,5 @@
 #pragma once
-// From a corner table to LR streams in one call, non-manifold vertices and all.
+// From a corner table to LR tables, and to LR streams in one call, non-manifold vertices and all.
 
 #include <cstdint>
 #include <span>
@@ -8,8 +8,21 @@
 #include "lrcore/base/result.h"
 #include "lrcore/codec/tables/lr_stream.h"
 #include "lrcore/ring/optimize.h"
+#include "lrcore/ring/ring.h"
+#include "lrcore/topology/corner_table.h"
 
 namespace lr {
+
+struct LrOptions {
+    bool wart_skipping = true;
+};
+
+/// Builds the tables from a pseudo-manifold corner table (split_fans) and its rings, one per shell
+/// (RingOptions::one_per_shell). Degenerate triangles take no part.
+/// Cost: O(T) time; 4 bytes a reference, and about 8 bytes a triangle while it runs. `map` may be null.
+/// Errors: too_large (2^28 vertices).
+Result<LrTable> build_lr(const CornerTable& table, const Rings& rings, const LrOptions& options = {},
+                         LrMap* map = nullptr);
 
 struct EncodedLr {
     std::vector<std::uint32_t> words;         ///< the stream (lr_stream.h)

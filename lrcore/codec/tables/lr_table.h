@@ -8,13 +8,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
-#include "lrcore/base/result.h"
+#include "lrcore/base/ids.h"
 #include "lrcore/codec/tables/lr_format.h"
-#include "lrcore/ring/ring.h"
-#include "lrcore/topology/corner_table.h"
 
 namespace lr {
 
@@ -129,16 +126,5 @@ struct LrMap {
     std::vector<std::uint32_t>
         start;  ///< start[LR triangle] = 0, 1, 2: which of its corners is the LR triangle's first
 };
-
-struct LrOptions {
-    bool wart_skipping = true;
-};
-
-/// Builds the tables from a pseudo-manifold corner table (split_fans) and its rings, one per shell
-/// (RingOptions::one_per_shell). Degenerate triangles take no part.
-/// Cost: O(T) time; 4 bytes a reference, and about 8 bytes a triangle while it runs. `map` may be null.
-/// Errors: too_large (2^28 vertices).
-Result<LrTable> build_lr(const CornerTable& table, const Rings& rings, const LrOptions& options = {},
-                         LrMap* map = nullptr);
 
 }  // namespace lr

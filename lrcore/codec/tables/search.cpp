@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "lrcore/codec/tables/lr_encode.h"
+
 namespace lr {
 
 std::vector<std::uint32_t> recommended_periods(std::size_t triangles) {
