@@ -8,6 +8,8 @@
 #include "lrcore/base/result.h"
 #include "lrcore/codec/tables/compact_lr.h"
 #include "lrcore/codec/tables/lr_table.h"
+#include "lrcore/ring/ring.h"
+#include "lrcore/topology/corner_table.h"
 
 namespace lr {
 

@@ -1,0 +1,124 @@
+// The lean stream's decoder and checks are lacedring_decode.h's, in C; here are C++'s types and messages.
+
+#include "lrcore/codec/lean/lean_stream.h"
+
+#include <cassert>
+
+#define LACEDRING_DECODE_IMPLEMENTATION
+#include "lrcore/base/crc32.h"
+#include "lrcore/base/message.h"
+#include "lrcore/base/signature.h"
+#include "lrcore/codec/lean/lean_format.h"
+#include "lrcore/include/lacedring/lacedring_decode.h"
+
+namespace lr {
+namespace {
+
+static_assert(LR_LEAN_MAGIC == magic::kLean);
+static_assert(LR_LEAN_HEADER_WORDS == LACEDRING_LEAN_HEADER_WORDS);
+
+lacedring_lean as_c(const LeanView& view) {
+    return {view.payload.data(), view.vertices, view.rings2, view.rings1, view.verbatim, view.triangles};
+}
+
+LeanView from_c(const lacedring_lean& lean, std::size_t payload) {
+    return {{lean.payload, payload}, lean.vertices, lean.rings2, lean.rings1, lean.verbatim, lean.triangles};
+}
+
+/// What is wrong, in words. `words` has a header unless it is too short for one.
+std::string why(lacedring_status status, std::uint64_t where, std::span<const std::uint32_t> words) {
+    using detail::message;
+    const auto ring_vertex = [&] {
+        const std::uint32_t rings2 = words[LR_LEAN_WORD_RINGS2];
+        return message("ring vertex ", where < 2 * std::uint64_t{rings2} ? where / 2 : where - rings2, ": ");
+    };
+    const auto word = [&] { return words[LR_LEAN_HEADER_WORDS + where]; };
+    switch (status) {
+        case LACEDRING_OK:
+            return {};
+        case LACEDRING_SHORT:
+            return "shorter than its header";
+        case LACEDRING_MAGIC:
+            return wrong_magic(words, "a lean stream");
+        case LACEDRING_VERSION:
+            return message("version ", where, " is not ", LR_LEAN_VERSION);
+        case LACEDRING_VERTICES:
+            return message(words[LR_LEAN_WORD_VERTICES], " vertices");
+        case LACEDRING_RING_VERTICES:
+            return "more ring vertices than vertices";
+        case LACEDRING_SIZE:
+            return message(words.size() - LR_LEAN_HEADER_WORDS, " references, where the header says ", where);
+        case LACEDRING_SLOTS:
+            return "too many slots";
+        case LACEDRING_CHECKSUM:
+            return "checksum does not match";
+        case LACEDRING_TIP:
+            return message(ring_vertex(), "tip ", word() & LR_LEAN_TIP_MASK, " of ", words[LR_LEAN_WORD_VERTICES],
+                           " vertices");
+        case LACEDRING_OPEN_RING:
+            return message("the ring from vertex ", where, " does not close");
+        case LACEDRING_SHORT_RING:
+            return message("the ring from vertex ", where, " has fewer than three");
+        case LACEDRING_CLOSING_WORD:
+            return message(ring_vertex(), "closing word ", detail::hexadecimal(word()));
+        case LACEDRING_WORD:
+            return message(ring_vertex(), "word ", detail::hexadecimal(word()));
+        case LACEDRING_VERBATIM: {
+            const auto triangle = words.subspan(words.size() - 3 * (words[LR_LEAN_WORD_VERBATIM] - where), 3);
+            return message("verbatim triangle ", where, ": ", triangle[0], " ", triangle[1], " ", triangle[2]);
+        }
+        case LACEDRING_TRIANGLES:
+            return message(where, " triangles, where the header says ", words[LR_LEAN_WORD_TRIANGLES]);
+    }
+    return "unknown";
+}
+
+Error malformed(lacedring_status status, std::uint64_t where, std::span<const std::uint32_t> words) {
+    return {ErrorCode::malformed, "lean stream: " + why(status, where, words)};
+}
+
+}  // namespace
+
+std::size_t LeanView::bytes() const {
+    return (LR_LEAN_HEADER_WORDS + references()) * sizeof(std::uint32_t);
+}
+
+std::uint32_t lean_checksum(std::span<const std::uint32_t> words) {
+    const std::uint32_t header = crc32(std::as_bytes(words.first(LR_LEAN_WORD_CHECKSUM)));
+    return crc32(std::as_bytes(words.subspan(LR_LEAN_HEADER_WORDS)), header);
+}
+
+Result<LeanView> view_lean(std::span<const std::uint32_t> words) {
+    lacedring_lean lean;
+    std::uint64_t where = 0;
+    const lacedring_status status = lacedring_lean_open(words.data(), words.size(), &lean, &where);
+    if (status != LACEDRING_OK) return malformed(status, where, words);
+    return from_c(lean, words.size() - LR_LEAN_HEADER_WORDS);
+}
+
+Result<LeanView> validate_lean(std::span<const std::uint32_t> words) {
+    Result<LeanView> view = view_lean(words);
+    if (!view) return view;
+    // The checksum is computed here, several times as fast as by the C file's small table.
+    if (words[LR_LEAN_WORD_CHECKSUM] != lean_checksum(words)) return malformed(LACEDRING_CHECKSUM, 0, words);
+    const lacedring_lean lean = as_c(*view);
+    std::uint64_t where = 0;
+    const lacedring_status status = lacedring_lean_check(&lean, &where);
+    if (status != LACEDRING_OK) return malformed(status, where, words);
+    return view;
+}
+
+LeanTriangle decode_lean_slot(const LeanView& view, std::uint32_t slot) {
+    const lacedring_lean lean = as_c(view);
+    LeanTriangle out;
+    lacedring_lean_slot(&lean, slot, out.v);
+    return out;
+}
+
+void decode_lean(const LeanView& view, std::span<std::uint32_t> indices) {
+    assert(indices.size() == std::size_t{3} * view.slots());
+    const lacedring_lean lean = as_c(view);
+    lacedring_lean_decode(&lean, indices.data());
+}
+
+}  // namespace lr
