@@ -6,6 +6,7 @@
 
 #include "app/format_rivals.h"
 #include "lrcore/codec/lean/lean_encode.h"
+#include "lrcore/codec/lean/lean_stream.h"
 #include "lrcore/codec/packed/packed_encode.h"
 #include "lrcore/codec/packed/packed_stream.h"
 #include "lrcore/codec/tables/lr_encode.h"

@@ -4,6 +4,7 @@
 
 #include "app/paper_tables.h"
 #include "lrcore/codec/lean/lean_encode.h"
+#include "lrcore/codec/lean/lean_stream.h"
 #include "lrcore/codec/tables/lr_encode.h"
 #include "lrcore/topology/split.h"
 #include "lrlab/rivals/strips.h"

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "lrcore/codec/lean/lean_stream.h"
+#include "lrcore/codec/packed/packed_stream.h"
 #include "renderer/renderer.h"
 #include "renderer/try.h"
 

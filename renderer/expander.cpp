@@ -1,5 +1,7 @@
 #include "renderer/expander.h"
 
+#include "lrcore/codec/lean/lean_stream.h"
+#include "lrcore/codec/packed/packed_stream.h"
 #include "renderer/try.h"
 
 namespace lr::gpu {

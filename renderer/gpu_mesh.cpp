@@ -4,7 +4,9 @@
 #include <cstring>
 
 #include "lrcore/codec/lean/lean_encode.h"
+#include "lrcore/codec/lean/lean_stream.h"
 #include "lrcore/codec/packed/packed_encode.h"
+#include "lrcore/codec/packed/packed_stream.h"
 #include "renderer/context.h"
 #include "renderer/triangle_class.h"
 #include "renderer/try.h"

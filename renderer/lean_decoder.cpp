@@ -4,6 +4,7 @@
 #include <array>
 
 #include "lrcore/codec/lean/lean_format.h"
+#include "lrcore/codec/lean/lean_stream.h"
 #include "renderer/context.h"
 #include "renderer/try.h"
 #include "spirv/lean_decode_comp.h"

@@ -1,6 +1,7 @@
 #pragma once
 // The compute pass that expands a lean stream into an index buffer and draw commands. Paper: LR 2011, section 7.
 
+#include "lrcore/codec/lean/lean_stream.h"
 #include "renderer/decoder.h"
 
 namespace lr::gpu {

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "lrcore/codec/packed/packed_format.h"
+#include "lrcore/codec/packed/packed_stream.h"
 #include "lrcore/codec/packed/record.h"
 #include "renderer/context.h"
 #include "renderer/try.h"

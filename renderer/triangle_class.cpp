@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "lrcore/codec/lean/lean_format.h"
+#include "lrcore/codec/lean/lean_stream.h"
 #include "lrlab/paper/offsets.h"
 #include "shaders/shared.h"
 

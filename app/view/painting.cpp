@@ -4,6 +4,7 @@
 #include <new>
 #include <utility>
 
+#include "lrcore/codec/lean/lean_stream.h"
 #include "lrcore/ring/expansion.h"
 #include "renderer/triangle_class.h"
 

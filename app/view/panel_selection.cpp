@@ -8,6 +8,7 @@
 #include "app/view/panels.h"
 #include "app/view/theme.h"
 #include "lrcore/codec/lean/lean_stream.h"
+#include "lrcore/codec/packed/packed_stream.h"
 
 namespace lr::view {
 namespace {

@@ -6,7 +6,9 @@
 #include <functional>
 #include <memory>
 
+#include "lrcore/codec/lean/lean_stream.h"
 #include "lrcore/codec/packed/packed_format.h"
+#include "lrcore/codec/packed/packed_stream.h"
 #include "lrio/mesh/read.h"
 #include "lrio/mesh/write_formats.h"
 #include "lrlab/paper/offsets.h"

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "lrcore/codec/lean/lean_encode.h"
+#include "lrcore/codec/lean/lean_stream.h"
 #include "lrcore/codec/tables/lr_encode.h"
 #include "lrlab/paper/offsets.h"
 #include "renderer/triangle_class.h"

@@ -6,7 +6,9 @@
 #include <cstring>
 #include <map>
 
+#include "lrcore/codec/lean/lean_stream.h"
 #include "lrcore/codec/packed/packed_encode.h"
+#include "lrcore/codec/packed/packed_stream.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/support/meshes.h"
 

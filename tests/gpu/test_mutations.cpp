@@ -1,7 +1,9 @@
 // Tests of the tests: what must not pass does not pass.
 
 #include "lrcore/codec/lean/lean_format.h"
+#include "lrcore/codec/lean/lean_stream.h"
 #include "lrcore/codec/packed/packed_format.h"
+#include "lrcore/codec/packed/packed_stream.h"
 #include "lrcore/codec/packed/record.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/support/meshes.h"

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "lrcore/codec/packed/packed_encode.h"
+#include "lrcore/codec/packed/packed_stream.h"
 #include "renderer/pipeline.h"
 #include "spirv/packed_triangle_comp.h"
 #include "tests/gpu/gpu_test.h"
