@@ -20,18 +20,18 @@ using namespace lr::detail;
 namespace {
 
 /// Whole numbers, so that areas are exact.
-struct Point {
+struct GridPoint {
     std::int64_t x = 0, y = 0;
-    bool operator==(const Point&) const = default;
+    bool operator==(const GridPoint&) const = default;
 };
-using Polygon = std::vector<Point>;
+using Polygon = std::vector<GridPoint>;
 using Triangles = std::vector<std::uint32_t>;
 
 std::int64_t pick(std::mt19937& random, std::uint32_t below) {
     return static_cast<std::int64_t>(random() % below);
 }
 
-std::int64_t twice_area(const Point& a, const Point& b, const Point& c) {
+std::int64_t twice_area(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
@@ -41,17 +41,17 @@ std::int64_t twice_area(const Polygon& polygon) {
     return area;
 }
 
-int turn(const Point& a, const Point& b, const Point& c) {
+int turn(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
     const std::int64_t area = twice_area(a, b, c);
     return area > 0 ? 1 : area < 0 ? -1 : 0;
 }
 
-bool is_on(const Point& p, const Point& a, const Point& b) {
+bool is_on(const GridPoint& p, const GridPoint& a, const GridPoint& b) {
     return turn(a, b, p) == 0 && p.x >= std::min(a.x, b.x) && p.x <= std::max(a.x, b.x) && p.y >= std::min(a.y, b.y) &&
            p.y <= std::max(a.y, b.y);
 }
 
-bool segments_meet(const Point& a, const Point& b, const Point& c, const Point& d) {
+bool segments_meet(const GridPoint& a, const GridPoint& b, const GridPoint& c, const GridPoint& d) {
     if (is_on(a, c, d) || is_on(b, c, d) || is_on(c, a, b) || is_on(d, a, b)) return true;
     return turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0;
 }
@@ -60,7 +60,7 @@ bool segments_meet(const Point& a, const Point& b, const Point& c, const Point& 
 bool is_simple(const Polygon& p) {
     const std::size_t n = p.size();
     for (std::size_t i = 0; i < n; ++i) {
-        const Point &a = p[i], &b = p[(i + 1) % n], &c = p[(i + 2) % n];
+        const GridPoint &a = p[i], &b = p[(i + 1) % n], &c = p[(i + 2) % n];
         if (a == b || is_on(c, a, b) || is_on(a, b, c)) return false;
         for (std::size_t j = i + 2; j < n; ++j) {
             if ((j + 1) % n != i && segments_meet(a, b, p[j], p[(j + 1) % n])) return false;
@@ -90,7 +90,7 @@ Triangles cut_space(const std::vector<Real>& xyz, std::uint64_t* given_up = null
 template <class Real = float>
 Triangles cut(const Polygon& polygon, Real scale = 1) {
     std::vector<Real> xyz;
-    for (const Point& p : polygon) {
+    for (const GridPoint& p : polygon) {
         xyz.insert(xyz.end(), {static_cast<Real>(p.x) * scale, static_cast<Real>(p.y) * scale, Real{0}});
     }
     return cut_space(xyz);
@@ -146,8 +146,8 @@ Polygon random_simple(std::mt19937& random, std::size_t n, std::int64_t size) {
     while (true) {
         Polygon p;
         while (p.size() < n) {
-            const Point q{static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(size)),
-                          static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(size))};
+            const GridPoint q{static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(size)),
+                              static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(size))};
             if (std::find(p.begin(), p.end(), q) == p.end()) p.push_back(q);
         }
         bool crossed = true;
@@ -186,7 +186,7 @@ Polygon random_steps(std::mt19937& random, std::size_t rows) {
 
 /// A polygon with holes, each in a triangle of it and joined by an edge there and back to one of its corners.
 Polygon with_holes(std::mt19937& random, Polygon p, std::int64_t& hole_area) {
-    for (Point& q : p) q = {q.x * 64, q.y * 64};
+    for (GridPoint& q : p) q = {q.x * 64, q.y * 64};
     if (twice_area(p) < 0) std::reverse(p.begin(), p.end());
     const Triangles triangles = cut(p);
     hole_area = 0;
@@ -199,13 +199,13 @@ Polygon with_holes(std::mt19937& random, Polygon p, std::int64_t& hole_area) {
         if (random() % 2 == 0) continue;
         const std::size_t first = random() % 3;
         const std::uint32_t corner = triangles[t + first];
-        const Point a = p[corner], b = p[triangles[t + (first + 1) % 3]], c = p[triangles[t + (first + 2) % 3]];
+        const GridPoint a = p[corner], b = p[triangles[t + (first + 1) % 3]], c = p[triangles[t + (first + 2) % 3]];
         const auto inner = [&](std::int64_t u, std::int64_t v, std::int64_t w) {  // u + v + w = 64
-            return Point{(u * a.x + v * b.x + w * c.x) / 64, (u * a.y + v * b.y + w * c.y) / 64};
+            return GridPoint{(u * a.x + v * b.x + w * c.x) / 64, (u * a.y + v * b.y + w * c.y) / 64};
         };
-        const Point h[3] = {inner(44, 10, 10), inner(10, 10, 44), inner(10, 44, 10)};
-        const Point before = p[(corner + p.size() - 1) % p.size()];
-        const auto angle_of = [&](const Point& q) { return std::atan2(double(q.y - a.y), double(q.x - a.x)); };
+        const GridPoint h[3] = {inner(44, 10, 10), inner(10, 10, 44), inner(10, 44, 10)};
+        const GridPoint before = p[(corner + p.size() - 1) % p.size()];
+        const auto angle_of = [&](const GridPoint& q) { return std::atan2(double(q.y - a.y), double(q.x - a.x)); };
         double angle = angle_of(before) - angle_of(h[0]);
         if (angle < 0) angle += 6.283185307179586;
         at[corner].push_back({angle, {h[0], h[1], h[2], h[0], a}});
@@ -276,7 +276,7 @@ void check_simple(const Polygon& polygon) {
 
 double seconds_of(const Polygon& polygon, std::uint64_t& given_up) {
     std::vector<double> xyz;
-    for (const Point& p : polygon) {
+    for (const GridPoint& p : polygon) {
         xyz.insert(xyz.end(), {static_cast<double>(p.x), static_cast<double>(p.y), 0.0});
     }
     const auto start = std::chrono::steady_clock::now();
@@ -383,18 +383,18 @@ TEST_CASE("corners and edges that are there twice, and needles without width") {
         CAPTURE(seed);
         std::mt19937 random(seed);
         Polygon polygon;
-        for (const Point& p : random_simple(random, 4 + random() % 12, 1 << (4 + random() % 10))) {
-            const Point q{p.x * 8, p.y * 8};
+        for (const GridPoint& p : random_simple(random, 4 + random() % 12, 1 << (4 + random() % 10))) {
+            const GridPoint q{p.x * 8, p.y * 8};
             const std::size_t kind = random() % 6;
             for (std::size_t i = 0; i < (kind == 0 ? 3 : kind == 1 ? 2 : 1); ++i) polygon.push_back(q);
         }
         // A needle outwards or inwards on some edge: the way there and back along that edge
         const std::size_t at = random() % (polygon.size() - 1);
-        const Point a = polygon[at], b = polygon[at + 1];
+        const GridPoint a = polygon[at], b = polygon[at + 1];
         const auto between = [&](std::int64_t i) {
-            return Point{a.x + (b.x - a.x) / 8 * i, a.y + (b.y - a.y) / 8 * i};
+            return GridPoint{a.x + (b.x - a.x) / 8 * i, a.y + (b.y - a.y) / 8 * i};
         };
-        const Point extra[] = {between(6), between(2)};
+        const GridPoint extra[] = {between(6), between(2)};
         polygon.insert(polygon.begin() + static_cast<std::ptrdiff_t>(at) + 1, extra, extra + 2);
         for (std::size_t by = 0; by < polygon.size(); ++by) {
             CAPTURE(by);
@@ -412,7 +412,7 @@ TEST_CASE("any corners at all: a disc with the polygon's edges") {
         std::mt19937 random(seed);
         Polygon polygon(4 + random() % 40);
         const auto size = static_cast<std::uint32_t>(1 + random() % (seed % 2 == 0 ? 5 : 1000));
-        for (Point& p : polygon) p = {pick(random, size), pick(random, size)};
+        for (GridPoint& p : polygon) p = {pick(random, size), pick(random, size)};
         REQUIRE(is_disc(cut(polygon), polygon.size()));
     }
 }
@@ -433,7 +433,7 @@ TEST_CASE("every scale gives the same triangles, in floats and in doubles") {
         }
         // far from the origin, where products of coordinates are rounded
         Polygon far = polygon;
-        for (Point& p : far) p = {p.x + (std::int64_t{1} << 50U), p.y - (std::int64_t{1} << 51U)};
+        for (GridPoint& p : far) p = {p.x + (std::int64_t{1} << 50U), p.y - (std::int64_t{1} << 51U)};
         CHECK(cut<double>(far) == triangles);
     }
 }
@@ -461,7 +461,7 @@ TEST_CASE("a polygon of hundreds of thousands of corners takes no longer for eac
     std::mt19937 random(3);
     for (const std::size_t n : {10'000U, 160'000U}) {
         Polygon tangle(n), zigzag;
-        for (Point& p : tangle) p = {pick(random, 1'000'000), pick(random, 1'000'000)};
+        for (GridPoint& p : tangle) p = {pick(random, 1'000'000), pick(random, 1'000'000)};
         for (std::size_t i = 0; i < n; ++i) {
             zigzag.push_back({static_cast<std::int64_t>(i * (random() % 3)), static_cast<std::int64_t>(i)});
         }
