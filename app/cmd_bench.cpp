@@ -20,6 +20,7 @@
 #include "lrcore/codec/packed/packed_encode.h"
 #include "lrcore/codec/packed/packed_stream.h"
 #include "lrcore/codec/tables/compact_lr.h"
+#include "lrcore/codec/tables/lr_encode.h"
 #include "lrcore/ring/optimize.h"
 #include "lrcore/topology/split.h"
 #include "lrlab/rivals/codecs.h"
@@ -29,7 +30,6 @@
 #ifdef LACEDRING_GPU
 #include "app/bench_gpu.h"
 #include "app/gpu_options.h"
-#include "lrcore/codec/tables/lr_encode.h"
 #endif
 
 namespace lr::app {
@@ -118,7 +118,8 @@ int failed(const std::string& path, const Error& error) {
 }
 
 /// One mesh: its figures printed, or put into `meshes`. Returns an Exit.
-int bench(const BenchOptions& options, const std::string& path, Json& meshes, std::size_t& messages, RunLog& log) {
+int bench(const BenchOptions& options, const std::string& path, Json& meshes, [[maybe_unused]] std::size_t& messages,
+          RunLog& log) {
     const Result<Mesh> mesh = load({path, options.input}, log);
     if (!mesh) return fail(path, mesh.error());
     const auto build = [&] { return build_corner_table(mesh->indices, mesh->vertex_count); };

@@ -1,5 +1,5 @@
 # Installs the build into a new folder, builds the consumer against it and runs it on a mesh.
-# cmake -DBUILD=... -DSOURCE=... -DWORK=... -DLACEDRING=... -P check.cmake
+# cmake -DBUILD=... -DSOURCE=... -DWORK=... -DLACEDRING=... -DNINJA=... -DCXX=... -P check.cmake
 function(run)
     execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE out)
     if(NOT code EQUAL 0)
@@ -21,7 +21,8 @@ run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -G Ninja -DCMAKE_PREFIX_PATH=
     -DEXAMPLE=${WORK})
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 # The core alone, where no other package can be found.
-run(${CMAKE_COMMAND} -S ${SOURCE}/core -B ${WORK}/core -G Ninja -Dlacedring_DIR=${WORK}/prefix/lib/cmake/lacedring
+run(${CMAKE_COMMAND} -S ${SOURCE}/core -B ${WORK}/core -G Ninja -DCMAKE_MAKE_PROGRAM=${NINJA}
+    -DCMAKE_CXX_COMPILER=${CXX} -Dlacedring_DIR=${WORK}/prefix/lib/cmake/lacedring
     -DCMAKE_BUILD_TYPE=Release -DCMAKE_FIND_USE_CMAKE_SYSTEM_PATH=OFF -DCMAKE_FIND_USE_SYSTEM_ENVIRONMENT_PATH=OFF
     -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF)
 run(${CMAKE_COMMAND} --build ${WORK}/core)
