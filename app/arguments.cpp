@@ -9,7 +9,7 @@
 
 #include "app/print.h"
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
 /// Edit distance (insertions, deletions, substitutions). Cost: O(|a| * |b|).
@@ -84,4 +84,4 @@ std::string one_line(std::string text) {
     return text;
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

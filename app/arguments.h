@@ -8,7 +8,7 @@ namespace CLI {
 class App;
 }  // namespace CLI
 
-namespace lr::app {
+namespace lacedring::app {
 
 /// The arguments, with `--weld position` as `--weld=position`: --weld alone takes no value, so that CLI11 would take
 /// the word for a mesh.
@@ -21,4 +21,4 @@ std::string check_command(const CLI::App& program, std::vector<std::string>& wor
 /// A message of CLI11 as one line.
 std::string one_line(std::string text);
 
-}  // namespace lr::app
+}  // namespace lacedring::app

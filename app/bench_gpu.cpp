@@ -4,7 +4,7 @@
 #include "app/progress.h"
 #include "renderer/timing.h"
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
 Candidate candidate(std::string name, const gpu::Times& times) {
@@ -55,4 +55,4 @@ Result<GpuFigures> measure_gpu(const Mesh& mesh, const gpu::ContextOptions& opti
     return figures;
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

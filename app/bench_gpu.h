@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "app/measure.h"
-#include "lrcore/base/result.h"
-#include "lrio/mesh/mesh.h"
+#include "lacedring/base.hpp"
+#include "lacedring/mesh.hpp"
 #include "renderer/context.h"
 
-namespace lr::app {
+namespace lacedring::app {
 
 /// A way of drawing, beside its times: see gpu::Way.
 struct DrawCost {
@@ -28,7 +28,7 @@ struct GpuFigures {
     std::size_t validation_messages = 0;                      ///< printed on standard error
 };
 
-/// With the streams that the program recommends, optimised. Errors: no_device, and those of the renderer.
+/// With the streams that the program recommends, optimised. Errors: kNoDevice, and those of the renderer.
 Result<GpuFigures> measure_gpu(const Mesh& mesh, const gpu::ContextOptions& options, int rounds);
 
-}  // namespace lr::app
+}  // namespace lacedring::app

@@ -9,16 +9,15 @@
 
 #include "app/operator_kernels.h"
 #include "app/progress.h"
-#include "lrcore/codec/tables/lr_encode.h"
-#include "lrcore/codec/tables/operators.h"
-#include "lrcore/codec/tables/search.h"
-#include "lrcore/topology/split.h"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/operators.hpp"
+#include "lacedring/topology.hpp"
 #include "lrlab/rivals/corner_table_c.h"
 #include "lrlab/rivals/limit.h"
 #include "lrlab/rivals/squad.h"
 #include "lrlab/rivals/winged_edge.h"
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
 constexpr std::size_t kNormal = 3;  // its place among what round() measures
@@ -47,7 +46,7 @@ class Bench {
         plane_ = low + (high - low) * 0.5F;
         for (std::uint32_t t = 0; t < ops_.store().triangle_numbers(); ++t) {
             const CornerId c = ops_.corner(TriangleId{t});
-            if (!ops_.is_canonical({t})) continue;
+            if (!ops_.is_canonical(TriangleId{t})) continue;
             if (above(c) != above(ops_.next(c)) || above(c) != above(ops_.previous(c))) crossing_.push_back(c);
         }
     }
@@ -78,12 +77,12 @@ class Bench {
         });
         time("valence", vertices, [&] {
             std::uint64_t sum = 0;
-            for (std::uint32_t v = 0; v < vertices; ++v) sum += ops_.valence({v});
+            for (std::uint32_t v = 0; v < vertices; ++v) sum += ops_.valence(VertexId{v});
             return static_cast<double>(sum);
         });
         time("normal", vertices, [&] {
             std::uint64_t up = 0;
-            for (std::uint32_t v = 0; v < vertices; ++v) up += normal_z(ops_, positions_, {v}) > 0 ? 1 : 0;
+            for (std::uint32_t v = 0; v < vertices; ++v) up += normal_z(ops_, positions_, VertexId{v}) > 0 ? 1 : 0;
             return static_cast<double>(up);
         });
         std::size_t met = 0;
@@ -102,7 +101,7 @@ class Bench {
     template <class Visit>
     void each_corner(Visit visit) const {
         for (std::uint32_t t = 0; t < ops_.store().triangle_numbers(); ++t) {
-            if (!ops_.is_canonical({t})) continue;
+            if (!ops_.is_canonical(TriangleId{t})) continue;
             CornerId c = ops_.corner(TriangleId{t});
             for (int k = 0; k < 3; ++k, c = ops_.next(c)) visit(c);
         }
@@ -186,8 +185,8 @@ Result<OperatorBench> measure_operators(const Mesh& mesh, CornerTable table, int
     if (no_squad.empty()) {
         c.emplace("squad", squad.view(), squad.view().references(), triangles, positions, squad_map.vertex);
     }
-    Bench d("lr", LrOperators<LrView>(lr->view()), lr->view().references(), triangles, positions, lr_map.vertex);
-    Bench e("lr_compact", LrOperators<CompactLrView>(compact->compact.view()), compact->compact.view().bytes() / 4,
+    Bench d("lr", Operators<LrView>(lr->view()), lr->view().references(), triangles, positions, lr_map.vertex);
+    Bench e("lr_compact", Operators<CompactLrView>(compact->compact.view()), compact->compact.view().bytes() / 4,
             triangles, positions, compact->map.vertex);
     for (int round = 0; round < rounds; ++round) {
         const std::vector<double> expected = a.round();
@@ -208,4 +207,4 @@ Result<OperatorBench> measure_operators(const Mesh& mesh, CornerTable table, int
     return out;
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

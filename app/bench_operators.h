@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "app/measure.h"
-#include "lrcore/base/result.h"
-#include "lrcore/topology/corner_table.h"
-#include "lrio/mesh/mesh.h"
+#include "lacedring/base.hpp"
+#include "lacedring/mesh.hpp"
+#include "lacedring/topology.hpp"
 
-namespace lr::app {
+namespace lacedring::app {
 
 struct OperatorFigures {
     std::string structure;
@@ -37,4 +37,4 @@ std::string no_squad_operators(const CornerTable& table);
 /// own order. Errors: invalid_argument if two structures disagree on a result.
 Result<OperatorBench> measure_operators(const Mesh& mesh, CornerTable table, int rounds);
 
-}  // namespace lr::app
+}  // namespace lacedring::app

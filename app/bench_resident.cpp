@@ -13,15 +13,13 @@
 #include "app/print.h"
 #include "app/progress.h"
 #include "app/resident_visits.h"
-#include "lrcore/codec/tables/lr_encode.h"
-#include "lrcore/codec/tables/lr_stream.h"
-#include "lrcore/codec/tables/operators.h"
-#include "lrcore/codec/tables/search.h"
-#include "lrcore/topology/geometry.h"
-#include "lrcore/topology/split.h"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/operators.hpp"
+#include "lacedring/streams.hpp"
+#include "lacedring/topology.hpp"
 #include "lrlab/rivals/corner_table_c.h"
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
 constexpr int kPlanes = 8;
@@ -46,11 +44,11 @@ struct Numbering {
             if (!map.triangle[t].is_null()) place[map.triangle[t].value] = 4 * t + map.start[t];
         }
     }
-    VertexId operator()(VertexId v) const { return {vertex_to[v.value]}; }
+    VertexId operator()(VertexId v) const { return VertexId{vertex_to[v.value]}; }
     CornerId operator()(CornerId c) const {
         if (c.is_null()) return c;
         const std::uint32_t p = place[c.value / 3];
-        return {(p & ~3U) + (c.value % 3 + 3 - p % 4) % 3};
+        return CornerId{(p & ~3U) + (c.value % 3 + 3 - p % 4) % 3};
     }
 };
 struct SameNumbering {
@@ -71,7 +69,7 @@ void add_contours(const CornerTableCView& table, const std::vector<float>& posit
         const auto above = [&](CornerId c) { return positions[3 * std::size_t{table.vertex(c).value}] > plane; };
         std::vector<bool> seen(table.triangle_numbers(), false);
         for (std::uint32_t t = 0; t < table.triangle_numbers(); ++t) {
-            Contour contour{table.corner(TriangleId{t}), 0, null_corner, plane};
+            Contour contour{table.corner(TriangleId{t}), 0, kNullCorner, plane};
             if (seen[t]) continue;
             if (above(table.next(contour.seed)) == above(table.previous(contour.seed)))  // its ends: on either side
                 contour.seed = table.next(contour.seed);
@@ -109,8 +107,8 @@ Reference make_reference(const CornerTableCView& table, const std::vector<float>
         v.normal.push_back(normal_z(table, positions, at));
     }
     for (std::uint32_t u = 0; u < table.vertices; ++u) {
-        v.valence_sum += table.valence({u});
-        v.up += normal_z(table, positions, {u}) > 0 ? 1 : 0;
+        v.valence_sum += table.valence(VertexId{u});
+        v.up += normal_z(table, positions, VertexId{u}) > 0 ? 1 : 0;
     }
     add_contours(table, positions, v);
     return out;
@@ -134,8 +132,8 @@ Visits translate(const Reference& reference, const To& to) {
     }
     const CornerTableCView& table = reference.table;
     for (std::uint32_t c = 0; c < table.vertex_of.size(); ++c) {
-        v.vertex_sum += to(table.vertex({c})).value;
-        v.step_sum += summand(to(swings ? table.swing({c}) : table.opposite({c})));
+        v.vertex_sum += to(table.vertex(CornerId{c})).value;
+        v.step_sum += summand(to(swings ? table.swing(CornerId{c}) : table.opposite(CornerId{c})));
     }
     return v;
 }
@@ -211,16 +209,15 @@ Result<void> add_all(Maker& maker, const CornerTable& table, const CornerTableC&
         LrMap map;
         const Result<LrTable> lr = build_lr(table, expand_rings(table, {.one_per_shell = true}), {}, &map);
         if (!lr) return lr.error();
-        added =
-            maker.add("lr", {serialize(*lr, {})}, Numbering(map, reference), map.vertex,
-                      [](std::span<const std::uint32_t> words) { return LrOperators<LrView>(view_lr(words)->view); });
+        added = maker.add("lr", {serialize(*lr, {})}, Numbering(map, reference), map.vertex,
+                          [](std::span<const std::uint32_t> words) { return Operators<LrView>(view_lr(words)->view); });
         if (!added) return added;
     }
     const Result<CompactChoice> choice = smallest_compact_lr(table, {}, recommended_periods(table.triangle_count()));
     if (!choice) return choice.error();
     return maker.add(
         "lr_compact", {serialize(choice->compact, {})}, Numbering(choice->map, reference), choice->map.vertex,
-        [](std::span<const std::uint32_t> words) { return LrOperators<CompactLrView>(view_compact_lr(words)->view); });
+        [](std::span<const std::uint32_t> words) { return Operators<CompactLrView>(view_compact_lr(words)->view); });
 }
 
 /// 32 KiB; smaller where the corner table would be few pages, larger where it would be too many to map.
@@ -253,7 +250,7 @@ Result<CornerTable> without_degenerate(CornerTable table) {
     if (table.topology.degenerate == 0) return table;
     std::vector<std::uint32_t> indices;
     for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
-        for (std::uint32_t i = 0; i < 3 && !table.degenerate({t}); ++i) {
+        for (std::uint32_t i = 0; i < 3 && !table.degenerate(TriangleId{t}); ++i) {
             indices.push_back(table.vertex(corner(TriangleId{t}, i)).value);
         }
     }
@@ -399,4 +396,4 @@ nlohmann::ordered_json to_json(const ResidentFigures& figures) {
             {"levels", std::move(levels)}};
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "lrcore/base/result.h"
-#include "lrcore/topology/corner_table.h"
-#include "lrio/mesh/mesh.h"
+#include "lacedring/base.hpp"
+#include "lacedring/mesh.hpp"
+#include "lacedring/topology.hpp"
 
-namespace lr::app {
+namespace lacedring::app {
 
 struct ResidentOptions {
     std::string scratch;           ///< folder of the scratch files; "": the system's for temporary files
@@ -60,4 +60,4 @@ Result<ResidentFigures> measure_resident(const Mesh& mesh, CornerTable table, co
 void print_resident(const ResidentFigures& figures);
 nlohmann::ordered_json to_json(const ResidentFigures& figures);
 
-}  // namespace lr::app
+}  // namespace lacedring::app

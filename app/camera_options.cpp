@@ -6,7 +6,7 @@
 #include <charconv>
 #include <string_view>
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
 using Vector = std::array<double, 3>;
@@ -82,4 +82,4 @@ Result<gpu::CameraOptions> parse_camera(std::vector<std::string> words) {
     return camera;
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

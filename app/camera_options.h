@@ -4,18 +4,18 @@
 #include <string>
 #include <vector>
 
-#include "lrcore/base/result.h"
+#include "lacedring/base.hpp"
 #include "renderer/camera.h"
 
 namespace CLI {
 class App;
 }  // namespace CLI
 
-namespace lr::app {
+namespace lacedring::app {
 
 void add_camera(CLI::App& command, gpu::CameraOptions& camera);
 
 /// The same options as words, each with its value behind it or after a "=". Errors: invalid_argument.
 Result<gpu::CameraOptions> parse_camera(std::vector<std::string> words);
 
-}  // namespace lr::app
+}  // namespace lacedring::app

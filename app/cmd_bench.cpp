@@ -15,14 +15,10 @@
 #include "app/measure.h"
 #include "app/option_rules.h"
 #include "app/progress.h"
-#include "lrcore/codec/lean/lean_encode.h"
-#include "lrcore/codec/lean/lean_stream.h"
-#include "lrcore/codec/packed/packed_encode.h"
-#include "lrcore/codec/packed/packed_stream.h"
-#include "lrcore/codec/tables/compact_lr.h"
-#include "lrcore/codec/tables/lr_encode.h"
-#include "lrcore/ring/optimize.h"
-#include "lrcore/topology/split.h"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/ring.hpp"
+#include "lacedring/streams.hpp"
+#include "lacedring/topology.hpp"
 #include "lrlab/rivals/codecs.h"
 #include "lrlab/rivals/limit.h"
 #include "lrlab/rivals/squad.h"
@@ -30,9 +26,10 @@
 #ifdef LACEDRING_GPU
 #include "app/bench_gpu.h"
 #include "app/gpu_options.h"
+#include "renderer/device_error.h"
 #endif
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -128,7 +125,7 @@ int bench(const BenchOptions& options, const std::string& path, Json& meshes, [[
     const auto triangles = static_cast<double>(mesh->triangle_count());
     const RingOptions ring_choice{options.seeds, 1};
     const Rings rings = expand_rings(*table, ring_choice);
-    const Result<LeanStream> lean = encode_lean(*table, rings);
+    const Result<EncodedLean> lean = encode_lean(*table, rings);
     if (!lean) return fail(path, lean.error());
     const Result<LeanView> view = view_lean(lean->words);
     if (!view) return fail(path, view.error());
@@ -165,7 +162,7 @@ int bench(const BenchOptions& options, const std::string& path, Json& meshes, [[
     construct.candidates.push_back({"lr_compact", compact, {}, {}});
     construct.candidates.push_back({"squad", [&] { (void)build_squad(split); }, {}, {}});
     // The optimiser alone, at its default, and from index list to packed stream with it.
-    const OptimizeOptions optimize{.cost = packed_ring_cost};
+    const OptimizeOptions optimize{.cost = kPackedRingCost};
     const auto whole_packed = [&] {
         const Result<CornerTable> t = build();
         (void)encode_packed(*t, optimize_rings(*t, expand_rings(*t, ring_choice), optimize));
@@ -182,8 +179,8 @@ int bench(const BenchOptions& options, const std::string& path, Json& meshes, [[
     decode.candidates.push_back({"lean", [&] { decode_lean(*view, indices); }, {}, {}});
     decode.candidates.push_back({"copy", [&] { std::copy(indices.begin(), indices.end(), copy.begin()); }, {}, {}});
     const Rings optimised = optimize_rings(*table, rings, optimize);
-    const Result<PackedStream> small = encode_packed(*table, optimised),
-                               cache = encode_packed(*table, optimised, PackedProfile::cache);
+    const Result<EncodedPacked> small = encode_packed(*table, optimised),
+                                cache = encode_packed(*table, optimised, PackedProfile::cache);
     if (!small || !cache) return fail(path, small ? cache.error() : small.error());
     const Result<PackedView> packed = view_packed(small->words), packed_cache = view_packed(cache->words);
     if (!packed || !packed_cache) return fail(path, packed ? packed_cache.error() : packed.error());
@@ -231,7 +228,7 @@ int bench(const BenchOptions& options, const std::string& path, Json& meshes, [[
     std::string device, gpu_skipped = "built without Vulkan";
     Json peak = Json::object();
 #ifdef LACEDRING_GPU
-    Result<GpuFigures> gpu = Error{ErrorCode::no_device, ""};
+    Result<GpuFigures> gpu = Error{gpu::kNoDevice, ""};
     if (options.no_gpu) {
         gpu_skipped = "--no-gpu";
     } else if (gpu = measure_gpu(*mesh, options.context, options.rounds); gpu) {
@@ -243,7 +240,7 @@ int bench(const BenchOptions& options, const std::string& path, Json& meshes, [[
         peak["gpu"] = gpu->device_bytes;
         for (const auto& [name, reason] : gpu->absent) absent[name] = reason;
         messages += gpu->validation_messages;
-    } else if (gpu.error().code == ErrorCode::no_device && !asks_for_device(options.context)) {
+    } else if (gpu.error().code == gpu::kNoDevice && !asks_for_device(options.context)) {
         gpu_skipped = gpu.error().message;
     } else {
         return fail(path, gpu.error());
@@ -366,4 +363,4 @@ void add_bench(CLI::App& program, Action& action) {
     });
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

@@ -17,8 +17,9 @@
 #include "app/output.h"
 #include "app/progress.h"
 #include "renderer/compare.h"
+#include "renderer/device_error.h"
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
 struct CompareOptions {
@@ -142,7 +143,7 @@ int run_compare(const CompareOptions& options, RunLog& log) {
         all.push_back({"lean", path_name, {gpu::Source::lean, path}, {}});
         all.push_back({"packed", path_name, {gpu::Source::packed, path}, {}});
     }
-    if (all.empty()) return fail(options.input.path, Error{ErrorCode::no_device, skipped.back().reason});
+    if (all.empty()) return fail(options.input.path, Error{gpu::kNoDevice, skipped.back().reason});
     gpu::CompareOptions compare_options;
     compare_options.width = options.size.width;
     compare_options.height = options.size.height;
@@ -208,4 +209,4 @@ void add_compare(CLI::App& program, Action& action) {
     command->callback([options, &action] { action = [options](RunLog& log) { return run_compare(*options, log); }; });
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

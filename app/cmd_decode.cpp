@@ -7,10 +7,10 @@
 
 #include "app/commands.h"
 #include "app/output.h"
-#include "lrio/file/lr_file.h"
-#include "lrio/mesh/write.h"
+#include "lacedring/lr_file.hpp"
+#include "lacedring/mesh_files.hpp"
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -85,4 +85,4 @@ void add_decode(CLI::App& program, Action& action) {
     command->callback([options, &action] { action = [options](RunLog& log) { return run_decode(*options, log); }; });
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

@@ -8,15 +8,20 @@
 #include "app/commands.h"
 #include "app/option_rules.h"
 #include "app/output.h"
-#include "lrcore/codec/lean/lean_encode.h"
-#include "lrcore/codec/packed/packed_encode.h"
-#include "lrcore/codec/tables/lr_encode.h"
-#include "lrio/file/lr_file.h"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/lr_file.hpp"
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
-struct EncodeOptions {
+Format format_named(std::string_view name) {
+    for (const Format format : {Format::packed, Format::lr, Format::lr_compact}) {
+        if (name == name_of(format)) return format;
+    }
+    return Format::lean;
+}
+
+struct EncodeCommand {
     std::vector<std::string> inputs;
     InputOptions input;
     OutputOptions output;
@@ -27,37 +32,8 @@ struct EncodeOptions {
     bool keep_order = false;
 };
 
-Result<LrFile> encode(const EncodeOptions& options, const Mesh& mesh, CornerTable table) {
-    const RingOptions ring = ring_options(options.ring, mesh.triangle_count());
-    if (options.format == "lean") {
-        const Rings rings =
-            optimize_rings(table, expand_rings(table, ring), optimize_options(options.ring, lean_ring_cost));
-        Result<LeanStream> lean = encode_lean(table, rings, {.wart_skipping = !options.no_warts});
-        if (!lean) return lean.error();
-        return make_lr_file(mesh, Connectivity::lean, std::move(lean->words), std::move(lean->vertex_order),
-                            std::move(lean->slot_triangle), options.keep_order);
-    }
-    if (options.format == "packed") {
-        Result<PackedChoice> choice =
-            encode_smallest_packed(table, ring, optimize_options(options.ring, packed_ring_cost),
-                                   options.profile == "cache" ? PackedProfile::cache : PackedProfile::small);
-        if (!choice) return choice.error();
-        PackedStream& packed = choice->stream;
-        return make_lr_file(mesh, Connectivity::packed, std::move(packed.words), std::move(packed.vertex_order),
-                            std::move(packed.triangle_order), options.keep_order);
-    }
-    const bool compact = options.format == "lr-compact";
-    Result<EncodedLr> lr =
-        compact ? encode_compact_lr(std::move(table), compact_ring_options(options.ring),
-                                    ring_periods(options.ring, mesh.triangle_count()))
-                : encode_lr(std::move(table), ring, optimize_options(options.ring, lr_ring_cost), !options.no_warts);
-    if (!lr) return lr.error();
-    return make_lr_file(mesh, compact ? Connectivity::lr_compact : Connectivity::lr, std::move(lr->words),
-                        std::move(lr->vertex_order), std::move(lr->triangle_order), options.keep_order);
-}
-
 /// Returns an Exit.
-int encode_file(const EncodeOptions& options, const std::string& input, const std::filesystem::path& output,
+int encode_file(const EncodeCommand& options, const std::string& input, const std::filesystem::path& output,
                 RunLog& log) {
     const Result<Mesh> mesh = load({input, options.input}, log);
     if (!mesh) return fail(input, mesh.error());
@@ -73,22 +49,26 @@ int encode_file(const EncodeOptions& options, const std::string& input, const st
         return fail(input,
                     Error{ErrorCode::malformed, fmt::format("no triangle is left: all {} are degenerate", degenerate)});
     }
-    const Result<LrFile> file = encode(options, *mesh, std::move(*table));
-    if (!file) return fail(input, file.error());
-    const std::vector<std::byte> bytes = serialize_lr(*file);
+    EncodeOptions how = encode_options(options.ring, format_named(options.format), mesh->triangle_count());
+    how.profile = options.profile == "cache" ? PackedProfile::cache : PackedProfile::small;
+    how.wart_skipping = !options.no_warts;
+    Result<Encoded> encoded = encode(std::move(*table), how);
+    if (!encoded) return fail(input, encoded.error());
+    const LrFile file = make_lr_file(*mesh, std::move(*encoded), options.keep_order);
+    const std::vector<std::byte> bytes = serialize_lr(file);
     const std::span<const std::byte> parts[] = {bytes};
     if (const Result<void> written = write_output(output, parts); !written) {
         return fail(output_name(output), written.error());
     }
     if (degenerate > 0) log.note(input_name(input), fmt::format("{} degenerate triangles dropped", degenerate));
-    const std::size_t connectivity = 4 * file->words.size();
+    const std::size_t connectivity = 4 * file.words.size();
     log.flush();
     say("{}: {} triangles, {} bytes; connectivity {} bytes, {:.2f} bits per triangle\n", output_name(output), triangles,
         bytes.size(), connectivity, 8 * static_cast<double>(connectivity) / static_cast<double>(triangles));
     return done;
 }
 
-int run_encode(const EncodeOptions& options, RunLog& log) {
+int run_encode(const EncodeCommand& options, RunLog& log) {
     const auto outputs = output_paths(options.inputs, options.output, ".lr");
     if (!outputs) return fail(output_name(options.output.path), outputs.error());
     return for_each_input(options.inputs, log,
@@ -98,7 +78,7 @@ int run_encode(const EncodeOptions& options, RunLog& log) {
 }  // namespace
 
 void add_encode(CLI::App& program, Action& action) {
-    auto options = std::make_shared<EncodeOptions>();
+    auto options = std::make_shared<EncodeCommand>();
     CLI::App* command = program.add_subcommand("encode", "write a mesh as an .lr file");
     command->add_option("MESH", options->inputs, "mesh files; - is standard input")->required();
     add_output(*command, options->output, "the .lr file; FOLDER/ for several, - for standard output");
@@ -131,4 +111,4 @@ void add_encode(CLI::App& program, Action& action) {
     });
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

@@ -8,10 +8,10 @@
 
 #include "app/commands.h"
 #include "app/output.h"
-#include "lrio/mesh/write.h"
+#include "lacedring/mesh_files.hpp"
 #include "lrlab/generate/generate.h"
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
 struct GenerateOptions {
@@ -58,4 +58,4 @@ void add_generate(CLI::App& program, Action& action) {
     command->callback([options, &action] { action = [options](RunLog& log) { return run_generate(*options, log); }; });
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

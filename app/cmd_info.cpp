@@ -8,11 +8,9 @@
 
 #include "app/commands.h"
 #include "app/lr_contents.h"
-#include "lrcore/topology/geometry.h"
-#include "lrcore/topology/report.h"
-#include "lrcore/topology/smesh.h"
+#include "lacedring/topology.hpp"
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
 struct InfoOptions {
@@ -137,4 +135,4 @@ void add_info(CLI::App& program, Action& action) {
     command->callback([options, &action] { action = [options](RunLog& log) { return run_info(*options, log); }; });
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

@@ -15,7 +15,7 @@
 #include "renderer/png.h"
 #include "renderer/renderer.h"
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
 struct RenderOptions {
@@ -49,7 +49,7 @@ int render(const RenderOptions& options, const std::string& input, const std::fi
         return fail(output_name(output), good.error());
     }
     // Pictures show the ring as the paper makes it, unless the optimiser is asked for.
-    OptimizeOptions optimize = optimize_options(options.ring, lean_ring_cost);
+    OptimizeOptions optimize = optimize_options(options.ring, kLeanRingCost);
     if (options.ring.optimize == "auto") optimize.passes = 0;
     const gpu::ModelOptions model_options{ring_options(options.ring, mesh->triangle_count()),
                                           {.wart_skipping = !options.no_warts},
@@ -195,4 +195,4 @@ void add_render(CLI::App& program, Action& action) {
     });
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

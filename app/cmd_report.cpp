@@ -15,9 +15,10 @@
 #ifdef LACEDRING_GPU
 #include "app/camera_options.h"
 #include "app/report_pictures.h"
+#include "renderer/device_error.h"
 #endif
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
 struct ReportOptions {
@@ -64,7 +65,7 @@ Result<std::unique_ptr<gpu::Context>> open_device(const ReportOptions& options, 
         return std::unique_ptr<gpu::Context>();
     }
     Result<std::unique_ptr<gpu::Context>> context = gpu::Context::create(options.context);
-    if (!context && context.error().code == ErrorCode::no_device && !asks_for_device(options.context)) {
+    if (!context && context.error().code == gpu::kNoDevice && !asks_for_device(options.context)) {
         skipped = context.error().message;
         return std::unique_ptr<gpu::Context>();
     }
@@ -170,4 +171,4 @@ void add_report(CLI::App& program, Action& action) {
     });
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

@@ -13,7 +13,7 @@
 #include "lrcore/codec/packed/packed_format.h"
 #include "lrlab/rivals/strips.h"
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -48,7 +48,7 @@ Json sizes_to_json(const std::string& path, const Mesh& mesh, const FormatSet& s
                 {"formats", Json::object()},
                 {"absent", Json::object()}};
     const double triangles = set.triangles();
-    for (const Format& format : set.formats) {
+    for (const MeasuredFormat& format : set.formats) {
         const CacheFigures cache = analyze_fifo32(format.indices, format.vertex_count(mesh));
         Json entry = {{"bytes", format.bytes},
                       {"bits_per_triangle", 8 * static_cast<double>(format.bytes) / triangles},
@@ -99,7 +99,7 @@ void print_sizes(const std::string& path, const Mesh& mesh, const FormatSet& set
     print("  {:<20}{:>11}{:>10}{:>10}{:>10}{:>10}{:>10}{:>11}\n", "format", "bytes", "bits/tri", "refs/tri", "of u32",
           "ACMR(32)", "ATVR(32)", "deflated");
     const auto base = static_cast<double>(set.formats.front().bytes);
-    for (const Format& format : set.formats) {
+    for (const MeasuredFormat& format : set.formats) {
         const auto bytes = static_cast<double>(format.bytes);
         const CacheFigures cache = analyze_fifo32(format.indices, format.vertex_count(mesh));
         print("  {:<20}{:>11}{:>10.2f}{:>10}{:>8.1f} %{:>10.3f}{:>10.3f}{:>11}\n", format.name, format.bytes,
@@ -127,7 +127,7 @@ int add_sizes(const StatsOptions& options, const std::string& path, const Loaded
     const Mesh& mesh = loaded.mesh;
     const Result<FormatSet> set = make_formats(mesh, options.ring, options.paper);
     if (!set) return fail(path, set.error());
-    for (const Format& format : set->formats) {
+    for (const MeasuredFormat& format : set->formats) {
         if (format.invalid.empty()) continue;
         say("lacedring: {}: {}: {}\n", path, format.name, format.invalid);
         return check_failed;
@@ -225,4 +225,4 @@ void add_stats(CLI::App& program, Action& action) {
     });
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

@@ -11,7 +11,7 @@
 #include "app/commands.h"
 #include "app/formats.h"
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
 struct VerifyOptions {
@@ -41,7 +41,7 @@ std::vector<Triangle> oriented_triangles(const std::vector<std::uint32_t>& indic
 }
 
 /// Empty, or what of the mesh's vertices `order` loses. Copies of non-manifold vertices may come on top.
-std::string check_order(const Format& format, std::uint32_t vertices) {
+std::string check_order(const MeasuredFormat& format, std::uint32_t vertices) {
     std::vector<bool> seen(vertices, false);
     std::size_t again = 0;
     for (const std::uint32_t v : format.order) {
@@ -61,7 +61,7 @@ int run_verify(const VerifyOptions& options, RunLog& log) {
     const std::vector<Triangle> expected = oriented_triangles(mesh->indices, {});
     nlohmann::ordered_json formats = nlohmann::ordered_json::object();
     bool all = true;
-    for (const Format& format : set->formats) {
+    for (const MeasuredFormat& format : set->formats) {
         std::string why = format.invalid;
         if (why.empty() && !format.order.empty()) why = check_order(format, mesh->vertex_count);
         if (why.empty()) {
@@ -101,4 +101,4 @@ void add_verify(CLI::App& program, Action& action) {
     command->callback([options, &action] { action = [options](RunLog& log) { return run_verify(*options, log); }; });
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

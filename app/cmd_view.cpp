@@ -12,7 +12,7 @@
 
 #include "app/commands.h"
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
 int run(const std::vector<std::string>& arguments) {
@@ -38,4 +38,4 @@ void add_view(CLI::App& program, Action& action) {
     command->callback([command, &action] { action = [words = command->remaining()](RunLog&) { return run(words); }; });
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

@@ -10,9 +10,10 @@
 #include <system_error>
 
 #include "app/progress.h"
-#include "lrcore/codec/tables/search.h"
+#include "lacedring/lacedring.hpp"
+#include "renderer/device_error.h"
 
-namespace lr::app {
+namespace lacedring::app {
 
 std::string refuse_negative(const std::string& number) {
     return number.starts_with('-') ? number + " is negative" : std::string();
@@ -94,6 +95,19 @@ OptimizeOptions optimize_options(const RingChoice& choice, const RingCost& cost)
     return options;
 }
 
+EncodeOptions encode_options(const RingChoice& choice, Format format, std::size_t triangles) {
+    const OptimizeOptions optimize = optimize_options(choice, {});
+    const bool compact = format == Format::lr_compact;
+    EncodeOptions options;
+    options.format = format;
+    options.random_seed = choice.random_seed;
+    options.passes = optimize.passes;
+    options.progress = optimize.progress;
+    options.seeds = (compact ? compact_ring_options(choice) : ring_options(choice, triangles)).seeds;
+    options.periods = compact ? ring_periods(choice, triangles) : std::vector{ring_options(choice, triangles).k};
+    return options;
+}
+
 int for_each_input(const std::vector<std::string>& inputs, RunLog& log, const std::function<int(std::size_t)>& work) {
     int exit = done;
     for (std::size_t i = 0; i < inputs.size(); ++i) {
@@ -116,15 +130,8 @@ int fail(const std::string& file, const Error& error) {
     std::string line = fmt::format("lacedring: {}: {}", input_name(file), error.message);
     if (error.code == ErrorCode::memory_limit) line += " (--max-memory)";
     say("{}\n", printable(std::move(line), ' '));
-    switch (error.code) {
-        case ErrorCode::no_device:
-        case ErrorCode::device_failure:
-            return no_device;
-        case ErrorCode::invalid_argument:
-            return wrong_usage;
-        default:
-            return bad_input;
-    }
+    if (error.code == gpu::kNoDevice || error.code == gpu::kDeviceFailure) return no_device;
+    return error.code == ErrorCode::invalid_argument ? wrong_usage : bad_input;
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

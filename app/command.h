@@ -9,15 +9,14 @@
 #include "app/input.h"
 #include "app/print.h"
 #include "app/run_log.h"
-#include "lrcore/base/result.h"
-#include "lrcore/ring/optimize.h"
-#include "lrcore/ring/ring.h"
+#include "lacedring/base.hpp"
+#include "lacedring/ring.hpp"
 
 namespace CLI {
 class App;
 }  // namespace CLI
 
-namespace lr::app {
+namespace lacedring::app {
 
 /// Exit codes: a contract (docs/command-line.md).
 enum Exit : int { done = 0, check_failed = 1, wrong_usage = 2, bad_input = 3, no_device = 4 };
@@ -42,6 +41,9 @@ RingOptions ring_options(const RingChoice& choice, std::size_t triangles);
 RingOptions compact_ring_options(const RingChoice& choice);
 std::vector<std::uint32_t> ring_periods(const RingChoice& choice, std::size_t triangles);
 
+/// All of it for one format and a mesh of that size.
+EncodeOptions encode_options(const RingChoice& choice, Format format, std::size_t triangles);
+
 /// How rings are to be optimised for a format whose ring costs what `cost` says. Not at all where --ring or --k says
 /// which ring it is to be, unless --optimize does.
 OptimizeOptions optimize_options(const RingChoice& choice, const RingCost& cost);
@@ -56,4 +58,4 @@ void print_json(const nlohmann::ordered_json& document);
 /// Prints "lacedring: FILE: what" on standard error, one line, and returns the exit code for the error.
 int fail(const std::string& file, const Error& error);
 
-}  // namespace lr::app
+}  // namespace lacedring::app

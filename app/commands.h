@@ -3,7 +3,7 @@
 
 #include "app/command.h"
 
-namespace lr::app {
+namespace lacedring::app {
 
 void add_info(CLI::App& program, Action& action);
 void add_stats(CLI::App& program, Action& action);
@@ -35,4 +35,4 @@ inline void add_commands(CLI::App& program, Action& action) {
     add_generate(program, action);
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

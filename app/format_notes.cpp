@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace lr::app {
+namespace lacedring::app {
 
 FormatNote note_on(std::string_view format) {
     struct Named {
@@ -30,4 +30,4 @@ FormatNote note_on(std::string_view format) {
     return found == std::end(kNotes) ? FormatNote{Origin::baseline, ""} : found->note;
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

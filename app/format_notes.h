@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-namespace lr::app {
+namespace lacedring::app {
 
 /// Whose idea a format is.
 enum class Origin { ours, paper, baseline };
@@ -13,4 +13,4 @@ struct FormatNote {
 };
 FormatNote note_on(std::string_view format);
 
-}  // namespace lr::app
+}  // namespace lacedring::app

@@ -4,20 +4,20 @@
 
 #include <algorithm>
 
-#include "lrcore/topology/split.h"
+#include "lacedring/topology.hpp"
 #include "lrlab/rivals/codecs.h"
 #include "lrlab/rivals/corner_table_c.h"
 #include "lrlab/rivals/squad.h"
 #include "lrlab/rivals/strips.h"
 #include "lrlab/rivals/winged_edge.h"
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
 /// The vertex of each corner, by walking each star once; UINT32_MAX if no star contains the corner.
 std::vector<std::uint32_t> vertices_by_stars(const SquadView& view) {
     std::vector<std::uint32_t> out(std::size_t{4} * view.triangle_numbers(), UINT32_MAX);
-    for (std::uint32_t v = 0; v < view.vertices; ++v) view.star({v}, [&](CornerId c) { out[c.value] = v; });
+    for (std::uint32_t v = 0; v < view.vertices; ++v) view.star(VertexId{v}, [&](CornerId c) { out[c.value] = v; });
     return out;
 }
 
@@ -50,9 +50,9 @@ class SquadReader {
 
 /// A structure that answers the corner operators, read back triangle by triangle. Arrays alone: these have no file.
 template <class View>
-Format rival_format(const char* name, const View& view, std::vector<std::uint32_t> order,
-                    const std::vector<bool>& flipped) {
-    Format format;
+MeasuredFormat rival_format(const char* name, const View& view, std::vector<std::uint32_t> order,
+                            const std::vector<bool>& flipped) {
+    MeasuredFormat format;
     format.name = name;
     const auto vertex = [&] {
         if constexpr (std::is_same_v<View, SquadView>) {
@@ -64,7 +64,7 @@ Format rival_format(const char* name, const View& view, std::vector<std::uint32_
     format.references = view.references();
     format.bytes = 4 * format.references;
     for (std::uint32_t t = 0; t < view.triangle_numbers(); ++t) {
-        if (!view.is_canonical({t})) continue;
+        if (!view.is_canonical(TriangleId{t})) continue;
         CornerId c = view.corner(TriangleId{t});
         std::uint32_t v[3];
         for (std::uint32_t& u : v) {
@@ -102,7 +102,7 @@ void add_codecs(FormatSet& set, const Mesh& mesh, const std::vector<std::uint32_
         set.best_order = analyze_fifo32(*best, mesh.vertex_count);
     }
     if (Result<CodedIndices> coded = encode_meshopt_indices(triangles, mesh.vertex_count)) {
-        Format codec{.name = "meshopt_index_codec", .bytes = coded->bytes.size()};
+        MeasuredFormat codec{.name = "meshopt_index_codec", .bytes = coded->bytes.size()};
         codec.deflated = deflated_size(std::as_bytes(std::span(coded->bytes)));
         codec.indices = std::move(coded->indices);
         codec.order = std::move(coded->order);
@@ -123,8 +123,8 @@ void add_structures(FormatSet& set, CornerTable table, std::uint32_t mesh_vertic
     const auto original = [&](std::uint32_t v) { return v < mesh_vertices ? v : originals[v - mesh_vertices].value; };
     for (std::uint32_t v = 0; v < order.size(); ++v) order[v] = original(v);
     std::vector<bool> flipped(table.triangle_count());
-    for (std::uint32_t t = 0; t < flipped.size(); ++t) flipped[t] = table.flipped({t});
-    const auto add = [&](Format format) {
+    for (std::uint32_t t = 0; t < flipped.size(); ++t) flipped[t] = table.flipped(TriangleId{t});
+    const auto add = [&](MeasuredFormat format) {
         format.copies = originals.size();
         set.formats.push_back(std::move(format));
     };
@@ -148,4 +148,4 @@ void add_structures(FormatSet& set, CornerTable table, std::uint32_t mesh_vertic
     add(rival_format("squad", squad->view(), std::move(order), squad_flipped));
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "app/formats.h"
-#include "lrcore/topology/corner_table.h"
+#include "lacedring/topology.hpp"
 
-namespace lr::app {
+namespace lacedring::app {
 
 /// Adds triangle strips. `triangles` are those of the mesh without the degenerate ones.
 void add_strips(FormatSet& set, const Mesh& mesh, const std::vector<std::uint32_t>& triangles);
@@ -18,4 +18,4 @@ void add_codecs(FormatSet& set, const Mesh& mesh, const std::vector<std::uint32_
 /// Adds the structures with corner operators: winged edge, corner table, SQuad. `table` is that of the mesh.
 void add_structures(FormatSet& set, CornerTable table, std::uint32_t mesh_vertices);
 
-}  // namespace lr::app
+}  // namespace lacedring::app

@@ -5,15 +5,12 @@
 #include <algorithm>
 
 #include "app/format_rivals.h"
-#include "lrcore/codec/lean/lean_encode.h"
-#include "lrcore/codec/lean/lean_stream.h"
-#include "lrcore/codec/packed/packed_encode.h"
-#include "lrcore/codec/packed/packed_stream.h"
-#include "lrcore/codec/tables/lr_encode.h"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/streams.hpp"
 #include "lrlab/paper/offsets.h"
 #include "lrlab/rivals/codecs.h"
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
 std::vector<std::uint32_t> without_degenerate(const std::vector<std::uint32_t>& indices) {
@@ -26,15 +23,15 @@ std::vector<std::uint32_t> without_degenerate(const std::vector<std::uint32_t>& 
     return out;
 }
 
-void set_ring(Format& format, std::uint32_t k, std::uint32_t passes) {
+void set_ring(MeasuredFormat& format, std::uint32_t k, std::uint32_t passes) {
     format.ring = passes != 0 ? "optimized" : k != 0 ? "hybrid" : "expander";
     format.k = k;
     format.passes = passes;
 }
 
 /// The lean stream, decoded twice: as a whole, and slot by slot.
-Format lean_format(const char* name, std::uint32_t k, std::uint32_t passes, LeanStream stream) {
-    Format format;
+MeasuredFormat lean_format(const char* name, std::uint32_t k, std::uint32_t passes, EncodedLean stream) {
+    MeasuredFormat format;
     format.name = name;
     set_ring(format, k, passes);
     const Result<LeanView> view = validate_lean(stream.words);
@@ -47,7 +44,7 @@ Format lean_format(const char* name, std::uint32_t k, std::uint32_t passes, Lean
     format.indices.resize(std::size_t{3} * view->slots());
     decode_lean(*view, format.indices);
     for (std::uint32_t slot = 0; slot < view->slots(); ++slot) {
-        const LeanTriangle triangle = decode_lean_slot(*view, slot);
+        const Triangle triangle = decode_lean_slot(*view, slot);
         for (std::size_t j = 0; j < 3; ++j) {
             if (triangle.v[j] != format.indices[std::size_t{3} * slot + j]) {
                 format.invalid = fmt::format("slot {} decoded on its own differs", slot);
@@ -60,8 +57,8 @@ Format lean_format(const char* name, std::uint32_t k, std::uint32_t passes, Lean
 
 /// LR tables, as the words that a file holds, validated and decoded.
 template <class Stream>
-Format lr_format(const char* name, std::uint32_t passes, EncodedLr encoded, const Result<Stream>& stream) {
-    Format format;
+MeasuredFormat lr_format(const char* name, std::uint32_t passes, EncodedLr encoded, const Result<Stream>& stream) {
+    MeasuredFormat format;
     format.name = name;
     set_ring(format, encoded.k, passes);
     format.bytes = encoded.words.size() * sizeof(std::uint32_t);
@@ -77,8 +74,8 @@ Format lr_format(const char* name, std::uint32_t passes, EncodedLr encoded, cons
 }
 
 /// The packed stream, decoded twice: as a whole, and some triangles of each block alone.
-Format packed_format(const char* name, std::uint32_t k, std::uint32_t passes, PackedStream stream) {
-    Format format;
+MeasuredFormat packed_format(const char* name, std::uint32_t k, std::uint32_t passes, EncodedPacked stream) {
+    MeasuredFormat format;
     format.name = name;
     set_ring(format, k, passes);
     format.bytes = 4 * stream.words.size();
@@ -91,7 +88,7 @@ Format packed_format(const char* name, std::uint32_t k, std::uint32_t passes, Pa
     format.indices.resize(std::size_t{3} * view->triangles);
     decode_packed(*view, format.indices);
     for (std::uint32_t t = 0; t < view->triangles; t += 37) {
-        const PackedTriangle triangle = decode_packed_triangle(*view, t);
+        const Triangle triangle = decode_packed_triangle(*view, t);
         if (!std::equal(triangle.v, triangle.v + 3, format.indices.begin() + std::ptrdiff_t{3} * t)) {
             format.invalid = fmt::format("triangle {} decoded on its own differs", t);
         }
@@ -111,7 +108,7 @@ OptimizeOptions optimizer(const RingChoice& choice, const RingCost& cost, bool p
 
 Result<void> add_packed(FormatSet& set, const CornerTable& table, const RingChoice& choice, bool paper,
                         const FormatProgress& progress) {
-    const OptimizeOptions optimize = optimizer(choice, packed_ring_cost, paper, progress, 0.55, "packed");
+    const OptimizeOptions optimize = optimizer(choice, kPackedRingCost, paper, progress, 0.55, "packed");
     Result<PackedChoice> small = encode_smallest_packed(table, set.ring, optimize, PackedProfile::small);
     if (!small) return small.error();
     set.packed = small->stream.statistics;
@@ -148,11 +145,11 @@ Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool 
     if (stop(0.0, "strips")) return set;
     add_strips(set, mesh, triangles);
     if (stop(0.1, "lean")) return set;
-    const OptimizeOptions optimize = optimizer(choice, lean_ring_cost, paper, progress, 0.1, "lean");
+    const OptimizeOptions optimize = optimizer(choice, kLeanRingCost, paper, progress, 0.1, "lean");
     const Rings rings = optimize_rings(*table, expand_rings(*table, set.ring), optimize);
     for (const bool warts : {true, false}) {
         const char* const name = warts ? "lean" : "lean_no_warts";
-        if (Result<LeanStream> lean = encode_lean(*table, rings, {.wart_skipping = warts})) {
+        if (Result<EncodedLean> lean = encode_lean(*table, rings, {.wart_skipping = warts})) {
             if (warts) set.lean = lean->statistics;
             set.formats.push_back(lean_format(name, set.ring.k, optimize.passes, std::move(*lean)));
         } else {
@@ -160,7 +157,7 @@ Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool 
         }
     }
     if (stop(0.25, "lr")) return set;
-    const OptimizeOptions optimize_lr = optimizer(choice, lr_ring_cost, paper, progress, 0.25, "lr");
+    const OptimizeOptions optimize_lr = optimizer(choice, kLrRingCost, paper, progress, 0.25, "lr");
     if (Result<EncodedLr> lr = encode_lr(*table, set.ring, optimize_lr)) {
         set.lr = lr->statistics;
         const auto stream = validate_lr(lr->words);
@@ -188,4 +185,4 @@ Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool 
     return set;
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

@@ -9,16 +9,15 @@
 #include <vector>
 
 #include "app/command.h"
-#include "lrcore/codec/lean/lean_encode.h"
-#include "lrcore/codec/packed/packed_encode.h"
-#include "lrcore/codec/tables/lr_table.h"
-#include "lrcore/topology/report.h"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/streams.hpp"
+#include "lacedring/topology.hpp"
 #include "lrlab/rivals/strips.h"
 
-namespace lr::app {
+namespace lacedring::app {
 
 /// One format of one mesh. `indices` are the triangles as the format gives them back, in its order.
-struct Format {
+struct MeasuredFormat {
     std::string name;
     std::size_t bytes = 0;
     std::size_t references = 0;               ///< 0 where it has none
@@ -46,7 +45,7 @@ struct FormatSet {
     PackedStatistics packed;
     std::optional<CacheFigures> best_order;  ///< of meshoptimizer's vertex-cache order; empty if absent
     RingOptions ring;                        ///< lean's
-    std::vector<Format> formats;
+    std::vector<MeasuredFormat> formats;
     std::vector<std::pair<std::string, std::string>> absent;  ///< name, reason
 
     /// Divisor of bits and references per triangle: triangles without degenerate ones, at least 1.
@@ -61,4 +60,4 @@ using FormatProgress = std::function<bool(double share, const std::string& what)
 Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool paper = false,
                                const FormatProgress& progress = {});
 
-}  // namespace lr::app
+}  // namespace lacedring::app

@@ -8,7 +8,7 @@
 
 #include "app/print.h"
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
 bool parse_size(const std::string& text, PictureSize& size) {
@@ -55,4 +55,4 @@ std::size_t print_validation(gpu::Context& context) {
     return messages.size();
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

@@ -10,7 +10,7 @@ namespace CLI {
 class App;
 }  // namespace CLI
 
-namespace lr::app {
+namespace lacedring::app {
 
 /// --device, --device-memory, --validation
 void add_device_options(CLI::App& command, gpu::ContextOptions& options);
@@ -28,4 +28,4 @@ void add_size(CLI::App& command, PictureSize& size);
 /// Prints the validation messages on standard error, if there are any. Returns how many.
 std::size_t print_validation(gpu::Context& context);
 
-}  // namespace lr::app
+}  // namespace lacedring::app

@@ -5,11 +5,10 @@
 #include <CLI/CLI.hpp>
 #include <utility>
 
-#include "lrio/file/file.h"
-#include "lrio/mesh/read.h"
-#include "lrio/mesh/weld.h"
+#include "lacedring/file.hpp"
+#include "lacedring/mesh_files.hpp"
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
 constexpr std::pair<const char*, MeshFormat> kFormats[] = {{"gltf", MeshFormat::gltf}, {"glb", MeshFormat::gltf},
@@ -122,4 +121,4 @@ Result<Mesh> load(const MeshInput& input, RunLog& log) {
     return std::move(loaded->mesh);
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

@@ -8,15 +8,15 @@
 
 #include "app/mesh_input.h"
 #include "app/run_log.h"
-#include "lrcore/base/result.h"
-#include "lrio/file/lr_file.h"
-#include "lrio/mesh/mesh.h"
+#include "lacedring/base.hpp"
+#include "lacedring/lr_file.hpp"
+#include "lacedring/mesh.hpp"
 
 namespace CLI {
 class App;
 }  // namespace CLI
 
-namespace lr::app {
+namespace lacedring::app {
 
 /// Adds --weld, --input-format, --allow-outside and --max-memory. `triangle_bytes`: InputOptions.
 void add_input_options(CLI::App& command, InputOptions& options, std::uint32_t triangle_bytes);
@@ -40,4 +40,4 @@ struct LoadedMesh {
 Result<LoadedMesh> load_file(const MeshInput& input, RunLog& log);
 Result<Mesh> load(const MeshInput& input, RunLog& log);
 
-}  // namespace lr::app
+}  // namespace lacedring::app

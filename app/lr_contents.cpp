@@ -5,7 +5,7 @@
 
 #include "app/print.h"
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
 bool has_section(const LrContents& lr, std::string_view kind) {
@@ -60,4 +60,4 @@ void print_contents(const LrContents& lr) {
     }
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

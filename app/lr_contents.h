@@ -4,9 +4,9 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "lrio/file/lr_file.h"
+#include "lacedring/lr_file.hpp"
 
-namespace lr::app {
+namespace lacedring::app {
 
 const char* type_name(ComponentType type);
 
@@ -16,4 +16,4 @@ nlohmann::ordered_json to_json(const LrContents& lr);
 /// Lines of text, indented.
 void print_contents(const LrContents& lr);
 
-}  // namespace lr::app
+}  // namespace lacedring::app

@@ -27,8 +27,8 @@ void open_standard_streams() {
 /// An exit code, once what was printed has arrived.
 int finish(int code) {
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
-    lr::app::say("lacedring: standard output: cannot be written\n");
-    return code == lr::app::done ? lr::app::bad_input : code;
+    lacedring::app::say("lacedring: standard output: cannot be written\n");
+    return code == lacedring::app::done ? lacedring::app::bad_input : code;
 }
 
 int run(int argc, char** argv) {
@@ -37,29 +37,30 @@ int run(int argc, char** argv) {
     program.set_version_flag("-V,--version", LACEDRING_VERSION);
     program.require_subcommand(1);
     program.footer("lacedring COMMAND --help lists a command's options.");
-    lr::app::Action action;
-    lr::app::add_commands(program, action);
-    std::vector<std::string> words = lr::app::arguments(argc, argv);
-    if (const std::string wrong = lr::app::check_command(program, words); !wrong.empty()) {
-        lr::app::say("lacedring: {} (lacedring --help lists the commands)\n", wrong);
-        return lr::app::wrong_usage;
+    lacedring::app::Action action;
+    lacedring::app::add_commands(program, action);
+    std::vector<std::string> words = lacedring::app::arguments(argc, argv);
+    if (const std::string wrong = lacedring::app::check_command(program, words); !wrong.empty()) {
+        lacedring::app::say("lacedring: {} (lacedring --help lists the commands)\n", wrong);
+        return lacedring::app::wrong_usage;
     }
     try {
         std::reverse(words.begin(), words.end());  // as CLI11 takes them
         program.parse(std::move(words));
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() != 0) {
-            lr::app::say("lacedring: {} (lacedring --help lists the commands)\n", lr::app::one_line(error.what()));
-            return lr::app::wrong_usage;
+            lacedring::app::say("lacedring: {} (lacedring --help lists the commands)\n",
+                                lacedring::app::one_line(error.what()));
+            return lacedring::app::wrong_usage;
         }
         std::ostringstream out;  // the help or the version
         program.exit(error, out, out);
-        lr::app::print("{}", out.str());
-        return finish(lr::app::done);
+        lacedring::app::print("{}", out.str());
+        return finish(lacedring::app::done);
     }
-    lr::app::RunLog log;
+    lacedring::app::RunLog log;
     const int code = action(log);
-    if (code == lr::app::done || code == lr::app::check_failed) log.flush();
+    if (code == lacedring::app::done || code == lacedring::app::check_failed) log.flush();
     return finish(code);
 }
 
@@ -76,5 +77,5 @@ int main(int argc, char** argv) {
     } catch (const std::exception& error) {  // a bug: nothing of ours throws
         std::fprintf(stderr, "lacedring: internal error: %s\n", error.what());
     }
-    return lr::app::bad_input;
+    return lacedring::app::bad_input;
 }

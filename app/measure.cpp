@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <cstring>
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
 /// A line of /proc/self/status in bytes, 0 if it is not there.
@@ -69,4 +69,4 @@ void run_interleaved(std::vector<Candidate>& candidates, int rounds, const std::
     }
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace lr::app {
+namespace lacedring::app {
 
 /// Wall seconds of one call.
 double seconds(const std::function<void()>& work);
@@ -35,4 +35,4 @@ double median(std::vector<double> values);
 /// run, outside the times.
 void run_interleaved(std::vector<Candidate>& candidates, int rounds, const std::function<void()>& ran);
 
-}  // namespace lr::app
+}  // namespace lacedring::app

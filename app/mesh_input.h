@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-namespace lr::app {
+namespace lacedring::app {
 
 /// Options of every command that reads meshes.
 struct InputOptions {
@@ -22,4 +22,4 @@ struct MeshInput {
     InputOptions options;
 };
 
-}  // namespace lr::app
+}  // namespace lacedring::app

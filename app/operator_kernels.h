@@ -7,10 +7,10 @@
 #include <type_traits>
 #include <vector>
 
-#include "lrcore/base/ids.h"
+#include "lacedring/base.hpp"
 #include "lrlab/rivals/squad.h"
 
-namespace lr::app {
+namespace lacedring::app {
 
 /// c.o, or for SQuad, whose own step it is, c.s.
 template <class Ops>
@@ -49,4 +49,4 @@ float normal_z(const Ops& ops, const std::vector<float>& positions, VertexId v) 
     return std::abs(z) > 1e-5F * size ? z : 0;
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

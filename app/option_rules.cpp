@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <utility>
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
 bool is_given(const CLI::App& command, const std::string& option) {
@@ -42,4 +42,4 @@ void OptionRules::check() const {
     }
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

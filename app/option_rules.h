@@ -10,7 +10,7 @@ namespace CLI {
 class App;
 }  // namespace CLI
 
-namespace lr::app {
+namespace lacedring::app {
 
 /// Rules between the options of one command. They are checked in the order in which they were added, when the command
 /// line is parsed: call check() in the command's callback.
@@ -46,4 +46,4 @@ class OptionRules {
     std::vector<Rule> rules_;
 };
 
-}  // namespace lr::app
+}  // namespace lacedring::app

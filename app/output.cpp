@@ -7,9 +7,9 @@
 #include <cctype>
 #include <set>
 
-#include "lrio/file/file.h"
+#include "lacedring/file.hpp"
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -88,4 +88,4 @@ Result<std::vector<fs::path>> output_paths(const std::vector<std::string>& input
     return out;
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "app/run_log.h"
-#include "lrcore/base/result.h"
+#include "lacedring/base.hpp"
 
 namespace CLI {
 class App;
 }  // namespace CLI
 
-namespace lr::app {
+namespace lacedring::app {
 
 struct OutputOptions {
     std::string path;  ///< "-": standard output
@@ -41,4 +41,4 @@ Result<void> write_output(const std::filesystem::path& path, std::span<const std
 Result<std::vector<std::filesystem::path>> output_paths(const std::vector<std::string>& inputs,
                                                         const OutputOptions& options, std::string_view extension);
 
-}  // namespace lr::app
+}  // namespace lacedring::app

@@ -3,13 +3,12 @@
 #include <algorithm>
 
 #include "app/paper_tables.h"
-#include "lrcore/codec/lean/lean_encode.h"
-#include "lrcore/codec/lean/lean_stream.h"
-#include "lrcore/codec/tables/lr_encode.h"
-#include "lrcore/topology/split.h"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/streams.hpp"
+#include "lacedring/topology.hpp"
 #include "lrlab/rivals/strips.h"
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
 double encoded_triangles(const CornerTable& table) {
@@ -40,7 +39,7 @@ Result<std::vector<PeriodFigures>> figures_by_period(const Mesh& mesh, RingOptio
         figures.compact_bits = 8 * static_cast<double>(compact->view().bytes()) / triangles;
 
         ring.one_per_shell = false;
-        const Result<LeanStream> lean = encode_lean(*table, expand_rings(*table, ring));
+        const Result<EncodedLean> lean = encode_lean(*table, expand_rings(*table, ring));
         if (!lean) return lean.error();
         const Result<LeanView> view = view_lean(lean->words);
         if (!view) return view.error();
@@ -72,4 +71,4 @@ Result<SeedRow> figures_by_seeds(const std::string& path, const Mesh& mesh, Ring
     return out;
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

@@ -10,13 +10,13 @@
 
 #include "app/print.h"
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-const Format* find(const FormatSet& set, std::string_view name) {
-    const auto found = std::ranges::find(set.formats, name, &Format::name);
+const MeasuredFormat* find(const FormatSet& set, std::string_view name) {
+    const auto found = std::ranges::find(set.formats, name, &MeasuredFormat::name);
     return found == set.formats.end() ? nullptr : &*found;
 }
 
@@ -27,11 +27,11 @@ double percent(std::uint32_t count, const FormatSet& set) {
     return percent(count, set.triangles());
 }
 double references(const FormatSet& set, std::string_view name) {
-    const Format* format = find(set, name);
+    const MeasuredFormat* format = find(set, name);
     return format == nullptr ? kNone : static_cast<double>(format->references) / set.triangles();
 }
 double bits(const FormatSet& set, std::string_view name) {
-    const Format* format = find(set, name);
+    const MeasuredFormat* format = find(set, name);
     return format == nullptr ? kNone : 8 * static_cast<double>(format->bytes) / set.triangles();
 }
 
@@ -51,7 +51,7 @@ constexpr Column kTable1[] = {
     {"SQuad rpt", 3, [](const Mesh&, const FormatSet& s) { return references(s, "squad"); }},
     {"compact: k", 0,
      [](const Mesh&, const FormatSet& s) {
-         const Format* format = find(s, "lr_compact");
+         const MeasuredFormat* format = find(s, "lr_compact");
          if (format == nullptr) return kNone;
          return format->k == 0 ? std::numeric_limits<double>::infinity() : double(format->k);
      }},
@@ -78,7 +78,7 @@ constexpr Column kLean[] = {
 };
 
 double acmr(const Mesh& mesh, const FormatSet& set, std::string_view name) {
-    const Format* format = find(set, name);
+    const MeasuredFormat* format = find(set, name);
     return format == nullptr ? kNone : analyze_fifo32(format->indices, format->vertex_count(mesh)).acmr;
 }
 
@@ -294,4 +294,4 @@ nlohmann::ordered_json to_json(const SeedRow& row) {
     return out;
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

@@ -9,7 +9,7 @@
 #include "app/formats.h"
 #include "lrlab/paper/offsets.h"
 
-namespace lr::app {
+namespace lacedring::app {
 
 /// A column of a table with a row a mesh.
 struct Column {
@@ -63,4 +63,4 @@ Result<SeedRow> figures_by_seeds(const std::string& path, const Mesh& mesh, Ring
 void print(std::span<const SeedRow> rows);
 nlohmann::ordered_json to_json(const SeedRow& row);
 
-}  // namespace lr::app
+}  // namespace lacedring::app

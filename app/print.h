@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-namespace lr::app {
+namespace lacedring::app {
 
 inline void write_text(std::FILE* stream, fmt::string_view format, fmt::format_args args) {
     fmt::memory_buffer text;
@@ -37,4 +37,4 @@ inline std::string printable(std::string text, char instead = '?') {
     return text;
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

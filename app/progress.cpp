@@ -10,7 +10,7 @@
 
 #include "app/print.h"
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
 constexpr std::uint64_t kWidth = 40;
@@ -47,4 +47,4 @@ std::function<bool(std::uint32_t)> progress_bar(const char* what, std::uint32_t 
     };
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

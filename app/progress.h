@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-namespace lr::app {
+namespace lacedring::app {
 
 /// A bar that appears when the work takes longer than a moment, and is gone when this is. Nothing where standard error
 /// is no terminal. Not thread-safe.
@@ -32,4 +32,4 @@ class ProgressBar {
 /// terminal. `what` must stay.
 std::function<bool(std::uint32_t)> progress_bar(const char* what, std::uint32_t total);
 
-}  // namespace lr::app
+}  // namespace lacedring::app

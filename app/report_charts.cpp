@@ -8,7 +8,7 @@
 
 #include "app/report_html.h"
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
 std::string period_title(std::uint32_t k) {
@@ -171,4 +171,4 @@ std::string offset_histograms(const MeshReport& mesh) {
     return out + "</div>\n" + offset_table(mesh, columns);
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

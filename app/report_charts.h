@@ -6,7 +6,7 @@
 
 #include "app/report_data.h"
 
-namespace lr::app {
+namespace lacedring::app {
 
 /// Powers of two that bars of bits per triangle lie between: the same for all meshes of a page.
 struct BitScale {
@@ -23,4 +23,4 @@ std::string offset_histograms(const MeshReport& mesh);
 /// "ours", "paper", "baseline": the class that gives a format its colour.
 const char* class_of(Origin origin);
 
-}  // namespace lr::app
+}  // namespace lacedring::app

@@ -6,10 +6,10 @@
 
 #include "lrlab/rivals/strips.h"
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
-std::string ring_text(const Format& format) {
+std::string ring_text(const MeasuredFormat& format) {
     if (format.ring == nullptr) return {};
     std::string out = format.k == 0 ? "expander" : fmt::format("hybrid, k = {}", format.k);
     if (format.passes != 0) out += fmt::format(", {} pass{}", format.passes, format.passes == 1 ? "" : "es");
@@ -34,7 +34,7 @@ Result<MeshReport> measure_mesh(const std::string& path, const Mesh& mesh, const
         if (!set) return set.error();
         const double triangles = set->triangles();
         const auto base = static_cast<double>(set->formats.front().bytes);
-        for (const Format& format : set->formats) {
+        for (const MeasuredFormat& format : set->formats) {
             if (invalid.empty() && !format.invalid.empty()) invalid = format.name + ": " + format.invalid;
             FormatFigures& figures = out.formats.emplace_back();
             const auto bytes = static_cast<double>(format.bytes);
@@ -62,4 +62,4 @@ Result<MeshReport> measure_mesh(const std::string& path, const Mesh& mesh, const
     return out;
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

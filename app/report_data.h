@@ -9,9 +9,9 @@
 #include "app/format_notes.h"
 #include "app/formats.h"
 #include "app/paper_tables.h"
-#include "lrcore/codec/lean/lean_encode.h"
+#include "lacedring/lacedring.hpp"
 
-namespace lr::app {
+namespace lacedring::app {
 
 struct FormatFigures {
     std::string name;
@@ -53,4 +53,4 @@ struct MeshReport {
 Result<MeshReport> measure_mesh(const std::string& path, const Mesh& mesh, const RingChoice& choice,
                                 std::string& invalid);
 
-}  // namespace lr::app
+}  // namespace lacedring::app

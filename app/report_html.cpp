@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  // U+FFFD
@@ -104,4 +104,4 @@ std::string shell_word(std::string_view argument) {
     return out + "'";
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

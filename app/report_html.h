@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace lr::app {
+namespace lacedring::app {
 
 /// `text` as it may stand in an element or a quoted attribute. What HTML cannot hold (control characters, bytes that
 /// are no UTF-8) is replaced by something visible.
@@ -29,4 +29,4 @@ std::string png_uri(std::span<const std::byte> png);
 /// One argument as a POSIX shell reads it back.
 std::string shell_word(std::string_view argument);
 
-}  // namespace lr::app
+}  // namespace lacedring::app

@@ -10,7 +10,7 @@
 #include "app/report_html.h"
 #include "app/report_style.h"
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
 /// Nothing is fetched and nothing runs, whatever a file is called.
@@ -249,4 +249,4 @@ std::string report_page(const ReportPage& page) {
     return out;
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

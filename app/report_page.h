@@ -8,7 +8,7 @@
 
 #include "app/report_data.h"
 
-namespace lr::app {
+namespace lacedring::app {
 
 struct ReportPage {
     std::string command;  ///< as it could be run again
@@ -21,4 +21,4 @@ struct ReportPage {
 
 std::string report_page(const ReportPage& page);
 
-}  // namespace lr::app
+}  // namespace lacedring::app

@@ -1,10 +1,11 @@
 #include "app/report_pictures.h"
 
 #include "app/report_html.h"
+#include "renderer/device_error.h"
 #include "renderer/png.h"
 #include "renderer/renderer.h"
 
-namespace lr::app {
+namespace lacedring::app {
 namespace {
 
 Result<ReportPicture> draw(gpu::Context& context, const PictureSize& size, const gpu::CameraOptions& from,
@@ -37,7 +38,7 @@ Result<void> draw_pictures(gpu::Context& context, const PictureSize& size, const
                            const Mesh& mesh, const RingChoice& choice, MeshReport& report) {
     // With the very stream that the size table is of.
     const Result<gpu::Model> model = gpu::make_model(mesh, {.ring = ring_options(choice, mesh.triangle_count()),
-                                                            .optimize = optimize_options(choice, lean_ring_cost)});
+                                                            .optimize = optimize_options(choice, kLeanRingCost)});
     if (!model) {
         report.no_pictures = model.error().message;
         return {};
@@ -46,7 +47,7 @@ Result<void> draw_pictures(gpu::Context& context, const PictureSize& size, const
         Result<ReportPicture> picture = draw(context, size, camera, *model, *gpu::view_named(name));
         if (!picture) {
             const ErrorCode code = picture.error().code;
-            if (code == ErrorCode::device_failure || code == ErrorCode::invalid_argument) return picture.error();
+            if (code == gpu::kDeviceFailure || code == ErrorCode::invalid_argument) return picture.error();
             report.pictures.clear();
             report.no_pictures = picture.error().message;
             return {};
@@ -57,4 +58,4 @@ Result<void> draw_pictures(gpu::Context& context, const PictureSize& size, const
     return {};
 }
 
-}  // namespace lr::app
+}  // namespace lacedring::app

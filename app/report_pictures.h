@@ -5,7 +5,7 @@
 #include "app/report_data.h"
 #include "renderer/camera.h"
 
-namespace lr::app {
+namespace lacedring::app {
 
 /// Samples a pixel along each side: as many as `render` takes, fewer where the device's images are not large enough.
 std::uint32_t report_samples(const gpu::Context& context, const PictureSize& size);
@@ -16,4 +16,4 @@ std::uint32_t report_samples(const gpu::Context& context, const PictureSize& siz
 Result<void> draw_pictures(gpu::Context& context, const PictureSize& size, const gpu::CameraOptions& camera,
                            const Mesh& mesh, const RingChoice& choice, MeshReport& report);
 
-}  // namespace lr::app
+}  // namespace lacedring::app

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-namespace lr::app {
+namespace lacedring::app {
 
 inline constexpr std::string_view kReportStyle = R"css(
 :root {
@@ -119,4 +119,4 @@ footer { margin-top: 48px; padding-top: 12px; border-top: 2px solid var(--line);
 }
 )css";
 
-}  // namespace lr::app
+}  // namespace lacedring::app

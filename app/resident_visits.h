@@ -12,12 +12,12 @@
 
 #include "app/measure.h"
 #include "app/operator_kernels.h"
-#include "lrcore/base/ids.h"
+#include "lacedring/base.hpp"
 #include "lrlab/pager/paged_file.h"
 #include "lrlab/rivals/corner_table_c.h"
 #include "lrlab/rivals/squad.h"
 
-namespace lr::app {
+namespace lacedring::app {
 
 /// In the order of ResidentFigures::Level::cells.
 enum Visit {
@@ -186,11 +186,11 @@ class PagedOperators final : public PagedStructure {
                 sum_ = sum;
                 return v_.corner_count;
             case kScanValence:
-                for (std::uint32_t v = 0; v < vertices; ++v) sum += ops.valence({v});
+                for (std::uint32_t v = 0; v < vertices; ++v) sum += ops.valence(VertexId{v});
                 sum_ = sum;
                 return vertices;
             case kScanNormal:
-                for (std::uint32_t v = 0; v < vertices; ++v) sum += normal_z(ops, positions_, {v}) > 0 ? 1 : 0;
+                for (std::uint32_t v = 0; v < vertices; ++v) sum += normal_z(ops, positions_, VertexId{v}) > 0 ? 1 : 0;
                 sum_ = sum;
                 return vertices;
             case kRandomVertex:
@@ -223,7 +223,7 @@ class PagedOperators final : public PagedStructure {
             // The corner table has every number, since degenerate triangles are left out, and would look into V to
             // tell.
             if constexpr (!std::is_same_v<Ops, CornerTableCView>) {
-                if (!ops.is_canonical({t})) continue;
+                if (!ops.is_canonical(TriangleId{t})) continue;
             }
             CornerId c = ops.corner(TriangleId{t});
             for (int k = 0; k < 3; ++k, c = ops.next(c)) each(c);
@@ -233,4 +233,4 @@ class PagedOperators final : public PagedStructure {
     Ops ops_;
 };
 
-}  // namespace lr::app
+}  // namespace lacedring::app

@@ -8,7 +8,7 @@
 
 #include "app/print.h"
 
-namespace lr::app {
+namespace lacedring::app {
 
 class RunLog {
   public:
@@ -31,4 +31,4 @@ class RunLog {
     std::vector<std::filesystem::path> files_;
 };
 
-}  // namespace lr::app
+}  // namespace lacedring::app

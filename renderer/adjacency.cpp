@@ -5,8 +5,8 @@
 #include <cstring>
 #include <numbers>
 
-#include "lrcore/codec/tables/lr_encode.h"
-#include "lrcore/codec/tables/lr_stream.h"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/streams.hpp"
 #include "renderer/context.h"
 #include "renderer/surface.h"
 #include "renderer/try.h"
@@ -15,7 +15,7 @@
 #include "spirv/silhouette_vert.h"
 #include "spirv/vertex_normals_comp.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 namespace {
 
 constexpr VkBufferUsageFlags kAddress = VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
@@ -24,7 +24,7 @@ constexpr VkBufferUsageFlags kAddress = VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BI
 
 Result<Adjacency> upload_adjacency(Context& context, Transfer& transfer, const EncodedLr& tables,
                                    std::span<const float> positions) {
-    LR_ASSIGN(const LrStream<LrView> stream, view_lr(tables.words));
+    LR_ASSIGN(const LrStreamView<LrView> stream, view_lr(tables.words));
     const std::uint64_t position_bytes = std::uint64_t{3} * sizeof(float) * tables.vertex_order.size();
     const std::uint64_t table_bytes = tables.words.size() * sizeof(std::uint32_t);
     LR_TRY(context.arena().check_room(table_bytes + position_bytes, std::max(table_bytes, position_bytes)));
@@ -142,4 +142,4 @@ void Silhouettes::record(VkCommandBuffer commands, const Adjacency& adjacency, c
     Target::end(commands);
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

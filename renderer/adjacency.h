@@ -7,14 +7,14 @@
 #include <span>
 #include <vector>
 
-#include "lrcore/codec/tables/lr_encode.h"
+#include "lacedring/lacedring.hpp"
 #include "renderer/camera.h"
 #include "renderer/commands.h"
 #include "renderer/pipeline.h"
 #include "renderer/target.h"
 #include "renderer/transfer.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 struct AdjacencyOptions {
     RingOptions ring{};
@@ -91,4 +91,4 @@ class Silhouettes {
 /// Where the camera is, in the world.
 std::array<float, 3> eye_of(const Camera& camera);
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

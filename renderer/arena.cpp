@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cassert>
 
+#include "renderer/device_error.h"
 #include "renderer/try.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 namespace {
 
 constexpr VkDeviceSize kBlockSize = VkDeviceSize{64} << 20;
@@ -56,13 +57,12 @@ std::uint32_t Arena::choose_type(std::uint32_t allowed, Memory memory) const {
 Result<void> Arena::check_room(VkDeviceSize bytes, VkDeviceSize largest) const {
     const auto mebibytes = [](VkDeviceSize n) { return std::to_string((n + (1U << 20) - 1) >> 20) + " MiB"; };
     if (largest > max_allocation_) {
-        return Error{ErrorCode::no_device, "a buffer of " + mebibytes(largest) +
-                                               " is needed; the device gives at most " + mebibytes(max_allocation_)};
+        return Error{kNoDevice, "a buffer of " + mebibytes(largest) + " is needed; the device gives at most " +
+                                    mebibytes(max_allocation_)};
     }
     const VkDeviceSize room = limit_ - std::min(used(), limit_);
     if (bytes <= room) return {};
-    return Error{ErrorCode::no_device,
-                 mebibytes(bytes) + " of device memory are needed; " + mebibytes(room) + " are left"};
+    return Error{kNoDevice, mebibytes(bytes) + " of device memory are needed; " + mebibytes(room) + " are left"};
 }
 
 bool Arena::carve(std::uint32_t index, const VkMemoryRequirements& requirements, Allocation& out) {
@@ -122,11 +122,10 @@ Result<std::uint32_t> Arena::add_block(std::uint32_t type, VkDeviceSize size, Ti
 
 Result<Allocation> Arena::allocate(const VkMemoryRequirements& requirements, Memory memory, Tiling tiling) {
     const std::uint32_t type = choose_type(requirements.memoryTypeBits, memory);
-    if (type == kNoType) return Error{ErrorCode::device_failure, "no memory type fits a resource"};
+    if (type == kNoType) return Error{kDeviceFailure, "no memory type fits a resource"};
     if (requirements.size > max_allocation_) {
-        return Error{ErrorCode::no_device, std::to_string(requirements.size) +
-                                               " bytes in one resource; the device gives " +
-                                               std::to_string(max_allocation_)};
+        return Error{kNoDevice, std::to_string(requirements.size) + " bytes in one resource; the device gives " +
+                                    std::to_string(max_allocation_)};
     }
     const std::lock_guard lock(mutex_);
     Allocation out;
@@ -138,8 +137,8 @@ Result<Allocation> Arena::allocate(const VkMemoryRequirements& requirements, Mem
     const VkDeviceSize usual = std::min({kBlockSize, max_allocation_, std::max(limit_ / 16, VkDeviceSize{1} << 20)});
     const VkDeviceSize room = limit_ - std::min(held(), limit_);
     if (requirements.size > room) {
-        return Error{ErrorCode::no_device, std::to_string(requirements.size) + " bytes; " + std::to_string(room) +
-                                               " are left of the device memory that may be held"};
+        return Error{kNoDevice, std::to_string(requirements.size) + " bytes; " + std::to_string(room) +
+                                    " are left of the device memory that may be held"};
     }
     LR_ASSIGN(const std::uint32_t index, add_block(type, std::max(std::min(usual, room), requirements.size), tiling));
     const bool fits = carve(index, requirements, out);
@@ -180,4 +179,4 @@ std::uint32_t Arena::block_count() const {
         std::count_if(blocks_.begin(), blocks_.end(), [](const Block& b) { return b.memory != VK_NULL_HANDLE; }));
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -11,9 +11,9 @@
 #include <mutex>
 #include <vector>
 
-#include "lrcore/base/result.h"
+#include "lacedring/base.hpp"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 /// Where a resource's bytes are wanted.
 enum class Memory {
@@ -43,11 +43,11 @@ class Arena {
     Arena(const Arena&) = delete;
     Arena& operator=(const Arena&) = delete;
 
-    /// Errors: no_device (past maxMemoryAllocationSize, or out of memory), device_failure.
+    /// Errors: kNoDevice (past maxMemoryAllocationSize, or out of memory), kDeviceFailure.
     Result<Allocation> allocate(const VkMemoryRequirements& requirements, Memory memory, Tiling tiling);
     void free(const Allocation& allocation);
 
-    /// Is there room for resources of so many bytes in all, the largest of them of `largest`? no_device says what is
+    /// Is there room for resources of so many bytes in all, the largest of them of `largest`? kNoDevice says what is
     /// missing. Nothing is allocated; other programs may take the room meanwhile.
     Result<void> check_room(VkDeviceSize bytes, VkDeviceSize largest) const;
 
@@ -81,4 +81,4 @@ class Arena {
     std::atomic<VkDeviceSize> used_ = 0, held_ = 0, peak_ = 0;
 };
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

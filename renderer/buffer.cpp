@@ -4,17 +4,17 @@
 #include <utility>
 
 #include "renderer/context.h"
+#include "renderer/device_error.h"
 #include "renderer/try.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 Result<Buffer> Buffer::create(Context& context, const std::string& name, VkDeviceSize size, VkBufferUsageFlags usage,
                               Memory memory) {
     size = std::max<VkDeviceSize>(size, 16);
     if (size > context.info().max_buffer_size) {
-        return Error{ErrorCode::no_device, name + ": " + std::to_string(size) +
-                                               " bytes; the device allows buffers of " +
-                                               std::to_string(context.info().max_buffer_size)};
+        return Error{kNoDevice, name + ": " + std::to_string(size) + " bytes; the device allows buffers of " +
+                                    std::to_string(context.info().max_buffer_size)};
     }
     Buffer out;
     VkBufferCreateInfo info{};
@@ -76,4 +76,4 @@ void Buffer::reset() {
     buffer_ = VK_NULL_HANDLE;
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

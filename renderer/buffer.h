@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <string>
 
-#include "lrcore/base/result.h"
+#include "lacedring/base.hpp"
 #include "renderer/arena.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 class Context;
 
@@ -17,7 +17,7 @@ class Buffer {
   public:
     Buffer() = default;
     /// Transfer source and destination are always allowed. A size of 0 becomes 16 bytes, so that every buffer can be
-    /// bound. Errors: no_device (not enough memory), device_failure.
+    /// bound. Errors: kNoDevice (not enough memory), kDeviceFailure.
     static Result<Buffer> create(Context& context, const std::string& name, VkDeviceSize size, VkBufferUsageFlags usage,
                                  Memory memory = Memory::gpu);
     Buffer(Buffer&& other) noexcept;
@@ -48,4 +48,4 @@ class Buffer {
     Allocation allocation_;
 };
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -9,7 +9,7 @@
 
 #include "renderer/try.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 namespace {
 
 constexpr double kMargin = 1.07;  // around the mesh, where it is fitted to the picture
@@ -135,4 +135,4 @@ Result<Camera> make_camera(const Model& model, const CameraOptions& options, std
     return camera;
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -4,11 +4,11 @@
 #include <array>
 #include <optional>
 
-#include "lrcore/base/result.h"
+#include "lacedring/base.hpp"
 #include "renderer/model.h"
 #include "shaders/shared.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 /// Positions are in the mesh's coordinates, angles in degrees.
 struct CameraOptions {
@@ -32,4 +32,4 @@ struct Camera {
 /// Errors: invalid_argument (the eye at the focal point, up of no length, zoom or view angle out of range).
 Result<Camera> make_camera(const Model& model, const CameraOptions& options, std::uint32_t width, std::uint32_t height);
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

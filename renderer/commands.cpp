@@ -6,7 +6,7 @@
 #include "renderer/context.h"
 #include "renderer/try.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 Result<Commands> Commands::create(Context& context) {
     Commands out;
@@ -128,4 +128,4 @@ void image_barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags a
     vkCmdPipelineBarrier2(commands, &info);
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -5,10 +5,10 @@
 
 #include <optional>
 
-#include "lrcore/base/result.h"
+#include "lacedring/base.hpp"
 #include "renderer/handle.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 class Context;
 class Buffer;
@@ -55,4 +55,4 @@ void memory_barrier(VkCommandBuffer commands, Access before, Access after);
 void image_barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, Access before, Access after,
                    VkImageLayout from, VkImageLayout to);
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <array>
 
-#include "lrcore/codec/lean/lean_stream.h"
-#include "lrcore/codec/packed/packed_stream.h"
+#include "lacedring/streams.hpp"
 #include "renderer/renderer.h"
 #include "renderer/try.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 namespace {
 
 constexpr std::uint32_t kViews = 6;
@@ -199,4 +198,4 @@ Result<std::vector<Comparison>> compare(Renderer& renderer, const Model& model, 
     return out;
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

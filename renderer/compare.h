@@ -6,14 +6,14 @@
 #include <span>
 #include <vector>
 
-#include "lrcore/base/result.h"
+#include "lacedring/base.hpp"
 #include "renderer/context.h"
 #include "renderer/gpu_mesh.h"
 #include "renderer/model.h"
 #include "renderer/picture.h"
 #include "renderer/renderer.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 /// What the mesh's own index list is compared with.
 struct Subject {
@@ -76,4 +76,4 @@ inline Result<Comparison> compare(Context& context, const Model& model, const Su
     return std::move(all->front());
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

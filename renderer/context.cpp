@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "renderer/device_choice.h"
+#include "renderer/device_error.h"
 #include "renderer/try.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 namespace {
 
 std::vector<VkExtensionProperties> instance_extensions(const char* layer) {
@@ -87,23 +88,23 @@ Result<void> Context::create_instance(const ContextOptions& options) {
     std::vector<const char*> enabled;
     if (options.validation) {
         if (!layer_installed(kValidationLayer)) {
-            return Error{ErrorCode::no_device, std::string("validation was asked for, and ") + kValidationLayer +
-                                                   " is not installed (Debian: vulkan-validationlayers)"};
+            return Error{kNoDevice, std::string("validation was asked for, and ") + kValidationLayer +
+                                        " is not installed (Debian: vulkan-validationlayers)"};
         }
         layers.push_back(kValidationLayer);
         if (!has(instance_extensions(kValidationLayer), VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME)) {
-            return Error{ErrorCode::no_device, "the validation layer has no synchronization validation"};
+            return Error{kNoDevice, "the validation layer has no synchronization validation"};
         }
         enabled.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
     }
     // Without validation the extension still names objects, for a debugger's layer.
     debug_utils_ = has(extensions, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     if (debug_utils_) enabled.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
-    if (options.validation && !debug_utils_) return Error{ErrorCode::no_device, "no VK_EXT_debug_utils for validation"};
+    if (options.validation && !debug_utils_) return Error{kNoDevice, "no VK_EXT_debug_utils for validation"};
 
     for (const char* extension : options.instance_extensions) {
         if (!has(extensions, extension)) {
-            return Error{ErrorCode::no_device, std::string("the Vulkan driver has no ") + extension};
+            return Error{kNoDevice, std::string("the Vulkan driver has no ") + extension};
         }
         enabled.push_back(extension);
     }
@@ -130,13 +131,13 @@ Result<void> Context::create_instance(const ContextOptions& options) {
     info.enabledExtensionCount = static_cast<std::uint32_t>(enabled.size());
     info.ppEnabledExtensionNames = enabled.data();
     if (const VkResult result = vkCreateInstance(&info, nullptr, &instance_); result != VK_SUCCESS) {
-        return Error{ErrorCode::no_device,
+        return Error{kNoDevice,
                      "no Vulkan driver (Debian: mesa-vulkan-drivers): vkCreateInstance: " + result_name(result)};
     }
     if (options.validation) {
         const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
             vkGetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
-        if (create == nullptr) return Error{ErrorCode::no_device, "no vkCreateDebugUtilsMessengerEXT"};
+        if (create == nullptr) return Error{kNoDevice, "no vkCreateDebugUtilsMessengerEXT"};
         LR_TRY_VK(create(instance_, &messenger, nullptr, &messenger_));
         validating_ = true;
     }
@@ -238,4 +239,4 @@ void Context::name_object(VkObjectType type, std::uint64_t handle, const std::st
     set_name_(device_, &info);  // a missing name harms nothing
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "lrcore/base/result.h"
+#include "lacedring/base.hpp"
 #include "renderer/arena.h"
 #include "renderer/shader_set.h"
 #include "renderer/validation.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 struct ContextOptions {
     std::string device;       ///< part of a device's or driver's name (choose_device); empty: the best one
@@ -46,7 +46,7 @@ struct DeviceInfo {
 
 class Context {
   public:
-    /// Errors: no_device (no driver, no device that fits, no validation layer though asked for), device_failure.
+    /// Errors: kNoDevice (no driver, no device that fits, no validation layer though asked for), kDeviceFailure.
     static Result<std::unique_ptr<Context>> create(const ContextOptions& options);
     ~Context();
     Context(const Context&) = delete;
@@ -100,4 +100,4 @@ class Context {
     bool validating_ = false;
 };
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

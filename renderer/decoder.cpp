@@ -2,7 +2,7 @@
 
 #include "renderer/commands.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 void Decoder::record(VkCommandBuffer commands, const DecodePlan& plan) const {
     for (const DecodePlan::Dispatch& dispatch : plan.dispatches) {
@@ -24,4 +24,4 @@ void decode_barrier(VkCommandBuffer commands) {
              VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_READ_BIT});
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

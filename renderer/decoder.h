@@ -7,7 +7,7 @@
 #include "renderer/pipeline.h"
 #include "shaders/shared.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 /// The dispatches that expand one mesh. Its descriptor sets live as long as the Descriptors that they came from.
 struct DecodePlan {
@@ -37,4 +37,4 @@ void decode_barrier(VkCommandBuffer commands);
 /// No device wants more of a descriptor's offset.
 constexpr VkDeviceSize kDescriptorAlignment = 256;
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -5,10 +5,11 @@
 #include <cstring>
 #include <optional>
 
+#include "renderer/device_error.h"
 #include "renderer/try.h"
 #include "shaders/shared.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 namespace {
 
 std::string lower(std::string text) {
@@ -163,7 +164,7 @@ Result<DeviceChoice> choose_device(VkInstance instance, const std::string& name)
     std::vector<VkPhysicalDevice> devices(count);
     LR_TRY_VK(vkEnumeratePhysicalDevices(instance, &count, devices.data()));
     if (devices.empty()) {
-        return Error{ErrorCode::no_device, "no Vulkan device: no driver is installed (Debian: mesa-vulkan-drivers)"};
+        return Error{kNoDevice, "no Vulkan device: no driver is installed (Debian: mesa-vulkan-drivers)"};
     }
     VkPhysicalDevice best = VK_NULL_HANDLE;
     int best_rank = -1;
@@ -191,7 +192,7 @@ Result<DeviceChoice> choose_device(VkInstance instance, const std::string& name)
         }
     }
     if (best == VK_NULL_HANDLE) {
-        return Error{ErrorCode::no_device, "no usable Vulkan device: " + join(rejected, "; ")};
+        return Error{kNoDevice, "no usable Vulkan device: " + join(rejected, "; ")};
     }
     VkPhysicalDeviceFeatures features{};
     vkGetPhysicalDeviceFeatures(best, &features);
@@ -203,4 +204,4 @@ Result<DeviceChoice> choose_device(VkInstance instance, const std::string& name)
                         mesh_groups(best)};
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "lrcore/base/result.h"
+#include "lacedring/base.hpp"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 /// A device that has everything needed.
 struct DeviceChoice {
@@ -25,7 +25,7 @@ std::vector<std::string> missing_features(VkPhysicalDevice device);
 
 /// The best usable device: a GPU before a software one. `name`, if not empty, must be part of the device's name, of the
 /// driver's, or of the name by which that driver is usually known ("lavapipe" calls itself llvmpipe); case does not
-/// matter. Errors: no_device, one line with every device and what is wrong with it.
+/// matter. Errors: kNoDevice, one line with every device and what is wrong with it.
 Result<DeviceChoice> choose_device(VkInstance instance, const std::string& name);
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -1,10 +1,9 @@
 #include "renderer/expander.h"
 
-#include "lrcore/codec/lean/lean_stream.h"
-#include "lrcore/codec/packed/packed_stream.h"
+#include "lacedring/streams.hpp"
 #include "renderer/try.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 Result<Expander> Expander::create(Context& context) {
     Expander out;
@@ -57,4 +56,4 @@ void Expander::rotate(VkCommandBuffer commands, Drawable& drawable) const {
     drawable.mesh.rotated = true;
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

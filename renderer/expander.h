@@ -9,7 +9,7 @@
 #include "renderer/rotator.h"
 #include "renderer/surface.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 /// A mesh on the device, with what is bound to draw it. Goes before its context.
 struct Drawable {
@@ -40,4 +40,4 @@ class Expander {
     Rotator rotator_;
 };
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

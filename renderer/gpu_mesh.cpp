@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <cstring>
 
-#include "lrcore/codec/lean/lean_encode.h"
-#include "lrcore/codec/lean/lean_stream.h"
-#include "lrcore/codec/packed/packed_encode.h"
-#include "lrcore/codec/packed/packed_stream.h"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/streams.hpp"
 #include "renderer/context.h"
+#include "renderer/device_error.h"
 #include "renderer/triangle_class.h"
 #include "renderer/try.h"
 #include "shaders/shared.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 namespace {
 
 constexpr std::uint64_t kSmallestRange = 4096;  // a packed block's indices, or its record with alignment, fit
@@ -42,13 +41,12 @@ Result<GpuMesh> prepare(Context& context, const Model& model, Source source, con
     if (slots == 0) return Error{ErrorCode::unsupported, "the mesh has no triangles to draw"};
     if (slots > UINT32_MAX / 3) return Error{ErrorCode::too_large, "more than 2^32 indices"};
     if (model.vertex_count() - 1 > context.info().max_index) {
-        return Error{ErrorCode::no_device, std::to_string(model.vertex_count()) +
-                                               " vertices; the device's indices go to " +
-                                               std::to_string(context.info().max_index)};
+        return Error{kNoDevice, std::to_string(model.vertex_count()) + " vertices; the device's indices go to " +
+                                    std::to_string(context.info().max_index)};
     }
     mesh.path = options.path;
     if (mesh.path == Path::mesh && context.info().max_mesh_groups == 0) {
-        return Error{ErrorCode::no_device, "the device has no mesh shaders (VK_EXT_mesh_shader)"};
+        return Error{kNoDevice, "the device has no mesh shaders (VK_EXT_mesh_shader)"};
     }
     const MeshBytes bytes = mesh_bytes(model, source, options);
     LR_TRY(context.arena().check_room(bytes.all, bytes.largest));
@@ -242,7 +240,7 @@ Result<GpuMesh> upload_plain(Context& context, Transfer& transfer, const Model& 
 }
 
 Result<GpuMesh> upload_lean(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options) {
-    const LeanStream& stream = model.lean;
+    const EncodedLean& stream = model.lean;
     LR_ASSIGN(const LeanView view, view_lean(stream.words));
     if (view.vertices != model.vertex_count() || stream.vertex_order.size() != view.vertices ||
         stream.slot_triangle.size() != view.slots()) {
@@ -257,7 +255,7 @@ Result<GpuMesh> upload_lean(Context& context, Transfer& transfer, const Model& m
 }
 
 Result<GpuMesh> upload_packed(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options) {
-    const PackedStream& stream = model.packed;
+    const EncodedPacked& stream = model.packed;
     if (stream.words.empty()) return Error{ErrorCode::invalid_argument, "the model was made without a packed stream"};
     LR_ASSIGN(const PackedView view, view_packed(stream.words));
     if (view.vertices != model.vertex_count() || stream.vertex_order.size() != view.vertices ||
@@ -273,4 +271,4 @@ Result<GpuMesh> upload_packed(Context& context, Transfer& transfer, const Model&
                            static_cast<std::uint32_t>(view.records_word()), view.vertex_bits | view.gap_bits << 8}});
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -11,7 +11,7 @@
 #include "renderer/model.h"
 #include "renderer/transfer.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 /// Of a stream the device makes the index buffer and the draw commands.
 enum class Source {
@@ -93,7 +93,7 @@ struct Vertex {
     float ring;  ///< place along the rings in [0, 1]; -1 off the rings
 };
 
-/// Errors: no_device (Path::mesh where the device has none, indices past the device's, more memory than is left, which
+/// Errors: kNoDevice (Path::mesh where the device has none, indices past the device's, more memory than is left, which
 /// is found out before any is allocated), too_large (more than 2^32 indices), invalid_argument (max_range), unsupported
 /// (only degenerate triangles), and Vulkan's.
 Result<GpuMesh> upload_plain(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options);
@@ -102,4 +102,4 @@ Result<GpuMesh> upload_lean(Context& context, Transfer& transfer, const Model& m
 /// Likewise. invalid_argument, too, where the model was made without one.
 Result<GpuMesh> upload_packed(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options);
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

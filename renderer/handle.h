@@ -5,7 +5,7 @@
 
 #include <utility>
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 template <class T, auto Destroy>
 class Handle {
@@ -51,4 +51,4 @@ using FramebufferHandle = Handle<VkFramebuffer, vkDestroyFramebuffer>;
 using SemaphoreHandle = Handle<VkSemaphore, vkDestroySemaphore>;
 using ShaderModuleHandle = Handle<VkShaderModule, vkDestroyShaderModule>;
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

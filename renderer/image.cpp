@@ -3,18 +3,18 @@
 #include <utility>
 
 #include "renderer/context.h"
+#include "renderer/device_error.h"
 #include "renderer/try.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 Result<Image> Image::create(Context& context, const std::string& name, VkExtent2D extent, VkFormat format,
                             VkImageUsageFlags usage) {
     const std::uint32_t limit = context.limits().maxImageDimension2D;
     if (extent.width == 0 || extent.height == 0) return Error{ErrorCode::invalid_argument, "an image of no size"};
     if (extent.width > limit || extent.height > limit) {
-        return Error{ErrorCode::no_device, std::to_string(extent.width) + "x" + std::to_string(extent.height) +
-                                               " pixels; the device draws at most " + std::to_string(limit) +
-                                               " a side"};
+        return Error{kNoDevice, std::to_string(extent.width) + "x" + std::to_string(extent.height) +
+                                    " pixels; the device draws at most " + std::to_string(limit) + " a side"};
     }
     VkImageCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
@@ -91,4 +91,4 @@ void Image::reset() {
     view_ = VK_NULL_HANDLE;
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

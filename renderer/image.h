@@ -3,10 +3,10 @@
 
 #include <string>
 
-#include "lrcore/base/result.h"
+#include "lacedring/base.hpp"
 #include "renderer/arena.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 class Context;
 
@@ -14,7 +14,7 @@ class Context;
 class Image {
   public:
     Image() = default;
-    /// Errors: no_device (past maxImageDimension2D, or out of memory), device_failure.
+    /// Errors: kNoDevice (past maxImageDimension2D, or out of memory), kDeviceFailure.
     static Result<Image> create(Context& context, const std::string& name, VkExtent2D extent, VkFormat format,
                                 VkImageUsageFlags usage);
     Image(Image&& other) noexcept;
@@ -38,4 +38,4 @@ class Image {
     Allocation allocation_;
 };
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

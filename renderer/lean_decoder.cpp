@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 
+#include "lacedring/streams.hpp"
 #include "lrcore/codec/lean/lean_format.h"
-#include "lrcore/codec/lean/lean_stream.h"
 #include "renderer/context.h"
 #include "renderer/try.h"
 #include "spirv/lean_decode_comp.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 namespace {
 
 constexpr std::uint64_t kDispatchStep = 64;  // 64 slots are 768 bytes of the index buffer: aligned
@@ -71,4 +71,4 @@ Result<DecodePlan> LeanDecoder::plan(Descriptors& descriptors, const GpuMesh& me
     return plan;
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

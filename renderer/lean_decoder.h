@@ -1,10 +1,10 @@
 #pragma once
 // The compute pass that expands a lean stream into an index buffer and draw commands. Paper: LR 2011, section 7.
 
-#include "lrcore/codec/lean/lean_stream.h"
+#include "lacedring/streams.hpp"
 #include "renderer/decoder.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 class LeanDecoder : public Decoder {
   public:
@@ -15,4 +15,4 @@ class LeanDecoder : public Decoder {
     Result<DecodePlan> plan(Descriptors& descriptors, const GpuMesh& mesh, const LeanView& view) const;
 };
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

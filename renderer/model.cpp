@@ -4,13 +4,12 @@
 #include <cmath>
 #include <limits>
 
-#include "lrcore/codec/lean/lean_encode.h"
-#include "lrcore/codec/packed/packed_encode.h"
-#include "lrcore/ring/ring.h"
-#include "lrcore/topology/corner_table.h"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/ring.hpp"
+#include "lacedring/topology.hpp"
 #include "renderer/try.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 namespace {
 
 using Point = std::array<double, 3>;
@@ -87,11 +86,11 @@ Result<Model> make_model(const Mesh& mesh, const ModelOptions& options) {
         optimize.cost = cost;
         return optimize_rings(table, rings, optimize);
     };
-    LR_ASSIGN(model.lean, encode_lean(table, optimised(lean_ring_cost), options.lean));
+    LR_ASSIGN(model.lean, encode_lean(table, optimised(kLeanRingCost), options.lean));
     if (options.packed) {
-        LR_ASSIGN(model.packed, encode_packed(table, optimised(packed_ring_cost)));
+        LR_ASSIGN(model.packed, encode_packed(table, optimised(kPackedRingCost)));
     }
     return model;
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

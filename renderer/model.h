@@ -6,13 +6,12 @@
 #include <span>
 #include <vector>
 
-#include "lrcore/base/result.h"
-#include "lrcore/codec/lean/lean_encode.h"
-#include "lrcore/codec/packed/packed_encode.h"
-#include "lrcore/ring/optimize.h"
-#include "lrio/mesh/mesh.h"
+#include "lacedring/base.hpp"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/mesh.hpp"
+#include "lacedring/ring.hpp"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 /// Positions are moved and scaled so that the used vertices fill the unit sphere: f32 depth and derivatives then mean
 /// the same for every mesh, and all sources draw exactly the same numbers.
@@ -20,8 +19,8 @@ struct Model {
     std::span<const std::uint32_t> indices;  ///< of the mesh, which must outlive the model; 3 a triangle
     std::vector<float> positions;            ///< 3 a vertex, in the mesh's own vertex order
     std::vector<float> normals;              ///< 3 a vertex, unit
-    LeanStream lean;
-    PackedStream packed;             ///< empty unless asked for
+    EncodedLean lean;
+    EncodedPacked packed;            ///< empty unless asked for
     std::array<double, 3> centre{};  ///< of the unit sphere, in the mesh's coordinates
     double radius = 1;               ///< likewise
     double mean_edge = 0;            ///< mean length of the triangles' edges, of the unit sphere
@@ -45,4 +44,4 @@ Result<Model> make_surface(const Mesh& mesh);
 /// Errors: unsupported (no triangles, extent zero or past f32), and build_corner_table's.
 Result<Model> make_model(const Mesh& mesh, const ModelOptions& options = {});
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <array>
 
+#include "lacedring/streams.hpp"
 #include "lrcore/codec/packed/packed_format.h"
-#include "lrcore/codec/packed/packed_stream.h"
 #include "lrcore/codec/packed/record.h"
 #include "renderer/context.h"
 #include "renderer/try.h"
 #include "spirv/packed_decode_comp.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 namespace {
 
 constexpr std::uint64_t kWord = sizeof(std::uint32_t);
@@ -96,4 +96,4 @@ Result<DecodePlan> PackedDecoder::plan(Descriptors& descriptors, const GpuMesh& 
     return plan;
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

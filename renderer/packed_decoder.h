@@ -1,10 +1,10 @@
 #pragma once
 // The compute pass that expands a packed stream into an index buffer and draw commands.
 
-#include "lrcore/codec/packed/packed_stream.h"
+#include "lacedring/streams.hpp"
 #include "renderer/decoder.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 class PackedDecoder : public Decoder {
   public:
@@ -18,4 +18,4 @@ class PackedDecoder : public Decoder {
     std::uint32_t group_ = 0;  // invocations of a workgroup
 };
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -12,7 +12,7 @@
 #include "spirv/line_frag.h"
 #include "spirv/line_vert.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 Result<Painter> Painter::create(Context& context, View view, std::uint32_t samples, bool outlined) {
     Painter out;
@@ -129,4 +129,4 @@ void Painter::record(VkCommandBuffer commands, const GpuMesh& mesh, const DrawPl
     }
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -11,7 +11,7 @@
 #include "renderer/target.h"
 #include "renderer/view.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 class Painter {
   public:
@@ -54,4 +54,4 @@ class Painter {
     Buffer nothing_;  // bound where a mesh has no such buffer
 };
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

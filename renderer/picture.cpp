@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 namespace {
 
 float to_linear(std::uint32_t value) {
@@ -79,4 +79,4 @@ Difference difference(const Picture& a, const Picture& b) {
     return out;
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

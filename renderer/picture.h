@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <vector>
 
-#include "lrcore/base/result.h"
+#include "lacedring/base.hpp"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 /// 8 bits a channel, row by row from the top. Drawn pictures are premultiplied by their opacity.
 struct Picture {
@@ -42,4 +42,4 @@ Result<void> write_png(const std::filesystem::path& path, const Picture& picture
 /// Errors: cannot_open, malformed.
 Result<Picture> read_png(const std::filesystem::path& path);
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

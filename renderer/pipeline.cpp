@@ -5,7 +5,7 @@
 #include "renderer/context.h"
 #include "renderer/try.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 namespace {
 
 constexpr std::uint32_t kSetsPerPool = 64;
@@ -241,4 +241,4 @@ Result<PipelineHandle> create_graphics(Context& context, const Layout& layout, c
     return PipelineHandle(context.device(), pipeline);
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

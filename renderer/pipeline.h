@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "lrcore/base/result.h"
+#include "lacedring/base.hpp"
 #include "renderer/buffer.h"
 #include "renderer/handle.h"
 #include "shaders/shader.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 class Context;
 
@@ -92,4 +92,4 @@ struct GraphicsInfo {
 
 Result<PipelineHandle> create_graphics(Context& context, const Layout& layout, const GraphicsInfo& info);
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

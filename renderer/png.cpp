@@ -7,10 +7,10 @@
 
 #include <cstring>
 
-#include "lrio/file/file.h"
+#include "lacedring/file.hpp"
 #include "renderer/try.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 Result<std::vector<std::byte>> encode_png(const Picture& picture) {
     std::vector<std::uint8_t> rgb(3 * picture.pixels());
@@ -48,4 +48,4 @@ Result<Picture> read_png(const std::filesystem::path& path) {
     return out;
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -6,9 +6,9 @@
 
 #include "renderer/picture.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 /// The bytes of an opaque PNG file. Errors: cannot_write.
 Result<std::vector<std::byte>> encode_png(const Picture& picture);
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 
+#include "renderer/device_error.h"
 #include "renderer/try.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 Result<Renderer> Renderer::create(Context& context, const RendererOptions& options) {
     Renderer out;
@@ -96,7 +97,7 @@ Result<std::uint64_t> Renderer::words_read(const Drawable& drawable) {
 }
 
 Result<std::uint64_t> Renderer::vertex_invocations(Drawable& drawable) {
-    if (!context_->info().statistics) return Error{ErrorCode::no_device, "the device counts no shader runs"};
+    if (!context_->info().statistics) return Error{kNoDevice, "the device counts no shader runs"};
     VkQueryPoolCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
     info.queryType = VK_QUERY_TYPE_PIPELINE_STATISTICS;
@@ -117,4 +118,4 @@ Result<std::uint64_t> Renderer::vertex_invocations(Drawable& drawable) {
     return count;
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -9,7 +9,7 @@
 #include "renderer/painter.h"
 #include "renderer/slot_reader.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 struct RendererOptions {
     View view = View::smooth;
@@ -46,7 +46,7 @@ class Renderer {
     Result<std::uint64_t> words_read(const Drawable& drawable);
 
     /// Runs of vertex shaders for one picture in one pass, as the device counts them. What draws it must be decoded.
-    /// Errors: no_device (DeviceInfo::statistics).
+    /// Errors: kNoDevice (DeviceInfo::statistics).
     Result<std::uint64_t> vertex_invocations(Drawable& drawable);
 
     Context& context() { return *context_; }
@@ -73,4 +73,4 @@ class Renderer {
     std::optional<VertexNormals> vertex_normals_;
 };
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -6,7 +6,7 @@
 #include "renderer/try.h"
 #include "spirv/rotate_comp.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 Result<Rotator> Rotator::create(Context& context) {
     Rotator out;
@@ -49,4 +49,4 @@ void Rotator::record(VkCommandBuffer commands, const RotatePlan& plan) const {
     }
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

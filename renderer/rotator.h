@@ -7,7 +7,7 @@
 #include "renderer/pipeline.h"
 #include "shaders/shared.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 struct RotatePlan {
     struct Dispatch {
@@ -32,4 +32,4 @@ class Rotator {
     PipelineHandle pipeline_;
 };
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

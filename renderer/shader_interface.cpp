@@ -9,7 +9,7 @@
 
 #include "renderer/try.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 namespace {
 
 // Of the SPIR-V specification, what glslang writes of these.
@@ -263,4 +263,4 @@ Result<void> check_interface(const Shader& built_in, std::span<const std::uint32
     return {};
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -2,10 +2,10 @@
 // Whether words can take the place of a built-in shader's in the pipelines that it is in. A driver need not check that,
 // and lavapipe does not.
 
-#include "lrcore/base/result.h"
+#include "lacedring/base.hpp"
 #include "shaders/shader.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 /// The words must be valid SPIR-V, and of the shader's stage. What the layouts and the other stages of its pipelines
 /// know of it must be as it was: bindings and push constants with all their members' places, inputs, outputs, sizes of
@@ -14,4 +14,4 @@ namespace lr::gpu {
 /// Errors: malformed, unsupported ("binding 3 is new: ...").
 Result<void> check_interface(const Shader& built_in, std::span<const std::uint32_t> words);
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 std::shared_ptr<const ShaderSet::Words> ShaderSet::find(std::string_view name) const {
     const std::scoped_lock lock(mutex_);
@@ -15,4 +15,4 @@ ShaderSet::Replaced ShaderSet::exchange(Replaced replaced) {
     return std::exchange(replaced_, std::move(replaced));
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

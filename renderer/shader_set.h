@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 /// Empty in a program that replaces none. May be used by several threads.
 class ShaderSet {
@@ -29,4 +29,4 @@ class ShaderSet {
     Replaced replaced_;
 };
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -8,7 +8,7 @@
 #include "spirv/slot_indices_comp.h"
 #include "spirv/slot_words_comp.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 Result<SlotReader> SlotReader::create(Context& context) {
     SlotReader out;
@@ -71,4 +71,4 @@ Result<std::uint64_t> SlotReader::words_read(Commands& commands, Transfer& trans
     return sum;
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

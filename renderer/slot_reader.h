@@ -9,7 +9,7 @@
 #include "renderer/pipeline.h"
 #include "renderer/transfer.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 class SlotReader {
   public:
@@ -33,4 +33,4 @@ class SlotReader {
     std::array<PipelineHandle, 4> pipelines_;  // lean, packed; of each task
 };
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -14,7 +14,7 @@
 #include "spirv/surface_pull_vert.h"
 #include "spirv/surface_vert.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 namespace {
 
 constexpr std::array<const char*, Surface::kPasses> kNames{"depth", "claim", "resolve", "single pass"};
@@ -138,4 +138,4 @@ DrawConstants draw_constants(const GpuMesh& mesh, std::uint32_t first, std::uint
     return constants;
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -10,7 +10,7 @@
 #include "renderer/pipeline.h"
 #include "renderer/view.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 /// A mesh ready to be drawn: one descriptor set a draw command.
 struct DrawPlan {
@@ -49,4 +49,4 @@ GraphicsInfo line_pipeline(const char* name, const Shader& vertex, const Shader&
 /// What shaders need to know of slots [first, first + slots).
 DrawConstants draw_constants(const GpuMesh& mesh, std::uint32_t first, std::uint32_t slots);
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

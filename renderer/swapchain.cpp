@@ -6,10 +6,11 @@
 
 #include "renderer/commands.h"
 #include "renderer/context.h"
+#include "renderer/device_error.h"
 #include "renderer/image.h"
 #include "renderer/try.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 namespace {
 
 Result<SemaphoreHandle> create_semaphore(Context& context) {
@@ -31,7 +32,7 @@ Result<VkSurfaceFormatKHR> choose_format(Context& context, VkSurfaceKHR surface)
             if (format.format == wanted && format.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR) return format;
         }
     }
-    return Error{ErrorCode::no_device, "the window takes no pictures of 8 bits a channel"};
+    return Error{kNoDevice, "the window takes no pictures of 8 bits a channel"};
 }
 
 }  // namespace
@@ -40,7 +41,7 @@ Result<Swapchain> Swapchain::create(Context& context, VkSurfaceKHR surface) {
     VkBool32 supported = VK_FALSE;
     LR_TRY_VK(vkGetPhysicalDeviceSurfaceSupportKHR(context.physical(), context.queue_family(), surface, &supported));
     if (supported == VK_FALSE) {
-        return Error{ErrorCode::no_device, context.info().name + " cannot show pictures in this window"};
+        return Error{kNoDevice, context.info().name + " cannot show pictures in this window"};
     }
     Swapchain out;
     out.context_ = &context;
@@ -235,4 +236,4 @@ Result<bool> Swapchain::show(const Image& image, VkExtent2D extent, VkExtent2D w
     return true;
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -5,10 +5,10 @@
 
 #include <vector>
 
-#include "lrcore/base/result.h"
+#include "lacedring/base.hpp"
 #include "renderer/handle.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 class Context;
 class Image;
@@ -16,7 +16,7 @@ class Image;
 /// Needs VK_KHR_surface and VK_KHR_swapchain. Goes before the surface, which it does not own.
 class Swapchain {
   public:
-    /// Errors: no_device (the device's queue cannot show on that surface), device_failure.
+    /// Errors: kNoDevice (the device's queue cannot show on that surface), kDeviceFailure.
     static Result<Swapchain> create(Context& context, VkSurfaceKHR surface);
     Swapchain(Swapchain&& other) noexcept;
     Swapchain& operator=(Swapchain&&) = delete;
@@ -51,4 +51,4 @@ class Swapchain {
     FenceHandle fence_;
 };
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

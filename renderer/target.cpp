@@ -9,7 +9,7 @@
 #include "renderer/context.h"
 #include "renderer/try.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 namespace {
 
 constexpr Access kColourWrite{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
@@ -145,4 +145,4 @@ Picture Target::picture() const {
     return out;
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -6,7 +6,7 @@
 #include "renderer/image.h"
 #include "renderer/picture.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 class Target {
   public:
@@ -55,4 +55,4 @@ class Target {
     Buffer colour_bytes_, triangle_bytes_;
 };
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

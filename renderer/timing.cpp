@@ -10,7 +10,7 @@
 #include "renderer/renderer.h"
 #include "renderer/try.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 namespace {
 
 /// Something to time, and where its times go.
@@ -167,4 +167,4 @@ Result<DeviceTimes> measure_device(Context& context, const Model& model, const T
     return out;
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -13,7 +13,7 @@
 #include "renderer/gpu_mesh.h"
 #include "renderer/model.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 /// One entry a repetition, after one that is not counted.
 using Times = std::vector<Elapsed>;
@@ -55,4 +55,4 @@ struct DeviceTimes {
 /// submission, waited for; all kinds take turns. Device memory: all of them at the same time.
 Result<DeviceTimes> measure_device(Context& context, const Model& model, const TimingOptions& options = {});
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

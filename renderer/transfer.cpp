@@ -4,9 +4,10 @@
 #include <cstring>
 
 #include "renderer/context.h"
+#include "renderer/device_error.h"
 #include "renderer/try.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 namespace {
 
 constexpr std::size_t kPiece = std::size_t{16} << 20;
@@ -27,7 +28,7 @@ Result<void> Transfer::upload(const Buffer& to, VkDeviceSize offset, std::size_t
     if (offset + bytes > to.size()) return Error{ErrorCode::invalid_argument, "upload past a buffer's end"};
     const std::size_t piece = kPiece / unit * unit;
     for (std::size_t from = 0; from < bytes; from += piece) {
-        if (stop_ != nullptr && *stop_) return Error{ErrorCode::device_failure, "stopped"};
+        if (stop_ != nullptr && *stop_) return Error{kDeviceFailure, "stopped"};
         const std::size_t size = std::min(piece, bytes - from);
         fill(up_.mapped(), from, size);
         LR_ASSIGN(const VkCommandBuffer commands, commands_->begin());
@@ -59,4 +60,4 @@ Result<void> Transfer::read(const Buffer& from, VkDeviceSize offset, std::span<s
     return {};
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

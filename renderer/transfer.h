@@ -9,7 +9,7 @@
 #include "renderer/buffer.h"
 #include "renderer/commands.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 class Transfer {
   public:
@@ -28,7 +28,7 @@ class Transfer {
     }
 
     /// From now on every upload ends between two pieces once `stop` is true. It must outlive this; null: none does.
-    /// Errors of such an upload: device_failure, which nobody needs to hear of.
+    /// Errors of such an upload: kDeviceFailure, which nobody needs to hear of.
     void stop_when(const std::atomic<bool>* stop) { stop_ = stop; }
 
     /// Reads out.size() bytes from `offset`. Waits for the device.
@@ -44,4 +44,4 @@ class Transfer {
     Buffer down_;
 };
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
+#include "lacedring/streams.hpp"
 #include "lrcore/codec/lean/lean_format.h"
-#include "lrcore/codec/lean/lean_stream.h"
 #include "lrlab/paper/offsets.h"
 #include "shaders/shared.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 namespace {
 
 /// v.n of every ring vertex, then its inverse asked for by comparing.
@@ -33,7 +33,7 @@ std::vector<std::uint8_t> slot_classes(const LeanView& lean) {
     const auto follows = [&](std::uint32_t a, std::uint32_t b) { return a < next.size() && next[a] == b; };
     std::vector<std::uint8_t> out(lean.slots(), LR_CLASS_NONE);
     for (std::uint32_t slot = 0; slot < lean.slots(); ++slot) {
-        const LeanTriangle t = decode_lean_slot(lean, slot);
+        const Triangle t = decode_lean_slot(lean, slot);
         if (t.degenerate()) continue;
         const bool in_ring = slot < lean.ring_slots();
         if (in_ring && (lean.payload[slot] & LR_LEAN_WART_FLAG) != 0) {
@@ -124,4 +124,4 @@ std::vector<std::uint32_t> ring_lines(const LeanView& lean) {
     return out;
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "lrcore/codec/lean/lean_stream.h"
+#include "lacedring/streams.hpp"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 /// LR_CLASS_* (shaders/shared.h), one byte a slot. Cost: O(slots). The stream must be valid.
 std::vector<std::uint8_t> slot_classes(const LeanView& lean);
@@ -27,4 +27,4 @@ std::vector<std::uint32_t> mesh_edges(std::span<const std::uint32_t> indices);
 /// The rings as pairs (v, v.n) of ring vertices.
 std::vector<std::uint32_t> ring_lines(const LeanView& lean);
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

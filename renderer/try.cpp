@@ -2,7 +2,9 @@
 
 #include <string_view>
 
-namespace lr::gpu {
+#include "renderer/device_error.h"
+
+namespace lacedring::gpu {
 
 std::string result_name(VkResult result) {
     switch (result) {
@@ -49,8 +51,8 @@ Result<void> check(VkResult result, const char* call) {
     if (result == VK_SUCCESS) return {};
     const bool memory = result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY;
     const std::string_view text(call);
-    return Error{memory ? ErrorCode::no_device : ErrorCode::device_failure,
+    return Error{memory ? kNoDevice : kDeviceFailure,
                  std::string(text.substr(0, text.find('('))) + ": " + result_name(result)};
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -6,17 +6,17 @@
 #include <string>
 #include <utility>
 
-#include "lrcore/base/result.h"
+#include "lacedring/base.hpp"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 /// "VK_ERROR_DEVICE_LOST", or the number of a code that is not known here.
 std::string result_name(VkResult result);
 
-/// device_failure, naming the call, unless the result is VK_SUCCESS. Out of memory is no_device.
+/// kDeviceFailure, naming the call, unless the result is VK_SUCCESS. Out of memory is kNoDevice.
 Result<void> check(VkResult result, const char* call);
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu
 
 #define LR_CONCAT_(a, b) a##b
 #define LR_CONCAT(a, b) LR_CONCAT_(a, b)
@@ -35,4 +35,4 @@ Result<void> check(VkResult result, const char* call);
     declaration = std::move(name).value()
 
 /// Returns an error unless a Vulkan call gave VK_SUCCESS.
-#define LR_TRY_VK(call) LR_TRY(::lr::gpu::check((call), #call))
+#define LR_TRY_VK(call) LR_TRY(::lacedring::gpu::check((call), #call))

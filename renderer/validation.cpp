@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 namespace {
 
 /// Messages that are not about a fault of this program.
@@ -57,4 +57,4 @@ VkDebugUtilsMessengerCreateInfoEXT messenger_info(ValidationLog& log) {
     return info;
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 /// Every message of warning or error severity, in order. Written from whatever thread a Vulkan call is made on.
 class ValidationLog {
@@ -27,4 +27,4 @@ inline constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 /// Sends warnings and errors to `log`, which must outlive the messenger.
 VkDebugUtilsMessengerCreateInfoEXT messenger_info(ValidationLog& log);
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

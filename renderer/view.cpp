@@ -3,7 +3,7 @@
 #include <array>
 #include <utility>
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 namespace {
 
 bool has_ring(View view) {
@@ -39,4 +39,4 @@ UploadOptions upload_options(View view) {
     return options;
 }
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -8,7 +8,7 @@
 #include "renderer/gpu_mesh.h"
 #include "shaders/shared.h"
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 enum class View : std::uint32_t {
     smooth = LR_VIEW_SMOOTH,          ///< interpolated normals
@@ -27,4 +27,4 @@ bool has_lines(View view);
 /// "smooth", "flat", "class", "ring", "wire", "offsets", "silhouette"
 std::optional<View> view_named(std::string_view name);
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

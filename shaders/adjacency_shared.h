@@ -5,7 +5,7 @@
 #include "shaders/shared.h"
 
 #ifdef __cplusplus
-namespace lr::gpu {
+namespace lacedring::gpu {
 #endif
 
 // Addresses of the tables and of positions and normals, 3 floats an LR vertex: no descriptor needs to cover them. The
@@ -42,6 +42,6 @@ struct SilhouetteConstants {
 #define LR_EDGE_CREASE 4u
 
 #ifdef __cplusplus
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu
 #endif
 #endif

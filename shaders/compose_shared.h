@@ -5,7 +5,7 @@
 #include "shaders/shared.h"
 
 #ifdef __cplusplus
-namespace lr::gpu {
+namespace lacedring::gpu {
 #endif
 
 // Specialization constants of compose.comp: mode, samples a pixel along each side, paint.
@@ -50,6 +50,6 @@ struct ComposeConstants {
 };
 
 #ifdef __cplusplus
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu
 #endif
 #endif

@@ -10,7 +10,7 @@
 //     #define LR_PACKED_WORD(i) words[i]
 //     uvec3 v = lr_packed_triangle(lr_packed_layout(), t);  // t < lr_packed_layout().triangles
 // v are vertices in the stream's order (its vertex_order). A lean triangle whose first two are equal is degenerate: it
-// covers nothing, draw it or skip it. A stream must be valid (lr::validate_lean, lr::validate_packed); on any other, every
+// covers nothing, draw it or skip it. A stream must be valid (lacedring::validate_lean, lacedring::validate_packed); on any other, every
 // loop still ends. docs/engine-guide.md has an example of every stage.
 //
 // The constants are those of lrcore/codec/lean/lean_format.h and lrcore/codec/packed/packed_format.h, which say what they mean. A C++

@@ -1,16 +1,16 @@
 // The corner operators of the LR tables in one file, each in constant time, in any shader stage. Take this file alone.
 // Paper: LR 2011, sections 4.4 to 4.7 and 5.
 //
-// Say where the stream's words are (lr::encode_lr makes it; .lr files of kind lr), include it, ask:
+// Say where the stream's words are (lacedring::encode_lr makes it; .lr files of kind lr), include it, ask:
 //     layout(std430, binding = 0) readonly buffer Tables { uint words[]; };  // or a buffer reference
 //     #define LR_TABLE_WORD(i) words[i]
 //     #include "lacedring_operators.glsl"
 //     ...
 //     LrOpLayout lr = lr_op_layout();
 //     uint across = lr_opposite(lr, c);  // LR_TABLE_NULL across a border
-// Corners are numbers, as in lr::LrOperators: triangle t has 4t, 4t+1, 4t+2, for t < lr_triangle_numbers(lr) where
+// Corners are numbers, as in lacedring::Operators: triangle t has 4t, 4t+1, 4t+2, for t < lr_triangle_numbers(lr) where
 // lr_is_canonical(lr, t); the other numbers are redundant copies and borders. Vertices are the stream's (vertex_order).
-// Around a vertex, in the order of lr::LrOperators::star, which on a border begins at the corner that no swing leads to:
+// Around a vertex, in the order of lacedring::Operators::star, which on a border begins at the corner that no swing leads to:
 //     uint first = lr_star_first(lr, v), c = first;
 //     for (uint left = lr_triangle_numbers(lr); c != LR_TABLE_NULL && left > 0u; --left) {
 //         ...  // c's triangle is c / 4; lr_vertex(lr, lr_next(c)) is a neighbour of v
@@ -20,7 +20,7 @@
 // Where the order does not matter, this is half the work, as nobody walks back to look for a border:
 //     for (LrStar s = lr_star(lr, v); s.corner != LR_TABLE_NULL; lr_star_step(lr, s)) ...  // s.corner
 // Triangles have the tables' orientation, the same on both sides of every edge; FLIP is where the input has the other.
-// A stream must be valid (lr::validate_lr); on any other, every loop still ends, but words past its end may be asked for.
+// A stream must be valid (lacedring::validate_lr); on any other, every loop still ends, but words past its end may be asked for.
 // Null goes into no operator. A stream has fewer than 2^32 words.
 //
 // The constants are those of lrcore/codec/tables/lr_format.h, which says what they mean, and of docs/lr-tables.md. A C++ file may

@@ -5,11 +5,11 @@
 #include <span>
 #include <string_view>
 
-namespace lr::gpu {
+namespace lacedring::gpu {
 
 struct Shader {
     std::string_view name;  ///< of its source in this folder: "surface.frag"
     std::span<const std::uint32_t> words;
 };
 
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu

@@ -5,7 +5,7 @@
 #ifdef __cplusplus
 #include <array>
 #include <cstdint>
-namespace lr::gpu {
+namespace lacedring::gpu {
 using uint = std::uint32_t;
 using uvec2 = std::array<std::uint32_t, 2>;
 using uvec4 = std::array<std::uint32_t, 4>;
@@ -94,6 +94,6 @@ struct DrawConstants {
 #define LR_OFFSET_T0 255u  // verbatim
 
 #ifdef __cplusplus
-}  // namespace lr::gpu
+}  // namespace lacedring::gpu
 #endif
 #endif

@@ -6,17 +6,16 @@
 #include <string>
 
 #include "app/mesh_input.h"
-#include "lrcore/codec/tables/lr_encode.h"
-#include "lrcore/ring/expansion.h"
-#include "lrcore/ring/ring.h"
-#include "lrcore/topology/corner_table.h"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/ring.hpp"
+#include "lacedring/topology.hpp"
 #include "renderer/model.h"
 
-namespace lr::app {
+namespace lacedring::app {
 struct FormatSet;  // app/formats.h, which is slow to compile
 }
 
-namespace lr::view {
+namespace lacedring::view {
 
 using Input = app::MeshInput;
 
@@ -26,7 +25,7 @@ struct RingSettings {
     std::uint32_t k = 100;    ///< of the hybrid
     std::uint32_t seeds = 1;  ///< per component
     std::uint64_t random_seed = 1;
-    CornerId start = null_corner;  ///< where it begins; null: at the first triangle
+    CornerId start = kNullCorner;  ///< where it begins; null: at the first triangle
     std::uint32_t passes = 24;     ///< of the optimiser
     bool warts = true;             ///< wart skipping
 
@@ -76,4 +75,4 @@ CornerId lr_step(const Tables& tables, const CornerTable& table, CornerId corner
 /// What the tables hold for a corner's triangle, in one line.
 std::string lr_text(const Tables& tables, const CornerTable& table, CornerId corner);
 
-}  // namespace lr::view
+}  // namespace lacedring::view

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace lr::view {
+namespace lacedring::view {
 
 /// Letters, digits and punctuation are their upper-case ASCII characters.
 enum Key : int {
@@ -39,4 +39,4 @@ struct Event {
     std::vector<std::string> paths = {};
 };
 
-}  // namespace lr::view
+}  // namespace lacedring::view

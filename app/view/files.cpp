@@ -7,9 +7,9 @@
 #include <span>
 #include <sstream>
 
-#include "lrio/file/file.h"
+#include "lacedring/file.hpp"
 
-namespace lr::view {
+namespace lacedring::view {
 namespace {
 
 namespace fs = std::filesystem;
@@ -86,4 +86,4 @@ std::string free_name(const std::string& prefix, const std::string& suffix) {
     }
 }
 
-}  // namespace lr::view
+}  // namespace lacedring::view

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace lr::view {
+namespace lacedring::view {
 
 /// Meshes in the folder of `path`, by name; by their extensions alone.
 std::vector<std::string> meshes_beside(const std::filesystem::path& path);
@@ -17,4 +17,4 @@ void add_recent(std::vector<std::string>& recent, const std::string& path, bool 
 /// PREFIX-1.png, PREFIX-2.png, ...: the first that is not there yet.
 std::string free_name(const std::string& prefix, const std::string& suffix);
 
-}  // namespace lr::view
+}  // namespace lacedring::view

@@ -9,15 +9,13 @@
 
 #include "app/formats.h"
 #include "app/view/files.h"
-#include "lrcore/codec/lean/lean_encode.h"
-#include "lrcore/codec/lean/lean_stream.h"
-#include "lrcore/codec/packed/packed_encode.h"
-#include "lrcore/codec/packed/packed_stream.h"
-#include "lrcore/codec/tables/lr_encode.h"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/streams.hpp"
 #include "lrlab/rivals/strips.h"
+#include "renderer/device_error.h"
 #include "renderer/try.h"
 
-namespace lr::view {
+namespace lacedring::view {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -144,7 +142,7 @@ void Loader::request(Request request) {
     shared_->changed.notify_all();
     const Result<void> started =
         room ? threads_.start([job] { job->run(); })
-             : Error{ErrorCode::device_failure, std::to_string(kMostReaders) + " other files are still being read"};
+             : Error{gpu::kDeviceFailure, std::to_string(kMostReaders) + " other files are still being read"};
     if (started) return;
     const std::lock_guard lock(shared_->mutex);
     if (room && job->reads()) --shared_->readers;
@@ -288,7 +286,7 @@ Result<void> Loader::Job::finish(Document& document, bool quick) {
     const auto show = [&] {
         if (shown || since_asked() < kSoon) return;
         shown = true;
-        Result<LeanStream> lean = encode_lean(table, rings, {.wart_skipping = settings.warts});
+        Result<EncodedLean> lean = encode_lean(table, rings, {.wart_skipping = settings.warts});
         if (!lean) return;  // reported when the optimized rings are encoded
         Document early = document;
         auto model = std::make_shared<gpu::Model>(*document.model);
@@ -315,12 +313,12 @@ Result<void> Loader::Job::finish(Document& document, bool quick) {
         say(what, from);
         return optimize_rings(table, rings, options);
     };
-    auto lean_rings = std::make_shared<Rings>(optimised(lean_ring_cost, share, 0.8, "optimising the ring"));
+    auto lean_rings = std::make_shared<Rings>(optimised(kLeanRingCost, share, 0.8, "optimising the ring"));
     if (stopped()) return {};
     auto model = std::make_shared<gpu::Model>(*document.model);
     LR_ASSIGN(model->lean, encode_lean(table, *lean_rings, {.wart_skipping = settings.warts}));
     if (!quick) {
-        const Rings packed_rings = optimised(packed_ring_cost, 0.8, 1.0, "optimising for the packed stream");
+        const Rings packed_rings = optimised(kPackedRingCost, 0.8, 1.0, "optimising for the packed stream");
         if (stopped()) return {};
         LR_ASSIGN(model->packed, encode_packed(table, packed_rings));
     }
@@ -362,7 +360,7 @@ void Loader::Job::measure_formats(const Document& document) {
             return !stopped();
         });
     if (!formats) return;
-    for (app::Format& format : formats->formats) {
+    for (app::MeasuredFormat& format : formats->formats) {
         format.indices = {};  // only the figures are shown
         format.order = {};
     }
@@ -404,4 +402,4 @@ void Loader::Job::work() {
     measure_formats(document);
 }
 
-}  // namespace lr::view
+}  // namespace lacedring::view

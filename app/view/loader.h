@@ -11,7 +11,7 @@
 #include "app/view/document.h"
 #include "app/view/threads.h"
 
-namespace lr::view {
+namespace lacedring::view {
 
 class Loader {
   public:
@@ -63,4 +63,4 @@ class Loader {
     std::shared_ptr<Shared> shared_;  // with the threads
 };
 
-}  // namespace lr::view
+}  // namespace lacedring::view

@@ -20,7 +20,7 @@
 #include "app/view/window.h"
 #include "renderer/swapchain.h"
 
-namespace lr::view {
+namespace lacedring::view {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -206,23 +206,23 @@ int start(int argc, char** argv, Threads& threads) {
 }
 
 }  // namespace
-}  // namespace lr::view
+}  // namespace lacedring::view
 
 int main(int argc, char** argv) {
-    lr::view::Threads threads;
-    int code = lr::app::bad_input;
+    lacedring::view::Threads threads;
+    int code = lacedring::app::bad_input;
     try {
-        code = lr::view::start(argc, argv, threads);
+        code = lacedring::view::start(argc, argv, threads);
     } catch (const std::bad_alloc&) {
         std::fputs("lacedring: not enough memory\n", stderr);
     } catch (const std::exception& error) {  // a bug: nothing of ours throws
-        lr::app::say("lacedring: internal error: {}\n", error.what());
+        lacedring::app::say("lacedring: internal error: {}\n", error.what());
     }
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
         std::fputs("lacedring: standard output: cannot be written\n", stderr);
-        if (code == lr::app::done) code = lr::app::bad_input;
+        if (code == lacedring::app::done) code = lacedring::app::bad_input;
     }
     // A thread that waits for a disk, or computes for long, is left behind.
-    if (!threads.finish(lr::view::kPatience)) lr::view::leave(code);
+    if (!threads.finish(lacedring::view::kPatience)) lacedring::view::leave(code);
     return code;
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace lr::view {
+namespace lacedring::view {
 namespace {
 
 Vector operator+(const Vector& a, const Vector& b) {
@@ -165,4 +165,4 @@ std::optional<std::array<double, 2>> Orbit::project(const Vector& point, double 
     return std::array<double, 2>{width / 2 + dot(d, a.right) * scale, height / 2 - dot(d, a.up) * scale};
 }
 
-}  // namespace lr::view
+}  // namespace lacedring::view

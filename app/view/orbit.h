@@ -6,7 +6,7 @@
 
 #include "renderer/camera.h"
 
-namespace lr::view {
+namespace lacedring::view {
 
 using Vector = std::array<double, 3>;
 
@@ -51,4 +51,4 @@ class Orbit {
     double size_ = 1;  // of the mesh: its ball's radius
 };
 
-}  // namespace lr::view
+}  // namespace lacedring::view

@@ -8,10 +8,11 @@
 
 #include "app/view/theme.h"
 #include "renderer/context.h"
+#include "renderer/device_error.h"
 #include "renderer/target.h"
 #include "renderer/try.h"
 
-namespace lr::view {
+namespace lacedring::view {
 namespace {
 
 using gpu::Access;
@@ -106,7 +107,7 @@ Result<void> Overlay::start(gpu::Context& context, double scale) {
     info.MinImageCount = 2;
     info.ImageCount = 2;
     info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
-    if (!ImGui_ImplVulkan_Init(&info, pass_.get())) return Error{ErrorCode::device_failure, "ImGui's Vulkan backend"};
+    if (!ImGui_ImplVulkan_Init(&info, pass_.get())) return Error{gpu::kDeviceFailure, "ImGui's Vulkan backend"};
     started_ = true;
     LR_ASSIGN(gpu::Commands commands, gpu::Commands::create(context));
     LR_ASSIGN(const VkCommandBuffer buffer, commands.begin());
@@ -195,4 +196,4 @@ void Overlay::record(VkCommandBuffer commands, const gpu::Image& under) {
                        VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
 }
 
-}  // namespace lr::view
+}  // namespace lacedring::view

@@ -10,7 +10,7 @@
 #include "renderer/commands.h"
 #include "renderer/image.h"
 
-namespace lr::view {
+namespace lacedring::view {
 
 /// Fonts and colours are there once it is made. One at a time, as ImGui has it.
 class Overlay {
@@ -42,4 +42,4 @@ class Overlay {
     bool started_ = false;
 };
 
-}  // namespace lr::view
+}  // namespace lacedring::view

@@ -7,7 +7,7 @@
 
 #include "app/view/theme.h"
 
-namespace lr::view {
+namespace lacedring::view {
 namespace {
 
 ImVec2 at(const std::array<double, 2>& p) {
@@ -103,4 +103,4 @@ void draw_marks(const State& state, const Orbit& orbit, std::uint32_t width, std
         x, px(14), 1);
 }
 
-}  // namespace lr::view
+}  // namespace lacedring::view

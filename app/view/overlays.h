@@ -6,9 +6,9 @@
 #include "app/view/orbit.h"
 #include "app/view/state.h"
 
-namespace lr::view {
+namespace lacedring::view {
 
 /// The divider, and letters at the selected corner and its neighbours. Between ImGui::NewFrame and Render.
 void draw_marks(const State& state, const Orbit& orbit, std::uint32_t width, std::uint32_t height);
 
-}  // namespace lr::view
+}  // namespace lacedring::view

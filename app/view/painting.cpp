@@ -4,11 +4,11 @@
 #include <new>
 #include <utility>
 
-#include "lrcore/codec/lean/lean_stream.h"
-#include "lrcore/ring/expansion.h"
+#include "lacedring/ring.hpp"
+#include "lacedring/streams.hpp"
 #include "renderer/triangle_class.h"
 
-namespace lr::view {
+namespace lacedring::view {
 namespace {
 
 /// Colours that neighbouring numbers do not share.
@@ -27,7 +27,7 @@ std::vector<gpu::GrowthTriangle> growth(const Document& document) {
     for (std::uint32_t t = 0; t < out.size(); ++t) {
         std::uint32_t across[3];
         for (std::uint32_t k = 0; k < 3; ++k) {
-            const CornerId o = table.opposite(corner({t}, k));
+            const CornerId o = table.opposite(corner(TriangleId{t}, k));
             across[k] = o.is_null() ? LR_GROWTH_BORDER : triangle(o).value;
         }
         static_assert(LR_GROWTH_RIGHT == kNeverInvaded);
@@ -64,7 +64,7 @@ std::vector<std::uint32_t> corridors(const Document& document) {
             const std::uint32_t t = stack.back();
             stack.pop_back();
             for (std::uint32_t i = 0; i < 3; ++i) {
-                const CornerId o = table.opposite(corner({t}, i));
+                const CornerId o = table.opposite(corner(TriangleId{t}, i));
                 // On the same side: across a ring edge lies the other one.
                 if (o.is_null() || classes[triangle(o).value] != classes[t]) continue;
                 std::uint32_t& there = out[triangle(o).value];
@@ -126,4 +126,4 @@ Result<std::shared_ptr<const Painting>> Paintings::get(const std::shared_ptr<con
     return std::shared_ptr<const Painting>();
 }
 
-}  // namespace lr::view
+}  // namespace lacedring::view

@@ -9,7 +9,7 @@
 #include "app/view/threads.h"
 #include "shaders/compose_shared.h"
 
-namespace lr::view {
+namespace lacedring::view {
 
 /// What one Paint lays over one document. Either may be empty.
 struct Painting {
@@ -30,7 +30,7 @@ class Paintings {
     explicit Paintings(Threads& threads) : threads_(threads) {}
 
     /// The document's, if it is made; null while it is being made, which this begins, and for Paint::none. One that is
-    /// asked for again is made once. Errors: device_failure (no thread), too_large (not enough memory); the next call
+    /// asked for again is made once. Errors: kDeviceFailure (no thread), too_large (not enough memory); the next call
     /// tries again.
     Result<std::shared_ptr<const Painting>> get(const std::shared_ptr<const Document>& document, Paint paint);
 
@@ -49,4 +49,4 @@ class Paintings {
     std::shared_ptr<const void> job_of_;
 };
 
-}  // namespace lr::view
+}  // namespace lacedring::view

@@ -10,7 +10,7 @@
 #include "app/view/panels.h"
 #include "app/view/theme.h"
 
-namespace lr::view {
+namespace lacedring::view {
 namespace {
 
 constexpr float kLabel = 104;  // nominal pixels before a field
@@ -248,4 +248,4 @@ void draw_choices(State& state) {
     draw_files(state);
 }
 
-}  // namespace lr::view
+}  // namespace lacedring::view

@@ -6,7 +6,7 @@
 #include "app/view/panels.h"
 #include "app/view/theme.h"
 
-namespace lr::view {
+namespace lacedring::view {
 namespace {
 
 struct Line {
@@ -85,4 +85,4 @@ void draw_help(float left, float right, float bottom) {
     ImGui::PopStyleVar(2);
 }
 
-}  // namespace lr::view
+}  // namespace lacedring::view

@@ -12,7 +12,7 @@
 #include "app/view/selection.h"
 #include "app/view/theme.h"
 
-namespace lr::view {
+namespace lacedring::view {
 namespace {
 
 /// A swatch, a line or a ramp of colours, and what it stands for.
@@ -182,4 +182,4 @@ void draw_legend(const State& state, float left, float top, float room) {
     ImGui::PopFont();
 }
 
-}  // namespace lr::view
+}  // namespace lacedring::view

@@ -11,9 +11,9 @@
 #include "app/measure.h"
 #include "app/view/panels.h"
 #include "app/view/theme.h"
-#include "lrcore/codec/lean/lean_encode.h"
+#include "lacedring/lacedring.hpp"
 
-namespace lr::view {
+namespace lacedring::view {
 namespace {
 
 constexpr float kTall = 780;  // nominal pixels of a panel that has room for tall plots
@@ -135,7 +135,7 @@ void draw_times(const State& state) {
 }
 
 struct Bar {
-    const app::Format* format;
+    const app::MeasuredFormat* format;
     double bits;
 };
 
@@ -188,7 +188,7 @@ void draw_formats(const State& state) {
         return;
     }
     std::vector<Bar> bars;
-    for (const app::Format& format : state.formats->formats) {
+    for (const app::MeasuredFormat& format : state.formats->formats) {
         bars.push_back({&format, 8.0 * static_cast<double>(format.bytes) /
                                      static_cast<double>(state.document->mesh->triangle_count())});
     }
@@ -206,4 +206,4 @@ void draw_numbers(State& state) {
     draw_formats(state);
 }
 
-}  // namespace lr::view
+}  // namespace lacedring::view

@@ -8,7 +8,7 @@
 #include "app/view/panels.h"
 #include "app/view/theme.h"
 
-namespace lr::view {
+namespace lacedring::view {
 namespace {
 
 float width_of(std::string_view text) {
@@ -107,4 +107,4 @@ std::vector<PanelBox> panel_boxes() {
     return out;
 }
 
-}  // namespace lr::view
+}  // namespace lacedring::view

@@ -7,10 +7,9 @@
 
 #include "app/view/panels.h"
 #include "app/view/theme.h"
-#include "lrcore/codec/lean/lean_stream.h"
-#include "lrcore/codec/packed/packed_stream.h"
+#include "lacedring/streams.hpp"
 
-namespace lr::view {
+namespace lacedring::view {
 namespace {
 
 ImVec4 colour(std::uint32_t rgba) {
@@ -24,7 +23,7 @@ std::string lean_text(const gpu::Model& model, std::uint32_t t) {
     const auto at = std::find(model.lean.slot_triangle.begin(), model.lean.slot_triangle.end(), t);
     if (at == model.lean.slot_triangle.end()) return "in no slot";
     const auto slot = static_cast<std::uint32_t>(at - model.lean.slot_triangle.begin());
-    const LeanTriangle found = decode_lean_slot(*view, slot);
+    const Triangle found = decode_lean_slot(*view, slot);
     const std::string vertices = fmt::format("({}, {}, {})", found.v[0], found.v[1], found.v[2]);
     if (slot >= view->ring_slots()) {
         return fmt::format("slot {}: verbatim, a T0: {}", slot, vertices);
@@ -44,7 +43,7 @@ std::string packed_text(const gpu::Model& model, std::uint32_t t) {
     const auto at = std::find(model.packed.triangle_order.begin(), model.packed.triangle_order.end(), t);
     if (at == model.packed.triangle_order.end()) return "";
     const auto i = static_cast<std::uint32_t>(at - model.packed.triangle_order.begin());
-    const PackedTriangle found = decode_packed_triangle(*view, i);
+    const Triangle found = decode_packed_triangle(*view, i);
     return fmt::format("triangle {} of block {}: ({}, {}, {})", i % 256, i / 256, found.v[0], found.v[1], found.v[2]);
 }
 
@@ -137,4 +136,4 @@ void draw_selection(const State& state) {
     ImGui::EndGroup();
 }
 
-}  // namespace lr::view
+}  // namespace lacedring::view

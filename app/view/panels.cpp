@@ -9,7 +9,7 @@
 
 #include "app/view/theme.h"
 
-namespace lr::view {
+namespace lacedring::view {
 namespace {
 
 constexpr float kLeft = 268, kRight = 316, kBar = 30;  // nominal pixels
@@ -236,4 +236,4 @@ void draw_panels(State& state, const Orbit&) {
     if (state.help) draw_help(left, right, state.panels ? height : window.y);
 }
 
-}  // namespace lr::view
+}  // namespace lacedring::view

@@ -9,7 +9,7 @@
 #include "app/view/orbit.h"
 #include "app/view/state.h"
 
-namespace lr::view {
+namespace lacedring::view {
 
 /// Between ImGui::NewFrame and Render.
 void draw_panels(State& state, const Orbit& orbit);
@@ -48,4 +48,4 @@ void heading(const char* text, const char* explained = nullptr);
 /// Explains the last item when the mouse is over it.
 void explain(const char* text);
 
-}  // namespace lr::view
+}  // namespace lacedring::view

@@ -6,11 +6,11 @@
 #include <cstring>
 #include <utility>
 
-#include "lrcore/codec/tables/lr_encode.h"
+#include "lacedring/lacedring.hpp"
 #include "renderer/try.h"
 #include "spirv/compose_comp.h"
 
-namespace lr::view {
+namespace lacedring::view {
 namespace {
 
 using gpu::Access;
@@ -366,4 +366,4 @@ Result<gpu::Difference> Scene::difference() {
     return gpu::difference(targets_[0]->picture(), targets_[1]->picture());
 }
 
-}  // namespace lr::view
+}  // namespace lacedring::view

@@ -10,12 +10,12 @@
 #include <string>
 
 #include "app/view/uploader.h"
-#include "lrcore/codec/tables/lr_encode.h"
+#include "lacedring/lacedring.hpp"
 #include "renderer/adjacency.h"
 #include "renderer/renderer.h"
 #include "shaders/compose_shared.h"
 
-namespace lr::view {
+namespace lacedring::view {
 
 enum class Mode { single, split, difference };
 
@@ -143,4 +143,4 @@ class Scene {
     std::unique_ptr<Uploader> uploader_;  // goes first
 };
 
-}  // namespace lr::view
+}  // namespace lacedring::view

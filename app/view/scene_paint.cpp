@@ -4,7 +4,7 @@
 #include "app/view/scene.h"
 #include "renderer/try.h"
 
-namespace lr::view {
+namespace lacedring::view {
 
 Result<void> Scene::hold(gpu::Buffer& buffer, const char* name, std::size_t bytes) {
     if (buffer.size() >= bytes && buffer.mapped() != nullptr) return {};
@@ -58,4 +58,4 @@ void Scene::grow(std::uint32_t invaded, std::uint32_t fresh) {
     fresh_ = fresh;
 }
 
-}  // namespace lr::view
+}  // namespace lacedring::view

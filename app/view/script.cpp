@@ -15,10 +15,10 @@
 
 #include "app/camera_options.h"
 #include "app/print.h"
-#include "lrio/file/file.h"
+#include "lacedring/file.hpp"
 #include "renderer/try.h"
 
-namespace lr::view {
+namespace lacedring::view {
 namespace {
 
 constexpr double kPatience = 300;  // seconds that a line may wait
@@ -378,4 +378,4 @@ Result<bool> Script::run(const Line& line, Viewer& viewer, Window& window, std::
     return true;
 }
 
-}  // namespace lr::view
+}  // namespace lacedring::view

@@ -9,7 +9,7 @@
 #include "app/view/viewer.h"
 #include "app/view/window.h"
 
-namespace lr::view {
+namespace lacedring::view {
 
 class Script {
   public:
@@ -45,4 +45,4 @@ class Script {
     std::chrono::steady_clock::time_point waiting_since_{};
 };
 
-}  // namespace lr::view
+}  // namespace lacedring::view

@@ -5,7 +5,7 @@
 #include "app/view/panels.h"
 #include "app/view/script.h"
 
-namespace lr::view {
+namespace lacedring::view {
 
 std::string Script::state_text(Viewer& viewer) {
     const State& state = viewer.state();
@@ -65,7 +65,7 @@ std::string Script::state_text(Viewer& viewer) {
         out["frame_ms"] = state.frame_seconds * 1e3;
     }
     if (state.formats) {
-        for (const app::Format& format : state.formats->formats) out["formats"][format.name] = format.bytes;
+        for (const app::MeasuredFormat& format : state.formats->formats) out["formats"][format.name] = format.bytes;
     }
     for (const PanelBox& box : panel_boxes()) {
         out["panels"].push_back({{"name", box.name},
@@ -75,4 +75,4 @@ std::string Script::state_text(Viewer& viewer) {
     return out.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-}  // namespace lr::view
+}  // namespace lacedring::view

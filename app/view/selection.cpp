@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace lr::view {
+namespace lacedring::view {
 namespace {
 
 using Point = std::array<double, 3>;
@@ -31,10 +31,10 @@ Point place(const gpu::Model& model, std::uint32_t v) {
 }  // namespace
 
 CornerId nearest_corner(const Document& document, std::uint32_t t, const Point& eye, const Point& ray) {
-    CornerId best = null_corner;
+    CornerId best = kNullCorner;
     double distance = std::numeric_limits<double>::infinity();
     for (std::uint32_t i = 0; i < 3; ++i) {
-        const CornerId c = lr::corner({t}, i);
+        const CornerId c = lacedring::corner(TriangleId{t}, i);
         const Point d = cross(minus(place(*document.model, document.table->vertex(c).value), eye), ray);
         if (dot(d, d) < distance) {
             distance = dot(d, d);
@@ -90,7 +90,7 @@ CornerId step(const Document& document, CornerId corner, char operation) {
         case 'r':
             return table.right(corner);
         default:
-            return null_corner;
+            return kNullCorner;
     }
 }
 
@@ -133,4 +133,4 @@ std::pair<Point, double> ball(const Document& document, CornerId corner) {
     return {centre, std::sqrt(squared) * 1.6};
 }
 
-}  // namespace lr::view
+}  // namespace lacedring::view

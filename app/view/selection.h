@@ -9,10 +9,10 @@
 #include "app/view/document.h"
 #include "app/view/scene.h"
 
-namespace lr::view {
+namespace lacedring::view {
 
 struct Selection {
-    CornerId corner = null_corner;  ///< of the document's corner table
+    CornerId corner = kNullCorner;  ///< of the document's corner table
 
     bool any() const { return !corner.is_null(); }
 };
@@ -48,4 +48,4 @@ constexpr std::uint32_t kSelectedColour = rgba(246, 190, 40), kOppositeColour = 
                         kLeftColour = rgba(58, 190, 96), kRightColour = rgba(226, 74, 120),
                         kFanColour = rgba(150, 120, 220, 190);
 
-}  // namespace lr::view
+}  // namespace lacedring::view

@@ -9,9 +9,9 @@
 #include <set>
 #include <sstream>
 
-#include "lrio/file/file.h"
+#include "lacedring/file.hpp"
 
-namespace lr::view {
+namespace lacedring::view {
 namespace {
 
 namespace fs = std::filesystem;
@@ -157,4 +157,4 @@ fs::path built_shaders() {
     return error || !fs::is_directory(out, error) ? fs::path{} : out;
 }
 
-}  // namespace lr::view
+}  // namespace lacedring::view

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "lrcore/base/result.h"
+#include "lacedring/base.hpp"
 
-namespace lr::view {
+namespace lacedring::view {
 
 /// What tells whether a file has changed. All zero: it is not there.
 struct Stamp {
@@ -42,4 +42,4 @@ class ShaderCompiler {
 /// to it beside the program; no installed program has one.
 std::filesystem::path built_shaders();
 
-}  // namespace lr::view
+}  // namespace lacedring::view

@@ -12,7 +12,7 @@
 #include "renderer/shader_interface.h"
 #include "spirv/all.h"
 
-namespace lr::view {
+namespace lacedring::view {
 namespace {
 
 namespace fs = std::filesystem;
@@ -219,4 +219,4 @@ void ShaderWatch::Shared::watch() {
     }
 }
 
-}  // namespace lr::view
+}  // namespace lacedring::view

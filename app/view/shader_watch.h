@@ -9,12 +9,12 @@
 #include "app/view/threads.h"
 #include "renderer/shader_set.h"
 
-namespace lr::view {
+namespace lacedring::view {
 
 class ShaderWatch {
   public:
     /// `built_from`: the folder that the program was built from, or empty. If `folder` is that one, only what changed
-    /// after the program was built is compiled; of another one everything is. Errors: device_failure (no thread).
+    /// after the program was built is compiled; of another one everything is. Errors: kDeviceFailure (no thread).
     static Result<std::unique_ptr<ShaderWatch>> create(Threads& threads, std::filesystem::path folder,
                                                        std::filesystem::path built_from);
     ~ShaderWatch();  ///< Ends the watch, without waiting for what is being compiled.
@@ -45,4 +45,4 @@ class ShaderWatch {
     std::shared_ptr<Shared> shared_;  // with the thread
 };
 
-}  // namespace lr::view
+}  // namespace lacedring::view

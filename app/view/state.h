@@ -12,7 +12,7 @@
 #include "app/view/scene.h"
 #include "app/view/selection.h"
 
-namespace lr::view {
+namespace lacedring::view {
 
 /// Milliseconds of one drawn frame.
 struct FrameCost {
@@ -105,4 +105,4 @@ struct State {
     std::optional<char> step;      ///< n p o s l r: from the selected corner to another
 };
 
-}  // namespace lr::view
+}  // namespace lacedring::view

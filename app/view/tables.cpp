@@ -2,44 +2,43 @@
 #include <fmt/format.h>
 
 #include "app/view/document.h"
-#include "lrcore/codec/tables/lr_encode.h"
-#include "lrcore/codec/tables/lr_stream.h"
-#include "lrcore/codec/tables/operators.h"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/operators.hpp"
+#include "lacedring/streams.hpp"
 
-namespace lr::view {
+namespace lacedring::view {
 namespace {
 
 /// The corner of the LR triangle at the same vertex.
-CornerId to_lr(const Tables& tables, const LrOperators<LrView>& operators, const CornerTable& table, CornerId corner) {
+CornerId to_lr(const Tables& tables, const Operators<LrView>& operators, const CornerTable& table, CornerId corner) {
     const std::uint32_t number = tables.number[triangle(corner).value];
-    if (number == UINT32_MAX) return null_corner;
-    CornerId c = LrOperators<LrView>::corner(TriangleId{number});
-    for (int i = 0; i < 3; ++i, c = LrOperators<LrView>::next(c)) {
+    if (number == UINT32_MAX) return kNullCorner;
+    CornerId c = Operators<LrView>::corner(TriangleId{number});
+    for (int i = 0; i < 3; ++i, c = Operators<LrView>::next(c)) {
         if (tables.lr.vertex_order[operators.vertex(c).value] == table.vertex(corner).value) return c;
     }
-    return null_corner;
+    return kNullCorner;
 }
 
-CornerId from_lr(const Tables& tables, const LrOperators<LrView>& operators, const CornerTable& table,
-                 CornerId corner) {
+CornerId from_lr(const Tables& tables, const Operators<LrView>& operators, const CornerTable& table, CornerId corner) {
     corner = operators.canonical(corner);
     if (corner.is_null()) return corner;
-    const std::uint32_t t = tables.triangle[LrOperators<LrView>::triangle(corner).value];
-    if (t == UINT32_MAX) return null_corner;
+    const std::uint32_t t = tables.triangle[Operators<LrView>::triangle(corner).value];
+    if (t == UINT32_MAX) return kNullCorner;
     const std::uint32_t vertex = tables.lr.vertex_order[operators.vertex(corner).value];
     for (std::uint32_t i = 0; i < 3; ++i) {
-        const CornerId c = lr::corner({t}, i);
+        const CornerId c = lacedring::corner(TriangleId{t}, i);
         if (table.vertex(c).value == vertex) return c;
     }
-    return null_corner;
+    return kNullCorner;
 }
 
 }  // namespace
 
 Result<Tables> make_tables(std::shared_ptr<const Mesh> mesh, EncodedLr lr) {
-    const Result<LrStream<LrView>> stream = view_lr(lr.words);
+    const Result<LrStreamView<LrView>> stream = view_lr(lr.words);
     if (!stream) return stream.error();
-    const LrOperators<LrView> operators(stream->view);
+    const Operators<LrView> operators(stream->view);
     Tables out{std::move(mesh), {}, {}, {}};
     out.number.assign(out.mesh->triangle_count(), UINT32_MAX);
     out.triangle.assign(stream->view.triangle_numbers(), UINT32_MAX);
@@ -54,17 +53,17 @@ Result<Tables> make_tables(std::shared_ptr<const Mesh> mesh, EncodedLr lr) {
 }
 
 CornerId lr_step(const Tables& tables, const CornerTable& table, CornerId corner, char operation) {
-    const Result<LrStream<LrView>> stream = view_lr(tables.lr.words);
-    if (!stream) return null_corner;
-    const LrOperators<LrView> operators(stream->view);
+    const Result<LrStreamView<LrView>> stream = view_lr(tables.lr.words);
+    if (!stream) return kNullCorner;
+    const Operators<LrView> operators(stream->view);
     const CornerId c = to_lr(tables, operators, table, corner);
     if (c.is_null()) return c;
     const auto result = [&] {
         switch (operation) {
             case 'n':
-                return LrOperators<LrView>::next(c);
+                return Operators<LrView>::next(c);
             case 'p':
-                return LrOperators<LrView>::previous(c);
+                return Operators<LrView>::previous(c);
             case 'o':
                 return operators.opposite(c);
             case 's':
@@ -79,13 +78,13 @@ CornerId lr_step(const Tables& tables, const CornerTable& table, CornerId corner
 }
 
 std::string lr_text(const Tables& tables, const CornerTable& table, CornerId corner) {
-    const Result<LrStream<LrView>> stream = view_lr(tables.lr.words);
+    const Result<LrStreamView<LrView>> stream = view_lr(tables.lr.words);
     if (!stream) return stream.error().message;
     const LrView& view = stream->view;
-    const LrOperators<LrView> operators(view);
+    const Operators<LrView> operators(view);
     const CornerId c = to_lr(tables, operators, table, corner);
     if (c.is_null()) return "degenerate: in no table";
-    const std::uint32_t t = LrOperators<LrView>::triangle(c).value;
+    const std::uint32_t t = Operators<LrView>::triangle(c).value;
     if (t < 2 * view.ring_vertices) {
         return fmt::format("corner {}, triangle {}: {}[{}] = {:08x}", c.value, t, t % 2 == 0 ? 'L' : 'R', t / 2,
                            view.lr[t]);
@@ -99,4 +98,4 @@ std::string lr_text(const Tables& tables, const CornerTable& table, CornerId cor
                        view.vo[at + 1], view.vo[at + 2], opposite(3), opposite(4), opposite(5));
 }
 
-}  // namespace lr::view
+}  // namespace lacedring::view

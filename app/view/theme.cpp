@@ -5,7 +5,7 @@
 #include <array>
 #include <filesystem>
 
-namespace lr::view {
+namespace lacedring::view {
 namespace {
 
 float g_scale = 1;
@@ -99,4 +99,4 @@ void apply_theme(float scale) {
     c[ImGuiCol_ModalWindowDimBg] = {0, 0, 0, 0.45F};
 }
 
-}  // namespace lr::view
+}  // namespace lacedring::view

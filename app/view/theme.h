@@ -3,7 +3,7 @@
 
 struct ImFont;
 
-namespace lr::view {
+namespace lacedring::view {
 
 /// Sizes are nominal pixels times `scale`.
 void apply_theme(float scale);
@@ -12,4 +12,4 @@ float px(float nominal);
 /// For what is read at leisure: legends.
 ImFont* small_font();
 
-}  // namespace lr::view
+}  // namespace lacedring::view

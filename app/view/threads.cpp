@@ -4,13 +4,15 @@
 #include <system_error>
 #include <utility>
 
-namespace lr::view {
+#include "renderer/device_error.h"
+
+namespace lacedring::view {
 
 Result<std::thread> start_thread(std::function<void()> work) {
     try {
         return std::thread(std::move(work));
     } catch (const std::system_error& error) {
-        return Error{ErrorCode::device_failure, "no thread can be started: " + error.code().message()};
+        return Error{gpu::kDeviceFailure, "no thread can be started: " + error.code().message()};
     }
 }
 
@@ -50,4 +52,4 @@ void Threads::join_ended() {
     });
 }
 
-}  // namespace lr::view
+}  // namespace lacedring::view

@@ -8,11 +8,11 @@
 #include <thread>
 #include <vector>
 
-#include "lrcore/base/result.h"
+#include "lacedring/base.hpp"
 
-namespace lr::view {
+namespace lacedring::view {
 
-/// A thread, for a caller that joins it. Errors: device_failure (the system gives no more threads).
+/// A thread, for a caller that joins it. Errors: kDeviceFailure (the system gives no more threads).
 Result<std::thread> start_thread(std::function<void()> work);
 
 /// Starts threads and counts those that run. `work` must own or share all that it uses: a thread may still run when
@@ -24,7 +24,7 @@ class Threads {
     Threads(const Threads&) = delete;
     Threads& operator=(const Threads&) = delete;
 
-    /// Errors: device_failure (the system gives no more threads).
+    /// Errors: kDeviceFailure (the system gives no more threads).
     Result<void> start(std::function<void()> work);
 
     /// Waits until all threads have ended, but no longer than `patience`. False: some still run. The program must then
@@ -41,4 +41,4 @@ class Threads {
     std::vector<Running> running_;
 };
 
-}  // namespace lr::view
+}  // namespace lacedring::view

@@ -6,7 +6,7 @@
 #include "app/view/threads.h"
 #include "renderer/try.h"
 
-namespace lr::view {
+namespace lacedring::view {
 namespace {
 
 gpu::UploadOptions options_of(const UploadKey& key) {
@@ -105,4 +105,4 @@ void Uploader::run() {
     }
 }
 
-}  // namespace lr::view
+}  // namespace lacedring::view

@@ -13,7 +13,7 @@
 
 #include "renderer/expander.h"
 
-namespace lr::view {
+namespace lacedring::view {
 
 /// What is put there of a model, and with what beside its triangles.
 struct UploadKey {
@@ -43,7 +43,7 @@ class Uploader {
         std::optional<Error> error;            ///< then there are none
     };
 
-    /// `wake` is called by the thread when something is done. Errors: device_failure (no thread, and Vulkan's).
+    /// `wake` is called by the thread when something is done. Errors: kDeviceFailure (no thread, and Vulkan's).
     static Result<std::unique_ptr<Uploader>> create(gpu::Context& context, std::function<void()> wake);
     ~Uploader();  ///< Stops what is being done, and waits for that: it uses the device.
     Uploader(const Uploader&) = delete;
@@ -79,4 +79,4 @@ class Uploader {
     std::thread thread_;
 };
 
-}  // namespace lr::view
+}  // namespace lacedring::view

@@ -13,9 +13,10 @@
 #include "app/view/overlays.h"
 #include "app/view/panels.h"
 #include "app/view/theme.h"
+#include "renderer/device_error.h"
 #include "renderer/try.h"
 
-namespace lr::view {
+namespace lacedring::view {
 namespace {
 
 constexpr std::size_t kHistory = 120;  // frames of the plot
@@ -90,7 +91,7 @@ Result<void> Viewer::resize() {
     for (;;) {
         const Result<void> made = make_images(samples);
         if (made) break;
-        if (made.error().code == ErrorCode::device_failure) return made;
+        if (made.error().code == gpu::kDeviceFailure) return made;
         if (samples > 1) {
             state_.samples = --samples;
             continue;
@@ -129,7 +130,7 @@ void Viewer::opened(const std::string& path) {
     state_.paint = Paint::none;
     state_.growing = false;
     state_.growth = 0;
-    state_.ring.start = asked_.start = null_corner;
+    state_.ring.start = asked_.start = kNullCorner;
     end_turntable();
     state_.costs.clear();
     loader_.list(path);
@@ -211,7 +212,7 @@ void Viewer::act() {
         Input input = options_.input;
         input.path = *std::exchange(state_.open, std::nullopt);
         RingSettings settings = state_.ring;
-        settings.start = null_corner;  // was of another mesh
+        settings.start = kNullCorner;  // was of another mesh
         if (queue_.empty()) state_.error.clear();
         loader_.open(input, settings);
         asked_ = state_.ring;
@@ -289,7 +290,7 @@ void Viewer::update_outlines() {
 /// False: not yet. What cannot be is told, and not shown.
 Result<bool> Viewer::prepare(const Shown& picture) {
     const Result<bool> there = scene_.prepare(picture);
-    if (there || there.error().code == ErrorCode::device_failure) return there;
+    if (there || there.error().code == gpu::kDeviceFailure) return there;
     state_.error = there.error().message;
     const bool other = state_.shown.view != drawn_.view || state_.shown.source != drawn_.source ||
                        state_.shown.path != drawn_.path || state_.shown.mode != drawn_.mode;
@@ -426,4 +427,4 @@ void Viewer::save(const std::string& path) {
     quiet_frames_ = 0;
 }
 
-}  // namespace lr::view
+}  // namespace lacedring::view

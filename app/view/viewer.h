@@ -12,7 +12,7 @@
 #include "app/view/shader_watch.h"
 #include "app/view/state.h"
 
-namespace lr::view {
+namespace lacedring::view {
 
 struct ViewerOptions {
     Input input;                ///< path may be empty
@@ -146,7 +146,7 @@ class Viewer {
     Paintings paintings_;
     std::shared_ptr<const Painting> laid_;  // what is laid over the triangles; kept until its successor is made
     struct Painted {
-        CornerId corner = null_corner;
+        CornerId corner = kNullCorner;
         Paint paint = Paint::none;
         std::uint32_t growth = 0;
         const Document* document = nullptr;
@@ -154,7 +154,7 @@ class Viewer {
     } painted_;
     Painted wanted_paint() const;
     bool laid() const;
-    CornerId marked_ = null_corner;  // the corner whose marks are laid
+    CornerId marked_ = kNullCorner;  // the corner whose marks are laid
     Orbit before_turntable_;
     const Tables* outlined_ = nullptr;  // whose outlines are drawn
     const Document* shown_ = nullptr;   // was on the screen
@@ -162,4 +162,4 @@ class Viewer {
     std::string clipboard_;
 };
 
-}  // namespace lr::view
+}  // namespace lacedring::view

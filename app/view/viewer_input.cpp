@@ -8,7 +8,7 @@
 #include "app/view/theme.h"
 #include "app/view/viewer.h"
 
-namespace lr::view {
+namespace lacedring::view {
 namespace {
 
 constexpr double kClick = 4;  // nominal pixels that a click may stray
@@ -250,4 +250,4 @@ void Viewer::pick(double x, double y) {
     state_.selection.corner = nearest_corner(*state_.document, t, orbit_.eye(), along);
 }
 
-}  // namespace lr::view
+}  // namespace lacedring::view

@@ -4,7 +4,7 @@
 #include "app/view/viewer.h"
 #include "renderer/try.h"
 
-namespace lr::view {
+namespace lacedring::view {
 
 Viewer::Painted Viewer::wanted_paint() const {
     const double growth = state_.paint == Paint::growth ? std::min(state_.growth, state_.growth_end()) : 0;
@@ -17,7 +17,7 @@ bool Viewer::laid() const {
 
 Result<void> Viewer::take_paint_away() {
     laid_.reset();
-    marked_ = null_corner;
+    marked_ = kNullCorner;
     painted_ = {};
     LR_TRY(scene_.set_growth({}));
     return scene_.set_paint({});
@@ -39,7 +39,7 @@ Result<void> Viewer::update_paint() {
         LR_TRY(scene_.set_paint(painting ? painting->colours : std::span<const std::uint32_t>{}));
         LR_TRY(scene_.set_growth(painting ? painting->growth : std::span<const gpu::GrowthTriangle>{}));
         laid_ = painting;
-        marked_ = null_corner;
+        marked_ = kNullCorner;
     }
     if (marked_ != state_.selection.corner) {
         LR_TRY(scene_.set_marks(selection_marks(*state_.document, state_.selection.corner)));
@@ -54,4 +54,4 @@ Result<void> Viewer::update_paint() {
     return {};
 }
 
-}  // namespace lr::view
+}  // namespace lacedring::view

@@ -4,7 +4,7 @@
 #include "app/view/shader_compiler.h"
 #include "app/view/viewer.h"
 
-namespace lr::view {
+namespace lacedring::view {
 
 void Viewer::watch_shaders() {
     const std::filesystem::path built_from = built_shaders();
@@ -50,4 +50,4 @@ void Viewer::take_shaders() {
     state_.tell("shaders reloaded");
 }
 
-}  // namespace lr::view
+}  // namespace lacedring::view

@@ -6,7 +6,7 @@
 #include "app/view/viewer.h"
 #include "renderer/picture.h"
 
-namespace lr::view {
+namespace lacedring::view {
 
 Result<void> Viewer::start_turntable(const std::string& folder, std::uint32_t pictures) {
     if (pictures == 0) return Error{ErrorCode::invalid_argument, "no pictures"};
@@ -58,4 +58,4 @@ void Viewer::end_turntable() {
     dirty_ = true;
 }
 
-}  // namespace lr::view
+}  // namespace lacedring::view

@@ -10,16 +10,17 @@
 #include <utility>
 
 #include "app/command.h"
+#include "renderer/device_error.h"
 
 struct _XDisplay;  // Xlib's Display
 
-namespace lr::view {
+namespace lacedring::view {
 namespace {
 
 Error failed(const char* what) {
     const char* text = nullptr;
     glfwGetError(&text);
-    return {ErrorCode::no_device, std::string(what) + (text != nullptr ? std::string(": ") + text : "")};
+    return {gpu::kNoDevice, std::string(what) + (text != nullptr ? std::string(": ") + text : "")};
 }
 
 /// Called by Xlib, on the thread that notices, when the connection to the X server is lost. Xlib ends the process with
@@ -202,4 +203,4 @@ void Window::set_clipboard(const std::string& text) {
     glfwSetClipboardString(window_, text.c_str());
 }
 
-}  // namespace lr::view
+}  // namespace lacedring::view

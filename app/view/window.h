@@ -8,15 +8,15 @@
 #include <vector>
 
 #include "app/view/event.h"
-#include "lrcore/base/result.h"
+#include "lacedring/base.hpp"
 
 struct GLFWwindow;
 
-namespace lr::view {
+namespace lacedring::view {
 
 class Window {
   public:
-    /// Errors: no_device (no display, no window, or no Vulkan for it).
+    /// Errors: kNoDevice (no display, no window, or no Vulkan for it).
     static Result<std::unique_ptr<Window>> create(std::uint32_t width, std::uint32_t height);
     ~Window();
     Window(const Window&) = delete;
@@ -55,4 +55,4 @@ class Window {
     std::vector<Event> events_;
 };
 
-}  // namespace lr::view
+}  // namespace lacedring::view

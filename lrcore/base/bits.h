@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace lr {
+namespace lacedring {
 
 /// A flag per element, 64 to a word.
 class BitVector {
@@ -19,4 +19,4 @@ class BitVector {
     std::vector<std::uint64_t> words_;
 };
 
-}  // namespace lr
+}  // namespace lacedring

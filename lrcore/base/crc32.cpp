@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace lr {
+namespace lacedring {
 namespace {
 
 constexpr std::size_t kStep = 16;  // bytes at a time
@@ -38,4 +38,4 @@ std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t before) {
     return ~r;
 }
 
-}  // namespace lr
+}  // namespace lacedring

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace lr::detail {
+namespace lacedring::detail {
 
 inline void append(std::string& out, std::string_view part) {
     out += part;
@@ -30,4 +30,4 @@ inline std::string hexadecimal(std::uint32_t word) {
     return out;
 }
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

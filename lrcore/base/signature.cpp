@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace lr {
+namespace lacedring {
 namespace {
 
 constexpr std::size_t kLookedAt = 4096;
@@ -76,4 +76,4 @@ std::string wrong_magic(std::span<const std::uint32_t> words, std::string_view w
     return std::string(one ? "this is " : "these are ").append(kind).append(", not ").append(wanted);
 }
 
-}  // namespace lr
+}  // namespace lacedring

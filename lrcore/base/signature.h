@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace lr {
+namespace lacedring {
 
 /// First word of each stream, and of an .lr file.
 namespace magic {
@@ -26,4 +26,4 @@ std::string_view kind_by_signature(std::span<const std::byte> bytes);
 /// packed stream", or "wrong magic number" if the kind is unknown.
 std::string wrong_magic(std::span<const std::uint32_t> words, std::string_view wanted);
 
-}  // namespace lr
+}  // namespace lacedring

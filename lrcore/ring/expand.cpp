@@ -8,14 +8,13 @@
 #include <algorithm>
 #include <optional>
 
+#include "lacedring/ring.hpp"
+#include "lacedring/topology.hpp"
 #include "lrcore/base/bits.h"
 #include "lrcore/base/message.h"
-#include "lrcore/ring/expansion.h"
-#include "lrcore/ring/ring.h"
 #include "lrcore/ring/ring_walk.h"
-#include "lrcore/topology/swirl.h"
 
-namespace lr {
+namespace lacedring {
 namespace {
 
 /// SplitMix64 (Steele, Lea, Flood 2014).
@@ -167,7 +166,7 @@ class Expander {
     }
     /// The edge that corner x faces, x's triangle being invaded.
     RingEdge facing(CornerId x) const {
-        return {table_.vertex(previous(x)), x, table_.opposite(x), table_.vertex(x), null_vertex};
+        return {table_.vertex(previous(x)), x, table_.opposite(x), table_.vertex(x), kNullVertex};
     }
 
     const CornerTable& table_;
@@ -201,7 +200,7 @@ Rings expand_rings(const CornerTable& table, const RingOptions& options, Expansi
     std::size_t swirled = 0;
     const bool told = options.start.value < table.corners.size();
     for (std::size_t i = told ? 0 : 1; i <= table.triangle_count(); ++i) {
-        const CornerId first = i == 0 ? options.start : corner({static_cast<std::uint32_t>(i - 1)}, 0);
+        const CornerId first = i == 0 ? options.start : corner(TriangleId{static_cast<std::uint32_t>(i - 1)}, 0);
         if (!expander.can_seed(triangle(first))) continue;
         if (options.one_per_shell) {
             if (!shells && !rings.first.empty()) shells.emplace(table);
@@ -251,7 +250,7 @@ Rings expand_rings(const CornerTable& table, const RingOptions& options, Expansi
     return rings;
 }
 
-std::string validate(const CornerTable& table, const Rings& rings) {
+std::string check_rings(const CornerTable& table, const Rings& rings) {
     if (rings.first.empty() || rings.first.front() != 0 || rings.first.back() != rings.edges.size()) {
         return "rings do not tile the edges";
     }
@@ -263,7 +262,7 @@ std::string validate(const CornerTable& table, const Rings& rings) {
             const RingEdge &edge = ring[i], &after = ring[i + 1 == ring.size() ? 0 : i + 1];
             if (edge.left.value >= table.corners.size() || table.opposite(edge.left) != edge.right ||
                 table.vertex(previous(edge.left)) != edge.start || table.vertex(edge.left) != edge.left_tip ||
-                edge.right_tip != (edge.right.is_null() ? null_vertex : table.vertex(edge.right))) {
+                edge.right_tip != (edge.right.is_null() ? kNullVertex : table.vertex(edge.right))) {
                 return detail::message("ring ", r, ": edge ", i, " is not the corner table's");
             }
             if (visited.test(edge.start.value))
@@ -277,4 +276,4 @@ std::string validate(const CornerTable& table, const Rings& rings) {
     return {};
 }
 
-}  // namespace lr
+}  // namespace lacedring

@@ -1,8 +1,8 @@
-#include "lrcore/ring/expansion.h"
-
 #include <algorithm>
 
-namespace lr {
+#include "lacedring/ring.hpp"
+
+namespace lacedring {
 
 std::vector<std::uint32_t> settling_steps(const CornerTable& table, const Expansion& expansion) {
     const auto last = static_cast<std::uint32_t>(std::max<std::size_t>(expansion.corners.size(), 1) - 1);
@@ -20,10 +20,11 @@ std::vector<std::uint32_t> settling_steps(const CornerTable& table, const Expans
     for (std::uint32_t t = 0; t < steps.size(); ++t) {
         if (steps[t] != kNeverInvaded) continue;
         std::uint32_t settled = 0;
-        for (std::uint32_t k = 0; k < 3; ++k) settled = std::max(settled, reached[table.vertex(corner({t}, k)).value]);
-        steps[t] |= table.degenerate({t}) ? last : settled;
+        for (std::uint32_t k = 0; k < 3; ++k)
+            settled = std::max(settled, reached[table.vertex(corner(TriangleId{t}, k)).value]);
+        steps[t] |= table.degenerate(TriangleId{t}) ? last : settled;
     }
     return steps;
 }
 
-}  // namespace lr
+}  // namespace lacedring

@@ -6,12 +6,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "lacedring/ring.hpp"
+#include "lacedring/topology.hpp"
 #include "lrcore/base/bits.h"
-#include "lrcore/ring/optimize.h"
-#include "lrcore/ring/ring.h"
-#include "lrcore/topology/corner_table.h"
 
-namespace lr {
+namespace lacedring {
 
 /// What the rings make of every triangle, and what that costs. An edge is a mesh edge, known by the corners that face
 /// it, never a pair of vertices: two edges may have the same ends. Memory: a byte a triangle and a bit a vertex.
@@ -34,8 +33,8 @@ class Lacing {
             state_[triangle(edge.right).value] |= static_cast<std::uint8_t>(bit(edge.right) | kRight);
         }
         for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
-            if (!is_t2({t})) continue;
-            const CornerId across = table.opposite(t2_corner({t}));
+            if (!is_t2(TriangleId{t})) continue;
+            const CornerId across = table.opposite(t2_corner(TriangleId{t}));
             if (!across.is_null()) state_[triangle(across).value] += kDeadEnd;
         }
     }
@@ -130,7 +129,7 @@ class Lacing {
                 const CornerId right = table_->opposite(left);
                 done.set(v.value);
                 out.edges.push_back(
-                    {v, left, right, table_->vertex(left), right.is_null() ? null_vertex : table_->vertex(right)});
+                    {v, left, right, table_->vertex(left), right.is_null() ? kNullVertex : table_->vertex(right)});
                 left = edge_after(left);
             } while (left != c);
         }
@@ -188,4 +187,4 @@ class Lacing {
     BitVector on_ring_;
 };
 
-}  // namespace lr
+}  // namespace lacedring

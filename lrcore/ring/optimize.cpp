@@ -5,22 +5,21 @@
 // short as a wart, or gone with their bifurcation. Most such changes cost nothing, so annealing at low temperatures
 // goes far; and only those near a T0 without a wart can gain, so most are tried there.
 
-#include "lrcore/ring/optimize.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "lacedring/ring.hpp"
 #include "lrcore/ring/lacing.h"
 
-namespace lr {
+namespace lacedring {
 namespace {
 
 class Annealer {
   public:
     Annealer(const CornerTable& table, Lacing& lacing, std::uint64_t random_seed)
         : table_(table), lacing_(lacing), random_(random_seed) {
-        for (std::uint32_t t = 0; t < table.triangle_count(); ++t) expensive_ += is_expensive({t}) ? 1 : 0;
+        for (std::uint32_t t = 0; t < table.triangle_count(); ++t) expensive_ += is_expensive(TriangleId{t}) ? 1 : 0;
     }
 
     void set_temperature(double temperature) {
@@ -202,4 +201,4 @@ Rings optimize_rings(const CornerTable& table, Rings rings, const OptimizeOption
     return best->rings();
 }
 
-}  // namespace lr
+}  // namespace lacedring

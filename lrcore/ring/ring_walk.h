@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <span>
 
-#include "lrcore/ring/ring.h"
+#include "lacedring/ring.hpp"
 
-namespace lr {
+namespace lacedring {
 
 /// A ring's edges and the triangles beside them. Holds no copy.
 class RingWalk {
@@ -37,11 +37,12 @@ class RingWalk {
     /// Where edge i has the first copy of a T2: the corner across the T2's third edge. Null across a border.
     CornerId across_t2(const CornerTable& table, std::uint32_t side, std::size_t i) const {
         const CornerId c = face(side, i), d = face(side, after(i));
-        return table.opposite({triangle(c).value * 9 + 3 - c.value - d.value});  // the corner that is neither c nor d
+        return table.opposite(
+            CornerId{triangle(c).value * 9 + 3 - c.value - d.value});  // the corner that is neither c nor d
     }
 
   private:
     std::span<const RingEdge> ring_;
 };
 
-}  // namespace lr
+}  // namespace lacedring

@@ -1,15 +1,19 @@
 // Rossignac's chapter: O from V. Here for any triangle soup.
 
+#include "lacedring/topology.hpp"
 #include "lrcore/base/message.h"
-#include "lrcore/topology/corner_table.h"
 #include "lrcore/topology/edges.h"
 
-namespace lr {
+namespace lacedring {
 
 Result<CornerTable> build_corner_table(std::span<const std::uint32_t> indices, std::uint32_t vertex_count) {
     constexpr std::uint32_t kMostVertices = 1U << 29;
     // split_fans adds at most one vertex a corner: the sum must not exceed 32 bits.
     constexpr std::size_t kMostCorners = UINT32_MAX - 1;
+    if (indices.size() % 3 != 0) {
+        return Error{ErrorCode::invalid_argument,
+                     detail::message(indices.size(), " indices are no whole number of triangles")};
+    }
     if (vertex_count > kMostVertices) {
         return Error{ErrorCode::too_large,
                      detail::message(vertex_count, " vertices; at most ", kMostVertices, " are supported")};
@@ -21,16 +25,16 @@ Result<CornerTable> build_corner_table(std::span<const std::uint32_t> indices, s
     }
     CornerTable table;
     table.vertex_count = vertex_count;
-    table.corners.resize(indices.size() / 3 * 3);
+    table.corners.resize(indices.size());
     for (std::size_t i = 0; i < table.corners.size(); ++i) {
         if (indices[i] >= vertex_count) {
             return Error{ErrorCode::malformed,
                          detail::message("triangle ", i / 3, ": vertex ", indices[i], " of ", vertex_count)};
         }
-        table.corners[i] = {{indices[i]}, null_corner};
+        table.corners[i] = {VertexId{indices[i]}, kNullCorner};
     }
     for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
-        if (table.degenerate({t})) ++table.topology.degenerate;
+        if (table.degenerate(TriangleId{t})) ++table.topology.degenerate;
     }
     NonManifoldEdges nonmanifold;
     if (join_edges(table, nonmanifold)) orient(table);
@@ -38,7 +42,7 @@ Result<CornerTable> build_corner_table(std::span<const std::uint32_t> indices, s
     return table;
 }
 
-std::string validate(const CornerTable& table) {
+std::string check_corner_table(const CornerTable& table) {
     if (table.corners.size() % 3 != 0) return "not three corners a triangle";
     for (std::uint32_t i = 0; i < table.corners.size(); ++i) {
         if (table.corners[i].vertex.value >= table.vertex_count) return detail::message("V[", i, "] is no vertex");
@@ -55,4 +59,4 @@ std::string validate(const CornerTable& table) {
     return {};
 }
 
-}  // namespace lr
+}  // namespace lacedring

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace lr {
+namespace lacedring {
 namespace {
 
 // The larger vertex of the edge (the bucket gives the smaller one) and, in bit 31, whether the half-edge starts there:
@@ -36,7 +36,7 @@ class Joiner {
             if (group[0].key == group[1].key) twisted_ = true;
         } else {
             ++table_.topology.nonmanifold_edges;
-            for (const HalfEdge& h : group) nonmanifold_.corners.push_back({h.corner});
+            for (const HalfEdge& h : group) nonmanifold_.corners.push_back(CornerId{h.corner});
             nonmanifold_.first.push_back(static_cast<std::uint32_t>(nonmanifold_.corners.size()));
         }
     }
@@ -159,4 +159,4 @@ void pair_nonmanifold(CornerTable& table, const NonManifoldEdges& nonmanifold) {
     }
 }
 
-}  // namespace lr
+}  // namespace lacedring

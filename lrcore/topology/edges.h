@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "lrcore/topology/corner_table.h"
+#include "lacedring/topology.hpp"
 
-namespace lr {
+namespace lacedring {
 
 /// Half-edges (named by the corner that faces them) of the edges that have more than two triangles, edge after edge.
 struct NonManifoldEdges {
@@ -32,4 +32,4 @@ inline VertexId edge_end(const CornerTable& table, CornerId c) {
     return table.vertex(previous(c));
 }
 
-}  // namespace lr
+}  // namespace lacedring

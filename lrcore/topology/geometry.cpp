@@ -1,13 +1,11 @@
-#include "lrcore/topology/geometry.h"
-
 #include <bit>
 #include <limits>
 #include <utility>
 
+#include "lacedring/topology.hpp"
 #include "lrcore/base/bits.h"
-#include "lrcore/topology/swirl.h"
 
-namespace lr {
+namespace lacedring {
 namespace {
 
 Point minus(const Point& a, const Point& b) {
@@ -65,7 +63,8 @@ std::vector<float> vertex_normals(const CornerTable& table, const Positions& pos
     std::vector<double> sums(std::size_t{table.vertex_count} * 3, 0.0);
     for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
         // The three corners of a triangle have the same cross product: computed once.
-        const VertexId v[] = {table.vertex(corner({t}, 0)), table.vertex(corner({t}, 1)), table.vertex(corner({t}, 2))};
+        const VertexId v[] = {table.vertex(corner(TriangleId{t}, 0)), table.vertex(corner(TriangleId{t}, 1)),
+                              table.vertex(corner(TriangleId{t}, 2))};
         const Point a = positions[v[0]];
         const Point n = cross(minus(positions[v[1]], a), minus(positions[v[2]], a));
         for (const VertexId u : v) {
@@ -87,18 +86,18 @@ std::vector<ClosedShell> closed_shells(const CornerTable& table, const Positions
     std::vector<ClosedShell> shells;
     Swirl swirl(table);
     for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
-        if (swirl.visited({t}) || table.degenerate({t})) continue;
-        MixedProducts products(positions[table.vertex(corner({t}, 0))]);
+        if (swirl.visited(TriangleId{t}) || table.degenerate(TriangleId{t})) continue;
+        MixedProducts products(positions[table.vertex(corner(TriangleId{t}, 0))]);
         std::uint32_t triangles = 0;
         bool closed = true;
-        swirl.run(corner({t}, 0), [&](CornerId c) {
+        swirl.run(corner(TriangleId{t}, 0), [&](CornerId c) {
             const CornerId n = next(c), p = previous(c);
             products.add(positions[table.vertex(c)], positions[table.vertex(n)], positions[table.vertex(p)]);
             ++triangles;
             closed =
                 closed && !table.opposite(c).is_null() && !table.opposite(n).is_null() && !table.opposite(p).is_null();
         });
-        if (closed) shells.push_back({{t}, triangles, products.volume(), products.error()});
+        if (closed) shells.push_back({TriangleId{t}, triangles, products.volume(), products.error()});
     }
     return shells;
 }
@@ -135,4 +134,4 @@ std::uint32_t make_counterclockwise(CornerTable& table, const Positions& positio
     return shells;
 }
 
-}  // namespace lr
+}  // namespace lacedring

@@ -5,7 +5,7 @@
 
 #include "lrcore/topology/edges.h"
 
-namespace lr {
+namespace lacedring {
 namespace {
 
 /// Turns triangle t round: corners 1 and 2 change places, in V and O.
@@ -46,8 +46,8 @@ void orient(CornerTable& table) {
                         ++flipped;
                     }
                 } else if (twisted) {
-                    table.corners[c.value].opposite = null_corner;
-                    table.corners[o.value].opposite = null_corner;
+                    table.corners[c.value].opposite = kNullCorner;
+                    table.corners[o.value].opposite = kNullCorner;
                     ++table.topology.cut_edges;
                 }
             }
@@ -61,4 +61,4 @@ void orient(CornerTable& table) {
     if (table.topology.flipped == 0) table.flip.clear();
 }
 
-}  // namespace lr
+}  // namespace lacedring

@@ -1,11 +1,9 @@
-#include "lrcore/topology/report.h"
-
 #include <algorithm>
 #include <numeric>
 
-#include "lrcore/topology/swirl.h"
+#include "lacedring/topology.hpp"
 
-namespace lr {
+namespace lacedring {
 namespace {
 
 /// The border edge after the one that corner c faces, in the orientation of its triangle.
@@ -27,12 +25,12 @@ std::uint32_t count_components(const CornerTable& table) {
     std::vector<bool> used(table.vertex_count, false);
     std::uint32_t components = 0;
     for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
-        if (table.degenerate({t})) continue;
+        if (table.degenerate(TriangleId{t})) continue;
         for (std::uint32_t k = 0; k < 3; ++k) {
-            const VertexId v = table.vertex(corner({t}, k));
+            const VertexId v = table.vertex(corner(TriangleId{t}, k));
             if (!used[v.value]) ++components;
             used[v.value] = true;
-            const std::uint32_t a = find(v), b = find(table.vertex(corner({t}, 0)));
+            const std::uint32_t a = find(v), b = find(table.vertex(corner(TriangleId{t}, 0)));
             if (a == b) continue;
             parent[a] = b;
             --components;
@@ -95,4 +93,4 @@ TopologyReport report_topology(const CornerTable& table) {
     return report;
 }
 
-}  // namespace lr
+}  // namespace lacedring

@@ -1,10 +1,9 @@
-#include "lrcore/topology/smesh.h"
-
 #include <cassert>
 
+#include "lacedring/topology.hpp"
 #include "lrcore/base/message.h"
 
-namespace lr {
+namespace lacedring {
 namespace {
 
 std::string count(std::uint64_t n, const char* one, const char* many) {
@@ -51,4 +50,4 @@ SmeshCheck check_smesh(const CornerTable& table, const TopologyReport& report, s
     return check;
 }
 
-}  // namespace lr
+}  // namespace lacedring

@@ -1,8 +1,7 @@
-#include "lrcore/topology/split.h"
-
+#include "lacedring/topology.hpp"
 #include "lrcore/base/bits.h"
 
-namespace lr {
+namespace lacedring {
 
 std::vector<VertexId> split_fans(CornerTable& table) {
     const auto corners = static_cast<std::uint32_t>(table.corners.size());
@@ -10,10 +9,10 @@ std::vector<VertexId> split_fans(CornerTable& table) {
     BitVector in_fan(corners), has_fan(table.vertex_count);
     for (std::uint32_t i = 0; i < corners; ++i) {
         if (in_fan.test(i) || table.degenerate(triangle(CornerId{i}))) continue;
-        const VertexId v = table.vertex({i});
+        const VertexId v = table.vertex(CornerId{i});
         VertexId name = v;
         if (has_fan.test(v.value)) {
-            name = {table.vertex_count + static_cast<std::uint32_t>(copies.size())};
+            name = VertexId{table.vertex_count + static_cast<std::uint32_t>(copies.size())};
             copies.push_back(v);
         } else {
             has_fan.set(v.value);
@@ -28,10 +27,10 @@ std::vector<VertexId> split_fans(CornerTable& table) {
             c = table.swing(c);
         } while (!c.is_null() && c.value != i);
         if (!c.is_null()) continue;
-        for (c = table.right({i}); !c.is_null(); c = table.right(previous(c))) visit(previous(c));  // backwards
+        for (c = table.right(CornerId{i}); !c.is_null(); c = table.right(previous(c))) visit(previous(c));  // backwards
     }
     table.vertex_count += static_cast<std::uint32_t>(copies.size());
     return copies;
 }
 
-}  // namespace lr
+}  // namespace lacedring

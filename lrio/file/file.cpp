@@ -1,4 +1,4 @@
-#include "lrio/file/file.h"
+#include "lacedring/file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -17,7 +17,7 @@
 #include <string>
 #include <utility>
 
-namespace lr {
+namespace lacedring {
 namespace {
 
 namespace fs = std::filesystem;
@@ -246,4 +246,4 @@ Result<void> write_file(const fs::path& path, std::span<const std::span<const st
     return {};
 }
 
-}  // namespace lr
+}  // namespace lacedring

@@ -1,4 +1,4 @@
-#include "lrio/file/lr_file.h"
+#include "lacedring/lr_file.hpp"
 
 #include <fmt/format.h>
 
@@ -8,15 +8,12 @@
 #include <cstring>
 #include <numeric>
 
+#include "lacedring/file.hpp"
 #include "lrcore/base/bits.h"
 #include "lrcore/base/crc32.h"
 #include "lrcore/base/signature.h"
-#include "lrcore/codec/lean/lean_stream.h"
-#include "lrcore/codec/packed/packed_stream.h"
-#include "lrcore/codec/tables/lr_stream.h"
-#include "lrio/file/file.h"
 
-namespace lr {
+namespace lacedring {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, ".lr files are little-endian");
@@ -60,6 +57,16 @@ std::span<const std::byte> bytes_of(const T& value) {
     return std::as_bytes(std::span(&value, 1));
 }
 
+/// The section kind of a format's words.
+constexpr Kind kKinds[] = {kLean, kPacked, kLr, kLrCompact};
+
+Kind kind_of(Format format) {
+    return kKinds[static_cast<std::size_t>(format)];
+}
+Format format_of(std::uint32_t kind) {
+    return static_cast<Format>(std::find(std::begin(kKinds), std::end(kKinds), kind) - std::begin(kKinds));
+}
+
 Error malformed(std::string message) {
     return {ErrorCode::malformed, "lr file: " + std::move(message)};
 }
@@ -72,40 +79,19 @@ struct Decoded {
 };
 
 Result<Decoded> decode(const LrFile& file, bool untrusted) {
-    Decoded out;
-    const auto from_tables = [&](const auto& stream) -> Result<Decoded> {
-        if (!stream) return stream.error();
-        out.vertices = stream->view.vertices;
-        out.indices = decode_lr(*stream);
-        if (!stream->copies.empty()) out.copy.assign(stream->view.used_vertices(), false);
-        for (std::size_t i = 0; i < stream->copies.size(); i += 2) out.copy[stream->copies[i]] = true;
-        return out;
-    };
-    const std::span<const std::uint32_t> words = file.words;
-    if (file.format == Connectivity::lr) return from_tables(untrusted ? validate_lr(words) : view_lr(words));
-    if (file.format == Connectivity::lr_compact) {
-        return from_tables(untrusted ? validate_compact_lr(words) : view_compact_lr(words));
-    }
-    if (file.format == Connectivity::packed) {
-        const Result<PackedView> view = untrusted ? validate_packed(words) : view_packed(words);
-        if (!view) return view.error();
-        out.vertices = view->vertices;
-        out.indices.resize(std::size_t{3} * view->triangles);
-        decode_packed(*view, out.indices);
-        return out;
-    }
-    const Result<LeanView> view = untrusted ? validate_lean(words) : view_lean(words);
+    const Result<StreamView> view = untrusted ? validate(file.words) : view_stream(file.words);
     if (!view) return view.error();
-    out.vertices = view->vertices;
-    out.indices.resize(std::size_t{3} * view->slots());
-    decode_lean(*view, out.indices);
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < out.indices.size(); i += 3) {
-        if (out.indices[i] == out.indices[i + 1]) continue;  // a degenerate slot
-        for (std::size_t k = 0; k < 3; ++k) out.indices[kept + k] = out.indices[i + k];
-        kept += 3;
-    }
-    out.indices.resize(kept);
+    if (view->format() != file.format) return malformed("the stream is of another format than its section");
+    Decoded out;
+    out.vertices = view->vertices();
+    out.indices = lacedring::decode(*view);
+    const auto mark_copies = [&](const auto* stream) {
+        if (stream == nullptr || stream->copies.empty()) return;
+        out.copy.assign(stream->view.used_vertices(), false);
+        for (std::size_t i = 0; i < stream->copies.size(); i += 2) out.copy[stream->copies[i]] = true;
+    };
+    mark_copies(view->get<LrStreamView<LrView>>());
+    mark_copies(view->get<LrStreamView<CompactLrView>>());
     return out;
 }
 
@@ -185,7 +171,7 @@ class Reader {
             case kLr:
             case kLrCompact:
             case kPacked:
-                file_.format = Connectivity{section.kind};
+                file_.format = format_of(section.kind);
                 return read_words(contents, file_.words);
             case kVertexOrder:
                 return read_words(contents, file_.vertex_order);
@@ -306,7 +292,6 @@ std::vector<std::uint32_t> find_corners(const Mesh& mesh, const LrFile& file, st
     if (!decoded) return out;
     out.reserve(decoded->indices.size() / 3);
     for (const std::uint32_t t : triangles) {
-        if (t == UINT32_MAX) continue;
         const std::uint32_t* now = decoded->indices.data() + 3 * out.size();
         const std::uint32_t* before = mesh.indices.data() + std::size_t{3} * t;
         std::uint32_t place = 0;  // its three vertices differ, so that one of them is it
@@ -318,18 +303,16 @@ std::vector<std::uint32_t> find_corners(const Mesh& mesh, const LrFile& file, st
 
 }  // namespace
 
-LrFile make_lr_file(const Mesh& mesh, Connectivity format, std::vector<std::uint32_t> words,
-                    std::vector<std::uint32_t> vertex_order, std::vector<std::uint32_t> triangle_order,
-                    bool keep_order) {
+LrFile make_lr_file(const Mesh& mesh, Encoded encoded, bool keep_order) {
     LrFile file;
-    file.vertex_count = static_cast<std::uint32_t>(vertex_order.size());
+    file.vertex_count = static_cast<std::uint32_t>(encoded.vertex_order.size());
     file.input_triangles = static_cast<std::uint32_t>(mesh.triangle_count());
-    file.format = format;
-    file.words = std::move(words);
-    file.attributes = permute_attributes(mesh.attributes, vertex_order);
+    file.format = encoded.format;
+    file.words = std::move(encoded.words);
+    file.attributes = permute_attributes(mesh.attributes, encoded.vertex_order);
     if (keep_order) {
-        file.corner_order = find_corners(mesh, file, triangle_order, vertex_order);
-        file.vertex_order = std::move(vertex_order);
+        file.corner_order = find_corners(mesh, file, encoded.triangle_order, encoded.vertex_order);
+        file.vertex_order = std::move(encoded.vertex_order);
     }
     return file;
 }
@@ -343,7 +326,7 @@ std::vector<std::byte> serialize_lr(const LrFile& file) {
         names.emplace_back();
         contents.push_back(data);
     };
-    add(static_cast<std::uint32_t>(file.format), std::as_bytes(std::span(file.words)));
+    add(kind_of(file.format), std::as_bytes(std::span(file.words)));
     for (const Attribute& attribute : file.attributes) {
         add(kAttribute, attribute.data);
         sections.back().layout = static_cast<std::uint32_t>(attribute.type) | std::uint32_t{attribute.components} << 8 |
@@ -434,7 +417,7 @@ Result<LrContents> list_lr(std::span<const std::byte> bytes) {
 }
 
 Result<ConnectivityWords> connectivity_in(std::span<const std::byte> bytes) {
-    ConnectivityWords out{Connectivity::lean, {}};
+    ConnectivityWords out{Format::lean, {}};
     bool found = false;
     const Result<FileHeader> header = visit_sections(
         bytes, [&](const FileHeader&, const Section& section, std::span<const std::byte> contents) -> std::string {
@@ -450,7 +433,7 @@ Result<ConnectivityWords> connectivity_in(std::span<const std::byte> bytes) {
             if (found) return "occurs twice";
             if (contents.size() % 4 != 0) return "no whole number of words";
             found = true;
-            out.format = Connectivity{section.kind};
+            out.format = format_of(section.kind);
             out.words = {reinterpret_cast<const std::uint32_t*>(contents.data()), contents.size() / 4};
             return {};
         });
@@ -513,4 +496,4 @@ Result<Mesh> decode_lr_original_order(const LrFile& file) {
     return mesh;
 }
 
-}  // namespace lr
+}  // namespace lacedring

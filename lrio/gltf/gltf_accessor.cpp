@@ -5,7 +5,7 @@
 
 #include "lrio/mesh/read_formats.h"
 
-namespace lr::detail {
+namespace lacedring::detail {
 namespace {
 
 bool to_component_type(int gltf, ComponentType& out) {
@@ -193,4 +193,4 @@ double component_at(const std::byte* packed, ComponentType type, bool normalized
     return 0;
 }
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "lrcore/base/result.h"
+#include "lacedring/base.hpp"
+#include "lacedring/mesh.hpp"
 #include "lrio/gltf/gltf_file.h"
-#include "lrio/mesh/mesh.h"
 
-namespace lr::detail {
+namespace lacedring::detail {
 
 /// Elements `stride` bytes apart in a buffer; without `data` they are all zero. In bounds for the accessor's count.
 struct StridedBytes {
@@ -48,4 +48,4 @@ std::uint32_t unsigned_at(const std::byte* packed, ComponentType type, std::size
 /// Component number `i` of packed values as glTF defines it: integers divided by their maximum where normalized.
 double component_at(const std::byte* packed, ComponentType type, bool normalized, std::size_t i);
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

@@ -6,9 +6,9 @@
 #include <cstring>
 #include <system_error>
 
-#include "lrio/file/file.h"
+#include "lacedring/file.hpp"
 
-namespace lr::detail {
+namespace lacedring::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -193,4 +193,4 @@ Result<std::span<const std::byte>> GltfBuffers::load_file(const std::string& uri
     return std::span<const std::byte>(storage_.emplace_back(std::move(*bytes)));
 }
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

@@ -15,10 +15,10 @@
 #include <string>
 #include <vector>
 
-#include "lrcore/base/result.h"
+#include "lacedring/base.hpp"
 #include "lrio/mesh/read_formats.h"
 
-namespace lr::detail {
+namespace lacedring::detail {
 
 class GltfBuffers {
   public:
@@ -62,4 +62,4 @@ std::string decode_percent(std::string_view text);
 /// False where a character is not base64's. Padding may be missing.
 bool decode_base64(std::string_view text, std::vector<std::byte>& out);
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

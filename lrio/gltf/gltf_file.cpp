@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace lr::detail {
+namespace lacedring::detail {
 namespace {
 
 constexpr std::size_t kDeepest = 256;
@@ -269,4 +269,4 @@ Result<GltfFile> load_gltf(std::span<const std::byte> bytes, Reading& reading) {
     return file;
 }
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

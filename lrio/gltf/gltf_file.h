@@ -9,11 +9,11 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "lrcore/base/result.h"
+#include "lacedring/base.hpp"
 #include "lrio/gltf/gltf_buffers.h"
 #include "lrio/mesh/read_formats.h"
 
-namespace lr::detail {
+namespace lacedring::detail {
 
 struct GltfFile {
     nlohmann::json document;  ///< the whole file
@@ -25,4 +25,4 @@ struct GltfFile {
 /// Errors: malformed, unsupported (a version or an extension without which the geometry cannot be read), too_large.
 Result<GltfFile> load_gltf(std::span<const std::byte> bytes, Reading& reading);
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

@@ -11,7 +11,7 @@
 #include "lrio/mesh/read_formats.h"
 #include "lrio/mesh/write_formats.h"
 
-namespace lr::detail {
+namespace lacedring::detail {
 namespace {
 
 template <class T>
@@ -283,4 +283,4 @@ Result<GltfAttributes> fit_to_gltf(const Mesh& mesh, WriteNotes& notes) {
     return Fitter(mesh, notes).run();
 }
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

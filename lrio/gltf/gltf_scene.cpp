@@ -6,7 +6,7 @@
 
 #include "lrio/gltf/gltf_accessor.h"
 
-namespace lr::detail {
+namespace lacedring::detail {
 namespace {
 
 template <std::size_t count>
@@ -175,4 +175,4 @@ Result<std::vector<MeshInstance>> place_meshes(GltfFile& file, Reading& reading,
     return instances;
 }
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

@@ -4,11 +4,11 @@
 #include <cstddef>
 #include <vector>
 
-#include "lrcore/base/result.h"
+#include "lacedring/base.hpp"
 #include "lrio/gltf/gltf_file.h"
 #include "lrio/gltf/gltf_transform.h"
 
-namespace lr::detail {
+namespace lacedring::detail {
 
 struct MeshInstance {
     std::size_t mesh = 0;  ///< < model.meshes.size()
@@ -22,4 +22,4 @@ struct MeshInstance {
 /// view_accessor's.
 Result<std::vector<MeshInstance>> place_meshes(GltfFile& file, Reading& reading, std::size_t file_bytes);
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

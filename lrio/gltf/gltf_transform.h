@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace lr::detail {
+namespace lacedring::detail {
 
 /// 4 x 4, column by column, as glTF has it.
 struct Transform {
@@ -83,4 +83,4 @@ inline Vector3 normalized(const Vector3& v) {
     return {v[0] / length, v[1] / length, v[2] / length};
 }
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

@@ -12,7 +12,7 @@
 #include "lrio/gltf/gltf_scene.h"
 #include "lrio/mesh/read_formats.h"
 
-namespace lr::detail {
+namespace lacedring::detail {
 namespace {
 
 using NamedViews = std::map<std::string, AccessorView>;
@@ -350,4 +350,4 @@ Result<Mesh> read_gltf(std::span<const std::byte> bytes, Reading& reading) {
     return GltfReader(*file, reading, bytes.size()).read();
 }
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

@@ -8,7 +8,7 @@
 
 #include "lrio/mesh/write_formats.h"
 
-namespace lr::detail {
+namespace lacedring::detail {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -182,4 +182,4 @@ Result<void> make_glb(const Mesh& mesh, Bytes& head, Bytes& body, WriteNotes& no
     return GlbMaker(mesh).make(head, body, notes);
 }
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

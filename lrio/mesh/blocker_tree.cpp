@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace lr::detail {
+namespace lacedring::detail {
 namespace {
 
 constexpr std::size_t kLeafBlockers = 8;
@@ -126,4 +126,4 @@ bool BlockerTree::Node::may_meet(const PlaneTriangle& t) const {
     return !is_outside(t.a, t.b) && !is_outside(t.b, t.c) && !is_outside(t.c, t.a);
 }
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

@@ -7,7 +7,7 @@
 
 #include "lrio/mesh/plane.h"
 
-namespace lr::detail {
+namespace lacedring::detail {
 
 /// A corner of a polygon that may lie in an ear of it.
 struct Blocker {
@@ -100,4 +100,4 @@ class BlockerTree {
     std::vector<Node> nodes_;            // the children of node i are 2i + 1 and 2i + 2
 };
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

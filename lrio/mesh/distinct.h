@@ -8,7 +8,7 @@
 #include <numeric>
 #include <vector>
 
-namespace lr::detail {
+namespace lacedring::detail {
 
 /// Spreads every bit of `word` over the hash: floats differ in few bits, and the table takes the lowest ones.
 inline std::uint64_t mix(std::uint64_t hash, std::uint64_t word) {
@@ -115,4 +115,4 @@ inline Groups group_equal_bytes(const std::byte* data, std::size_t size, std::ui
         [=](std::uint32_t i, std::uint32_t j) { return std::memcmp(data + i * size, data + j * size, size); });
 }
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

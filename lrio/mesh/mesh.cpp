@@ -1,9 +1,9 @@
-#include "lrio/mesh/mesh.h"
+#include "lacedring/mesh.hpp"
 
 #include <cmath>
 #include <cstring>
 
-namespace lr {
+namespace lacedring {
 
 std::size_t size_of(ComponentType type) {
     switch (type) {
@@ -102,4 +102,4 @@ std::vector<Attribute> permute_attributes(std::span<const Attribute> attributes,
     return out;
 }
 
-}  // namespace lr
+}  // namespace lacedring

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-namespace lr::detail {
+namespace lacedring::detail {
 namespace {
 
 /// The sign of a sum of doubles, exact: the partial sums are kept as doubles that do not overlap (Shewchuk 1997).
@@ -60,4 +60,4 @@ int orientation(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
     return exact_orientation(a, b, c);
 }
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

@@ -1,7 +1,7 @@
 #pragma once
 // Points of a plane, and exact orientations. Internal to lrio.
 
-namespace lr::detail {
+namespace lacedring::detail {
 
 struct PlanePoint {
     double u = 0;
@@ -18,4 +18,4 @@ inline constexpr double kSureOrientation = 3.3306690738754716e-16;
 /// that are 0 or have magnitudes from 2^-400 to 2^400.
 int orientation(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c);
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

@@ -7,7 +7,7 @@
 #include "lrio/mesh/read_formats.h"
 #include "lrio/mesh/text_scanner.h"
 
-namespace lr::detail {
+namespace lacedring::detail {
 namespace {
 
 bool parse_type(std::string_view word, ComponentType& out) {
@@ -268,4 +268,4 @@ std::string unescape_ply_name(std::string_view name) {
     return out;
 }
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

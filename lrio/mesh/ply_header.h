@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "lrcore/base/result.h"
-#include "lrio/mesh/mesh.h"
+#include "lacedring/base.hpp"
+#include "lacedring/mesh.hpp"
 
-namespace lr::detail {
+namespace lacedring::detail {
 
 enum class PlyFormat { ascii, little_endian, big_endian };
 
@@ -63,4 +63,4 @@ std::string unescape_ply_name(std::string_view name);
 
 inline constexpr std::string_view ply_note_prefix = "lacedring attribute ";
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <functional>
 
-namespace lr::detail {
+namespace lacedring::detail {
 namespace {
 
 constexpr std::uint32_t none = UINT32_MAX;
@@ -291,4 +291,4 @@ void PolygonList::cut(PositionView positions, std::initializer_list<std::vector<
                       "polygons' shapes (too intricate: cut as fans)");
 }
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

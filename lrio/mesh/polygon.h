@@ -12,7 +12,7 @@
 #include "lrio/mesh/plane.h"
 #include "lrio/mesh/read_formats.h"
 
-namespace lr::detail {
+namespace lacedring::detail {
 
 /// Positions of vertices, 3 floats or 3 doubles each, at any alignment.
 struct PositionView {
@@ -119,4 +119,4 @@ class PolygonList {
     std::uint64_t short_faces_ = 0;
 };
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

@@ -1,5 +1,3 @@
-#include "lrio/mesh/read.h"
-
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -7,11 +5,12 @@
 #include <new>
 #include <stdexcept>
 
-#include "lrio/file/file.h"
+#include "lacedring/file.hpp"
+#include "lacedring/mesh_files.hpp"
 #include "lrio/mesh/read_formats.h"
 #include "lrio/mesh/text_scanner.h"
 
-namespace lr {
+namespace lacedring {
 namespace detail {
 
 std::string shown(std::string_view text) {
@@ -198,4 +197,4 @@ Result<Mesh> read_mesh(const std::filesystem::path& path, const ReadOptions& opt
     });
 }
 
-}  // namespace lr
+}  // namespace lacedring

@@ -13,11 +13,11 @@
 #include <utility>
 #include <vector>
 
-#include "lrcore/base/result.h"
-#include "lrio/mesh/mesh.h"
-#include "lrio/mesh/read.h"
+#include "lacedring/base.hpp"
+#include "lacedring/mesh.hpp"
+#include "lacedring/mesh_files.hpp"
 
-namespace lr::detail {
+namespace lacedring::detail {
 
 static_assert(std::endian::native == std::endian::little, "Mesh holds little-endian bits, and so do most files");
 
@@ -115,4 +115,4 @@ class Strip {
     std::size_t count_ = 0;
 };
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

@@ -10,7 +10,7 @@
 #include "lrio/mesh/read_formats.h"
 #include "lrio/mesh/text_scanner.h"
 
-namespace lr::detail {
+namespace lacedring::detail {
 namespace {
 
 constexpr std::uint32_t absent = UINT32_MAX;
@@ -407,4 +407,4 @@ Result<Mesh> read_obj(std::string_view text, Reading& reading) {
     return ObjReader(text).read(reading);
 }
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

@@ -9,7 +9,7 @@
 #include "lrio/mesh/read_formats.h"
 #include "lrio/mesh/text_scanner.h"
 
-namespace lr::detail {
+namespace lacedring::detail {
 namespace {
 
 struct Header {
@@ -289,4 +289,4 @@ Result<Mesh> read_off(std::string_view text, Reading& reading) {
     return OffReader(text).read(reading);
 }
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

@@ -11,7 +11,7 @@
 #include "lrio/mesh/read_formats.h"
 #include "lrio/mesh/text_scanner.h"
 
-namespace lr::detail {
+namespace lacedring::detail {
 namespace {
 
 /// Calls f with a value of the C++ type that `type` names.
@@ -463,4 +463,4 @@ Result<Mesh> read_ply(std::string_view bytes, Reading& reading) {
     return PlyReader<BinarySource<true>>(bytes, *header).read(reading);
 }
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

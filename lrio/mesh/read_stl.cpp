@@ -9,7 +9,7 @@
 #include "lrio/mesh/read_formats.h"
 #include "lrio/mesh/text_scanner.h"
 
-namespace lr::detail {
+namespace lacedring::detail {
 namespace {
 
 constexpr std::size_t header_bytes = 84;  // 80 free bytes and the number of triangles
@@ -171,4 +171,4 @@ Result<Mesh> read_stl(std::string_view bytes, Reading& reading) {
     return is_ascii(bytes) ? AsciiStl(without_byte_order_mark(bytes)).read() : read_binary(bytes, reading);
 }
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

@@ -12,7 +12,7 @@
 #include <limits>
 #include <string_view>
 
-namespace lr::detail {
+namespace lacedring::detail {
 
 /// The length of a number that a program of Microsoft's wrote for what is not finite, "1.#INF", "1.#QNAN" and so on,
 /// from the '#' on; 0: it is none. `before` is what stands before the '#'.
@@ -249,4 +249,4 @@ bool parse_number(std::string_view word, Real& out) {
     return error == std::errc{};
 }
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

@@ -1,12 +1,11 @@
-#include "lrio/mesh/weld.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
+#include "lacedring/mesh_files.hpp"
 #include "lrio/mesh/distinct.h"
 
-namespace lr {
+namespace lacedring {
 
 namespace {
 
@@ -93,4 +92,4 @@ Mesh weld(const Mesh& mesh, Weld mode, WeldReport* report) {
     return out;
 }
 
-}  // namespace lr
+}  // namespace lacedring

@@ -1,13 +1,12 @@
-#include "lrio/mesh/write.h"
-
 #include <algorithm>
 #include <cctype>
 #include <string>
 
-#include "lrio/file/file.h"
+#include "lacedring/file.hpp"
+#include "lacedring/mesh_files.hpp"
 #include "lrio/mesh/write_formats.h"
 
-namespace lr {
+namespace lacedring {
 namespace {
 
 /// What the writers rely on: see the invariant of Mesh.
@@ -82,4 +81,4 @@ Result<void> write_mesh(const Mesh& mesh, MeshFormat format, int descriptor, Wri
     return write_descriptor(descriptor, parts);
 }
 
-}  // namespace lr
+}  // namespace lacedring

@@ -12,11 +12,11 @@
 #include <unordered_set>
 #include <vector>
 
-#include "lrcore/base/result.h"
-#include "lrio/mesh/mesh.h"
-#include "lrio/mesh/write.h"
+#include "lacedring/base.hpp"
+#include "lacedring/mesh.hpp"
+#include "lacedring/mesh_files.hpp"
 
-namespace lr::detail {
+namespace lacedring::detail {
 
 using Bytes = std::vector<std::byte>;
 
@@ -57,4 +57,4 @@ Result<void> make_glb(const Mesh& mesh, Bytes& head, Bytes& body, WriteNotes& no
 void make_ply(const Mesh& mesh, Bytes& head, Bytes& body);
 void make_obj(const Mesh& mesh, Bytes& body, WriteNotes& notes);
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

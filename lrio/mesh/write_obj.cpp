@@ -9,7 +9,7 @@
 #include "lrio/mesh/read_formats.h"
 #include "lrio/mesh/write_formats.h"
 
-namespace lr::detail {
+namespace lacedring::detail {
 namespace {
 
 /// Values of one attribute, as the lines of one keyword.
@@ -88,4 +88,4 @@ void make_obj(const Mesh& mesh, Bytes& body, WriteNotes& notes) {
     if (!dropped.empty()) notes.push_back("OBJ has no place for " + shown_names(dropped) + ": left out");
 }
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

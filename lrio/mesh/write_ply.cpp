@@ -8,7 +8,7 @@
 #include "lrio/mesh/read_formats.h"
 #include "lrio/mesh/write_formats.h"
 
-namespace lr::detail {
+namespace lacedring::detail {
 namespace {
 
 std::string_view ply_type(ComponentType type) {
@@ -92,4 +92,4 @@ void make_ply(const Mesh& mesh, Bytes& head, Bytes& body) {
     }
 }
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

@@ -4,7 +4,7 @@
 
 #include "lrlab/generate/detail.h"
 
-namespace lr::detail {
+namespace lacedring::detail {
 namespace {
 
 struct Grid {
@@ -84,4 +84,4 @@ Result<Mesh> make_moebius(std::uint64_t triangles, std::uint64_t) {
     return builder.finish();
 }
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

@@ -6,7 +6,7 @@
 
 #include "lrlab/generate/detail.h"
 
-namespace lr::detail {
+namespace lacedring::detail {
 namespace {
 
 constexpr std::uint32_t next(std::uint32_t c) {
@@ -164,4 +164,4 @@ Result<Mesh> make_blob(std::uint64_t triangles, std::uint64_t seed) {
     return mesh;
 }
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

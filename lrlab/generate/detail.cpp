@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace lr::detail {
+namespace lacedring::detail {
 
 Turn turn(std::uint64_t k, std::uint64_t n) {
     // Reduced to half a quadrant in integers, then Taylor's series: what is left is below pi/4, the error below 2^-52.
@@ -102,4 +102,4 @@ Error too_many_generated() {
     return {ErrorCode::invalid_argument, "the mesh would have more than 2^29 vertices"};
 }
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lrcore/base/result.h"
-#include "lrio/mesh/mesh.h"
+#include "lacedring/base.hpp"
+#include "lacedring/mesh.hpp"
 
-namespace lr::detail {
+namespace lacedring::detail {
 
 /// Vertices that a mesh of ours may have: the lean stream numbers no more.
 constexpr std::uint64_t kMostVertices = std::uint64_t{1} << 29;
@@ -129,4 +129,4 @@ Result<Mesh> make_parts(std::uint64_t triangles, std::uint64_t seed);
 Result<Mesh> make_moebius(std::uint64_t triangles, std::uint64_t seed);
 Result<Mesh> make_soup(std::uint64_t triangles, std::uint64_t seed);
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

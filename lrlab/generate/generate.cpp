@@ -6,7 +6,7 @@
 
 #include "lrlab/generate/detail.h"
 
-namespace lr {
+namespace lacedring {
 namespace {
 
 constexpr GeneratorInfo infos[] = {
@@ -49,4 +49,4 @@ Result<Mesh> generate(std::string_view kind, std::uint64_t triangles, std::uint6
     return Error{ErrorCode::invalid_argument, "unknown kind '" + std::string(kind) + "' (known: " + known + ")"};
 }
 
-}  // namespace lr
+}  // namespace lacedring

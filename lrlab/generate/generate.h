@@ -7,10 +7,10 @@
 #include <span>
 #include <string_view>
 
-#include "lrcore/base/result.h"
-#include "lrio/mesh/mesh.h"
+#include "lacedring/base.hpp"
+#include "lacedring/mesh.hpp"
 
-namespace lr {
+namespace lacedring {
 
 struct GeneratorInfo {
     std::string_view name;         ///< as the command line spells it
@@ -33,4 +33,4 @@ std::span<const GeneratorInfo> generators();
 /// T). Errors: invalid_argument (kind, or more than 2^29 vertices), too_large (memory).
 Result<Mesh> generate(std::string_view kind, std::uint64_t triangles, std::uint64_t seed = 1);
 
-}  // namespace lr
+}  // namespace lacedring

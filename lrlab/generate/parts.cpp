@@ -5,7 +5,7 @@
 
 #include "lrlab/generate/detail.h"
 
-namespace lr::detail {
+namespace lacedring::detail {
 namespace {
 
 /// A piece's place: scaled, turned and moved.
@@ -174,4 +174,4 @@ Result<Mesh> make_parts(std::uint64_t triangles, std::uint64_t seed) {
     return builder.finish();
 }
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

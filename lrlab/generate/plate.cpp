@@ -5,7 +5,7 @@
 
 #include "lrlab/generate/detail.h"
 
-namespace lr::detail {
+namespace lacedring::detail {
 namespace {
 
 /// Holes stand in columns and rows with bars between them: column k of 2 * columns + 1 is a hole where k is odd.
@@ -137,4 +137,4 @@ Result<Mesh> make_genus(std::uint64_t triangles, std::uint64_t seed) {
     return builder.finish();
 }
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

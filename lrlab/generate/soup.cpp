@@ -7,7 +7,7 @@
 
 #include "lrlab/generate/detail.h"
 
-namespace lr::detail {
+namespace lacedring::detail {
 namespace {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
@@ -173,4 +173,4 @@ Result<Mesh> make_soup(std::uint64_t triangles, std::uint64_t seed) {
     return builder.finish();
 }
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

@@ -4,7 +4,7 @@
 
 #include "lrlab/generate/detail.h"
 
-namespace lr::detail {
+namespace lacedring::detail {
 
 SphereShape sphere_shape(std::uint64_t triangles) {
     triangles = std::max<std::uint64_t>(triangles, 8);
@@ -83,4 +83,4 @@ Result<Mesh> make_sphere(std::uint64_t triangles, std::uint64_t) {
     return build_sphere(shape).finish();
 }
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

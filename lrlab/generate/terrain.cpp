@@ -6,7 +6,7 @@
 
 #include "lrlab/generate/detail.h"
 
-namespace lr::detail {
+namespace lacedring::detail {
 namespace {
 
 /// An ellipse of cells in its bounding box. In doubled coordinates its inequality adds a term of x to a term of y, so
@@ -159,4 +159,4 @@ Result<Mesh> make_terrain(std::uint64_t triangles, std::uint64_t seed) {
     return builder.finish();
 }
 
-}  // namespace lr::detail
+}  // namespace lacedring::detail

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace lr {
+namespace lacedring {
 
 struct PagedFile::State {
     int fd = -1;
@@ -200,4 +200,4 @@ bool PagedFile::direct() const {
     return state_->direct;
 }
 
-}  // namespace lr
+}  // namespace lacedring

@@ -12,9 +12,9 @@
 #include <memory>
 #include <span>
 
-#include "lrcore/base/result.h"
+#include "lacedring/base.hpp"
 
-namespace lr {
+namespace lacedring {
 
 class PagedFile {
   public:
@@ -57,4 +57,4 @@ class PagedFile {
     std::unique_ptr<State> state_;
 };
 
-}  // namespace lr
+}  // namespace lacedring

@@ -1,6 +1,6 @@
 #include "lrlab/paper/offsets.h"
 
-namespace lr {
+namespace lacedring {
 
 OffsetCounts count_offsets(const LrView& lr) {
     OffsetCounts out;
@@ -25,4 +25,4 @@ std::uint32_t count_long_tips(const CompactLrView& lr) {
     return count;
 }
 
-}  // namespace lr
+}  // namespace lacedring

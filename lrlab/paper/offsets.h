@@ -6,10 +6,9 @@
 #include <bit>
 #include <cstdint>
 
-#include "lrcore/codec/tables/compact_lr.h"
-#include "lrcore/codec/tables/lr_table.h"
+#include "lacedring/streams.hpp"
 
-namespace lr {
+namespace lacedring {
 
 /// Significant bits of the offset from ring vertex v to `tip` modulo m_r, the shorter way round, without its sign: 1
 /// for a neighbour, 0 for v itself. v and tip are below ring_vertices.
@@ -30,4 +29,4 @@ OffsetCounts count_offsets(const LrView& lr);
 /// n_l of section 8: slots of long words without opposites in VO*. Cost: O(m_r). The tables are valid.
 std::uint32_t count_long_tips(const CompactLrView& lr);
 
-}  // namespace lr
+}  // namespace lacedring

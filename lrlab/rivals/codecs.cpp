@@ -10,7 +10,7 @@
 
 #include "lrlab/rivals/limit.h"
 
-namespace lr {
+namespace lacedring {
 namespace {
 
 CodedIndices encode(std::vector<std::uint32_t> ordered, std::uint32_t vertex_count) {
@@ -111,4 +111,4 @@ std::size_t deflated_size(std::span<const std::byte> bytes) {
     return done == Z_OK ? size : bytes.size();
 }
 
-}  // namespace lr
+}  // namespace lacedring

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "lrcore/base/result.h"
+#include "lacedring/base.hpp"
 
-namespace lr {
+namespace lacedring {
 
 /// A mesh's triangles in an order of the rival's choosing, and what they are stored in. `order[new] = old` vertex.
 struct CodedIndices {
@@ -41,4 +41,4 @@ Result<Meshlets> make_meshlets(std::span<const std::uint32_t> indices, std::span
 /// Bytes that zlib's deflate makes of `bytes`, at its best.
 std::size_t deflated_size(std::span<const std::byte> bytes);
 
-}  // namespace lr
+}  // namespace lacedring

@@ -2,21 +2,21 @@
 // The corner table with a corner of every vertex: V, O and C, 6.5 references a triangle. Paper: LR 2011, section 2.1;
 // the structure that sections 7 and 8 compare with.
 //
-// Corner 3t+i is corner i of triangle t, as in lr::CornerTable. Every operator below takes constant time unless it says
-// otherwise.
+// Corner 3t+i is corner i of triangle t, as in lacedring::CornerTable. Every operator below takes constant time unless
+// it says otherwise.
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "lrcore/topology/corner_table.h"
+#include "lacedring/topology.hpp"
 #include "lrlab/rivals/corner_walks.h"
 
-namespace lr {
+namespace lacedring {
 
 /// The arrays, wherever they are: in a CornerTableC, or in a memory-mapped file. Holds no copy. The names of
-/// LrOperators. Entries are trusted, as are the arguments.
+/// Operators. Entries are trusted, as are the arguments.
 struct CornerTableCView : CornerWalks<CornerTableCView> {
     std::uint32_t vertices = 0;
     std::span<const std::uint32_t> vertex_of;    ///< V, 3 a triangle
@@ -25,19 +25,19 @@ struct CornerTableCView : CornerWalks<CornerTableCView> {
                                                  ///< UINT32_MAX where a vertex has no triangle
 
     /// c.t
-    static TriangleId triangle(CornerId c) { return lr::triangle(c); }
+    static TriangleId triangle(CornerId c) { return lacedring::triangle(c); }
     /// t.c: the triangle's first corner; next gives the others.
-    static CornerId corner(TriangleId t) { return {t.value * 3}; }
+    static CornerId corner(TriangleId t) { return CornerId{t.value * 3}; }
     /// c.n
-    static CornerId next(CornerId c) { return lr::next(c); }
+    static CornerId next(CornerId c) { return lacedring::next(c); }
     /// c.p
-    static CornerId previous(CornerId c) { return lr::previous(c); }
+    static CornerId previous(CornerId c) { return lacedring::previous(c); }
     /// c.v
-    VertexId vertex(CornerId c) const { return {vertex_of[c.value]}; }
+    VertexId vertex(CornerId c) const { return VertexId{vertex_of[c.value]}; }
     /// c.o: null across a border.
-    CornerId opposite(CornerId c) const { return {opposite_of[c.value]}; }
+    CornerId opposite(CornerId c) const { return CornerId{opposite_of[c.value]}; }
     /// v.c: null for a vertex of no triangle.
-    CornerId corner(VertexId v) const { return {corner_of[v.value]}; }
+    CornerId corner(VertexId v) const { return CornerId{corner_of[v.value]}; }
 
     /// Triangles keep the input's numbers; degenerate ones are held, and take part in nothing.
     bool is_canonical(TriangleId t) const {
@@ -61,4 +61,4 @@ struct CornerTableC {
 /// vertex's whole star. Cost: O(T) time; nothing but the result.
 CornerTableC build_corner_table_c(const CornerTable& table);
 
-}  // namespace lr
+}  // namespace lacedring

@@ -3,12 +3,12 @@
 
 #include <cstdint>
 
-#include "lrcore/base/ids.h"
+#include "lacedring/base.hpp"
 
-namespace lr {
+namespace lacedring {
 
 /// Base of a structure `Self` with next(c), previous(c), opposite(c), vertex(c), corner(v): the other operators, with
-/// the names, the meanings and the order of visits of LrOperators (lrcore/codec/tables/operators.h), so that one
+/// the names, the meanings and the order of visits of Operators (lrcore/codec/tables/operators.h), so that one
 /// template runs on all. Where corner(v) may be another than the first in swing order at a border, `Self` has its own
 /// star_begin.
 template <class Self>
@@ -32,7 +32,7 @@ class CornerWalks {
     }
 
     /// Only laced rings give one corner several numbers: here a corner is canonical or of no triangle.
-    CornerId canonical(CornerId c) const { return store().is_canonical(store().triangle(c)) ? c : null_corner; }
+    CornerId canonical(CornerId c) const { return store().is_canonical(store().triangle(c)) ? c : kNullCorner; }
 
     /// Is the vertex on a border? O(valence).
     bool is_border(VertexId v) const {
@@ -92,4 +92,4 @@ class CornerWalks {
     }
 };
 
-}  // namespace lr
+}  // namespace lacedring

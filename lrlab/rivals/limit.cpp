@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-namespace lr {
+namespace lacedring {
 
 namespace {
 
@@ -77,4 +77,4 @@ Result<void> check_places(std::span<const std::uint32_t> indices, std::span<cons
                  fmt::format("meshoptimizer takes time quadratic in the triangles at one place, and {} are", most)};
 }
 
-}  // namespace lr
+}  // namespace lacedring

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <span>
 
-#include "lrcore/base/result.h"
+#include "lacedring/base.hpp"
 
-namespace lr {
+namespace lacedring {
 
 /// Numbers of triangles at the vertices of a mesh.
 struct Valences {
@@ -31,4 +31,4 @@ Result<void> check_valences(std::span<const std::uint32_t> indices, std::uint32_
 /// triangle. Errors: too_large.
 Result<void> check_places(std::span<const std::uint32_t> indices, std::span<const float> positions);
 
-}  // namespace lr
+}  // namespace lacedring

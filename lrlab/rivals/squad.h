@@ -32,14 +32,14 @@
 #include <span>
 #include <vector>
 
-#include "lrcore/base/result.h"
-#include "lrcore/codec/tables/lr_table.h"
-#include "lrcore/topology/corner_table.h"
+#include "lacedring/base.hpp"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/streams.hpp"
 #include "lrlab/rivals/corner_walks.h"
 
-namespace lr {
+namespace lacedring {
 
-/// The arrays, wherever they are: in a Squad, or in a memory-mapped file. Holds no copy. The names of LrOperators.
+/// The arrays, wherever they are: in a Squad, or in a memory-mapped file. Holds no copy. The names of Operators.
 /// Entries are trusted, as are the arguments: a corner of a triangle that does not exist gives nonsense.
 struct SquadView : CornerWalks<SquadView> {
     static constexpr std::uint32_t kWrap = 0x80000000;        ///< in S: across a border, back to the fan's first corner
@@ -53,21 +53,21 @@ struct SquadView : CornerWalks<SquadView> {
     std::span<const std::uint32_t> corners;  ///< C, 1 an unmatched vertex: the smallest in its cycle; ascending
 
     /// c.t
-    static TriangleId triangle(CornerId c) { return {c.value / 4}; }
+    static TriangleId triangle(CornerId c) { return TriangleId{c.value / 4}; }
     /// t.c: the triangle's first corner; next gives the others.
-    static CornerId corner(TriangleId t) { return {t.value * 4}; }
+    static CornerId corner(TriangleId t) { return CornerId{t.value * 4}; }
     /// c.n
-    static CornerId next(CornerId c) { return {c.value % 4 == 2 ? c.value - 2 : c.value + 1}; }
+    static CornerId next(CornerId c) { return CornerId{c.value % 4 == 2 ? c.value - 2 : c.value + 1}; }
     /// c.p
-    static CornerId previous(CornerId c) { return {c.value % 4 == 0 ? c.value + 2 : c.value - 1}; }
+    static CornerId previous(CornerId c) { return CornerId{c.value % 4 == 0 ? c.value + 2 : c.value - 1}; }
 
     /// c.v: O(valence).
     VertexId vertex(CornerId c) const {
-        std::uint32_t x = c.value % 4 == 0 ? c.value & ~4U : c.value;          // both triangles begin at point 0
-        if (const std::uint32_t v = std::rotr(x, 3); v < matched) return {v};  // x = 8v
+        std::uint32_t x = c.value % 4 == 0 ? c.value & ~4U : c.value;  // both triangles begin at point 0
+        if (const std::uint32_t v = std::rotr(x, 3); v < matched) return VertexId{v};  // x = 8v
         const std::uint32_t begin = x = follow(x);
         for (;;) {
-            if (const std::uint32_t v = std::rotr(x, 3); v < matched) return {v};
+            if (const std::uint32_t v = std::rotr(x, 3); v < matched) return VertexId{v};
             x = follow(x);
             if (x == begin) return unmatched_vertex(begin);
         }
@@ -76,7 +76,7 @@ struct SquadView : CornerWalks<SquadView> {
     /// c.s: the next corner around c's vertex, null at a border.
     CornerId swing(CornerId c) const {
         const std::uint32_t x = around(c.value);
-        return (x & kWrap) != 0 ? null_corner : CornerId{x & ~kBorder};
+        return (x & kWrap) != 0 ? kNullCorner : CornerId{x & ~kBorder};
     }
     /// c.o: null across a border.
     CornerId opposite(CornerId c) const {
@@ -100,8 +100,8 @@ struct SquadView : CornerWalks<SquadView> {
     }
     /// v.c: null for a vertex of no triangle.
     CornerId corner(VertexId v) const {
-        if (v.value < matched) return {8 * v.value};
-        return v.value - matched < corners.size() ? CornerId{corners[v.value - matched]} : null_corner;
+        if (v.value < matched) return CornerId{8 * v.value};
+        return v.value - matched < corners.size() ? CornerId{corners[v.value - matched]} : kNullCorner;
     }
 
     /// Is the vertex on a border? O(valence).
@@ -180,7 +180,7 @@ struct SquadView : CornerWalks<SquadView> {
             wraps = (leave(c) & kWrap) != 0;
             c = follow(c);
         } while (c != first.value && !wraps);
-        return {c};
+        return CornerId{c};
     }
 
     /// Goes around a vertex by the records there, from `first`, where one is entered: visit(the corner at which the
@@ -203,7 +203,7 @@ struct SquadView : CornerWalks<SquadView> {
             smallest = std::min(smallest, x);
         }
         const auto at = std::lower_bound(corners.begin(), corners.end(), smallest);
-        return {matched + static_cast<std::uint32_t>(at - corners.begin())};
+        return VertexId{matched + static_cast<std::uint32_t>(at - corners.begin())};
     }
 };
 
@@ -238,4 +238,4 @@ struct SquadOptions {
 /// Errors: too_large (more than 2^27 records; a triangle is in one).
 Result<Squad> build_squad(const CornerTable& table, const SquadOptions& options = {}, LrMap* map = nullptr);
 
-}  // namespace lr
+}  // namespace lacedring

@@ -8,7 +8,7 @@
 #include "lrlab/rivals/squad.h"
 #include "lrlab/rivals/squad_match.h"
 
-namespace lr {
+namespace lacedring {
 namespace {
 
 constexpr std::uint32_t kNone = UINT32_MAX;
@@ -30,7 +30,7 @@ class Builder {
         out_.swings.resize(4 * matching_.records.size());
         for (std::uint32_t r = 0; r < matching_.records.size(); ++r) fill(r);
         for (std::uint32_t v = 0; v < out_.matched; ++v) {
-            if (out_.view().is_border({v})) out_.swings[4 * std::size_t{v}] |= SquadView::kBorder;
+            if (out_.view().is_border(VertexId{v})) out_.swings[4 * std::size_t{v}] |= SquadView::kBorder;
         }
         sort_unmatched();
         count();
@@ -124,13 +124,13 @@ class Builder {
         for (std::uint32_t r = 0; r < matching_.matched; ++r) give(matched_vertex(r));
         for (const VertexId v : matching_.unmatched) give(v);
         for (std::uint32_t v = 0; v < table_.vertex_count; ++v) {
-            if (!numbered[v]) map.vertex.push_back({v});
+            if (!numbered[v]) map.vertex.push_back(VertexId{v});
         }
-        map.triangle.assign(2 * matching_.records.size(), null_triangle);
+        map.triangle.assign(2 * matching_.records.size(), kNullTriangle);
         map.start.assign(map.triangle.size(), 0);
         for (std::uint32_t t = 0; t < table_.triangle_count(); ++t) {
             if (place_[t] == kNone) continue;
-            map.triangle[place_[t] / 4] = {t};
+            map.triangle[place_[t] / 4] = TriangleId{t};
             map.start[place_[t] / 4] = place_[t] % 4;
         }
     }
@@ -158,4 +158,4 @@ Result<Squad> build_squad(const CornerTable& table, const SquadOptions& options,
     return Builder(table, std::move(matching)).build(map);
 }
 
-}  // namespace lr
+}  // namespace lacedring

@@ -8,7 +8,7 @@
 
 #include "lrcore/base/bits.h"
 
-namespace lr {
+namespace lacedring {
 namespace {
 
 // What is known of a triangle, in a byte.
@@ -30,7 +30,7 @@ class Matcher {
         for (const CornerId seed : seeds_) own_one(seed);
         pair();
         for (std::uint32_t t = 0; t < table_.triangle_count(); ++t) {
-            if (!free({3 * t}) && (state_[t] & kPaired) == 0) extend(owner_corner({3 * t}), reach);
+            if (!free(CornerId{3 * t}) && (state_[t] & kPaired) == 0) extend(owner_corner(CornerId{3 * t}), reach);
         }
         add_matched(renumber);
         add_extras(renumber);
@@ -71,7 +71,7 @@ class Matcher {
     void walk() {
         order_.reserve(table_.vertex_count);
         for (std::uint32_t t = 0; t < table_.triangle_count(); ++t) {
-            if ((state_[t] & kSeen) != 0 || table_.degenerate({t})) continue;
+            if ((state_[t] & kSeen) != 0 || table_.degenerate(TriangleId{t})) continue;
             const CornerId seed = corner(TriangleId{t}, 0);
             for (const CornerId c : {next(seed), previous(seed)}) {  // the two that no triangle is entered for
                 known_.set(table_.vertex(c).value);
@@ -117,10 +117,10 @@ class Matcher {
     /// another, by breadth-first search over the owners. Finds one if there is one.
     void own_one(CornerId seed) {
         std::vector<Step>& steps = steps_;
-        steps.assign(1, {seed, null_corner, 0});
+        steps.assign(1, {seed, kNullCorner, 0});
         known_.clear(table_.vertex(seed).value);
         for (std::size_t i = 0; i < steps.size(); ++i) {
-            CornerId best = null_corner;
+            CornerId best = kNullCorner;
             around(steps[i].kept, [&](CornerId c) {
                 if (!free(c)) return false;
                 const CornerId s = table_.swing(c);
@@ -168,7 +168,7 @@ class Matcher {
         while (!forced_.empty()) {
             const TriangleId a = forced_.back();
             forced_.pop_back();
-            CornerId c = null_corner;
+            CornerId c = kNullCorner;
             std::uint32_t count = 0;
             choices(a, [&](CornerId x) {
                 c = x;
@@ -198,7 +198,7 @@ class Matcher {
     }
     void pair() {
         for (const bool forced_only : {true, false}) {
-            for (std::uint32_t t = 0; t < table_.triangle_count(); ++t) settle({t}, forced_only);
+            for (std::uint32_t t = 0; t < table_.triangle_count(); ++t) settle(TriangleId{t}, forced_only);
         }
     }
 
@@ -207,7 +207,7 @@ class Matcher {
     /// most.
     void extend(CornerId c, std::uint32_t reach) {
         std::vector<Step>& steps = steps_;
-        steps.assign(1, {c, null_corner, 0});
+        steps.assign(1, {c, kNullCorner, 0});
         known_.clear(table_.vertex(c).value);
         const auto look = [&](std::size_t i, CornerId x) {
             if (x.is_null()) return false;
@@ -232,16 +232,16 @@ class Matcher {
     }
 
     void add_matched(bool renumber) {
-        std::vector<CornerId> corner_of(table_.vertex_count, null_corner);
+        std::vector<CornerId> corner_of(table_.vertex_count, kNullCorner);
         for (std::uint32_t t = 0; t < table_.triangle_count(); ++t) {
-            if (free({3 * t}) || (state_[t] & kPairBack) != 0) continue;
-            const CornerId c = owner_corner({3 * t});
+            if (free(CornerId{3 * t}) || (state_[t] & kPairBack) != 0) continue;
+            const CornerId c = owner_corner(CornerId{3 * t});
             corner_of[table_.vertex(c).value] = c;
         }
         if (!renumber) {
             order_.clear();
             for (std::uint32_t v = 0; v < table_.vertex_count; ++v) {
-                if (known_.test(v)) order_.push_back({v});
+                if (known_.test(v)) order_.push_back(VertexId{v});
             }
         }
         out_.records.reserve(order_.size());
@@ -264,7 +264,7 @@ class Matcher {
             if (quad) add_extra_around(triangle(table_.swing(a)));
         }
         for (std::uint32_t t = 0; t < table_.triangle_count(); ++t) {
-            if ((state_[t] & kSeen) != 0) add_extra({t});
+            if ((state_[t] & kSeen) != 0) add_extra(TriangleId{t});
         }
     }
     void add_extra_around(TriangleId t) {
@@ -306,4 +306,4 @@ SquadMatching match_squad(const CornerTable& table, bool renumber, std::uint32_t
     return Matcher(table).match(renumber, reach);
 }
 
-}  // namespace lr
+}  // namespace lacedring

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "lrcore/topology/corner_table.h"
+#include "lacedring/topology.hpp"
 
-namespace lr {
+namespace lacedring {
 
 struct SquadRecord {
     CornerId first;  ///< the corner at the record's vertex in its first triangle
@@ -37,4 +37,4 @@ struct SquadMatching {
 /// a triangle, 4 a vertex, and stacks.
 SquadMatching match_squad(const CornerTable& table, bool renumber, std::uint32_t reach);
 
-}  // namespace lr
+}  // namespace lacedring

@@ -4,7 +4,7 @@
 
 #include "lrlab/rivals/limit.h"
 
-namespace lr {
+namespace lacedring {
 
 namespace {
 
@@ -58,4 +58,4 @@ CacheFigures analyze_fifo(std::span<const std::uint32_t> indices, std::size_t ve
             static_cast<double>(figures.atvr)};
 }
 
-}  // namespace lr
+}  // namespace lacedring

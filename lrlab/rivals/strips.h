@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "lrcore/base/result.h"
+#include "lacedring/base.hpp"
 
-namespace lr {
+namespace lacedring {
 
 constexpr std::uint32_t kStripRestart = UINT32_MAX;
 
@@ -38,4 +38,4 @@ inline CacheFigures analyze_fifo32(std::span<const std::uint32_t> indices, std::
     return analyze_fifo(indices, vertex_count, 32);
 }
 
-}  // namespace lr
+}  // namespace lacedring

@@ -15,10 +15,10 @@
 #include <span>
 #include <vector>
 
-#include "lrcore/topology/corner_table.h"
+#include "lacedring/topology.hpp"
 #include "lrlab/rivals/corner_walks.h"
 
-namespace lr {
+namespace lacedring {
 
 struct HalfEdge {
     VertexId start;
@@ -26,7 +26,7 @@ struct HalfEdge {
     CornerId next;
 };
 
-/// The arrays, wherever they are: in a WingedEdge, or in a memory-mapped file. Holds no copy. The names of LrOperators,
+/// The arrays, wherever they are: in a WingedEdge, or in a memory-mapped file. Holds no copy. The names of Operators,
 /// each in constant time unless it says otherwise. Entries are trusted, as are the arguments.
 struct WingedEdgeView : CornerWalks<WingedEdgeView> {
     std::uint32_t vertices = 0;
@@ -35,9 +35,9 @@ struct WingedEdgeView : CornerWalks<WingedEdgeView> {
                                              ///< on it; null: of no triangle
 
     /// c.t
-    static TriangleId triangle(CornerId c) { return lr::triangle(c); }
+    static TriangleId triangle(CornerId c) { return lacedring::triangle(c); }
     /// t.c: the triangle's first corner; next gives the others.
-    static CornerId corner(TriangleId t) { return {t.value * 3}; }
+    static CornerId corner(TriangleId t) { return CornerId{t.value * 3}; }
     /// c.n
     CornerId next(CornerId c) const { return half_edges[c.value].next; }
     /// c.p
@@ -76,4 +76,4 @@ struct WingedEdge {
 /// Cost: O(T) time; nothing but the result.
 WingedEdge build_winged_edge(const CornerTable& table);
 
-}  // namespace lr
+}  // namespace lacedring

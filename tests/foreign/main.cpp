@@ -1,21 +1,19 @@
-// A renderer that knows nothing of LacedRing but the installed package: lr::encode_lean and lr::encode_packed on the
-// host, lacedring.glsl on the device. It draws a mesh from its index list and from its streams in every way that there
-// is, and compares the pictures. docs/engine-guide.md explains the ways.
+// A renderer that knows nothing of LacedRing but the installed package: lacedring::encode_lean and
+// lacedring::encode_packed on the host, lacedring.glsl on the device. It draws a mesh from its index list and from its
+// streams in every way that there is, and compares the pictures. docs/engine-guide.md explains the ways.
 #include <lrcore/codec/lean/lean_format.h>
-#include <lrcore/codec/lean/lean_stream.h>
 #include <lrcore/codec/packed/packed_format.h>
-#include <lrcore/codec/packed/packed_stream.h>
-#include <lrio/mesh/read.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <lacedring/mesh_files.hpp>
+#include <lacedring/streams.hpp>
 #include <string>
 
-#include "lrcore/codec/lean/lean_encode.h"
-#include "lrcore/codec/packed/packed_encode.h"
+#include "lacedring/lacedring.hpp"
 #include "spirv/blocks_comp.h"
 #include "spirv/colour_frag.h"
 #include "spirv/expand_lean_comp.h"
@@ -38,17 +36,17 @@ struct Stream {
     std::uint32_t triangles;  ///< to draw: of a lean stream its slots, some of them degenerate
 };
 
-Stream lean_stream(const lr::CornerTable& table, const lr::Rings& rings) {
-    auto lean = lr::encode_lean(table, rings);
+Stream lean_stream(const lacedring::CornerTable& table, const lacedring::Rings& rings) {
+    auto lean = lacedring::encode_lean(table, rings);
     if (!lean) throw std::runtime_error(lean.error().message);
-    const std::uint32_t slots = lr::view_lean(lean->words)->slots();
+    const std::uint32_t slots = lacedring::view_lean(lean->words)->slots();
     return {true, std::move(lean->words), std::move(lean->vertex_order), slots};
 }
 
-Stream packed_stream(const lr::CornerTable& table, const lr::Rings& rings) {
-    auto packed = lr::encode_packed(table, rings, lr::PackedProfile::cache);
+Stream packed_stream(const lacedring::CornerTable& table, const lacedring::Rings& rings) {
+    auto packed = lacedring::encode_packed(table, rings, lacedring::PackedProfile::cache);
     if (!packed) throw std::runtime_error(packed.error().message);
-    const std::uint32_t triangles = lr::view_packed(packed->words)->triangles;
+    const std::uint32_t triangles = lacedring::view_packed(packed->words)->triangles;
     return {false, std::move(packed->words), std::move(packed->vertex_order), triangles};
 }
 
@@ -60,12 +58,12 @@ void break_stream(Stream& stream, std::uint32_t vertices) {
             std::uint32_t& word = words[LR_LEAN_HEADER_WORDS + at];
             if ((word & ~LR_LEAN_TIP_MASK) != 0) continue;
             word = (word + vertices / 2) % vertices;
-            words[LR_LEAN_WORD_CHECKSUM] = lr::lean_checksum(words);
+            words[LR_LEAN_WORD_CHECKSUM] = lacedring::lean_checksum(words);
         } else {
             words[LR_PACKED_HEADER_WORDS + at / 32] ^= 1U << at % 32;
-            words[LR_PACKED_WORD_CHECKSUM] = lr::packed_checksum(words);
+            words[LR_PACKED_WORD_CHECKSUM] = lacedring::packed_checksum(words);
         }
-        if (stream.lean ? lr::validate_lean(words).has_value() : lr::validate_packed(words).has_value()) {
+        if (stream.lean ? lacedring::validate_lean(words).has_value() : lacedring::validate_packed(words).has_value()) {
             stream.words = std::move(words);
             return;
         }
@@ -97,7 +95,7 @@ Push look_at(const std::vector<float>& positions) {
 }
 
 /// The mesh's own list; only that each triangle begins with the vertex that comes first in the stream.
-std::vector<std::uint32_t> plain_indices(const lr::Mesh& mesh, const std::vector<std::uint32_t>& vertex_order) {
+std::vector<std::uint32_t> plain_indices(const lacedring::Mesh& mesh, const std::vector<std::uint32_t>& vertex_order) {
     std::vector<std::uint32_t> rank(mesh.vertex_count), indices = mesh.indices;
     for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) rank[vertex_order[v]] = v;
     for (auto t = indices.begin(); t != indices.end(); t += 3) {
@@ -129,12 +127,12 @@ bool compare(const std::string& way, const Picture& plain, const Picture& pictur
     return same && !blank;
 }
 
-bool draw_all(Gpu& gpu, const lr::Mesh& mesh, bool broken) {
-    const std::vector<float> positions = lr::positions_f32(mesh);
+bool draw_all(Gpu& gpu, const lacedring::Mesh& mesh, bool broken) {
+    const std::vector<float> positions = lacedring::positions_f32(mesh);
     const Push push = look_at(positions);
-    const auto table = lr::build_corner_table(mesh.indices, mesh.vertex_count);
+    const auto table = lacedring::build_corner_table(mesh.indices, mesh.vertex_count);
     if (!table) throw std::runtime_error(table.error().message);
-    const lr::Rings rings = lr::expand_rings(*table);
+    const lacedring::Rings rings = lacedring::expand_rings(*table);
 
     constexpr auto storage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     constexpr auto vertex = storage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
@@ -238,7 +236,7 @@ bool draw_all(Gpu& gpu, const lr::Mesh& mesh, bool broken) {
 int main(int argc, char** argv) {
     const bool broken = argc == 3 && std::strcmp(argv[1], "--break") == 0;
     if (argc != 2 && !broken) return std::printf("foreign [--break] MESH\n"), 2;
-    const lr::Result<lr::Mesh> mesh = lr::read_mesh(argv[argc - 1]);
+    const lacedring::Result<lacedring::Mesh> mesh = lacedring::read_mesh(argv[argc - 1]);
     if (!mesh) return std::printf("%s\n", mesh.error().message.c_str()), 2;
     std::uint32_t messages = 0;
     bool good = false;

@@ -7,17 +7,10 @@
 #include <string>
 #include <unordered_map>
 
-#include "lrcore/codec/lean/lean_encode.h"
-#include "lrcore/codec/packed/packed_encode.h"
-#include "lrcore/codec/tables/lr_encode.h"
-#include "lrcore/ring/expansion.h"
-#include "lrcore/ring/optimize.h"
-#include "lrcore/topology/geometry.h"
-#include "lrcore/topology/report.h"
-#include "lrcore/topology/smesh.h"
-#include "lrcore/topology/split.h"
-#include "lrio/mesh/read.h"
-#include "lrio/mesh/weld.h"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/mesh_files.hpp"
+#include "lacedring/ring.hpp"
+#include "lacedring/topology.hpp"
 #include "lrlab/rivals/corner_table_c.h"
 #include "lrlab/rivals/squad.h"
 #include "lrlab/rivals/strips.h"
@@ -25,7 +18,7 @@
 #include "tests/fuzz/streams.h"
 #include "tests/fuzz/use.h"
 
-namespace lr::fuzz {
+namespace lacedring::fuzz {
 namespace {
 
 constexpr std::size_t kOptionBytes = 9;
@@ -140,26 +133,24 @@ Mesh welded(const Mesh& mesh, Weld mode) {
 }
 
 void check_table(const Mesh& mesh, const CornerTable& table) {
-    REQUIRE(validate(table).empty());
+    REQUIRE(check_corner_table(table).empty());
     REQUIRE(table.vertex_count == mesh.vertex_count && table.corners.size() == mesh.indices.size());
     for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
-        const std::uint32_t second = table.flipped({t}) ? 2 : 1;
-        REQUIRE(table.vertex(corner({t}, 0)).value == mesh.indices[3 * std::size_t{t}]);
-        REQUIRE(table.vertex(corner({t}, second)).value == mesh.indices[3 * std::size_t{t} + 1]);
-        REQUIRE(table.vertex(corner({t}, 3 - second)).value == mesh.indices[3 * std::size_t{t} + 2]);
+        const std::uint32_t second = table.flipped(TriangleId{t}) ? 2 : 1;
+        REQUIRE(table.vertex(corner(TriangleId{t}, 0)).value == mesh.indices[3 * std::size_t{t}]);
+        REQUIRE(table.vertex(corner(TriangleId{t}, second)).value == mesh.indices[3 * std::size_t{t} + 1]);
+        REQUIRE(table.vertex(corner(TriangleId{t}, 3 - second)).value == mesh.indices[3 * std::size_t{t} + 2]);
     }
 }
 
 /// A stream of `mesh` as the encoder gave it: valid, decoded to the same triangles, and so is the file made of it.
-void check_stream(const Mesh& mesh, Connectivity kind, Words words, Words vertex_order, Words triangle_order,
-                  bool keep_order) {
-    const std::optional<Words> indices = use_stream(kind, words);
+void check_stream(const Mesh& mesh, Encoded encoded, bool keep_order) {
+    const std::optional<Words> indices = use_stream(encoded.format, encoded.words);
     REQUIRE(indices);
-    for (const std::uint32_t v : vertex_order) REQUIRE(v < mesh.vertex_count);
-    const std::vector<Triangle> got = triangles_of(*indices, [&](std::uint32_t v) { return vertex_order[v]; });
+    for (const std::uint32_t v : encoded.vertex_order) REQUIRE(v < mesh.vertex_count);
+    const std::vector<Triangle> got = triangles_of(*indices, [&](std::uint32_t v) { return encoded.vertex_order[v]; });
     REQUIRE(sorted(got) == sorted(triangles_of(mesh.indices)));
-    Words order = triangle_order;
-    std::erase(order, UINT32_MAX);
+    const Words& order = encoded.triangle_order;
     REQUIRE(order.size() == got.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
         REQUIRE(order[i] < mesh.triangle_count());
@@ -167,8 +158,7 @@ void check_stream(const Mesh& mesh, Connectivity kind, Words words, Words vertex
         REQUIRE(got[i] == rotated({t[0], t[1], t[2]}));
     }
 
-    const std::vector<std::byte> bytes = serialize_lr(
-        make_lr_file(mesh, kind, std::move(words), std::move(vertex_order), std::move(triangle_order), keep_order));
+    const std::vector<std::byte> bytes = serialize_lr(make_lr_file(mesh, std::move(encoded), keep_order));
     const Result<LrFile> file = parse_lr(bytes);
     REQUIRE(file);
     REQUIRE(serialize_lr(*file) == bytes);
@@ -191,35 +181,31 @@ void check_stream(const Mesh& mesh, Connectivity kind, Words words, Words vertex
 void check_lean(const Mesh& mesh, const CornerTable& table, const Options& options) {
     Expansion expansion;
     Rings rings = expand_rings(table, options.ring(table), &expansion);
-    REQUIRE(validate(table, rings).empty());
+    REQUIRE(check_rings(table, rings).empty());
     REQUIRE(settling_steps(table, expansion).size() == table.triangle_count());
-    rings = optimize_rings(table, std::move(rings), options.optimize(lean_ring_cost));
-    REQUIRE(validate(table, rings).empty());
-    Result<LeanStream> lean = encode_lean(table, rings, {.wart_skipping = options.wart_skipping()});
+    rings = optimize_rings(table, std::move(rings), options.optimize(kLeanRingCost));
+    REQUIRE(check_rings(table, rings).empty());
+    Result<EncodedLean> lean = encode_lean(table, rings, {.wart_skipping = options.wart_skipping()});
     REQUIRE(lean);
-    check_stream(mesh, Connectivity::lean, std::move(lean->words), std::move(lean->vertex_order),
-                 std::move(lean->slot_triangle), options.keep_order());
+    check_stream(mesh, as_encoded(std::move(*lean)), options.keep_order());
 }
 
 void check_packed(const Mesh& mesh, const CornerTable& table, const Options& options, PackedProfile profile) {
     Result<PackedChoice> packed =
-        encode_smallest_packed(table, options.ring(table), options.optimize(packed_ring_cost), profile);
+        encode_smallest_packed(table, options.ring(table), options.optimize(kPackedRingCost), profile);
     REQUIRE(packed);
-    PackedStream& stream = packed->stream;
-    check_stream(mesh, Connectivity::packed, std::move(stream.words), std::move(stream.vertex_order),
-                 std::move(stream.triangle_order), options.keep_order());
+    check_stream(mesh, as_encoded(std::move(packed->stream)), options.keep_order());
 }
 
-void check_lr(const Mesh& mesh, const CornerTable& table, const Options& options, Connectivity kind) {
+void check_lr(const Mesh& mesh, const CornerTable& table, const Options& options, Format kind) {
     RingOptions ring = options.ring(table);
-    ring.start = null_corner;  // of the table before its fans are split
+    ring.start = kNullCorner;  // of the table before its fans are split
     const std::array<std::uint32_t, 2> periods{0, options.byte[1]};
-    Result<EncodedLr> lr = kind == Connectivity::lr
-                               ? encode_lr(table, ring, options.optimize(lr_ring_cost), options.wart_skipping())
+    Result<EncodedLr> lr = kind == Format::lr
+                               ? encode_lr(table, ring, options.optimize(kLrRingCost), options.wart_skipping())
                                : encode_compact_lr(table, ring, std::span(periods).first(options.byte[1] == 0 ? 1 : 2));
     REQUIRE(lr);
-    check_stream(mesh, kind, std::move(lr->words), std::move(lr->vertex_order), std::move(lr->triangle_order),
-                 options.keep_order());
+    check_stream(mesh, as_encoded(std::move(*lr)), options.keep_order());
 }
 
 /// The triangles that a structure holds, by its operators.
@@ -227,7 +213,7 @@ template <class View>
 std::vector<Triangle> triangles_by_operators(const View& view, auto&& vertex_of) {
     std::vector<Triangle> out;
     for (std::uint32_t t = 0; t < view.triangle_numbers(); ++t) {
-        if (!view.is_canonical({t})) continue;
+        if (!view.is_canonical(TriangleId{t})) continue;
         const CornerId c = view.corner(TriangleId{t});
         out.push_back(rotated({vertex_of(view.vertex(c)), vertex_of(view.vertex(view.next(c))),
                                vertex_of(view.vertex(view.previous(c)))}));
@@ -277,8 +263,8 @@ void run_chain(const Mesh& input, const Options& options) {
     if (options.wants(0)) check_lean(mesh, *table, options);
     if (options.wants(1)) check_packed(mesh, *table, options, PackedProfile::small);
     if (options.wants(2)) check_packed(mesh, *table, options, PackedProfile::cache);
-    if (options.wants(3)) check_lr(mesh, *table, options, Connectivity::lr);
-    if (options.wants(4)) check_lr(mesh, *table, options, Connectivity::lr_compact);
+    if (options.wants(3)) check_lr(mesh, *table, options, Format::lr);
+    if (options.wants(4)) check_lr(mesh, *table, options, Format::lr_compact);
     if (options.wants(5)) check_rivals(mesh, *table);
 }
 
@@ -345,4 +331,4 @@ bool run_file(std::span<const std::byte> bytes) {
 extern const Target chain_indices_target{"chain_indices", run_indices, nullptr};
 extern const Target chain_mesh_target{"chain_mesh", run_file, nullptr};
 
-}  // namespace lr::fuzz
+}  // namespace lacedring::fuzz

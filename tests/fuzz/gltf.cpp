@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace lr::fuzz {
+namespace lacedring::fuzz {
 namespace {
 
 constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -105,4 +105,4 @@ void mutate_gltf(Bytes& bytes, std::size_t max_size, Random& random) {
     bytes.insert(bytes.end(), bin.begin(), bin.end());
 }
 
-}  // namespace lr::fuzz
+}  // namespace lacedring::fuzz

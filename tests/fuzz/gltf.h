@@ -1,10 +1,10 @@
 #pragma once
 #include "tests/fuzz/targets.h"
 
-namespace lr::fuzz {
+namespace lacedring::fuzz {
 
 /// Mutates the JSON or the buffer of a glTF file: a GLB's chunks keep right lengths, an embedded buffer is mutated
 /// behind its base64.
 void mutate_gltf(Bytes& bytes, std::size_t max_size, Random& random);
 
-}  // namespace lr::fuzz
+}  // namespace lacedring::fuzz

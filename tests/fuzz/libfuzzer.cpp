@@ -14,7 +14,7 @@ extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, st
 
 namespace {
 
-const lr::fuzz::Target* target = nullptr;
+const lacedring::fuzz::Target* target = nullptr;
 
 double used_seconds() {
     return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
@@ -34,7 +34,7 @@ double most_seconds = 0;  // no limit
 
 }  // namespace
 
-void lr::fuzz::mutate_bytes(Bytes& bytes, std::size_t max_size) {
+void lacedring::fuzz::mutate_bytes(Bytes& bytes, std::size_t max_size) {
     if (max_size == 0) return bytes.clear();  // LLVMFuzzerMutate wants room
     const std::size_t size = std::min(bytes.size(), max_size);
     bytes.resize(max_size);
@@ -48,7 +48,7 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
     }
     std::string_view name = (*argv)[0];
     name.remove_prefix(name.rfind('/') + 1);
-    for (const lr::fuzz::Target& t : lr::fuzz::targets()) {
+    for (const lacedring::fuzz::Target& t : lacedring::fuzz::targets()) {
         if (name == std::string("fuzz_") + t.name) target = &t;
     }
     if (target != nullptr) return 0;
@@ -72,8 +72,8 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
                                                unsigned seed) {
     if (target->mutate == nullptr) return LLVMFuzzerMutate(data, size, max_size);
     const auto* from = reinterpret_cast<const std::byte*>(data);
-    lr::fuzz::Bytes bytes(from, from + size);
-    lr::fuzz::Random random(seed);
+    lacedring::fuzz::Bytes bytes(from, from + size);
+    lacedring::fuzz::Random random(seed);
     target->mutate(bytes, max_size, random);
     bytes.resize(std::min(bytes.size(), max_size));
     if (!bytes.empty()) std::memcpy(data, bytes.data(), bytes.size());

@@ -1,6 +1,6 @@
 // The .lr file: mutates sections, lays them out again and mends every checksum (docs/lr-file.md).
 
-#include "lrio/file/lr_file.h"
+#include "lacedring/lr_file.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -9,7 +9,7 @@
 #include "tests/fuzz/streams.h"
 #include "tests/fuzz/use.h"
 
-namespace lr::fuzz {
+namespace lacedring::fuzz {
 namespace {
 
 struct Header {
@@ -25,6 +25,11 @@ struct Section {
     Bytes contents;
 };
 constexpr std::uint32_t kAttribute = 2, kVertexOrder = 3, kCornerOrder = 4;
+
+/// Of a section's kind; the kinds above, and unknown ones, are taken for lean.
+Format format_of(std::uint32_t kind) {
+    return kind == 5 ? Format::lr : kind == 6 ? Format::lr_compact : kind == 7 ? Format::packed : Format::lean;
+}
 
 bool run(std::span<const std::byte> bytes) {
     // The view that a memory-mapped file is used by needs an aligned address: operator new's is.
@@ -122,7 +127,7 @@ void mutate_section(Section& section, std::size_t room, Random& random) {
         default: {
             Words words(contents.size() / 4);
             if (!words.empty()) std::memcpy(words.data(), contents.data(), 4 * words.size());
-            mutate_stream(Connectivity{section.entry.kind}, words, most / 4, random);
+            mutate_stream(format_of(section.entry.kind), words, most / 4, random);
             const auto bytes = std::as_bytes(std::span(words));
             contents.assign(bytes.begin(), bytes.end());
         }
@@ -169,4 +174,4 @@ void mutate(Bytes& bytes, std::size_t max_size, Random& random) {
 
 extern const Target lr_file_target{"lr_file", run, mutate};
 
-}  // namespace lr::fuzz
+}  // namespace lacedring::fuzz

@@ -6,16 +6,14 @@
 #include <filesystem>
 #include <string>
 
-#include "lrcore/codec/lean/lean_encode.h"
-#include "lrcore/codec/packed/packed_encode.h"
-#include "lrcore/codec/tables/lr_encode.h"
-#include "lrcore/ring/optimize.h"
-#include "lrio/file/file.h"
-#include "lrio/file/lr_file.h"
+#include "lacedring/file.hpp"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/lr_file.hpp"
+#include "lacedring/ring.hpp"
 #include "lrlab/generate/generate.h"
 #include "tests/support/meshes.h"
 
-using namespace lr;
+using namespace lacedring;
 
 namespace {
 
@@ -29,13 +27,11 @@ void write(const char* target, const std::string& name, std::span<const std::byt
     all_written = write_file(folder / target / name, parts).has_value() && all_written;
 }
 
-void write_stream(const char* target, const std::string& name, const Mesh& mesh, Connectivity kind,
-                  const std::vector<std::uint32_t>& words, const std::vector<std::uint32_t>& vertex_order,
-                  const std::vector<std::uint32_t>& triangle_order) {
-    write(target, name, std::as_bytes(std::span(words)));
+void write_stream(const char* target, const std::string& name, const Mesh& mesh, const Encoded& encoded) {
+    write(target, name, encoded.bytes());
     if (mesh.triangle_count() > 60) return;
     write("lr_file", std::string(target) + "-" + name,
-          serialize_lr(make_lr_file(mesh, kind, words, vertex_order, triangle_order, mesh.triangle_count() % 2 == 0)));
+          serialize_lr(make_lr_file(mesh, encoded, mesh.triangle_count() % 2 == 0)));
 }
 
 void write_seeds(std::string name, const Mesh& mesh, std::uint32_t number) {
@@ -43,20 +39,15 @@ void write_seeds(std::string name, const Mesh& mesh, std::uint32_t number) {
     const CornerTable table = build_corner_table(mesh.indices, mesh.vertex_count).value();
     Rings rings = expand_rings(table, {.k = number % 4});
     if (number % 2 == 0) rings = optimize_rings(table, std::move(rings), {.passes = 2});
-    const Result<LeanStream> lean = encode_lean(table, rings);
-    write_stream("lean", name, mesh, Connectivity::lean, lean->words, lean->vertex_order, lean->slot_triangle);
+    write_stream("lean", name, mesh, as_encoded(*encode_lean(table, rings)));
     for (const PackedProfile profile : {PackedProfile::small, PackedProfile::cache}) {
-        const Result<PackedStream> packed = encode_packed(table, rings, profile);
-        write_stream("packed", name + (profile == PackedProfile::cache ? "-cache" : ""), mesh, Connectivity::packed,
-                     packed->words, packed->vertex_order, packed->triangle_order);
+        write_stream("packed", name + (profile == PackedProfile::cache ? "-cache" : ""), mesh,
+                     as_encoded(*encode_packed(table, rings, profile)));
     }
     if (mesh.triangle_count() <= 200) {
-        const Result<EncodedLr> lr = encode_lr(table, {.k = number % 4});
-        write_stream("lr", name, mesh, Connectivity::lr, lr->words, lr->vertex_order, lr->triangle_order);
+        write_stream("lr", name, mesh, as_encoded(*encode_lr(table, {.k = number % 4})));
         const std::array<std::uint32_t, 1> periods{number % 4};
-        const Result<EncodedLr> compact = encode_compact_lr(table, {}, periods);
-        write_stream("lr_compact", name, mesh, Connectivity::lr_compact, compact->words, compact->vertex_order,
-                     compact->triangle_order);
+        write_stream("lr_compact", name, mesh, as_encoded(*encode_compact_lr(table, {}, periods)));
     }
     if (mesh.vertex_count <= 256 && mesh.triangle_count() <= 100) {
         std::vector<std::byte> input;

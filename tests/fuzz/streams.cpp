@@ -5,16 +5,14 @@
 #include <cstring>
 #include <memory>
 
+#include "lacedring/streams.hpp"
 #include "lrcore/base/crc32.h"
 #include "lrcore/codec/lean/lean_format.h"
-#include "lrcore/codec/lean/lean_stream.h"
 #include "lrcore/codec/packed/packed_format.h"
-#include "lrcore/codec/packed/packed_stream.h"
 #include "lrcore/codec/packed/record.h"
-#include "lrcore/codec/tables/lr_stream.h"
 #include "tests/fuzz/use.h"
 
-namespace lr::fuzz {
+namespace lacedring::fuzz {
 namespace {
 
 /// Sizes from the number of words, and triangles from the slots that are not degenerate (docs/lean-format.md).
@@ -86,17 +84,17 @@ void mend_lr(Words& words, std::uint64_t words_per_vertex) {
     if (others <= words.size()) words[star] = static_cast<std::uint32_t>(words.size() - others);
 }
 
-void mend(Connectivity kind, Words& words) {
+void mend(Format kind, Words& words) {
     constexpr std::size_t lr_checksum = 9;
     switch (kind) {
-        case Connectivity::lean:
+        case Format::lean:
             if (words.size() < LR_LEAN_HEADER_WORDS) return;
             words[LR_LEAN_WORD_MAGIC] = LR_LEAN_MAGIC;
             words[LR_LEAN_WORD_VERSION] = LR_LEAN_VERSION;
             mend_lean(words);
             words[LR_LEAN_WORD_CHECKSUM] = lean_checksum(words);
             return;
-        case Connectivity::packed:
+        case Format::packed:
             if (words.size() < LR_PACKED_HEADER_WORDS) return;
             words[LR_PACKED_WORD_MAGIC] = LR_PACKED_MAGIC;
             words[LR_PACKED_WORD_VERSION] = LR_PACKED_VERSION;
@@ -105,7 +103,7 @@ void mend(Connectivity kind, Words& words) {
             return;
         default: {
             if (words.size() < kLrHeaderWords) return;
-            mend_lr(words, kind == Connectivity::lr ? 2 : 1);
+            mend_lr(words, kind == Format::lr ? 2 : 1);
             const auto bytes = std::as_bytes(std::span(words));
             words[lr_checksum] = crc32(bytes.subspan(4 * kLrHeaderWords), crc32(bytes.first(4 * lr_checksum)));
         }
@@ -148,7 +146,7 @@ void mutate_words(Words& words, Random& random) {
     }
 }
 
-template <Connectivity kind>
+template <Format kind>
 bool run(std::span<const std::byte> bytes) {
     const std::size_t size = bytes.size() / 4;
     const auto words = std::make_unique<std::uint32_t[]>(size);
@@ -156,7 +154,7 @@ bool run(std::span<const std::byte> bytes) {
     return use_stream(kind, {words.get(), size}).has_value();
 }
 
-template <Connectivity kind>
+template <Format kind>
 void mutate(Bytes& bytes, std::size_t max_size, Random& random) {
     Words words(bytes.size() / 4);
     if (!words.empty()) std::memcpy(words.data(), bytes.data(), 4 * words.size());
@@ -174,21 +172,21 @@ std::optional<Words> used(const Result<Stream>& stream, Use use) {
 
 }  // namespace
 
-std::optional<Words> use_stream(Connectivity kind, std::span<const std::uint32_t> words) {
+std::optional<Words> use_stream(Format kind, std::span<const std::uint32_t> words) {
     switch (kind) {
-        case Connectivity::lean:
+        case Format::lean:
             return used(validate_lean(words), use_lean);
-        case Connectivity::packed:
+        case Format::packed:
             return used(validate_packed(words), use_packed);
-        case Connectivity::lr:
+        case Format::lr:
             return used(validate_lr(words), [](const auto& stream) { return use_lr(stream); });
-        case Connectivity::lr_compact:
+        case Format::lr_compact:
             return used(validate_compact_lr(words), [](const auto& stream) { return use_lr(stream); });
     }
     return std::nullopt;
 }
 
-void mutate_stream(Connectivity kind, Words& words, std::size_t max_words, Random& random) {
+void mutate_stream(Format kind, Words& words, std::size_t max_words, Random& random) {
     if (words.empty() || random_below(random, 2) == 0) {
         Bytes bytes(4 * words.size());
         if (!words.empty()) std::memcpy(bytes.data(), words.data(), bytes.size());
@@ -202,9 +200,9 @@ void mutate_stream(Connectivity kind, Words& words, std::size_t max_words, Rando
     if (random_below(random, 16) != 0) mend(kind, words);  // else the checks of the header are tested
 }
 
-extern const Target lean_target{"lean", run<Connectivity::lean>, mutate<Connectivity::lean>};
-extern const Target packed_target{"packed", run<Connectivity::packed>, mutate<Connectivity::packed>};
-extern const Target lr_target{"lr", run<Connectivity::lr>, mutate<Connectivity::lr>};
-extern const Target lr_compact_target{"lr_compact", run<Connectivity::lr_compact>, mutate<Connectivity::lr_compact>};
+extern const Target lean_target{"lean", run<Format::lean>, mutate<Format::lean>};
+extern const Target packed_target{"packed", run<Format::packed>, mutate<Format::packed>};
+extern const Target lr_target{"lr", run<Format::lr>, mutate<Format::lr>};
+extern const Target lr_compact_target{"lr_compact", run<Format::lr_compact>, mutate<Format::lr_compact>};
 
-}  // namespace lr::fuzz
+}  // namespace lacedring::fuzz

@@ -6,17 +6,17 @@
 #include <span>
 #include <vector>
 
-#include "lrio/file/lr_file.h"
+#include "lacedring/lr_file.hpp"
 #include "tests/fuzz/targets.h"
 
-namespace lr::fuzz {
+namespace lacedring::fuzz {
 
 using Words = std::vector<std::uint32_t>;
 
 /// Validates the words and uses the stream (use.h). Its triangles, or nothing if it is refused.
-std::optional<Words> use_stream(Connectivity kind, std::span<const std::uint32_t> words);
+std::optional<Words> use_stream(Format kind, std::span<const std::uint32_t> words);
 
 /// Mutates bytes or whole words, then makes sizes and checksum in the header fit again, mostly.
-void mutate_stream(Connectivity kind, Words& words, std::size_t max_words, Random& random);
+void mutate_stream(Format kind, Words& words, std::size_t max_words, Random& random);
 
-}  // namespace lr::fuzz
+}  // namespace lacedring::fuzz

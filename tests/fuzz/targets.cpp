@@ -1,6 +1,6 @@
 #include "tests/fuzz/targets.h"
 
-namespace lr::fuzz {
+namespace lacedring::fuzz {
 
 extern const Target lean_target, packed_target, lr_target, lr_compact_target, lr_file_target;
 extern const Target gltf_target, obj_target, off_target, ply_target, stl_target;
@@ -13,4 +13,4 @@ std::span<const Target> targets() {
     return all;
 }
 
-}  // namespace lr::fuzz
+}  // namespace lacedring::fuzz

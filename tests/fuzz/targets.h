@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace lr::fuzz {
+namespace lacedring::fuzz {
 
 using Bytes = std::vector<std::byte>;
 using Random = std::minstd_rand;
@@ -38,6 +38,6 @@ inline std::uint32_t random_below(Random& random, std::size_t n) {
     std::abort();
 }
 
-}  // namespace lr::fuzz
+}  // namespace lacedring::fuzz
 
-#define REQUIRE(...) ((__VA_ARGS__) ? static_cast<void>(0) : ::lr::fuzz::fail(#__VA_ARGS__, __FILE__, __LINE__))
+#define REQUIRE(...) ((__VA_ARGS__) ? static_cast<void>(0) : ::lacedring::fuzz::fail(#__VA_ARGS__, __FILE__, __LINE__))

@@ -6,14 +6,13 @@
 #include <functional>
 #include <memory>
 
-#include "lrcore/codec/lean/lean_stream.h"
+#include "lacedring/mesh_files.hpp"
+#include "lacedring/streams.hpp"
 #include "lrcore/codec/packed/packed_format.h"
-#include "lrcore/codec/packed/packed_stream.h"
-#include "lrio/mesh/read.h"
 #include "lrio/mesh/write_formats.h"
 #include "lrlab/paper/offsets.h"
 
-namespace lr::fuzz {
+namespace lacedring::fuzz {
 namespace {
 
 /// An array of exactly `size` words, so that a sanitizer sees what is written behind it.
@@ -45,8 +44,8 @@ void check_triangles(std::span<const std::uint32_t> indices, std::uint32_t verti
 }
 
 template <class View>
-std::vector<std::uint32_t> use_tables(const LrStream<View>& stream) {
-    const LrOperators<View> ops(stream.view);
+std::vector<std::uint32_t> use_tables(const LrStreamView<View>& stream) {
+    const Operators<View> ops(stream.view);
     std::vector<bool> seen(stream.view.ring_vertices);
     for (std::uint32_t v = 0; v < stream.view.ring_vertices; ++v) {
         const std::uint32_t n = ops.ring_next(v);
@@ -215,7 +214,7 @@ std::vector<std::uint32_t> use_lean(const LeanView& view) {
     decode_lean(view, decoded.span());
     std::vector<std::uint32_t> indices;
     for (std::uint32_t slot = 0; slot < view.slots(); ++slot) {
-        const LeanTriangle triangle = decode_lean_slot(view, slot);
+        const Triangle triangle = decode_lean_slot(view, slot);
         const auto whole = decoded.span().subspan(std::size_t{3} * slot, 3);
         REQUIRE(std::equal(whole.begin(), whole.end(), triangle.v));
         for (const std::uint32_t v : triangle.v) REQUIRE(v < view.vertices);
@@ -241,22 +240,22 @@ std::vector<std::uint32_t> use_packed(const PackedView& view) {
     }
     const std::uint32_t step = view.triangles / 512 + 1;  // each one costs up to a block
     for (std::uint32_t t = 0; t < view.triangles; t += step) {
-        const PackedTriangle triangle = decode_packed_triangle(view, t);
+        const Triangle triangle = decode_packed_triangle(view, t);
         const auto whole = decoded.span().subspan(std::size_t{3} * t, 3);
         REQUIRE(std::equal(whole.begin(), whole.end(), triangle.v));
     }
     return {decoded.span().begin(), decoded.span().end()};
 }
 
-std::vector<std::uint32_t> use_lr(const LrStream<LrView>& stream) {
+std::vector<std::uint32_t> use_lr(const LrStreamView<LrView>& stream) {
     const OffsetCounts offsets = count_offsets(stream.view);
     REQUIRE(offsets.t0 == stream.view.vo.size() / 6);
     return use_tables(stream);
 }
 
-std::vector<std::uint32_t> use_lr(const LrStream<CompactLrView>& stream) {
+std::vector<std::uint32_t> use_lr(const LrStreamView<CompactLrView>& stream) {
     REQUIRE(count_long_tips(stream.view) <= 2 * std::uint64_t{stream.view.ring_vertices});
     return use_tables(stream);
 }
 
-}  // namespace lr::fuzz
+}  // namespace lacedring::fuzz

@@ -5,15 +5,13 @@
 #include <span>
 #include <string>
 
-#include "lrcore/base/result.h"
-#include "lrcore/codec/lean/lean_stream.h"
-#include "lrcore/codec/packed/packed_stream.h"
-#include "lrcore/codec/tables/lr_stream.h"
-#include "lrcore/codec/tables/operators.h"
-#include "lrio/mesh/mesh.h"
+#include "lacedring/base.hpp"
+#include "lacedring/mesh.hpp"
+#include "lacedring/operators.hpp"
+#include "lacedring/streams.hpp"
 #include "tests/fuzz/targets.h"
 
-namespace lr::fuzz {
+namespace lacedring::fuzz {
 
 /// One line of printable ASCII, not empty and not long.
 void check_message(const Error& error);
@@ -28,10 +26,10 @@ void check_writers(const Mesh& mesh);
 // call every operator on every corner and vertex. Return the triangles decoded, degenerate slots left out.
 std::vector<std::uint32_t> use_lean(const LeanView& view);
 std::vector<std::uint32_t> use_packed(const PackedView& view);
-std::vector<std::uint32_t> use_lr(const LrStream<LrView>& stream);
-std::vector<std::uint32_t> use_lr(const LrStream<CompactLrView>& stream);
+std::vector<std::uint32_t> use_lr(const LrStreamView<LrView>& stream);
+std::vector<std::uint32_t> use_lr(const LrStreamView<CompactLrView>& stream);
 
-/// Calls every operator of a structure (LrOperators or one of its rivals) on every corner and vertex.
+/// Calls every operator of a structure (Operators or one of its rivals) on every corner and vertex.
 template <class Operators>
 void check_operators(const Operators& ops, std::uint32_t triangle_numbers, std::uint32_t vertices) {
     const auto is_corner = [&](CornerId c) {
@@ -40,7 +38,7 @@ void check_operators(const Operators& ops, std::uint32_t triangle_numbers, std::
     std::size_t corners = 0;
     for (std::uint32_t t = 0; t < triangle_numbers; ++t) {
         CornerId c = ops.corner(TriangleId{t});
-        if (!ops.is_canonical({t})) {
+        if (!ops.is_canonical(TriangleId{t})) {
             // A laced ring's redundant copy of a triangle, or its border: any other structure may not be asked.
             if constexpr (requires { ops.is_t0(c); }) {
                 for (std::uint32_t k = 0; k < 3; ++k, c = ops.next(c)) {
@@ -82,24 +80,24 @@ void check_operators(const Operators& ops, std::uint32_t triangle_numbers, std::
     for (std::uint32_t v = 0; v < vertices; ++v) {
         const CornerId first = ops.corner(VertexId{v});
         std::size_t star = 0, neighbours = 0;
-        ops.star({v}, [&](CornerId c) {
+        ops.star(VertexId{v}, [&](CornerId c) {
             REQUIRE(is_corner(c));
             REQUIRE(ops.vertex(c).value == v);
             REQUIRE(++star <= corners);
         });
-        ops.neighbours({v}, [&](VertexId u) {
+        ops.neighbours(VertexId{v}, [&](VertexId u) {
             REQUIRE(u.value < vertices && u.value != v);
             REQUIRE(++neighbours <= 2 * corners);
         });
-        REQUIRE(ops.valence({v}) == neighbours);
+        REQUIRE(ops.valence(VertexId{v}) == neighbours);
         if (first.is_null()) {
             REQUIRE(star == 0 && neighbours == 0);
             continue;
         }
         REQUIRE(is_corner(first));
         REQUIRE(ops.vertex(first).value == v);
-        REQUIRE(neighbours == star + (ops.is_border({v}) ? 1 : 0));
+        REQUIRE(neighbours == star + (ops.is_border(VertexId{v}) ? 1 : 0));
     }
 }
 
-}  // namespace lr::fuzz
+}  // namespace lacedring::fuzz

@@ -9,17 +9,15 @@
 #include <memory>
 #include <optional>
 
-#include "lrcore/codec/tables/lr_encode.h"
-#include "lrcore/topology/geometry.h"
-#include "lrcore/topology/split.h"
-#include "lrio/mesh/read.h"
-#include "lrio/mesh/weld.h"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/mesh_files.hpp"
+#include "lacedring/topology.hpp"
 #include "renderer/adjacency.h"
 #include "shaders/adjacency_shared.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/support/meshes.h"
 
-namespace lr::test {
+namespace lacedring::test {
 
 /// A mesh's tables, and which element of its corner table (fans split) each of theirs is.
 struct Tables {
@@ -38,7 +36,7 @@ inline std::unique_ptr<Tables> tables_of(const Mesh& mesh, std::vector<float> po
     Result<EncodedLr> encoded = encode_lr(*table, {}, {.passes = 0}, warts);
     REQUIRE_MESSAGE(encoded, encoded.error().message);
     out->encoded = std::move(*encoded);
-    const Result<LrStream<LrView>> stream = validate_lr(out->encoded.words);
+    const Result<LrStreamView<LrView>> stream = validate_lr(out->encoded.words);
     REQUIRE_MESSAGE(stream, stream.error().message);
     out->view = stream->view;
 
@@ -167,4 +165,4 @@ inline std::vector<float> model_positions(const Mesh& mesh) {
     return model ? std::move(model->positions) : std::vector<float>();
 }
 
-}  // namespace lr::test
+}  // namespace lacedring::test

@@ -8,7 +8,7 @@
 #include "renderer/renderer.h"
 #include "renderer/timing.h"
 
-namespace lr::test {
+namespace lacedring::test {
 
 constexpr std::uint32_t kWidth = 160, kHeight = 120;  // of most pictures
 
@@ -46,4 +46,4 @@ inline gpu::Model model_of(const Mesh& mesh) {
 /// The smallest descriptor range.
 constexpr std::uint64_t kSmallRange = 4096;
 
-}  // namespace lr::test
+}  // namespace lacedring::test

@@ -1,22 +1,22 @@
-// shaders/lacedring_operators.glsl: every operator at every corner and vertex is LrOperators'; the normals that are
+// shaders/lacedring_operators.glsl: every operator at every corner and vertex is Operators'; the normals that are
 // made with it are the corner table's.
 
 #include <cstdint>
 #include <random>
 
-#include "lrcore/codec/tables/operators.h"
+#include "lacedring/operators.hpp"
 #include "shaders/lacedring_operators.glsl"
 #include "spirv/operators_table_comp.h"
 #include "tests/gpu/adjacency_test.h"
 
-using namespace lr;
-using namespace lr::test;
+using namespace lacedring;
+using namespace lacedring::test;
 
 static_assert(LR_TABLE_TIP == word::kTip && LR_TABLE_WART == word::kWart && LR_TABLE_IRREGULAR == word::kIrregular &&
               LR_TABLE_FLIP == word::kFlip && LR_TABLE_SPECIAL == word::kSpecial && LR_TABLE_T0_FLIP == word::kT0Flip);
 static_assert(LR_TABLE_REDUNDANT == word::kRedundant && LR_TABLE_BORDER == word::kBorder &&
               LR_TABLE_CLOSING == word::kClosing && LR_TABLE_KIND == word::kKind &&
-              LR_TABLE_HEADER_WORDS == kLrHeaderWords && LR_TABLE_NULL == null_corner.value);
+              LR_TABLE_HEADER_WORDS == kLrHeaderWords && LR_TABLE_NULL == kNullCorner.value);
 
 namespace {
 
@@ -24,9 +24,9 @@ struct OperatorTest : AdjacencyTest {
     OperatorTest()
         : at_corners(pipeline(spirv_operators_table_comp, 0)), at_vertices(pipeline(spirv_operators_table_comp, 1)) {}
 
-    /// Results of the device, from `words`, that are not those of LrOperators on `view`.
+    /// Results of the device, from `words`, that are not those of Operators on `view`.
     std::size_t differences(std::span<const std::uint32_t> words, const LrView& view) {
-        const LrOperators<LrView> ops(view);
+        const Operators<LrView> ops(view);
         const gpu::Buffer tables = buffer(words);
         constexpr std::uint32_t kBatch = 1U << 18, kResults = 10;
         const std::uint32_t corners = 4 * view.triangle_numbers();
@@ -55,11 +55,11 @@ struct OperatorTest : AdjacencyTest {
             const std::uint32_t push[2] = {first, std::min(view.vertices, first + kBatch)};
             std::vector<std::uint32_t> begins{0}, neighbours, expected;
             for (std::uint32_t v = first; v < push[1]; ++v) {
-                CornerId star = null_corner;
-                ops.star({v}, [&](CornerId c) { star = star.is_null() ? c : star; });
-                ops.neighbours({v}, [&](VertexId u) { neighbours.push_back(u.value); });
+                CornerId star = kNullCorner;
+                ops.star(VertexId{v}, [&](CornerId c) { star = star.is_null() ? c : star; });
+                ops.neighbours(VertexId{v}, [&](VertexId u) { neighbours.push_back(u.value); });
                 begins.push_back(static_cast<std::uint32_t>(neighbours.size()));
-                const std::uint32_t valence = ops.valence({v});
+                const std::uint32_t valence = ops.valence(VertexId{v});
                 expected.insert(expected.end(), {ops.corner(VertexId{v}).value, star.value, valence, valence});
             }
             const gpu::Buffer out = buffer(4 * expected.size()), starts = buffer(begins),
@@ -148,12 +148,12 @@ struct NormalTest : AdjacencyTest {
         std::vector<double> products(table.vertex_count);
         for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
             Point3 p[3];
-            for (std::uint32_t k = 0; k < 3; ++k) p[k] = positions[table.vertex(corner({t}, k))];
+            for (std::uint32_t k = 0; k < 3; ++k) p[k] = positions[table.vertex(corner(TriangleId{t}, k))];
             const Point3 n = cross(minus(p[1], p[0]), minus(p[2], p[0]));
             double longest = 0;
             for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, length(minus(p[k], p[(k + 1) % 3])));
             for (std::uint32_t k = 0; k < 3; ++k) {
-                const std::uint32_t v = table.vertex(corner({t}, k)).value;
+                const std::uint32_t v = table.vertex(corner(TriangleId{t}, k)).value;
                 for (std::size_t i = 0; i < 3; ++i) sums[v][i] += n[i];
                 products[v] += longest * longest;
             }

@@ -4,8 +4,8 @@
 #include "renderer/adjacency.h"
 #include "tests/gpu/gpu_test.h"
 
-using namespace lr;
-using namespace lr::test;
+using namespace lacedring;
+using namespace lacedring::test;
 
 namespace {
 

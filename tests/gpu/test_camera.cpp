@@ -3,8 +3,8 @@
 #include "renderer/camera.h"
 #include "tests/gpu/gpu_test.h"
 
-using namespace lr;
-using namespace lr::test;
+using namespace lacedring;
+using namespace lacedring::test;
 
 namespace {
 

@@ -2,17 +2,16 @@
 
 #include <array>
 
-#include "lrcore/codec/lean/lean_encode.h"
-#include "lrcore/codec/lean/lean_stream.h"
-#include "lrcore/codec/tables/lr_encode.h"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/streams.hpp"
 #include "lrlab/paper/offsets.h"
 #include "renderer/triangle_class.h"
 #include "shaders/shared.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/support/meshes.h"
 
-using namespace lr;
-using namespace lr::test;
+using namespace lacedring;
+using namespace lacedring::test;
 
 TEST_CASE("triangle classes add up to the encoder's statistics") {
     for (const char* kind : {"sphere", "torus", "genus", "blob", "terrain"}) {

@@ -6,8 +6,8 @@
 #include "tests/gpu/gpu_test.h"
 #include "tests/support/meshes.h"
 
-using namespace lr;
-using namespace lr::test;
+using namespace lacedring;
+using namespace lacedring::test;
 
 namespace {
 

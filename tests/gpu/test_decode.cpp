@@ -6,14 +6,13 @@
 #include <cstring>
 #include <map>
 
-#include "lrcore/codec/lean/lean_stream.h"
-#include "lrcore/codec/packed/packed_encode.h"
-#include "lrcore/codec/packed/packed_stream.h"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/streams.hpp"
 #include "tests/gpu/gpu_test.h"
 #include "tests/support/meshes.h"
 
-using namespace lr;
-using namespace lr::test;
+using namespace lacedring;
+using namespace lacedring::test;
 
 namespace {
 

@@ -1,14 +1,15 @@
 #include <vector>
 
+#include "renderer/device_error.h"
 #include "tests/gpu/gpu_test.h"
 
-using namespace lr;
-using namespace lr::test;
+using namespace lacedring;
+using namespace lacedring::test;
 
 TEST_CASE("a device that is not there is an error that lists the ones that are") {
     const auto context = gpu::Context::create({"no such device", false});
     REQUIRE(!context);
-    CHECK(context.error().code == ErrorCode::no_device);
+    CHECK(context.error().code == gpu::kNoDevice);
     CHECK(context.error().message.find("not named \"no such device\"") != std::string::npos);
     CHECK(context.error().message.find('\n') == std::string::npos);
     const auto any = gpu::Context::create({});
@@ -76,11 +77,11 @@ TEST_CASE_FIXTURE(GpuTest, "more than the device gives is an error") {
     const auto buffer =
         gpu::Buffer::create(*context, "huge", context->info().max_buffer_size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     REQUIRE(!buffer);
-    CHECK(buffer.error().code == ErrorCode::no_device);
+    CHECK(buffer.error().code == gpu::kNoDevice);
     CHECK(buffer.error().message.find("huge") != std::string::npos);
     const auto target = gpu::Target::create(*context, {context->limits().maxImageDimension2D + 1, 1});
     REQUIRE(!target);
-    CHECK(target.error().code == ErrorCode::no_device);
+    CHECK(target.error().code == gpu::kNoDevice);
 }
 
 TEST_CASE_FIXTURE(GpuTest, "bytes survive the way to the device and back, in pieces") {
@@ -134,7 +135,7 @@ TEST_CASE("a mesh takes the device memory that was said, and none where there is
     REQUIRE(used + renderer->device_bytes(model, gpu::Source::lean) > 38U << 20);
     const auto drawable = renderer->upload(model, gpu::Source::lean);
     REQUIRE_FALSE(drawable);
-    CHECK(drawable.error().code == ErrorCode::no_device);
+    CHECK(drawable.error().code == gpu::kNoDevice);
     CHECK(drawable.error().message.find("MiB") != std::string::npos);
     CHECK((*small)->arena().used() == used);
     CHECK((*small)->arena().held() == held);

@@ -7,8 +7,8 @@
 
 #include "tests/gpu/gpu_test.h"
 
-using namespace lr;
-using namespace lr::test;
+using namespace lacedring;
+using namespace lacedring::test;
 
 namespace {
 

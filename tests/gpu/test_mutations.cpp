@@ -1,15 +1,14 @@
 // Tests of the tests: what must not pass does not pass.
 
+#include "lacedring/streams.hpp"
 #include "lrcore/codec/lean/lean_format.h"
-#include "lrcore/codec/lean/lean_stream.h"
 #include "lrcore/codec/packed/packed_format.h"
-#include "lrcore/codec/packed/packed_stream.h"
 #include "lrcore/codec/packed/record.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/support/meshes.h"
 
-using namespace lr;
-using namespace lr::test;
+using namespace lacedring;
+using namespace lacedring::test;
 
 namespace {
 

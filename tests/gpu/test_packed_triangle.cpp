@@ -2,15 +2,15 @@
 
 #include <array>
 
-#include "lrcore/codec/packed/packed_encode.h"
-#include "lrcore/codec/packed/packed_stream.h"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/streams.hpp"
 #include "renderer/pipeline.h"
 #include "spirv/packed_triangle_comp.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/support/meshes.h"
 
-using namespace lr;
-using namespace lr::test;
+using namespace lacedring;
+using namespace lacedring::test;
 
 namespace {
 
@@ -54,9 +54,9 @@ struct RandomAccess : GpuTest {
     void check(const Mesh& mesh) {
         const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
         REQUIRE(table);
-        const Result<PackedStream> encoded = encode_packed(*table, expand_rings(*table));
+        const Result<EncodedPacked> encoded = encode_packed(*table, expand_rings(*table));
         REQUIRE(encoded);
-        const PackedStream& stream = *encoded;
+        const EncodedPacked& stream = *encoded;
         const Result<PackedView> view = validate_packed(stream.words);
         REQUIRE(view);
         if (view->triangles == 0) return;

@@ -6,8 +6,8 @@
 #include "spirv/silhouette_edges_comp.h"
 #include "tests/gpu/adjacency_test.h"
 
-using namespace lr;
-using namespace lr::test;
+using namespace lacedring;
+using namespace lacedring::test;
 
 namespace {
 
@@ -73,7 +73,7 @@ struct EdgeTest : AdjacencyTest {
         }
         for (std::uint32_t i = 0; i < line.size(); ++i) {
             if (line[i] == UINT32_MAX) continue;
-            const CornerId o = tables.table.opposite({i});
+            const CornerId o = tables.table.opposite(CornerId{i});
             if (!o.is_null() && o.value < i) continue;
             std::uint32_t kind = got[line[i]];
             if (!o.is_null()) {
@@ -81,7 +81,7 @@ struct EdgeTest : AdjacencyTest {
                 kind |= got[line[o.value]];
             }
             bool unsure = false;
-            const std::uint32_t expected = kind_of(tables, {i}, {eye[0], eye[1], eye[2]}, unsure);
+            const std::uint32_t expected = kind_of(tables, CornerId{i}, {eye[0], eye[1], eye[2]}, unsure);
             ++measured.edges;
             measured.drawn += expected != 0 ? 1 : 0;
             measured.near_edges += unsure ? 1 : 0;
@@ -184,7 +184,7 @@ TEST_CASE_FIXTURE(EdgeTest, "a sphere's outline is drawn where it is") {
     std::size_t silhouette = 0, front = 0;
     for (std::uint32_t i = 0; i < tables->table.corners.size(); ++i) {
         bool unsure = false;
-        const std::uint32_t kind = kind_of(*tables, {i}, eye, unsure);
+        const std::uint32_t kind = kind_of(*tables, CornerId{i}, eye, unsure);
         const Point3 a = positions[tables->table.vertex(next(CornerId{i}))],
                      b = positions[tables->table.vertex(previous(CornerId{i}))];
         const Point3 middle{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};

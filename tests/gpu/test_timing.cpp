@@ -1,7 +1,7 @@
 #include "tests/gpu/gpu_test.h"
 
-using namespace lr;
-using namespace lr::test;
+using namespace lacedring;
+using namespace lacedring::test;
 
 TEST_CASE_FIXTURE(GpuTest, "device times are measured, once a repetition") {
     const Mesh mesh = generated("sphere", 20000);

@@ -6,17 +6,14 @@
 #include <algorithm>
 #include <vector>
 
-#include "lrcore/topology/report.h"
-#include "lrcore/topology/smesh.h"
-#include "lrcore/topology/split.h"
-#include "lrcore/topology/swirl.h"
+#include "lacedring/topology.hpp"
 #include "tests/support/built.h"
 #include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 #include "tests/support/shapes.h"
 
-using namespace lr;
-using lr::test::build;
+using namespace lacedring;
+using lacedring::test::build;
 
 namespace {
 
@@ -46,7 +43,7 @@ TEST_CASE("section 15: O is what the chapter's quadratic procedure finds") {
         if (mesh.triangle_count() > 600 || table.topology.nonmanifold_edges > 0) continue;
         if (table.topology.flipped > 0 || table.topology.cut_edges > 0 || table.topology.degenerate > 0) continue;
         CAPTURE_COPY(name);
-        std::vector<CornerId> o(table.corners.size(), null_corner);
+        std::vector<CornerId> o(table.corners.size(), kNullCorner);
         for (std::uint32_t i = 0; i < o.size(); ++i) {
             for (std::uint32_t j = i + 1; j < o.size(); ++j) {
                 const CornerId c{i}, b{j};
@@ -57,7 +54,7 @@ TEST_CASE("section 15: O is what the chapter's quadratic procedure finds") {
                 }
             }
         }
-        for (std::uint32_t i = 0; i < o.size(); ++i) CHECK(table.opposite({i}) == o[i]);
+        for (std::uint32_t i = 0; i < o.size(); ++i) CHECK(table.opposite(CornerId{i}) == o[i]);
         ++compared;
     }
     CHECK(compared > 30);
@@ -72,9 +69,9 @@ TEST_CASE("section 9: a swirl visits every triangle of a shell once, in the chap
         for (std::uint32_t s = 0; s < triangles * 3; s += step) {
             std::vector<bool> m(triangles, false);
             std::vector<CornerId> expected, order;
-            recursive_swirl(table, {s}, m, expected);
+            recursive_swirl(table, CornerId{s}, m, expected);
             Swirl swirl(table);
-            swirl.run({s}, [&](CornerId c) { order.push_back(c); });
+            swirl.run(CornerId{s}, [&](CornerId c) { order.push_back(c); });
             REQUIRE(order.size() >= expected.size());
             CHECK(std::equal(expected.begin(), expected.end(), order.begin()));
             bool closed = true;
@@ -86,7 +83,7 @@ TEST_CASE("section 9: a swirl visits every triangle of a shell once, in the chap
                 if (c.value != s) CHECK(seen[triangle(table.opposite(c)).value]);  // it came from a visited triangle
             }
             for (std::uint32_t i = 0; i < table.corners.size(); ++i) {  // whole shells: nothing open is left
-                const CornerId o = table.opposite({i});
+                const CornerId o = table.opposite(CornerId{i});
                 if (!o.is_null()) CHECK(seen[i / 3] == seen[triangle(o).value]);
                 if (o.is_null() && seen[i / 3]) closed = false;
             }
@@ -99,8 +96,8 @@ TEST_CASE("section 9: a second swirl leaves alone what the first one visited") {
     const CornerTable table = build(mesh_of(test::grid(8, 8, true, true, false)));
     Swirl swirl(table);
     std::uint32_t first = 0, second = 0;
-    swirl.run({17}, [&](CornerId) { ++first; });
-    swirl.run({5}, [&](CornerId) { ++second; });
+    swirl.run(CornerId{17}, [&](CornerId) { ++first; });
+    swirl.run(CornerId{5}, [&](CornerId) { ++second; });
     CHECK(first == 128);
     CHECK(second == 0);
 }
@@ -112,7 +109,7 @@ TEST_CASE("section 9: a swirl a million triangles deep") {
          {0U, 1U, 2U, 1'500'000U, 1'500'001U, 1'500'002U, 2'999'997U, 2'999'998U, 2'999'999U}) {
         Swirl swirl(table);
         std::uint32_t visits = 0;
-        swirl.run({seed}, [&](CornerId) { ++visits; });
+        swirl.run(CornerId{seed}, [&](CornerId) { ++visits; });
         CHECK(visits == 1'000'000);
     }
 }
@@ -218,7 +215,7 @@ TEST_CASE("section 11: a pseudo-manifold replicates few vertices") {
         CornerTable table = build(mesh_of(shape));
         const TopologyReport before = report_topology(table);
         const std::vector<VertexId> split = split_fans(table);
-        CHECK(validate(table) == "");
+        CHECK(check_corner_table(table) == "");
         const TopologyReport after = report_topology(table);
         CHECK(after.nonmanifold_vertices == 0);
         CHECK(after.used_vertices == before.fans);

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <map>
 
-#include "lrcore/topology/corner_table.h"
-#include "lrcore/topology/report.h"
+#include "lacedring/topology.hpp"
 #include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 
-using namespace lr;
+using namespace lacedring;
 
 namespace {
 
@@ -19,25 +18,25 @@ CornerTable check_table(const Mesh& mesh) {
     Result<CornerTable> built = build_corner_table(mesh.indices, mesh.vertex_count);
     REQUIRE(built);
     const CornerTable& table = *built;
-    CHECK(validate(table) == "");
+    CHECK(check_corner_table(table) == "");
     REQUIRE(table.triangle_count() == mesh.triangle_count());
 
     std::map<Edge, std::vector<CornerId>> edges;  // of the oriented table, undirected
     std::uint32_t degenerate = 0, flipped = 0;
     for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
         const std::uint32_t a = mesh.indices[3 * t], b = mesh.indices[3 * t + 1], c = mesh.indices[3 * t + 2];
-        const bool turned = table.flipped({t});
-        CHECK(table.vertex(corner({t}, 0)).value == a);
-        CHECK(table.vertex(corner({t}, 1)).value == (turned ? c : b));
-        CHECK(table.vertex(corner({t}, 2)).value == (turned ? b : c));
+        const bool turned = table.flipped(TriangleId{t});
+        CHECK(table.vertex(corner(TriangleId{t}, 0)).value == a);
+        CHECK(table.vertex(corner(TriangleId{t}, 1)).value == (turned ? c : b));
+        CHECK(table.vertex(corner(TriangleId{t}, 2)).value == (turned ? b : c));
         flipped += turned ? 1 : 0;
         if (a == b || b == c || c == a) {
             ++degenerate;
-            CHECK(table.degenerate({t}));
+            CHECK(table.degenerate(TriangleId{t}));
             continue;
         }
         for (std::uint32_t k = 0; k < 3; ++k) {
-            const CornerId x = corner({t}, k);
+            const CornerId x = corner(TriangleId{t}, k);
             edges[std::minmax(table.vertex(next(x)).value, table.vertex(previous(x)).value)].push_back(x);
         }
     }
@@ -152,6 +151,6 @@ TEST_CASE("a star of a hundred thousand triangles takes no quadratic time") {
     for (std::uint32_t i = 0; i < kRim; ++i) indices.insert(indices.end(), {0, 1 + i, 1 + (i + 1) % kRim});
     const Result<CornerTable> table = build_corner_table(indices, kRim + 1);
     REQUIRE(table);
-    CHECK(validate(*table) == "");
+    CHECK(check_corner_table(*table) == "");
     CHECK(table->topology.border_edges == kRim);
 }

@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <random>
 
-#include "lrcore/ring/expansion.h"
-#include "lrcore/ring/ring.h"
+#include "lacedring/ring.hpp"
 #include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 
-using namespace lr;
+using namespace lacedring;
 
 namespace {
 
@@ -89,9 +88,9 @@ void check_steps(const CornerTable& table, const Rings& rings, const Expansion& 
         for (std::uint32_t t = 0; t < steps.size(); ++t) {
             const bool settled = (steps[t] & ~kNeverInvaded) < n;
             REQUIRE(invaded[t] == ((steps[t] & kNeverInvaded) == 0 && settled));
-            bool all = n > 0 && !table.degenerate({t});
+            bool all = n > 0 && !table.degenerate(TriangleId{t});
             for (std::uint32_t k = 0; k < 3; ++k) {
-                const CornerId c = corner({t}, k), o = table.opposite(c);
+                const CornerId c = corner(TriangleId{t}, k), o = table.opposite(c);
                 all = all && reached[table.vertex(c).value];
                 if (invaded[t] && (o.is_null() || !invaded[triangle(o).value])) ++boundary;
             }
@@ -135,8 +134,8 @@ TEST_CASE("the expansion of named meshes is what their rings enclose") {
         check_expansion(mesh, {.seeds = 2, .one_per_shell = true});
         const auto corners = static_cast<std::uint32_t>(mesh.indices.size());
         for (const std::uint32_t start : {corners / 2, corners - 1, corners}) {
-            check_expansion(mesh, {.start = {start}});
-            check_expansion(mesh, {.seeds = 3, .k = 3, .one_per_shell = true, .start = {start}});
+            check_expansion(mesh, {.start = CornerId{start}});
+            check_expansion(mesh, {.seeds = 3, .k = 3, .one_per_shell = true, .start = CornerId{start}});
         }
     }
 }

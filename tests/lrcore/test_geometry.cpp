@@ -7,17 +7,15 @@
 #include <cmath>
 #include <vector>
 
-#include "lrcore/topology/geometry.h"
-#include "lrcore/topology/report.h"
-#include "lrcore/topology/smesh.h"
+#include "lacedring/topology.hpp"
 #include "lrlab/generate/generate.h"
 #include "tests/support/built.h"
 #include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 #include "tests/support/shapes.h"
 
-using namespace lr;
-using lr::test::build;
+using namespace lacedring;
+using lacedring::test::build;
 
 namespace {
 
@@ -239,11 +237,11 @@ TEST_CASE("section 12: making every closed shell counterclockwise") {
         CHECK(table.topology.flipped == 1);
         CHECK(make_counterclockwise(table, solid.positions()) == 1);
         CHECK(table.topology.flipped == 11);
-        CHECK(validate(table) == "");
+        CHECK(check_corner_table(table) == "");
         for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
-            CHECK(table.flipped({t}) == (t > 12 && t < 24));
-            const std::size_t second = table.flipped({t}) ? 2 : 1;
-            CHECK(table.vertex(corner({t}, 1)).value == solid.indices[std::size_t{t} * 3 + second]);
+            CHECK(table.flipped(TriangleId{t}) == (t > 12 && t < 24));
+            const std::size_t second = table.flipped(TriangleId{t}) ? 2 : 1;
+            CHECK(table.vertex(corner(TriangleId{t}, 1)).value == solid.indices[std::size_t{t} * 3 + second]);
         }
         const auto shells = closed_shells(table, solid.positions());
         REQUIRE(shells.size() == 2);
@@ -269,16 +267,16 @@ TEST_CASE("section 12: making every closed shell counterclockwise") {
             const auto wrong =
                 std::count_if(shells.begin(), shells.end(), [](const ClosedShell& s) { return s.inside_out(); });
             CHECK(make_counterclockwise(table, positions_of(mesh)) == static_cast<std::uint32_t>(wrong));
-            CHECK(validate(table) == "");
+            CHECK(check_corner_table(table) == "");
             const TopologyReport after = report_topology(table);
             CHECK(after.shells == before.shells);
             CHECK(after.genus == before.genus);
             CHECK(after.fans == before.fans);
             std::uint32_t flipped = 0;
             for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
-                flipped += table.flipped({t}) ? 1 : 0;
-                CHECK(table.vertex(corner({t}, 0)).value == mesh.indices[std::size_t{t} * 3]);
-                CHECK(table.vertex(corner({t}, table.flipped({t}) ? 2 : 1)).value ==
+                flipped += table.flipped(TriangleId{t}) ? 1 : 0;
+                CHECK(table.vertex(corner(TriangleId{t}, 0)).value == mesh.indices[std::size_t{t} * 3]);
+                CHECK(table.vertex(corner(TriangleId{t}, table.flipped(TriangleId{t}) ? 2 : 1)).value ==
                       mesh.indices[std::size_t{t} * 3 + 1]);
             }
             CHECK(table.topology.flipped == flipped);

@@ -11,15 +11,12 @@
 #include <fstream>
 #include <iomanip>
 
-#include "lrcore/codec/lean/lean_encode.h"
-#include "lrcore/codec/lean/lean_stream.h"
-#include "lrcore/codec/packed/packed_encode.h"
-#include "lrcore/codec/packed/packed_stream.h"
-#include "lrcore/codec/tables/lr_encode.h"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/streams.hpp"
 #include "lrlab/generate/generate.h"
 #include "tests/support/meshes.h"
 
-using namespace lr;
+using namespace lacedring;
 
 namespace {
 
@@ -30,14 +27,14 @@ struct Stream {
     bool operator==(const Stream&) const = default;
 };
 
-struct Format {
+struct GoldenFormat {
     const char* name;
     Stream (*encode)(const CornerTable&);
     Words (*decode)(const Words&);  // validates, and returns indices in the numbers of the stream
 };
 
-template <class Encoded>
-Stream stream_of(Result<Encoded> encoded) {
+template <class Made>
+Stream stream_of(Result<Made> encoded) {
     REQUIRE(encoded);
     return {std::move(encoded->words), std::move(encoded->vertex_order)};
 }
@@ -46,7 +43,7 @@ Words decode_lean(const Words& words) {
     const Result<LeanView> view = validate_lean(words);
     REQUIRE_MESSAGE(view, view.error().message);
     Words out(std::size_t{3} * view->slots());
-    lr::decode_lean(*view, out);
+    lacedring::decode_lean(*view, out);
     return out;
 }
 
@@ -54,7 +51,7 @@ Words decode_packed(const Words& words) {
     const Result<PackedView> view = validate_packed(words);
     REQUIRE_MESSAGE(view, view.error().message);
     Words out(std::size_t{3} * view->triangles);
-    lr::decode_packed(*view, out);
+    lacedring::decode_packed(*view, out);
     return out;
 }
 
@@ -67,7 +64,7 @@ Words decode_tables(const Words& words) {
 
 constexpr std::uint32_t kPeriods[] = {0, 7};
 
-const Format kFormats[] = {
+const GoldenFormat kFormats[] = {
     {"lean", [](const CornerTable& t) { return stream_of(encode_lean(t, expand_rings(t))); }, decode_lean},
     {"lean-no-warts",
      [](const CornerTable& t) { return stream_of(encode_lean(t, expand_rings(t), {.wart_skipping = false})); },
@@ -92,7 +89,7 @@ std::vector<Sample> samples() {
             {"soup", test::random_soup(60, 90, 3)}};      // anything, degenerate triangles too
 }
 
-std::filesystem::path path_of(const Sample& sample, const Format& format) {
+std::filesystem::path path_of(const Sample& sample, const GoldenFormat& format) {
     return std::filesystem::path(GOLDEN_FOLDER) / (std::string(sample.name) + "-" + format.name + ".hex");
 }
 
@@ -130,7 +127,7 @@ TEST_CASE("golden bytes: every format encodes as it did, and what it encoded dec
     const bool write = std::getenv("LACEDRING_WRITE_GOLDEN") != nullptr;
     for (const Sample& sample : samples()) {
         const CornerTable table = build_corner_table(sample.mesh.indices, sample.mesh.vertex_count).value();
-        for (const Format& format : kFormats) {
+        for (const GoldenFormat& format : kFormats) {
             const std::filesystem::path path = path_of(sample, format);
             CAPTURE(path.filename().string());
             const Stream now = format.encode(table);

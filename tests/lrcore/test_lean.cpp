@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <memory>
 
-#include "lrcore/codec/lean/lean_encode.h"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/streams.hpp"
 #include "lrcore/codec/lean/lean_format.h"
-#include "lrcore/codec/lean/lean_stream.h"
 #include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 
-using namespace lr;
+using namespace lacedring;
 
 namespace {
 
@@ -21,12 +21,12 @@ Triangle leading_smallest(Triangle t) {
 }
 
 /// Encodes and checks everything there is to check. Returns the stream.
-LeanStream check_lean(const Mesh& mesh, const RingOptions& ring_options, const LeanOptions& options) {
+EncodedLean check_lean(const Mesh& mesh, const RingOptions& ring_options, const LeanOptions& options) {
     const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
     REQUIRE(table);
-    Result<LeanStream> encoded = encode_lean(*table, expand_rings(*table, ring_options), options);
+    Result<EncodedLean> encoded = encode_lean(*table, expand_rings(*table, ring_options), options);
     REQUIRE(encoded);
-    LeanStream& stream = *encoded;
+    EncodedLean& stream = *encoded;
 
     // The stream alone, in a buffer of exactly its size, so that a sanitizer sees any read beyond it.
     const auto exact = std::make_unique<std::uint32_t[]>(stream.words.size());
@@ -51,7 +51,7 @@ LeanStream check_lean(const Mesh& mesh, const RingOptions& ring_options, const L
     std::vector<std::uint32_t> slots_of(mesh.triangle_count(), 0);
     std::uint32_t degenerate_slots = 0;
     for (std::uint32_t slot = 0; slot < view->slots(); ++slot) {
-        const LeanTriangle one = decode_lean_slot(*view, slot);
+        const auto one = decode_lean_slot(*view, slot);
         for (std::size_t k = 0; k < 3; ++k) {
             REQUIRE(one.v[k] == decoded[std::size_t{3} * slot + k]);
             REQUIRE(one.v[k] < mesh.vertex_count);
@@ -68,7 +68,8 @@ LeanStream check_lean(const Mesh& mesh, const RingOptions& ring_options, const L
                             mesh.indices[std::size_t{3} * t + 2]};
         CHECK(leading_smallest(got) == leading_smallest(want));
     }
-    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) CHECK(slots_of[t] == (table->degenerate({t}) ? 0 : 1));
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
+        CHECK(slots_of[t] == (table->degenerate(TriangleId{t}) ? 0 : 1));
     CHECK(view->triangles == view->slots() - degenerate_slots);
 
     // And once more without slot_triangle.
@@ -84,8 +85,8 @@ LeanStream check_lean(const Mesh& mesh, const RingOptions& ring_options, const L
 }
 
 void check_all(const Mesh& mesh) {
-    const LeanStream warts = check_lean(mesh, {1, 1}, {});
-    const LeanStream none = check_lean(mesh, {1, 1}, {.wart_skipping = false});
+    const EncodedLean warts = check_lean(mesh, {1, 1}, {});
+    const EncodedLean none = check_lean(mesh, {1, 1}, {.wart_skipping = false});
     CHECK(warts.words.size() <= none.words.size());
     check_lean(mesh, {4, 3}, {});
 }
@@ -114,7 +115,7 @@ TEST_CASE("one side suffices for a strip of triangles") {
     for (std::uint32_t i = 0; i < 8; ++i) {
         indices.insert(indices.end(), {i, i + 1 + i % 2, i + 2 - i % 2});
     }
-    const LeanStream stream = check_lean(test::make_mesh(indices, 10), {}, {});
+    const EncodedLean stream = check_lean(test::make_mesh(indices, 10), {}, {});
     const Result<LeanView> view = view_lean(stream.words);
     REQUIRE(view);
     CHECK(view->references() == 10);

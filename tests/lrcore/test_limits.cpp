@@ -3,14 +3,11 @@
 #include <doctest/doctest.h>
 #include <sys/mman.h>
 
-#include "lrcore/codec/lean/lean_encode.h"
-#include "lrcore/codec/packed/packed_encode.h"
-#include "lrcore/codec/tables/compact_lr.h"
-#include "lrcore/codec/tables/lr_encode.h"
-#include "lrcore/codec/tables/lr_table.h"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/streams.hpp"
 #include "lrlab/rivals/squad.h"
 
-using namespace lr;
+using namespace lacedring;
 
 namespace {
 

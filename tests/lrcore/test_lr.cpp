@@ -4,27 +4,24 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "lrcore/codec/tables/compact_lr.h"
-#include "lrcore/codec/tables/lr_encode.h"
-#include "lrcore/codec/tables/lr_stream.h"
-#include "lrcore/codec/tables/lr_table.h"
-#include "lrcore/codec/tables/operators.h"
-#include "lrcore/ring/optimize.h"
-#include "lrcore/topology/split.h"
-#include "lrio/mesh/read.h"
-#include "lrio/mesh/weld.h"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/mesh_files.hpp"
+#include "lacedring/operators.hpp"
+#include "lacedring/ring.hpp"
+#include "lacedring/streams.hpp"
+#include "lacedring/topology.hpp"
 #include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 #include "tests/support/operator_oracle.h"
 
-using namespace lr;
+using namespace lacedring;
 
 namespace {
 
 /// Around a border vertex star() and neighbours() begin at the border, and go on in the order of swing.
 template <class Operators>
 void check_border_order(const CornerTable& table, const Operators& ops, const LrMap& map) {
-    std::vector<CornerId> begin(table.vertex_count, null_corner);  // the corner that no swing leads to
+    std::vector<CornerId> begin(table.vertex_count, kNullCorner);  // the corner that no swing leads to
     for (std::uint32_t i = 0; i < table.corners.size(); ++i) {
         const CornerId c{i};
         if (!table.degenerate(triangle(c)) && table.right(c).is_null()) begin[table.vertex(c).value] = c;
@@ -41,10 +38,10 @@ void check_border_order(const CornerTable& table, const Operators& ops, const Lr
             expected_neighbours.push_back(table.vertex(next(c)));
             if (table.left(c).is_null()) expected_neighbours.push_back(table.vertex(previous(c)));
         }
-        ops.star({v}, [&](CornerId x) {
+        ops.star(VertexId{v}, [&](CornerId x) {
             star.push_back(corner(map.triangle[x.value / 4], (map.start[x.value / 4] + x.value % 4) % 3));
         });
-        ops.neighbours({v}, [&](VertexId u) { neighbours.push_back(map.vertex[u.value]); });
+        ops.neighbours(VertexId{v}, [&](VertexId u) { neighbours.push_back(map.vertex[u.value]); });
         REQUIRE(star == expected_star);
         REQUIRE(neighbours == expected_neighbours);
     }
@@ -55,11 +52,11 @@ void check_lr(const Mesh& mesh, const RingOptions& rings_options, const LrOption
     Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
     REQUIRE(table);
     split_fans(*table);
-    CHECK(validate(*table) == "");
+    CHECK(check_corner_table(*table) == "");
     RingOptions one = rings_options;
     one.one_per_shell = true;
     const Rings rings = optimize_rings(*table, expand_rings(*table, one), optimize);
-    REQUIRE(validate(*table, rings) == "");
+    REQUIRE(check_rings(*table, rings) == "");
     LrMap map;
     const Result<LrTable> lr = build_lr(*table, rings, options, &map);
     REQUIRE(lr);
@@ -68,8 +65,8 @@ void check_lr(const Mesh& mesh, const RingOptions& rings_options, const LrOption
                                          std::size_t{3} * (s.t1_irregular + s.t2_irregular) + s.isolated);
     const auto valid = validate_lr(serialize(*lr, {}));
     CHECK_MESSAGE(valid, (valid ? "" : valid.error().message));
-    test::check_operators(*table, LrOperators<LrView>(lr->view()), map);
-    check_border_order(*table, LrOperators<LrView>(lr->view()), map);
+    test::check_operators(*table, Operators<LrView>(lr->view()), map);
+    check_border_order(*table, Operators<LrView>(lr->view()), map);
 
     const Result<CompactLrTable> compact = build_compact_lr(lr->view());
     REQUIRE(compact);
@@ -77,8 +74,8 @@ void check_lr(const Mesh& mesh, const RingOptions& rings_options, const LrOption
                                           std::size_t{3} * compact->irregular + compact->long_tips + s.isolated));
     const auto valid_compact = validate_compact_lr(serialize(*compact, {}));
     CHECK_MESSAGE(valid_compact, (valid_compact ? "" : valid_compact.error().message));
-    test::check_operators(*table, LrOperators<CompactLrView>(compact->view()), map);
-    check_border_order(*table, LrOperators<CompactLrView>(compact->view()), map);
+    test::check_operators(*table, Operators<CompactLrView>(compact->view()), map);
+    check_border_order(*table, Operators<CompactLrView>(compact->view()), map);
 }
 
 }  // namespace
@@ -97,14 +94,14 @@ TEST_CASE("LR operators equal the corner table's on named meshes") {
 TEST_CASE("LR operators equal the corner table's on optimised rings") {
     for (const auto& [name, mesh] : test::named_meshes()) {
         CAPTURE_COPY(name);
-        check_lr(mesh, {}, {}, {.cost = lr_ring_cost, .passes = 6});
-        check_lr(mesh, {.k = 9}, {.wart_skipping = false}, {.cost = lean_ring_cost, .passes = 3});
+        check_lr(mesh, {}, {}, {.cost = kLrRingCost, .passes = 6});
+        check_lr(mesh, {.k = 9}, {.wart_skipping = false}, {.cost = kLeanRingCost, .passes = 3});
     }
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
         CAPTURE(seed);
         const auto n = static_cast<std::uint32_t>(seed);
         check_lr(test::random_gluing(10 + n % 50, 150, seed), {}, {.wart_skipping = n % 3 != 0},
-                 {.cost = n % 2 == 0 ? lean_ring_cost : packed_ring_cost, .passes = 5, .random_seed = seed});
+                 {.cost = n % 2 == 0 ? kLeanRingCost : kPackedRingCost, .passes = 5, .random_seed = seed});
     }
 }
 
@@ -128,7 +125,7 @@ TEST_CASE("LR operators equal the corner table's on the meshes of LACEDRING_MESH
             const Mesh welded = weld(*mesh, mode);
             check_lr(welded, {1, 1}, {});
             check_lr(welded, {1, 1, 50}, {.wart_skipping = false});
-            check_lr(welded, {}, {}, {.cost = lr_ring_cost, .passes = 4});
+            check_lr(welded, {}, {}, {.cost = kLrRingCost, .passes = 4});
         }
     });
     CHECK(checked.value_or(1) > 0);  // where the variable is set

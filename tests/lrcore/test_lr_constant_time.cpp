@@ -4,16 +4,15 @@
 
 #include <algorithm>
 
-#include "lrcore/codec/tables/compact_lr.h"
-#include "lrcore/codec/tables/lr_encode.h"
-#include "lrcore/codec/tables/lr_table.h"
-#include "lrcore/codec/tables/operators.h"
-#include "lrcore/topology/split.h"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/operators.hpp"
+#include "lacedring/streams.hpp"
+#include "lacedring/topology.hpp"
 #include "lrlab/generate/generate.h"
 #include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 
-using namespace lr;
+using namespace lacedring;
 
 namespace {
 
@@ -48,7 +47,7 @@ struct Most {
 template <class View>
 void count(const View& view, Most& most) {
     std::size_t reads = 0;
-    const LrOperators<Counting<View>> ops({&view, view.ring_vertices, &reads});
+    const Operators<Counting<View>> ops({&view, view.ring_vertices, &reads});
     const auto measure = [&](std::size_t& bound, const auto& operation) {
         reads = 0;
         operation();

@@ -3,17 +3,16 @@
 #include <algorithm>
 #include <memory>
 
+#include "lacedring/lacedring.hpp"
+#include "lacedring/operators.hpp"
+#include "lacedring/streams.hpp"
+#include "lacedring/topology.hpp"
 #include "lrcore/base/crc32.h"
-#include "lrcore/codec/tables/lr_encode.h"
-#include "lrcore/codec/tables/lr_stream.h"
-#include "lrcore/codec/tables/operators.h"
-#include "lrcore/codec/tables/search.h"
-#include "lrcore/topology/split.h"
 #include "tests/support/capture.h"
 #include "tests/support/lr_consistency.h"
 #include "tests/support/meshes.h"
 
-using namespace lr;
+using namespace lacedring;
 
 namespace {
 
@@ -99,10 +98,10 @@ TEST_CASE("LR streams give back the triangles of random soups") {
 
 TEST_CASE("a used vertex without a corner is refused") {
     // Three vertices on a ring of one triangle twice; the left slot of vertex 1 is a border, so that v.c is null there.
-    const std::vector<std::uint32_t> null_corner =
+    const std::vector<std::uint32_t> kNullCorner =
         with_checksum({0x5443524c, 1, 4, 3, 0, 3, 0, 0, 0, 0, 2, 0x40000000, 0x5fffffff, 0, 0x90000000, 0x10000001, 2,
                        UINT32_MAX, UINT32_MAX});
-    const auto refused = validate_lr(null_corner);
+    const auto refused = validate_lr(kNullCorner);
     REQUIRE_FALSE(refused);
     CHECK(refused.error().message == "LR tables: vertex 1: no corner");
 }

@@ -6,15 +6,12 @@
 #include <cstdlib>
 #include <new>
 
+#include "lacedring/lacedring.hpp"
+#include "lacedring/lr_file.hpp"
+#include "lacedring/streams.hpp"
 #include "lrcore/base/crc32.h"
-#include "lrcore/codec/lean/lean_encode.h"
 #include "lrcore/codec/lean/lean_format.h"
-#include "lrcore/codec/lean/lean_stream.h"
-#include "lrcore/codec/packed/packed_encode.h"
 #include "lrcore/codec/packed/packed_format.h"
-#include "lrcore/codec/packed/packed_stream.h"
-#include "lrcore/codec/tables/lr_encode.h"
-#include "lrio/file/lr_file.h"
 #include "tests/support/meshes.h"
 
 namespace {
@@ -35,7 +32,7 @@ std::size_t allocated = 0;  // bytes requested since the last reset, freed or no
     std::free(p);
 }
 
-using namespace lr;
+using namespace lacedring;
 
 namespace {
 
@@ -118,14 +115,14 @@ TEST_CASE("a packed stream with vertices of no triangle") {
 }
 
 TEST_CASE("an .lr file whose connectivity promises more vertices than the file has") {
-    for (const Connectivity format : {Connectivity::lr, Connectivity::lr_compact}) {
+    for (const Format format : {Format::lr, Format::lr_compact}) {
         CAPTURE(static_cast<int>(format));
         const Mesh mesh = pinched();
         LrFile file;
         file.vertex_count = mesh.vertex_count;
         file.input_triangles = 8;
         file.format = format;
-        file.words = lr_words(format == Connectivity::lr_compact, (1U << 28) - 2);
+        file.words = lr_words(format == Format::lr_compact, (1U << 28) - 2);
         file.attributes = mesh.attributes;
         const std::vector<std::byte> bytes = serialize_lr(file);
         CHECK(bytes_of([&] { CHECK_FALSE(parse_lr(bytes)); }) < kLittle);

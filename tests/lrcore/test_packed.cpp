@@ -5,16 +5,15 @@
 #include <filesystem>
 #include <memory>
 
-#include "lrcore/codec/packed/packed_encode.h"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/mesh_files.hpp"
+#include "lacedring/streams.hpp"
 #include "lrcore/codec/packed/packed_format.h"
-#include "lrcore/codec/packed/packed_stream.h"
 #include "lrcore/codec/packed/record.h"
-#include "lrio/mesh/read.h"
-#include "lrio/mesh/weld.h"
 #include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 
-using namespace lr;
+using namespace lacedring;
 
 namespace {
 
@@ -26,15 +25,14 @@ Triangle leading_smallest(Triangle t) {
 }
 
 /// Encodes and checks everything there is to check.
-PackedStream check(const Mesh& mesh, const RingOptions& ring, PackedProfile profile = PackedProfile::small,
-                   std::uint32_t passes = 0) {
+EncodedPacked check(const Mesh& mesh, const RingOptions& ring, PackedProfile profile = PackedProfile::small,
+                    std::uint32_t passes = 0) {
     const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
     REQUIRE(table);
-    const Rings rings =
-        optimize_rings(*table, expand_rings(*table, ring), {.cost = packed_ring_cost, .passes = passes});
-    Result<PackedStream> encoded = encode_packed(*table, rings, profile);
+    const Rings rings = optimize_rings(*table, expand_rings(*table, ring), {.cost = kPackedRingCost, .passes = passes});
+    Result<EncodedPacked> encoded = encode_packed(*table, rings, profile);
     REQUIRE(encoded);
-    PackedStream& stream = *encoded;
+    EncodedPacked& stream = *encoded;
 
     // The stream alone, in a buffer of exactly its size, so that a sanitizer sees any read beyond it.
     const auto exact = std::make_unique<std::uint32_t[]>(stream.words.size());
@@ -54,7 +52,7 @@ PackedStream check(const Mesh& mesh, const RingOptions& ring, PackedProfile prof
     std::sort(sorted.begin(), sorted.end());
     for (std::uint32_t v = 0; v < sorted.size(); ++v) REQUIRE(sorted[v] == v);
     for (std::uint32_t i = 0; i < view->triangles; ++i) {
-        const PackedTriangle one = decode_packed_triangle(*view, i);
+        const auto one = decode_packed_triangle(*view, i);
         Triangle got{}, want{};
         for (std::size_t k = 0; k < 3; ++k) {
             REQUIRE(one.v[k] == decoded[std::size_t{3} * i + k]);
@@ -79,7 +77,7 @@ PackedStream check(const Mesh& mesh, const RingOptions& ring, PackedProfile prof
 }
 
 /// Decodes every triangle from a copy of the stream in which all is poison but what its block needs.
-void check_random_access(const PackedStream& stream) {
+void check_random_access(const EncodedPacked& stream) {
     const Result<PackedView> view = view_packed(stream.words);
     REQUIRE(view);
     std::vector<std::uint32_t> indices(std::size_t{3} * view->triangles);
@@ -110,7 +108,7 @@ void check_random_access(const PackedStream& stream) {
         REQUIRE(far);
         for (std::uint32_t t = block * LR_PACKED_BLOCK; t < std::min((block + 1) * LR_PACKED_BLOCK, view->triangles);
              ++t) {
-            const PackedTriangle got = decode_packed_triangle(*far, t);
+            const auto got = decode_packed_triangle(*far, t);
             for (std::size_t k = 0; k < 3; ++k) REQUIRE(got.v[k] == indices[std::size_t{3} * t + k]);
         }
     }
@@ -133,11 +131,11 @@ TEST_CASE("packed streams of random soups") {
     for (std::uint64_t seed = 1; seed <= 400; ++seed) {
         CAPTURE(seed);
         const auto n = static_cast<std::uint32_t>(seed);
-        const PackedStream soup = check(test::random_soup(4 + n % 29, 1 + n % 83, seed), {});
-        const PackedStream glued = check(test::random_gluing(10 + n % 50, 150 + 10 * (n % 30), seed), {.k = n % 3});
+        const EncodedPacked soup = check(test::random_soup(4 + n % 29, 1 + n % 83, seed), {});
+        const EncodedPacked glued = check(test::random_gluing(10 + n % 50, 150 + 10 * (n % 30), seed), {.k = n % 3});
         check_random_access(glued);
         check(test::random_gluing(10 + n % 50, 150 + 10 * (n % 30), seed), {}, PackedProfile::cache, n % 2);
-        const PackedStream dense = check(test::random_soup(300, 300, seed, false), {});
+        const EncodedPacked dense = check(test::random_soup(300, 300, seed, false), {});
         parted += soup.statistics.parted_blocks + glued.statistics.parted_blocks + dense.statistics.parted_blocks;
         plain += soup.statistics.plain_blocks + glued.statistics.plain_blocks + dense.statistics.plain_blocks;
     }
@@ -170,7 +168,7 @@ TEST_CASE("damaged packed streams are refused or harmless") {
         const Mesh mesh = test::random_gluing(60, 80 + 30 * static_cast<std::uint32_t>(shape), shape);
         const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
         REQUIRE(table);
-        const Result<PackedStream> encoded =
+        const Result<EncodedPacked> encoded =
             encode_packed(*table, expand_rings(*table), shape % 2 == 0 ? PackedProfile::small : PackedProfile::cache);
         REQUIRE(encoded);
         const std::vector<std::uint32_t>& good = encoded->words;

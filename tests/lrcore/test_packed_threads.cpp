@@ -12,8 +12,8 @@
 #include <climits>
 #include <cstdlib>
 
-#include "lrcore/codec/packed/packed_encode.h"
-#include "lrcore/codec/packed/packed_stream.h"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/streams.hpp"
 #include "lrlab/generate/generate.h"
 
 #ifdef LACEDRING_SANITIZE
@@ -34,7 +34,7 @@ extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* attribute
     return real(thread, attributes, start, argument);
 }
 
-using namespace lr;
+using namespace lacedring;
 
 namespace {
 

@@ -1,10 +1,10 @@
 #include <doctest/doctest.h>
 
-#include "lrcore/ring/ring.h"
+#include "lacedring/ring.hpp"
 #include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 
-using namespace lr;
+using namespace lacedring;
 
 namespace {
 
@@ -12,7 +12,7 @@ void check_ring(const Mesh& mesh, const RingOptions& options) {
     const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
     REQUIRE(table);
     const Rings rings = expand_rings(*table, options);
-    CHECK(validate(*table, rings) == "");
+    CHECK(check_rings(*table, rings) == "");
 
     std::vector<bool> on_ring(mesh.vertex_count, false);
     for (const RingEdge& edge : rings.edges) on_ring[edge.start.value] = true;
@@ -20,7 +20,7 @@ void check_ring(const Mesh& mesh, const RingOptions& options) {
         if (!edge.right_tip.is_null()) CHECK(on_ring[edge.right_tip.value]);
     }
     for (std::uint32_t t = 0; t < table->triangle_count(); ++t) {  // nor could another begin
-        if (table->degenerate({t})) continue;
+        if (table->degenerate(TriangleId{t})) continue;
         CHECK((on_ring[mesh.indices[3 * t]] || on_ring[mesh.indices[3 * t + 1]] || on_ring[mesh.indices[3 * t + 2]]));
     }
     const Rings again = expand_rings(*table, options);
@@ -55,19 +55,19 @@ TEST_CASE("a validator that accepts everything would be no check") {
     const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
     REQUIRE(table);
     const Rings good = expand_rings(*table);
-    REQUIRE(validate(*table, good) == "");
+    REQUIRE(check_rings(*table, good) == "");
     Rings bad = good;
     std::swap(bad.edges[0], bad.edges[1]);
-    CHECK(validate(*table, bad) != "");
+    CHECK(check_rings(*table, bad) != "");
     bad = good;
     bad.edges[1] = bad.edges[0];
-    CHECK(validate(*table, bad) != "");
+    CHECK(check_rings(*table, bad) != "");
     bad = good;
     bad.edges[0].left = next(bad.edges[0].left);
-    CHECK(validate(*table, bad) != "");
+    CHECK(check_rings(*table, bad) != "");
     bad = good;
     bad.first = {0, 2, static_cast<std::uint32_t>(bad.edges.size())};
-    CHECK(validate(*table, bad) != "");
+    CHECK(check_rings(*table, bad) != "");
 }
 
 TEST_CASE("the octahedron's ring is Hamiltonian") {

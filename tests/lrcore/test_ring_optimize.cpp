@@ -3,20 +3,18 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "lacedring/lacedring.hpp"
+#include "lacedring/mesh_files.hpp"
+#include "lacedring/ring.hpp"
+#include "lacedring/streams.hpp"
+#include "lacedring/topology.hpp"
 #include "lrcore/base/bits.h"
-#include "lrcore/codec/lean/lean_encode.h"
-#include "lrcore/codec/lean/lean_stream.h"
-#include "lrcore/codec/tables/lr_encode.h"
-#include "lrcore/ring/optimize.h"
 #include "lrcore/ring/ring_walk.h"
-#include "lrcore/topology/split.h"
-#include "lrio/mesh/read.h"
-#include "lrio/mesh/weld.h"
 #include "lrlab/generate/generate.h"
 #include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 
-using namespace lr;
+using namespace lacedring;
 
 namespace {
 
@@ -40,7 +38,7 @@ std::int64_t cost_of(const CornerTable& table, const Rings& rings, const RingCos
     }
     std::int64_t sum = 0;
     for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
-        if (!rung.test(t) && !table.degenerate({t})) sum += wart.test(t) ? cost.t0_wart : cost.t0;
+        if (!rung.test(t) && !table.degenerate(TriangleId{t})) sum += wart.test(t) ? cost.t0_wart : cost.t0;
     }
     for (std::uint32_t v = 0; v < table.vertex_count; ++v) sum += on_ring.test(v) ? 0 : cost.isolated;
     return sum;
@@ -52,7 +50,7 @@ bool same(const Rings& a, const Rings& b) {
 }
 
 void check_lean_of(const Mesh& mesh, const CornerTable& table, const Rings& rings) {
-    const LeanStream stream = encode_lean(table, rings).value();
+    const EncodedLean stream = encode_lean(table, rings).value();
     const Result<LeanView> view = validate_lean(stream.words);
     REQUIRE(view);
     std::vector<std::uint32_t> decoded(std::size_t{3} * view->slots());
@@ -68,7 +66,7 @@ void check_optimized(const Mesh& mesh, const RingOptions& ring_options, const Op
     if (ring_options.one_per_shell) split_fans(table);
     const Rings before = expand_rings(table, ring_options);
     const Rings after = optimize_rings(table, before, options);
-    CHECK(validate(table, after) == "");
+    CHECK(check_rings(table, after) == "");
     CHECK(after.count() == before.count());
     CHECK(cost_of(table, after, options.cost) <= cost_of(table, before, options.cost));
     CHECK(same(after, optimize_rings(table, before, options)));
@@ -88,7 +86,7 @@ OptimizeOptions options_of(const RingCost& cost, std::uint32_t passes, std::uint
     return options;
 }
 
-constexpr RingCost kCosts[] = {lean_ring_cost, lr_ring_cost, packed_ring_cost, {1, 0, -5}, {2, 2, 0}};
+constexpr RingCost kCosts[] = {kLeanRingCost, kLrRingCost, kPackedRingCost, {1, 0, -5}, {2, 2, 0}};
 
 }  // namespace
 
@@ -96,10 +94,10 @@ TEST_CASE("optimised rings of named meshes") {
     for (const auto& [name, mesh] : test::named_meshes()) {
         CAPTURE_COPY(name);
         for (const RingCost& cost : kCosts) check_optimized(mesh, {}, options_of(cost, 12, 1));
-        check_optimized(mesh, {}, options_of(lean_ring_cost, 5, 2, false));
+        check_optimized(mesh, {}, options_of(kLeanRingCost, 5, 2, false));
         RingOptions per_shell;
         per_shell.one_per_shell = true;
-        check_optimized(mesh, per_shell, options_of(lr_ring_cost, 12, 3));
+        check_optimized(mesh, per_shell, options_of(kLrRingCost, 12, 3));
     }
 }
 
@@ -121,23 +119,23 @@ TEST_CASE("optimising stops when told to, and never in a worse state") {
     const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
     REQUIRE(table);
     const Rings before = expand_rings(*table);
-    CHECK(same(optimize_rings(*table, before, options_of(lean_ring_cost, 0, 1)), before));
-    std::int64_t last = cost_of(*table, before, lean_ring_cost);
+    CHECK(same(optimize_rings(*table, before, options_of(kLeanRingCost, 0, 1)), before));
+    std::int64_t last = cost_of(*table, before, kLeanRingCost);
     for (std::uint32_t stop = 1; stop <= 20; ++stop) {
         std::uint32_t calls = 0;
-        OptimizeOptions options = options_of(lean_ring_cost, 20, 1);
+        OptimizeOptions options = options_of(kLeanRingCost, 20, 1);
         options.progress = [&](std::uint32_t done) {
             CHECK(done == ++calls);
             return done < stop;
         };
         const Rings after = optimize_rings(*table, before, options);
         CHECK(calls == stop);
-        CHECK(validate(*table, after) == "");
-        const std::int64_t cost = cost_of(*table, after, lean_ring_cost);
+        CHECK(check_rings(*table, after) == "");
+        const std::int64_t cost = cost_of(*table, after, kLeanRingCost);
         CHECK(cost <= last);
         last = cost;
     }
-    CHECK(last < cost_of(*table, before, lean_ring_cost));
+    CHECK(last < cost_of(*table, before, kLeanRingCost));
 }
 
 TEST_CASE("optimising halves the T0 left after wart skipping") {
@@ -160,10 +158,10 @@ TEST_CASE("optimised rings of the meshes of LACEDRING_MESHES, where that is set"
     const auto checked = test::for_each_real_mesh([&](const std::string& path, const Result<Mesh>& mesh) {
         CAPTURE(path);
         REQUIRE(mesh);
-        check_optimized(weld(*mesh, Weld::none), {}, options_of(packed_ring_cost, 4, 1));
+        check_optimized(weld(*mesh, Weld::none), {}, options_of(kPackedRingCost, 4, 1));
         RingOptions per_shell;
         per_shell.one_per_shell = true;
-        check_optimized(weld(*mesh, Weld::position), per_shell, options_of(lr_ring_cost, 4, 1));
+        check_optimized(weld(*mesh, Weld::position), per_shell, options_of(kLrRingCost, 4, 1));
     });
     CHECK(checked.value_or(1) > 0);  // where the variable is set
 }

@@ -4,16 +4,13 @@
 
 #include <array>
 
+#include "lacedring/lacedring.hpp"
+#include "lacedring/lr_file.hpp"
+#include "lacedring/streams.hpp"
 #include "lrcore/base/signature.h"
-#include "lrcore/codec/lean/lean_encode.h"
-#include "lrcore/codec/lean/lean_stream.h"
-#include "lrcore/codec/packed/packed_encode.h"
-#include "lrcore/codec/packed/packed_stream.h"
-#include "lrcore/codec/tables/lr_encode.h"
-#include "lrio/file/lr_file.h"
 #include "tests/support/meshes.h"
 
-using namespace lr;
+using namespace lacedring;
 
 namespace {
 

@@ -9,7 +9,7 @@
 
 #include "tests/lrio/mesh_files.h"
 
-namespace lr::test {
+namespace lacedring::test {
 
 /// A document with one buffer, whose bytes are made value by value, each accessor with a view of its own.
 class GltfMaker {
@@ -61,4 +61,4 @@ inline std::string mesh_of(const std::string& primitives, const std::string& bef
     return before + R"("meshes":[{"primitives":[)" + primitives + "]}]";
 }
 
-}  // namespace lr::test
+}  // namespace lacedring::test

@@ -15,10 +15,10 @@
 #include <string_view>
 #include <vector>
 
-#include "lrio/mesh/mesh.h"
-#include "lrio/mesh/read.h"
+#include "lacedring/mesh.hpp"
+#include "lacedring/mesh_files.hpp"
 
-namespace lr::test {
+namespace lacedring::test {
 
 /// A folder of this process, removed at its end.
 inline const std::filesystem::path& folder() {
@@ -143,4 +143,4 @@ inline std::string binary_stl(std::span<const float> corners, std::string_view t
 using Indices = std::vector<std::uint32_t>;
 using Floats = std::vector<float>;
 
-}  // namespace lr::test
+}  // namespace lacedring::test

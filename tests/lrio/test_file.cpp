@@ -8,9 +8,9 @@
 #include <fstream>
 #include <thread>
 
-#include "lrio/file/file.h"
+#include "lacedring/file.hpp"
 
-using namespace lr;
+using namespace lacedring;
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include "tests/lrio/gltf_maker.h"
 #include "tests/support/capture.h"
 
-using namespace lr;
-using namespace lr::test;
+using namespace lacedring;
+using namespace lacedring::test;
 
 namespace fs = std::filesystem;
 

@@ -7,37 +7,24 @@
 #include <iterator>
 #include <memory>
 
-#include "lrcore/codec/lean/lean_encode.h"
-#include "lrcore/codec/packed/packed_encode.h"
-#include "lrcore/codec/tables/lr_encode.h"
-#include "lrio/file/lr_file.h"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/lr_file.hpp"
 #include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 
-using namespace lr;
+using namespace lacedring;
 
 namespace {
 
-LrFile make(const Mesh& mesh, bool keep_order, Connectivity format = Connectivity::lean) {
-    Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
-    REQUIRE(table);
-    if (format == Connectivity::lean) {
-        LeanStream lean = encode_lean(*table, expand_rings(*table)).value();
-        return make_lr_file(mesh, format, lean.words, lean.vertex_order, lean.slot_triangle, keep_order);
-    }
-    if (format == Connectivity::packed) {
-        const Result<PackedStream> packed = encode_packed(*table, expand_rings(*table));
-        REQUIRE(packed);
-        return make_lr_file(mesh, format, packed->words, packed->vertex_order, packed->triangle_order, keep_order);
-    }
-    constexpr std::uint32_t kPeriods[] = {0, 3};
-    Result<EncodedLr> lr = format == Connectivity::lr ? encode_lr(*table, {}) : encode_compact_lr(*table, {}, kPeriods);
-    REQUIRE(lr);
-    return make_lr_file(mesh, format, lr->words, lr->vertex_order, lr->triangle_order, keep_order);
+LrFile make(const Mesh& mesh, bool keep_order, Format format = Format::lean) {
+    EncodeOptions options{.format = format, .effort = 0};
+    if (format == Format::lr_compact) options.periods = {0, 3};
+    Result<Encoded> encoded = encode(mesh.indices, mesh.vertex_count, options);
+    REQUIRE(encoded);
+    return make_lr_file(mesh, std::move(*encoded), keep_order);
 }
 
-constexpr Connectivity kFormats[] = {Connectivity::lean, Connectivity::lr, Connectivity::lr_compact,
-                                     Connectivity::packed};
+constexpr Format kFormats[] = {Format::lean, Format::lr, Format::lr_compact, Format::packed};
 
 /// A mesh with attributes of several types, all values telling.
 Mesh with_attributes() {
@@ -71,7 +58,7 @@ std::vector<std::uint32_t> indices_of_kept(const Mesh& mesh) {
 TEST_CASE("lr files give back the mesh") {
     for (const auto& [name, mesh] : test::named_meshes()) {
         CAPTURE_COPY(name);
-        for (const Connectivity format : kFormats) {
+        for (const Format format : kFormats) {
             CAPTURE(static_cast<int>(format));
             const Result<LrFile> file = parse_lr(serialize_lr(make(mesh, true, format)));
             REQUIRE_MESSAGE(file, file.error().message);
@@ -106,13 +93,13 @@ TEST_CASE("attributes of every type travel bit for bit") {
 }
 
 TEST_CASE("every truncation and every flipped bit of an lr file is refused") {
-    Connectivity format = Connectivity::lean;
+    Format format = Format::lean;
     SUBCASE("lean") {}
     SUBCASE("lr") {
-        format = Connectivity::lr;
+        format = Format::lr;
     }
     SUBCASE("lr-compact") {
-        format = Connectivity::lr_compact;
+        format = Format::lr_compact;
     }
     const std::vector<std::byte> good = serialize_lr(make(with_attributes(), true, format));
     REQUIRE(parse_lr(good));
@@ -209,7 +196,7 @@ TEST_CASE("hostile lr files with matching checksums") {
         file.words.clear();
     }
     SUBCASE("another format's words") {
-        file.format = Connectivity::lr;
+        file.format = Format::lr;
     }
     CHECK_FALSE(parse_lr(serialize_lr(file)));
 }

@@ -3,8 +3,8 @@
 
 #include "tests/lrio/gltf_maker.h"
 
-using namespace lr;
-using namespace lr::test;
+using namespace lacedring;
+using namespace lacedring::test;
 
 TEST_CASE("glTF: index types, modes, and primitives that share vertices") {
     GltfMaker maker;

@@ -8,8 +8,8 @@
 #include "tests/lrio/mesh_files.h"
 #include "tests/support/capture.h"
 
-using namespace lr;
-using namespace lr::test;
+using namespace lacedring;
+using namespace lacedring::test;
 
 namespace {
 

@@ -4,11 +4,11 @@
 #include <chrono>
 #include <random>
 
-#include "lrio/mesh/write.h"
+#include "lacedring/mesh_files.hpp"
 #include "tests/lrio/mesh_files.h"
 
-using namespace lr;
-using namespace lr::test;
+using namespace lacedring;
+using namespace lacedring::test;
 
 namespace {
 

@@ -6,13 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "lacedring/mesh_files.hpp"
 #include "lrio/mesh/distinct.h"
-#include "lrio/mesh/weld.h"
-#include "lrio/mesh/write.h"
 #include "tests/lrio/mesh_files.h"
 
-using namespace lr;
-using namespace lr::test;
+using namespace lacedring;
+using namespace lacedring::test;
 
 namespace {
 

@@ -14,8 +14,8 @@
 
 #include "lrio/mesh/polygon.h"
 
-using namespace lr;
-using namespace lr::detail;
+using namespace lacedring;
+using namespace lacedring::detail;
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include "lrlab/rivals/strips.h"
 #include "tests/support/meshes.h"
 
-using namespace lr;
+using namespace lacedring;
 
 namespace {
 

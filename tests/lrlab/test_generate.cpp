@@ -13,7 +13,7 @@
 #include "lrlab/generate/generate.h"
 #include "tests/support/meshes.h"
 
-using namespace lr;
+using namespace lacedring;
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
 namespace {

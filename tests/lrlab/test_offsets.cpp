@@ -4,13 +4,13 @@
 
 #include <numeric>
 
-#include "lrcore/codec/tables/lr_encode.h"
-#include "lrcore/topology/split.h"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/topology.hpp"
 #include "lrlab/generate/generate.h"
 #include "lrlab/paper/offsets.h"
 #include "tests/support/meshes.h"
 
-using namespace lr;
+using namespace lacedring;
 
 TEST_CASE("significant bits of an offset, the shorter way round the rings") {
     CHECK(offset_bits(5, 5, 100) == 0);

@@ -10,7 +10,7 @@
 
 #include "lrlab/pager/paged_file.h"
 
-using namespace lr;
+using namespace lacedring;
 
 namespace {
 

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "lrcore/topology/split.h"
+#include "lacedring/topology.hpp"
 #include "lrlab/generate/generate.h"
 #include "lrlab/rivals/corner_table_c.h"
 #include "lrlab/rivals/squad.h"
@@ -11,7 +11,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/operator_oracle.h"
 
-using namespace lr;
+using namespace lacedring;
 
 namespace {
 
@@ -25,9 +25,9 @@ CornerTable pseudo_manifold(const Mesh& mesh) {
 /// The map of a structure that keeps every number.
 LrMap identity(const CornerTable& table) {
     LrMap map;
-    for (std::uint32_t v = 0; v < table.vertex_count; ++v) map.vertex.push_back({v});
+    for (std::uint32_t v = 0; v < table.vertex_count; ++v) map.vertex.push_back(VertexId{v});
     for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
-        map.triangle.push_back(table.degenerate({t}) ? null_triangle : TriangleId{t});
+        map.triangle.push_back(table.degenerate(TriangleId{t}) ? kNullTriangle : TriangleId{t});
     }
     map.start.assign(map.triangle.size(), 0);
     return map;
@@ -40,15 +40,17 @@ void check_order(const Ops& ops) {
         CAPTURE(v);
         std::vector<CornerId> star;
         std::vector<VertexId> neighbours, expected;
-        ops.star({v}, [&](CornerId c) { star.push_back(c); });
-        ops.neighbours({v}, [&](VertexId u) { neighbours.push_back(u); });
+        ops.star(VertexId{v}, [&](CornerId c) { star.push_back(c); });
+        ops.neighbours(VertexId{v}, [&](VertexId u) { neighbours.push_back(u); });
         for (std::size_t i = 0; i < star.size(); ++i) {
             expected.push_back(ops.vertex(ops.next(star[i])));
-            const CornerId after = i + 1 < star.size() ? star[i + 1] : ops.is_border({v}) ? null_corner : star[0];
+            const CornerId after = i + 1 < star.size()          ? star[i + 1]
+                                   : ops.is_border(VertexId{v}) ? kNullCorner
+                                                                : star[0];
             REQUIRE(ops.swing(star[i]) == after);
         }
         if (star.empty()) continue;
-        if (ops.is_border({v})) {
+        if (ops.is_border(VertexId{v})) {
             REQUIRE(ops.swing_back(star[0]).is_null());
             expected.push_back(ops.vertex(ops.previous(star.back())));
         } else {
@@ -65,7 +67,7 @@ Counts count(const CornerTable& table) {
     Counts counts;
     std::vector<bool> used(table.vertex_count, false);
     for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
-        if (table.degenerate({t})) continue;
+        if (table.degenerate(TriangleId{t})) continue;
         ++counts.triangles;
         for (std::uint32_t i = 0; i < 3; ++i) used[table.vertex(corner(TriangleId{t}, i)).value] = true;
     }

@@ -8,18 +8,22 @@ import sys
 
 # In the order in which data flows: each may include itself and those before it.
 LAYERS = ["lrcore", "lrio", "lrlab", "shaders", "renderer", "app"]
-CORE = ["include", "base", "topology", "ring", "codec"]
-# What decoding and validating is made of: no encoder, nothing of CORE between base and codec.
-DECODERS = ["codec/lean/lean_format.h", "codec/lean/lean_stream.h", "codec/lean/lean_stream.cpp",
-            "codec/packed/packed_format.h", "codec/packed/packed_stream.h", "codec/packed/record.h", "codec/packed/record.cpp",
-            "codec/packed/decode.cpp", "codec/packed/validate.cpp", "codec/tables/lr_format.h", "codec/tables/lr_table.h",
-            "codec/tables/compact_lr.h", "codec/tables/lr_stream.h", "codec/tables/lr_stream.cpp", "codec/tables/operators.h",
-            "codec/tables/fan.h", "codec/tables/stream_header.h", "codec/tables/validate.cpp"]
+CORE = ["base", "topology", "ring", "codec"]
+# The folder whose declarations a public header of lrcore has. Those of lrio are in LRIO.
+PUBLIC = {"base.hpp": "base", "lacedring_decode.h": "base", "topology.hpp": "topology", "ring.hpp": "ring", "streams.hpp": "codec",
+          "operators.hpp": "codec", "lacedring.hpp": "codec", "lacedring.h": "codec"}
+LRIO = {"file.hpp", "mesh.hpp", "mesh_files.hpp", "lr_file.hpp"}
+# Decoding and validating: these files include each other, and nothing else of lrcore but base.
+DECODERS = {"lacedring/streams.hpp", "lacedring/operators.hpp", "lacedring/base.hpp", "lacedring/lacedring_decode.h",
+            *("lrcore/codec/" + name for name in (
+                "stream_view.cpp", "decode_slot.h", "lean/lean_format.h", "lean/lean_stream.cpp", "packed/packed_format.h", "packed/record.h",
+                "packed/record.cpp", "packed/decode.cpp", "packed/validate.cpp", "tables/lr_stream.cpp", "tables/tables_decode.h",
+                "tables/stream_header.h", "tables/validate.cpp"))}
 # The standard headers that a freestanding-minded library wants. <thread> is for those who ask for threads.
 STANDARD = {"algorithm", "array", "atomic", "bit", "cassert", "cmath", "compare", "concepts", "cstddef", "cstdint", "cstring",
-            "functional", "limits", "memory", "new", "numeric", "optional", "queue", "span", "string", "string_view", "system_error",
+            "functional", "iterator", "limits", "memory", "new", "numeric", "optional", "queue", "span", "string", "string_view", "system_error",
             "tuple", "type_traits", "utility", "variant", "vector"}
-THREADS = "codec/packed/decode.cpp"
+THREADS = "lrcore/codec/packed/decode.cpp"
 
 
 def includes(path):
@@ -30,44 +34,58 @@ def includes(path):
             yield number, found[2], found[1] == '"'
 
 
-def check_core(inside, header, quoted):
-    if inside.startswith("include/"):
-        return None if header in ("stddef.h", "stdint.h", pathlib.Path(inside).name) else "C without a library"
+def layer_of(header):
+    """The layer that a header in quotes belongs to."""
+    folder, _, name = header.partition("/")
+    return ("lrio" if name in LRIO else "lrcore") if folder == "lacedring" else folder
+
+
+def folder_of(name):
+    """The folder of CORE that a file of lrcore, named as it is included, belongs to."""
+    folder, _, rest = name.partition("/")
+    return PUBLIC.get(rest) if folder == "lacedring" else rest.split("/")[0]
+
+
+def check_core(name, header, quoted):
+    if name.endswith("/lacedring_decode.h"):
+        return None if header in ("stddef.h", "stdint.h", "lacedring_decode.h") else "C without a library"
+    if name.endswith("/lacedring.h"):
+        return None if header in ("stddef.h", "stdint.h") or header.endswith("lacedring_decode.h") else "C without a library"
     if not quoted:
-        return None if header in STANDARD or (header == "thread" and inside == THREADS) else "lrcore needs no such header"
-    below = header.removeprefix("lrcore/").split("/")[0]
-    if below not in CORE or CORE.index(below) > CORE.index(inside.split("/")[0]):
-        return f"lrcore/{inside.split('/')[0]} is below {below}"
-    if inside in DECODERS and below not in ("include", "base") and header.removeprefix("lrcore/") not in DECODERS:
+        return None if header in STANDARD or (header == "thread" and name == THREADS) else "lrcore needs no such header"
+    folder, included = folder_of(name), folder_of(header)
+    if included not in CORE or CORE.index(included) > CORE.index(folder):
+        return f"lrcore's {folder} is below {header}"
+    if name in DECODERS and header not in DECODERS and included != "base":
         return "decoders need no encoder"
     return None
 
 
 def main():
     root = pathlib.Path(sys.argv[1])
-    wrong = []
+    wrong, seen = [], set()
     for depth, layer in enumerate(LAYERS):
-        files = [p for p in sorted((root / layer).rglob("*")) if p.suffix in (".cpp", ".h")]
-        for path in files:
-            name = path.relative_to(root)
+        for path in sorted(p for p in (root / layer).rglob("*") if p.suffix in (".cpp", ".h", ".hpp")):
+            name = str(path.relative_to(root))
+            as_included = name.split("include/")[-1]
+            seen.add(as_included)
             for number, header, quoted in includes(path):
-                first = header.split("/")[0]
+                owner = layer_of(header) if quoted else None
                 why = None
-                if quoted and first in LAYERS and LAYERS.index(first) > depth:
-                    why = f"{layer} is below {first}"
-                elif quoted and first == "tests":
+                if owner in LAYERS and LAYERS.index(owner) > depth:
+                    why = f"{layer} is below {owner}"
+                elif owner == "tests":
                     why = "tests are above everything"
                 elif layer == "lrcore":
-                    why = check_core(str(path.relative_to(root / layer)), header, quoted)
+                    why = check_core(as_included, header, quoted)
                 if why:
                     wrong.append(f"{name}:{number}: {header}: {why}")
             if layer == "lrcore":
                 for number, line in enumerate(path.read_text().splitlines(), 1):
                     if re.search(r"\bthrow\b", line.split("//")[0]):
                         wrong.append(f"{name}:{number}: lrcore throws nothing")
-    for name in DECODERS:
-        if not (root / "lrcore" / name).exists():
-            wrong.append(f"{sys.argv[0]}: no file lrcore/{name}")
+    for name in sorted((DECODERS | {"lacedring/" + header for header in (*PUBLIC, *LRIO)}) - seen):
+        wrong.append(f"{sys.argv[0]}: no file {name}")
     print("\n".join(wrong) or "no include goes upwards")
     return 1 if wrong else 0
 

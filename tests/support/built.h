@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "lrcore/topology/corner_table.h"
-#include "lrio/mesh/mesh.h"
+#include "lacedring/mesh.hpp"
+#include "lacedring/topology.hpp"
 
-namespace lr::test {
+namespace lacedring::test {
 
 inline CornerTable build(const std::vector<std::uint32_t>& indices, std::uint32_t vertex_count) {
     Result<CornerTable> table = build_corner_table(indices, vertex_count);
@@ -20,4 +20,4 @@ inline CornerTable build(const Mesh& mesh) {
     return build(mesh.indices, mesh.vertex_count);
 }
 
-}  // namespace lr::test
+}  // namespace lacedring::test

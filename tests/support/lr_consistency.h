@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "lrcore/codec/tables/lr_stream.h"
-#include "lrcore/codec/tables/operators.h"
+#include "lacedring/operators.hpp"
+#include "lacedring/streams.hpp"
 
-namespace lr::test {
+namespace lacedring::test {
 
-/// The tables without their shortcuts (plain_opposite, plain_fan): LrOperators takes the general path.
+/// The tables without their shortcuts (plain_opposite, plain_fan): Operators takes the general path.
 template <class View>
 struct GeneralStore {
     const View* view;
@@ -35,8 +35,8 @@ struct GeneralStore {
 /// Compares every operator at every corner and vertex with the triangles. Empty, or the first disagreement.
 template <class View>
 std::string inconsistency(const View& view) {
-    const LrOperators<View> ops(view);
-    const LrOperators<GeneralStore<View>> general({&view, view.ring_vertices});
+    const Operators<View> ops(view);
+    const Operators<GeneralStore<View>> general({&view, view.ring_vertices});
     const std::uint32_t used = view.used_vertices();
     std::vector<std::uint32_t> triangles(used, 0), borders(used, 0);
     std::vector<std::vector<std::uint32_t>> next_to(used);  // neighbors, one for each edge
@@ -49,7 +49,7 @@ std::string inconsistency(const View& view) {
                 continue;
             }
             if (ops.vertex(c) != ops.vertex(real) || o != ops.opposite(real)) return fmt::format("corner {}", c.value);
-            if (!ops.is_canonical({t})) continue;
+            if (!ops.is_canonical(TriangleId{t})) continue;
             const std::uint32_t v = ops.vertex(c).value;
             if (v >= used) return fmt::format("vertex {} of corner {}", v, c.value);
             ++triangles[v];
@@ -66,22 +66,26 @@ std::string inconsistency(const View& view) {
     }
     for (std::uint32_t v = 0; v < used; ++v) {
         std::uint32_t star = 0;
-        ops.star({v}, [&](CornerId c) { star += ops.vertex(c).value == v && ops.is_canonical({c.value / 4}) ? 1 : 0; });
+        ops.star(VertexId{v}, [&](CornerId c) {
+            star += ops.vertex(c).value == v && ops.is_canonical(TriangleId{c.value / 4}) ? 1 : 0;
+        });
         if (star != triangles[v] || star == 0) return fmt::format("vertex {}: {} of {} corners", v, star, triangles[v]);
-        if (ops.is_border({v}) != (borders[v] != 0) || borders[v] > 1) return fmt::format("vertex {}: border", v);
-        if (ops.valence({v}) != next_to[v].size()) return fmt::format("vertex {}: valence", v);
+        if (ops.is_border(VertexId{v}) != (borders[v] != 0) || borders[v] > 1)
+            return fmt::format("vertex {}: border", v);
+        if (ops.valence(VertexId{v}) != next_to[v].size()) return fmt::format("vertex {}: valence", v);
         std::vector<std::uint32_t> met, walked;
-        ops.neighbours({v}, [&](VertexId u) { met.push_back(u.value); });
-        general.neighbours({v}, [&](VertexId u) { walked.push_back(u.value); });
+        ops.neighbours(VertexId{v}, [&](VertexId u) { met.push_back(u.value); });
+        general.neighbours(VertexId{v}, [&](VertexId u) { walked.push_back(u.value); });
         if (met != walked) return fmt::format("vertex {}: neighbours", v);
         std::sort(met.begin(), met.end());
         std::sort(next_to[v].begin(), next_to[v].end());
         if (met != next_to[v]) return fmt::format("vertex {}: other neighbours", v);
     }
     for (std::uint32_t v = used; v < std::min(view.vertices, used + 2); ++v) {
-        if (!ops.corner(VertexId{v}).is_null() || ops.valence({v}) != 0) return fmt::format("unused vertex {}", v);
+        if (!ops.corner(VertexId{v}).is_null() || ops.valence(VertexId{v}) != 0)
+            return fmt::format("unused vertex {}", v);
     }
     return {};
 }
 
-}  // namespace lr::test
+}  // namespace lacedring::test

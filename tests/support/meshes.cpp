@@ -8,11 +8,11 @@
 #include <filesystem>
 #include <utility>
 
-#include "lrio/mesh/read.h"
+#include "lacedring/mesh_files.hpp"
 #include "lrlab/generate/generate.h"
 #include "tests/support/shapes.h"
 
-namespace lr::test {
+namespace lacedring::test {
 
 Mesh make_mesh(std::vector<std::uint32_t> indices, std::uint32_t vertex_count) {
     Mesh mesh;
@@ -253,4 +253,4 @@ std::vector<NamedMesh> named_meshes() {
     return out;
 }
 
-}  // namespace lr::test
+}  // namespace lacedring::test

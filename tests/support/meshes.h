@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "lrcore/base/result.h"
-#include "lrio/mesh/mesh.h"
+#include "lacedring/base.hpp"
+#include "lacedring/mesh.hpp"
 
-namespace lr::test {
+namespace lacedring::test {
 
 struct NamedMesh {
     std::string name;
@@ -44,4 +44,4 @@ std::optional<std::size_t> for_each_real_mesh(
 /// repeated) dropped, sorted. Equal for two index lists if and only if they hold the same triangles.
 std::vector<std::array<std::uint32_t, 3>> oriented_triangles(std::span<const std::uint32_t> indices);
 
-}  // namespace lr::test
+}  // namespace lacedring::test

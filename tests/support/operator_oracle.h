@@ -6,25 +6,25 @@
 #include <algorithm>
 #include <vector>
 
-#include "lrcore/codec/tables/lr_table.h"
-#include "lrcore/topology/corner_table.h"
+#include "lacedring/streams.hpp"
+#include "lacedring/topology.hpp"
 
-namespace lr::test {
+namespace lacedring::test {
 
-/// `ops` has the operators of LrOperators. Its triangle t has corners stride * t + 0, 1, 2, and is triangle
+/// `ops` has the operators of Operators. Its triangle t has corners stride * t + 0, 1, 2, and is triangle
 /// map.triangle[t] of the table, whose corner map.start[t] it begins with.
 template <class Operators>
 void check_operators(const CornerTable& table, const Operators& ops, const LrMap& map, std::uint32_t stride = 4) {
     // The bijection: every triangle that is not degenerate has one canonical number, every vertex one number.
     std::vector<std::uint32_t> number(table.triangle_count(), UINT32_MAX);
     for (std::uint32_t t = 0; t < map.triangle.size(); ++t) {
-        REQUIRE(ops.is_canonical({t}) == !map.triangle[t].is_null());
+        REQUIRE(ops.is_canonical(TriangleId{t}) == !map.triangle[t].is_null());
         if (map.triangle[t].is_null()) continue;
         REQUIRE(number[map.triangle[t].value] == UINT32_MAX);
         number[map.triangle[t].value] = t;
     }
     for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
-        REQUIRE((number[t] == UINT32_MAX) == table.degenerate({t}));
+        REQUIRE((number[t] == UINT32_MAX) == table.degenerate(TriangleId{t}));
     }
     std::vector<std::uint32_t> vertex_number(table.vertex_count, UINT32_MAX);
     REQUIRE(map.vertex.size() == table.vertex_count);
@@ -58,7 +58,7 @@ void check_operators(const CornerTable& table, const Operators& ops, const LrMap
                 continue;
             }
             const CornerId x = there(canonical);
-            if (ops.is_canonical({t})) REQUIRE(canonical == c);
+            if (ops.is_canonical(TriangleId{t})) REQUIRE(canonical == c);
             REQUIRE(map.vertex[ops.vertex(c).value] == table.vertex(x));  // of a T2's first copy as well
             REQUIRE(there(ops.next(canonical)) == next(x));
             REQUIRE(there(ops.canonical(ops.next(c))) == next(x));
@@ -74,8 +74,8 @@ void check_operators(const CornerTable& table, const Operators& ops, const LrMap
     std::vector<std::uint32_t> triangles_at(table.vertex_count, 0), border_starts(table.vertex_count, 0);
     for (std::uint32_t i = 0; i < table.corners.size(); ++i) {
         if (table.degenerate(triangle(CornerId{i}))) continue;
-        ++triangles_at[table.vertex({i}).value];
-        if (table.opposite({i}).is_null()) ++border_starts[table.vertex(next(CornerId{i})).value];
+        ++triangles_at[table.vertex(CornerId{i}).value];
+        if (table.opposite(CornerId{i}).is_null()) ++border_starts[table.vertex(next(CornerId{i})).value];
     }
     for (std::uint32_t v = 0; v < map.vertex.size(); ++v) {
         CAPTURE(v);
@@ -83,16 +83,16 @@ void check_operators(const CornerTable& table, const Operators& ops, const LrMap
         const CornerId c = ops.corner(VertexId{v});
         REQUIRE(c.is_null() == (triangles_at[there_v] == 0));
         if (c.is_null()) {
-            CHECK(ops.valence({v}) == 0);
+            CHECK(ops.valence(VertexId{v}) == 0);
             continue;
         }
         REQUIRE(ops.vertex(c).value == v);
         REQUIRE(ops.canonical(c) == c);
         REQUIRE(border_starts[there_v] <= 1);  // a pseudo-manifold
-        REQUIRE(ops.is_border({v}) == (border_starts[there_v] == 1));
-        REQUIRE(ops.valence({v}) == triangles_at[there_v] + border_starts[there_v]);
+        REQUIRE(ops.is_border(VertexId{v}) == (border_starts[there_v] == 1));
+        REQUIRE(ops.valence(VertexId{v}) == triangles_at[there_v] + border_starts[there_v]);
         std::vector<std::uint32_t> star;
-        ops.star({v}, [&](CornerId x) {
+        ops.star(VertexId{v}, [&](CornerId x) {
             REQUIRE(ops.vertex(x).value == v);
             star.push_back(there(x).value);
         });
@@ -100,8 +100,8 @@ void check_operators(const CornerTable& table, const Operators& ops, const LrMap
         std::sort(star.begin(), star.end());
         REQUIRE(std::adjacent_find(star.begin(), star.end()) == star.end());
         std::vector<std::uint32_t> neighbours, expected;
-        ops.neighbours({v}, [&](VertexId u) { neighbours.push_back(map.vertex[u.value].value); });
-        REQUIRE(neighbours.size() == ops.valence({v}));
+        ops.neighbours(VertexId{v}, [&](VertexId u) { neighbours.push_back(map.vertex[u.value].value); });
+        REQUIRE(neighbours.size() == ops.valence(VertexId{v}));
         const CornerId begin = there(c);
         CornerId x = begin;
         do {  // around an interior vertex, the order is that of swing
@@ -112,7 +112,7 @@ void check_operators(const CornerTable& table, const Operators& ops, const LrMap
             expected.clear();
             for (const std::uint32_t s : star) {
                 expected.push_back(table.vertex(next(CornerId{s})).value);
-                if (table.left({s}).is_null()) expected.push_back(table.vertex(previous(CornerId{s})).value);
+                if (table.left(CornerId{s}).is_null()) expected.push_back(table.vertex(previous(CornerId{s})).value);
             }
             std::sort(expected.begin(), expected.end());
             std::sort(neighbours.begin(), neighbours.end());
@@ -121,4 +121,4 @@ void check_operators(const CornerTable& table, const Operators& ops, const LrMap
     }
 }
 
-}  // namespace lr::test
+}  // namespace lacedring::test

@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-namespace lr::test {
+namespace lacedring::test {
 
 std::uint64_t random_step(std::uint64_t& state) {
     std::uint64_t z = state += 0x9e3779b97f4a7c15ULL;
@@ -226,4 +226,4 @@ Shape shuffle(Shape shape, std::uint64_t seed) {
     return shape;
 }
 
-}  // namespace lr::test
+}  // namespace lacedring::test

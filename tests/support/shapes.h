@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace lr::test {
+namespace lacedring::test {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
@@ -55,4 +55,4 @@ Shape shuffle(Shape shape, std::uint64_t seed);
 std::uint64_t random_step(std::uint64_t& state);
 std::uint32_t random_below(std::uint64_t& state, std::uint32_t n);
 
-}  // namespace lr::test
+}  // namespace lacedring::test

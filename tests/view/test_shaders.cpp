@@ -12,7 +12,7 @@
 #include "renderer/shader_interface.h"
 #include "spirv/all.h"
 
-namespace lr::view {
+namespace lacedring::view {
 namespace {
 
 namespace fs = std::filesystem;
@@ -199,4 +199,4 @@ TEST_CASE("what is half written is an error or a shader, and crashes nothing") {
 }
 
 }  // namespace
-}  // namespace lr::view
+}  // namespace lacedring::view

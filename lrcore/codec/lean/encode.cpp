@@ -11,15 +11,15 @@
 #include <bit>
 #include <cassert>
 
+#include "lacedring/lacedring.hpp"
+#include "lacedring/streams.hpp"
 #include "lrcore/base/bits.h"
 #include "lrcore/base/crc32.h"
 #include "lrcore/base/message.h"
-#include "lrcore/codec/lean/lean_encode.h"
 #include "lrcore/codec/lean/lean_format.h"
-#include "lrcore/codec/lean/lean_stream.h"
 #include "lrcore/ring/ring_walk.h"
 
-namespace lr {
+namespace lacedring {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "streams are little-endian words");
@@ -40,7 +40,7 @@ class Encoder {
           rung_(table.triangle_count()),
           covered_(table.triangle_count()) {}
 
-    Result<LeanStream> encode() {
+    Result<EncodedLean> encode() {
         if (table_.vertex_count > kMostVertices) {
             return Error{
                 ErrorCode::too_large,
@@ -83,9 +83,9 @@ class Encoder {
   private:
     /// The T0 that the first copy of a T2 at edge i could hold, as its corner across the shared edge; else null.
     CornerId wart_at(std::uint32_t side, std::size_t i) const {
-        if (!options_.wart_skipping || !walk_.repeats(side, i) || walk_.is_t3(side)) return null_corner;
+        if (!options_.wart_skipping || !walk_.repeats(side, i) || walk_.is_t3(side)) return kNullCorner;
         const CornerId y = walk_.across_t2(table_, side, i);
-        if (y.is_null() || rung_.test(triangle(y).value) || covered_.test(triangle(y).value)) return null_corner;
+        if (y.is_null() || rung_.test(triangle(y).value) || covered_.test(triangle(y).value)) return kNullCorner;
         return y;
     }
 
@@ -119,7 +119,7 @@ class Encoder {
 
     void fill_slots(std::uint32_t side) {
         auto& tip = tip_[side];
-        tip.assign(walk_.size(), null_corner);
+        tip.assign(walk_.size(), kNullCorner);
         wart_[side].assign(walk_.size(), false);
         const bool t3 = walk_.is_t3(side);
         for (std::size_t i = 0; i < walk_.size(); ++i) {
@@ -159,7 +159,7 @@ class Encoder {
         assert(it != wart_[0].end());  // the left side is a tree of triangles: its leaves are T2
         const auto i = static_cast<std::size_t>(it - wart_[0].begin());
         covered_.clear(triangle(tip_[0][i]).value);
-        tip_[0][i] = null_corner;
+        tip_[0][i] = kNullCorner;
         wart_[0][i] = false;
         --out_.statistics.t0_wart;
         return i;
@@ -267,13 +267,13 @@ class Encoder {
     std::array<std::vector<CornerId>, 2> tip_;  // null where the slot is free
     std::array<std::vector<bool>, 2> wart_;
     std::vector<TriangleId> paired_;
-    LeanStream out_;
+    EncodedLean out_;
 };
 
 }  // namespace
 
-Result<LeanStream> encode_lean(const CornerTable& table, const Rings& rings, const LeanOptions& options) {
+Result<EncodedLean> encode_lean(const CornerTable& table, const Rings& rings, const LeanOptions& options) {
     return Encoder(table, rings, options).encode();
 }
 
-}  // namespace lr
+}  // namespace lacedring

@@ -1,17 +1,17 @@
 // The lean stream's decoder and checks are lacedring_decode.h's, in C; here are C++'s types and messages.
 
-#include "lrcore/codec/lean/lean_stream.h"
-
 #include <cassert>
+
+#include "lacedring/streams.hpp"
 
 #define LACEDRING_DECODE_IMPLEMENTATION
 #include "lrcore/base/crc32.h"
 #include "lrcore/base/message.h"
 #include "lrcore/base/signature.h"
 #include "lrcore/codec/lean/lean_format.h"
-#include "lrcore/include/lacedring/lacedring_decode.h"
+#include "lacedring/lacedring_decode.h"
 
-namespace lr {
+namespace lacedring {
 namespace {
 
 static_assert(LR_LEAN_MAGIC == magic::kLean);
@@ -108,9 +108,9 @@ Result<LeanView> validate_lean(std::span<const std::uint32_t> words) {
     return view;
 }
 
-LeanTriangle decode_lean_slot(const LeanView& view, std::uint32_t slot) {
+Triangle decode_lean_slot(const LeanView& view, std::uint32_t slot) {
     const lacedring_lean lean = as_c(view);
-    LeanTriangle out;
+    Triangle out;
     lacedring_lean_slot(&lean, slot, out.v);
     return out;
 }
@@ -121,4 +121,10 @@ void decode_lean(const LeanView& view, std::span<std::uint32_t> indices) {
     lacedring_lean_decode(&lean, indices.data());
 }
 
-}  // namespace lr
+void decode_lean_triangles(const LeanView& view, std::span<std::uint32_t> indices) {
+    assert(indices.size() == std::size_t{3} * view.triangles);
+    const lacedring_lean lean = as_c(view);
+    lacedring_lean_triangles_u32(&lean, indices.data());
+}
+
+}  // namespace lacedring

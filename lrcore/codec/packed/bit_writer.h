@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace lr {
+namespace lacedring {
 
 class BitWriter {
   public:
@@ -58,4 +58,4 @@ class BitWriter {
     std::size_t bits_ = 0;
 };
 
-}  // namespace lr
+}  // namespace lacedring

@@ -2,7 +2,7 @@
 
 #include "lrcore/codec/packed/polygons.h"
 
-namespace lr {
+namespace lacedring {
 namespace {
 
 class CorridorWalker {
@@ -16,7 +16,8 @@ class CorridorWalker {
         out_.flags.reserve(out_.corners.capacity());
         for (std::size_t r = 0; r < rings_.count(); ++r) walk_ring(rings_.ring(r), polygons_.closing(r));
         for (std::uint32_t t = 0; t < table_.triangle_count(); ++t) {  // those that no ring has anything to do with
-            if (!polygons_.visited({t}) && !table_.degenerate({t})) visit(corner({t}, 0), 0);
+            if (!polygons_.visited(TriangleId{t}) && !table_.degenerate(TriangleId{t}))
+                visit(corner(TriangleId{t}, 0), 0);
         }
         out_.vertex_order = std::move(polygons_.vertex_order());
         return std::move(out_);
@@ -64,7 +65,7 @@ class CorridorWalker {
                 if (stack_.empty()) return;
                 then = stack_.back();
                 stack_.pop_back();
-                if (polygons_.visited(triangle(then))) then = null_corner;  // reached from elsewhere: a handle
+                if (polygons_.visited(triangle(then))) then = kNullCorner;  // reached from elsewhere: a handle
             }
             c = then;
         }
@@ -83,4 +84,4 @@ Corridors walk_corridors(const CornerTable& table, const Rings& rings) {
     return CorridorWalker(table, rings).walk();
 }
 
-}  // namespace lr
+}  // namespace lacedring

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "lrcore/ring/ring.h"
-#include "lrcore/topology/corner_table.h"
+#include "lacedring/ring.hpp"
+#include "lacedring/topology.hpp"
 
-namespace lr {
+namespace lacedring {
 
 /// One triangle visited: entered across the edge (a, b) that `corner` faces. Seen from there its other edges are (a, x)
 /// and (x, b), x being the corner's vertex.
@@ -37,4 +37,4 @@ Corridors walk_corridors(const CornerTable& table, const Rings& rings);
 /// still there. Cost: about ten times that of walk_corridors; 4 bytes a vertex more.
 Corridors walk_pieces(const CornerTable& table, const Rings& rings);
 
-}  // namespace lr
+}  // namespace lacedring

@@ -8,7 +8,7 @@
 
 #include "lrcore/codec/packed/record.h"
 
-namespace lr {
+namespace lacedring {
 namespace {
 
 constexpr std::uint32_t kFewestBlocks = 4;  // of a part: about ten microseconds, the time to start a thread
@@ -57,7 +57,7 @@ void decode_packed_block(const PackedView& view, std::uint32_t block, std::span<
     decode_triangles(view, first, first + count, indices.data());
 }
 
-PackedTriangle decode_packed_triangle(const PackedView& view, std::uint32_t triangle) {
+Triangle decode_packed_triangle(const PackedView& view, std::uint32_t triangle) {
     const PackedRecord record = find_record(view, triangle);
     const std::uint32_t i = triangle - record.first;
     std::uint32_t out[3 * LR_PACKED_BLOCK];
@@ -65,4 +65,4 @@ PackedTriangle decode_packed_triangle(const PackedView& view, std::uint32_t tria
     return {{out[3 * i], out[3 * i + 1], out[3 * i + 2]}};
 }
 
-}  // namespace lr
+}  // namespace lacedring

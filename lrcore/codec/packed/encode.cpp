@@ -6,16 +6,16 @@
 #include <bit>
 #include <cmath>
 
+#include "lacedring/lacedring.hpp"
+#include "lacedring/streams.hpp"
 #include "lrcore/base/crc32.h"
 #include "lrcore/base/message.h"
 #include "lrcore/codec/packed/bit_writer.h"
 #include "lrcore/codec/packed/corridors.h"
-#include "lrcore/codec/packed/packed_encode.h"
 #include "lrcore/codec/packed/packed_format.h"
-#include "lrcore/codec/packed/packed_stream.h"
 #include "lrcore/codec/packed/record.h"
 
-namespace lr {
+namespace lacedring {
 namespace {
 
 /// The edge entered: two vertices by their new numbers.
@@ -34,8 +34,8 @@ class Encoder {
         for (std::uint32_t v = 0; v < table.vertex_count; ++v) number_[corridors.vertex_order[v]] = v;
     }
 
-    Result<PackedStream> encode() {
-        PackedStream out;
+    Result<EncodedPacked> encode() {
+        EncodedPacked out;
         const auto triangles = static_cast<std::uint32_t>(corridors_.corners.size());
         PackedView view;
         view.triangles = triangles;
@@ -352,15 +352,15 @@ class Encoder {
 
 }  // namespace
 
-Result<PackedStream> encode_packed(const CornerTable& table, const Rings& rings, PackedProfile profile) {
+Result<EncodedPacked> encode_packed(const CornerTable& table, const Rings& rings, PackedProfile profile) {
     if (table.vertex_count > kMostVertices) {
         return Error{ErrorCode::too_large,
                      detail::message(table.vertex_count, " vertices; a packed stream numbers at most ", kMostVertices)};
     }
     Corridors corridors = profile == PackedProfile::small ? walk_corridors(table, rings) : walk_pieces(table, rings);
-    Result<PackedStream> encoded = Encoder(table, corridors).encode();
+    Result<EncodedPacked> encoded = Encoder(table, corridors).encode();
     if (!encoded) return encoded;
-    PackedStream& out = *encoded;
+    EncodedPacked& out = *encoded;
     out.statistics.ring_vertices = corridors.ring_vertices;
     for (const CornerId c : corridors.corners) out.triangle_order.push_back(triangle(c).value);
     out.vertex_order = std::move(corridors.vertex_order);
@@ -370,14 +370,14 @@ Result<PackedStream> encode_packed(const CornerTable& table, const Rings& rings,
 Result<PackedChoice> encode_smallest_packed(const CornerTable& table, const RingOptions& ring,
                                             const OptimizeOptions& optimize, PackedProfile profile) {
     Rings rings = expand_rings(table, ring);
-    Result<PackedStream> plain = encode_packed(table, rings, profile);
+    Result<EncodedPacked> plain = encode_packed(table, rings, profile);
     if (!plain) return plain.error();
     PackedChoice out{std::move(*plain), 0};
     if (optimize.passes == 0) return out;
-    Result<PackedStream> optimised = encode_packed(table, optimize_rings(table, std::move(rings), optimize), profile);
+    Result<EncodedPacked> optimised = encode_packed(table, optimize_rings(table, std::move(rings), optimize), profile);
     if (!optimised) return optimised.error();
     if (optimised->words.size() < out.stream.words.size()) out = {std::move(*optimised), optimize.passes};
     return out;
 }
 
-}  // namespace lr
+}  // namespace lacedring

@@ -8,7 +8,7 @@
 #include "lrcore/codec/packed/corridors.h"
 #include "lrcore/codec/packed/polygons.h"
 
-namespace lr {
+namespace lacedring {
 namespace {
 
 constexpr std::uint32_t kCache = 32;
@@ -36,7 +36,7 @@ class PieceWalker {
             }
         }
         for (std::uint32_t t = 0; t < table_.triangle_count(); ++t) {
-            if (!table_.degenerate({t})) sweep(corner({t}, 0), 0);
+            if (!table_.degenerate(TriangleId{t})) sweep(corner(TriangleId{t}, 0), 0);
         }
         out_.vertex_order = std::move(polygons_.vertex_order());
         spread_scraps();
@@ -45,7 +45,7 @@ class PieceWalker {
 
   private:
     struct Start {
-        CornerId corner = null_corner;
+        CornerId corner = kNullCorner;
         std::uint8_t side = 0;
     };
     struct Piece {
@@ -187,7 +187,7 @@ class PieceWalker {
         piece.flags.clear();
         piece.inserted.clear();
         piece.before.clear();
-        CornerId c = start.corner, then = null_corner;
+        CornerId c = start.corner, then = kNullCorner;
         while (true) {
             polygons_.visit(triangle(c));
             const Polygons::Step step = polygons_.step(c, start.side);
@@ -207,8 +207,8 @@ class PieceWalker {
             }
             if (after.is_null()) {
                 after = then;
-                then = null_corner;
-                if (!after.is_null() && polygons_.visited(triangle(after))) after = null_corner;
+                then = kNullCorner;
+                if (!after.is_null() && polygons_.visited(triangle(after))) after = kNullCorner;
             }
             if (after.is_null()) break;
             if (piece.corners.size() >= kPiece && then.is_null() && !ends_soon(after, start.side)) break;
@@ -241,4 +241,4 @@ Corridors walk_pieces(const CornerTable& table, const Rings& rings) {
     return out;
 }
 
-}  // namespace lr
+}  // namespace lacedring

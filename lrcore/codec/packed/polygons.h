@@ -8,7 +8,7 @@
 #include "lrcore/codec/packed/corridors.h"
 #include "lrcore/ring/ring_walk.h"
 
-namespace lr {
+namespace lacedring {
 
 class Polygons {
   public:
@@ -39,9 +39,9 @@ class Polygons {
 
     /// The corner across the edge that `c` faces, if that edge can be crossed.
     CornerId across(CornerId c) const {
-        if (on_ring(c)) return null_corner;
+        if (on_ring(c)) return kNullCorner;
         const CornerId o = table_.opposite(c);
-        return o.is_null() || visited(triangle(o)) ? null_corner : o;
+        return o.is_null() || visited(triangle(o)) ? kNullCorner : o;
     }
 
     /// A triangle entered at `c`: what can be entered from it across (a, x) and (x, b), and what a step is to say.
@@ -52,7 +52,7 @@ class Polygons {
     Step step(CornerId c, std::uint8_t side) const {
         const CornerId facing_a = side == 0 ? previous(c) : next(c), facing_b = side == 0 ? next(c) : previous(c);
         Step out{across(facing_a), across(facing_b), side};
-        if (!out.a.is_null() && !out.b.is_null() && triangle(out.a) == triangle(out.b)) out.b = null_corner;
+        if (!out.a.is_null() && !out.b.is_null() && triangle(out.a) == triangle(out.b)) out.b = kNullCorner;
         if (!out.a.is_null()) out.flags |= CorridorStep::kEnterA;
         if (!out.b.is_null()) out.flags |= CorridorStep::kEnterB;
         if (!out.a.is_null() && !out.b.is_null()) {
@@ -94,4 +94,4 @@ class Polygons {
     BitVector visited_;
 };
 
-}  // namespace lr
+}  // namespace lacedring

@@ -7,7 +7,7 @@
 #include <bit>
 #include <cstring>
 
-namespace lr {
+namespace lacedring {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "streams are little-endian words");
@@ -390,4 +390,4 @@ bool expand_record(const PackedView& view, const PackedRecord& record, std::uint
     return Expander(view, record, count, out).expand();
 }
 
-}  // namespace lr
+}  // namespace lacedring

@@ -3,10 +3,10 @@
 
 #include <cstdint>
 
+#include "lacedring/streams.hpp"
 #include "lrcore/codec/packed/packed_format.h"
-#include "lrcore/codec/packed/packed_stream.h"
 
-namespace lr {
+namespace lacedring {
 
 /// Where the record lies that holds a triangle, and which triangles it holds.
 struct PackedRecord {
@@ -32,4 +32,4 @@ constexpr std::uint32_t block_bytes(std::uint32_t length, std::uint32_t triangle
 /// vertices may be out of range.
 bool expand_record(const PackedView& view, const PackedRecord& record, std::uint32_t count, std::uint32_t* out);
 
-}  // namespace lr
+}  // namespace lacedring

@@ -7,7 +7,7 @@
 #include "lrcore/base/signature.h"
 #include "lrcore/codec/packed/record.h"
 
-namespace lr {
+namespace lacedring {
 namespace {
 
 static_assert(LR_PACKED_MAGIC == magic::kPacked);
@@ -155,4 +155,4 @@ Result<PackedView> validate_packed(std::span<const std::uint32_t> words) {
     return view;
 }
 
-}  // namespace lr
+}  // namespace lacedring

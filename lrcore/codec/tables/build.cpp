@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <memory>
 
+#include "lacedring/lacedring.hpp"
+#include "lacedring/operators.hpp"
+#include "lacedring/streams.hpp"
 #include "lrcore/base/bits.h"
 #include "lrcore/base/message.h"
-#include "lrcore/codec/tables/lr_encode.h"
-#include "lrcore/codec/tables/lr_table.h"
-#include "lrcore/codec/tables/operators.h"
 #include "lrcore/ring/ring_walk.h"
 
-namespace lr {
+namespace lacedring {
 namespace {
 
 constexpr std::uint32_t kPrefetched = 24;  // elements for which memory is fetched before their turn
@@ -81,13 +81,13 @@ class Builder {
         if (closing == left.end()) {  // every dead end is a wart: give one up
             --closing;
             rung_.clear(triangle(closing->wart).value);
-            closing->wart = null_corner;
+            closing->wart = kNullCorner;
         }
         const std::uint32_t last = closing->edge;
         first_edge_.push_back(last + 1 == size ? 0 : last + 1);
         const DeadEnd* dead[2];  // the next on each side; behind a side's last is one that no edge meets
         for (std::uint32_t side = 0; side < 2; ++side) {
-            dead_ends_[side].push_back({UINT32_MAX, null_corner, null_vertex});
+            dead_ends_[side].push_back({UINT32_MAX, kNullCorner, kNullVertex});
             dead[side] = dead_ends_[side].data();
             while (dead[side]->edge <= last) ++dead[side];
         }
@@ -140,7 +140,7 @@ class Builder {
                 const CornerId there = walk.face(side, walk.after(i));
                 if (!here.is_null()) {
                     rung_.set(triangle(here).value);
-                    if (triangle(here) == triangle(there)) dead_ends_[side].push_back({i, null_corner, null_vertex});
+                    if (triangle(here) == triangle(there)) dead_ends_[side].push_back({i, kNullCorner, kNullVertex});
                 }
                 here = there;
             }
@@ -159,7 +159,7 @@ class Builder {
             CornerId& wart = ends[i].wart;
             if (wart.is_null()) continue;
             if (rung_.test(triangle(wart).value)) {
-                wart = null_corner;
+                wart = kNullCorner;
                 continue;
             }
             rung_.set(triangle(wart).value);
@@ -174,8 +174,8 @@ class Builder {
     void number_t0() {
         std::uint32_t number = 2 * out_.ring_vertices;
         for (std::uint32_t t = 0; t < table_.triangle_count(); ++t) {
-            if (rung_.test(t) || table_.degenerate({t})) continue;
-            t0_.push_back({t});
+            if (rung_.test(t) || table_.degenerate(TriangleId{t})) continue;
+            t0_.push_back(TriangleId{t});
             place_[t] = 4 * number++;
         }
         out_.statistics.t0 = static_cast<std::uint32_t>(t0_.size());
@@ -235,12 +235,12 @@ class Builder {
         const Topology& topology = table_.topology;
         if (topology.nonmanifold_edges == 0 && topology.cut_edges == 0) {
             for (std::size_t i = 0; i < out_.vo.size(); i += 6) {
-                for (std::size_t k = 3; k < 6; ++k) mark({out_.vo[i + k]});
+                for (std::size_t k = 3; k < 6; ++k) mark(CornerId{out_.vo[i + k]});
             }
             return;
         }
         std::vector<CornerId> irregular;
-        const LrOperators<LrView> ops(out_.view());
+        const Operators<LrView> ops(out_.view());
         for_slots([](std::uint32_t) { return true; },
                   [&](std::uint32_t slot, CornerId tip) {
                       const CornerId start = start_corner(slot, tip), end = end_corner(slot, tip);
@@ -274,8 +274,8 @@ class Builder {
         }
         for (std::size_t i = 0; i < out_.star.size(); i += 3) {  // until here, corners of the corner table
             for (const std::size_t k : {i + 1, i + 2}) {
-                if (k + kPrefetched < out_.star.size()) fetch_place({out_.star[k + kPrefetched]});
-                out_.star[k] = lr_corner({out_.star[k]}).value;
+                if (k + kPrefetched < out_.star.size()) fetch_place(CornerId{out_.star[k + kPrefetched]});
+                out_.star[k] = lr_corner(CornerId{out_.star[k]}).value;
             }
         }
         return true;
@@ -312,17 +312,17 @@ class Builder {
     CornerId lr_corner(CornerId c) const {
         if (c.is_null()) return c;
         const std::uint32_t place = place_[triangle(c).value], first = place & ~3U;
-        if (first >= 8 * out_.ring_vertices) return {first + c.value % 3};
+        if (first >= 8 * out_.ring_vertices) return CornerId{first + c.value % 3};
         const CornerId tip{c.value - c.value % 3 + place % 4};
         // After the tip comes the end on the left (8v+2), the start on the right (8v+6).
-        return {first + (c == tip ? 1U : c == next(tip) ? 2U : 0U)};
+        return CornerId{first + (c == tip ? 1U : c == next(tip) ? 2U : 0U)};
     }
 
     void fill(LrMap& map) const {
         map.vertex.resize(out_.vertices);
-        for (std::uint32_t v = 0; v < out_.vertices; ++v) map.vertex[number_[v]] = {v};
+        for (std::uint32_t v = 0; v < out_.vertices; ++v) map.vertex[number_[v]] = VertexId{v};
         const std::uint32_t slots = 2 * out_.ring_vertices;
-        map.triangle.assign(slots + t0_.size(), null_triangle);
+        map.triangle.assign(slots + t0_.size(), kNullTriangle);
         map.start.assign(map.triangle.size(), 0);
         for_slots([](std::uint32_t) { return true; },
                   [&](std::uint32_t slot, CornerId tip) {
@@ -356,4 +356,4 @@ Result<LrTable> build_lr(const CornerTable& table, const Rings& rings, const LrO
     return Builder(table, rings, options).build(map);
 }
 
-}  // namespace lr
+}  // namespace lacedring

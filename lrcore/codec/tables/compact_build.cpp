@@ -1,8 +1,8 @@
 // LR 2011, section 6.
 
-#include "lrcore/codec/tables/compact_lr.h"
+#include "lacedring/lacedring.hpp"
 
-namespace lr {
+namespace lacedring {
 namespace {
 
 class Packer {
@@ -100,4 +100,4 @@ Result<CompactLrTable> build_compact_lr(const LrView& lr) {
     return Packer(lr).pack();
 }
 
-}  // namespace lr
+}  // namespace lacedring

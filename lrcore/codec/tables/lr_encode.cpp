@@ -1,9 +1,7 @@
-#include "lrcore/codec/tables/lr_encode.h"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/topology.hpp"
 
-#include "lrcore/codec/tables/search.h"
-#include "lrcore/topology/split.h"
-
-namespace lr {
+namespace lacedring {
 namespace {
 
 /// Fills what follows from the map, and returns which LR vertices are copies.
@@ -58,4 +56,4 @@ Result<EncodedLr> encode_compact_lr(CornerTable table, const RingOptions& ring,
     return out;
 }
 
-}  // namespace lr
+}  // namespace lacedring

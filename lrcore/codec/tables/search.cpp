@@ -1,10 +1,8 @@
-#include "lrcore/codec/tables/search.h"
-
 #include <utility>
 
-#include "lrcore/codec/tables/lr_encode.h"
+#include "lacedring/lacedring.hpp"
 
-namespace lr {
+namespace lacedring {
 
 std::vector<std::uint32_t> recommended_periods(std::size_t triangles) {
     // Table 1 of the paper has its best between 38 and 720.
@@ -37,4 +35,4 @@ Result<CompactChoice> smallest_compact_lr(const CornerTable& table, const RingOp
     return best;
 }
 
-}  // namespace lr
+}  // namespace lacedring

@@ -6,11 +6,11 @@
 #include <string>
 #include <utility>
 
+#include "lacedring/base.hpp"
+#include "lacedring/streams.hpp"
 #include "lrcore/base/crc32.h"
-#include "lrcore/base/result.h"
-#include "lrcore/codec/tables/lr_stream.h"
 
-namespace lr {
+namespace lacedring {
 
 constexpr std::uint32_t kLrVersion = 1;
 enum LrHeaderWord {
@@ -35,4 +35,4 @@ inline Error malformed_lr(std::string message) {
     return {ErrorCode::malformed, "LR tables: " + std::move(message)};
 }
 
-}  // namespace lr
+}  // namespace lacedring

@@ -2,12 +2,12 @@
 
 #include <vector>
 
+#include "lacedring/operators.hpp"
 #include "lrcore/base/bits.h"
 #include "lrcore/base/message.h"
-#include "lrcore/codec/tables/operators.h"
 #include "lrcore/codec/tables/stream_header.h"
 
-namespace lr {
+namespace lacedring {
 namespace {
 
 /// Checks the indices within a representation: tips, VO* indices, records.
@@ -69,7 +69,7 @@ bool is_irregular(const View& view, std::uint32_t slot) {
 /// Checks that kinds are valid, rings tile and close, and each T2 has its second copy.
 template <class View>
 std::string check_rings(const View& view) {
-    const LrOperators<View> ops(view);
+    const Operators<View> ops(view);
     std::uint32_t first = 0;
     for (std::uint32_t v = 0; v < view.ring_vertices; ++v) {
         for (std::uint32_t side = 0; side < 2; ++side) {
@@ -115,11 +115,11 @@ std::string check_rings(const View& view) {
 /// check_rings.
 template <class View>
 std::string check_named(const View& view) {
-    const LrOperators<View> ops(view);
+    const Operators<View> ops(view);
     const auto exists = [&](std::uint32_t c) {
-        return c / 4 < view.triangle_numbers() && c % 4 < 3 && ops.is_canonical({c / 4});
+        return c / 4 < view.triangle_numbers() && c % 4 < 3 && ops.is_canonical(TriangleId{c / 4});
     };
-    const auto exists_or_null = [&](std::uint32_t c) { return c == null_corner.value || exists(c); };
+    const auto exists_or_null = [&](std::uint32_t c) { return c == kNullCorner.value || exists(c); };
     for (const std::uint32_t c : view.c) {
         if (!exists(c)) return "an isolated vertex's corner is none";
     }
@@ -149,9 +149,9 @@ class StarChecker {
     explicit StarChecker(const View& view) : view_(view), ops_(view), numbers_(view.triangle_numbers()) {}
 
     std::string check() {
-        for (std::uint32_t t = 0; t < numbers_; ++t) most_ += ops_.is_canonical({t}) ? 3 : 0;
+        for (std::uint32_t t = 0; t < numbers_; ++t) most_ += ops_.is_canonical(TriangleId{t}) ? 3 : 0;
         for (std::uint32_t v = 0; v < view_.used_vertices(); ++v) {
-            if (!check_star({v})) return std::move(why_);
+            if (!check_star(VertexId{v})) return std::move(why_);
         }
         // Fewer if a vertex has several fans, of which v.c leads to one.
         if (corners_ != most_) return detail::message(corners_, " corners around vertices, of ", most_);
@@ -247,7 +247,7 @@ class StarChecker {
     }
 
     const View& view_;
-    const LrOperators<View> ops_;
+    const Operators<View> ops_;
     const std::uint32_t numbers_;
     std::uint64_t most_ = 0, corners_ = 0;    // corners of all triangles; corners walked
     std::uint64_t larger_ = 0, smaller_ = 0;  // corners whose opposite is larger, smaller
@@ -258,7 +258,9 @@ class StarChecker {
 std::string check_copies(std::uint32_t vertices, std::span<const std::uint32_t> copies) {
     BitVector copied(copies.empty() ? 0 : vertices);
     for (std::size_t i = 0; i < copies.size(); i += 2) {
-        if (copies[i] >= vertices || copied.test(copies[i])) return detail::message("copied vertex ", copies[i]);
+        if (copies[i] >= vertices || (i > 0 && copies[i] <= copies[i - 2])) {
+            return detail::message("copied vertex ", copies[i]);  // in increasing order: readers search
+        }
         copied.set(copies[i]);
     }
     for (std::size_t i = 1; i < copies.size(); i += 2) {
@@ -268,7 +270,8 @@ std::string check_copies(std::uint32_t vertices, std::span<const std::uint32_t> 
 }
 
 template <class View>
-Result<LrStream<View>> validate_tables(std::span<const std::uint32_t> words, const Result<LrStream<View>>& stream) {
+Result<LrStreamView<View>> validate_tables(std::span<const std::uint32_t> words,
+                                           const Result<LrStreamView<View>>& stream) {
     if (!stream) return stream;
     if (words[kW_crc] != lr_checksum(words)) return malformed_lr("checksum does not match");
     const View& view = stream->view;
@@ -283,11 +286,11 @@ Result<LrStream<View>> validate_tables(std::span<const std::uint32_t> words, con
 
 }  // namespace
 
-Result<LrStream<LrView>> validate_lr(std::span<const std::uint32_t> words) {
+Result<LrStreamView<LrView>> validate_lr(std::span<const std::uint32_t> words) {
     return validate_tables(words, view_lr(words));
 }
-Result<LrStream<CompactLrView>> validate_compact_lr(std::span<const std::uint32_t> words) {
+Result<LrStreamView<CompactLrView>> validate_compact_lr(std::span<const std::uint32_t> words) {
     return validate_tables(words, view_compact_lr(words));
 }
 
-}  // namespace lr
+}  // namespace lacedring

@@ -24,6 +24,11 @@
 extern "C" {
 #endif
 
+/* The version of the library that this file is of. */
+#define LACEDRING_VERSION_MAJOR 0
+#define LACEDRING_VERSION_MINOR 1
+#define LACEDRING_VERSION_PATCH 0
+
 #define LACEDRING_LEAN_HEADER_WORDS 8
 
 /* What is wrong with a stream. The comment says what `*where` is then. */

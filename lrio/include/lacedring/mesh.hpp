@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "lrcore/topology/geometry.h"
+#include "lacedring/topology.hpp"
 
-namespace lr {
+namespace lacedring {
 
 enum class ComponentType : std::uint8_t { i8 = 0, u8 = 1, i16 = 2, u16 = 3, i32 = 4, u32 = 5, f32 = 6, f64 = 7 };
 
@@ -57,4 +57,4 @@ std::vector<float> normals_f32(const Mesh& mesh);
 /// `order` is a permutation of 0..vertex_count-1; indices are left as they are, for the caller to replace.
 std::vector<Attribute> permute_attributes(std::span<const Attribute> attributes, std::span<const std::uint32_t> order);
 
-}  // namespace lr
+}  // namespace lacedring

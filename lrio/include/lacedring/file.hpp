@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "lrcore/base/result.h"
+#include "lacedring/base.hpp"
 
-namespace lr {
+namespace lacedring {
 
 /// Reads a whole regular file. Pipes, devices and what /proc and /sys hold are refused without being opened for long:
 /// reading one may block for ever, never end, or have an effect.
@@ -31,4 +31,4 @@ Result<void> write_file(const std::filesystem::path& path, std::span<const std::
 /// Writes `parts` to an open descriptor. Errors: cannot_write.
 Result<void> write_descriptor(int descriptor, std::span<const std::span<const std::byte>> parts);
 
-}  // namespace lr
+}  // namespace lacedring

@@ -1,14 +1,18 @@
 #pragma once
-// Errors as values. Result<T> has the names of std::expected<T, Error>, which g++ 12 does not offer in C++20.
+// Errors as values, and ids of elements.
 
 #include <cassert>
+#include <compare>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <variant>
 
-namespace lr {
+namespace lacedring {
 
-enum class ErrorCode {
+// Errors as values. Result<T> has the names of std::expected<T, Error>, which g++ 12 does not offer in C++20.
+
+enum class ErrorCode : int {
     cannot_open,       ///< the file does not exist, is a folder, or may not be read
     cannot_write,      ///< the output cannot be made
     malformed,         ///< the bytes do not follow their format
@@ -16,9 +20,10 @@ enum class ErrorCode {
     invalid_argument,  ///< a parameter is out of its range
     too_large,         ///< more elements than the representation numbers, or than memory holds
     memory_limit,      ///< would take more memory than the caller allows
-    no_device,         ///< no usable Vulkan device, or it lacks what was asked for: memory, sizes, features
-    device_failure,    ///< a Vulkan call failed
 };
+
+/// A program may give its own codes, from this value on, to its own errors; the library has none of them.
+constexpr int kFirstOwnErrorCode = 1000;
 
 /// What went wrong. `message` is one line: the place and the cause, without the file's name (the caller knows it).
 struct Error {
@@ -79,4 +84,52 @@ class [[nodiscard]] Result<void> {
     bool failed_ = false;
 };
 
-}  // namespace lr
+// Distinct types for the three kinds of index, so that mixing them does not compile.
+
+/// A 32-bit index of one kind of element. Null means "none": across a border, or not found.
+template <class Tag>
+struct Id {
+    std::uint32_t value = UINT32_MAX;
+
+    constexpr Id() = default;
+    constexpr explicit Id(std::uint32_t index) : value(index) {}
+    constexpr bool is_null() const { return value == UINT32_MAX; }
+    friend constexpr auto operator<=>(Id, Id) = default;
+};
+
+/// The ids from 0 to size() - 1: for (const VertexId v : table.vertices()).
+template <class Tag>
+class IdRange {
+  public:
+    struct Iterator {
+        std::uint32_t value;
+
+        Id<Tag> operator*() const { return Id<Tag>(value); }
+        Iterator& operator++() {
+            ++value;
+            return *this;
+        }
+        bool operator==(const Iterator&) const = default;
+    };
+
+    explicit IdRange(std::uint32_t size) : size_(size) {}
+    std::uint32_t size() const { return size_; }
+    Iterator begin() const { return {0}; }
+    Iterator end() const { return {size_}; }
+
+  private:
+    std::uint32_t size_;
+};
+
+template <class Tag>
+inline constexpr Id<Tag> kNullId{UINT32_MAX};
+
+using VertexId = Id<struct VertexTag>;
+using TriangleId = Id<struct TriangleTag>;
+using CornerId = Id<struct CornerTag>;
+
+inline constexpr VertexId kNullVertex = kNullId<VertexTag>;
+inline constexpr TriangleId kNullTriangle = kNullId<TriangleTag>;
+inline constexpr CornerId kNullCorner = kNullId<CornerTag>;
+
+}  // namespace lacedring

@@ -1,4 +1,96 @@
 #pragma once
+// The corner operators on LR tables.
+
+#include <cstdint>
+
+#include "lacedring/base.hpp"
+#include "lacedring/streams.hpp"
+
+namespace lacedring {
+
+// The neighbours of a ring vertex v side by side, from fewer words than the corners around it take.
+//
+// On either side of the ring, the triangles at v run from the slot that starts at v to the slot that ends at v. Along a
+// corridor those in between have v as their tip and lie in a row:
+//
+//          x---o---o---o---o
+//           \   \  |  /   /            slots x, x + 1, ... have tip v
+//            \   \ | /   /
+//     v.n o-------- v --------o v.p    v.l or v.r is x; the tip of the slot that ends at v is where the row ends
+//
+// LrView::plain_fan counts such rows; here warts, T2, irregular triangles and T0 are stepped over as well.
+
+/// The neighbours of v between v.n and v.p on one side, in this order: as many as triangles, less one.
+template <class Store>
+class FanSide {
+  public:
+    std::uint32_t size = 0;
+    std::uint32_t vertex[16];  ///< `size` of them
+
+    /// Lists those of side 0 (left) or 1 (right). w, p, pp: the words of v, v.p and v.p.p there. Constant time. False,
+    /// and the list of no use, where it is long or a border is near: Operators has to go by the corners.
+    template <std::uint32_t side>
+    bool find(const Store& s, std::uint32_t v, std::uint32_t w, std::uint32_t p, std::uint32_t pp) {
+        size = 0;
+        if (is_wart(p) || is_redundant(p)) return true;  // v is the middle of a T2
+        // The slots of the triangle at v's edge and of the last one at v, and their words.
+        const std::uint32_t from = is_redundant(w) ? v + 1 : v, to = is_wart(pp) ? v - 2 : v - 1;
+        if (is_wart(w)) vertex[size++] = ring_next(s, v + 1);
+        std::uint32_t x = vertex[size++] = s.tip(w);
+        if (from != v) w = s.word(from, side);
+        if (to != v - 1) p = pp;
+        if (((w | p) & word::kSpecial) != 0) return false;
+        const std::uint32_t last = s.tip(p);
+        if (((w | p) & word::kIrregular) == 0 && x != v + 1 && s.run_has_tip(x, last - x, v, side)) {
+            for (std::uint32_t i = 0; i < 4; ++i) vertex[size + i] = x + 1 + i;
+            size += last - x;
+            if (to != v - 1) vertex[size++] = to;
+            return true;
+        }
+        std::uint32_t slot = from;
+        // Which edge of `slot`'s triangle is (v, x): that of its end and tip (0) or of its start and tip (1)?
+        std::uint32_t edge = from == v ? 1 : 0;
+        for (;;) {
+            if ((w & word::kIrregular) != 0) {
+                std::uint32_t c = s.star_opposite(slot, side, edge);  // faces (v, x) from the other side
+                while (c >= 8 * s.ring_vertices) {
+                    if (c == UINT32_MAX || size >= kMost) return false;
+                    const std::uint32_t t0 = (c - 8 * s.ring_vertices) / 4 * 3, k = c % 4;
+                    vertex[size++] = x = s.t0_vertex(t0 + k);
+                    c = s.t0_opposite(t0 + (k + 1 + side) % 3);
+                }
+                if (c == start_corner(to, side)) break;
+                if (c != end_corner(x, side)) return false;
+                w = s.word(x, side);
+            } else {
+                if (edge == 1 && x == last) break;
+                w = x < s.ring_vertices ? s.word(x, side) : word::kBorder;
+                if ((w & word::kSpecial) != 0 || s.tip(w) != v) {
+                    if (x == last) break;
+                    return false;
+                }
+            }
+            if (size >= kMost) return false;
+            slot = x;
+            edge = 0;
+            x = side == 0 ? x + 1 : ring_next(s, x);  // a left slot with a triangle of its own does not close its ring
+            if (is_wart(w)) x = ring_next(s, x);
+            vertex[size++] = x;
+        }
+        if (to != v - 1) vertex[size++] = to;
+        return true;
+    }
+
+  private:
+    static constexpr std::uint32_t kMost = 11;  // further ones may be four of a row, or one and v.p.p
+
+    static bool is_wart(std::uint32_t w) { return (w & (word::kSpecial | word::kWart)) == word::kWart; }
+    static bool is_redundant(std::uint32_t w) { return (w & word::kKind) == word::kRedundant; }
+    static std::uint32_t start_corner(std::uint32_t v, std::uint32_t side) { return 8 * v + 6 * side; }
+    static std::uint32_t end_corner(std::uint32_t v, std::uint32_t side) { return 8 * v + 2 + 2 * side; }
+    static std::uint32_t ring_next(const Store& s, std::uint32_t v) { return s.closes(v) ? s.first(v) : v + 1; }
+};
+
 // The corner operators on a laced ring, each in constant time. Paper: LR 2011, sections 4.4 to 4.7 and 5.
 //
 // Within a slot, corners have roles: start (at v), tip, end (at v.n, or v.n.n where a wart is skipped). Left corners
@@ -11,18 +103,10 @@
 //
 // `Store` is LrView or CompactLrView, or a test's wrapper that counts what is read.
 
-#include <cstdint>
-
-#include "lrcore/base/ids.h"
-#include "lrcore/codec/tables/fan.h"
-#include "lrcore/codec/tables/lr_format.h"
-
-namespace lr {
-
 template <class Store>
-class LrOperators {
+class Operators {
   public:
-    explicit LrOperators(const Store& store) : s_(store), ring_(store.ring_vertices) {}
+    explicit Operators(const Store& store) : s_(store), ring_(store.ring_vertices) {}
 
     const Store& store() const { return s_; }
 
@@ -37,13 +121,13 @@ class LrOperators {
     bool is_t0(CornerId c) const { return c.value >= 8 * ring_; }
 
     /// c.t
-    static TriangleId triangle(CornerId c) { return {c.value / 4}; }
+    static TriangleId triangle(CornerId c) { return TriangleId{c.value / 4}; }
     /// t.c: the triangle's first corner; next gives the others.
-    static CornerId corner(TriangleId t) { return {t.value * 4}; }
+    static CornerId corner(TriangleId t) { return CornerId{t.value * 4}; }
     /// c.n
-    static CornerId next(CornerId c) { return {c.value % 4 == 2 ? c.value - 2 : c.value + 1}; }
+    static CornerId next(CornerId c) { return CornerId{c.value % 4 == 2 ? c.value - 2 : c.value + 1}; }
     /// c.p
-    static CornerId previous(CornerId c) { return {c.value % 4 == 0 ? c.value + 2 : c.value - 1}; }
+    static CornerId previous(CornerId c) { return CornerId{c.value % 4 == 0 ? c.value + 2 : c.value - 1}; }
 
     /// Does the triangle exist, and is this its canonical number (not that of a T2's first copy)?
     bool is_canonical(TriangleId t) const {
@@ -56,7 +140,7 @@ class LrOperators {
             const Slot slot = slot_of(c);
             const std::uint32_t kind = s_.kind(slot.v, slot.side);
             if ((kind & word::kSpecial) == 0) return c;
-            if (kind == word::kBorder) return null_corner;
+            if (kind == word::kBorder) return kNullCorner;
             constexpr Role kTurned[] = {kTip, kEnd, kStart};  // start, tip, end seen from the second copy
             c = at(ring_next(slot.v), slot.side, kTurned[slot.role]);
         }
@@ -65,27 +149,27 @@ class LrOperators {
 
     /// c.v
     VertexId vertex(CornerId c) const {
-        if (is_t0(c)) return {s_.t0_vertex(t0_index(c))};
+        if (is_t0(c)) return VertexId{s_.t0_vertex(t0_index(c))};
         const Slot slot = slot_of(c);
         switch (slot.role) {
             case kStart:
-                return {slot.v};
+                return VertexId{slot.v};
             case kEnd:
-                return {end(slot.v, slot.side)};
+                return VertexId{end(slot.v, slot.side)};
             default: {
                 const std::uint32_t kind = s_.kind(slot.v, slot.side);
-                if (kind == word::kClosing) return {ring_next(s_.first(slot.v))};
-                return kind == word::kBorder ? null_vertex : VertexId{s_.tip(slot.v, slot.side)};
+                if (kind == word::kClosing) return VertexId{ring_next(s_.first(slot.v))};
+                return kind == word::kBorder ? kNullVertex : VertexId{s_.tip(slot.v, slot.side)};
             }
         }
     }
 
     /// c.o: canonical, or null across a border.
     CornerId opposite(CornerId c) const {
-        if (is_t0(c)) return {s_.t0_opposite(t0_index(c))};
+        if (is_t0(c)) return CornerId{s_.t0_opposite(t0_index(c))};
         if constexpr (kHasOpposites) {
             const std::uint32_t plain = s_.plain_opposite(c.value);
-            if (plain != Store::kNotPlain) return {plain};
+            if (plain != Store::kNotPlain) return CornerId{plain};
         }
         Slot slot = slot_of(c);
         std::uint32_t kind = s_.kind(slot.v, slot.side);
@@ -123,7 +207,7 @@ class LrOperators {
     /// v.c: canonical; null for a vertex of no triangle.
     CornerId corner(VertexId v) const {
         if (v.value < ring_) return canonical(at(v.value, 0, kStart));  // the left side always has a triangle
-        return v.value < s_.used_vertices() ? CornerId{s_.isolated_corner(v.value - ring_)} : null_corner;
+        return v.value < s_.used_vertices() ? CornerId{s_.isolated_corner(v.value - ring_)} : kNullCorner;
     }
 
     /// Is the vertex on a border? O(valence).
@@ -174,7 +258,7 @@ class LrOperators {
     template <class Visit>
     void neighbours(VertexId v, Visit visit) const {
         if (near_neighbours(v, visit)) return;
-        CornerId last = null_corner;
+        CornerId last = kNullCorner;
         star(v, [&](CornerId c) {
             visit(vertex(next(c)));
             last = c;
@@ -261,7 +345,7 @@ class LrOperators {
         return {c.value / 8, i / 4, static_cast<Role>(i < 4 ? i : 6 - i)};
     }
     static CornerId at(std::uint32_t v, std::uint32_t side, Role role) {
-        return {8 * v + (side == 0 ? std::uint32_t{role} : 6 - role)};
+        return CornerId(8 * v + (side == 0 ? std::uint32_t{role} : 6 - role));
     }
     std::uint32_t t0_index(CornerId c) const {
         const std::uint32_t i = c.value - 8 * ring_;
@@ -287,7 +371,7 @@ class LrOperators {
     /// What lies across v's ring edge, on side `side`.
     CornerId across_ring(std::uint32_t v, std::uint32_t side) const {
         const std::uint32_t kind = s_.kind(v, side);
-        if (kind == word::kBorder) return null_corner;
+        if (kind == word::kBorder) return kNullCorner;
         // A T2 whose first copy, real or taken by a T0w, is here: its second copy's end corner faces this edge.
         if (precedes_t2(kind)) {
             const CornerId c = at(ring_next(v), side, kEnd);
@@ -310,14 +394,14 @@ class LrOperators {
             (s_.kind(ring_previous(p), side) & word::kSpecial) != 0) {
             return across_ring(ring_next(v), 1 - side);  // all three edges are ring edges
         }
-        if ((kind & word::kIrregular) != 0) return {s_.star_opposite(v, side, 0)};
+        if ((kind & word::kIrregular) != 0) return CornerId{s_.star_opposite(v, side, 0)};
         return infer_start(v, side);
     }
 
     CornerId facing_end(std::uint32_t v, std::uint32_t side, std::uint32_t kind) const {
         const std::uint32_t p = ring_previous(v);
         if (precedes_t2(s_.kind(p, side))) return across_ring(p, 1 - side);
-        if ((kind & word::kIrregular) != 0) return {s_.star_opposite(v, side, 1)};
+        if ((kind & word::kIrregular) != 0) return CornerId{s_.star_opposite(v, side, 1)};
         return infer_end(v, side);
     }
 
@@ -326,24 +410,24 @@ class LrOperators {
     CornerId infer_start(std::uint32_t v, std::uint32_t side) const {
         const std::uint32_t n = end(v, side), u = s_.tip(v, side);
         if (slot_tip(n, side) == u) return canonical(at(n, side, kEnd));
-        if (u >= ring_) return null_corner;
+        if (u >= ring_) return kNullCorner;
         const std::uint32_t p = before(u, side);
-        return slot_tip(p, side) == n ? canonical(at(p, side, kStart)) : null_corner;
+        return slot_tip(p, side) == n ? canonical(at(p, side, kStart)) : kNullCorner;
     }
 
     /// Across (start, tip) of a regular triangle: the slot that ends at its start, or the one that starts at its tip.
     CornerId infer_end(std::uint32_t v, std::uint32_t side) const {
         const std::uint32_t u = s_.tip(v, side), q = before(v, side);
         if (slot_tip(q, side) == u) return canonical(at(q, side, kStart));
-        if (u >= ring_) return null_corner;
-        return slot_tip(u, side) == v ? canonical(at(u, side, kEnd)) : null_corner;
+        if (u >= ring_) return kNullCorner;
+        return slot_tip(u, side) == v ? canonical(at(u, side, kEnd)) : kNullCorner;
     }
 
   private:
     /// The third vertex of the slot's triangle, whichever copy it is; null where there is none.
     std::uint32_t slot_tip(std::uint32_t v, std::uint32_t side) const {
         const std::uint32_t kind = s_.kind(v, side);
-        if (kind == word::kBorder) return null_vertex.value;
+        if (kind == word::kBorder) return kNullVertex.value;
         if (kind == word::kClosing) return ring_next(s_.first(v));
         return s_.tip(v, side);
     }
@@ -352,4 +436,4 @@ class LrOperators {
     std::uint32_t ring_;
 };
 
-}  // namespace lr
+}  // namespace lacedring

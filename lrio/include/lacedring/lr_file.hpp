@@ -9,18 +9,16 @@
 #include <string>
 #include <vector>
 
-#include "lrcore/base/result.h"
-#include "lrio/mesh/mesh.h"
+#include "lacedring/base.hpp"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/mesh.hpp"
 
-namespace lr {
-
-/// What a file's connectivity is. The values are the section kinds.
-enum class Connectivity : std::uint32_t { lean = 1, lr = 5, lr_compact = 6, packed = 7 };
+namespace lacedring {
 
 struct LrFile {
     std::uint32_t vertex_count = 0;  ///< of the connectivity: with LR tables, copies of non-manifold vertices included
     std::uint32_t input_triangles = 0;  ///< of the mesh it was made from, degenerate ones included
-    Connectivity format = Connectivity::lean;
+    Format format = Format::lean;
     std::vector<std::uint32_t> words;         ///< the connectivity stream, its header included
     std::vector<Attribute> attributes;        ///< in ring order, one value for each of vertex_count
     std::vector<std::uint32_t> vertex_order;  ///< vertex_order[new] = old; empty unless kept
@@ -29,12 +27,9 @@ struct LrFile {
     std::vector<std::uint32_t> corner_order;
 };
 
-/// An encoded mesh. vertex_order is a permutation, but for the old numbers that copies repeat; triangle_order is in the
-/// order in which the words decode, UINT32_MAX for degenerate slots. The way back to the input's order is kept only
-/// with `keep_order`: 4 bytes a vertex and 4 a triangle. Cost: O(T), or O(T) more with `keep_order`.
-LrFile make_lr_file(const Mesh& mesh, Connectivity format, std::vector<std::uint32_t> words,
-                    std::vector<std::uint32_t> vertex_order, std::vector<std::uint32_t> triangle_order,
-                    bool keep_order);
+/// The file of a mesh and of what encode() made of it; `encoded` is taken over. The way back to the input's order is
+/// kept only with `keep_order`: 4 bytes a vertex and 4 a triangle. Cost: O(T).
+LrFile make_lr_file(const Mesh& mesh, Encoded encoded, bool keep_order);
 
 /// The file's bytes. Cost: O(file).
 std::vector<std::byte> serialize_lr(const LrFile& file);
@@ -71,7 +66,7 @@ Result<LrContents> list_lr(std::span<const std::byte> bytes);
 /// for view_lean, view_packed, view_lr or view_compact_lr. Checks the structure of the file, not the words: validate
 /// them, or trust them. Errors: malformed. Untrusted input: safe. Cost: O(1) in the size of the mesh.
 struct ConnectivityWords {
-    Connectivity format;
+    Format format;
     std::span<const std::uint32_t> words;
 };
 Result<ConnectivityWords> connectivity_in(std::span<const std::byte> bytes);
@@ -84,4 +79,4 @@ Mesh decode_lr(const LrFile& file);
 /// Degenerate triangles are missing. Errors: invalid_argument if the order was not kept.
 Result<Mesh> decode_lr_original_order(const LrFile& file);
 
-}  // namespace lr
+}  // namespace lacedring

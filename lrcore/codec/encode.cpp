@@ -1,0 +1,139 @@
+// From an index list to a stream: the steps in their order, with the settings that suit the format.
+
+#include "lacedring/lacedring.hpp"
+#include "lrcore/base/message.h"
+#include "lrcore/base/signature.h"
+
+namespace lacedring {
+namespace {
+
+constexpr std::uint32_t kPasses[] = {0, 3, 6, 10, 14, 18, 24, 48, 96, 192};
+
+Error invalid(std::string message) {
+    return {ErrorCode::invalid_argument, std::move(message)};
+}
+
+RingOptions ring_options(const EncodeOptions& options, std::size_t triangles) {
+    RingOptions out;
+    out.random_seed = options.random_seed;
+    out.k = options.periods.empty() ? 0 : options.periods[0];
+    if (options.seeds) {
+        out.seeds = *options.seeds;
+    } else if (options.effort > 0 && options.format != Format::lr_compact) {  // which tries each period with them
+        out.seeds = recommended_seeds(triangles);
+    }
+    return out;
+}
+
+OptimizeOptions optimize_options(const EncodeOptions& options, const RingCost& cost) {
+    OptimizeOptions out;
+    out.cost = cost;
+    out.passes = options.passes.value_or(kPasses[options.effort]);
+    out.random_seed = options.random_seed;
+    out.progress = options.progress;
+    return out;
+}
+
+std::vector<std::uint32_t> periods(const EncodeOptions& options, std::size_t triangles) {
+    if (!options.periods.empty()) return options.periods;
+    if (options.effort < 3) return {64};
+    return recommended_periods(options.effort > 6 ? 0 : triangles);
+}
+
+Result<Encoded> lean(const CornerTable& table, const RingOptions& ring, const EncodeOptions& options) {
+    const OptimizeOptions optimize = optimize_options(options, kLeanRingCost);
+    const Rings rings = optimize_rings(table, expand_rings(table, ring), optimize);
+    Result<EncodedLean> stream = encode_lean(table, rings, {.wart_skipping = options.wart_skipping});
+    if (!stream) return stream.error();
+    Encoded out = as_encoded(std::move(*stream));
+    out.report.k = ring.k;
+    out.report.passes = optimize.passes;
+    return out;
+}
+
+Result<Encoded> packed(const CornerTable& table, const RingOptions& ring, const EncodeOptions& options) {
+    Result<PackedChoice> choice =
+        encode_smallest_packed(table, ring, optimize_options(options, kPackedRingCost), options.profile);
+    if (!choice) return choice.error();
+    Encoded out = as_encoded(std::move(choice->stream));
+    out.report.k = ring.k;
+    out.report.passes = choice->passes;
+    return out;
+}
+
+Result<Encoded> tables(CornerTable table, const RingOptions& ring, const EncodeOptions& options) {
+    const OptimizeOptions optimize = optimize_options(options, kLrRingCost);
+    const std::vector<std::uint32_t> tried = periods(options, table.triangle_count());
+    Result<EncodedLr> lr = options.format == Format::lr
+                               ? encode_lr(std::move(table), ring, optimize, options.wart_skipping)
+                               : encode_compact_lr(std::move(table), ring, tried);
+    if (!lr) return lr.error();
+    Encoded out = as_encoded(std::move(*lr));
+    if (options.format == Format::lr) out.report.passes = optimize.passes;
+    return out;
+}
+
+/// `table` is a CornerTable, const& or &&: LR tables take it over or copy it, to split its fans.
+template <class Table>
+Result<Encoded> encode_table(Table&& table, const EncodeOptions& options) {
+    if (options.effort >= std::size(kPasses)) {
+        return invalid(detail::message("effort ", options.effort, " is above ", std::size(kPasses) - 1));
+    }
+    if (options.format != Format::lr_compact && options.periods.size() > 1) {
+        return invalid("several periods, which only lr_compact tries");
+    }
+    const Topology topology = table.topology;
+    const RingOptions ring = ring_options(options, table.triangle_count());
+    Result<Encoded> out = options.format == Format::lean     ? lean(table, ring, options)
+                          : options.format == Format::packed ? packed(table, ring, options)
+                                                             : tables(std::forward<Table>(table), ring, options);
+    if (!out) return out;
+    out->report.topology = topology;
+    return out;
+}
+
+/// What a step made, as encode() returns it; `order` names its triangles as they decode.
+template <class Stream>
+Encoded take(Stream& stream, Format format, std::vector<std::uint32_t>& order) {
+    Encoded out;
+    out.format = format;
+    out.words = std::move(stream.words);
+    out.vertex_order = std::move(stream.vertex_order);
+    out.triangle_order = std::move(order);
+    out.report.triangles = static_cast<std::uint32_t>(out.triangle_order.size());
+    out.report.statistics = stream.statistics;
+    return out;
+}
+
+}  // namespace
+
+Encoded as_encoded(EncodedLean stream) {
+    std::erase(stream.slot_triangle, UINT32_MAX);
+    return take(stream, Format::lean, stream.slot_triangle);
+}
+Encoded as_encoded(EncodedPacked stream) {
+    return take(stream, Format::packed, stream.triangle_order);
+}
+Encoded as_encoded(EncodedLr stream) {
+    const Format format = stream.words[0] == magic::kLr ? Format::lr : Format::lr_compact;
+    Encoded out = take(stream, format, stream.triangle_order);
+    out.report.copies = stream.copies;
+    out.report.k = stream.k;
+    return out;
+}
+
+Result<Encoded> encode(const CornerTable& table, const EncodeOptions& options) {
+    return encode_table(table, options);
+}
+Result<Encoded> encode(CornerTable&& table, const EncodeOptions& options) {
+    return encode_table(std::move(table), options);
+}
+
+Result<Encoded> encode(std::span<const std::uint32_t> indices, std::uint32_t vertex_count,
+                       const EncodeOptions& options) {
+    Result<CornerTable> table = build_corner_table(indices, vertex_count);
+    if (!table) return table.error();
+    return encode(std::move(*table), options);
+}
+
+}  // namespace lacedring
