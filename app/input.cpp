@@ -47,7 +47,9 @@ Result<LoadedMesh> read(const MeshInput& input, RunLog& log) {
         if (!contents) return contents.error();
         const Result<LrFile> file = parse_lr(*bytes);
         if (!file) return file.error();
-        LoadedMesh out{decode_lr(*file), std::move(*contents)};
+        Result<Mesh> mesh = decode_lr(*file);
+        if (!mesh) return mesh.error();
+        LoadedMesh out{std::move(*mesh), std::move(*contents)};
         if (const Result<void> room = check_memory(out.mesh, options); !room) return room.error();
         return out;
     }

@@ -1,6 +1,7 @@
 #include "lacedring/file.hpp"
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #ifdef __linux__
@@ -123,6 +124,21 @@ Result<std::vector<std::byte>> read_file_start(const fs::path& path, std::uint64
     const Result<OpenFile> file = open_regular(path);
     if (!file) return file.error();
     return read_up_to(file->descriptor.number(), count, std::min(file->size, count));
+}
+
+Result<MappedFile> MappedFile::open(const fs::path& path) {
+    const Result<OpenFile> file = open_regular(path);
+    if (!file) return file.error();
+    if (file->size == 0) return MappedFile({});
+    if (file->size > SIZE_MAX) return too_large(SIZE_MAX);
+    const auto size = static_cast<std::size_t>(file->size);
+    void* at = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file->descriptor.number(), 0);
+    if (at == MAP_FAILED) return cannot_open(std::strerror(errno));
+    return MappedFile({static_cast<const std::byte*>(at), size});
+}
+
+MappedFile::~MappedFile() {
+    if (!bytes_.empty()) ::munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
 }
 
 Result<std::vector<std::byte>> read_descriptor(int descriptor, std::uint64_t most) {

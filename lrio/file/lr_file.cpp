@@ -148,6 +148,30 @@ Result<FileHeader> visit_sections(std::span<const std::byte> bytes, Visit visit)
     return header;
 }
 
+/// Fills `out`; empty if the section is an attribute of so many vertices, else what is wrong.
+std::string view_attribute(const Section& section, std::span<const std::byte> contents, std::uint32_t vertices,
+                           AttributeView& out) {
+    const std::uint32_t type = section.layout & 0xff;
+    out.components = static_cast<std::uint8_t>(section.layout >> 8 & 0xff);
+    out.normalized = (section.layout >> 16 & 1) != 0;
+    out.v_up = (section.layout >> 17 & 1) != 0;
+    if (type > static_cast<std::uint32_t>(ComponentType::f64) || out.components == 0 || section.layout >> 18 != 0) {
+        return "unknown attribute layout";
+    }
+    out.type = static_cast<ComponentType>(type);
+    const std::uint64_t name = align8(section.name_length);
+    if (name > contents.size() ||
+        contents.size() - name != std::uint64_t{vertices} * size_of(out.type) * out.components) {
+        return "attribute of the wrong size";
+    }
+    for (std::size_t i = section.name_length; i < name; ++i) {
+        if (contents[i] != std::byte{0}) return "attribute name not padded with zeros";
+    }
+    out.name = {reinterpret_cast<const char*>(contents.data()), section.name_length};
+    out.data = contents.subspan(name);
+    return {};
+}
+
 class Reader {
   public:
     Result<LrFile> read(std::span<const std::byte> bytes) {
@@ -193,27 +217,14 @@ class Reader {
     }
 
     std::string read_attribute(const Section& section, std::span<const std::byte> contents) {
-        Attribute attribute;
-        const std::uint32_t type = section.layout & 0xff;
-        attribute.components = static_cast<std::uint8_t>(section.layout >> 8 & 0xff);
-        attribute.normalized = (section.layout >> 16 & 1) != 0;
-        attribute.v_up = (section.layout >> 17 & 1) != 0;
-        if (type > static_cast<std::uint32_t>(ComponentType::f64) || attribute.components == 0 ||
-            section.layout >> 18 != 0) {
-            return "unknown attribute layout";
-        }
-        attribute.type = static_cast<ComponentType>(type);
-        const std::uint64_t name = align8(section.name_length);
-        if (name > contents.size() ||
-            contents.size() - name != std::uint64_t{file_.vertex_count} * attribute.stride()) {
-            return "attribute of the wrong size";
-        }
-        for (std::size_t i = section.name_length; i < name; ++i) {
-            if (contents[i] != std::byte{0}) return "attribute name not padded with zeros";
-        }
-        attribute.name.assign(reinterpret_cast<const char*>(contents.data()), section.name_length);
-        attribute.data.assign(contents.begin() + static_cast<std::ptrdiff_t>(name), contents.end());
-        file_.attributes.push_back(std::move(attribute));
+        AttributeView view;
+        if (std::string why = view_attribute(section, contents, file_.vertex_count, view); !why.empty()) return why;
+        file_.attributes.push_back({std::string(view.name),
+                                    view.type,
+                                    view.components,
+                                    view.normalized,
+                                    {view.data.begin(), view.data.end()},
+                                    view.v_up});
         return {};
     }
 
@@ -416,36 +427,54 @@ Result<LrContents> list_lr(std::span<const std::byte> bytes) {
     return out;
 }
 
-Result<ConnectivityWords> connectivity_in(std::span<const std::byte> bytes) {
-    ConnectivityWords out{Format::lean, {}};
-    bool found = false;
+Positions LrFileView::positions() const {
+    const auto position = std::ranges::find(attributes, "POSITION", &AttributeView::name);
+    if (position == attributes.end() || position->components != 3) return {};
+    if (position->type != ComponentType::f32 && position->type != ComponentType::f64) return {};
+    return {position->data, position->type == ComponentType::f64};
+}
+
+Result<LrFileView> view_lr_file(std::span<const std::byte> bytes) {
+    LrFileView out;
+    const auto view_words = [](std::span<const std::byte> contents, std::span<const std::uint32_t>& words) {
+        if (words.data() != nullptr) return "occurs twice";
+        if (contents.size() % 4 != 0) return "no whole number of words";
+        words = {reinterpret_cast<const std::uint32_t*>(contents.data()), contents.size() / 4};
+        return "";
+    };
     const Result<FileHeader> header = visit_sections(
-        bytes, [&](const FileHeader&, const Section& section, std::span<const std::byte> contents) -> std::string {
+        bytes, [&](const FileHeader& h, const Section& section, std::span<const std::byte> contents) -> std::string {
             switch (section.kind) {
                 case kLean:
                 case kLr:
                 case kLrCompact:
                 case kPacked:
-                    break;
+                    out.format = format_of(section.kind);
+                    return view_words(contents, out.words);
+                case kVertexOrder:
+                    return view_words(contents, out.vertex_order);
+                case kCornerOrder:
+                    return view_words(contents, out.corner_order);
+                case kAttribute:
+                    return view_attribute(section, contents, h.vertices, out.attributes.emplace_back());
                 default:
-                    return {};
+                    return fmt::format("unknown kind {}", section.kind);
             }
-            if (found) return "occurs twice";
-            if (contents.size() % 4 != 0) return "no whole number of words";
-            found = true;
-            out.format = format_of(section.kind);
-            out.words = {reinterpret_cast<const std::uint32_t*>(contents.data()), contents.size() / 4};
-            return {};
         });
     if (!header) return header.error();
-    if (!found) return malformed("no connectivity");
+    if (reinterpret_cast<std::uintptr_t>(bytes.data()) % 8 != 0) {
+        return Error{ErrorCode::invalid_argument, "the file does not begin at a multiple of eight bytes"};
+    }
+    if (out.words.data() == nullptr) return malformed("no connectivity");
+    out.vertex_count = header->vertices;
+    out.input_triangles = header->input_triangles;
     return out;
 }
 
-Mesh decode_lr(const LrFile& file) {
-    Mesh mesh;
+Result<Mesh> decode_lr(const LrFile& file) {
     Result<Decoded> decoded = decode(file, false);
-    if (!decoded) return mesh;
+    if (!decoded) return decoded.error();
+    Mesh mesh;
     mesh.indices = std::move(decoded->indices);
     if (decoded->copy.empty()) {
         mesh.vertex_count = file.vertex_count;
@@ -465,8 +494,9 @@ Mesh decode_lr(const LrFile& file) {
 }
 
 Result<Mesh> decode_lr_original_order(const LrFile& file) {
-    Mesh stream = decode_lr(file);
-    if (file.vertex_order.size() != file.vertex_count || file.corner_order.size() != stream.triangle_count()) {
+    const Result<Mesh> stream = decode_lr(file);
+    if (!stream) return stream;
+    if (file.vertex_order.size() != file.vertex_count || file.corner_order.size() != stream->triangle_count()) {
         return Error{ErrorCode::invalid_argument,
                      "the file does not keep the input's order (encode --keep-order does)"};
     }
@@ -478,18 +508,18 @@ Result<Mesh> decode_lr_original_order(const LrFile& file) {
     std::vector<std::uint32_t> number(vertex_order.size());
     for (std::uint32_t i = 0; i < number.size(); ++i) number[vertex_order[i]] = i;
     Mesh mesh;
-    mesh.vertex_count = stream.vertex_count;
-    mesh.attributes = permute_attributes(stream.attributes, number);
+    mesh.vertex_count = stream->vertex_count;
+    mesh.attributes = permute_attributes(stream->attributes, number);
     std::vector<std::uint32_t> by_input(file.corner_order.size());
     std::iota(by_input.begin(), by_input.end(), 0U);
     std::sort(by_input.begin(), by_input.end(),
               [&](std::uint32_t a, std::uint32_t b) { return file.corner_order[a] < file.corner_order[b]; });
-    mesh.indices.resize(stream.indices.size());
+    mesh.indices.resize(stream->indices.size());
     std::uint32_t* out = mesh.indices.data();
     for (const std::uint32_t i : by_input) {
         const std::uint32_t first = file.corner_order[i] % 3;
         for (std::uint32_t k = 0; k < 3; ++k) {
-            out[(first + k) % 3] = vertex_order[stream.indices[std::size_t{3} * i + k]];
+            out[(first + k) % 3] = vertex_order[stream->indices[std::size_t{3} * i + k]];
         }
         out += 3;
     }

@@ -162,7 +162,7 @@ void check_stream(const Mesh& mesh, Encoded encoded, bool keep_order) {
     const Result<LrFile> file = parse_lr(bytes);
     REQUIRE(file);
     REQUIRE(serialize_lr(*file) == bytes);
-    const Mesh decoded = decode_lr(*file);
+    const Mesh decoded = decode_lr(*file).value();
     REQUIRE(decoded.vertex_count == mesh.vertex_count);
     VertexValues values;
     REQUIRE(values.triangles(mesh) == values.triangles(decoded));

@@ -33,7 +33,7 @@ Format format_of(std::uint32_t kind) {
 
 bool run(std::span<const std::byte> bytes) {
     // The view that a memory-mapped file is used by needs an aligned address: operator new's is.
-    const Result<ConnectivityWords> in_place = connectivity_in(bytes);
+    const Result<LrFileView> in_place = view_lr_file(bytes);
     const Result<LrFile> file = parse_lr(bytes);
     if (!in_place) check_message(in_place.error());
     if (!file) {
@@ -44,7 +44,7 @@ bool run(std::span<const std::byte> bytes) {
     const std::optional<Words> indices = use_stream(file->format, file->words);
     REQUIRE(indices);
     REQUIRE(indices->size() / 3 <= file->input_triangles);
-    const Mesh mesh = decode_lr(*file);
+    const Mesh mesh = decode_lr(*file).value();
     REQUIRE(mesh.indices.size() == indices->size());
     if (!mesh.indices.empty()) check_mesh(mesh);
     const bool ordered = !file->vertex_order.empty() && !file->corner_order.empty();

@@ -89,7 +89,7 @@ TEST_CASE("files in the place of words, and words or meshes in the place of .lr 
     CHECK(parsed(bytes_of("hello\n")) == "not an .lr file");
     CHECK(parsed({}) == "not an .lr file");
     CHECK(parsed(bytes_of("LRFL")) == "lr file: shorter than its header");
-    CHECK(connectivity_in(bytes_of("v 0 0 0\n")).error().message == "not an .lr file: it looks like an OBJ file");
+    CHECK(view_lr_file(bytes_of("v 0 0 0\n")).error().message == "not an .lr file: it looks like an OBJ file");
 }
 
 TEST_CASE("kinds of files by how they begin") {

@@ -89,6 +89,20 @@ TEST_CASE("links are followed, and a loop of links is an error") {
     CHECK_FALSE(read_file(one));
 }
 
+TEST_CASE("a mapped file has the bytes of the file") {
+    const Folder folder;
+    for (const std::size_t size : {std::size_t{0}, std::size_t{1}, std::size_t{10000}}) {
+        REQUIRE(write(folder.path / "file", size, 'm'));
+        Result<MappedFile> mapped = MappedFile::open(folder.path / "file");
+        REQUIRE(mapped);
+        const MappedFile moved = std::move(*mapped);
+        CHECK(std::ranges::equal(moved.bytes(), read_file(folder.path / "file").value()));
+        CHECK(moved.bytes().size() == size);
+    }
+    CHECK(MappedFile::open(folder.path).error().message == "is a folder");
+    CHECK_FALSE(MappedFile::open(folder.path / "none"));
+}
+
 TEST_CASE("only regular files are read") {
     const Folder folder;
     const std::filesystem::path pipe = folder.path / "pipe";

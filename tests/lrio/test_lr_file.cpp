@@ -69,7 +69,7 @@ TEST_CASE("lr files give back the mesh") {
             for (std::size_t a = 0; a < mesh.attributes.size(); ++a) {
                 CHECK(original->attributes[a].data == mesh.attributes[a].data);
             }
-            CHECK(decode_lr(*file).vertex_count == mesh.vertex_count);
+            CHECK(decode_lr(*file)->vertex_count == mesh.vertex_count);
         }
     }
 }
@@ -92,6 +92,38 @@ TEST_CASE("attributes of every type travel bit for bit") {
     CHECK_FALSE(decode_lr_original_order(make(mesh, false)));
 }
 
+TEST_CASE("a view of a file in memory has what the parsed file has, in place") {
+    for (const Format format : kFormats) {
+        const LrFile file = make(with_attributes(), true, format);
+        const std::vector<std::byte> bytes = serialize_lr(file);
+        const Result<LrFileView> view = view_lr_file(bytes);
+        REQUIRE(view);
+        CHECK(view->format == format);
+        CHECK(view->vertex_count == file.vertex_count);
+        CHECK(view->input_triangles == file.input_triangles);
+        CHECK(std::ranges::equal(view->words, file.words));
+        CHECK(std::ranges::equal(view->vertex_order, file.vertex_order));
+        CHECK(std::ranges::equal(view->corner_order, file.corner_order));
+        REQUIRE(view->attributes.size() == file.attributes.size());
+        for (std::size_t i = 0; i < file.attributes.size(); ++i) {
+            const AttributeView& a = view->attributes[i];
+            const Attribute& b = file.attributes[i];
+            CHECK(a.name == b.name);
+            CHECK(a.type == b.type);
+            CHECK(a.components == b.components);
+            CHECK(a.normalized == b.normalized);
+            CHECK(a.v_up == b.v_up);
+            CHECK(std::ranges::equal(a.data, b.data));
+            CHECK(a.data.data() >= bytes.data());
+            CHECK(a.data.data() + a.data.size() <= bytes.data() + bytes.size());
+        }
+        CHECK(view->positions().size() == file.vertex_count);
+        std::vector<std::byte> moved(bytes.size() + 4);  // operator new's address is a multiple of 8
+        std::ranges::copy(bytes, moved.begin() + 4);
+        CHECK(view_lr_file(std::span(moved).subspan(4)).error().code == ErrorCode::invalid_argument);
+    }
+}
+
 TEST_CASE("every truncation and every flipped bit of an lr file is refused") {
     Format format = Format::lean;
     SUBCASE("lean") {}
@@ -103,7 +135,7 @@ TEST_CASE("every truncation and every flipped bit of an lr file is refused") {
     }
     const std::vector<std::byte> good = serialize_lr(make(with_attributes(), true, format));
     REQUIRE(parse_lr(good));
-    const Result<ConnectivityWords> words = connectivity_in(good);
+    const Result<LrFileView> words = view_lr_file(good);
     REQUIRE(words);
     CHECK(words->format == format);
     CHECK(std::ranges::equal(words->words, make(with_attributes(), true, format).words));

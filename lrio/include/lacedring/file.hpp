@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "lacedring/base.hpp"
@@ -18,6 +19,27 @@ Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std:
 
 /// Reads the first `count` bytes of a regular file, fewer where it is shorter. Errors: cannot_open, as read_file.
 Result<std::vector<std::byte>> read_file_start(const std::filesystem::path& path, std::uint64_t count);
+
+/// A regular file mapped into memory for reading, at the start of a page. Whoever truncates the file while it is mapped
+/// makes reads behind its new end fatal (SIGBUS): for files of one's own.
+class MappedFile {
+  public:
+    /// Errors: cannot_open, as read_file.
+    static Result<MappedFile> open(const std::filesystem::path& path);
+
+    MappedFile(MappedFile&& other) noexcept : bytes_(std::exchange(other.bytes_, {})) {}
+    MappedFile& operator=(MappedFile&& other) noexcept {
+        std::swap(bytes_, other.bytes_);
+        return *this;
+    }
+    ~MappedFile();
+
+    std::span<const std::byte> bytes() const { return bytes_; }
+
+  private:
+    explicit MappedFile(std::span<const std::byte> bytes) : bytes_(bytes) {}
+    std::span<const std::byte> bytes_;
+};
 
 /// Reads what is left of an open descriptor, of a pipe too. Errors: cannot_open (a read error), too_large.
 Result<std::vector<std::byte>> read_descriptor(int descriptor, std::uint64_t most = UINT64_MAX);

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lacedring/base.hpp"
@@ -62,18 +63,35 @@ struct LrContents {
 /// Checks the structure of the file, not what is in the sections. Errors: malformed. Untrusted input: safe.
 Result<LrContents> list_lr(std::span<const std::byte> bytes);
 
-/// The connectivity's words where they lie in a file's bytes (memory-mapped, at an address that is a multiple of 8),
-/// for view_lean, view_packed, view_lr or view_compact_lr. Checks the structure of the file, not the words: validate
-/// them, or trust them. Errors: malformed. Untrusted input: safe. Cost: O(1) in the size of the mesh.
-struct ConnectivityWords {
-    Format format;
-    std::span<const std::uint32_t> words;
+/// An attribute where it lies in a file's bytes.
+struct AttributeView {
+    std::string_view name;
+    ComponentType type = ComponentType::f32;
+    std::uint8_t components = 0;
+    bool normalized = false, v_up = false;
+    std::span<const std::byte> data;  ///< as Attribute::data
 };
-Result<ConnectivityWords> connectivity_in(std::span<const std::byte> bytes);
+
+/// What a file holds, where it lies in the file's bytes. Holds no copy.
+struct LrFileView {
+    std::uint32_t vertex_count = 0, input_triangles = 0;  ///< as LrFile's
+    Format format = Format::lean;
+    std::span<const std::uint32_t> words;
+    std::vector<AttributeView> attributes;
+    std::span<const std::uint32_t> vertex_order, corner_order;  ///< empty unless kept
+
+    /// The positions, for reading; none if the file has none.
+    Positions positions() const;
+};
+
+/// A file in memory, for one that is mapped (MappedFile, file.hpp) above all: `bytes` begin at a multiple of 8. Checks
+/// the structure of the file, not what is in the sections: validate(view.words), or trust them. Errors: malformed,
+/// invalid_argument (the address). Untrusted input: safe. Cost: O(1) in the size of the mesh.
+Result<LrFileView> view_lr_file(std::span<const std::byte> bytes);
 
 /// Decodes to a mesh in stream order, copies of non-manifold vertices left out again. `file` is valid (parse_lr checked
-/// it, or make_lr_file made it).
-Mesh decode_lr(const LrFile& file);
+/// it, or make_lr_file made it). Errors: malformed (its words are no stream).
+Result<Mesh> decode_lr(const LrFile& file);
 
 /// Decodes to the input's index list: its order of vertices and of triangles, each beginning with its first corner.
 /// Degenerate triangles are missing. Errors: invalid_argument if the order was not kept.

@@ -1,0 +1,140 @@
+// encode, validate, decode, decode_block and decode_triangle, of every format, against the mesh's own triangles.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+
+#include "lacedring/lacedring.hpp"
+#include "lrlab/generate/generate.h"
+#include "tests/support/meshes.h"
+
+using namespace lacedring;
+
+namespace {
+
+constexpr Format kEveryFormat[] = {Format::lean, Format::packed, Format::lr, Format::lr_compact};
+
+Triangle turned(Triangle t) {
+    std::rotate(t.v, std::min_element(t.v, t.v + 3), t.v + 3);
+    return t;
+}
+
+/// Every way to decode gives the triangles that the order says, with the mesh's orientation.
+void check(const Mesh& mesh, const Encoded& encoded) {
+    const Result<StreamView> view = validate(encoded.bytes());
+    REQUIRE_MESSAGE(view, view.error().message);
+    CHECK(view->format() == encoded.format);
+    CHECK(view->triangles() == encoded.report.triangles);
+    CHECK(view->triangles() == mesh.triangle_count() - encoded.report.topology.degenerate);
+    CHECK(view->vertices() == mesh.vertex_count + encoded.report.copies);
+    CHECK(encoded.vertex_order.size() == view->vertices());
+    const Result<StreamView> trusted = view_stream(encoded.words);
+    REQUIRE(trusted);
+    CHECK(trusted->triangles() == view->triangles());
+
+    const std::vector<std::uint32_t> indices = decode(*view);
+    REQUIRE(encoded.triangle_order.size() == view->triangles());
+    bool right = true;
+    for (std::size_t i = 0; i < view->triangles(); ++i) {
+        Triangle got{}, wanted{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            got.v[k] = encoded.vertex_order[indices[3 * i + k]];
+            wanted.v[k] = mesh.indices[std::size_t{3} * encoded.triangle_order[i] + k];
+        }
+        right &= turned(got) == turned(wanted);
+    }
+    CHECK(right);
+    std::vector<std::uint32_t> sorted = encoded.triangle_order;
+    std::ranges::sort(sorted);
+    CHECK(std::ranges::adjacent_find(sorted) == sorted.end());
+
+    std::vector<std::uint32_t> threaded(indices.size()), blocks, slots;
+    CHECK(decode(*view, threaded, 3));
+    CHECK(threaded == indices);
+    std::array<std::uint32_t, std::size_t{3} * StreamView::kBlock> block{};
+    for (std::uint32_t b = 0; b < view->blocks(); ++b) {
+        const Result<std::uint32_t> triangles = decode_block(*view, b, block);
+        REQUIRE(triangles);
+        blocks.insert(blocks.end(), block.begin(), block.begin() + std::ptrdiff_t{3} * *triangles);
+    }
+    CHECK(blocks == indices);
+    for (std::uint32_t slot = 0; slot < view->slots(); ++slot) {
+        if (const std::optional<Triangle> t = decode_triangle(*view, slot)) slots.insert(slots.end(), t->v, t->v + 3);
+    }
+    CHECK(slots == indices);
+    CHECK_FALSE(decode_triangle(*view, view->slots()));
+    CHECK(decode_block(*view, view->blocks(), block).error().code == ErrorCode::invalid_argument);
+    if (view->blocks() > 0) CHECK_FALSE(decode_block(*view, 0, std::span(block).first(2)));
+
+    std::vector<std::uint16_t> narrow(indices.size());
+    if (view->vertices() <= 65536) {
+        CHECK(decode(*view, narrow));
+        CHECK(std::ranges::equal(narrow, indices));
+    } else {
+        CHECK(decode(*view, narrow).error().code == ErrorCode::invalid_argument);
+    }
+    threaded.push_back(0);
+    CHECK(decode(*view, threaded).error().code == ErrorCode::invalid_argument);
+}
+
+}  // namespace
+
+TEST_CASE("every format gives back every mesh, whole, by blocks and by triangles") {
+    for (const test::NamedMesh& named : test::named_meshes()) {
+        CAPTURE(named.name);
+        for (const Format format : kEveryFormat) {
+            CAPTURE(name_of(format));
+            const Result<Encoded> encoded =
+                encode(named.mesh.indices, named.mesh.vertex_count, {.format = format, .effort = 2});
+            REQUIRE_MESSAGE(encoded, encoded.error().message);
+            check(named.mesh, *encoded);
+        }
+    }
+}
+
+TEST_CASE("16-bit indices end where vertices do not fit") {
+    const Mesh mesh = test::random_soup(65537, 3000, 7);
+    for (const Format format : kEveryFormat) {
+        check(mesh, encode(mesh.indices, mesh.vertex_count, {.format = format, .effort = 0}).value());
+    }
+}
+
+TEST_CASE("more effort does not make streams larger, and its parts can be said one by one") {
+    const Mesh mesh = generate("blob", 20000, 7).value();
+    for (const Format format : kEveryFormat) {
+        CAPTURE(name_of(format));
+        std::size_t before = SIZE_MAX;
+        for (const std::uint32_t effort : {0U, 6U, 9U}) {
+            const Encoded encoded =
+                encode(mesh.indices, mesh.vertex_count, {.format = format, .effort = effort}).value();
+            CHECK(encoded.words.size() <= before);
+            before = encoded.words.size();
+        }
+        EncodeOptions six{.format = format, .seeds = recommended_seeds(mesh.triangle_count()), .passes = 24};
+        if (format == Format::lr_compact) {
+            six.seeds = 1;
+            six.periods = recommended_periods(mesh.triangle_count());
+        }
+        six.effort = 1;
+        CHECK(encode(mesh.indices, mesh.vertex_count, six)->words ==
+              encode(mesh.indices, mesh.vertex_count, {.format = format})->words);
+    }
+}
+
+TEST_CASE("what encode refuses, and what is no stream") {
+    const std::vector<std::uint32_t> indices{0, 1, 2, 0, 2, 3, 1};
+    const auto code = [&](std::size_t count, std::uint32_t vertices, const EncodeOptions& options) {
+        return encode(std::span(indices).first(count), vertices, options).error().code;
+    };
+    CHECK(code(7, 4, {}) == ErrorCode::invalid_argument);
+    CHECK(code(6, 3, {}) == ErrorCode::malformed);
+    CHECK(code(6, 4, {.effort = 10}) == ErrorCode::invalid_argument);
+    CHECK(code(6, 4, {.periods = {1, 2}}) == ErrorCode::invalid_argument);
+    CHECK(validate(std::span<const std::uint32_t>{}).error().code == ErrorCode::malformed);
+    const Encoded encoded = encode(std::span(indices).first(6), 4).value();
+    std::vector<std::byte> bytes(encoded.bytes().begin(), encoded.bytes().end());
+    bytes.insert(bytes.begin(), std::byte{0});
+    CHECK(validate(std::span(bytes).subspan(1)).error().code == ErrorCode::invalid_argument);
+    CHECK(validate(encoded.bytes().first(encoded.bytes().size() - 1)).error().code == ErrorCode::malformed);
+}
