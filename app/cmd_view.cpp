@@ -25,7 +25,9 @@ int run(const std::vector<std::string>& arguments) {
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
     execv(viewer.c_str(), argv.data());
-    say("lacedring: {}: cannot be run: {}\n", viewer, std::strerror(errno));
+    const bool missing = errno == ENOENT;
+    say("lacedring: {}: {}{}\n", viewer, std::strerror(errno),
+        missing ? "; cmake --build BUILD --target lacedring-view makes it" : "");
     return no_device;
 }
 

@@ -34,7 +34,7 @@ float normal_z(const Ops& ops, const std::vector<float>& positions, VertexId v) 
         z += x - y;
         size += std::abs(x) + std::abs(y);
     };
-    ops.neighbours(v, [&](VertexId u) {
+    ops.neighbors(v, [&](VertexId u) {
         const float* q = positions.data() + 3 * std::size_t{u.value};
         const float d[2] = {q[0] - p[0], q[1] - p[1]};
         if (any) {

@@ -45,7 +45,7 @@ class VertexNormals {
     static Result<VertexNormals> create(Context& context);
 
     /// Unit normals, 3 floats a vertex in the tables' order, visible to whatever is submitted next: the area-weighted
-    /// sums of vertex_normals (lrcore/topology/geometry.h), (0,0,1) where there is none. Two floats a number:
+    /// sums of vertex_normals (topology.hpp), (0,0,1) where there is none. Two floats a number:
     /// an error of about 2^-44 times the sum of the lengths of all products by the length of the result.
     /// Waits for the device. Cost: O(T).
     Result<Buffer> compute(Commands& commands, const Adjacency& adjacency) const;

@@ -20,7 +20,7 @@ namespace lacedring::gpu {
 #define LR_PAINT_RING 4u  // with LR_PAINT_GROWTH: the ring's line
 #define LR_PAINT_FLAT 8u  // the surface has colours of its own: only its lines stay, else the light on it does
 
-// RING-EXPANDER's way over one triangle of the mesh (lrcore/ring/expansion.h).
+// RING-EXPANDER's way over one triangle of the mesh (ring.hpp).
 struct GrowthTriangle {
     uint step;  // it is settled on which side it lies once more triangles than this are invaded
 #ifdef __cplusplus

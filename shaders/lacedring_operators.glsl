@@ -23,7 +23,7 @@
 // A stream must be valid (lacedring::validate_lr); on any other, every loop still ends, but words past its end may be asked for.
 // Null goes into no operator. A stream has fewer than 2^32 words.
 //
-// The constants are those of lrcore/codec/tables/lr_format.h, which says what they mean, and of docs/lr-tables.md. A C++ file may
+// The constants are those of streams.hpp, which says what they mean, and of docs/lr-tables.md. A C++ file may
 // include this one for them.
 #ifndef LACEDRING_OPERATORS_GLSL
 #define LACEDRING_OPERATORS_GLSL
@@ -77,7 +77,7 @@ LrOpLayout lr_op_layout() {
 
 uint lr_triangle_numbers(LrOpLayout lr) { return 2u * lr.ring + lr.t0; }
 
-// Words of slots. side: 0 left, 1 right. What is done to them is lrcore/codec/tables/operators.h's and LrView's.
+// Words of slots. side: 0 left, 1 right. What is done to them is operators.hpp's and LrView's.
 uint lr_slot_word(uint v, uint side) { return LR_TABLE_WORD(LR_TABLE_HEADER_WORDS + 2u * v + side); }
 bool lr_word_closes(uint w) { return (w & LR_TABLE_KIND) == LR_TABLE_CLOSING; }
 bool lr_word_skips(uint w) { return (w & (LR_TABLE_SPECIAL | LR_TABLE_WART)) == LR_TABLE_WART; }

@@ -333,7 +333,7 @@ std::uint32_t lacedring_neighbors(const lacedring_tables* tables, std::uint32_t 
                                   std::uint32_t capacity) {
     std::uint32_t count = 0;
     with_operators(tables, [&](const auto& ops) {
-        ops.neighbours(VertexId(v), [&](VertexId u) {
+        ops.neighbors(VertexId(v), [&](VertexId u) {
             if (count < capacity) neighbors[count] = u.value;
             ++count;
         });

@@ -139,7 +139,7 @@ class Expander {
                 ++covered;
             }
         }
-        // A T2 takes one T0 neighbour along (wart skipping).
+        // A T2 takes one T0 neighbor along (wart skipping).
         paired_.clear();
         const RingWalk walk(ring);
         for (std::uint32_t side = 0; side < 2; ++side) {

@@ -8,7 +8,7 @@
 namespace lacedring {
 
 /// Base of a structure `Self` with next(c), previous(c), opposite(c), vertex(c), corner(v): the other operators, with
-/// the names, the meanings and the order of visits of Operators (lrcore/codec/tables/operators.h), so that one
+/// the names, the meanings and the order of visits of Operators (operators.hpp), so that one
 /// template runs on all. Where corner(v) may be another than the first in swing order at a border, `Self` has its own
 /// star_begin.
 template <class Self>
@@ -79,7 +79,7 @@ class CornerWalks {
     /// Calls visit(vertex) for every neighbour of v once, in swing order: on a border from one border neighbour to the
     /// other. O(valence), times the cost of c.v.
     template <class Visit>
-    void neighbours(VertexId v, Visit visit) const {
+    void neighbors(VertexId v, Visit visit) const {
         const CornerId first = store().star_begin(v);
         if (first.is_null()) return;
         for (CornerId c = first;;) {

@@ -126,7 +126,7 @@ struct SquadView : CornerWalks<SquadView> {
     /// Calls visit(vertex) for every neighbour of v once, in swing order: on a border from one border neighbour to the
     /// other. O(valence), times the cost of c.v.
     template <class Visit>
-    void neighbours(VertexId v, Visit visit) const {
+    void neighbors(VertexId v, Visit visit) const {
         cycle(star_begin(v), [&](std::uint32_t c, std::uint32_t second, bool wraps) {
             visit(vertex(next(CornerId{c})));
             if (second != c) visit(vertex(next(CornerId{second})));

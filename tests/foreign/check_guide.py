@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Compiles the code of docs/engine-guide.md: ```glsl STAGE blocks with glslangValidator, ```cpp blocks with a C++ compiler.
 
-    check_guide.py GUIDE GLSLANG_VALIDATOR GLSL_FOLDER COMPILER INCLUDE_FOLDER
+    check_guide.py GUIDE GLSLANG_VALIDATOR GLSL_FOLDER COMPILER INCLUDE_FOLDER...
 """
 import pathlib
 import re
@@ -13,7 +13,7 @@ STAGES = {"vert", "geom", "comp", "mesh", "frag", "rchit"}
 
 
 def main():
-    guide, validator, glsl_folder, compiler, include_folder = sys.argv[1:]
+    guide, validator, glsl_folder, compiler, *include_folders = sys.argv[1:]
     text = pathlib.Path(guide).read_text(encoding="utf-8")
     seen, failed = set(), 0
     with tempfile.TemporaryDirectory() as folder:
@@ -26,7 +26,7 @@ def main():
                 command = [validator, "-V", "--quiet", "--target-env", "vulkan1.3", f"-I{glsl_folder}", "-S", stage,
                            "-o", f"{source}.spv", str(source)]
             elif language == "cpp":
-                command = [compiler, "-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Werror", f"-I{include_folder}",
+                command = [compiler, "-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Werror", *(f"-I{folder}" for folder in include_folders),
                            str(source)]
             else:
                 sys.exit(f"{guide}:{line}: neither glsl STAGE nor cpp: {match[1]}")

@@ -1,9 +1,6 @@
 // A renderer that knows nothing of LacedRing but the installed package: lacedring::encode_lean and
 // lacedring::encode_packed on the host, lacedring.glsl on the device. It draws a mesh from its index list and from its
 // streams in every way that there is, and compares the pictures. docs/engine-guide.md explains the ways.
-#include <lrcore/codec/lean/lean_format.h>
-#include <lrcore/codec/packed/packed_format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -28,6 +25,10 @@
 #include "vulkan.h"
 
 namespace {
+
+// docs/lean-format.md, docs/packed-format.md
+constexpr std::size_t kHeaderWords = 8, kChecksumWord = 7;
+constexpr std::uint32_t kTipMask = 0x1fffffff;
 
 /// What an engine keeps of either format: words to upload as they are, and the order of the vertices to go with them.
 struct Stream {
@@ -55,13 +56,13 @@ void break_stream(Stream& stream, std::uint32_t vertices) {
     for (std::uint32_t at = stream.triangles / 3; at < stream.triangles; ++at) {
         std::vector<std::uint32_t> words = stream.words;
         if (stream.lean) {
-            std::uint32_t& word = words[LR_LEAN_HEADER_WORDS + at];
-            if ((word & ~LR_LEAN_TIP_MASK) != 0) continue;
+            std::uint32_t& word = words[kHeaderWords + at];
+            if ((word & ~kTipMask) != 0) continue;
             word = (word + vertices / 2) % vertices;
-            words[LR_LEAN_WORD_CHECKSUM] = lacedring::lean_checksum(words);
+            words[kChecksumWord] = lacedring::lean_checksum(words);
         } else {
-            words[LR_PACKED_HEADER_WORDS + at / 32] ^= 1U << at % 32;
-            words[LR_PACKED_WORD_CHECKSUM] = lacedring::packed_checksum(words);
+            words[kHeaderWords + at / 32] ^= 1U << at % 32;
+            words[kChecksumWord] = lacedring::packed_checksum(words);
         }
         if (stream.lean ? lacedring::validate_lean(words).has_value() : lacedring::validate_packed(words).has_value()) {
             stream.words = std::move(words);

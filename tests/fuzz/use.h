@@ -16,7 +16,7 @@ namespace lacedring::fuzz {
 /// One line of printable ASCII, not empty and not long.
 void check_message(const Error& error);
 
-/// Checks the invariant of Mesh (lrio/mesh/mesh.h).
+/// Checks the invariant of Mesh (mesh.hpp).
 void check_mesh(const Mesh& mesh);
 
 /// Writes a small mesh in memory in each format, reads it back and compares; does nothing with a large one.
@@ -85,7 +85,7 @@ void check_operators(const Operators& ops, std::uint32_t triangle_numbers, std::
             REQUIRE(ops.vertex(c).value == v);
             REQUIRE(++star <= corners);
         });
-        ops.neighbours(VertexId{v}, [&](VertexId u) {
+        ops.neighbors(VertexId{v}, [&](VertexId u) {
             REQUIRE(u.value < vertices && u.value != v);
             REQUIRE(++neighbours <= 2 * corners);
         });

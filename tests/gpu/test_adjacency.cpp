@@ -57,7 +57,7 @@ struct OperatorTest : AdjacencyTest {
             for (std::uint32_t v = first; v < push[1]; ++v) {
                 CornerId star = kNullCorner;
                 ops.star(VertexId{v}, [&](CornerId c) { star = star.is_null() ? c : star; });
-                ops.neighbours(VertexId{v}, [&](VertexId u) { neighbours.push_back(u.value); });
+                ops.neighbors(VertexId{v}, [&](VertexId u) { neighbours.push_back(u.value); });
                 begins.push_back(static_cast<std::uint32_t>(neighbours.size()));
                 const std::uint32_t valence = ops.valence(VertexId{v});
                 expected.insert(expected.end(), {ops.corner(VertexId{v}).value, star.value, valence, valence});

@@ -61,7 +61,7 @@ TEST_CASE("a corner table refuses corners that split_fans could not name apart")
     const auto indices = [&](std::size_t count) { return std::span(&one, count); };
     check_too_large(build_corner_table(indices(3), (1U << 29) + 1));
     check_too_large(build_corner_table(indices(std::size_t{UINT32_MAX}), 1));
-    check_too_large(build_corner_table(indices(std::size_t{UINT32_MAX} - (1U << 29)), 1U << 29));
+    check_too_large(build_corner_table(indices(std::size_t{UINT32_MAX} - (1U << 29) + 2), 1U << 29));
 }
 
 TEST_CASE("T0 beyond the 715 millionth are found in VO") {

@@ -18,7 +18,7 @@ using namespace lacedring;
 
 namespace {
 
-/// Around a border vertex star() and neighbours() begin at the border, and go on in the order of swing.
+/// Around a border vertex star() and neighbors() begin at the border, and go on in the order of swing.
 template <class Operators>
 void check_border_order(const CornerTable& table, const Operators& ops, const LrMap& map) {
     std::vector<CornerId> begin(table.vertex_count, kNullCorner);  // the corner that no swing leads to
@@ -31,19 +31,19 @@ void check_border_order(const CornerTable& table, const Operators& ops, const Lr
         if (c.is_null()) continue;
         CAPTURE(v);
         std::vector<CornerId> star, expected_star;
-        std::vector<VertexId> neighbours, expected_neighbours;
+        std::vector<VertexId> neighbours, expected_neighbors;
         for (CornerId last; !c.is_null(); c = table.swing(last)) {
             last = c;
             expected_star.push_back(c);
-            expected_neighbours.push_back(table.vertex(next(c)));
-            if (table.left(c).is_null()) expected_neighbours.push_back(table.vertex(previous(c)));
+            expected_neighbors.push_back(table.vertex(next(c)));
+            if (table.left(c).is_null()) expected_neighbors.push_back(table.vertex(previous(c)));
         }
         ops.star(VertexId{v}, [&](CornerId x) {
             star.push_back(corner(map.triangle[x.value / 4], (map.start[x.value / 4] + x.value % 4) % 3));
         });
-        ops.neighbours(VertexId{v}, [&](VertexId u) { neighbours.push_back(map.vertex[u.value]); });
+        ops.neighbors(VertexId{v}, [&](VertexId u) { neighbours.push_back(map.vertex[u.value]); });
         REQUIRE(star == expected_star);
-        REQUIRE(neighbours == expected_neighbours);
+        REQUIRE(neighbours == expected_neighbors);
     }
 }
 

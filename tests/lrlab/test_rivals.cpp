@@ -41,7 +41,7 @@ void check_order(const Ops& ops) {
         std::vector<CornerId> star;
         std::vector<VertexId> neighbours, expected;
         ops.star(VertexId{v}, [&](CornerId c) { star.push_back(c); });
-        ops.neighbours(VertexId{v}, [&](VertexId u) { neighbours.push_back(u); });
+        ops.neighbors(VertexId{v}, [&](VertexId u) { neighbours.push_back(u); });
         for (std::size_t i = 0; i < star.size(); ++i) {
             expected.push_back(ops.vertex(ops.next(star[i])));
             const CornerId after = i + 1 < star.size()          ? star[i + 1]

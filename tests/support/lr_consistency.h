@@ -74,8 +74,8 @@ std::string inconsistency(const View& view) {
             return fmt::format("vertex {}: border", v);
         if (ops.valence(VertexId{v}) != next_to[v].size()) return fmt::format("vertex {}: valence", v);
         std::vector<std::uint32_t> met, walked;
-        ops.neighbours(VertexId{v}, [&](VertexId u) { met.push_back(u.value); });
-        general.neighbours(VertexId{v}, [&](VertexId u) { walked.push_back(u.value); });
+        ops.neighbors(VertexId{v}, [&](VertexId u) { met.push_back(u.value); });
+        general.neighbors(VertexId{v}, [&](VertexId u) { walked.push_back(u.value); });
         if (met != walked) return fmt::format("vertex {}: neighbours", v);
         std::sort(met.begin(), met.end());
         std::sort(next_to[v].begin(), next_to[v].end());

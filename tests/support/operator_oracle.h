@@ -100,7 +100,7 @@ void check_operators(const CornerTable& table, const Operators& ops, const LrMap
         std::sort(star.begin(), star.end());
         REQUIRE(std::adjacent_find(star.begin(), star.end()) == star.end());
         std::vector<std::uint32_t> neighbours, expected;
-        ops.neighbours(VertexId{v}, [&](VertexId u) { neighbours.push_back(map.vertex[u.value].value); });
+        ops.neighbors(VertexId{v}, [&](VertexId u) { neighbours.push_back(map.vertex[u.value].value); });
         REQUIRE(neighbours.size() == ops.valence(VertexId{v}));
         const CornerId begin = there(c);
         CornerId x = begin;

@@ -374,9 +374,9 @@ Result<PackedChoice> encode_smallest_packed(const CornerTable& table, const Ring
     if (!plain) return plain.error();
     PackedChoice out{std::move(*plain), 0};
     if (optimize.passes == 0) return out;
-    Result<EncodedPacked> optimised = encode_packed(table, optimize_rings(table, std::move(rings), optimize), profile);
-    if (!optimised) return optimised.error();
-    if (optimised->words.size() < out.stream.words.size()) out = {std::move(*optimised), optimize.passes};
+    Result<EncodedPacked> optimized = encode_packed(table, optimize_rings(table, std::move(rings), optimize), profile);
+    if (!optimized) return optimized.error();
+    if (optimized->words.size() < out.stream.words.size()) out = {std::move(*optimized), optimize.passes};
     return out;
 }
 

@@ -191,12 +191,12 @@ class StarChecker {
     bool check_star(VertexId v) {
         const CornerId first = ops_.corner(v);
         if (first.is_null()) return fail("vertex ", v.value, ": no corner");
-        neighbours_.clear();
+        neighbors_.clear();
         Around at;
         if (!enter(first, v, at)) return false;
         const Around begin = at;
         for (CornerId c = first;;) {
-            neighbours_.push_back(at.after);
+            neighbors_.push_back(at.after);
             const CornerId facing = ops_.next(c), o = ops_.opposite(facing);
             if (o.is_null()) return check_border(v, first, begin);
             if (!exists(o) || o == facing) return fail_at(facing, o);
@@ -213,7 +213,7 @@ class StarChecker {
     /// Walks backward from v.c to the other border. Each step is checked to be the inverse of a swing, so the walk
     /// meets no corner that the forward walk met.
     bool check_border(VertexId v, CornerId first, Around at) {
-        if (ops_.near_neighbours(v, [](VertexId) {})) return fail("vertex ", v.value, ": its border is not seen");
+        if (ops_.near_neighbors(v, [](VertexId) {})) return fail("vertex ", v.value, ": its border is not seen");
         for (CornerId c = first;;) {
             const CornerId facing = ops_.previous(c), o = ops_.opposite(facing);
             if (o.is_null()) return true;
@@ -226,13 +226,13 @@ class StarChecker {
         }
     }
 
-    /// Compares near_neighbours with the walk.
+    /// Compares near_neighbors with the walk.
     bool check_fan(VertexId v) {
         std::size_t i = 0;
         bool same = true;
-        const bool told = ops_.near_neighbours(
-            v, [&](VertexId u) { same = i < neighbours_.size() && neighbours_[i++] == u && same; });
-        return !told || (same && i == neighbours_.size()) || fail("vertex ", v.value, ": neighbours");
+        const bool told = ops_.near_neighbors(
+            v, [&](VertexId u) { same = i < neighbors_.size() && neighbors_[i++] == u && same; });
+        return !told || (same && i == neighbors_.size()) || fail("vertex ", v.value, ": neighbors");
     }
 
     /// Checks the opposites in VO* against the operators, which do not read those that other slots imply.
@@ -251,7 +251,7 @@ class StarChecker {
     const std::uint32_t numbers_;
     std::uint64_t most_ = 0, corners_ = 0;    // corners of all triangles; corners walked
     std::uint64_t larger_ = 0, smaller_ = 0;  // corners whose opposite is larger, smaller
-    std::vector<VertexId> neighbours_;        // of one vertex, in star order
+    std::vector<VertexId> neighbors_;        // of one vertex, in star order
     std::string why_;
 };
 

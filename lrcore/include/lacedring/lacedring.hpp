@@ -108,7 +108,7 @@ Result<Encoded> encode(CornerTable&& table, const EncodeOptions& options = {});
 
 // The steps.
 
-// From a corner table and its rings to a lean stream (lean_stream.h). Paper: LR 2011, section 7 and section 5.
+// From a corner table and its rings to a lean stream (streams.hpp). Paper: LR 2011, section 7 and section 5.
 
 struct LeanOptions {
     bool wart_skipping = true;
@@ -127,7 +127,7 @@ struct EncodedLean {
 /// runs. Errors: too_large (2^29 vertices, or 2^32 / 3 slots).
 Result<EncodedLean> encode_lean(const CornerTable& table, const Rings& rings, const LeanOptions& options = {});
 
-// From a corner table and its rings to a packed stream (packed_stream.h).
+// From a corner table and its rings to a packed stream (streams.hpp).
 
 /// A packed stream and how it maps to the mesh that it was made from.
 struct EncodedPacked {
@@ -143,10 +143,10 @@ struct EncodedPacked {
 Result<EncodedPacked> encode_packed(const CornerTable& table, const Rings& rings,
                                     PackedProfile profile = PackedProfile::small);
 
-/// The smaller of two streams: over the rings of expand_rings, and over these optimised. Errors: encode_packed's.
+/// The smaller of two streams: over the rings of expand_rings, and over these optimized. Errors: encode_packed's.
 struct PackedChoice {
     EncodedPacked stream;
-    std::uint32_t passes = 0;  ///< of the optimiser; 0 where its rings were no better
+    std::uint32_t passes = 0;  ///< of the optimizer; 0 where its rings were no better
 };
 Result<PackedChoice> encode_smallest_packed(const CornerTable& table, const RingOptions& ring,
                                             const OptimizeOptions& optimize,
@@ -208,7 +208,7 @@ Result<LrTable> build_lr(const CornerTable& table, const Rings& rings, const LrO
                          LrMap* map = nullptr);
 
 struct EncodedLr {
-    std::vector<std::uint32_t> words;         ///< the stream (lr_stream.h)
+    std::vector<std::uint32_t> words;         ///< the stream (streams.hpp)
     std::vector<std::uint32_t> vertex_order;  ///< vertex_order[LR vertex] = the table's; copies repeat their original's
     std::vector<std::uint32_t> triangle_order;  ///< the table's triangle of each one that decode_lr gives, in its order
     LrStatistics statistics;
@@ -217,7 +217,7 @@ struct EncodedLr {
 };
 
 /// The standard tables. `table` is any corner table; it is split into a pseudo-manifold here, and one ring made per
-/// shell, optimised as `optimize` says. Cost: O(T) per seed and pass. Errors: those of build_lr.
+/// shell, optimized as `optimize` says. Cost: O(T) per seed and pass. Errors: those of build_lr.
 Result<EncodedLr> encode_lr(CornerTable table, const RingOptions& ring, const OptimizeOptions& optimize = {.passes = 0},
                             bool wart_skipping = true);
 

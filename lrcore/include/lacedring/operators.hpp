@@ -8,7 +8,7 @@
 
 namespace lacedring {
 
-// The neighbours of a ring vertex v side by side, from fewer words than the corners around it take.
+// The neighbors of a ring vertex v side by side, from fewer words than the corners around it take.
 //
 // On either side of the ring, the triangles at v run from the slot that starts at v to the slot that ends at v. Along a
 // corridor those in between have v as their tip and lie in a row:
@@ -20,7 +20,7 @@ namespace lacedring {
 //
 // LrView::plain_fan counts such rows; here warts, T2, irregular triangles and T0 are stepped over as well.
 
-/// The neighbours of v between v.n and v.p on one side, in this order: as many as triangles, less one.
+/// The neighbors of v between v.n and v.p on one side, in this order: as many as triangles, less one.
 template <class Store>
 class FanSide {
   public:
@@ -106,9 +106,17 @@ class FanSide {
 template <class Store>
 class Operators {
   public:
-    explicit Operators(const Store& store) : s_(store), ring_(store.ring_vertices) {}
+    /// `copies`: LrStreamView::copies, which original() looks in; no other operator needs them.
+    explicit Operators(const Store& store, std::span<const std::uint32_t> copies = {})
+        : s_(store), ring_(store.ring_vertices), copies_(copies) {}
 
     const Store& store() const { return s_; }
+
+    /// The vertex that v is a copy of, made for another of its fans of triangles; v itself if it is none. All operators
+    /// take a copy for a vertex of its own. O(log copies).
+    VertexId original(VertexId v) const {
+        return VertexId{LrStreamView<Store>{.view = {}, .copies = copies_}.original(v.value)};
+    }
 
     // Ring order (paper: v.n, v.p).
     std::uint32_t ring_next(std::uint32_t v) const { return s_.closes(v) ? s_.first(v) : v + 1; }
@@ -253,11 +261,11 @@ class Operators {
         return count + 1;
     }
 
-    /// Calls visit(vertex) for every neighbour of v once, in the order of star: of each triangle that of next, and on a
+    /// Calls visit(vertex) for every neighbor of v once, in the order of star: of each triangle that of next, and on a
     /// border at last the other end. O(valence).
     template <class Visit>
-    void neighbours(VertexId v, Visit visit) const {
-        if (near_neighbours(v, visit)) return;
+    void neighbors(VertexId v, Visit visit) const {
+        if (near_neighbors(v, visit)) return;
         CornerId last = kNullCorner;
         star(v, [&](CornerId c) {
             visit(vertex(next(c)));
@@ -269,7 +277,7 @@ class Operators {
     /// Visits the same vertices in the same order and returns true, if the slots near v give them in constant time.
     /// Else returns false and visits nothing; always so on a border. valence and star use the same shortcut.
     template <class Visit>
-    bool near_neighbours(VertexId v, Visit visit) const {
+    bool near_neighbors(VertexId v, Visit visit) const {
         if constexpr (kHasFans) {
             typename Store::PlainFan fan;
             if (s_.plain_fan(v.value, fan)) {
@@ -310,7 +318,7 @@ class Operators {
     /// v.c, or if v is on a border the corner that no swing leads to.
     CornerId star_begin(VertexId v) const {
         const CornerId first = corner(v);
-        if constexpr (kHasFans) {  // with neighbours on all sides
+        if constexpr (kHasFans) {  // with neighbors on all sides
             typename Store::PlainFan fan;
             FanSide<Store> left, right;
             if (v.value < ring_ && (s_.plain_fan(v.value, fan) || find_sides(v.value, left, right))) return first;
@@ -324,7 +332,7 @@ class Operators {
         return first;
     }
 
-    /// Lists the neighbours on both sides; false where v is not well inside a ring, or not all were found.
+    /// Lists the neighbors on both sides; false where v is not well inside a ring, or not all were found.
     bool find_sides(std::uint32_t v, FanSide<Store>& left, FanSide<Store>& right) const {
         if (v < 2 || v + 1 >= ring_) return false;
         const std::uint32_t w = s_.word(v, 0), p = s_.word(v - 1, 0), pp = s_.word(v - 2, 0);
@@ -434,6 +442,7 @@ class Operators {
 
     Store s_;
     std::uint32_t ring_;
+    std::span<const std::uint32_t> copies_;
 };
 
 }  // namespace lacedring

@@ -15,7 +15,7 @@ namespace lacedring {
 // The rings: cycles of mesh edges that visit most vertices once and part the triangles into two sides.
 // Paper: LR 2011, section 4.2 (RING-EXPANDER).
 
-struct Expansion;  // lrcore/ring/expansion.h
+struct Expansion;  // ring.hpp
 
 struct RingOptions {
     std::uint32_t seeds = 1;  ///< seed corners tried per component; the one with the cheapest ring is kept
@@ -72,7 +72,7 @@ struct RingCost {
 
 /// In references: three a verbatim T0, two a ring vertex.
 constexpr RingCost kLeanRingCost{3, 0, -2};
-/// In references: a T0 has six, its three neighbours are irregular and have three more each; two a ring vertex, one an
+/// In references: a T0 has six, its three neighbors are irregular and have three more each; two a ring vertex, one an
 /// isolated one.
 constexpr RingCost kLrRingCost{15, 0, -1};
 /// In tenths of bits: what SPLIT, WART and FAR events take in packed streams of real meshes.

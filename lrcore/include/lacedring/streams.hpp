@@ -159,7 +159,7 @@ constexpr std::uint32_t kT0Flip = 0x80000000;  ///< on the first vertex of a T0 
 struct LrView {
     std::uint32_t vertices = 0;         ///< all: on rings, isolated, and of no triangle
     std::uint32_t ring_vertices = 0;    ///< m_r
-    std::span<const std::uint32_t> lr;  ///< 2 m_r words (lr_format.h)
+    std::span<const std::uint32_t> lr;  ///< 2 m_r words (streams.hpp)
     std::span<const std::uint32_t> vo;  ///< 6 a T0: three vertices, three opposite corners
     std::span<const std::uint32_t>
         star;                          ///< VO*, 3 an irregular triangle: tip, opposites of the start and the end corner
@@ -207,7 +207,7 @@ struct LrView {
         return u < ring_vertices && lr[2 * std::size_t{u} + side] == v ? 8 * u + corner % 8 : kNotPlain;
     }
 
-    /// The neighbours of ring vertex v where its triangles are two runs of T1, one a side, which is nearly always: v.n,
+    /// The neighbors of ring vertex v where its triangles are two runs of T1, one a side, which is nearly always: v.n,
     /// right .. right + right_count, v.p, left + left_count .. left (all inclusive, in swing order after left itself).
     struct PlainFan {
         std::uint32_t left, left_count, right, right_count;
@@ -256,7 +256,7 @@ struct LrView {
 // One 32-bit word per ring vertex, its left half in the upper 16 bits: a wart bit and a 15-bit signed offset from v to
 // the tip, modulo m_r, on either side. Both wart bits together cannot be: they say that the other 30 bits are four
 // flags and a 26-bit index of a record in VO* (in units of `unit` entries, two unless the table outgrows the index):
-//     v.l, v.r             as words of the standard representation (lr_format.h), each with its kind
+//     v.l, v.r             as words of the standard representation (streams.hpp), each with its kind
 //     two more             the opposites of an irregular left triangle
 //     two more             the opposites of an irregular right triangle
 //
@@ -421,7 +421,7 @@ Result<LrStreamView<LrView>> view_lr(std::span<const std::uint32_t> words);
 Result<LrStreamView<CompactLrView>> view_compact_lr(std::span<const std::uint32_t> words);
 
 /// Checks the checksum and every reference; that rings tile and close; that opposite is an involution; that the star of
-/// each used vertex has all corners of the vertex; and that near_neighbours agrees with the stars. Then each operator
+/// each used vertex has all corners of the vertex; and that near_neighbors agrees with the stars. Then each operator
 /// stays in bounds, ends, and agrees with the others. Cost: O(T), and the neighbors of one vertex in memory.
 /// Untrusted input: safe.
 Result<LrStreamView<LrView>> validate_lr(std::span<const std::uint32_t> words);

@@ -1,0 +1,19 @@
+# What is installed beside the libraries and their headers: the CMake package, the pkg-config file, GLSL, the license.
+# docs/install.md
+if(NOT LACEDRING_INSTALL)
+    return()
+endif()
+include(CMakePackageConfigHelpers)
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/lacedring-config.cmake.in
+                              ${PROJECT_BINARY_DIR}/cmake/lacedring-config.cmake
+                              INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lacedring
+                              PATH_VARS CMAKE_INSTALL_DATADIR CMAKE_INSTALL_INCLUDEDIR)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/cmake/lacedring-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/cmake/lacedring-config.cmake ${PROJECT_BINARY_DIR}/cmake/lacedring-config-version.cmake
+        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lacedring)
+configure_file(${PROJECT_SOURCE_DIR}/cmake/lacedring.pc.in ${PROJECT_BINARY_DIR}/cmake/lacedring.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/cmake/lacedring.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+# The GLSL that decodes streams, for a program's own shaders: glslangValidator -I${lacedring_GLSL_DIR}.
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/shaders/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lacedring FILES_MATCHING
+        PATTERN "lacedring*.glsl")
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -1,0 +1,11 @@
+// In the place of lrio's readers, which are for Linux: there are no files.
+
+#include "lacedring/mesh_files.hpp"
+
+namespace lacedring {
+
+Result<Mesh> read_mesh(const std::filesystem::path&, const ReadOptions&, ReadReport*) {
+    return Error{ErrorCode::unsupported, "no files here"};
+}
+
+}  // namespace lacedring

@@ -1,0 +1,31 @@
+#!/usr/bin/env python3
+"""test_shown.py ROOT: the examples that documents show are the files in examples/, line by line, and each file is shown.
+
+A document shows a file by <!-- examples/NAME --> and the code block behind it."""
+
+import pathlib
+import re
+import sys
+
+
+def main():
+    root = pathlib.Path(sys.argv[1])
+    wrong, shown = [], set()
+    for document in [root / "README.md", *sorted((root / "docs").glob("*.md"))]:
+        for match in re.finditer(r"<!-- (examples/\S+) -->\n```\w+[^\n]*\n(.*?)```", document.read_text(), re.DOTALL):
+            shown.add(match[1])
+            if not (root / match[1]).exists() or (root / match[1]).read_text() != match[2]:
+                wrong.append(f"{document.relative_to(root)}: {match[1]} is not the file")
+    for path in sorted((root / "examples").iterdir()):
+        name = str(path.relative_to(root))
+        if path.name != "CMakeLists.txt" and name not in shown:
+            wrong.append(f"{name}: no document shows it")
+    lines = (root / "examples/encode.cpp").read_text().count("\n")
+    if lines > 12:
+        wrong.append(f"examples/encode.cpp: {lines} lines, not the 12 that a newcomer reads")
+    print("\n".join(wrong) or f"{len(shown)} examples are shown as they are")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
