@@ -90,6 +90,9 @@ void add_encode(CLI::App& program, Action& action) {
         ->capture_default_str();
     add_input_options(*command, options->input, 85);
     add_ring_options(*command, options->ring);
+    command->add_option("--effort", options->ring.effort, "how long to look for good rings: 0 to 9")
+        ->check(CLI::Range(0, 9))
+        ->capture_default_str();
     command->add_flag("--no-warts", options->no_warts, "no wart skipping (lean and lr)");
     command->add_flag("--keep-order", options->keep_order,
                       "store the vertex and triangle permutations, for decode --original-order");
@@ -103,7 +106,9 @@ void add_encode(CLI::App& program, Action& action) {
     });
     rules->only_with({"--random-seed"}, "several --seeds, or --optimize", [options, is] {
         return options->ring.seeds > 1 ||
-               (!is("lr-compact") && (options->ring.seeds == 0 || options->ring.optimize != "0"));
+               (!is("lr-compact") &&
+                ((options->ring.seeds == 0 && options->ring.effort > 0) ||
+                 (options->ring.optimize == "auto" ? options->ring.effort > 0 : options->ring.optimize != "0")));
     });
     command->callback([options, rules, &action] {
         rules->check();

@@ -96,15 +96,21 @@ OptimizeOptions optimize_options(const RingChoice& choice, const RingCost& cost)
 }
 
 EncodeOptions encode_options(const RingChoice& choice, Format format, std::size_t triangles) {
-    const OptimizeOptions optimize = optimize_options(choice, {});
-    const bool compact = format == Format::lr_compact;
+    OptimizeOptions optimize = optimize_options(choice, {});
+    const bool compact = format == Format::lr_compact, given = !choice.ring.empty() || choice.k != "auto";
     EncodeOptions options;
     options.format = format;
+    options.effort = choice.effort;
     options.random_seed = choice.random_seed;
-    options.passes = optimize.passes;
+    if (choice.seeds != 0) options.seeds = choice.seeds;
+    if (choice.optimize != "auto" || given) {
+        options.passes = optimize.passes;
+    } else {
+        optimize.progress = progress_bar("optimising the ring", passes_at(choice.effort));
+    }
     options.progress = optimize.progress;
-    options.seeds = (compact ? compact_ring_options(choice) : ring_options(choice, triangles)).seeds;
-    options.periods = compact ? ring_periods(choice, triangles) : std::vector{ring_options(choice, triangles).k};
+    if (compact && given) options.periods = ring_periods(choice, triangles);
+    if (!compact) options.periods = {ring_options(choice, triangles).k};
     return options;
 }
 

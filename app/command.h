@@ -10,6 +10,7 @@
 #include "app/print.h"
 #include "app/run_log.h"
 #include "lacedring/base.hpp"
+#include "lacedring/lacedring.hpp"
 #include "lacedring/ring.hpp"
 
 namespace CLI {
@@ -30,6 +31,7 @@ struct RingChoice {
     std::string k = "auto";   ///< of the hybrid: a number, or the best of recommended_periods
     std::uint32_t seeds = 0;  ///< 0: recommended_seeds
     std::uint64_t random_seed = 1;
+    std::uint32_t effort = EncodeOptions{}.effort;  ///< what is not said below is decided by it (encode)
     std::string optimize = "auto";  ///< passes of the optimiser: a number, or as many as optimize_rings recommends
 };
 /// Refuses a number with a minus sign, which CLI11 would take for one near 2^64.

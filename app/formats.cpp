@@ -56,30 +56,30 @@ MeasuredFormat lean_format(const char* name, std::uint32_t k, std::uint32_t pass
 }
 
 /// LR tables, as the words that a file holds, validated and decoded.
-template <class Stream>
-MeasuredFormat lr_format(const char* name, std::uint32_t passes, EncodedLr encoded, const Result<Stream>& stream) {
+MeasuredFormat lr_format(const char* name, Encoded encoded) {
     MeasuredFormat format;
     format.name = name;
-    set_ring(format, encoded.k, passes);
-    format.bytes = encoded.words.size() * sizeof(std::uint32_t);
+    set_ring(format, encoded.report.k, encoded.report.passes);
+    format.bytes = encoded.bytes().size();
     format.references = encoded.words.size() - kLrHeaderWords;
-    if (!stream) {
-        format.invalid = stream.error().message;
+    const Result<StreamView> view = validate(encoded.words);
+    if (!view) {
+        format.invalid = view.error().message;
         return format;
     }
-    format.indices = decode_lr(*stream);
+    format.indices = decode(*view);
     format.order = std::move(encoded.vertex_order);
-    format.copies = encoded.copies;
+    format.copies = encoded.report.copies;
     return format;
 }
 
 /// The packed stream, decoded twice: as a whole, and some triangles of each block alone.
-MeasuredFormat packed_format(const char* name, std::uint32_t k, std::uint32_t passes, EncodedPacked stream) {
+MeasuredFormat packed_format(const char* name, Encoded stream) {
     MeasuredFormat format;
     format.name = name;
-    set_ring(format, k, passes);
-    format.bytes = 4 * stream.words.size();
-    format.deflated = deflated_size(std::as_bytes(std::span(stream.words)));
+    set_ring(format, stream.report.k, stream.report.passes);
+    format.bytes = stream.bytes().size();
+    format.deflated = deflated_size(stream.bytes());
     const Result<PackedView> view = validate_packed(stream.words);
     if (!view) {
         format.invalid = view.error().message;
@@ -95,29 +95,6 @@ MeasuredFormat packed_format(const char* name, std::uint32_t k, std::uint32_t pa
     }
     format.order = std::move(stream.vertex_order);
     return format;
-}
-
-/// The optimiser for a format that costs so much. With a progress of its own it says so, pass by pass.
-OptimizeOptions optimizer(const RingChoice& choice, const RingCost& cost, bool paper, const FormatProgress& progress,
-                          double share, const char* what) {
-    OptimizeOptions optimize = optimize_options(choice, cost);
-    if (paper) optimize.passes = 0;
-    if (progress) optimize.progress = [=](std::uint32_t) { return progress(share, what); };
-    return optimize;
-}
-
-Result<void> add_packed(FormatSet& set, const CornerTable& table, const RingChoice& choice, bool paper,
-                        const FormatProgress& progress) {
-    const OptimizeOptions optimize = optimizer(choice, kPackedRingCost, paper, progress, 0.55, "packed");
-    Result<PackedChoice> small = encode_smallest_packed(table, set.ring, optimize, PackedProfile::small);
-    if (!small) return small.error();
-    set.packed = small->stream.statistics;
-    set.formats.push_back(packed_format("packed", set.ring.k, small->passes, std::move(small->stream)));
-    if (progress && !progress(0.7, "packed_cache")) return {};
-    Result<PackedChoice> cache = encode_smallest_packed(table, set.ring, optimize, PackedProfile::cache);
-    if (!cache) return cache.error();
-    set.formats.push_back(packed_format("packed_cache", set.ring.k, cache->passes, std::move(cache->stream)));
-    return {};
 }
 
 }  // namespace
@@ -145,7 +122,16 @@ Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool 
     if (stop(0.0, "strips")) return set;
     add_strips(set, mesh, triangles);
     if (stop(0.1, "lean")) return set;
-    const OptimizeOptions optimize = optimizer(choice, kLeanRingCost, paper, progress, 0.1, "lean");
+    const auto how = [&](Format format, double share, const char* what) {
+        EncodeOptions options = encode_options(choice, format, mesh.triangle_count());
+        if (paper) options.passes = 0;
+        if (progress) options.progress = [=, &progress](std::uint32_t) { return progress(share, what); };
+        return options;
+    };
+    const EncodeOptions for_lean = how(Format::lean, 0.1, "lean");
+    OptimizeOptions optimize = optimize_options(choice, kLeanRingCost);
+    if (paper) optimize.passes = 0;
+    optimize.progress = for_lean.progress;
     const Rings rings = optimize_rings(*table, expand_rings(*table, set.ring), optimize);
     for (const bool warts : {true, false}) {
         const char* const name = warts ? "lean" : "lean_no_warts";
@@ -157,27 +143,35 @@ Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool 
         }
     }
     if (stop(0.25, "lr")) return set;
-    const OptimizeOptions optimize_lr = optimizer(choice, kLrRingCost, paper, progress, 0.25, "lr");
-    if (Result<EncodedLr> lr = encode_lr(*table, set.ring, optimize_lr)) {
-        set.lr = lr->statistics;
-        const auto stream = validate_lr(lr->words);
-        set.formats.push_back(lr_format("lr", optimize_lr.passes, std::move(*lr), stream));
+    if (Result<Encoded> lr = encode(*table, how(Format::lr, 0.25, "lr"))) {
+        set.lr = std::get<LrStatistics>(lr->report.statistics);
+        set.formats.push_back(lr_format("lr", std::move(*lr)));
     } else {
         set.absent.emplace_back("lr", lr.error().message);
     }
     if (stop(0.4, "lr_compact")) return set;
-    std::vector<std::uint32_t> periods = ring_periods(choice, mesh.triangle_count());
-    if (paper && periods.size() > 1) std::erase(periods, 0U);  // the hybrid, not the expander
-    if (Result<EncodedLr> compact = encode_compact_lr(*table, compact_ring_options(choice), periods)) {
-        set.lr_compact = compact->statistics;
-        const auto stream = validate_compact_lr(compact->words);
+    EncodeOptions for_compact = how(Format::lr_compact, 0.4, "lr_compact");
+    for_compact.periods = ring_periods(choice, mesh.triangle_count());
+    if (paper && for_compact.periods.size() > 1) std::erase(for_compact.periods, 0U);  // the hybrid, not the expander
+    if (Result<Encoded> compact = encode(*table, for_compact)) {
+        set.lr_compact = std::get<LrStatistics>(compact->report.statistics);
+        const auto stream = view_compact_lr(compact->words);
         if (stream) set.lr_compact_long = count_long_tips(stream->view);
-        set.formats.push_back(lr_format("lr_compact", 0, std::move(*compact), stream));
+        set.formats.push_back(lr_format("lr_compact", std::move(*compact)));
     } else {
         set.absent.emplace_back("lr_compact", compact.error().message);
     }
     if (stop(0.55, "packed")) return set;
-    if (const Result<void> added = add_packed(set, *table, choice, paper, progress); !added) return added.error();
+    EncodeOptions for_packed = how(Format::packed, 0.55, "packed");
+    Result<Encoded> small = encode(*table, for_packed);
+    if (!small) return small.error();
+    set.packed = std::get<PackedStatistics>(small->report.statistics);
+    set.formats.push_back(packed_format("packed", std::move(*small)));
+    if (stop(0.7, "packed_cache")) return set;
+    for_packed.profile = PackedProfile::cache;
+    Result<Encoded> cache = encode(*table, for_packed);
+    if (!cache) return cache.error();
+    set.formats.push_back(packed_format("packed_cache", std::move(*cache)));
     if (stop(0.85, "meshoptimizer's formats")) return set;
     add_codecs(set, mesh, triangles);
     if (stop(0.93, "winged edge, corner table, SQuad")) return set;

@@ -1,5 +1,8 @@
 // From an index list to a stream: the steps in their order, with the settings that suit the format.
 
+#include <algorithm>
+#include <iterator>
+
 #include "lacedring/lacedring.hpp"
 #include "lrcore/base/message.h"
 #include "lrcore/base/signature.h"
@@ -28,7 +31,7 @@ RingOptions ring_options(const EncodeOptions& options, std::size_t triangles) {
 OptimizeOptions optimize_options(const EncodeOptions& options, const RingCost& cost) {
     OptimizeOptions out;
     out.cost = cost;
-    out.passes = options.passes.value_or(kPasses[options.effort]);
+    out.passes = options.passes.value_or(passes_at(options.effort));
     out.random_seed = options.random_seed;
     out.progress = options.progress;
     return out;
@@ -106,6 +109,10 @@ Encoded take(Stream& stream, Format format, std::vector<std::uint32_t>& order) {
 }
 
 }  // namespace
+
+std::uint32_t passes_at(std::uint32_t effort) {
+    return kPasses[std::min<std::size_t>(effort, std::size(kPasses) - 1)];
+}
 
 Encoded as_encoded(EncodedLean stream) {
     std::erase(stream.slot_triangle, UINT32_MAX);

@@ -86,12 +86,12 @@ class [[nodiscard]] Result<void> {
 
 // Distinct types for the three kinds of index, so that mixing them does not compile.
 
-/// A 32-bit index of one kind of element. Null means "none": across a border, or not found.
+/// A 32-bit index of one kind of element; Id{} is 0. Null means "none": across a border, or not found.
 template <class Tag>
 struct Id {
-    std::uint32_t value = UINT32_MAX;
+    std::uint32_t value;
 
-    constexpr Id() = default;
+    Id() = default;
     constexpr explicit Id(std::uint32_t index) : value(index) {}
     constexpr bool is_null() const { return value == UINT32_MAX; }
     friend constexpr auto operator<=>(Id, Id) = default;

@@ -72,6 +72,9 @@ struct EncodeOptions {
     std::function<bool(std::uint32_t)> progress = {};
 };
 
+/// The optimizer's passes at that effort.
+std::uint32_t passes_at(std::uint32_t effort);
+
 /// How a mesh was encoded.
 struct EncodeReport {
     Topology topology;            ///< how the triangles were joined; how many were degenerate and are left out
