@@ -16,6 +16,8 @@ template <class... Cases>
 struct Overload : Cases... {
     using Cases::operator()...;
 };
+template <class... Cases>
+Overload(Cases...) -> Overload<Cases...>;  // for clang 14
 
 static_assert(std::is_same_v<std::variant_alternative_t<std::size_t(Format::packed), StreamView::Any>, PackedView>);
 static_assert(std::is_same_v<std::variant_alternative_t<std::size_t(Format::lr_compact), StreamView::Any>,

@@ -214,7 +214,7 @@ std::vector<std::uint32_t> use_lean(const LeanView& view) {
     decode_lean(view, decoded.span());
     std::vector<std::uint32_t> indices;
     for (std::uint32_t slot = 0; slot < view.slots(); ++slot) {
-        const Triangle triangle = decode_lean_slot(view, slot);
+        const auto triangle = decode_lean_slot(view, slot);
         const auto whole = decoded.span().subspan(std::size_t{3} * slot, 3);
         REQUIRE(std::equal(whole.begin(), whole.end(), triangle.v));
         for (const std::uint32_t v : triangle.v) REQUIRE(v < view.vertices);
@@ -240,7 +240,7 @@ std::vector<std::uint32_t> use_packed(const PackedView& view) {
     }
     const std::uint32_t step = view.triangles / 512 + 1;  // each one costs up to a block
     for (std::uint32_t t = 0; t < view.triangles; t += step) {
-        const Triangle triangle = decode_packed_triangle(view, t);
+        const auto triangle = decode_packed_triangle(view, t);
         const auto whole = decoded.span().subspan(std::size_t{3} * t, 3);
         REQUIRE(std::equal(whole.begin(), whole.end(), triangle.v));
     }
