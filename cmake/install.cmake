@@ -11,6 +11,7 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/lacedring-config.cmake
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/cmake/lacedring-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/cmake/lacedring-config.cmake ${PROJECT_BINARY_DIR}/cmake/lacedring-config-version.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lacedring)
+file(RELATIVE_PATH to_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 configure_file(${PROJECT_SOURCE_DIR}/cmake/lacedring.pc.in ${PROJECT_BINARY_DIR}/cmake/lacedring.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/cmake/lacedring.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 # The GLSL that decodes streams, for a program's own shaders: glslangValidator -I${lacedring_GLSL_DIR}.

@@ -12,12 +12,12 @@ Result<Mesh> smooth(const char* path) {
     if (!mapped) return mapped.error();
     const Result<LrFileView> file = view_lr_file(mapped->bytes());
     if (!file) return file.error();
-    const Result<StreamView> stream = validate(file->words);
+    const Result<StreamView> stream = file->validate();
     if (!stream) return stream.error();
     const auto* tables = stream->get<LrStreamView<LrView>>();
     if (tables == nullptr) return Error{ErrorCode::unsupported, "not --format lr"};
 
-    const Operators<LrView> ops(tables->view);
+    const Operators ops(tables->view, tables->copies);
     const Positions positions = file->positions();
     std::vector<float> moved;
     for (const VertexId v : IdRange<VertexTag>(stream->vertices())) {

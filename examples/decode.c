@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
     file_count = size / 4;
 
     words = section(0, 1, &count);
-    if (words == NULL || lacedring_lean_validate(words, count, &lean, NULL) != LACEDRING_OK) {
+    if (words == NULL || lacedring_lean_validate(words, count, &lean, NULL) != LACEDRING_STATUS_OK) {
         return fputs("no valid lean stream\n", stderr), 1;
     }
     positions = section(1, 2, &count); /* the name POSITION takes eight bytes */

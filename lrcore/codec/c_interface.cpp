@@ -12,9 +12,10 @@
 namespace lacedring {
 namespace {
 
-static_assert(static_cast<int>(Format::lean) == LACEDRING_LEAN && static_cast<int>(Format::packed) == LACEDRING_PACKED);
-static_assert(static_cast<int>(Format::lr) == LACEDRING_LR &&
-              static_cast<int>(Format::lr_compact) == LACEDRING_LR_COMPACT);
+static_assert(static_cast<int>(Format::lean) == LACEDRING_FORMAT_LEAN &&
+              static_cast<int>(Format::packed) == LACEDRING_FORMAT_PACKED);
+static_assert(static_cast<int>(Format::lr) == LACEDRING_FORMAT_LR &&
+              static_cast<int>(Format::lr_compact) == LACEDRING_FORMAT_LR_COMPACT);
 static_assert(StreamView::kBlock == LACEDRING_BLOCK);
 
 lacedring_code code_of(ErrorCode code) {
@@ -42,7 +43,7 @@ template <class Work>
 lacedring_code guarded(lacedring_message* message, Work work) {
     try {
         return work();
-    } catch (const std::bad_alloc&) {
+    } catch (...) {  // std::bad_alloc, or std::length_error where size_t has 32 bits
         return fail(LACEDRING_CODE_OUT_OF_MEMORY, lacedring_code_string(LACEDRING_CODE_OUT_OF_MEMORY), message);
     }
 }
@@ -90,8 +91,8 @@ LrStreamView<View> view_of(const lacedring_tables& t) {
 /// work(Operators) of whichever tables they are.
 template <class Work>
 auto with_operators(const lacedring_tables* t, Work work) {
-    return t->format == LACEDRING_LR ? work(Operators<LrView>(view_of<LrView>(*t).view))
-                                     : work(Operators<CompactLrView>(view_of<CompactLrView>(*t).view));
+    return t->format == LACEDRING_FORMAT_LR ? work(Operators<LrView>(view_of<LrView>(*t).view))
+                                            : work(Operators<CompactLrView>(view_of<CompactLrView>(*t).view));
 }
 
 template <class View>
@@ -122,18 +123,20 @@ lacedring_code decode_all(const lacedring_stream* stream, Index* indices, std::s
     });
 }
 
-/// The stream's own view, without the linear count of an LR stream's triangles.
-template <class Work>
-auto with_format(const lacedring_stream& stream, Work work) {
+/// The triangle of a slot, without the linear count of an LR stream's triangles; none if the words are no stream.
+std::optional<Triangle> triangle_of(const lacedring_stream& stream, std::uint32_t slot) {
+    const auto decoded = [slot](const auto& view) {
+        return view ? detail::decode_slot(*view, slot) : std::optional<Triangle>();
+    };
     switch (stream.format) {
-        case LACEDRING_LEAN:
-            return work(*view_lean(words_of(stream)));
-        case LACEDRING_PACKED:
-            return work(*view_packed(words_of(stream)));
-        case LACEDRING_LR:
-            return work(*view_lr(words_of(stream)));
+        case LACEDRING_FORMAT_LEAN:
+            return decoded(view_lean(words_of(stream)));
+        case LACEDRING_FORMAT_PACKED:
+            return decoded(view_packed(words_of(stream)));
+        case LACEDRING_FORMAT_LR:
+            return decoded(view_lr(words_of(stream)));
         default:
-            return work(*view_compact_lr(words_of(stream)));
+            return decoded(view_compact_lr(words_of(stream)));
     }
 }
 
@@ -142,7 +145,7 @@ auto with_format(const lacedring_stream& stream, Work work) {
 
 using namespace lacedring;
 
-const char* lacedring_code_string(lacedring_code code) {
+const char* lacedring_code_string(int code) {
     switch (code) {
         case LACEDRING_CODE_OK:
             return "no error";
@@ -161,36 +164,38 @@ const char* lacedring_code_string(lacedring_code code) {
 }
 
 void lacedring_default_options(lacedring_encode_options* options) {
-    *options = {LACEDRING_PACKED, 0, static_cast<int>(EncodeOptions{}.effort), 0};
+    *options = {LACEDRING_FORMAT_PACKED, 0, static_cast<int>(EncodeOptions{}.effort), 0};
 }
 
-lacedring_code lacedring_encode_bounds(lacedring_format format, std::size_t index_count, std::uint32_t vertex_count,
+lacedring_code lacedring_encode_bounds(int format, std::size_t index_count, std::uint32_t vertex_count,
                                        lacedring_encoded* encoded) {
-    if (index_count % 3 != 0 || format < LACEDRING_LEAN || format > LACEDRING_LR_COMPACT) {
+    if (index_count % 3 != 0 || format < LACEDRING_FORMAT_LEAN || format > LACEDRING_FORMAT_LR_COMPACT) {
         return LACEDRING_CODE_INVALID_ARGUMENT;
     }
     if (index_count > UINT32_MAX) return LACEDRING_CODE_TOO_LARGE;
     const std::uint64_t triangles = index_count / 3, blocks = (triangles + LR_PACKED_BLOCK - 1) / LR_PACKED_BLOCK;
     std::uint64_t words = 0;
     switch (format) {
-        case LACEDRING_LEAN:
+        case LACEDRING_FORMAT_LEAN:
             words = LACEDRING_LEAN_HEADER_WORDS + 3 * triangles;
             break;
-        case LACEDRING_PACKED:  // turn bits, directory, records as plain blocks of 29 bits a vertex, tail
+        case LACEDRING_FORMAT_PACKED:  // turn bits, directory, records as plain blocks of 29 bits a vertex, tail
             words = LR_PACKED_HEADER_WORDS + blocks * (LR_PACKED_BLOCK_WORDS + 3 * LR_PACKED_BLOCK * 29 / 32) +
                     (blocks / LR_PACKED_GROUP + 1) * LR_PACKED_GROUP_WORDS + 1 + LR_PACKED_TAIL_WORDS;
             break;
-        case LACEDRING_LR:  // 3T vertices at most, each 2 words or 1, and copies; 6 for a T0 or 3 for another triangle
+        case LACEDRING_FORMAT_LR:  // 3T vertices at most, each 2 words or 1, and copies; 6 for a T0 or 3 for another
+                                   // triangle
             words = kLrHeaderWords + 21 * triangles;
             break;
-        case LACEDRING_LR_COMPACT:  // a word and a record of 8 for a ring vertex
+        case LACEDRING_FORMAT_LR_COMPACT:  // a word and a record of 8 for a ring vertex
             words = kLrHeaderWords + 42 * triangles;
             break;
     }
-    if (words > SIZE_MAX / sizeof(std::uint32_t)) return LACEDRING_CODE_TOO_LARGE;
-    const bool tables = format == LACEDRING_LR || format == LACEDRING_LR_COMPACT;  // which copy vertices
+    const bool tables = format == LACEDRING_FORMAT_LR || format == LACEDRING_FORMAT_LR_COMPACT;  // which copy vertices
+    const std::uint64_t vertices = std::uint64_t{vertex_count} + (tables ? index_count : 0);
+    if (std::max(words, vertices) > SIZE_MAX / sizeof(std::uint32_t)) return LACEDRING_CODE_TOO_LARGE;
     encoded->word_capacity = static_cast<std::size_t>(words);
-    encoded->vertex_capacity = std::size_t{vertex_count} + (tables ? index_count : 0);
+    encoded->vertex_capacity = static_cast<std::size_t>(vertices);
     encoded->triangle_capacity = index_count / 3;
     return LACEDRING_CODE_OK;
 }
@@ -202,7 +207,7 @@ lacedring_code lacedring_encode(const std::uint32_t* indices, std::size_t index_
         lacedring_encode_options chosen;
         lacedring_default_options(&chosen);
         if (options != nullptr) chosen = *options;
-        if (chosen.format < LACEDRING_LEAN || chosen.format > LACEDRING_LR_COMPACT) {
+        if (chosen.format < LACEDRING_FORMAT_LEAN || chosen.format > LACEDRING_FORMAT_LR_COMPACT) {
             return fail(LACEDRING_CODE_INVALID_ARGUMENT, "no such format", message);
         }
         EncodeOptions how;
@@ -253,10 +258,14 @@ lacedring_code lacedring_decode_block(const lacedring_stream* stream, std::uint3
     const std::uint32_t count = std::min<std::uint32_t>(stream->slots - first, LACEDRING_BLOCK);
     if (capacity / 3 < count) return LACEDRING_CODE_TOO_SMALL;
     *triangles = 0;
-    if (stream->format == LACEDRING_PACKED) {
-        decode_packed_block(*view_packed(words_of(*stream)), block, {indices, std::size_t{3} * count});
-        *triangles = count;
-        return LACEDRING_CODE_OK;
+    if (stream->format == LACEDRING_FORMAT_PACKED) {
+        return guarded(nullptr, [&] {
+            const Result<PackedView> view = view_packed(words_of(*stream));
+            if (!view) return code_of(view.error().code);
+            decode_packed_block(*view, block, {indices, std::size_t{3} * count});
+            *triangles = count;
+            return LACEDRING_CODE_OK;
+        });
     }
     for (std::uint32_t slot = first; slot < first + count; ++slot) {
         if (lacedring_decode_triangle(stream, slot, indices + std::size_t{3} * *triangles) != 0) ++*triangles;
@@ -266,8 +275,11 @@ lacedring_code lacedring_decode_block(const lacedring_stream* stream, std::uint3
 
 int lacedring_decode_triangle(const lacedring_stream* stream, std::uint32_t slot, std::uint32_t triangle[3]) {
     if (slot >= stream->slots) return 0;
-    const std::optional<Triangle> found =
-        with_format(*stream, [&](const auto& view) { return detail::decode_slot(view, slot); });
+    std::optional<Triangle> found;
+    (void)guarded(nullptr, [&] {
+        found = triangle_of(*stream, slot);
+        return LACEDRING_CODE_OK;
+    });
     if (!found) return 0;
     std::copy(found->v, found->v + 3, triangle);
     return 1;
@@ -275,14 +287,18 @@ int lacedring_decode_triangle(const lacedring_stream* stream, std::uint32_t slot
 
 lacedring_code lacedring_open_tables(const lacedring_stream* stream, lacedring_tables* tables) {
     tables->format = stream->format;
-    if (stream->format == LACEDRING_LR) {
-        close(*view_lr(words_of(*stream)), tables);
-    } else if (stream->format == LACEDRING_LR_COMPACT) {
-        close(*view_compact_lr(words_of(*stream)), tables);
-    } else {
+    if (stream->format != LACEDRING_FORMAT_LR && stream->format != LACEDRING_FORMAT_LR_COMPACT) {
         return LACEDRING_CODE_INVALID_ARGUMENT;
     }
-    return LACEDRING_CODE_OK;
+    return guarded(nullptr, [&] {
+        const auto put_tables = [&](const auto& view) {
+            if (!view) return code_of(view.error().code);
+            close(*view, tables);
+            return LACEDRING_CODE_OK;
+        };
+        return stream->format == LACEDRING_FORMAT_LR ? put_tables(view_lr(words_of(*stream)))
+                                                     : put_tables(view_compact_lr(words_of(*stream)));
+    });
 }
 
 int lacedring_is_triangle(const lacedring_tables* tables, std::uint32_t t) {
@@ -291,47 +307,56 @@ int lacedring_is_triangle(const lacedring_tables* tables, std::uint32_t t) {
     });
 }
 std::uint32_t lacedring_triangle(std::uint32_t corner) {
-    return Operators<LrView>::triangle(CornerId(corner)).value;
+    return corner == LACEDRING_NULL ? corner : Operators<LrView>::triangle(CornerId(corner)).value;
 }
 std::uint32_t lacedring_corner_of_triangle(std::uint32_t t) {
-    return Operators<LrView>::corner(TriangleId(t)).value;
+    return t == LACEDRING_NULL ? t : Operators<LrView>::corner(TriangleId(t)).value;
 }
 std::uint32_t lacedring_next(std::uint32_t corner) {
-    return Operators<LrView>::next(CornerId(corner)).value;
+    return corner == LACEDRING_NULL ? corner : Operators<LrView>::next(CornerId(corner)).value;
 }
 std::uint32_t lacedring_previous(std::uint32_t corner) {
-    return Operators<LrView>::previous(CornerId(corner)).value;
+    return corner == LACEDRING_NULL ? corner : Operators<LrView>::previous(CornerId(corner)).value;
 }
 std::uint32_t lacedring_vertex(const lacedring_tables* tables, std::uint32_t corner) {
+    if (corner == LACEDRING_NULL) return corner;
     return with_operators(tables, [&](const auto& ops) { return ops.vertex(CornerId(corner)).value; });
 }
 std::uint32_t lacedring_opposite(const lacedring_tables* tables, std::uint32_t corner) {
+    if (corner == LACEDRING_NULL) return corner;
     return with_operators(tables, [&](const auto& ops) { return ops.opposite(CornerId(corner)).value; });
 }
 std::uint32_t lacedring_left(const lacedring_tables* tables, std::uint32_t corner) {
+    if (corner == LACEDRING_NULL) return corner;
     return with_operators(tables, [&](const auto& ops) { return ops.left(CornerId(corner)).value; });
 }
 std::uint32_t lacedring_right(const lacedring_tables* tables, std::uint32_t corner) {
+    if (corner == LACEDRING_NULL) return corner;
     return with_operators(tables, [&](const auto& ops) { return ops.right(CornerId(corner)).value; });
 }
 std::uint32_t lacedring_swing(const lacedring_tables* tables, std::uint32_t corner) {
+    if (corner == LACEDRING_NULL) return corner;
     return with_operators(tables, [&](const auto& ops) { return ops.swing(CornerId(corner)).value; });
 }
 std::uint32_t lacedring_corner_of_vertex(const lacedring_tables* tables, std::uint32_t v) {
+    if (v == LACEDRING_NULL) return v;
     return with_operators(tables, [&](const auto& ops) { return ops.corner(VertexId(v)).value; });
 }
 std::uint32_t lacedring_original(const lacedring_tables* tables, std::uint32_t v) {
     return view_of<LrView>(*tables).original(v);
 }
 int lacedring_is_border(const lacedring_tables* tables, std::uint32_t v) {
+    if (v == LACEDRING_NULL) return 0;
     return with_operators(tables, [&](const auto& ops) { return ops.is_border(VertexId(v)) ? 1 : 0; });
 }
 std::uint32_t lacedring_valence(const lacedring_tables* tables, std::uint32_t v) {
+    if (v == LACEDRING_NULL) return 0;
     return with_operators(tables, [&](const auto& ops) { return ops.valence(VertexId(v)); });
 }
 std::uint32_t lacedring_neighbors(const lacedring_tables* tables, std::uint32_t v, std::uint32_t* neighbors,
                                   std::uint32_t capacity) {
     std::uint32_t count = 0;
+    if (v == LACEDRING_NULL) return count;
     with_operators(tables, [&](const auto& ops) {
         ops.neighbors(VertexId(v), [&](VertexId u) {
             if (count < capacity) neighbors[count] = u.value;

@@ -11,6 +11,7 @@
 #include "lacedring/ring.hpp"
 #include "lacedring/topology.hpp"
 #include "lrcore/base/bits.h"
+#include "lrcore/base/compiler.h"
 #include "lrcore/base/message.h"
 #include "lrcore/ring/ring_walk.h"
 
@@ -162,7 +163,7 @@ class Expander {
   private:
     bool visited(TriangleId t, std::uint32_t k) const { return visited_.test(table_.vertex(corner(t, k)).value); }
     void fetch(CornerId c) const {
-        if (!c.is_null()) __builtin_prefetch(&table_.corners[c.value]);
+        if (!c.is_null()) detail::prefetch(&table_.corners[c.value]);
     }
     /// The edge that corner x faces, x's triangle being invaded.
     RingEdge facing(CornerId x) const {

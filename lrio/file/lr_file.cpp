@@ -427,6 +427,14 @@ Result<LrContents> list_lr(std::span<const std::byte> bytes) {
     return out;
 }
 
+Result<StreamView> LrFileView::validate() const {
+    Result<StreamView> view = lacedring::validate(words);
+    if (!view) return view;
+    if (view->format() != format) return malformed("the stream is of another format than its section");
+    if (view->vertices() != vertex_count) return malformed("connectivity and file have different vertex counts");
+    return view;
+}
+
 Positions LrFileView::positions() const {
     const auto position = std::ranges::find(attributes, "POSITION", &AttributeView::name);
     if (position == attributes.end() || position->components != 3) return {};
@@ -468,6 +476,9 @@ Result<LrFileView> view_lr_file(std::span<const std::byte> bytes) {
     if (out.words.data() == nullptr) return malformed("no connectivity");
     out.vertex_count = header->vertices;
     out.input_triangles = header->input_triangles;
+    if (!out.vertex_order.empty() && out.vertex_order.size() != out.vertex_count) {
+        return malformed("the vertex order has another size");
+    }
     return out;
 }
 

@@ -74,7 +74,7 @@ static void check_tables(const struct lacedring_stream* stream, const struct mes
     uint32_t t, v, copies = 0, k;
     uint32_t* seen = calloc(stream->vertices, sizeof *seen);
     uint32_t neighbors[64];
-    if (stream->format == LACEDRING_LEAN || stream->format == LACEDRING_PACKED) {
+    if (stream->format == LACEDRING_FORMAT_LEAN || stream->format == LACEDRING_FORMAT_PACKED) {
         CHECK(lacedring_open_tables(stream, &tables) == LACEDRING_CODE_INVALID_ARGUMENT);
         free(seen);
         return;
@@ -107,6 +107,12 @@ static void check_tables(const struct lacedring_stream* stream, const struct mes
         turn(decoded);
         CHECK(memcmp(own, decoded, sizeof own) == 0);
     }
+    CHECK(lacedring_next(LACEDRING_NULL) == LACEDRING_NULL && lacedring_previous(LACEDRING_NULL) == LACEDRING_NULL);
+    CHECK(lacedring_vertex(&tables, LACEDRING_NULL) == LACEDRING_NULL);
+    CHECK(lacedring_opposite(&tables, LACEDRING_NULL) == LACEDRING_NULL);
+    CHECK(lacedring_corner_of_vertex(&tables, LACEDRING_NULL) == LACEDRING_NULL);
+    CHECK(lacedring_valence(&tables, LACEDRING_NULL) == 0 && !lacedring_is_border(&tables, LACEDRING_NULL));
+    CHECK(lacedring_neighbors(&tables, LACEDRING_NULL, neighbors, 64) == 0);
     for (v = 0; v < stream->vertices; ++v) {
         const uint32_t c = lacedring_corner_of_vertex(&tables, v);
         const uint32_t edges = lacedring_neighbors(&tables, v, neighbors, 64);
@@ -134,7 +140,7 @@ static void check_format(enum lacedring_format format, int cache, const struct m
     uint32_t i, triangles = 0;
     size_t count;
     lacedring_default_options(&options);
-    CHECK(options.format == LACEDRING_PACKED && options.effort == 6);
+    CHECK(options.format == LACEDRING_FORMAT_PACKED && options.effort == 6);
     options.format = format;
     options.cache = cache;
     options.effort = 1;
@@ -150,7 +156,7 @@ static void check_format(enum lacedring_format format, int cache, const struct m
     CHECK(lacedring_view(encoded.words, encoded.word_count, &again, NULL) == LACEDRING_CODE_OK);
     CHECK(again.slots == stream.slots && again.triangles == stream.triangles && again.format == format);
     CHECK(stream.format == format && stream.triangles == mesh->count / 3 && stream.vertices == encoded.vertex_count);
-    CHECK((stream.vertices > mesh->vertices) == (pinched && format >= LACEDRING_LR));
+    CHECK((stream.vertices > mesh->vertices) == (pinched && format >= LACEDRING_FORMAT_LR));
 
     count = mesh->count;
     wanted = malloc(4 * count);
@@ -213,6 +219,11 @@ static void check_format(enum lacedring_format format, int cache, const struct m
     options.effort = 10;
     CHECK(lacedring_encode(mesh->indices, count, mesh->vertices, &options, &encoded, &message) ==
           LACEDRING_CODE_INVALID_ARGUMENT);
+    options.effort = 1;
+    options.format = 7;
+    CHECK(lacedring_encode(mesh->indices, count, mesh->vertices, &options, &encoded, &message) ==
+          LACEDRING_CODE_INVALID_ARGUMENT);
+    CHECK(lacedring_encode_bounds(7, count, mesh->vertices, &encoded) == LACEDRING_CODE_INVALID_ARGUMENT);
     CHECK(lacedring_encode_bounds(format, count + 1, mesh->vertices, &encoded) == LACEDRING_CODE_INVALID_ARGUMENT);
     free(encoded.vertex_order);
     free(encoded.triangle_order);
@@ -226,15 +237,15 @@ int main(void) {
     int kind, code;
     for (kind = 0; kind < 3; ++kind) {
         struct mesh mesh = make_mesh(17, kind == 0, kind == 2);
-        check_format(LACEDRING_LEAN, 0, &mesh, kind == 2);
-        check_format(LACEDRING_PACKED, 0, &mesh, kind == 2);
-        check_format(LACEDRING_PACKED, 1, &mesh, kind == 2);
-        check_format(LACEDRING_LR, 0, &mesh, kind == 2);
-        check_format(LACEDRING_LR_COMPACT, 0, &mesh, kind == 2);
+        check_format(LACEDRING_FORMAT_LEAN, 0, &mesh, kind == 2);
+        check_format(LACEDRING_FORMAT_PACKED, 0, &mesh, kind == 2);
+        check_format(LACEDRING_FORMAT_PACKED, 1, &mesh, kind == 2);
+        check_format(LACEDRING_FORMAT_LR, 0, &mesh, kind == 2);
+        check_format(LACEDRING_FORMAT_LR_COMPACT, 0, &mesh, kind == 2);
         free(mesh.indices);
     }
     for (code = LACEDRING_CODE_OK; code <= LACEDRING_CODE_OUT_OF_MEMORY; ++code) {
-        CHECK(strcmp(lacedring_code_string((enum lacedring_code)code), "unknown code") != 0);
+        CHECK(strcmp(lacedring_code_string(code), "unknown code") != 0);
     }
     printf("%d failures\n", failures);
     return failures == 0 ? 0 : 1;

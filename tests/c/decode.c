@@ -41,7 +41,7 @@ int main(void) {
         uint32_t i;
         if (words == NULL || fread(words, 4, count, stdin) != count) return 2;
         status = lacedring_lean_validate(words, count, &lean, &where);
-        if (status != LACEDRING_OK) {
+        if (status != LACEDRING_STATUS_OK) {
             printf("no %d %llu\n", (int)status, (unsigned long long)where);
             free(words);
             continue;

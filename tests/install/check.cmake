@@ -84,3 +84,11 @@ separate_arguments(flags UNIX_COMMAND "${flags}")
 run(${CXX} -std=c++20 ${SOURCE}/examples/encode.cpp -o ${WORK}/by_pkg_config ${flags})
 run(${WORK}/by_pkg_config)
 expect("${encode_prints}")
+run(${CC} -std=c99 ${SOURCE}/tests/c/c_interface.c -o ${WORK}/c_by_pkg_config ${flags})
+run(${WORK}/c_by_pkg_config)
+
+# The core installed alone: a package without io.
+run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/alone -DLACEDRING_IO=OFF -DCMAKE_UNITY_BUILD=ON -DCMAKE_BUILD_TYPE=Debug ${no_packages})
+run(${CMAKE_COMMAND} --build ${WORK}/alone)
+run(${CMAKE_COMMAND} --install ${WORK}/alone --prefix ${WORK}/alone_prefix)
+run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/alone -B ${WORK}/find -Dlacedring_DIR=${WORK}/alone_prefix/lib/cmake/lacedring ${no_packages})

@@ -117,6 +117,7 @@ TEST_CASE("a view of a file in memory has what the parsed file has, in place") {
             CHECK(a.data.data() >= bytes.data());
             CHECK(a.data.data() + a.data.size() <= bytes.data() + bytes.size());
         }
+        CHECK(view->validate());
         CHECK(view->positions().size() == file.vertex_count);
         std::vector<std::byte> moved(bytes.size() + 4);  // operator new's address is a multiple of 8
         std::ranges::copy(bytes, moved.begin() + 4);

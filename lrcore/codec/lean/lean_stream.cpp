@@ -34,40 +34,40 @@ std::string why(lacedring_status status, std::uint64_t where, std::span<const st
     };
     const auto word = [&] { return words[LR_LEAN_HEADER_WORDS + where]; };
     switch (status) {
-        case LACEDRING_OK:
+        case LACEDRING_STATUS_OK:
             return {};
-        case LACEDRING_SHORT:
+        case LACEDRING_STATUS_SHORT:
             return "shorter than its header";
-        case LACEDRING_MAGIC:
+        case LACEDRING_STATUS_MAGIC:
             return wrong_magic(words, "a lean stream");
-        case LACEDRING_VERSION:
+        case LACEDRING_STATUS_VERSION:
             return message("version ", where, " is not ", LR_LEAN_VERSION);
-        case LACEDRING_VERTICES:
+        case LACEDRING_STATUS_VERTICES:
             return message(words[LR_LEAN_WORD_VERTICES], " vertices");
-        case LACEDRING_RING_VERTICES:
+        case LACEDRING_STATUS_RING_VERTICES:
             return "more ring vertices than vertices";
-        case LACEDRING_SIZE:
+        case LACEDRING_STATUS_SIZE:
             return message(words.size() - LR_LEAN_HEADER_WORDS, " references, where the header says ", where);
-        case LACEDRING_SLOTS:
+        case LACEDRING_STATUS_SLOTS:
             return "too many slots";
-        case LACEDRING_CHECKSUM:
+        case LACEDRING_STATUS_CHECKSUM:
             return "checksum does not match";
-        case LACEDRING_TIP:
+        case LACEDRING_STATUS_TIP:
             return message(ring_vertex(), "tip ", word() & LR_LEAN_TIP_MASK, " of ", words[LR_LEAN_WORD_VERTICES],
                            " vertices");
-        case LACEDRING_OPEN_RING:
+        case LACEDRING_STATUS_OPEN_RING:
             return message("the ring from vertex ", where, " does not close");
-        case LACEDRING_SHORT_RING:
+        case LACEDRING_STATUS_SHORT_RING:
             return message("the ring from vertex ", where, " has fewer than three");
-        case LACEDRING_CLOSING_WORD:
+        case LACEDRING_STATUS_CLOSING_WORD:
             return message(ring_vertex(), "closing word ", detail::hexadecimal(word()));
-        case LACEDRING_WORD:
+        case LACEDRING_STATUS_WORD:
             return message(ring_vertex(), "word ", detail::hexadecimal(word()));
-        case LACEDRING_VERBATIM: {
+        case LACEDRING_STATUS_VERBATIM: {
             const auto triangle = words.subspan(words.size() - 3 * (words[LR_LEAN_WORD_VERBATIM] - where), 3);
             return message("verbatim triangle ", where, ": ", triangle[0], " ", triangle[1], " ", triangle[2]);
         }
-        case LACEDRING_TRIANGLES:
+        case LACEDRING_STATUS_TRIANGLES:
             return message(where, " triangles, where the header says ", words[LR_LEAN_WORD_TRIANGLES]);
     }
     return "unknown";
@@ -92,7 +92,7 @@ Result<LeanView> view_lean(std::span<const std::uint32_t> words) {
     lacedring_lean lean;
     std::uint64_t where = 0;
     const lacedring_status status = lacedring_lean_open(words.data(), words.size(), &lean, &where);
-    if (status != LACEDRING_OK) return malformed(status, where, words);
+    if (status != LACEDRING_STATUS_OK) return malformed(status, where, words);
     return from_c(lean, words.size() - LR_LEAN_HEADER_WORDS);
 }
 
@@ -100,11 +100,11 @@ Result<LeanView> validate_lean(std::span<const std::uint32_t> words) {
     Result<LeanView> view = view_lean(words);
     if (!view) return view;
     // The checksum is computed here, several times as fast as by the C file's small table.
-    if (words[LR_LEAN_WORD_CHECKSUM] != lean_checksum(words)) return malformed(LACEDRING_CHECKSUM, 0, words);
+    if (words[LR_LEAN_WORD_CHECKSUM] != lean_checksum(words)) return malformed(LACEDRING_STATUS_CHECKSUM, 0, words);
     const lacedring_lean lean = as_c(*view);
     std::uint64_t where = 0;
     const lacedring_status status = lacedring_lean_check(&lean, &where);
-    if (status != LACEDRING_OK) return malformed(status, where, words);
+    if (status != LACEDRING_STATUS_OK) return malformed(status, where, words);
     return view;
 }
 

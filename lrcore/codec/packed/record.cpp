@@ -7,6 +7,8 @@
 #include <bit>
 #include <cstring>
 
+#include "lrcore/base/compiler.h"
+
 namespace lacedring {
 namespace {
 
@@ -51,8 +53,6 @@ class RecordBits {
     std::uint32_t bits_, at_ = 0;
 };
 
-using Lanes = std::uint32_t __attribute__((vector_size(16)));
-
 /// Four turns at once: twelve indices, each a or (where the mask is set) b with something added; then a and b move on.
 /// b - a becomes smaller by four whatever the turns.
 struct alignas(128) Nibble {
@@ -83,8 +83,8 @@ consteval std::array<Nibble, 16> make_nibbles(bool reversed) {
 
 constexpr std::array<Nibble, 16> kNibbles[2] = {make_nibbles(false), make_nibbles(true)};
 
-Lanes load(const std::uint32_t* from) {
-    Lanes out;
+detail::Lanes load(const std::uint32_t* from) {
+    detail::Lanes out;
     std::memcpy(&out, from, sizeof out);
     return out;
 }
@@ -281,12 +281,12 @@ class Expander {
     void run(std::uint32_t i, std::uint32_t end) {
         const std::array<Nibble, 16>& table = kNibbles[reversed_ ? 1 : 0];
         const std::uint32_t span = now_.b - now_.a, first = i;
-        Lanes a = Lanes{} + now_.a, width = Lanes{} + span;
+        detail::Lanes a = detail::Lanes{} + now_.a, width = detail::Lanes{} + span;
         const auto nibble = [&](std::uint64_t turns) {
             const Nibble& n = table[turns & 15];
             std::uint32_t* out = out_ + std::size_t{3} * i;
             for (std::uint32_t k = 0; k < 12; k += 4) {
-                const Lanes indices = a + load(n.add + k) + (width & load(n.mask + k));
+                const detail::Lanes indices = a + load(n.add + k) + (width & load(n.mask + k));
                 std::memcpy(out + k, &indices, sizeof indices);
             }
             a += load(n.ups);

@@ -9,6 +9,7 @@
 #include "lacedring/operators.hpp"
 #include "lacedring/streams.hpp"
 #include "lrcore/base/bits.h"
+#include "lrcore/base/compiler.h"
 #include "lrcore/base/message.h"
 #include "lrcore/ring/ring_walk.h"
 
@@ -42,7 +43,7 @@ class Builder {
         // Until here words hold the corner table's vertices.
         for (std::size_t i = 0; i < out_.lr.size(); ++i) {
             if (i + kPrefetched < out_.lr.size())
-                __builtin_prefetch(number_.data() + (out_.lr[i + kPrefetched] & word::kTip));
+                detail::prefetch(number_.data() + (out_.lr[i + kPrefetched] & word::kTip));
             std::uint32_t& w = out_.lr[i];
             if ((w & word::kKind) != word::kBorder) w = (w & ~word::kTip) | number_[w & word::kTip];
         }
@@ -167,7 +168,7 @@ class Builder {
         }
     }
     void fetch(CornerId c) const {
-        if (!c.is_null()) __builtin_prefetch(&table_.corners[c.value]);
+        if (!c.is_null()) detail::prefetch(&table_.corners[c.value]);
     }
 
     /// Numbers the triangles without a slot.
@@ -206,7 +207,7 @@ class Builder {
         for (std::size_t i = 0; i < t0_.size(); ++i) {
             for (std::uint32_t k = 0; k < 3 && i + kPrefetched < t0_.size(); ++k) {
                 const CornerId c = corner(t0_[i + kPrefetched], k);
-                __builtin_prefetch(&number_[table_.vertex(c).value]);
+                detail::prefetch(&number_[table_.vertex(c).value]);
                 fetch_place(table_.opposite(c));
             }
             const TriangleId t = t0_[i];
@@ -281,7 +282,7 @@ class Builder {
         return true;
     }
     void fetch_place(CornerId c) const {
-        if (!c.is_null()) __builtin_prefetch(&place_[triangle(c).value]);
+        if (!c.is_null()) detail::prefetch(&place_[triangle(c).value]);
     }
     bool precedes_t2(std::uint32_t slot) const {
         const std::uint32_t kind = out_.lr[slot] & word::kKind;

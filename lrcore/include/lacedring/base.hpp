@@ -10,7 +10,8 @@
 
 namespace lacedring {
 
-// Errors as values. Result<T> has the names of std::expected<T, Error>, which g++ 12 does not offer in C++20.
+// Errors as values. Result<T> has the names of std::expected<T, Error>, which g++ 12 does not offer in C++20; but
+// value(), * and -> of an error are undefined: look first.
 
 enum class ErrorCode : int {
     cannot_open,       ///< the file does not exist, is a folder, or may not be read

@@ -1,5 +1,6 @@
 /* LacedRing in C99: index lists into streams, streams into index lists, and the corner operators on LR tables.
-   Link with lacedring::core. A program that decodes lean streams and nothing else needs lacedring_decode.h alone.
+   Link with lacedring::core, which also has what lacedring_decode.h declares. A program that decodes lean streams and
+   nothing else needs lacedring_decode.h alone.
 
    All memory is the caller's; what a function needs while it runs it frees again. Functions that can fail return an
    enum lacedring_code, and where they take a `message` put one line there that says what is wrong (it may be null).
@@ -32,7 +33,7 @@ enum lacedring_code {
 };
 
 /* The code as a phrase, for people. Never null. */
-const char* lacedring_code_string(enum lacedring_code code);
+const char* lacedring_code_string(int code);
 
 /* One line without the name of a file, ending with 0, cut off where it is longer. */
 struct lacedring_message {
@@ -41,16 +42,16 @@ struct lacedring_message {
 
 /* As lacedring::Format (streams.hpp); docs/choosing.md says which for what. */
 enum lacedring_format {
-    LACEDRING_LEAN = 0,      /* one vertex reference a triangle */
-    LACEDRING_PACKED = 1,    /* little more than one bit a triangle, blocks of 256 */
-    LACEDRING_LR = 2,        /* the standard LR tables: every corner operator in constant time */
-    LACEDRING_LR_COMPACT = 3 /* the bit-efficient LR tables: the same operators in fewer bytes */
+    LACEDRING_FORMAT_LEAN = 0,      /* one vertex reference a triangle */
+    LACEDRING_FORMAT_PACKED = 1,    /* little more than one bit a triangle, blocks of 256 */
+    LACEDRING_FORMAT_LR = 2,        /* the standard LR tables: every corner operator in constant time */
+    LACEDRING_FORMAT_LR_COMPACT = 3 /* the bit-efficient LR tables: the same operators in fewer bytes */
 };
 
 /* --- Encoding --- */
 
 struct lacedring_encode_options {
-    enum lacedring_format format;
+    int format;           /* enum lacedring_format */
     int cache;            /* packed: not 0 for an order that suits the vertex cache, in about one bit and a half more */
     int effort;           /* 0 to 9: how long to look for good rings; 6 is the default */
     int no_wart_skipping; /* lean and lr: not 0 for none */
@@ -59,8 +60,8 @@ struct lacedring_encode_options {
 /* packed, small, effort 6, wart skipping. */
 void lacedring_default_options(struct lacedring_encode_options* options);
 
-/* Buffers that lacedring_encode fills. A null pointer: not wanted. The counts are set if the mesh could be encoded,
-   even where a buffer is too small for them. */
+/* Buffers that lacedring_encode fills. A null pointer: not wanted, so set all to zero first. The counts are set if the
+   mesh could be encoded, even where a buffer is too small for them. */
 struct lacedring_encoded {
     uint32_t* words; /* the stream */
     size_t word_capacity, word_count;
@@ -71,10 +72,11 @@ struct lacedring_encoded {
     uint32_t degenerate; /* triangles with a repeated vertex, which are left out */
 };
 
-/* Sets the three capacities to what is enough for any mesh of that size. The words of real meshes are fewer: a tenth
-   for packed, a third for lean, a twentieth for LR tables. Errors: INVALID_ARGUMENT, TOO_LARGE (past what size_t or a
-   format numbers). */
-enum lacedring_code lacedring_encode_bounds(enum lacedring_format format, size_t index_count, uint32_t vertex_count,
+/* Sets the three capacities to what is enough for any mesh of that size, and nothing else. Real meshes take far fewer
+   words: a third of that for lean, a thirtieth and less for packed and LR tables. Where so much memory is not to be
+   had, encode with a null `words`, and again with word_count words. Errors: INVALID_ARGUMENT; TOO_LARGE (past 2^32
+   indices, or size_t). */
+enum lacedring_code lacedring_encode_bounds(int format, size_t index_count, uint32_t vertex_count,
                                             struct lacedring_encoded* encoded);
 
 /* Encodes index_count / 3 triangles, indices below vertex_count: any triangle soup. `options` null: the defaults. The
@@ -86,7 +88,8 @@ enum lacedring_code lacedring_encode(const uint32_t* indices, size_t index_count
 
 /* --- Decoding --- */
 
-/* A stream in memory. Holds no copy: the words must stay. A slot is a triangle or, but for packed streams, nothing. */
+/* A stream in memory. Holds no copy: the words must stay. In a packed stream every slot is a triangle; in the other
+   formats some slots have none. All functions below but lacedring_validate and lacedring_view want a valid stream. */
 struct lacedring_stream {
     const uint32_t* words;
     size_t word_count;
@@ -102,25 +105,30 @@ struct lacedring_stream {
 enum lacedring_code lacedring_validate(const uint32_t* words, size_t word_count, struct lacedring_stream* stream,
                                        struct lacedring_message* message);
 
-/* Checks sizes only: for what was just encoded or validated. Constant time, linear for LR tables. Errors: MALFORMED. */
+/* Reads the header and checks sizes only: for what was just encoded or validated. Safe by itself with any words, but
+   what it returns is valid only if they are. Constant time, linear for LR tables. Errors: MALFORMED, OUT_OF_MEMORY. */
 enum lacedring_code lacedring_view(const uint32_t* words, size_t word_count, struct lacedring_stream* stream,
                                    struct lacedring_message* message);
 
-/* All triangles, 3 * stream->triangles indices, oriented as they were encoded. The stream is valid. Linear time; memory
-   for LR tables with copies alone, 4 bytes a vertex. Errors: TOO_SMALL; INVALID_ARGUMENT (more vertices than 16 bits
-   number); OUT_OF_MEMORY. */
+/* All triangles, 3 * stream->triangles indices, oriented as they were encoded. Linear time. LR tables with copies take
+   4 bytes a vertex while they are decoded to 32 bits, and O(log copies) a triangle to 16 bits. Errors: TOO_SMALL;
+   INVALID_ARGUMENT (more vertices than 16 bits number); OUT_OF_MEMORY. */
 enum lacedring_code lacedring_decode_u32(const struct lacedring_stream* stream, uint32_t* indices, size_t capacity);
 enum lacedring_code lacedring_decode_u16(const struct lacedring_stream* stream, uint16_t* indices, size_t capacity);
 
-/* The triangles of slots LACEDRING_BLOCK * block and on, of one block, and how many they are. Constant time. Errors:
-   INVALID_ARGUMENT (no such block), TOO_SMALL (3 * LACEDRING_BLOCK indices are always enough). */
+/* The triangles of slots LACEDRING_BLOCK * block and on, of one block, and how many they are. Constant time; O(log
+   copies) a triangle for LR tables with copies. Errors: INVALID_ARGUMENT (no such block), TOO_SMALL (3 *
+   LACEDRING_BLOCK indices are always enough). */
 enum lacedring_code lacedring_decode_block(const struct lacedring_stream* stream, uint32_t block, uint32_t* indices,
                                            size_t capacity, uint32_t* triangles);
 
-/* The triangle of one slot. Returns 1; 0 if the slot has none, or there is no such slot. Constant time. */
+/* The triangle of one slot. Returns 1; 0 if the slot has none, or there is no such slot. Cost: as a block's. */
 int lacedring_decode_triangle(const struct lacedring_stream* stream, uint32_t slot, uint32_t triangle[3]);
 
-/* --- LR tables: the corner operators, each in constant time but for those that say otherwise --- */
+/* --- LR tables: the corner operators, each in constant time but for those that say otherwise ---
+
+   They take corners of triangles (lacedring_is_triangle; what the operators themselves return) and vertices below
+   stream->vertices. LACEDRING_NULL in gives LACEDRING_NULL out, or 0 where a number or a truth value is returned. */
 
 /* The arrays of an LR stream, where they lie. Corners are below 4 * slots, and corner c is one of triangle c / 4. */
 struct lacedring_tables {
@@ -133,7 +141,7 @@ struct lacedring_tables {
 /* The tables of a valid stream. Errors: INVALID_ARGUMENT (the format has none). */
 enum lacedring_code lacedring_open_tables(const struct lacedring_stream* stream, struct lacedring_tables* tables);
 
-/* Is slot t a triangle? All others name none. */
+/* Is slot t a triangle? */
 int lacedring_is_triangle(const struct lacedring_tables* tables, uint32_t t);
 uint32_t lacedring_triangle(uint32_t corner);      /* c.t */
 uint32_t lacedring_corner_of_triangle(uint32_t t); /* t.c: the first; next gives the others */

@@ -56,9 +56,7 @@ struct EncodeOptions {
     Format format = Format::packed;
     PackedProfile profile = PackedProfile::small;  ///< of packed; any other format has one profile
     bool wart_skipping = true;                     ///< of lean and lr; packed and lr_compact always do
-    /// 0 to 9: how long to look for good rings. It decides the four below where they say nothing. 6 takes about 2
-    /// us a triangle; 0 is ten to twenty times as fast, in a tenth to a third more bits; 9 takes eight times as
-    /// long.
+    /// 0 to 9: how long to look for good rings. It decides seeds, passes and periods where they say nothing.
     std::uint32_t effort = 6;
 
     std::optional<std::uint32_t> seeds = {};  ///< RingOptions::seeds
@@ -69,6 +67,7 @@ struct EncodeOptions {
     std::uint64_t random_seed = 1;
 
     /// Called after each pass of the optimizer with how many are done; false: stop, the best so far is encoded.
+    /// lr_compact, which has no such passes, never calls it.
     std::function<bool(std::uint32_t)> progress = {};
 };
 
@@ -81,7 +80,7 @@ struct EncodeReport {
     std::uint32_t triangles = 0;  ///< in the stream
     std::uint32_t copies = 0;     ///< vertices of the stream beyond the mesh's: LR tables copy non-manifold ones
     std::uint32_t k = 0;          ///< RingOptions::k of the rings that were kept
-    std::uint32_t passes = 0;     ///< of the optimizer; 0 where the rings are as they were found
+    std::uint32_t passes = 0;     ///< asked of the optimizer; 0 where the rings are as they were found
     std::variant<LeanStatistics, PackedStatistics, LrStatistics> statistics;
 };
 
@@ -109,7 +108,7 @@ Result<Encoded> encode(std::span<const std::uint32_t> indices, std::uint32_t ver
 Result<Encoded> encode(const CornerTable& table, const EncodeOptions& options = {});
 Result<Encoded> encode(CornerTable&& table, const EncodeOptions& options = {});
 
-// The steps.
+// The steps. Rings are as expand_rings and optimize_rings make them: the triangles on each ring's left are a tree.
 
 // From a corner table and its rings to a lean stream (streams.hpp). Paper: LR 2011, section 7 and section 5.
 
@@ -119,7 +118,7 @@ struct LeanOptions {
 
 /// A lean stream and how it maps to the mesh that it was made from.
 struct EncodedLean {
-    std::vector<std::uint32_t> words;          ///< header and payload (lean_format.h); this is the whole stream
+    std::vector<std::uint32_t> words;          ///< header and payload: the whole stream
     std::vector<std::uint32_t> vertex_order;   ///< vertex_order[new] = old, a permutation of the mesh's vertices
     std::vector<std::uint32_t> slot_triangle;  ///< triangle of the mesh at each slot, UINT32_MAX where degenerate
     LeanStatistics statistics;

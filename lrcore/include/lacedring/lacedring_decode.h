@@ -9,9 +9,11 @@
    and wherever a stream is decoded:
 
        struct lacedring_lean lean;
-       if (lacedring_lean_validate(words, count, &lean, NULL) != LACEDRING_OK) ...
+       if (lacedring_lean_validate(words, count, &lean, NULL) != LACEDRING_STATUS_OK) ...
        uint32_t *indices = malloc(12 * (size_t)lean.triangles);
        lacedring_lean_triangles_u32(&lean, indices);
+
+   A program that links lacedring::core has these functions already: it includes the file without the macro.
 
    Streams are little-endian 32-bit words; on a big-endian machine swap the bytes of each first. */
 #ifndef LACEDRING_DECODE_H
@@ -33,22 +35,22 @@ extern "C" {
 
 /* What is wrong with a stream. The comment says what `*where` is then. */
 enum lacedring_status {
-    LACEDRING_OK = 0,
-    LACEDRING_SHORT,         /* fewer words than a header */
-    LACEDRING_MAGIC,         /* another kind of data */
-    LACEDRING_VERSION,       /* the version that it has */
-    LACEDRING_VERTICES,      /* more vertices than references can name */
-    LACEDRING_RING_VERTICES, /* more ring vertices than vertices */
-    LACEDRING_SIZE,          /* not as many words as the header says */
-    LACEDRING_SLOTS,         /* more slots than 32-bit indices can number */
-    LACEDRING_CHECKSUM,
-    LACEDRING_TIP,          /* the slot whose tip is no vertex */
-    LACEDRING_OPEN_RING,    /* the first vertex of a ring that does not close */
-    LACEDRING_SHORT_RING,   /* the first vertex of a ring of fewer than three */
-    LACEDRING_CLOSING_WORD, /* the slot */
-    LACEDRING_WORD,         /* the slot */
-    LACEDRING_VERBATIM,     /* which verbatim triangle repeats a vertex, or names none */
-    LACEDRING_TRIANGLES     /* how many triangles there are, not what the header says */
+    LACEDRING_STATUS_OK = 0,
+    LACEDRING_STATUS_SHORT,         /* fewer words than a header */
+    LACEDRING_STATUS_MAGIC,         /* another kind of data */
+    LACEDRING_STATUS_VERSION,       /* the version that it has */
+    LACEDRING_STATUS_VERTICES,      /* more vertices than references can name */
+    LACEDRING_STATUS_RING_VERTICES, /* more ring vertices than vertices */
+    LACEDRING_STATUS_SIZE,          /* not as many words as the header says */
+    LACEDRING_STATUS_SLOTS,         /* more slots than 32-bit indices can number */
+    LACEDRING_STATUS_CHECKSUM,
+    LACEDRING_STATUS_TIP,          /* the slot whose tip is no vertex */
+    LACEDRING_STATUS_OPEN_RING,    /* the first vertex of a ring that does not close */
+    LACEDRING_STATUS_SHORT_RING,   /* the first vertex of a ring of fewer than three */
+    LACEDRING_STATUS_CLOSING_WORD, /* the slot */
+    LACEDRING_STATUS_WORD,         /* the slot */
+    LACEDRING_STATUS_VERBATIM,     /* which verbatim triangle repeats a vertex, or names none */
+    LACEDRING_STATUS_TRIANGLES     /* how many triangles there are, not what the header says */
 };
 
 /* A stream in memory, its header read. Holds no copy. Slots are numbered: 2 for each vertex of two-sided rings, 1 for
@@ -130,22 +132,24 @@ uint32_t lacedring_lean_slots(const struct lacedring_lean* lean) {
 enum lacedring_status lacedring_lean_open(const uint32_t* words, size_t count, struct lacedring_lean* lean,
                                           uint64_t* where) {
     uint64_t ring_slots, references;
-    if (count < LACEDRING_LEAN_HEADER_WORDS) return lacedring_at_(where, 0, LACEDRING_SHORT);
-    if (words[0] != 0x4e4c524cu) return lacedring_at_(where, 0, LACEDRING_MAGIC);
-    if (words[1] != 1) return lacedring_at_(where, words[1], LACEDRING_VERSION);
+    if (count < LACEDRING_LEAN_HEADER_WORDS) return lacedring_at_(where, 0, LACEDRING_STATUS_SHORT);
+    if (words[0] != 0x4e4c524cu) return lacedring_at_(where, 0, LACEDRING_STATUS_MAGIC);
+    if (words[1] != 1) return lacedring_at_(where, words[1], LACEDRING_STATUS_VERSION);
     lean->payload = words + LACEDRING_LEAN_HEADER_WORDS;
     lean->vertices = words[2];
     lean->rings2 = words[3];
     lean->rings1 = words[4];
     lean->verbatim = words[5];
     lean->triangles = words[6];
-    if (lean->vertices > LACEDRING_TIP_ + 1) return lacedring_at_(where, 0, LACEDRING_VERTICES);
-    if ((uint64_t)lean->rings2 + lean->rings1 > lean->vertices) return lacedring_at_(where, 0, LACEDRING_RING_VERTICES);
+    if (lean->vertices > LACEDRING_TIP_ + 1) return lacedring_at_(where, 0, LACEDRING_STATUS_VERTICES);
+    if ((uint64_t)lean->rings2 + lean->rings1 > lean->vertices)
+        return lacedring_at_(where, 0, LACEDRING_STATUS_RING_VERTICES);
     ring_slots = (uint64_t)2 * lean->rings2 + lean->rings1;
     references = ring_slots + (uint64_t)3 * lean->verbatim;
-    if (references != count - LACEDRING_LEAN_HEADER_WORDS) return lacedring_at_(where, references, LACEDRING_SIZE);
-    if (ring_slots + lean->verbatim > UINT32_MAX / 3) return lacedring_at_(where, 0, LACEDRING_SLOTS);
-    return LACEDRING_OK;
+    if (references != count - LACEDRING_LEAN_HEADER_WORDS)
+        return lacedring_at_(where, references, LACEDRING_STATUS_SIZE);
+    if (ring_slots + lean->verbatim > UINT32_MAX / 3) return lacedring_at_(where, 0, LACEDRING_STATUS_SLOTS);
+    return LACEDRING_STATUS_OK;
 }
 
 /* One section of rings: vertices begin .. end - 1 with `sides` words each, the first of which is slot `slot`. */
@@ -157,7 +161,7 @@ struct lacedring_section_ {
 static enum lacedring_status lacedring_check_ring_(const struct lacedring_section_* s, uint32_t first, uint32_t last,
                                                    uint64_t* triangles, uint64_t* where) {
     uint32_t v, side, closed = 0;
-    if (last - first < 2) return lacedring_at_(where, first, LACEDRING_SHORT_RING);
+    if (last - first < 2) return lacedring_at_(where, first, LACEDRING_STATUS_SHORT_RING);
     for (v = first; v <= last; ++v) {
         for (side = 0; side < s->sides; ++side) {
             const size_t i = (size_t)(v - s->begin) * s->sides + side;
@@ -166,18 +170,18 @@ static enum lacedring_status lacedring_check_ring_(const struct lacedring_sectio
             const uint32_t end = flags & LACEDRING_WART_ ? nn : n;
             if (flags & LACEDRING_CLOSE_) {
                 if (closed || flags != LACEDRING_CLOSE_ || tip != first) {
-                    return lacedring_at_(where, s->slot + i, LACEDRING_CLOSING_WORD);
+                    return lacedring_at_(where, s->slot + i, LACEDRING_STATUS_CLOSING_WORD);
                 }
                 closed = 1;
             } else if (tip == v || tip == end) { /* a free slot, and nothing else */
                 if (flags != 0 || tip != (side == 0 ? v : end))
-                    return lacedring_at_(where, s->slot + i, LACEDRING_WORD);
+                    return lacedring_at_(where, s->slot + i, LACEDRING_STATUS_WORD);
             } else {
                 ++*triangles;
             }
         }
     }
-    return LACEDRING_OK;
+    return LACEDRING_STATUS_OK;
 }
 
 static enum lacedring_status lacedring_check_section_(const struct lacedring_section_* s, uint64_t* triangles,
@@ -187,16 +191,17 @@ static enum lacedring_status lacedring_check_section_(const struct lacedring_sec
         uint32_t closes = 0;
         for (side = 0; side < s->sides; ++side) {
             const size_t i = (size_t)(v - s->begin) * s->sides + side;
-            if ((s->words[i] & LACEDRING_TIP_) >= s->vertices) return lacedring_at_(where, s->slot + i, LACEDRING_TIP);
+            if ((s->words[i] & LACEDRING_TIP_) >= s->vertices)
+                return lacedring_at_(where, s->slot + i, LACEDRING_STATUS_TIP);
             closes |= s->words[i] & LACEDRING_CLOSE_;
         }
         if (closes) {
             const enum lacedring_status status = lacedring_check_ring_(s, first, v, triangles, where);
-            if (status != LACEDRING_OK) return status;
+            if (status != LACEDRING_STATUS_OK) return status;
             first = v + 1;
         }
     }
-    return first == s->end ? LACEDRING_OK : lacedring_at_(where, first, LACEDRING_OPEN_RING);
+    return first == s->end ? LACEDRING_STATUS_OK : lacedring_at_(where, first, LACEDRING_STATUS_OPEN_RING);
 }
 
 enum lacedring_status lacedring_lean_check(const struct lacedring_lean* lean, uint64_t* where) {
@@ -207,26 +212,27 @@ enum lacedring_status lacedring_lean_check(const struct lacedring_lean* lean, ui
     uint64_t triangles = 0;
     uint32_t i;
     enum lacedring_status status = lacedring_check_section_(&two_sided, &triangles, where);
-    if (status == LACEDRING_OK) status = lacedring_check_section_(&one_sided, &triangles, where);
-    if (status != LACEDRING_OK) return status;
+    if (status == LACEDRING_STATUS_OK) status = lacedring_check_section_(&one_sided, &triangles, where);
+    if (status != LACEDRING_STATUS_OK) return status;
     for (i = 0; i < lean->verbatim; ++i, t += 3) {
         if (t[0] >= lean->vertices || t[1] >= lean->vertices || t[2] >= lean->vertices || t[0] == t[1] ||
             t[1] == t[2] || t[2] == t[0]) {
-            return lacedring_at_(where, i, LACEDRING_VERBATIM);
+            return lacedring_at_(where, i, LACEDRING_STATUS_VERBATIM);
         }
     }
     triangles += lean->verbatim;
-    return triangles == lean->triangles ? LACEDRING_OK : lacedring_at_(where, triangles, LACEDRING_TRIANGLES);
+    return triangles == lean->triangles ? LACEDRING_STATUS_OK
+                                        : lacedring_at_(where, triangles, LACEDRING_STATUS_TRIANGLES);
 }
 
 enum lacedring_status lacedring_lean_validate(const uint32_t* words, size_t count, struct lacedring_lean* lean,
                                               uint64_t* where) {
     const enum lacedring_status status = lacedring_lean_open(words, count, lean, where);
     uint32_t crc;
-    if (status != LACEDRING_OK) return status;
+    if (status != LACEDRING_STATUS_OK) return status;
     crc = lacedring_crc_(0xffffffffu, words, LACEDRING_LEAN_HEADER_WORDS - 1); /* all but the checksum itself */
     crc = ~lacedring_crc_(crc, lean->payload, count - LACEDRING_LEAN_HEADER_WORDS);
-    if (crc != words[LACEDRING_LEAN_HEADER_WORDS - 1]) return lacedring_at_(where, 0, LACEDRING_CHECKSUM);
+    if (crc != words[LACEDRING_LEAN_HEADER_WORDS - 1]) return lacedring_at_(where, 0, LACEDRING_STATUS_CHECKSUM);
     return lacedring_lean_check(lean, where);
 }
 

@@ -15,7 +15,7 @@ namespace lacedring {
 // The rings: cycles of mesh edges that visit most vertices once and part the triangles into two sides.
 // Paper: LR 2011, section 4.2 (RING-EXPANDER).
 
-struct Expansion;  // ring.hpp
+struct Expansion;  // below
 
 struct RingOptions {
     std::uint32_t seeds = 1;  ///< seed corners tried per component; the one with the cheapest ring is kept
@@ -43,7 +43,7 @@ struct Rings {
     std::vector<RingEdge> edges;       ///< ring after ring, in ring order
     std::vector<std::uint32_t> first;  ///< where each ring begins in `edges`; one more entry at the end
 
-    std::size_t count() const { return first.size() - 1; }
+    std::size_t count() const { return first.empty() ? 0 : first.size() - 1; }
     std::span<const RingEdge> ring(std::size_t r) const {
         return std::span(edges).subspan(first[r], first[r + 1] - first[r]);
     }

@@ -159,7 +159,7 @@ constexpr std::uint32_t kT0Flip = 0x80000000;  ///< on the first vertex of a T0 
 struct LrView {
     std::uint32_t vertices = 0;         ///< all: on rings, isolated, and of no triangle
     std::uint32_t ring_vertices = 0;    ///< m_r
-    std::span<const std::uint32_t> lr;  ///< 2 m_r words (streams.hpp)
+    std::span<const std::uint32_t> lr;  ///< 2 m_r words (namespace word)
     std::span<const std::uint32_t> vo;  ///< 6 a T0: three vertices, three opposite corners
     std::span<const std::uint32_t>
         star;                          ///< VO*, 3 an irregular triangle: tip, opposites of the start and the end corner
@@ -256,7 +256,7 @@ struct LrView {
 // One 32-bit word per ring vertex, its left half in the upper 16 bits: a wart bit and a 15-bit signed offset from v to
 // the tip, modulo m_r, on either side. Both wart bits together cannot be: they say that the other 30 bits are four
 // flags and a 26-bit index of a record in VO* (in units of `unit` entries, two unless the table outgrows the index):
-//     v.l, v.r             as words of the standard representation (streams.hpp), each with its kind
+//     v.l, v.r             as words of the standard representation (namespace word), each with its kind
 //     two more             the opposites of an irregular left triangle
 //     two more             the opposites of an irregular right triangle
 //
@@ -470,19 +470,21 @@ class StreamView {
 Result<StreamView> validate(std::span<const std::uint32_t> words);
 Result<StreamView> validate(std::span<const std::byte> bytes);
 
-/// Checks sizes only, for what was just encoded or validated. Errors: malformed. Cost: O(1); O(T) for LR tables.
+/// Checks sizes only, for what was just encoded or validated: safe by itself with any words, but decoders and operators
+/// rely on valid ones. Errors: malformed. Cost: O(1); O(T) for LR tables.
 Result<StreamView> view_stream(std::span<const std::uint32_t> words);
 
 /// All triangles, oriented as in the mesh that was encoded: 3 * view.triangles() indices. The stream must be valid.
-/// 16-bit indices: at most 65,536 vertices. Cost: O(T); memory beside the result: none, but 4 bytes a vertex for LR
-/// tables with copies. On at most `threads` threads where the format is packed and indices have 32 bits. Errors:
+/// 16-bit indices: at most 65,536 vertices. Cost: O(T); for LR tables with copies 4 bytes a vertex, or, to 16 bits,
+/// O(log copies) a triangle. On at most `threads` threads where the format is packed and indices have 32 bits. Errors:
 /// invalid_argument (another size of `indices`, or vertices that 16 bits cannot number).
 Result<void> decode(const StreamView& view, std::span<std::uint32_t> indices, unsigned threads = 1);
 Result<void> decode(const StreamView& view, std::span<std::uint16_t> indices);
 std::vector<std::uint32_t> decode(const StreamView& view);
 
 /// The triangles of the 256 slots from 256 * block on. Returns how many there are; room for 3 * 256 indices is always
-/// enough. Cost: O(1). Errors: invalid_argument (no such block, too little room).
+/// enough. Cost: O(1), O(log copies) a triangle with LR tables. Errors: invalid_argument (no such block, too little
+/// room).
 Result<std::uint32_t> decode_block(const StreamView& view, std::uint32_t block, std::span<std::uint32_t> indices);
 
 /// The triangle of one slot; none if the slot is degenerate, or there is no such slot. Cost: O(1), with LR tables

@@ -80,13 +80,17 @@ struct LrFileView {
     std::vector<AttributeView> attributes;
     std::span<const std::uint32_t> vertex_order, corner_order;  ///< empty unless kept
 
+    /// Checks the words, and that they have as many vertices as each attribute. Errors: malformed. Cost: O(T).
+    /// Untrusted input: safe.
+    Result<StreamView> validate() const;
     /// The positions, for reading; none if the file has none.
     Positions positions() const;
 };
 
 /// A file in memory, for one that is mapped (MappedFile, file.hpp) above all: `bytes` begin at a multiple of 8. Checks
-/// the structure of the file, not what is in the sections: validate(view.words), or trust them. Errors: malformed,
-/// invalid_argument (the address). Untrusted input: safe. Cost: O(1) in the size of the mesh.
+/// the structure of the file and the sizes of all sections, not what is in them: call validate() or trust the words;
+/// the orders' entries may be any numbers. Errors: malformed, invalid_argument (the address). Untrusted input: safe.
+/// Cost: O(1) in the size of the mesh.
 Result<LrFileView> view_lr_file(std::span<const std::byte> bytes);
 
 /// Decodes to a mesh in stream order, copies of non-manifold vertices left out again. `file` is valid (parse_lr checked
