@@ -1,13 +1,13 @@
 /* Decodes lean streams from standard input: for each, how many words it has, then the words. One line each: its
    triangles, or "no" and what is wrong. */
 #define LACEDRING_DECODE_IMPLEMENTATION
-#include "lacedring_decode.h"
-
 #include <stdio.h>
 #include <stdlib.h>
 
-static int same_in_16_bits(const struct lacedring_lean *lean, const uint32_t *indices) {
-    uint16_t *narrow = malloc(6 * (size_t)lean->triangles + 1);
+#include "lacedring_decode.h"
+
+static int same_in_16_bits(const struct lacedring_lean* lean, const uint32_t* indices) {
+    uint16_t* narrow = malloc(6 * (size_t)lean->triangles + 1);
     size_t i;
     int same = narrow != NULL;
     if (same) lacedring_lean_triangles_u16(lean, narrow);
@@ -17,13 +17,13 @@ static int same_in_16_bits(const struct lacedring_lean *lean, const uint32_t *in
 }
 
 /* All slots at once and one by one are the same. */
-static int same_by_slots(const struct lacedring_lean *lean) {
+static int same_by_slots(const struct lacedring_lean* lean) {
     const uint32_t slots = lacedring_lean_slots(lean);
     uint32_t *all = malloc(12 * (size_t)slots + 1), slot, t[3];
     int same = all != NULL;
     if (same) lacedring_lean_decode(lean, all);
     for (slot = 0; same && slot < slots; ++slot) {
-        const uint32_t *from = all + 3 * (size_t)slot;
+        const uint32_t* from = all + 3 * (size_t)slot;
         lacedring_lean_slot(lean, slot, t);
         same = t[0] == from[0] && t[1] == from[1] && t[2] == from[2];
     }

@@ -5,11 +5,11 @@
 #include "lacedring/streams.hpp"
 
 #define LACEDRING_DECODE_IMPLEMENTATION
+#include "lacedring/lacedring_decode.h"
 #include "lrcore/base/crc32.h"
 #include "lrcore/base/message.h"
 #include "lrcore/base/signature.h"
 #include "lrcore/codec/lean/lean_format.h"
-#include "lacedring/lacedring_decode.h"
 
 namespace lacedring {
 namespace {

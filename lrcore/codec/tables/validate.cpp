@@ -230,8 +230,8 @@ class StarChecker {
     bool check_fan(VertexId v) {
         std::size_t i = 0;
         bool same = true;
-        const bool told = ops_.near_neighbors(
-            v, [&](VertexId u) { same = i < neighbors_.size() && neighbors_[i++] == u && same; });
+        const bool told =
+            ops_.near_neighbors(v, [&](VertexId u) { same = i < neighbors_.size() && neighbors_[i++] == u && same; });
         return !told || (same && i == neighbors_.size()) || fail("vertex ", v.value, ": neighbors");
     }
 
@@ -251,7 +251,7 @@ class StarChecker {
     const std::uint32_t numbers_;
     std::uint64_t most_ = 0, corners_ = 0;    // corners of all triangles; corners walked
     std::uint64_t larger_ = 0, smaller_ = 0;  // corners whose opposite is larger, smaller
-    std::vector<VertexId> neighbors_;        // of one vertex, in star order
+    std::vector<VertexId> neighbors_;         // of one vertex, in star order
     std::string why_;
 };
 
