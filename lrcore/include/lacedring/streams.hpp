@@ -219,7 +219,7 @@ struct LrView {
         const std::uint32_t* w = lr.data() + 2 * std::size_t{v};
         if ((w[0] | w[1] | w[-1] | w[-2]) > word::kTip) return false;
         // The slots two before may be anything but a wart, which would skip v.p, or another ring's end.
-        if (skips(w[-3]) | skips(w[-4]) | closing(w[-4])) return false;
+        if ((int{skips(w[-3])} | int{skips(w[-4])} | int{closing(w[-4])}) != 0) return false;
         fan = {w[0], w[-2] - w[0], w[1], w[-1] - w[1]};
         return run_has_tip(fan.left, fan.left_count, v, 0) && run_has_tip(fan.right, fan.right_count, v, 1);
     }
