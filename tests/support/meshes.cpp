@@ -90,7 +90,7 @@ std::optional<std::size_t> for_each_real_mesh(
     if (folder == nullptr) return std::nullopt;
     std::size_t count = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-        const std::string extension = entry.path().extension();
+        const std::string extension = entry.path().extension().string();
         if (extension == ".tsv" || extension == ".bin") continue;
         visit(entry.path().string(), read_mesh(entry.path()));
         ++count;
