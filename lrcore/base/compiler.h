@@ -1,5 +1,5 @@
 #pragma once
-// What is not standard C++, each with a plain fallback, which LACEDRING_PLAIN chooses (scripts/portability tests it).
+// Compiler extensions, each with a plain fallback. LACEDRING_PLAIN chooses the fallbacks (scripts/portability plain).
 
 #include <cstdint>
 

@@ -38,7 +38,7 @@ lacedring_code fail(lacedring_code code, std::string_view text, lacedring_messag
     return code;
 }
 
-/// What work() returns, or OUT_OF_MEMORY: no exception passes into C.
+/// Returns work()'s code, or OUT_OF_MEMORY if it throws: no exception passes into C.
 template <class Work>
 lacedring_code guarded(lacedring_message* message, Work work) {
     try {

@@ -95,7 +95,7 @@ Result<Encoded> encode_table(Table&& table, const EncodeOptions& options) {
     return out;
 }
 
-/// What a step made, as encode() returns it; `order` names its triangles as they decode.
+/// Moves a step's result into an Encoded; `order` lists its triangles as they decode.
 template <class Stream>
 Encoded take(Stream& stream, Format format, std::vector<std::uint32_t>& order) {
     Encoded out;

@@ -25,7 +25,7 @@ LeanView from_c(const lacedring_lean& lean, std::size_t payload) {
     return {{lean.payload, payload}, lean.vertices, lean.rings2, lean.rings1, lean.verbatim, lean.triangles};
 }
 
-/// What is wrong, in words. `words` has a header unless it is too short for one.
+/// Describes the fault in English. `words` has a header unless it is too short for one.
 std::string why(lacedring_status status, std::uint64_t where, std::span<const std::uint32_t> words) {
     using detail::message;
     const auto ring_vertex = [&] {

@@ -27,7 +27,7 @@ enum class PackedProfile {
     cache,  ///< an order nearly as good for the vertex cache as the best, in about one bit and a half more
 };
 
-/// What the triangles became. Counts are of triangles, and over all rings. Paper: section 4.3.
+/// Counts of triangles by how a lean stream stores them, over all rings. Paper: section 4.3.
 struct LeanStatistics {
     std::uint32_t ring_vertices = 0;
     std::uint32_t isolated = 0;   ///< vertices used by triangles, but on no ring
@@ -38,7 +38,7 @@ struct LeanStatistics {
     std::uint32_t unrung = 0;     ///< T1 and T2 stored verbatim because their ring, or its side, is not worth its slots
 };
 
-/// Of a packed stream.
+/// Counts of a packed stream's events and blocks.
 struct PackedStatistics {
     std::uint32_t ring_vertices = 0;
     std::uint32_t events[8] = {};      ///< by code (docs/packed-format.md)
@@ -47,7 +47,7 @@ struct PackedStatistics {
     std::uint32_t plain_blocks = 0;    ///< stored as three vertices a triangle
 };
 
-/// Of LR tables, standard or bit-efficient: counts of triangles by kind. Paper: LR 2011, section 8.
+/// Counts of triangles by kind in LR tables, standard or bit-efficient. Paper: LR 2011, section 8.
 struct LrStatistics {
     std::uint32_t t0 = 0, t0_wart = 0, t1_irregular = 0, t2_irregular = 0, t2 = 0, isolated = 0;
 };
@@ -243,7 +243,7 @@ struct CompactChoice {
 Result<CompactChoice> smallest_compact_lr(const CornerTable& table, const RingOptions& options,
                                           std::span<const std::uint32_t> periods);
 
-/// What a step made as encode() returns it. report.topology and report.passes are the caller's to fill.
+/// Converts a step's result to encode()'s. The caller fills report.topology and report.passes.
 Encoded as_encoded(EncodedLean stream);
 Encoded as_encoded(EncodedPacked stream);
 Encoded as_encoded(EncodedLr stream);
