@@ -48,6 +48,8 @@ std::string_view kind_by_signature(std::span<const std::byte> bytes) {
             return "a lean stream";
         case magic::kPacked:
             return "a packed stream";
+        case magic::kPacked1:
+            return "a packed stream of version 1";
         case magic::kLr:
             return "LR tables";
         case magic::kCompactLr:

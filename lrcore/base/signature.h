@@ -12,7 +12,8 @@ namespace lacedring {
 /// First word of each stream, and of an .lr file.
 namespace magic {
 constexpr std::uint32_t kLean = 0x4e4c524c;       // "LRLN"
-constexpr std::uint32_t kPacked = 0x4b50524c;     // "LRPK"
+constexpr std::uint32_t kPacked = 0x3250524c;     // "LRP2"
+constexpr std::uint32_t kPacked1 = 0x4b50524c;    // "LRPK", the first version
 constexpr std::uint32_t kLr = 0x5443524c;         // "LRCT"
 constexpr std::uint32_t kCompactLr = 0x4243524c;  // "LRCB"
 constexpr std::uint32_t kLrFile = 0x4c46524c;     // "LRFL"

@@ -34,6 +34,7 @@ Result<StreamView::Any> open(std::span<const std::uint32_t> words, bool check) {
         case magic::kLean:
             return any(check ? validate_lean(words) : view_lean(words));
         case magic::kPacked:
+        case magic::kPacked1:
             return any(check ? validate_packed(words) : view_packed(words));
         case magic::kLr:
             return any(check ? validate_lr(words) : view_lr(words));

@@ -69,6 +69,10 @@ std::string why(lacedring_status status, std::uint64_t where, std::span<const st
         }
         case LACEDRING_STATUS_TRIANGLES:
             return message(where, " triangles, where the header says ", words[LR_LEAN_WORD_TRIANGLES]);
+        case LACEDRING_STATUS_GROUP:
+        case LACEDRING_STATUS_BLOCK:
+        case LACEDRING_STATUS_TURNS:
+            break;  // of packed streams
     }
     return "unknown";
 }

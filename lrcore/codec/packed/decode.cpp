@@ -6,28 +6,20 @@
 #include <thread>
 #include <vector>
 
-#include "lrcore/codec/packed/record.h"
+#include "lrcore/codec/packed/packed_c.h"
 
 namespace lacedring {
 namespace {
 
 constexpr std::uint32_t kFewestBlocks = 4;  // of a part: about ten microseconds, the time to start a thread
 
-void decode_triangles(const PackedView& view, std::uint32_t begin, std::uint32_t end, std::uint32_t* out) {
-    while (begin < end) {
-        const PackedRecord record = find_record(view, begin);
-        expand_record(view, record, record.triangles, out);
-        begin += record.triangles;
-        out += std::size_t{3} * record.triangles;
-    }
-}
-
 }  // namespace
 
 void decode_packed(const PackedView& view, std::span<std::uint32_t> indices, unsigned threads) {
     assert(indices.size() == std::size_t{3} * view.triangles);
+    const lacedring_packed packed = detail::as_c(view);
     const std::uint32_t blocks = view.blocks();
-    if (threads <= 1 || blocks <= kFewestBlocks) return decode_triangles(view, 0, view.triangles, indices.data());
+    if (threads <= 1 || blocks <= kFewestBlocks) return lacedring_packed_triangles_u32(&packed, indices.data());
     // Several parts a thread: a thread that starts late leaves its parts to the others.
     const std::uint32_t parts =
         static_cast<std::uint32_t>(std::min<std::uint64_t>(std::uint64_t{threads} * 4, blocks / kFewestBlocks));
@@ -35,10 +27,10 @@ void decode_packed(const PackedView& view, std::span<std::uint32_t> indices, uns
     const auto work = [&] {
         for (std::uint32_t i = next_part++; i < parts; i = next_part++) {
             const auto first_of = [&](std::uint32_t k) {
-                return static_cast<std::uint32_t>(
-                    std::min<std::uint64_t>(std::uint64_t{blocks} * k / parts * LR_PACKED_BLOCK, view.triangles));
+                return static_cast<std::uint32_t>(std::uint64_t{blocks} * k / parts);
             };
-            decode_triangles(view, first_of(i), first_of(i + 1), indices.data() + std::size_t{3} * first_of(i));
+            lacedring_packed_blocks_u32(&packed, first_of(i), first_of(i + 1),
+                                        indices.data() + std::size_t{3} * LACEDRING_PACKED_BLOCK * first_of(i));
         }
     };
     std::vector<std::jthread> others;
@@ -52,17 +44,17 @@ void decode_packed(const PackedView& view, std::span<std::uint32_t> indices, uns
 }
 
 void decode_packed_block(const PackedView& view, std::uint32_t block, std::span<std::uint32_t> indices) {
-    const std::uint32_t first = block * LR_PACKED_BLOCK, count = std::min(view.triangles - first, LR_PACKED_BLOCK);
-    assert(block < view.blocks() && indices.size() >= std::size_t{3} * count);
-    decode_triangles(view, first, first + count, indices.data());
+    assert(block < view.blocks());
+    assert(indices.size() >= std::size_t{3} * std::min(view.triangles - block * LACEDRING_PACKED_BLOCK, LACEDRING_PACKED_BLOCK));
+    const lacedring_packed packed = detail::as_c(view);
+    lacedring_packed_blocks_u32(&packed, block, block + 1, indices.data());
 }
 
 Triangle decode_packed_triangle(const PackedView& view, std::uint32_t triangle) {
-    const PackedRecord record = find_record(view, triangle);
-    const std::uint32_t i = triangle - record.first;
-    std::uint32_t out[3 * LR_PACKED_BLOCK];
-    expand_record(view, record, i + 1, out);
-    return {{out[3 * i], out[3 * i + 1], out[3 * i + 2]}};
+    const lacedring_packed packed = detail::as_c(view);
+    Triangle out;
+    lacedring_packed_triangle(&packed, triangle, out.v);
+    return out;
 }
 
 }  // namespace lacedring

@@ -43,6 +43,8 @@ struct PackedStatistics {
     std::uint32_t ring_vertices = 0;
     std::uint32_t events[8] = {};      ///< by code (docs/packed-format.md)
     std::uint64_t event_bits[8] = {};  ///< with their gaps
+    std::uint32_t warts = 0;
+    std::uint64_t wart_bits = 0;
     std::uint32_t parted_blocks = 0;   ///< whose events are too many for one record
     std::uint32_t plain_blocks = 0;    ///< stored as three vertices a triangle
 };

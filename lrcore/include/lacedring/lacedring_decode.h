@@ -21,6 +21,7 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -32,6 +33,8 @@ extern "C" {
 #define LACEDRING_VERSION_PATCH 0
 
 #define LACEDRING_LEAN_HEADER_WORDS 8
+#define LACEDRING_PACKED_HEADER_WORDS 4
+#define LACEDRING_PACKED_BLOCK 256u /* triangles of a packed stream's block */
 
 /* What is wrong with a stream. The comment says what `*where` is then. */
 enum lacedring_status {
@@ -50,7 +53,10 @@ enum lacedring_status {
     LACEDRING_STATUS_CLOSING_WORD, /* the slot */
     LACEDRING_STATUS_WORD,         /* the slot */
     LACEDRING_STATUS_VERBATIM,     /* which verbatim triangle repeats a vertex, or names none */
-    LACEDRING_STATUS_TRIANGLES     /* how many triangles there are, not what the header says */
+    LACEDRING_STATUS_TRIANGLES,    /* how many triangles there are, not what the header says */
+    LACEDRING_STATUS_GROUP,        /* the block whose group begins elsewhere, or has an impossible head */
+    LACEDRING_STATUS_BLOCK,        /* the block that says something impossible */
+    LACEDRING_STATUS_TURNS         /* how many triangles have turns, and there are more */
 };
 
 /* A stream in memory, its header read. Holds no copy. Slots are numbered: 2 for each vertex of two-sided rings, 1 for
@@ -88,6 +94,34 @@ void lacedring_lean_decode(const struct lacedring_lean* lean, uint32_t* indices)
 /* The triangles alone, in slot order: 3 * lean->triangles indices; of 16 bits only where lean->vertices <= 65536. */
 void lacedring_lean_triangles_u32(const struct lacedring_lean* lean, uint32_t* indices);
 void lacedring_lean_triangles_u16(const struct lacedring_lean* lean, uint16_t* indices);
+
+/* A packed stream in memory, its header read. Holds no copy. */
+struct lacedring_packed {
+    uint32_t vertices, triangles; /* of the mesh */
+    uint32_t vertex_bits;         /* of a vertex number in the stream */
+    const uint32_t* turns;        /* a bit for each triangle */
+    const uint32_t* table;        /* where groups begin */
+    const uint8_t* groups;
+    size_t group_bytes;
+};
+
+/* As for lean streams: open reads the header and checks sizes, constant time; check is all that decoders rely on but the
+   checksum, linear time; validate does all. 9 KB of stack. */
+enum lacedring_status lacedring_packed_open(const uint32_t* words, size_t count, struct lacedring_packed* packed,
+                                            uint64_t* where);
+enum lacedring_status lacedring_packed_check(const struct lacedring_packed* packed, uint64_t* where);
+enum lacedring_status lacedring_packed_validate(const uint32_t* words, size_t count, struct lacedring_packed* packed,
+                                                uint64_t* where);
+
+/* 3 * packed->triangles indices; of 16 bits only where packed->vertices <= 65536. Linear time. */
+void lacedring_packed_triangles_u32(const struct lacedring_packed* packed, uint32_t* indices);
+void lacedring_packed_triangles_u16(const struct lacedring_packed* packed, uint16_t* indices);
+
+/* Blocks [block, end): triangles [256 * block, 256 * end) or what the last block has. */
+void lacedring_packed_blocks_u32(const struct lacedring_packed* packed, uint32_t block, uint32_t end, uint32_t* indices);
+
+/* Any triangle, on its own: at most 48 words are read, beside the header. */
+void lacedring_packed_triangle(const struct lacedring_packed* packed, uint32_t triangle, uint32_t out[3]);
 
 #ifdef __cplusplus
 }
@@ -329,6 +363,858 @@ void lacedring_lean_triangles_u16(const struct lacedring_lean* lean, uint16_t* i
         indices[1] = (uint16_t)t[1];
         indices[2] = (uint16_t)t[2];
         indices += 3;
+    }
+}
+
+/* Packed streams: docs/packed-format.md. */
+
+#define LACEDRING_PACKED_GROUP_ 16u
+#define LACEDRING_PACKED_MAX_RECORD_ 104u
+#define LACEDRING_PACKED_PLAIN_ 255u
+#define LACEDRING_PACKED_PART_ 64u
+
+enum { LACEDRING_SPLIT_, LACEDRING_BESIDE_, LACEDRING_START_, LACEDRING_FAR_, LACEDRING_JUMP_, LACEDRING_TURN_,
+       LACEDRING_FLIPS_, LACEDRING_NO_EVENT_ };
+
+static uint32_t lacedring_ones_(uint64_t bits) { /* before the lowest zero; `bits` has one */
+#if defined(__GNUC__) && !defined(LACEDRING_PLAIN)
+    return (uint32_t)__builtin_ctzll(~bits);
+#else
+    uint32_t n = 0;
+    for (; bits & 1; bits >>= 1) ++n;
+    return n;
+#endif
+}
+
+static uint32_t lacedring_popcount_(uint32_t bits) {
+    bits -= (bits >> 1) & 0x55555555u;
+    bits = (bits & 0x33333333u) + ((bits >> 2) & 0x33333333u);
+    return (((bits + (bits >> 4)) & 0x0f0f0f0fu) * 0x01010101u) >> 24;
+}
+
+/* A reader of bits [at, end) of the groups; behind them come ones. No byte outside the groups is read. */
+struct lacedring_bits_ {
+    const uint8_t* groups;
+    size_t bytes; /* of the groups */
+    uint64_t at, end;
+};
+
+/* At least 57 bits. */
+static uint64_t lacedring_window_(const struct lacedring_bits_* r) {
+    const uint64_t at = r->at < r->end ? r->at : r->end, left = r->end - at;
+    const size_t byte = (size_t)(at >> 3);
+    uint64_t value = 0;
+    if (byte + 8 <= r->bytes) {
+        memcpy(&value, r->groups + byte, 8);
+    } else if (byte < r->bytes) {
+        memcpy(&value, r->groups + byte, r->bytes - byte);
+    }
+    value >>= at & 7;
+    return left < 64 ? value | UINT64_MAX << left : value;
+}
+
+static uint32_t lacedring_take_(struct lacedring_bits_* r, uint32_t count) { /* at most 32 */
+    const uint32_t value = (uint32_t)(lacedring_window_(r) & ((UINT64_C(1) << count) - 1));
+    r->at += count;
+    return value;
+}
+
+/* Ones before a zero, at most `limit`: where there are as many, no zero is read. */
+static uint32_t lacedring_unary_(struct lacedring_bits_* r, uint32_t limit) {
+    const uint32_t ones = lacedring_ones_(lacedring_window_(r) & ~(UINT64_C(1) << limit));
+    r->at += ones + (ones < limit);
+    return ones;
+}
+
+static uint32_t lacedring_golomb_(struct lacedring_bits_* r, uint32_t order) {
+    const uint32_t low = lacedring_unary_(r, 31 - order) + order;
+    return (lacedring_take_(r, low) | UINT32_C(1) << low) - (UINT32_C(1) << order);
+}
+
+/* Golomb-Rice, of at most 31 ones; UINT32_MAX where there are more. */
+static uint32_t lacedring_rice_(struct lacedring_bits_* r, uint32_t low) {
+    const uint64_t window = lacedring_window_(r);
+    const uint32_t ones = lacedring_ones_(window & ~(UINT64_C(1) << 32));
+    if (ones == 32) return UINT32_MAX;
+    r->at += ones + 1 + low;
+    return (ones << low) + ((uint32_t)(window >> (ones + 1)) & ((UINT32_C(1) << low) - 1));
+}
+
+/* The blocks of a group in turn. */
+struct lacedring_group_ {
+    struct lacedring_bits_ head;
+    uint64_t record; /* byte of the groups at which the next block's records begin */
+    uint32_t block, length_bits, entry_bits, gap_bits, wart_bits, split_order, count_order;
+    uint32_t a, b, reversed, linked; /* the entry of the block before; linked: the next one may be relative to it */
+};
+
+/* A record: what it is for, and its bits. */
+struct lacedring_record_ {
+    struct lacedring_bits_ bits;
+    const uint32_t* turns;
+    uint32_t first, triangles;
+    uint32_t a, b, reversed;
+};
+
+struct lacedring_block_ {
+    struct lacedring_record_ record; /* the first; its bits begin behind its entry */
+    uint64_t begin;                  /* byte of the groups */
+    uint32_t length, bytes;          /* as the head has it; of all records */
+    uint32_t explicit_entry;
+};
+
+static uint32_t lacedring_packed_blocks_(const struct lacedring_packed* p) {
+    return p->triangles / LACEDRING_PACKED_BLOCK + (p->triangles % LACEDRING_PACKED_BLOCK != 0);
+}
+
+static struct lacedring_bits_ lacedring_bits_at_(const struct lacedring_packed* p, uint64_t byte, uint32_t bytes) {
+    struct lacedring_bits_ r;
+    r.groups = p->groups;
+    r.bytes = p->group_bytes;
+    r.at = 8 * byte;
+    r.end = r.at + (uint64_t)8 * bytes;
+    return r;
+}
+
+static void lacedring_take_entry_(const struct lacedring_packed* p, struct lacedring_bits_* r, uint32_t* a, uint32_t* b,
+                                  uint32_t* reversed) {
+    *a = lacedring_take_(r, p->vertex_bits);
+    *b = lacedring_take_(r, p->vertex_bits);
+    *reversed = lacedring_take_(r, 1);
+}
+
+/* Begins the group that holds `block`. 0: its head is impossible. */
+static int lacedring_open_group_(const struct lacedring_packed* p, uint32_t block, struct lacedring_group_* g) {
+    const uint32_t group = block / LACEDRING_PACKED_GROUP_;
+    const uint32_t left = lacedring_packed_blocks_(p) - group * LACEDRING_PACKED_GROUP_;
+    const uint32_t blocks = left < LACEDRING_PACKED_GROUP_ ? left : LACEDRING_PACKED_GROUP_;
+    const uint32_t byte = group == 0 ? 0 : p->table[group - 1];
+    uint32_t bits;
+    g->head = lacedring_bits_at_(p, byte, 0x1000);
+    g->length_bits = lacedring_take_(&g->head, 4);
+    g->entry_bits = lacedring_take_(&g->head, 4);
+    g->gap_bits = lacedring_take_(&g->head, 3);
+    g->wart_bits = lacedring_take_(&g->head, 3);
+    g->split_order = lacedring_take_(&g->head, 2);
+    g->count_order = lacedring_take_(&g->head, 2);
+    lacedring_take_entry_(p, &g->head, &g->a, &g->b, &g->reversed);
+    g->linked = 1;
+    g->block = group * LACEDRING_PACKED_GROUP_;
+    bits = (uint32_t)(g->head.at - (uint64_t)8 * byte) + blocks * g->length_bits + (blocks - 1) * g->entry_bits;
+    g->head.end = (uint64_t)8 * byte + bits;
+    g->record = byte + (uint64_t)(bits + 7) / 8;
+    return g->length_bits <= 8 && g->entry_bits <= 8;
+}
+
+/* Bytes of a part, at most. */
+#define LACEDRING_PACKED_MAX_PART_ 128u
+
+static uint32_t lacedring_block_bytes_(const struct lacedring_packed* p, uint32_t length, uint32_t triangles) {
+    if (length <= LACEDRING_PACKED_MAX_RECORD_) return length;
+    if (length < LACEDRING_PACKED_PLAIN_) return 4 * (length - LACEDRING_PACKED_MAX_RECORD_);
+    return (3 * triangles * p->vertex_bits + 7) / 8;
+}
+
+/* The next block of the group. 0: it goes on from a block that says nothing of where. */
+static int lacedring_next_block_(const struct lacedring_packed* p, struct lacedring_group_* g, struct lacedring_block_* b) {
+    const uint32_t first = g->block * LACEDRING_PACKED_BLOCK, left = p->triangles - first;
+    const uint32_t later = g->block % LACEDRING_PACKED_GROUP_ != 0;
+    uint32_t entry = 0;
+    int good = 1;
+    b->length = lacedring_take_(&g->head, g->length_bits);
+    if (later) entry = lacedring_take_(&g->head, g->entry_bits);
+    b->begin = g->record;
+    b->record.first = first;
+    b->record.triangles = left < LACEDRING_PACKED_BLOCK ? left : LACEDRING_PACKED_BLOCK;
+    b->record.turns = p->turns + first / 32;
+    b->bytes = lacedring_block_bytes_(p, b->length, b->record.triangles);
+    b->record.bits = lacedring_bits_at_(p, b->begin, b->bytes);
+    b->explicit_entry = later && entry == 0 && b->length != LACEDRING_PACKED_PLAIN_;
+    if (b->length > LACEDRING_PACKED_MAX_RECORD_ && b->length < LACEDRING_PACKED_PLAIN_) { /* the first part */
+        struct lacedring_bits_ parts = b->record.bits;
+        b->record.bits = lacedring_bits_at_(p, b->begin + 4, lacedring_take_(&parts, 8));
+        if (b->record.triangles > LACEDRING_PACKED_PART_) b->record.triangles = LACEDRING_PACKED_PART_;
+    }
+    if (entry != 0) {
+        const uint32_t span = g->b - g->a;
+        good = g->linked && b->length != LACEDRING_PACKED_PLAIN_;
+        g->a += LACEDRING_PACKED_BLOCK / 2 + entry - (UINT32_C(1) << (g->entry_bits - 1));
+        g->b = g->a + span - LACEDRING_PACKED_BLOCK;
+    } else if (b->explicit_entry) {
+        lacedring_take_entry_(p, &b->record.bits, &g->a, &g->b, &g->reversed);
+    }
+    g->linked = b->length != LACEDRING_PACKED_PLAIN_;
+    b->record.a = g->a;
+    b->record.b = g->b;
+    b->record.reversed = g->reversed;
+    g->record += b->bytes;
+    ++g->block;
+    return good;
+}
+
+/* Part `part` of a parted block. */
+static void lacedring_part_(const struct lacedring_packed* p, const struct lacedring_block_* b, uint32_t part,
+                            struct lacedring_record_* r) {
+    struct lacedring_bits_ lengths = lacedring_bits_at_(p, b->begin, 4);
+    uint64_t byte = b->begin + 4;
+    uint32_t i, first = b->record.first + part * LACEDRING_PACKED_PART_, left = p->triangles - first;
+    *r = b->record;
+    if (part == 0) return;
+    for (i = 0; i < part; ++i) byte += lacedring_take_(&lengths, 8);
+    r->bits = lacedring_bits_at_(p, byte, lacedring_take_(&lengths, 8));
+    r->first = first;
+    r->triangles = left < LACEDRING_PACKED_PART_ ? left : LACEDRING_PACKED_PART_;
+    r->turns += part * LACEDRING_PACKED_PART_ / 32;
+    lacedring_take_entry_(p, &r->bits, &r->a, &r->b, &r->reversed);
+}
+
+static void lacedring_plain_(const struct lacedring_packed* p, const struct lacedring_block_* b, uint32_t i,
+                             uint32_t triangle[3]) {
+    struct lacedring_bits_ bits = lacedring_bits_at_(p, b->begin, b->bytes);
+    bits.at += (uint64_t)3 * i * p->vertex_bits;
+    triangle[0] = lacedring_take_(&bits, p->vertex_bits);
+    triangle[1] = lacedring_take_(&bits, p->vertex_bits);
+    triangle[2] = lacedring_take_(&bits, p->vertex_bits);
+}
+
+/* An event, with whatever its code has of these. */
+struct lacedring_event_ {
+    uint32_t triangle; /* of the record; UINT32_MAX: impossible */
+    uint32_t code, choice, v, w, reversed;
+    uint64_t flips; /* bit of the groups at which they begin */
+};
+
+static void lacedring_read_event_(const struct lacedring_packed* p, const struct lacedring_group_* g,
+                                  struct lacedring_record_* r, struct lacedring_event_* e) {
+    struct lacedring_bits_* bits = &r->bits;
+    const uint32_t gap = lacedring_rice_(bits, g->gap_bits);
+    e->triangle = gap < LACEDRING_PACKED_BLOCK ? e->triangle + gap : UINT32_MAX;
+    e->code = lacedring_unary_(bits, LACEDRING_NO_EVENT_);
+    if (e->triangle >= r->triangles || e->code == LACEDRING_NO_EVENT_) {
+        e->triangle = UINT32_MAX;
+        e->code = LACEDRING_TURN_;
+    }
+    switch (e->code) {
+        case LACEDRING_SPLIT_:
+            e->v = 3 + lacedring_golomb_(bits, g->split_order);
+            break;
+        case LACEDRING_JUMP_:
+            e->v = 2 + lacedring_golomb_(bits, 1);
+            e->choice = lacedring_take_(bits, 1);
+            e->w = e->choice ? 1 + lacedring_golomb_(bits, 2) : 0;
+            break;
+        case LACEDRING_FAR_:
+            e->choice = lacedring_take_(bits, 2);
+            e->v = lacedring_take_(bits, p->vertex_bits);
+            e->w = e->choice == 3 ? 1 + lacedring_golomb_(bits, 2) : 0;
+            break;
+        case LACEDRING_BESIDE_:
+            e->choice = lacedring_take_(bits, 3);
+            e->v = lacedring_golomb_(bits, 1);
+            e->w = lacedring_take_(bits, p->vertex_bits);
+            if (e->v >> 30 != 0) e->triangle = UINT32_MAX; /* readers with fewer bits at hand need not take it */
+            break;
+        case LACEDRING_START_:
+            e->choice = lacedring_unary_(bits, 3);
+            if (e->choice == 3) {
+                lacedring_take_entry_(p, bits, &e->v, &e->w, &e->reversed);
+            } else {
+                e->v = e->choice == 2 ? lacedring_golomb_(bits, 2) : 1;
+                e->w = e->choice == 0 ? 0 : 2 + lacedring_golomb_(bits, 2);
+            }
+            break;
+        case LACEDRING_FLIPS_:
+            e->flips = bits->at;
+            bits->at += r->triangles;
+            break;
+        default:
+            break;
+    }
+}
+
+/* What a reader knows: the edge entered, and the polygon begun last outside of all scopes. */
+struct lacedring_state_ {
+    uint32_t a, b, reversed, begun_a, begun_b, begun_reversed, finished;
+};
+
+/* START or BESIDE. inside: of a scope. */
+static void lacedring_begin_(struct lacedring_state_* s, const struct lacedring_event_* e, int inside) {
+    uint32_t a = s->begun_a, b = s->begun_b;
+    if (e->code == LACEDRING_BESIDE_) {
+        const uint32_t step = e->v & 1 ? ~(e->v >> 1) : e->v >> 1;
+        static const uint8_t counts_a[4] = {1, 0, 1, 0};
+        const uint32_t from = e->choice >> 1;
+        const uint32_t near = (from == 0 ? s->b : from == 1 ? s->a : from == 2 ? a : b) + step;
+        s->reversed ^= e->choice & 1;
+        a = counts_a[from] ? near : e->w;
+        b = counts_a[from] ? e->w : near;
+    } else if (e->choice == 3) {
+        a = e->v;
+        b = e->w;
+        s->reversed = e->reversed;
+    } else if (e->choice == 0) {
+        s->reversed = !s->begun_reversed;
+    } else {
+        a = b + e->v;
+        b = a + e->w;
+        s->reversed = e->choice == 1 ? 0 : s->begun_reversed;
+    }
+    s->a = a;
+    s->b = b;
+    s->finished = 0;
+    if (inside) return;
+    s->begun_a = a;
+    s->begun_b = b;
+    s->begun_reversed = s->reversed;
+}
+
+/* Triangles of a polygon that is entered across (a, b) until it is finished. */
+static uint32_t lacedring_left_(uint32_t a, uint32_t b) { return b - a == 1 ? UINT32_MAX : b - a - 1; }
+
+/* Where nothing else follows a finished polygon: the one behind the one begun last, and as long. */
+static void lacedring_repeat_(struct lacedring_state_* s, int inside) {
+    const uint32_t size = s->begun_b - s->begun_a;
+    s->a = s->begun_b + 1;
+    s->b = s->a + size;
+    s->finished = 0;
+    if (inside) return;
+    s->begun_a = s->a;
+    s->begun_b = s->b;
+}
+
+/* An event that gives its triangle's third vertex: sets it, the edge that comes next, and the edge that comes when
+   *count triangles more are through; 0: none does. */
+static uint32_t lacedring_third_(struct lacedring_state_* s, const struct lacedring_event_* e, uint32_t turn, uint32_t rest[2],
+                                 uint32_t* count) {
+    const uint32_t a = s->a, b = s->b;
+    const uint32_t x = e->code == LACEDRING_FAR_ ? e->v : turn ? a + e->v : b - e->v;
+    const int both = e->code == LACEDRING_SPLIT_ || (e->code == LACEDRING_JUMP_ && e->choice);
+    const uint32_t enters = e->code == LACEDRING_FAR_ ? e->choice : both ? 3 : turn ? 2 : 1;
+    *count = e->code == LACEDRING_SPLIT_ ? e->v - 1 : e->w;
+    rest[0] = turn ? x : a;
+    rest[1] = turn ? b : x;
+    if (enters == 3 ? !turn : enters == 2) {
+        s->a = x;
+    } else {
+        s->b = x;
+    }
+    s->finished = enters == 0;
+    return x;
+}
+
+static void lacedring_put_(uint32_t* out, uint32_t a, uint32_t x, uint32_t b, uint32_t reversed) {
+    out[0] = a;
+    out[1] = reversed ? x : b;
+    out[2] = reversed ? b : x;
+}
+
+/* Four turns at once: twelve indices, each a or (mask) b with something added; a grows by `ups`. b - a becomes smaller by
+   four whatever the turns. */
+struct lacedring_nibble_ {
+    uint32_t add[12], mask[12];
+};
+
+/* Triangle k of four adds up(k), the turns before it that are 1, to a, and up(k) - k to b. */
+#define LACEDRING_UP_(bits, k) ((uint32_t)(((bits) & 1) * ((k) > 0) + ((bits) >> 1 & 1) * ((k) > 1) + ((bits) >> 2 & 1) * ((k) > 2)))
+#define LACEDRING_TURN_IS_(bits, k) ((bits) >> (k) & 1)
+#define LACEDRING_X_ADD_(bits, k) (LACEDRING_UP_(bits, k) + (LACEDRING_TURN_IS_(bits, k) ? 1u : 0u - (k) - 1u))
+#define LACEDRING_X_MASK_(bits, k) (LACEDRING_TURN_IS_(bits, k) ? 0u : UINT32_MAX)
+#define LACEDRING_ADDS_(bits, k) LACEDRING_UP_(bits, k), LACEDRING_UP_(bits, k) - (k), LACEDRING_X_ADD_(bits, k)
+#define LACEDRING_MASKS_(bits, k) 0, UINT32_MAX, LACEDRING_X_MASK_(bits, k)
+#define LACEDRING_NIBBLE_(bits)                                                                                       \
+    {                                                                                                                 \
+        {LACEDRING_ADDS_(bits, 0u), LACEDRING_ADDS_(bits, 1u), LACEDRING_ADDS_(bits, 2u), LACEDRING_ADDS_(bits, 3u)}, \
+        {LACEDRING_MASKS_(bits, 0u), LACEDRING_MASKS_(bits, 1u), LACEDRING_MASKS_(bits, 2u), LACEDRING_MASKS_(bits, 3u)} \
+    }
+static const struct lacedring_nibble_ lacedring_nibbles_[16] = {
+    LACEDRING_NIBBLE_(0),  LACEDRING_NIBBLE_(1),  LACEDRING_NIBBLE_(2),  LACEDRING_NIBBLE_(3),
+    LACEDRING_NIBBLE_(4),  LACEDRING_NIBBLE_(5),  LACEDRING_NIBBLE_(6),  LACEDRING_NIBBLE_(7),
+    LACEDRING_NIBBLE_(8),  LACEDRING_NIBBLE_(9),  LACEDRING_NIBBLE_(10), LACEDRING_NIBBLE_(11),
+    LACEDRING_NIBBLE_(12), LACEDRING_NIBBLE_(13), LACEDRING_NIBBLE_(14), LACEDRING_NIBBLE_(15)};
+
+/* A record while it is decoded into 3 * triangles indices. */
+struct lacedring_decoder_ {
+    struct lacedring_state_ s;
+    const uint8_t* turns; /* 40 bytes: a copy, and zeros behind it */
+    uint32_t i, triangles;
+    uint32_t* out;
+    uint32_t depth; /* of open scopes */
+    struct {
+        uint32_t end, a, b, reversed;
+    } scopes[LACEDRING_PACKED_BLOCK];
+    uint32_t fresh[8];  /* bit i: triangle i does not go on from the one before by its turn */
+    uint32_t thirds[8]; /* an event gives its third vertex */
+};
+
+static uint32_t lacedring_turn_(const struct lacedring_decoder_* d, uint32_t i) { return d->turns[i / 8] >> (i % 8) & 1; }
+
+/* Triangles [d->i, end), by their turns alone. Writes four at a time where there is room: what is too much is written
+   again. */
+static void lacedring_run_(struct lacedring_decoder_* d, uint32_t end) {
+    uint32_t a = d->s.a, b = d->s.b, i = d->i;
+    const uint32_t reversed = d->s.reversed;
+    while (i < end) {
+        const uint32_t bits = (uint32_t)(d->turns[i / 8] | d->turns[i / 8 + 1] << 8) >> (i % 8);
+        uint32_t* out = d->out + (size_t)3 * i;
+        if (i + 4 <= d->triangles) {
+            const struct lacedring_nibble_* n = &lacedring_nibbles_[bits & 15];
+            const uint32_t span = b - a, todo = end - i < 4 ? end - i : 4;
+            uint32_t k, ups;
+            for (k = 0; k < 12; ++k) out[k] = a + n->add[k] + (span & n->mask[k]);
+            if (reversed) {
+                for (k = 0; k < 12; k += 3) {
+                    const uint32_t x = out[k + 1];
+                    out[k + 1] = out[k + 2];
+                    out[k + 2] = x;
+                }
+            }
+            ups = lacedring_popcount_(bits & ((1u << todo) - 1));
+            a += ups;
+            b -= todo - ups;
+            i += todo;
+        } else {
+            const uint32_t x = bits & 1 ? a + 1 : b - 1;
+            lacedring_put_(out, a, x, b, reversed);
+            if (bits & 1) {
+                a = x;
+            } else {
+                b = x;
+            }
+            ++i;
+        }
+    }
+    d->s.a = a;
+    d->s.b = b;
+    d->i = i;
+}
+
+/* Decodes up to triangle `target`, and closes the scopes that end there. 0: impossible. */
+static int lacedring_advance_(struct lacedring_decoder_* d, uint32_t target) {
+    for (;;) {
+        uint32_t stop = target, left;
+        while (d->depth > 0 && d->scopes[d->depth - 1].end == d->i) {
+            --d->depth;
+            d->s.a = d->scopes[d->depth].a;
+            d->s.b = d->scopes[d->depth].b;
+            d->s.reversed = d->scopes[d->depth].reversed;
+            d->s.finished = 0;
+            d->fresh[d->i / 32] |= UINT32_C(1) << d->i % 32;
+        }
+        if (d->i == target) return 1;
+        if (d->s.finished) {
+            if (d->depth > 0) return 0;
+            lacedring_repeat_(&d->s, 0);
+            d->fresh[d->i / 32] |= UINT32_C(1) << d->i % 32;
+        }
+        if (d->depth > 0 && d->scopes[d->depth - 1].end < stop) stop = d->scopes[d->depth - 1].end;
+        left = lacedring_left_(d->s.a, d->s.b);
+        if (left == 0) return 0;
+        if (stop - d->i > left) stop = d->i + left;
+        lacedring_run_(d, stop);
+        d->s.finished = d->s.b - d->s.a == 1;
+        /* Both turns are true of a corridor's last triangle, so the format says which. */
+        if (d->s.finished && lacedring_turn_(d, stop - 1) != (stop > 1 && !lacedring_turn_(d, stop - 2))) return 0;
+    }
+}
+
+/* Makes triangle i the T0 of a wart, and the next one its T2. */
+static int lacedring_wart_(const struct lacedring_decoder_* d, uint32_t i) {
+    uint32_t* out = d->out + (size_t)3 * i;
+    const uint32_t up = lacedring_turn_(d, i), a = out[0], next = i + 1;
+    const uint32_t reversed = out[1] == (up ? a + 1 : out[2] - 1), b = out[reversed ? 2 : 1];
+    const uint32_t inner = up ? a + 1 : b - 1;
+    if ((d->thirds[i / 32] >> i % 32 & 1) || b - a < 4) return 0;
+    out[reversed ? 1 : 2] = up ? a + 2 : b - 2;
+    if (next == d->triangles) return 1;
+    if (((d->thirds[next / 32] | d->fresh[next / 32]) >> next % 32) & 1) return 0;
+    lacedring_put_(out + 3, inner - 1, inner, inner + 1, reversed);
+    return 1;
+}
+
+/* `least`: so many there must be. */
+static int lacedring_warts_(const struct lacedring_decoder_* d, struct lacedring_bits_* bits, uint32_t low, uint32_t least) {
+    uint32_t word = 0, last = UINT32_MAX - 1, candidates = 0, at_word = 0, warts = 0;
+    const uint32_t words = (d->triangles + 31) / 32;
+    for (;;) {
+        uint32_t gap = lacedring_rice_(bits, low), i, count;
+        if (gap == UINT32_MAX) return bits->at <= bits->end && bits->end - bits->at < 8 && warts >= least;
+        if (bits->at > bits->end) return 0;
+        /* The candidate behind so many others. */
+        for (;;) {
+            count = lacedring_popcount_(candidates);
+            if (gap < count) break;
+            gap -= count;
+            if (at_word == words) return 0;
+            word = 32 * at_word;
+            candidates = (uint32_t)d->turns[word / 8] | (uint32_t)d->turns[word / 8 + 1] << 8 |
+                         (uint32_t)d->turns[word / 8 + 2] << 16 | (uint32_t)d->turns[word / 8 + 3] << 24;
+            candidates = ~(candidates ^ (candidates >> 1 | (uint32_t)d->turns[word / 8 + 4] << 31));
+            if (d->triangles - word < 32) candidates &= (UINT32_C(1) << (d->triangles - word)) - 1;
+            if (d->triangles - word <= 32) candidates |= UINT32_C(1) << (d->triangles - word - 1);
+            ++at_word;
+        }
+        for (; gap > 0; --gap) candidates &= candidates - 1;
+        i = word + lacedring_ones_(~(uint64_t)candidates & (candidates - 1));
+        candidates &= candidates - 1;
+        if (i == last + 1 || !lacedring_wart_(d, i)) return 0;
+        last = i;
+        ++warts;
+    }
+}
+
+/* Decodes a record. 0: it says something impossible, and some of `out` is not written. Whatever it says, nothing else is
+   written or read; vertices may be out of range. */
+static int lacedring_expand_record_(const struct lacedring_packed* p, const struct lacedring_group_* g, struct lacedring_record_* r,
+                             int explicit_entry, uint32_t* out) {
+    struct lacedring_decoder_ d;
+    struct lacedring_event_ e = {0, 0, 0, 0, 0, 0, 0};
+    uint8_t turns[40] = {0};
+    uint32_t k, events = 0;
+    int flips = 0;
+    memcpy(turns, r->turns, (size_t)4 * ((r->triangles + 31) / 32));
+    d.s.a = d.s.begun_a = r->a;
+    d.s.b = d.s.begun_b = r->b;
+    d.s.reversed = d.s.begun_reversed = r->reversed;
+    d.s.finished = 0;
+    d.turns = turns;
+    d.i = 0;
+    d.triangles = r->triangles;
+    d.out = out;
+    d.depth = 0;
+    memset(d.fresh, 0, sizeof d.fresh);
+    memset(d.thirds, 0, sizeof d.thirds);
+    if (r->bits.at == r->bits.end && !explicit_entry) return lacedring_advance_(&d, d.triangles);
+    events = lacedring_golomb_(&r->bits, g->count_order);
+    for (k = 0; k < events; ++k) {
+        const uint32_t begin = e.triangle;
+        lacedring_read_event_(p, g, r, &e);
+        if (e.triangle < begin || e.triangle == UINT32_MAX || r->bits.at > r->bits.end) return 0;
+        if (!lacedring_advance_(&d, e.triangle)) return 0;
+        if (e.code == LACEDRING_TURN_) {
+            d.s.reversed ^= 1;
+        } else if (e.code == LACEDRING_FLIPS_) {
+            if (k != 0 || e.triangle != 0) return 0;
+            flips = 1;
+        } else if (e.code == LACEDRING_START_ || e.code == LACEDRING_BESIDE_) {
+            lacedring_begin_(&d.s, &e, d.depth > 0);
+        } else {
+            const uint32_t i = e.triangle, turn = lacedring_turn_(&d, i);
+            uint32_t rest[2], count, a, b, x;
+            if (d.s.finished) {
+                if (d.depth > 0) return 0;
+                lacedring_repeat_(&d.s, 0);
+            }
+            a = d.s.a;
+            b = d.s.b;
+            x = lacedring_third_(&d.s, &e, turn, rest, &count);
+            if (e.code == LACEDRING_FAR_ && e.choice != 3 && turn) return 0; /* a turn that says nothing */
+            lacedring_put_(out + (size_t)3 * i, a, x, b, d.s.reversed);
+            d.thirds[i / 32] |= UINT32_C(1) << i % 32;
+            ++d.i;
+            if (count >= d.triangles - d.i) { /* back behind the record's end */
+                if (e.code != LACEDRING_SPLIT_ && count > 0) return 0;
+                if (count > 0 && d.depth > 0) return 0;
+            } else if (count > 0) {
+                if (d.depth > 0 && d.scopes[d.depth - 1].end < d.i + count) return 0;
+                d.scopes[d.depth].end = d.i + count;
+                d.scopes[d.depth].a = rest[0];
+                d.scopes[d.depth].b = rest[1];
+                d.scopes[d.depth].reversed = d.s.reversed;
+                ++d.depth;
+            }
+            e.triangle = i + 1; /* the next gap is from here */
+            if (d.i < d.triangles) d.fresh[d.i / 32] |= UINT32_C(1) << d.i % 32;
+            continue;
+        }
+        if (d.i < d.triangles) d.fresh[d.i / 32] |= UINT32_C(1) << d.i % 32;
+    }
+    if (!lacedring_advance_(&d, d.triangles) || !lacedring_warts_(&d, &r->bits, g->wart_bits, explicit_entry || events > 0 ? 0 : 1)) return 0;
+    if (flips) {
+        struct lacedring_bits_ bits = r->bits;
+        uint32_t i;
+        bits.at = e.flips;
+        for (i = 0; i < d.triangles; ++i, out += 3) {
+            const uint32_t b = out[1];
+            if (!lacedring_take_(&bits, 1)) continue;
+            out[1] = out[2];
+            out[2] = b;
+        }
+    }
+    return 1;
+}
+
+static int lacedring_expand_block_(const struct lacedring_packed* p, struct lacedring_group_* g, struct lacedring_block_* b,
+                            uint32_t* out) {
+    uint32_t i, left = p->triangles - b->record.first;
+    if (left > LACEDRING_PACKED_BLOCK) left = LACEDRING_PACKED_BLOCK;
+    if (b->length == LACEDRING_PACKED_PLAIN_) {
+        for (i = 0; i < left; ++i) lacedring_plain_(p, b, i, out + (size_t)3 * i);
+        return 1;
+    }
+    if (b->length <= LACEDRING_PACKED_MAX_RECORD_) return lacedring_expand_record_(p, g, &b->record, (int)b->explicit_entry, out);
+    for (i = 0; i * LACEDRING_PACKED_PART_ < left; ++i) {
+        struct lacedring_record_ r;
+        lacedring_part_(p, b, i, &r);
+        if (!lacedring_expand_record_(p, g, &r, i > 0 || b->explicit_entry, out + (size_t)3 * i * LACEDRING_PACKED_PART_)) return 0;
+    }
+    return 1;
+}
+
+enum lacedring_status lacedring_packed_open(const uint32_t* words, size_t count, struct lacedring_packed* p,
+                                            uint64_t* where) {
+    uint64_t turns, groups;
+    if (count < LACEDRING_PACKED_HEADER_WORDS) return lacedring_at_(where, 0, LACEDRING_STATUS_SHORT);
+    if ((words[0] & 0xffffffu) != 0x50524cu) return lacedring_at_(where, 0, LACEDRING_STATUS_MAGIC);
+    if (words[0] != 0x3250524cu) /* the first version had a K here */
+        return lacedring_at_(where, words[0] >> 24 == 'K' ? 1 : (words[0] >> 24) - '0', LACEDRING_STATUS_VERSION);
+    p->vertices = words[1];
+    p->triangles = words[2];
+    if (p->vertices > UINT32_C(1) << 29) return lacedring_at_(where, 0, LACEDRING_STATUS_VERTICES);
+    if (p->triangles > UINT32_MAX / 3) return lacedring_at_(where, 0, LACEDRING_STATUS_SLOTS);
+    for (p->vertex_bits = 1; p->vertex_bits < 31 && p->vertices > UINT32_C(1) << p->vertex_bits;) ++p->vertex_bits;
+    turns = ((uint64_t)p->triangles + 31) / 32;
+    groups = ((uint64_t)lacedring_packed_blocks_(p) + LACEDRING_PACKED_GROUP_ - 1) / LACEDRING_PACKED_GROUP_;
+    if (turns + (groups > 0 ? groups - 1 : 0) > count - LACEDRING_PACKED_HEADER_WORDS)
+        return lacedring_at_(where, turns + groups, LACEDRING_STATUS_SIZE);
+    p->turns = words + LACEDRING_PACKED_HEADER_WORDS;
+    p->table = p->turns + turns;
+    p->groups = (const uint8_t*)(p->table + (groups > 0 ? groups - 1 : 0));
+    p->group_bytes = 4 * (count - LACEDRING_PACKED_HEADER_WORDS - (size_t)turns - (size_t)(groups > 0 ? groups - 1 : 0));
+    return LACEDRING_STATUS_OK;
+}
+
+/* What readers do not look at: what fills up bytes and words, turns of plain blocks. */
+static int lacedring_unused_clear_(const struct lacedring_packed* p, const struct lacedring_block_* b) {
+    uint32_t i, left = p->triangles - b->record.first, used = 4;
+    const uint8_t* bytes = p->groups + b->begin;
+    if (left > LACEDRING_PACKED_BLOCK) left = LACEDRING_PACKED_BLOCK;
+    if (b->length == LACEDRING_PACKED_PLAIN_) {
+        const uint32_t bits = 3 * left * p->vertex_bits;
+        for (i = 0; i < (left + 31) / 32; ++i) {
+            if (b->record.turns[i] != 0) return 0;
+        }
+        return bits % 8 == 0 || bytes[bits / 8] >> bits % 8 == 0xff >> bits % 8;
+    }
+    if (b->length <= LACEDRING_PACKED_MAX_RECORD_) return 1;
+    if (b->bytes < 4) return 0;
+    for (i = 0; i < 4; ++i) {
+        if (bytes[i] > LACEDRING_PACKED_MAX_PART_ || (i * LACEDRING_PACKED_PART_ >= left && bytes[i] != 0)) return 0;
+        used += bytes[i];
+    }
+    if (used > b->bytes || b->bytes - used > 3) return 0;
+    for (i = used; i < b->bytes; ++i) {
+        if (bytes[i] != 0) return 0;
+    }
+    return 1;
+}
+
+enum lacedring_status lacedring_packed_check(const struct lacedring_packed* p, uint64_t* where) {
+    struct lacedring_group_ g;
+    struct lacedring_block_ b;
+    uint32_t indices[3 * LACEDRING_PACKED_BLOCK], block, blocks = lacedring_packed_blocks_(p), i, left;
+    uint64_t end = 0;
+    for (block = 0; block < blocks; ++block) {
+        if (block % LACEDRING_PACKED_GROUP_ == 0) {
+            const uint64_t begin = block == 0 ? 0 : p->table[block / LACEDRING_PACKED_GROUP_ - 1];
+            if (begin != end || !lacedring_open_group_(p, block, &g) || g.record > p->group_bytes)
+                return lacedring_at_(where, block, LACEDRING_STATUS_GROUP);
+            i = (uint32_t)(g.head.end % 8);
+            if (i != 0 && p->groups[g.head.end / 8] >> i != 0xff >> i)
+                return lacedring_at_(where, block, LACEDRING_STATUS_GROUP);
+        }
+        left = p->triangles - block * LACEDRING_PACKED_BLOCK;
+        if (left > LACEDRING_PACKED_BLOCK) left = LACEDRING_PACKED_BLOCK;
+        if (!lacedring_next_block_(p, &g, &b) || g.record > p->group_bytes || !lacedring_unused_clear_(p, &b))
+            return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
+        /* A plain block says nothing of where the next one begins, and nothing is said of where it does. */
+        if (b.length == LACEDRING_PACKED_PLAIN_ && block % LACEDRING_PACKED_GROUP_ == 0 && (g.a | g.b | g.reversed))
+            return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
+        if (!lacedring_expand_block_(p, &g, &b, indices)) return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
+        for (i = 0; i < 3 * left; i += 3) {
+            const uint32_t *t = indices + i, n = p->vertices;
+            if (t[0] >= n || t[1] >= n || t[2] >= n || t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
+                return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
+        }
+        end = g.record;
+    }
+    if (p->triangles % 32 != 0 && p->turns[p->triangles / 32] >> (p->triangles % 32) != 0)
+        return lacedring_at_(where, p->triangles, LACEDRING_STATUS_TURNS);
+    if (end > p->group_bytes || p->group_bytes - end > 3) return lacedring_at_(where, end, LACEDRING_STATUS_SIZE);
+    for (; end < p->group_bytes; ++end) {
+        if (p->groups[end] != 0) return lacedring_at_(where, end, LACEDRING_STATUS_SIZE);
+    }
+    return LACEDRING_STATUS_OK;
+}
+
+enum lacedring_status lacedring_packed_validate(const uint32_t* words, size_t count, struct lacedring_packed* p,
+                                                uint64_t* where) {
+    const enum lacedring_status status = lacedring_packed_open(words, count, p, where);
+    uint32_t crc;
+    if (status != LACEDRING_STATUS_OK) return status;
+    crc = lacedring_crc_(0xffffffffu, words, LACEDRING_PACKED_HEADER_WORDS - 1);
+    crc = ~lacedring_crc_(crc, words + LACEDRING_PACKED_HEADER_WORDS, count - LACEDRING_PACKED_HEADER_WORDS);
+    if (crc != words[LACEDRING_PACKED_HEADER_WORDS - 1]) return lacedring_at_(where, 0, LACEDRING_STATUS_CHECKSUM);
+    return lacedring_packed_check(p, where);
+}
+
+void lacedring_packed_blocks_u32(const struct lacedring_packed* p, uint32_t block, uint32_t end, uint32_t* indices) {
+    struct lacedring_group_ g;
+    struct lacedring_block_ b;
+    if (block >= end) return;
+    lacedring_open_group_(p, block, &g);
+    while (g.block < block) lacedring_next_block_(p, &g, &b);
+    for (; block < end; ++block, indices += (size_t)3 * LACEDRING_PACKED_BLOCK) {
+        if (block % LACEDRING_PACKED_GROUP_ == 0) lacedring_open_group_(p, block, &g);
+        lacedring_next_block_(p, &g, &b);
+        lacedring_expand_block_(p, &g, &b, indices);
+    }
+}
+
+void lacedring_packed_triangles_u32(const struct lacedring_packed* p, uint32_t* indices) {
+    lacedring_packed_blocks_u32(p, 0, lacedring_packed_blocks_(p), indices);
+}
+
+void lacedring_packed_triangles_u16(const struct lacedring_packed* p, uint16_t* indices) {
+    uint32_t block[3 * LACEDRING_PACKED_BLOCK], b, i, count;
+    for (b = 0; b < lacedring_packed_blocks_(p); ++b) {
+        lacedring_packed_blocks_u32(p, b, b + 1, block);
+        count = p->triangles - b * LACEDRING_PACKED_BLOCK;
+        if (count > LACEDRING_PACKED_BLOCK) count = LACEDRING_PACKED_BLOCK;
+        for (i = 0; i < 3 * count; ++i) *indices++ = (uint16_t)block[i];
+    }
+}
+
+/* Turns that are 1 of triangles [begin, end). */
+static uint32_t lacedring_ups_(const uint32_t* turns, uint32_t begin, uint32_t end) {
+    uint32_t ups = 0, i;
+    for (i = begin / 32; i < (end + 31) / 32; ++i) {
+        uint32_t word = turns[i];
+        if (i == begin / 32) word &= UINT32_MAX << begin % 32;
+        if (i == end / 32) word &= (UINT32_C(1) << end % 32) - 1;
+        ups += lacedring_popcount_(word);
+    }
+    return ups;
+}
+
+/* Moves the state from triangle *at to triangle `to`, by turns alone. */
+static void lacedring_skip_(struct lacedring_state_* s, const uint32_t* turns, uint32_t* at, uint32_t to, int inside) {
+    uint32_t left = s->finished ? 0 : lacedring_left_(s->a, s->b), ups;
+    if (to - *at > left) { /* whole polygons */
+        const uint32_t size = s->begun_b - s->begun_a, each = lacedring_left_(s->begun_a, s->begun_b);
+        const uint32_t behind = to - *at - left, whole = (behind - 1) / each;
+        s->begun_a += whole * (size + 1);
+        s->begun_b += whole * (size + 1);
+        lacedring_repeat_(s, inside);
+        *at = to - (behind - whole * each);
+        left = each;
+    }
+    ups = lacedring_ups_(turns, *at, to);
+    s->a += ups;
+    s->b -= to - *at - ups;
+    if (to > *at) s->finished = to - *at == left;
+    *at = to;
+}
+
+/* One triangle of a record, in a few popcounts, whatever comes before it. */
+static void lacedring_seek_(const struct lacedring_packed* p, const struct lacedring_group_* g, struct lacedring_record_* r,
+                            uint32_t i, uint32_t t[3]) {
+    struct lacedring_state_ s;
+    struct lacedring_event_ e = {0, 0, 0, 0, 0, 0, 0};
+    uint32_t at = 0, skip = 0, k, events = 0, flip = 0, turn = r->turns[i / 32] >> (i % 32) & 1, x, rest[2], count;
+    int inside = 0;
+    s.a = s.begun_a = r->a;
+    s.b = s.begun_b = r->b;
+    s.reversed = s.begun_reversed = r->reversed;
+    s.finished = 0;
+    if (r->bits.at < r->bits.end) events = lacedring_golomb_(&r->bits, g->count_order);
+    for (k = 0; k < events; ++k) {
+        uint32_t here;
+        lacedring_read_event_(p, g, r, &e);
+        here = e.triangle;
+        if (e.code == LACEDRING_SPLIT_ || e.code == LACEDRING_FAR_ || e.code == LACEDRING_JUMP_) ++e.triangle;
+        if (here > i || here < skip) continue;
+        lacedring_skip_(&s, r->turns, &at, here, inside);
+        if (e.code == LACEDRING_TURN_) {
+            s.reversed ^= 1;
+        } else if (e.code == LACEDRING_FLIPS_) {
+            struct lacedring_bits_ bits = r->bits;
+            bits.at = e.flips + i;
+            flip = lacedring_take_(&bits, 1);
+        } else if (e.code == LACEDRING_START_ || e.code == LACEDRING_BESIDE_) {
+            lacedring_begin_(&s, &e, inside);
+        } else {
+            uint32_t a, b;
+            if (s.finished) lacedring_repeat_(&s, inside);
+            a = s.a;
+            b = s.b;
+            x = lacedring_third_(&s, &e, r->turns[here / 32] >> (here % 32) & 1, rest, &count);
+            if (here == i) {
+                lacedring_put_(t, a, x, b, s.reversed ^ flip);
+                return;
+            }
+            at = here + 1;
+            if (count == 0 || count >= r->triangles - at) continue; /* no scope */
+            if (i - at >= count) { /* behind the scope */
+                at += count;
+                skip = at;
+                s.a = rest[0];
+                s.b = rest[1];
+                s.finished = 0;
+            } else {
+                inside = 1;
+            }
+        }
+    }
+    lacedring_skip_(&s, r->turns, &at, i, inside);
+    if (s.finished) lacedring_repeat_(&s, inside);
+    x = turn ? s.a + 1 : s.b - 1;
+    {
+        /* Is i the T0 of a wart, or the T2 behind it? Warts are told by their rank among the candidates. */
+        uint32_t rank = 0, seen = 0, gap, word;
+        const uint32_t before = i > 0 && (r->turns[(i - 1) / 32] >> ((i - 1) % 32) & 1) == turn;
+        const uint32_t here = i + 1 == r->triangles || (r->turns[(i + 1) / 32] >> ((i + 1) % 32) & 1) == turn;
+        if ((before || here) && r->bits.at < r->bits.end) {
+            for (word = 0; 32 * word < i; ++word) {
+                const uint32_t next = 32 * (word + 1) < r->triangles ? r->turns[word + 1] << 31 : 0;
+                uint32_t candidates = ~(r->turns[word] ^ (r->turns[word] >> 1 | next));
+                if (i - 32 * word < 32) candidates &= (UINT32_C(1) << (i - 32 * word)) - 1;
+                rank += lacedring_popcount_(candidates);
+            }
+            while ((gap = lacedring_rice_(&r->bits, g->wart_bits)) != UINT32_MAX && r->bits.at <= r->bits.end) {
+                seen += gap + 1; /* the rank behind the wart */
+                if (seen > rank) {
+                    if (here && seen == rank + 1) x = turn ? s.a + 2 : s.b - 2;
+                    break;
+                }
+                if (before && seen == rank) {
+                    const uint32_t inner = turn ? s.a : s.b;
+                    s.a = inner - 1;
+                    x = inner;
+                    s.b = inner + 1;
+                    break;
+                }
+            }
+        }
+    }
+    lacedring_put_(t, s.a, x, s.b, s.reversed ^ flip);
+}
+
+void lacedring_packed_triangle(const struct lacedring_packed* p, uint32_t triangle, uint32_t out[3]) {
+    struct lacedring_group_ g;
+    struct lacedring_block_ b;
+    const uint32_t i = triangle % LACEDRING_PACKED_BLOCK;
+    lacedring_open_group_(p, triangle / LACEDRING_PACKED_BLOCK, &g);
+    do {
+        lacedring_next_block_(p, &g, &b);
+    } while (g.block <= triangle / LACEDRING_PACKED_BLOCK);
+    if (b.length == LACEDRING_PACKED_PLAIN_) {
+        lacedring_plain_(p, &b, i, out);
+    } else if (b.length <= LACEDRING_PACKED_MAX_RECORD_) {
+        lacedring_seek_(p, &g, &b.record, i, out);
+    } else {
+        struct lacedring_record_ r;
+        lacedring_part_(p, &b, i / LACEDRING_PACKED_PART_, &r);
+        lacedring_seek_(p, &g, &r, i % LACEDRING_PACKED_PART_, out);
     }
 }
 

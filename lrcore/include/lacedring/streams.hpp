@@ -92,13 +92,11 @@ struct PackedView {
     std::span<const std::uint32_t> words;  ///< all of it
     std::uint32_t vertices = 0;
     std::uint32_t triangles = 0;
-    std::uint32_t record_bytes = 0;
     std::uint32_t vertex_bits = 0;
-    std::uint32_t gap_bits = 0;
 
     std::uint32_t blocks() const;
-    std::size_t directory_word() const;  ///< where the directory begins in `words`
-    std::size_t records_word() const;    ///< where the records begin
+    std::size_t table_word() const;   ///< where the table of groups begins in `words`
+    std::size_t groups_word() const;  ///< where the groups begin
     std::size_t bytes() const { return words.size_bytes(); }
 };
 
