@@ -78,7 +78,7 @@ Json sizes_to_json(const std::string& path, const Mesh& mesh, const FormatSet& s
         out["best_order"] = {{"acmr_fifo32", set.best_order->acmr}, {"atvr_fifo32", set.best_order->atvr}};
     }
     out["packed"] = {{"ring_vertices", set.packed.ring_vertices},
-                     {"warts", set.packed.events[LR_PACKED_WART]},
+                     {"warts", set.packed.warts},
                      {"splits", set.packed.events[LR_PACKED_SPLIT]},
                      {"parted_blocks", set.packed.parted_blocks},
                      {"plain_blocks", set.packed.plain_blocks}};

@@ -267,8 +267,8 @@ Result<GpuMesh> upload_packed(Context& context, Transfer& transfer, const Model&
                           stream.words,
                           stream.vertex_order,
                           stream.triangle_order,
-                          {view.triangles, static_cast<std::uint32_t>(view.directory_word()),
-                           static_cast<std::uint32_t>(view.records_word()), view.vertex_bits | view.gap_bits << 8}});
+                          {view.triangles, static_cast<std::uint32_t>(view.table_word()),
+                           static_cast<std::uint32_t>(view.groups_word()), view.vertex_bits}});
 }
 
 }  // namespace lacedring::gpu

@@ -5,7 +5,6 @@
 
 #include "lacedring/streams.hpp"
 #include "lrcore/codec/packed/packed_format.h"
-#include "lrcore/codec/packed/record.h"
 #include "renderer/context.h"
 #include "renderer/try.h"
 #include "spirv/packed_decode_comp.h"
@@ -15,18 +14,12 @@ namespace {
 
 constexpr std::uint64_t kWord = sizeof(std::uint32_t);
 
-/// Word of the stream in which the records of `block` begin; for the last block + 1, the one in which all end.
-std::uint64_t record_word(const PackedView& view, std::uint64_t block) {
-    std::uint64_t byte = view.record_bytes;
-    if (block < view.blocks()) {
-        const std::uint32_t* group =
-            view.words.data() + view.directory_word() + block / LR_PACKED_GROUP * LR_PACKED_GROUP_WORDS;
-        byte = group[0];
-        for (std::uint32_t i = 0; i < block % LR_PACKED_GROUP; ++i) {
-            byte += block_bytes(group[1 + i / 4] >> (8 * (i % 4)) & 0xff, LR_PACKED_BLOCK, view.vertex_bits);
-        }
-    }
-    return view.records_word() + std::min<std::uint64_t>(byte, view.record_bytes) / kWord;
+/// Word of the stream in which a group begins; for the last group + 1, where all end.
+std::uint64_t group_word(const PackedView& view, std::uint64_t group) {
+    const std::uint64_t groups = view.groups_word() - view.table_word() + 1;
+    if (group >= groups) return view.words.size();
+    const std::uint64_t byte = group == 0 ? 0 : view.words[view.table_word() + group - 1];
+    return std::min<std::uint64_t>(view.groups_word() + byte / kWord, view.words.size());
 }
 
 /// Words [begin, end) of the stream, and what a descriptor's alignment puts before them.
@@ -56,24 +49,24 @@ Result<PackedDecoder> PackedDecoder::create(Context& context) {
 
 Result<DecodePlan> PackedDecoder::plan(Descriptors& descriptors, const GpuMesh& mesh, const PackedView& view) const {
     constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    const std::uint64_t most =
-        std::min(mesh.max_range / (12 * LR_PACKED_BLOCK),
-                 std::uint64_t{context_->limits().maxComputeWorkGroupCount[0]} * LR_BLOCKS_PER_GROUP);
+    // Whole groups: a block's reader begins at its group's head.
+    const std::uint64_t most = std::max<std::uint64_t>(
+        1, std::min(mesh.max_range / (12 * LR_PACKED_BLOCK),
+                    std::uint64_t{context_->limits().maxComputeWorkGroupCount[0]} * LR_BLOCKS_PER_GROUP));
     DecodePlan plan;
     for (std::uint64_t block = 0, blocks = 0; block < view.blocks(); block += blocks) {
-        const auto records = [&] {  // and the words behind that a reader loads
-            return Window(record_word(view, block), record_word(view, block + blocks) + 1 + LR_PACKED_TAIL_WORDS, view);
+        const auto group_of = [](std::uint64_t k) { return k / LR_PACKED_GROUP; };
+        const auto groups = [&] {
+            return Window(group_word(view, group_of(block)), group_word(view, group_of(block + blocks - 1) + 1) + 1, view);
         };
         blocks = std::min(most, view.blocks() - block);
-        while (blocks > 1 && records().bytes() > mesh.max_range) blocks /= 2;
+        while (blocks > 1 && groups().bytes() > mesh.max_range) blocks /= 2;
         const std::uint64_t first = block * LR_PACKED_BLOCK;
         const std::uint64_t triangles = std::min(blocks * LR_PACKED_BLOCK, view.triangles - first);
         const std::uint64_t turn = LR_PACKED_HEADER_WORDS + block * LR_PACKED_BLOCK_WORDS;
         const Window turns(turn, turn + (triangles + 31) / 32, view);
-        const std::uint64_t groups = view.directory_word();
-        const Window directory(
-            groups + block / LR_PACKED_GROUP * LR_PACKED_GROUP_WORDS,
-            groups + (block + blocks + LR_PACKED_GROUP - 1) / LR_PACKED_GROUP * LR_PACKED_GROUP_WORDS, view);
+        const std::uint64_t entry = view.table_word() + std::max<std::uint64_t>(group_of(block), 1) - 1;
+        const Window table(entry, view.table_word() + group_of(block + blocks - 1), view);
         DecodePlan::Dispatch dispatch;
         LR_ASSIGN(dispatch.set, descriptors.allocate(layout_));
         const auto bind = [&](std::uint32_t number, const Window& window) {
@@ -82,8 +75,8 @@ Result<DecodePlan> PackedDecoder::plan(Descriptors& descriptors, const GpuMesh& 
         };
         bind(0, {0, LR_PACKED_HEADER_WORDS, view});
         dispatch.constants.first_word = bind(1, turns);
-        dispatch.constants.directory = bind(2, directory);
-        dispatch.constants.records = bind(3, records());
+        dispatch.constants.table = bind(2, table);
+        dispatch.constants.groups = bind(3, groups());
         descriptors.write(dispatch.set, 4, kStorage, {&mesh.indices, 12 * first, 12 * ((triangles + 3) / 4 * 4)});
         descriptors.write(dispatch.set, 5, kStorage, {&mesh.commands});
         dispatch.constants.first_slot = static_cast<std::uint32_t>(first);

@@ -34,37 +34,35 @@
 #define LR_LEAN_CLOSE_FLAG 0x40000000u
 #define LR_LEAN_FLIP_FLAG 0x20000000u
 
-#define LR_PACKED_MAGIC 0x4b50524cu
-#define LR_PACKED_VERSION 1u
-#define LR_PACKED_HEADER_WORDS 8u
+#define LR_PACKED_MAGIC 0x3250524cu
+#define LR_PACKED_HEADER_WORDS 4u
 #define LR_PACKED_WORD_MAGIC 0u
-#define LR_PACKED_WORD_VERSION 1u
-#define LR_PACKED_WORD_VERTICES 2u
-#define LR_PACKED_WORD_TRIANGLES 3u
-#define LR_PACKED_WORD_RECORD_BYTES 4u
-#define LR_PACKED_WORD_WIDTHS 5u
-#define LR_PACKED_WORD_RESERVED 6u
-#define LR_PACKED_WORD_CHECKSUM 7u
+#define LR_PACKED_WORD_VERTICES 1u
+#define LR_PACKED_WORD_TRIANGLES 2u
+#define LR_PACKED_WORD_CHECKSUM 3u
 #define LR_PACKED_BLOCK 256u
 #define LR_PACKED_BLOCK_WORDS 8u
-#define LR_PACKED_TAIL_WORDS 2u
-#define LR_PACKED_MIN_GAP_BITS 3u
 #define LR_PACKED_GROUP 16u
-#define LR_PACKED_GROUP_WORDS 5u
-#define LR_PACKED_MAX_RECORD 160u
+#define LR_PACKED_LENGTH_FIELD 4u
+#define LR_PACKED_ENTRY_FIELD 4u
+#define LR_PACKED_GAP_FIELD 3u
+#define LR_PACKED_WART_FIELD 3u
+#define LR_PACKED_SPLIT_FIELD 2u
+#define LR_PACKED_COUNT_FIELD 2u
+#define LR_PACKED_HEAD_BITS 18u
+#define LR_PACKED_MAX_RECORD 104u
 #define LR_PACKED_PLAIN 255u
 #define LR_PACKED_PARTS 4u
+#define LR_PACKED_MAX_PART 128u
 #define LR_PACKED_PART 64u
 #define LR_PACKED_PART_WORDS 2u
-#define LR_PACKED_STACK 16u
-#define LR_PACKED_WART 0u
-#define LR_PACKED_SPLIT 1u
-#define LR_PACKED_BESIDE 2u
-#define LR_PACKED_START 3u
-#define LR_PACKED_FAR 4u
-#define LR_PACKED_JUMP 5u
-#define LR_PACKED_END 6u
-#define LR_PACKED_TURN 7u
+#define LR_PACKED_SPLIT 0u
+#define LR_PACKED_BESIDE 1u
+#define LR_PACKED_START 2u
+#define LR_PACKED_FAR 3u
+#define LR_PACKED_JUMP 4u
+#define LR_PACKED_TURN 5u
+#define LR_PACKED_FLIPS 6u
 #define LR_PACKED_START_OTHER 0u
 #define LR_PACKED_START_NEXT 1u
 #define LR_PACKED_START_NEAR 2u
@@ -73,10 +71,10 @@
 #define LR_PACKED_BESIDE_NOW_A 1u
 #define LR_PACKED_BESIDE_BEGUN_A 2u
 #define LR_PACKED_BESIDE_BEGUN_B 3u
-#define LR_PACKED_SPLIT_ORDER 2u
 #define LR_PACKED_JUMP_ORDER 1u
 #define LR_PACKED_SIZE_ORDER 2u
 #define LR_PACKED_BESIDE_ORDER 1u
+#define LR_PACKED_FAR_ORDER 2u
 
 #ifndef __cplusplus
 
@@ -144,331 +142,416 @@ uvec3 lr_lean_triangle(LrLeanLayout lean, uint slot) {
 }
 #endif
 
-// Packed: any triangle of a block, or a block in steps, event by event (as shaders/packed_decode.comp does). A stream
-// that no one descriptor covers has LR_PACKED_HEADER, LR_PACKED_TURNS, LR_PACKED_DIRECTORY and LR_PACKED_RECORDS instead
-// of LR_PACKED_WORD, all with i counted from the stream's first word. A shader without any of them has no packed part.
+// Packed: any triangle in a few popcounts, or a record's events in turn (as shaders/packed_decode.comp reads them). A stream
+// that no one descriptor covers has LR_PACKED_HEADER, LR_PACKED_TURNS, LR_PACKED_TABLE and LR_PACKED_GROUPS instead of
+// LR_PACKED_WORD, all with i counted from the stream's first word. A shader without any of them has no packed part.
 
 #ifdef LR_PACKED_WORD
 #define LR_PACKED_HEADER(i) LR_PACKED_WORD(i)
 #define LR_PACKED_TURNS(i) LR_PACKED_WORD(i)
-#define LR_PACKED_DIRECTORY(i) LR_PACKED_WORD(i)
-#define LR_PACKED_RECORDS(i) LR_PACKED_WORD(i)
+#define LR_PACKED_TABLE(i) LR_PACKED_WORD(i)
+#define LR_PACKED_GROUPS(i) LR_PACKED_WORD(i)
 #endif
 #ifdef LR_PACKED_HEADER
 
 struct LrPackedLayout {
     uint triangles;
-    uint directory;  // first word of it
-    uint records;    // first word of them
+    uint table;   // first word of it
+    uint groups;  // first word of them
     uint vertex_bits;
-    uint gap_bits;
 };
 
 LrPackedLayout lr_packed_layout() {
     LrPackedLayout p;
     p.triangles = LR_PACKED_HEADER(LR_PACKED_WORD_TRIANGLES);
-    p.directory = LR_PACKED_HEADER_WORDS + p.triangles / 32u + (p.triangles % 32u == 0u ? 0u : 1u);
-    uint blocks = p.triangles / LR_PACKED_BLOCK + (p.triangles % LR_PACKED_BLOCK == 0u ? 0u : 1u);
-    uint rest = blocks % LR_PACKED_GROUP;
-    p.records = p.directory + blocks / LR_PACKED_GROUP * LR_PACKED_GROUP_WORDS + (rest == 0u ? 0u : 1u + (rest + 3u) / 4u);
-    p.vertex_bits = LR_PACKED_HEADER(LR_PACKED_WORD_WIDTHS) & 31u;
-    p.gap_bits = LR_PACKED_HEADER(LR_PACKED_WORD_WIDTHS) >> 8 & 7u;
+    p.table = LR_PACKED_HEADER_WORDS + p.triangles / 32u + (p.triangles % 32u == 0u ? 0u : 1u);
+    uint in_group = LR_PACKED_BLOCK * LR_PACKED_GROUP;
+    uint groups = p.triangles / in_group + (p.triangles % in_group == 0u ? 0u : 1u);
+    p.groups = p.table + max(groups, 1u) - 1u;
+    uint vertices = max(LR_PACKED_HEADER(LR_PACKED_WORD_VERTICES), 2u);
+    p.vertex_bits = uint(findMSB(vertices - 1u)) + 1u;
     return p;
 }
 
-// A block and what its reader knows. Triangles, where it does not say of the mesh, count from the block's first.
-struct LrPackedReader {
-    uint first;    // of the mesh: the block's first triangle
-    uint i, stop;  // the next triangle, and the end of the record's
-    uint ups;      // turns before i that are 1
-    bool plain;
-    uint word;     // of the stream, in which the block's records begin
-    uint at, end;  // the next bit, and the end of the record, from there
-    uvec2 bits;    // from `at` on, what lr_packed_fill has loaded
-    uint a, b, begun_a, begun_b;
-    bool reversed, begun_reversed, finished;
-    bool jumped;       // (a, b) or the orientation do not come from the triangle before by its turn
-    uint seek, wart;   // the last T0 of a wart that is not behind triangle `seek`
-    uint event, code;  // the next event's triangle
-    uint top, depth;
-};
-uvec2 lr_packed_stack[LR_PACKED_STACK];
-
-// `run` triangles from `first` on, by their turns and warts alone, with (a, b) entered; then, where `third` says so, one
-// whose third vertex is x.
-struct LrPackedStep {
-    uint first, run;
-    bool third;
-    uint x;
-    uint a, b;
-    bool reversed;
-    bool jumped;  // see LrPackedReader
+// A reader of bits. Each word is loaded once, and none behind the end.
+struct LrPackedBits {
+    uvec2 bits;  // from the next one on, `ready` of them
+    uint ready;
+    uint left;  // bits up to the end
+    uint word;  // the next word to load
 };
 
-// 64 bits from r.at on, ones behind the record.
-void lr_packed_fill(inout LrPackedReader r) {
-    uint at = min(r.at, r.end - 1u), left = r.end - min(r.at, r.end), shift = at & 31u;
-    uint word = r.word + (at >> 5);  // and two more: a stream has as many behind its last record
-    uint w0 = LR_PACKED_RECORDS(word), w1 = LR_PACKED_RECORDS(word + 1u), w2 = LR_PACKED_RECORDS(word + 2u);
-    r.bits = uvec2(w0 >> shift | w1 << 1 << (31u - shift), w1 >> shift | w2 << 1 << (31u - shift));
-    if (left < 32u) r.bits.x |= 0xffffffffu << left;
-    if (left < 64u) r.bits.y |= left <= 32u ? 0xffffffffu : 0xffffffffu << (left - 32u);
+// From a byte of the groups on.
+LrPackedBits lr_packed_bits(LrPackedLayout p, uint byte, uint count) {
+    LrPackedBits r;
+    uint shift = byte % 4u * 8u;
+    r.word = p.groups + byte / 4u;
+    r.bits = uvec2(count == 0u ? 0u : LR_PACKED_GROUPS(r.word) >> shift, 0u);
+    ++r.word;
+    r.ready = 32u - shift;
+    r.left = count;
+    return r;
 }
-// Of the bits loaded: the next `count`, at most 31.
-uint lr_packed_take(inout LrPackedReader r, uint count) {
+// So that 32 bits are ready, or all up to the end.
+void lr_packed_fill(inout LrPackedBits r) {
+    if (r.ready < 32u && r.ready < r.left) {
+        uint word = LR_PACKED_GROUPS(r.word);
+        r.bits.y = r.ready == 0u ? 0u : word >> (32u - r.ready);
+        r.bits.x |= word << r.ready;
+        ++r.word;
+        r.ready += 32u;
+    }
+}
+// The next `count`, at most 31.
+uint lr_packed_take(inout LrPackedBits r, uint count) {
+    lr_packed_fill(r);
     uint value = r.bits.x & ((1u << count) - 1u);
     r.bits = uvec2(r.bits.x >> count | r.bits.y << 1 << (31u - count), r.bits.y >> count);
-    r.at += count;
+    r.ready -= min(count, r.ready);
+    r.left -= min(count, r.left);
     return value;
 }
 uint lr_packed_ones(uint bits) { return bits == 0xffffffffu ? 32u : uint(findLSB(~bits)); }
-uint lr_packed_unary(inout LrPackedReader r, uint limit) {
+uint lr_packed_unary(inout LrPackedBits r, uint limit) {
+    lr_packed_fill(r);
     uint ones = min(lr_packed_ones(r.bits.x), limit);
     lr_packed_take(r, ones + (ones < limit ? 1u : 0u));
     return ones;
 }
-uint lr_packed_golomb(inout LrPackedReader r, uint order) {
+uint lr_packed_golomb(inout LrPackedBits r, uint order) {
     uint low = lr_packed_unary(r, 31u - order) + order;
     return (lr_packed_take(r, low) | 1u << low) - (1u << order);
 }
 
-uint lr_packed_turn_word(uint triangle) { return LR_PACKED_TURNS(LR_PACKED_HEADER_WORDS + triangle / 32u); }
-bool lr_packed_turn(uint triangle) { return (lr_packed_turn_word(triangle) >> (triangle & 31u) & 1u) != 0u; }
+// A record, from its number of events on.
+struct LrPackedRecord {
+    LrPackedBits bits;
+    uint turn_word;  // of the stream, with the turns of its first triangle
+    uint begin, triangles;  // its first triangle, of the block; how many it has
+    uint a, b;              // its entry
+    bool reversed;
+    bool plain, parted;  // is its block?
+    uint gap_bits, wart_bits, split_order, count_order;
+};
 
-// Turns that are 1 of the block's first i triangles. A program that has tables of them says so.
-#ifndef LR_PACKED_UPS
-uint lr_packed_ups(uint first, uint i) {
-    uint ups = 0u;
-    for (uint k = 0u; k < i; k += 32u) {
-        ups += uint(bitCount(bitfieldExtract(lr_packed_turn_word(first + k), 0, int(min(i - k, 32u)))));
-    }
-    return ups;
-}
-#define LR_PACKED_UPS(first, i) lr_packed_ups(first, i)
-#endif
-
-// What is done at a wart's T0, triangle i of the block. A program that makes a table of them says so.
-#ifndef LR_PACKED_SEE_WART
-#define LR_PACKED_SEE_WART(r, i) r.wart = (i) <= r.seek ? (i) : r.wart
-#endif
-
-// The next event that is not a wart. Warts on the way are seen: they do not change how (a, b) goes on.
-void lr_packed_next_event(LrPackedLayout p, inout LrPackedReader r) {
-    for (;;) {
-        lr_packed_fill(r);
-        uint high = lr_packed_ones(r.bits.x);
-        if (high > 31u) {
-            r.event = 0xffffffffu;
-            r.code = LR_PACKED_TURN;
-            break;
-        }
-        lr_packed_take(r, high);
-        r.event += (high << p.gap_bits) + (lr_packed_take(r, 1u + p.gap_bits) >> 1);
-        r.code = lr_packed_unary(r, LR_PACKED_TURN);
-        if (r.code != LR_PACKED_WART) break;
-        if (r.event < r.stop) LR_PACKED_SEE_WART(r, r.event);
-    }
-}
-
-// Begins the record that holds triangle r.first + i.
-void lr_packed_open(LrPackedLayout p, inout LrPackedReader r, uint i) {
-    uint block = r.first / LR_PACKED_BLOCK, member = block % LR_PACKED_GROUP;
-    uint group = p.directory + block / LR_PACKED_GROUP * LR_PACKED_GROUP_WORDS;
-    uint byte = LR_PACKED_DIRECTORY(group);
-    uint lengths = 0u, length = 0u;
-    for (uint k = 0u; k <= member; ++k) {
+// The record that holds triangle i of a block. Of a plain block the bits are those of its vertices.
+LrPackedRecord lr_packed_record(LrPackedLayout p, uint block, uint i) {
+    uint group = block / LR_PACKED_GROUP, member = block % LR_PACKED_GROUP;
+    uint left = (p.triangles - 1u) / LR_PACKED_BLOCK + 1u - group * LR_PACKED_GROUP, blocks = min(left, LR_PACKED_GROUP);
+    uint byte = group == 0u ? 0u : LR_PACKED_TABLE(p.table + group - 1u);
+    LrPackedBits head = lr_packed_bits(p, byte, LR_PACKED_HEAD_BITS + 2u * p.vertex_bits + 1u);
+    uint widths = lr_packed_take(head, LR_PACKED_HEAD_BITS);
+    uint length_bits = widths & 15u, entry_bits = widths >> 4 & 15u;
+    head.left += blocks * length_bits + (blocks - 1u) * entry_bits;
+    LrPackedRecord r;
+    r.gap_bits = widths >> 8 & 7u;
+    r.wart_bits = widths >> 11 & 7u;
+    r.split_order = widths >> 14 & 3u;
+    r.count_order = widths >> 16 & 3u;
+    r.a = lr_packed_take(head, p.vertex_bits);
+    r.b = lr_packed_take(head, p.vertex_bits);
+    r.reversed = lr_packed_take(head, 1u) != 0u;
+    byte += (LR_PACKED_HEAD_BITS + 2u * p.vertex_bits + 1u + blocks * length_bits + (blocks - 1u) * entry_bits + 7u) / 8u;
+    // Lengths lead to the record, entries from the last block that has its own to (a, b).
+    uint length = lr_packed_take(head, length_bits), from = 0u, from_byte = byte, from_length = 0u, steps = 0u;
+    uint middle = LR_PACKED_BLOCK / 2u - (1u << entry_bits >> 1);
+    for (uint k = 1u; k <= member; ++k) {
         byte += length <= LR_PACKED_MAX_RECORD ? length
-                : length < LR_PACKED_PLAIN     ? 8u * (length - LR_PACKED_MAX_RECORD)
+                : length < LR_PACKED_PLAIN     ? 4u * (length - LR_PACKED_MAX_RECORD)
                                                : 3u * LR_PACKED_BLOCK / 8u * p.vertex_bits;
-        if (k % 4u == 0u) lengths = LR_PACKED_DIRECTORY(group + 1u + k / 4u);
-        length = lengths & 0xffu;
-        lengths >>= 8;
+        uint both = lr_packed_take(head, length_bits + entry_bits);
+        length = both & ((1u << length_bits) - 1u);
+        uint entry = both >> length_bits;
+        steps += entry + middle;
+        if (entry == 0u) {
+            from = k;
+            from_byte = byte;
+            from_length = length;
+            steps = 0u;
+        }
     }
-    r.i = 0u;
-    r.stop = min(p.triangles - r.first, LR_PACKED_BLOCK);
+    uint first = block * LR_PACKED_BLOCK;
+    r.turn_word = LR_PACKED_HEADER_WORDS + first / 32u;
+    r.begin = 0u;
+    r.triangles = min(p.triangles - first, LR_PACKED_BLOCK);
     r.plain = length == LR_PACKED_PLAIN;
-    r.word = p.records + byte / 4u;
-    r.at = 8u * (byte % 4u);
-    r.end = r.at + 8u * length;
-    if (length > LR_PACKED_MAX_RECORD && !r.plain) {
-        lr_packed_fill(r);
-        uint parts = r.bits.x, part = i / LR_PACKED_PART;
-        r.at += 8u * LR_PACKED_PARTS;
-        for (uint k = 0u; k < part; ++k) r.at += 8u * (parts >> (8u * k) & 0xffu);
-        r.end = r.at + 8u * (parts >> (8u * part) & 0xffu);
-        r.i = part * LR_PACKED_PART;
-        r.stop = min(r.stop, r.i + LR_PACKED_PART);
+    r.parted = length > LR_PACKED_MAX_RECORD && !r.plain;
+    if (r.plain) {
+        r.bits = lr_packed_bits(p, byte, 0x7fffffffu);
+        return r;
     }
-    if (r.plain) return;
-    r.wart = 0xfffffffeu;
-    r.ups = LR_PACKED_UPS(r.first, r.i);
-    lr_packed_fill(r);
-    r.a = r.begun_a = lr_packed_take(r, p.vertex_bits);
-    r.b = r.begun_b = lr_packed_take(r, p.vertex_bits);
-    r.reversed = r.begun_reversed = lr_packed_take(r, 1u) != 0u;
-    r.finished = false;
-    r.jumped = true;
-    r.top = r.depth = 0u;
-    r.event = r.i;
-    lr_packed_next_event(p, r);
+    uint bytes = length, part = r.parted ? i / LR_PACKED_PART : 0u;
+    if (r.parted) {
+        LrPackedBits lengths = lr_packed_bits(p, byte, 32u);
+        byte += LR_PACKED_PARTS;
+        bytes = lr_packed_take(lengths, 8u);
+        for (uint k = 0u; k < part; ++k) {
+            byte += bytes;
+            bytes = lr_packed_take(lengths, 8u);
+        }
+        r.begin = part * LR_PACKED_PART;
+        r.turn_word += r.begin / 32u;
+        r.triangles = min(r.triangles - r.begin, LR_PACKED_PART);
+    }
+    r.bits = lr_packed_bits(p, byte, 8u * bytes);
+    bool own = part > 0u || (from == member && member > 0u);
+    if (own || from > 0u) {
+        LrPackedBits entry = r.bits;
+        if (!own) {
+            bool parted = from_length > LR_PACKED_MAX_RECORD;
+            entry = lr_packed_bits(p, from_byte + (parted ? LR_PACKED_PARTS : 0u), 2u * p.vertex_bits + 1u);
+        }
+        r.a = lr_packed_take(entry, p.vertex_bits);
+        r.b = lr_packed_take(entry, p.vertex_bits);
+        r.reversed = lr_packed_take(entry, 1u) != 0u;
+        if (own) r.bits = entry;
+    }
+    if (!own) {
+        r.b += steps - (member - from) * LR_PACKED_BLOCK;
+        r.a += steps;
+    }
+    return r;
 }
 
-// What r.code says, and the event after it. Everything is read in the same place whatever the code is, so that invocations
-// with other events wait little for each other; 64 bits are enough for what is taken between two fills.
-void lr_packed_event(LrPackedLayout p, inout LrPackedReader r, inout LrPackedStep s) {
-    bool split = r.code == LR_PACKED_SPLIT, jump = r.code == LR_PACKED_JUMP, far = r.code == LR_PACKED_FAR;
-    bool start = r.code == LR_PACKED_START, beside = r.code == LR_PACKED_BESIDE;
-    uint small;
-    lr_packed_fill(r);
+// How many events there are; never more than bits for them.
+uint lr_packed_events(inout LrPackedRecord r) {
+    return r.bits.left == 0u ? 0u : min(lr_packed_golomb(r.bits, r.count_order), r.bits.left);
+}
+
+// An event, with whatever its code has of these.
+struct LrPackedEvent {
+    uint triangle;  // of the record
+    uint after;     // where the next gap is from
+    uint code, choice;
+    uint v, w;
+    bool reversed;
+    uint flips;  // bit of the groups at which FLIPS has its bits
+};
+
+// The event behind e. What codes share is read in the same place, so that invocations wait little for each other.
+void lr_packed_next_event(LrPackedLayout p, inout LrPackedRecord r, inout LrPackedEvent e) {
+    uint high = lr_packed_unary(r.bits, 31u);
+    e.triangle = e.after + (high << r.gap_bits) + lr_packed_take(r.bits, r.gap_bits);
+    e.code = lr_packed_unary(r.bits, 7u);
+    bool split = e.code == LR_PACKED_SPLIT, jump = e.code == LR_PACKED_JUMP, far = e.code == LR_PACKED_FAR;
+    bool start = e.code == LR_PACKED_START, beside = e.code == LR_PACKED_BESIDE;
+    e.after = e.triangle + (split || jump || far ? 1u : 0u);
     if (start) {
-        small = lr_packed_unary(r, LR_PACKED_START_ANY);
+        e.choice = lr_packed_unary(r.bits, LR_PACKED_START_ANY);
     } else {
-        small = lr_packed_take(r, far ? 2u : beside ? 3u : 0u);
+        e.choice = lr_packed_take(r.bits, far ? 2u : beside ? 3u : 0u);
     }
-    bool next = start && small == LR_PACKED_START_NEXT, near = start && small == LR_PACKED_START_NEAR;
-    bool any = start && small == LR_PACKED_START_ANY;
-    uint order = split    ? LR_PACKED_SPLIT_ORDER
-                 : jump   ? LR_PACKED_JUMP_ORDER
-                 : beside ? LR_PACKED_BESIDE_ORDER
-                          : LR_PACKED_SIZE_ORDER;
-    uint size = 0u, size2 = 0u, v = 0u, v2 = 0u;
-    if (split || jump || beside || next || near) size = lr_packed_golomb(r, order);
-    lr_packed_fill(r);
-    if (near) size2 = lr_packed_golomb(r, LR_PACKED_SIZE_ORDER);
-    if (far || beside || any) v = lr_packed_take(r, p.vertex_bits);
-    if (any) v2 = lr_packed_take(r, p.vertex_bits);
-
-    bool up = lr_packed_turn(r.first + r.i);
-    if (split || jump || far) {
-        s.third = true;
-        uint away = size + (split ? 3u : 2u);
-        s.x = far ? v : up ? r.a + away : r.b - away;
-        uint enters = far ? small : split ? 3u : up ? 2u : 1u;
-        if (enters == 3u) {
-            lr_packed_stack[r.top++ % LR_PACKED_STACK] = up ? uvec2(s.x, r.b) : uvec2(r.a, s.x);
-            r.depth = min(r.depth + 1u, LR_PACKED_STACK);
-        }
-        if (enters == 3u ? !up : enters == 2u) {
-            r.a = s.x;
-        } else {
-            r.b = s.x;
-        }
-        r.finished = enters == 0u;
-        r.ups += up ? 1u : 0u;
-        ++r.i;
-        r.jumped = true;
-    } else {
-        r.jumped = true;
-        if (r.code == LR_PACKED_TURN) {
-            r.reversed = !r.reversed;
-        } else if (r.code != LR_PACKED_END) {
-            if (beside) {
-                if ((small & 1u) != 0u) r.reversed = !r.reversed;
-                uint from = small >> 1, step = (size & 1u) != 0u ? ~(size >> 1) : size >> 1;
-                bool is_a = from == LR_PACKED_BESIDE_NOW_B || from == LR_PACKED_BESIDE_BEGUN_A;  // that is counted
-                uint near_to = from == LR_PACKED_BESIDE_NOW_B     ? r.b
-                               : from == LR_PACKED_BESIDE_NOW_A   ? r.a
-                               : from == LR_PACKED_BESIDE_BEGUN_A ? r.begun_a
-                                                                  : r.begun_b;
-                r.begun_a = is_a ? near_to + step : v;
-                r.begun_b = is_a ? v : near_to + step;
-            } else if (any) {
-                r.begun_a = v;
-                r.begun_b = v2;
-                r.reversed = lr_packed_take(r, 1u) != 0u;
-            } else if (next || near) {
-                r.begun_a = r.begun_b + (next ? 1u : size);
-                r.begun_b = r.begun_a + 2u + (next ? size : size2);
-                r.reversed = near && r.begun_reversed;
-            } else {
-                r.reversed = !r.begun_reversed;
-            }
-            r.depth = 0u;
-            r.begun_reversed = r.reversed;
-            r.a = r.begun_a;
-            r.b = r.begun_b;
-            r.finished = false;
-        }
+    bool any = start && e.choice == LR_PACKED_START_ANY, near = start && e.choice == LR_PACKED_START_NEAR;
+    bool next = start && e.choice == LR_PACKED_START_NEXT;
+    e.v = near || split || jump || beside
+              ? lr_packed_golomb(r.bits, split  ? r.split_order
+                                         : jump ? LR_PACKED_JUMP_ORDER
+                                         : near ? LR_PACKED_SIZE_ORDER
+                                                : LR_PACKED_BESIDE_ORDER)
+              : far || any ? lr_packed_take(r.bits, p.vertex_bits)
+                           : 1u;
+    if (jump) e.choice = lr_packed_take(r.bits, 1u);
+    e.v += split ? 3u : jump ? 2u : 0u;
+    bool counts = (far && e.choice == 3u) || (jump && e.choice == 1u);
+    e.w = split ? e.v - 1u : 0u;
+    if (counts || near || next) {
+        e.w = (counts ? 1u : 2u) + lr_packed_golomb(r.bits, counts ? LR_PACKED_FAR_ORDER : LR_PACKED_SIZE_ORDER);
     }
-    lr_packed_next_event(p, r);
+    if (beside || any) e.w = lr_packed_take(r.bits, p.vertex_bits);
+    if (any) e.reversed = lr_packed_take(r.bits, 1u) != 0u;
+    if (e.code == LR_PACKED_FLIPS) {
+        e.flips = (r.bits.word - p.groups) * 32u - r.bits.ready;
+        for (uint k = 0u; k < r.triangles; k += 16u) lr_packed_take(r.bits, min(r.triangles - k, 16u));
+    }
 }
 
-// The triangles up to the next event or the corridor's end, and that event. While r.i < r.stop; each step reads an event
-// or makes a triangle.
-LrPackedStep lr_packed_step(LrPackedLayout p, inout LrPackedReader r) {
-    bool before = r.code == LR_PACKED_START || r.code == LR_PACKED_BESIDE || r.code >= LR_PACKED_END;
-    bool end = r.code == LR_PACKED_END && r.event == r.i;
-    if (end || (r.finished && !(before && r.event == r.i))) {
-        if (r.depth > 0u) {
-            --r.depth;
-            uvec2 edge = lr_packed_stack[--r.top % LR_PACKED_STACK];
-            r.a = edge.x;
-            r.b = edge.y;
-        } else {
-            uint size = r.begun_b - r.begun_a;
-            r.a = r.begun_a = r.begun_b + 1u;
-            r.b = r.begun_b = r.begun_a + size;
-        }
-        r.finished = false;
-        r.jumped = true;
+// What a reader knows: the edge entered, and the polygon begun last outside of all scopes.
+struct LrPackedState {
+    uint a, b;
+    bool reversed, finished;
+    uint begun_a, begun_b;
+    bool begun_reversed;
+};
+
+LrPackedState lr_packed_state(LrPackedRecord r) {
+    return LrPackedState(r.a, r.b, r.reversed, false, r.a, r.b, r.reversed);
+}
+
+// START or BESIDE. inside: of a scope.
+void lr_packed_begin(LrPackedEvent e, inout LrPackedState s, bool inside) {
+    uint a = s.begun_b + e.v, b = a + e.w;
+    if (e.code == LR_PACKED_BESIDE) {
+        uint from = e.choice >> 1, step = (e.v & 1u) != 0u ? ~(e.v >> 1) : e.v >> 1;
+        bool is_a = from == LR_PACKED_BESIDE_NOW_B || from == LR_PACKED_BESIDE_BEGUN_A;  // that is counted
+        uint near = step + (from == LR_PACKED_BESIDE_NOW_B     ? s.b
+                            : from == LR_PACKED_BESIDE_NOW_A   ? s.a
+                            : from == LR_PACKED_BESIDE_BEGUN_A ? s.begun_a
+                                                               : s.begun_b);
+        s.reversed = s.reversed != ((e.choice & 1u) != 0u);
+        a = is_a ? near : e.w;
+        b = is_a ? e.w : near;
+    } else if (e.choice == LR_PACKED_START_ANY) {
+        a = e.v;
+        b = e.w;
+        s.reversed = e.reversed;
+    } else if (e.choice == LR_PACKED_START_OTHER) {
+        a = s.begun_a;
+        b = s.begun_b;
+        s.reversed = !s.begun_reversed;
+    } else {
+        s.reversed = e.choice == LR_PACKED_START_NEAR && s.begun_reversed;
     }
-    uint left = r.b - r.a == 1u ? 1u : r.b - r.a - 1u;
-    LrPackedStep s;
-    s.first = r.i;
-    s.run = min(min(r.stop - r.i, left), r.event - r.i);
-    s.third = false;
-    s.x = 0u;
-    s.a = r.a;
-    s.b = r.b;
-    s.reversed = r.reversed;
-    s.jumped = r.jumped;
-    if (s.run > 0u) {
-        r.i += s.run;
-        uint ups = LR_PACKED_UPS(r.first, r.i) - r.ups;
-        r.ups += ups;
-        r.a += ups;
-        r.b -= s.run - ups;
-        r.finished = r.b - r.a == 1u;
-        r.jumped = false;
+    s.a = a;
+    s.b = b;
+    s.finished = false;
+    if (!inside) {
+        s.begun_a = a;
+        s.begun_b = b;
+        s.begun_reversed = s.reversed;
     }
-    bool next = r.event == r.i && r.i < r.stop && (before || !r.finished);
-    if (next && (end || r.code != LR_PACKED_END)) lr_packed_event(p, r, s);
-    return s;
+}
+
+// The polygon that follows where nothing else does: behind the one begun last, and as large.
+void lr_packed_repeat(inout LrPackedState s) {
+    uint size = s.begun_b - s.begun_a;
+    s.a = s.begun_a = s.begun_b + 1u;
+    s.b = s.begun_b = s.a + size;
+    s.finished = false;
+}
+
+// Triangles of a polygon that is entered across (a, b) until it is finished.
+uint lr_packed_left(uint a, uint b) { return b - a == 1u ? 0xffffffffu : b - a - 1u; }
+
+// SPLIT, FAR or JUMP: returns its triangle's third vertex and goes on to the part that comes first. `rest` is what comes
+// e.w triangles later, if that is not 0.
+uint lr_packed_third(LrPackedEvent e, bool up, inout LrPackedState s, out uvec2 rest) {
+    bool far = e.code == LR_PACKED_FAR, both = e.code == LR_PACKED_SPLIT || (e.code == LR_PACKED_JUMP && e.choice == 1u);
+    uint x = far ? e.v : up ? s.a + e.v : s.b - e.v;
+    uint enters = far ? e.choice : both ? 3u : up ? 2u : 1u;
+    rest = up ? uvec2(x, s.b) : uvec2(s.a, x);
+    if (enters == 3u ? !up : enters == 2u) {
+        s.a = x;
+    } else {
+        s.b = x;
+    }
+    s.finished = enters == 0u;
+    return x;
 }
 
 // Triangle i of a plain block.
-uvec3 lr_packed_plain(LrPackedLayout p, LrPackedReader r, uint i) {
+uvec3 lr_packed_plain(LrPackedLayout p, LrPackedRecord r, uint i) {
+    uint bit = (r.bits.word - p.groups) * 32u - r.bits.ready + 3u * p.vertex_bits * i;
+    LrPackedBits bits = lr_packed_bits(p, bit / 8u, bit % 8u + 3u * p.vertex_bits);
+    lr_packed_take(bits, bit % 8u);
     uvec3 v;
-    r.end = 0xffffffffu;
-    r.at += 3u * p.vertex_bits * i;
-    lr_packed_fill(r);
-    v.x = lr_packed_take(r, p.vertex_bits);
-    v.y = lr_packed_take(r, p.vertex_bits);
-    lr_packed_fill(r);
-    v.z = lr_packed_take(r, p.vertex_bits);
+    v.x = lr_packed_take(bits, p.vertex_bits);
+    v.y = lr_packed_take(bits, p.vertex_bits);
+    v.z = lr_packed_take(bits, p.vertex_bits);
     return v;
 }
 
 uvec3 lr_packed_oriented(uint a, uint x, uint b, bool reversed) { return reversed ? uvec3(a, x, b) : uvec3(a, b, x); }
 
+// Of a record's turns: bits, and how many are 1 before each word.
+struct LrPackedTurns {
+    uint bits[LR_PACKED_BLOCK_WORDS + 1u];
+    uint ups[LR_PACKED_BLOCK_WORDS];
+};
+bool lr_packed_turn(LrPackedTurns t, uint i) { return (t.bits[i / 32u] >> (i & 31u) & 1u) != 0u; }
+uint lr_packed_ups(LrPackedTurns t, uint i) {  // turns before i that are 1
+    return t.ups[i / 32u] + uint(bitCount(bitfieldExtract(t.bits[i / 32u], 0, int(i & 31u))));
+}
+
+// Moves the state from triangle `at` to triangle `to`, by turns alone.
+void lr_packed_skip(LrPackedTurns t, inout LrPackedState s, inout uint at, uint to) {
+    uint left = s.finished ? 0u : lr_packed_left(s.a, s.b);
+    if (to - at > left) {  // whole polygons
+        uint each = lr_packed_left(s.begun_a, s.begun_b), behind = to - at - left, whole = (behind - 1u) / each;
+        uint size = s.begun_b - s.begun_a;
+        s.begun_a += whole * (size + 1u);
+        s.begun_b += whole * (size + 1u);
+        lr_packed_repeat(s);
+        at = to - (behind - whole * each);
+        left = each;
+    }
+    uint ups = lr_packed_ups(t, to) - lr_packed_ups(t, at);
+    s.a += ups;
+    s.b -= to - at - ups;
+    if (to > at) s.finished = to - at == left;
+    at = to;
+}
+
 uvec3 lr_packed_triangle(LrPackedLayout p, uint triangle) {
-    LrPackedReader r;
-    r.seek = triangle % LR_PACKED_BLOCK;
-    r.first = triangle / LR_PACKED_BLOCK * LR_PACKED_BLOCK;
-    uint i = triangle - r.first;
-    lr_packed_open(p, r, i);
+    uint block = triangle / LR_PACKED_BLOCK, i = triangle % LR_PACKED_BLOCK;
+    LrPackedRecord r = lr_packed_record(p, block, i);
     if (r.plain) return lr_packed_plain(p, r, i);
-    LrPackedStep s = lr_packed_step(p, r);
-    while (r.i <= i && r.i < r.stop) s = lr_packed_step(p, r);
-    uint run = min(i - s.first, s.run);
-    uint ups = LR_PACKED_UPS(r.first, s.first + run) - LR_PACKED_UPS(r.first, s.first);
-    uint a = s.a + ups, b = s.b - (run - ups);
-    bool up = lr_packed_turn(triangle);
-    if (i == s.first + s.run) return lr_packed_oriented(a, s.x, b, s.reversed);
-    uint inner = up ? a : b;
-    if (r.wart + 1u == i) return lr_packed_oriented(inner - 1u, inner, inner + 1u, s.reversed);
-    uint by = r.wart == i ? 2u : 1u;
-    return lr_packed_oriented(a, up ? a + by : b - by, b, s.reversed);
+    i -= r.begin;
+    LrPackedTurns t;
+    uint last = min(i + 1u, r.triangles - 1u) / 32u, sum = 0u, rank = 0u;
+    for (uint k = 0u; k <= last; ++k) t.bits[k] = LR_PACKED_TURNS(r.turn_word + k);
+    for (uint k = 0u; k <= i / 32u; ++k) {
+        t.ups[k] = sum;
+        sum += uint(bitCount(t.bits[k]));
+        uint behind = k < last ? t.bits[k + 1u] << 31 : 0u;
+        uint candidates = ~(t.bits[k] ^ (t.bits[k] >> 1 | behind));
+        rank += uint(bitCount(bitfieldExtract(candidates, 0, int(min(i - 32u * k, 32u)))));
+    }
+    LrPackedState s = lr_packed_state(r);
+    LrPackedEvent e;
+    e.after = 0u;
+    uint events = lr_packed_events(r);
+    uint at = 0u, skip = 0u;
+    bool inside = false, flip = false;
+    for (uint k = 0u; k < events; ++k) {
+        lr_packed_next_event(p, r, e);
+        if (e.triangle > i || e.triangle < skip) continue;
+        lr_packed_skip(t, s, at, e.triangle);
+        if (e.code == LR_PACKED_TURN) {
+            s.reversed = !s.reversed;
+        } else if (e.code == LR_PACKED_FLIPS) {
+            uint bit = e.flips + i;
+            flip = (LR_PACKED_GROUPS(p.groups + bit / 32u) >> (bit & 31u) & 1u) != 0u;
+        } else if (e.code == LR_PACKED_START || e.code == LR_PACKED_BESIDE) {
+            lr_packed_begin(e, s, inside);
+        } else {
+            if (s.finished) lr_packed_repeat(s);
+            uint a = s.a, b = s.b;
+            uvec2 rest;
+            uint x = lr_packed_third(e, lr_packed_turn(t, e.triangle), s, rest);
+            if (e.triangle == i) return lr_packed_oriented(a, x, b, s.reversed != flip);
+            at = e.triangle + 1u;
+            if (e.w == 0u || e.w >= r.triangles - at) continue;  // no scope
+            if (i - at >= e.w) {                                 // behind it
+                at += e.w;
+                skip = at;
+                s.a = rest.x;
+                s.b = rest.y;
+                s.finished = false;
+            } else {
+                inside = true;
+            }
+        }
+    }
+    lr_packed_skip(t, s, at, i);
+    if (s.finished) lr_packed_repeat(s);
+    bool up = lr_packed_turn(t, i), before = i > 0u && lr_packed_turn(t, i - (i > 0u ? 1u : 0u)) == up;
+    bool here = i + 1u == r.triangles || lr_packed_turn(t, min(i + 1u, r.triangles - 1u)) == up;
+    uint by = 1u, seen = 0u;
+    if (before || here) {  // the T0 of a wart, or the T2 behind it? Warts are told by their rank among the candidates
+        while (seen <= rank) {
+            lr_packed_fill(r.bits);
+            uint high = lr_packed_ones(r.bits.bits.x);
+            if (high >= min(r.bits.left, 32u)) break;
+            lr_packed_take(r.bits, high);
+            seen += (high << r.wart_bits) + (lr_packed_take(r.bits, 1u + r.wart_bits) >> 1) + 1u;
+            if (before && seen == rank) {
+                uint inner = up ? s.a : s.b;
+                return lr_packed_oriented(inner - 1u, inner, inner + 1u, s.reversed != flip);
+            }
+            if (here && seen == rank + 1u) by = 2u;
+        }
+    }
+    return lr_packed_oriented(s.a, up ? s.a + by : s.b - by, s.b, s.reversed != flip);
 }
 
 #endif  // LR_PACKED_HEADER

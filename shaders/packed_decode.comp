@@ -4,7 +4,7 @@
 //
 // A workgroup has LR_BLOCKS_PER_GROUP blocks. One invocation a block reads its events and writes pieces of corridors into
 // shared memory (13.5 KiB); then all of them expand four triangles at a time, whatever piece they are of, in the same few
-// steps. A workgroup is as large as a subgroup, where it can be: none waits for another at the barrier.
+// steps: a piece and a popcount say (a, b). A workgroup is as large as a subgroup, where it can be: none waits for another at the barrier.
 //
 // What lavapipe wants: it runs through both sides of a branch, and once through a `while` that has nothing to do, so what
 // is rare is kept out of loops and loops end at their end. But in 22.3, invocations that leave a loop at its end before
@@ -18,8 +18,8 @@ layout(push_constant) uniform Push { DecodeConstants push; };
 
 layout(std430, binding = 0) restrict readonly buffer Header { uint header[]; };
 layout(std430, binding = 1) restrict readonly buffer Turns { uint turns[]; };
-layout(std430, binding = 2) restrict readonly buffer Directory { uint directory[]; };
-layout(std430, binding = 3) restrict readonly buffer Records { uint records[]; };
+layout(std430, binding = 2) restrict readonly buffer Table { uint table[]; };
+layout(std430, binding = 3) restrict readonly buffer Groups { uint groups[]; };
 layout(std430, binding = 4) restrict writeonly buffer Indices { uvec4 indices[]; };
 #define LR_BINDING_COMMANDS 5
 #include "shaders/draw_commands.glsl"
@@ -31,10 +31,12 @@ const uint kQuads = LR_PACKED_BLOCK / LR_TRIANGLES_PER_INVOCATION;
 // Of each block, by its triangles' words:
 shared uint ups[kBlocks * kWords];     // turns before it that are 1
 shared uint starts[kBlocks * kWords];  // triangles that begin a piece
-shared uint before[kBlocks * kWords];  // pieces begun before it
-shared uint thirds[kBlocks * kWords];  // triangles whose third vertex the piece has
+shared uint before[kBlocks * kWords];  // the last triangle before it that begins one
+shared uint thirds[kBlocks * kWords];  // triangles whose third vertex an event gives
 shared uint warts[kBlocks * kWords];   // T0 of warts
-// Of each piece (a, b) as if entered at the block's first triangle, and a third vertex with LR_REVERSED.
+shared uint flips[kBlocks * kWords];   // triangles that come out the other way round
+// By the triangle that begins a piece, (a, b) as if entered at the block's first triangle, and the orientation; of an
+// event's triangle the third vertex.
 shared uint piece_a[kBlocks * LR_PACKED_BLOCK];
 shared uint piece_b[kBlocks * LR_PACKED_BLOCK];
 shared uint piece_x[kBlocks * LR_PACKED_BLOCK];
@@ -46,23 +48,105 @@ uint bits_below(uint word, uint count) { return uint(bitCount(bitfieldExtract(wo
 uint turn_word(uint triangle) {
     return turns[min(LR_PACKED_HEADER_WORDS + triangle / 32u - push.first_word, uint(turns.length()) - 1u)];
 }
-// Where the tables have triangle i of the block that begins at `first`.
-uint table_word(uint first, uint i) {
-    return (first - push.first_slot) % (kBlocks * LR_PACKED_BLOCK) / 32u + min(i / 32u, kWords - 1u);
-}
-uint ups_before(uint first, uint i) {
-    uint begin = 32u * min(i / 32u, kWords - 1u);
-    return ups[table_word(first, i)] + bits_below(turn_word(first + begin), i - begin);
-}
 
 // Nothing is read past a descriptor, whatever the stream says.
 #define LR_PACKED_HEADER(i) header[i]
 #define LR_PACKED_TURNS(i) turns[min((i) - push.first_word, uint(turns.length()) - 1u)]
-#define LR_PACKED_DIRECTORY(i) directory[min((i) - push.directory, uint(directory.length()) - 1u)]
-#define LR_PACKED_RECORDS(i) records[min((i) - push.records, uint(records.length()) - 1u)]
-#define LR_PACKED_UPS(first, i) ups_before(first, i)
-#define LR_PACKED_SEE_WART(r, i) warts[table_word(r.first, i)] |= 1u << ((i) & 31u)
+#define LR_PACKED_TABLE(i) table[min((i) - push.table, uint(table.length()) - 1u)]
+#define LR_PACKED_GROUPS(i) groups[min((i) - push.groups, uint(groups.length()) - 1u)]
 #include "shaders/lacedring.glsl"
+
+// A block while its events are read. Triangles count from the workgroup's first.
+struct Reader {
+    uint first;  // triangle of the mesh
+    uint at;     // where (a, b) of the state are
+    uint scopes_end;  // of the outermost scope
+};
+
+uint ups_before(Reader b, uint i) {
+    uint word = min(i / 32u, kBlocks * kWords - 1u);
+    return ups[word] + bits_below(turn_word(b.first + 32u * word), i - 32u * word);
+}
+void begin_piece(Reader b, LrPackedState s, uint i) {
+    if (i >= kBlocks * LR_PACKED_BLOCK) return;
+    uint up = ups_before(b, i);
+    starts[i / 32u] |= 1u << (i & 31u);
+    piece_a[i] = s.a - up;
+    piece_b[i] = s.b + i - up;
+    piece_x[i] = s.reversed ? LR_REVERSED : 0u;
+}
+// The last piece that begins at triangle i or before, but behind `from`; else `from`.
+uint last_start(uint from, uint i) {
+    for (uint word = i / 32u + 1u; word > from / 32u; --word) {
+        uint bits = starts[word - 1u];
+        if (word - 1u == i / 32u) bits &= 0xffffffffu >> (31u - (i & 31u));
+        if (bits != 0u) return max(from, 32u * (word - 1u) + uint(findMSB(bits)));
+    }
+    return from;
+}
+
+// Moves the state to triangle `to`. Where a scope ended on the way, its piece is what the state is now.
+void advance(inout Reader b, inout LrPackedState s, uint to) {
+    uint start = last_start(b.at, to);
+    if (start > b.at) {
+        uint up = ups_before(b, start);
+        s.a = piece_a[start] + up;
+        s.b = piece_b[start] + up - start;
+        s.reversed = (piece_x[start] & LR_REVERSED) != 0u;
+        s.finished = false;
+        b.at = start;
+    }
+    uint left = s.finished ? 0u : lr_packed_left(s.a, s.b);
+    for (uint k = 0u; k < LR_PACKED_BLOCK; ++k) {
+        if (to - b.at <= left) break;
+        b.at += left;
+        lr_packed_repeat(s);
+        begin_piece(b, s, b.at);
+        left = lr_packed_left(s.a, s.b);
+    }
+    uint up = ups_before(b, to) - ups_before(b, b.at);
+    s.a += up;
+    s.b -= to - b.at - up;
+    if (to > b.at) s.finished = to - b.at == left;
+    b.at = to;
+}
+
+uint select_bit(uint bits, uint rank) {  // the bit that has so many below it
+    uint at = 0u;
+    for (uint size = 16u; size > 0u; size /= 2u) {
+        uint low = bits_below(bits >> at, size);
+        if (rank >= low) {
+            rank -= low;
+            at += size;
+        }
+    }
+    return at;
+}
+
+void read_warts(inout LrPackedRecord r, uint first, uint begin) {
+    uint end = begin + r.triangles, word = begin / 32u, candidates = 0u, next = turn_word(first + begin), seen = 0u;
+    for (;;) {
+        lr_packed_fill(r.bits);
+        uint high = lr_packed_ones(r.bits.bits.x);
+        if (high >= min(r.bits.left, 32u)) break;
+        lr_packed_take(r.bits, high);
+        uint gap = (high << r.wart_bits) + (lr_packed_take(r.bits, 1u + r.wart_bits) >> 1);
+        uint count = uint(bitCount(candidates));
+        while (gap >= count && 32u * word < end) {
+            gap -= count;
+            uint here = next, last = end - 32u * word;
+            next = last > 32u ? turn_word(first + 32u * (word + 1u)) : 0u;
+            candidates = ~(here ^ (here >> 1 | next << 31));
+            if (last <= 32u) candidates = (candidates | 1u << (last - 1u)) & 0xffffffffu >> (32u - last);
+            count = uint(bitCount(candidates));
+            ++word;
+        }
+        if (gap >= count) break;
+        uint bit = select_bit(candidates, gap);
+        warts[word - 1u] |= 1u << bit;
+        candidates &= 0xfffffffeu << bit;
+    }
+}
 
 // The tables of block k of the workgroup, whose first triangle is `first`.
 void read_block(LrPackedLayout p, uint k, uint first) {
@@ -71,36 +155,72 @@ void read_block(LrPackedLayout p, uint k, uint first) {
         ups[word] = count;
         count += uint(bitCount(turn_word(i)));
     }
-    uint end = min(p.triangles - first, LR_PACKED_BLOCK), piece = k * LR_PACKED_BLOCK;
-    LrPackedReader r;
-    r.first = first;
-    r.stop = 0u;
+    uint end = min(p.triangles - first, LR_PACKED_BLOCK), base = k * LR_PACKED_BLOCK, i = 0u;
+    Reader b;
+    b.first = first - base;
     do {  // records
-        lr_packed_open(p, r, r.stop);
+        LrPackedRecord r = lr_packed_record(p, first / LR_PACKED_BLOCK, i);
         if (r.plain) {
             atomicOr(plain_blocks, 1u << k);
             break;
         }
-        for (;;) {
-            if (piece == (k + 1u) * LR_PACKED_BLOCK) break;  // never
-            uint ups_here = r.ups;
-            LrPackedStep s = lr_packed_step(p, r);
-            bool begins = s.jumped && r.i > s.first;
-            if (begins) {
-                starts[k * kWords + s.first / 32u] |= 1u << (s.first & 31u);
-                piece_a[piece] = s.a - ups_here;
-                piece_b[piece] = s.b + s.first - ups_here;
-                ++piece;
+        uint begin = base + i;
+        b.at = b.scopes_end = begin;
+        LrPackedState s = lr_packed_state(r);
+        begin_piece(b, s, begin);
+        LrPackedEvent e;
+        e.after = 0u;
+        uint events = lr_packed_events(r);
+        for (uint n = 0u; n < events; ++n) {
+            lr_packed_next_event(p, r, e);
+            if (e.triangle >= r.triangles) break;
+            uint at = begin + e.triangle;
+            advance(b, s, at);
+            if (e.code == LR_PACKED_FLIPS) {
+                for (uint t = begin; t < begin + r.triangles; t += 32u) {
+                    uint bit = e.flips + t - begin;
+                    uint low = LR_PACKED_GROUPS(p.groups + bit / 32u) >> (bit & 31u);
+                    flips[t / 32u] = low | LR_PACKED_GROUPS(p.groups + bit / 32u + 1u) << 1 << (31u - (bit & 31u));
+                }
+            } else if (e.after > e.triangle) {
+                if (s.finished) {
+                    lr_packed_repeat(s);
+                    begin_piece(b, s, at);
+                }
+                bool up = (turn_word(b.first + at) >> (at & 31u) & 1u) != 0u;
+                uvec2 rest;
+                uint x = lr_packed_third(e, up, s, rest);
+                piece_x[at] = (piece_x[at] & ((starts[at / 32u] >> (at & 31u) & 1u) != 0u ? LR_REVERSED : 0u)) | x;
+                thirds[at / 32u] |= 1u << (at & 31u);
+                b.at = at + 1u;
+                uint left = r.triangles - e.after;
+                if (e.w > 0u && e.w < left) {
+                    begin_piece(b, LrPackedState(rest.x, rest.y, s.reversed, false, 0u, 0u, false), b.at + e.w);
+                    if (b.at >= b.scopes_end) b.scopes_end = b.at + e.w;
+                }
+                if (left > 0u) begin_piece(b, s, b.at);
+            } else {
+                if (e.code == LR_PACKED_TURN) {
+                    s.reversed = !s.reversed;
+                    if (s.finished) continue;  // the polygon that follows has it
+                } else {
+                    lr_packed_begin(e, s, at < b.scopes_end);
+                }
+                begin_piece(b, s, at);
             }
-            if (begins || s.third) piece_x[piece - 1u] = s.x | (s.reversed ? LR_REVERSED : 0u);
-            if (s.third) thirds[k * kWords + (r.i - 1u) / 32u] |= 1u << ((r.i - 1u) & 31u);
-            if (r.i >= r.stop) break;
         }
-    } while (r.stop < end);
+        advance(b, s, begin + r.triangles - 1u);
+        if (s.finished) {
+            lr_packed_repeat(s);
+            begin_piece(b, s, b.at);
+        }
+        read_warts(r, b.first, begin);
+        i += r.triangles;
+    } while (i < end);
     count = k * LR_PACKED_BLOCK;
     for (uint word = k * kWords; word < (k + 1u) * kWords; ++word) {
         before[word] = count;
-        count += uint(bitCount(starts[word]));
+        if (starts[word] != 0u) count = 32u * word + uint(findMSB(starts[word]));
     }
 }
 
@@ -114,11 +234,11 @@ bvec4 nibble(uint word, uint shift) { return notEqual(uvec4(word >> shift) & uve
 
 // What the tables have of 32 triangles.
 struct Word {
-    uint turns, starts, thirds, warts, t2s;
+    uint turns, starts, thirds, warts, t2s, flips;
     uint ups, before;
 };
 Word load_word(uint word, uint triangle) {
-    Word w = Word(turn_word(triangle), starts[word], thirds[word], warts[word], 0u, ups[word], before[word]);
+    Word w = Word(turn_word(triangle), starts[word], thirds[word], warts[word], 0u, flips[word], ups[word], before[word]);
     uint wart_before = word % kWords == 0u ? 0u : warts[word - 1u] >> 31;
     w.t2s = (w.warts << 1 | wart_before) & ~w.starts;  // where a record ends at the T0, there is none
     return w;
@@ -126,40 +246,44 @@ Word load_word(uint word, uint triangle) {
 
 // Four triangles from the quad's first on, of which the first `left` are there.
 void expand_quad(Word w, uint quad, uint triangle, uint left) {
-    uint shift = quad % 8u * 4u;
+    uint shift = quad % 8u * 4u, at = 4u * quad;
     uint u = w.ups + bits_below(w.turns, shift);
+    uint begun = bitfieldExtract(w.starts, 0, int(shift + 1u));
+    uint piece = begun == 0u ? w.before : at - shift + uint(findMSB(begun));
     uint next = (w.starts >> shift & 14u) | 16u;
-    uint piece = w.before + bits_below(w.starts, shift + 1u) - 1u;
 
     bvec4 up = nibble(w.turns, shift), is_third = nibble(w.thirds, shift), is_wart = nibble(w.warts, shift);
-    bvec4 t2 = nibble(w.t2s, shift);
-    uvec4 ones = uvec4(up);
+    bvec4 t2 = nibble(w.t2s, shift), flip = nibble(w.flips, shift);
+    uvec4 ones = uvec4(up), k = uvec4(0u, 1u, 2u, 3u);
     uvec4 to_a = u + uvec4(0u, ones.x, ones.x + ones.y, ones.x + ones.y + ones.z);
-    uvec4 to_b = to_a - (quad % kQuads * 4u + uvec4(0u, 1u, 2u, 3u));
-    uvec4 a, b, x;
+    uvec4 to_b = to_a - (at + k);
+    uvec4 a, b, r;
     uint from = 0u;
     for (;;) {
         if (piece >= kBlocks * LR_PACKED_BLOCK) break;  // never
-        bvec4 fresh = greaterThanEqual(uvec4(0u, 1u, 2u, 3u), uvec4(from));
+        bvec4 fresh = greaterThanEqual(k, uvec4(from));
         a = mix(a, piece_a[piece] + to_a, fresh);
         b = mix(b, piece_b[piece] + to_b, fresh);
-        x = mix(x, uvec4(piece_x[piece]), fresh);
-        ++piece;
+        r = mix(r, uvec4(piece_x[piece]), fresh);
         from = uint(findLSB(next));
+        piece = at + from;
         next &= next - 1u;
         if (from >= 4u) break;
     }
 
-    bvec4 reversed = notEqual(x & LR_REVERSED, uvec4(0u));
+    bvec4 reversed = notEqual(notEqual(r & LR_REVERSED, uvec4(0u)), flip);
     uvec4 tip = mix(b - 1u, a + 1u, up);
     uvec4 far = mix(b - 2u, a + 2u, up);
     uvec4 inner = mix(b, a, up);  // a wart's T2 is (inner - 1, inner, inner + 1)
-    tip = mix(mix(tip, x & ~LR_REVERSED, is_third), far, is_wart);
-    tip = mix(tip, inner, t2);
+    if (any(is_third)) {
+        uvec4 x = uvec4(piece_x[at], piece_x[at + 1u], piece_x[at + 2u], piece_x[at + 3u]);
+        tip = mix(tip, x & ~LR_REVERSED, is_third);
+    }
+    tip = mix(mix(tip, far, is_wart), inner, t2);
     a = mix(a, inner - 1u, t2);
     b = mix(b, inner + 1u, t2);
     uvec4 second = mix(b, tip, reversed), last = mix(tip, b, reversed);
-    bvec4 none = greaterThanEqual(uvec4(0u, 1u, 2u, 3u), uvec4(left));  // drawn by no command
+    bvec4 none = greaterThanEqual(k, uvec4(left));  // drawn by no command
     a = mix(a, uvec4(0u), none);
     second = mix(second, uvec4(0u), none);
     last = mix(last, uvec4(0u), none);
@@ -168,10 +292,8 @@ void expand_quad(Word w, uint quad, uint triangle, uint left) {
 }
 
 void expand_plain(LrPackedLayout p, uint quad, uint triangle, uint left) {
-    LrPackedReader r;
-    r.first = triangle / LR_PACKED_BLOCK * LR_PACKED_BLOCK;
-    uint i = triangle - r.first;
-    lr_packed_open(p, r, i);
+    uint i = triangle % LR_PACKED_BLOCK;
+    LrPackedRecord r = lr_packed_record(p, triangle / LR_PACKED_BLOCK, i);
     uvec3 t[4];
     for (uint k = 0u; k < 4u; ++k) t[k] = k < left ? lr_packed_plain(p, r, i + k) : uvec3(0u);
     store((triangle - push.first_slot) / 4u * 3u, t[0], t[1], t[2], t[3]);
@@ -184,7 +306,7 @@ void main() {
     uint first = push.first_slot + gl_WorkGroupID.x * kBlocks * LR_PACKED_BLOCK;
     uint end = min(p.triangles, push.first_slot + push.slots);
     if (id == 0u) plain_blocks = 0u;
-    for (uint word = id; word < kBlocks * kWords; word += size) starts[word] = thirds[word] = warts[word] = 0u;
+    for (uint word = id; word < kBlocks * kWords; word += size) starts[word] = thirds[word] = warts[word] = flips[word] = 0u;
     barrier();
     for (uint k = id; k < kBlocks; k += size) {
         if (first + k * LR_PACKED_BLOCK < end) read_block(p, k, first + k * LR_PACKED_BLOCK);

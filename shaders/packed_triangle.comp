@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Every triangle of a packed stream by random access: how a program of its own uses packed_decode.glsl, and its test.
+// Every triangle of a packed stream by random access: how a program of its own uses lacedring.glsl, and its test.
 layout(local_size_x = 64) in;
 
 layout(std430, binding = 0) readonly buffer Words { uint words[]; };

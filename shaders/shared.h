@@ -26,8 +26,8 @@ struct DecodeConstants {
     uint draws;       // draw commands to write: 0 in every dispatch but one
     uint draw_slots;  // slots of each draw command but the last
     uint first_word;  // word of the stream (header included) at which its descriptor begins; packed: that of the turns
-    uint directory;   // packed: of the directory
-    uint records;     // packed: of the records
+    uint table;       // packed: of the table
+    uint groups;      // packed: of the groups
 };
 
 // rotate.comp: the window of the index buffer is the descriptor's.
@@ -57,7 +57,7 @@ struct DrawConstants {
     uvec2 vertices;
     uvec2 vertex_order;
     uvec2 unused2;
-    uvec4 stream_layout;  // lean: LrLeanLayout; packed: LrPackedLayout, with the two widths in one, gap bits << 8
+    uvec4 stream_layout;  // lean: LrLeanLayout; packed: LrPackedLayout
 };
 
 // Specialization constants of the shaders that decode by themselves (0 and 1 are surface.frag's).

@@ -39,9 +39,8 @@ uvec3 rotated(uvec3 t) {
 uvec3 slot_triangle(uint slot) {
     uvec3 t;
     if (packed_stream) {
-        uint widths = push.stream_layout.w;
-        LrPackedLayout p = LrPackedLayout(push.stream_layout.x, push.stream_layout.y, push.stream_layout.z, widths & 0xffu, widths >> 8);
-        t = lr_packed_triangle(p, slot);
+        uvec4 l = push.stream_layout;
+        t = lr_packed_triangle(LrPackedLayout(l.x, l.y, l.z, l.w), slot);
     } else {
         t = lr_lean_triangle(LrLeanLayout(push.stream_layout.x, push.stream_layout.y, push.stream_layout.z), slot);
     }

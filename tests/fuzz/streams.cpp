@@ -9,7 +9,8 @@
 #include "lrcore/base/crc32.h"
 #include "lrcore/codec/lean/lean_format.h"
 #include "lrcore/codec/packed/packed_format.h"
-#include "lrcore/codec/packed/record.h"
+#include "lrcore/codec/packed/packed_c.h"
+#include "lrcore/codec/packed/packed_format.h"
 #include "tests/fuzz/use.h"
 
 namespace lacedring::fuzz {
@@ -39,41 +40,47 @@ void mend_lean(Words& words) {
     words[LR_LEAN_WORD_TRIANGLES] = triangles;
 }
 
-/// Record bytes and the last block's length from the number of words; zeros where they have to be.
+/// The table of groups from their heads; zeros where they have to be.
 void mend_packed(Words& words) {
     PackedView view;
     view.vertices = words[LR_PACKED_WORD_VERTICES];
     view.triangles = words[LR_PACKED_WORD_TRIANGLES];
-    view.vertex_bits = words[LR_PACKED_WORD_WIDTHS] & 0xff;
     if (view.triangles == 0 || view.triangles > 8 * 4 * words.size()) return;  // a turn bit each
-    const std::size_t records = view.records_word();
-    if (records + LR_PACKED_TAIL_WORDS > words.size()) return;
-    const auto most = static_cast<std::uint32_t>(4 * (words.size() - records - LR_PACKED_TAIL_WORDS));
-    std::uint32_t& bytes = words[LR_PACKED_WORD_RECORD_BYTES];
-    if (bytes > most || most - bytes > 3) bytes = most;
-
-    const std::uint32_t blocks = view.blocks();
-    std::uint32_t offset = 0;
-    for (std::uint32_t block = 0; block < blocks; ++block) {
-        std::uint32_t* group =
-            words.data() + view.directory_word() + std::size_t{block / LR_PACKED_GROUP} * LR_PACKED_GROUP_WORDS;
-        if (block % LR_PACKED_GROUP == 0) group[0] = offset;
-        std::uint32_t& four = group[1 + block % LR_PACKED_GROUP / 4];
-        const std::uint32_t shift = 8 * (block % 4),
-                            count = std::min(view.triangles - block * LR_PACKED_BLOCK, LR_PACKED_BLOCK);
-        const std::uint32_t length = four >> shift & 0xff;
-        if (block + 1 == blocks && length <= LR_PACKED_MAX_RECORD && bytes >= offset &&
-            bytes - offset <= LR_PACKED_MAX_RECORD) {
-            four = (four & ((1U << shift) - 1)) | (bytes - offset) << shift;  // and no lengths behind it
-        }
-        offset += block_bytes(four >> shift & 0xff, count, view.vertex_bits);
-    }
-    if (offset <= most && most - offset <= 3) bytes = offset;
     if (const std::uint32_t last = view.triangles % 32; last != 0) {
         words[LR_PACKED_HEADER_WORDS + view.triangles / 32] &= (1U << last) - 1;
     }
-    auto* at = reinterpret_cast<std::uint8_t*>(words.data() + records);
-    std::fill(at + bytes, reinterpret_cast<std::uint8_t*>(words.data() + words.size()), std::uint8_t{0});
+    const std::uint32_t width = packed_vertex_bits(view.vertices), blocks = view.blocks();
+    if (view.groups_word() > words.size()) return;
+    const std::uint64_t bits = 32 * (words.size() - view.groups_word());
+    std::uint64_t at = 0, byte = 0;
+    const auto take = [&](std::uint32_t count) {
+        std::uint32_t value = 0;
+        for (std::uint32_t k = 0; k < count && at + k < bits; ++k) {
+            value |= (words[view.groups_word() + (at + k) / 32] >> ((at + k) % 32) & 1) << k;
+        }
+        at += count;
+        return value;
+    };
+    for (std::uint32_t block = 0; block < blocks; ++block) {
+        if (block % LR_PACKED_GROUP != 0) continue;
+        if (block > 0) words[view.table_word() + block / LR_PACKED_GROUP - 1] = static_cast<std::uint32_t>(byte);
+        at = 8 * byte;
+        const std::uint32_t length_bits = take(LR_PACKED_LENGTH_FIELD), entry_bits = take(LR_PACKED_ENTRY_FIELD);
+        at = 8 * byte + LR_PACKED_HEAD_BITS + 2 * width + 1;
+        std::uint64_t records = 0;
+        for (std::uint32_t k = block; k < std::min(block + LR_PACKED_GROUP, blocks); ++k) {
+            const std::uint32_t length = take(length_bits),
+                                count = std::min(view.triangles - k * LR_PACKED_BLOCK, LR_PACKED_BLOCK);
+            if (k > block) at += entry_bits;
+            records += length <= LR_PACKED_MAX_RECORD ? length
+                       : length < LR_PACKED_PLAIN     ? 4 * (length - LR_PACKED_MAX_RECORD)
+                                                      : (3 * count * width + 7) / 8;
+        }
+        byte = (at + 7) / 8 + records;
+        if (8 * byte > bits) return;
+    }
+    auto* groups = reinterpret_cast<std::uint8_t*>(words.data() + view.groups_word());
+    std::fill(groups + byte, reinterpret_cast<std::uint8_t*>(words.data() + words.size()), std::uint8_t{0});
 }
 
 /// The entries of VO* from the number of words: nothing else says how many they are.
@@ -97,7 +104,6 @@ void mend(Format kind, Words& words) {
         case Format::packed:
             if (words.size() < LR_PACKED_HEADER_WORDS) return;
             words[LR_PACKED_WORD_MAGIC] = LR_PACKED_MAGIC;
-            words[LR_PACKED_WORD_VERSION] = LR_PACKED_VERSION;
             mend_packed(words);
             words[LR_PACKED_WORD_CHECKSUM] = packed_checksum(words);
             return;

@@ -2,8 +2,9 @@
 
 #include "lacedring/streams.hpp"
 #include "lrcore/codec/lean/lean_format.h"
+#include <cstring>
+
 #include "lrcore/codec/packed/packed_format.h"
-#include "lrcore/codec/packed/record.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/support/meshes.h"
 
@@ -169,30 +170,27 @@ TEST_CASE_FIXTURE(GpuTest, "one wrong bit of the packed stream is seen") {
     REQUIRE(compared(*context, good, gpu::Source::packed).same());
     const Result<PackedView> view = view_packed(good.packed.words);
     REQUIRE(view);
-    const std::size_t turns = LR_PACKED_HEADER_WORDS, records = view->records_word();
+    const std::size_t turns = LR_PACKED_HEADER_WORDS, groups = view->groups_word();
 
     SUBCASE("a turn") {
-        check_flips_found(*context, mesh, turns, view->directory_word(), 5);
+        check_flips_found(*context, mesh, turns, view->table_word(), 5);
     }
     SUBCASE("an event") {  // gaps, sizes, starts: whatever leaves a record valid
-        check_flips_found(*context, mesh, records, records + view->record_bytes / 4, 12);
+        check_flips_found(*context, mesh, groups, view->words.size(), 12);
     }
     SUBCASE("a record's first edge") {
-        const PackedRecord record = find_record(*view, 0);
-        REQUIRE(!record.plain);
-        const auto word =
-            static_cast<std::size_t>(record.record - reinterpret_cast<const std::uint8_t*>(good.packed.words.data())) /
-            4;
         gpu::Model bad = model_of(mesh);
-        std::vector<std::uint32_t>& words = bad.packed.words;
-        REQUIRE(record.record == reinterpret_cast<const std::uint8_t*>(&good.packed.words[word]));
-        words[word] += 1U + (1U << view->vertex_bits);  // both vertices by one
+        std::uint32_t* head = bad.packed.words.data() + groups;
+        std::uint64_t bits = 0;
+        std::memcpy(&bits, head, sizeof bits);
+        bits += (1 + (std::uint64_t{1} << view->vertex_bits)) << LR_PACKED_HEAD_BITS;  // both vertices by one
+        std::memcpy(head, &bits, sizeof bits);
         check_found(*context, bad, gpu::Source::packed);
     }
-    SUBCASE("the directory") {  // the second group's blocks read the first's records
+    SUBCASE("the table") {  // the second group is the first
         gpu::Model bad = model_of(mesh);
         std::vector<std::uint32_t>& words = bad.packed.words;
-        words[view->directory_word() + LR_PACKED_GROUP_WORDS] = words[view->directory_word()];
+        words[view->table_word()] = 0;
         CHECK(!compared(*context, bad, gpu::Source::packed).same());
     }
     SUBCASE("the order of the vertices") {
@@ -214,7 +212,7 @@ TEST_CASE_FIXTURE(GpuTest, "a wrong far vertex of a packed stream is seen") {
     REQUIRE(compared(*context, good, gpu::Source::packed).same());
     const Result<PackedView> view = view_packed(good.packed.words);
     REQUIRE(view);
-    check_flips_found(*context, mesh, view->records_word(), view->records_word() + view->record_bytes / 4, 3, true);
+    check_flips_found(*context, mesh, view->groups_word(), view->words.size(), 3, true);
 }
 
 TEST_CASE_FIXTURE(GpuTest, "damaged packed streams neither hang nor write beyond their triangles") {

@@ -1,27 +1,29 @@
-"""The packed stream, decoded by its document (docs/packed-format.md) alone."""
+"""The packed stream, version 2, decoded by its document (docs/packed-format.md) alone.
+
+decode_packed decodes and validates a whole stream; read_triangle finds one triangle of a valid stream.
+"""
 
 import zlib
 
 from mesh_readers import BadFile
 
 WORD = 0xFFFFFFFF
-WART, SPLIT, BESIDE, START, FAR, JUMP, END, TURN = range(8)
-
-
-class EndOfRecord(Exception):
-    pass
+MAGIC, MAGIC_1 = 0x3250524C, 0x4B50524C
+SPLIT, BESIDE, START, FAR, JUMP, TURN, FLIPS = range(7)
+THIRD_VERTEX = (SPLIT, FAR, JUMP)  # the events that give a triangle's third vertex
+PLAIN = 255
 
 
 class Bits:
-    """Fields of a record, from its lowest bit."""
+    """Fields of a byte string, from its lowest bit."""
 
-    def __init__(self, record):
-        self.rest = int.from_bytes(record, "little")
-        self.left = 8 * len(record)
+    def __init__(self, data):
+        self.rest = int.from_bytes(data, "little")
+        self.left = 8 * len(data)
 
     def take(self, bits):
         if bits > self.left:
-            raise BadFile("a record of the packed stream ends within a field")
+            raise BadFile("the packed stream ends within a field")
         value = self.rest & (1 << bits) - 1
         self.rest >>= bits
         self.left -= bits
@@ -29,244 +31,556 @@ class Bits:
 
     def unary(self, limit=None):
         ones = 0
-        while ones != limit:
-            if self.left == 0:
-                raise EndOfRecord
-            if self.take(1) == 0:
-                break
+        while ones != limit and self.take(1):
             ones += 1
         return ones
 
+    def rice(self, k):
+        high = self.unary()
+        if high > 31:
+            raise BadFile("a Rice code of the packed stream has more than 31 ones")
+        return high << k | self.take(k)
+
     def golomb(self, k):
-        """EG(k)."""
+        """Exponential Golomb code of order k."""
         low = self.unary(31 - k) + k
         return (1 << low | self.take(low)) - (1 << k)
+
+    def entry(self, width):
+        return self.take(width), self.take(width), self.take(1)
+
+    def only_ones(self):
+        return self.rest == (1 << self.left) - 1
+
+
+class Header:
+    """The stream's header, and where its parts are."""
+
+    def __init__(self, words):
+        if len(words) >= 1 and words[0] == MAGIC_1:
+            raise BadFile("a packed stream of version 1, which is not read any more; version 2 is")
+        if len(words) < 4 or words[0] != MAGIC:
+            raise BadFile("not a packed stream of version 2")
+        self.vertices, self.triangles = words[1:3]
+        if self.vertices > 1 << 29 or self.triangles > WORD // 3:
+            raise BadFile("the packed stream has too many vertices or triangles")
+        self.width = max((self.vertices - 1).bit_length(), 1) if self.vertices else 1
+        self.blocks = (self.triangles + 255) // 256
+        self.groups = (self.blocks + 15) // 16
+        self.table = 4 + (self.triangles + 31) // 32
+        self.first_group = self.table + max(self.groups - 1, 0)
+        if len(words) < self.first_group:
+            raise BadFile("the packed stream is shorter than its header says")
+
+
+class Head:
+    """A group's head. `data` begins with it; `blocks` are the group's."""
+
+    def __init__(self, data, blocks, width):
+        bits = Bits(data[:64])  # at most 18 + 59 + 8 + 15 * 16 bits
+        self.width = width
+        length_bits, self.entry_bits = bits.take(4), bits.take(4)
+        if length_bits > 8 or self.entry_bits > 8:
+            raise BadFile("a group's head has fields of more than 8 bits")
+        self.gap_bits, self.wart_bits, self.split_order, self.count_order = (bits.take(n) for n in (3, 3, 2, 2))
+        self.entry = bits.entry(width)
+        self.lengths, self.links = [bits.take(length_bits)], [0]
+        for _ in range(blocks - 1):
+            self.lengths.append(bits.take(length_bits))
+            self.links.append(bits.take(self.entry_bits))
+        fill = bits.left % 8
+        if bits.take(fill) != (1 << fill) - 1:
+            raise BadFile("a group's head is not filled up with ones")
+        self.size = min(len(data), 64) - bits.left // 8
+
+    def record_bytes(self, k, triangles):
+        length = self.lengths[k]
+        if length == PLAIN:
+            return (3 * triangles * self.width + 7) // 8
+        return length if length <= 104 else 4 * (length - 104)
+
+    def linked(self, before, k):
+        """The entry of block k, whose entry field is not 0, from that of the block before."""
+        a, b, is_reversed = before
+        to = a + 128 + self.links[k] - (1 << self.entry_bits - 1)
+        return to & WORD, to + (b - a) - 256 & WORD, is_reversed
+
+
+def read_event(bits, head, triangles):
+    """Gap, code, and the numbers that the event's code calls for."""
+    gap, code = bits.rice(head.gap_bits), bits.unary(7)
+    if code == SPLIT:
+        size = 3 + bits.golomb(head.split_order)
+        return gap, code, (size, size - 1)
+    if code == BESIDE:
+        turned, place, folded = bits.take(1), bits.take(2), bits.golomb(1)
+        if folded >= 1 << 30:
+            raise BadFile("BESIDE has a step of 2^30 or more")
+        return gap, code, (turned, place, -(folded + 1 >> 1) if folded & 1 else folded >> 1, bits.take(head.width))
+    if code == START:
+        kind = bits.unary(3)
+        if kind == 3:
+            return gap, code, (kind, *bits.entry(head.width))
+        return gap, code, (kind, *(bits.golomb(2) for _ in range(kind)))
+    if code == FAR:
+        across, x = bits.take(2), bits.take(head.width)
+        return gap, code, (across, x, 1 + bits.golomb(2) if across == 3 else 0)
+    if code == JUMP:
+        size = 2 + bits.golomb(1)
+        return gap, code, (size, 1 + bits.golomb(2) if bits.take(1) else 0)
+    if code == TURN:
+        return gap, code, ()
+    if code == FLIPS:
+        return gap, code, (bits.take(triangles),)
+    raise BadFile("an event of the packed stream has code 7")
+
+
+class Record:
+    """A record's entry, its events as (triangle, code, numbers), and its warts as ranks among the candidates."""
+
+    def __init__(self, data, entry, head, triangles):
+        bits = Bits(data)
+        self.entry = bits.entry(head.width) if entry is None else entry
+        self.events, self.warts = [], []
+        if entry is not None and not data:
+            return
+        at = 0
+        for i in range(bits.golomb(head.count_order)):
+            gap, code, numbers = read_event(bits, head, triangles)
+            at += gap + (i > 0 and self.events[-1][1] in THIRD_VERTEX)
+            if at >= triangles:
+                raise BadFile("an event is behind the last triangle of its record")
+            if code == FLIPS and (i or at):
+                raise BadFile("FLIPS is not the first event, or not at the first triangle")
+            self.events.append((at, code, numbers))
+        rank = -1
+        while not bits.only_ones():
+            rank += 1 + bits.rice(head.wart_bits)
+            self.warts.append(rank)
+        if bits.left >= 8:
+            raise BadFile("a record of the packed stream is filled up with more than a byte")
+        if entry is not None and not self.events and not self.warts:
+            raise BadFile("a record of the packed stream that says nothing has bytes")
+
+
+# --- All triangles, in turn ---
 
 
 class Walk:
     """The state of a record's reader, and what each event does to it."""
 
-    def __init__(self, bits, width):
-        self.bits = bits
-        self.width = width
-        self.a, self.b = bits.take(width), bits.take(width)
-        self.reversed = bits.take(1)
-        self.begun = (self.a, self.b, self.reversed)
-        self.stack = []
+    def __init__(self, entry, triangles):
+        self.a, self.b, self.reversed = self.begun = entry
+        self.triangles = triangles
         self.finished = False
-        self.second = None  # of a wart's two triangles, when the first has just come out
-        self.turn_before = 0
+        self.scopes = []  # (end, a, b, reversed)
+
+    def close_scopes(self, i):
+        """Closes the scopes that end at triangle i; true if there are any."""
+        count = len(self.scopes)
+        while self.scopes and self.scopes[-1][0] == i:
+            _, self.a, self.b, self.reversed = self.scopes.pop()
+            self.finished = False
+        return len(self.scopes) != count
+
+    def open_scope(self, i, code, count, a, b):
+        end = i + count + 1
+        if self.scopes and end > self.scopes[-1][0]:
+            raise BadFile("a scope ends behind the one around it")
+        if end < self.triangles:
+            self.scopes.append((end, a & WORD, b & WORD, self.reversed))
+        elif code != SPLIT and end > self.triangles:
+            raise BadFile("FAR or JUMP has a part that ends behind the record")
 
     def begin(self, a, b, is_reversed):
         self.a, self.b, self.reversed = a & WORD, b & WORD, is_reversed
-        self.begun = (self.a, self.b, is_reversed)
+        if not self.scopes:
+            self.begun = self.a, self.b, is_reversed
         self.finished = False
 
-    def push(self, a, b):
-        self.stack = (self.stack + [(a, b)])[-16:]
-
-    def before(self, event):
+    def before(self, code, numbers):
         """An event that comes before a triangle."""
-        if self.second is not None:
-            raise BadFile("an event is between the two triangles of a wart")
-        if event == TURN:
+        a, b, was_reversed = self.begun
+        if code == TURN:
             self.reversed ^= 1
-            return
-        if event == BESIDE:
-            turned, place, folded = self.bits.take(1), self.bits.take(2), self.bits.golomb(1)
-            step, other = -(folded + 1 >> 1) if folded & 1 else folded >> 1, self.bits.take(self.width)
-            near = (self.b, self.a, self.begun[0], self.begun[1])[place] + step
+        elif code == BESIDE:
+            turned, place, step, other = numbers
+            near = (self.b, self.a, a, b)[place] + step
             self.begin(*((near, other) if place in (0, 2) else (other, near)), self.reversed ^ turned)
-            self.stack = []
-        elif event == START:
-            kind = self.bits.unary(3)
-            a, b, was_reversed = self.begun
+        elif code == START:
+            kind = numbers[0]
             if kind == 0:
                 self.begin(a, b, was_reversed ^ 1)
             elif kind == 3:
-                self.begin(self.bits.take(self.width), self.bits.take(self.width), self.bits.take(1))
+                self.begin(*numbers[1:])
             else:
-                a = b + 1 if kind == 1 else b + self.bits.golomb(2)
-                self.begin(a, a + 2 + self.bits.golomb(2), 0 if kind == 1 else was_reversed)
-            self.stack = []
-        elif not self.stack:
-            raise BadFile("END, and nothing on the stack")
-        else:
-            self.a, self.b = self.stack.pop()
-            self.finished = False
+                first = b + 1 if kind == 1 else b + numbers[1]
+                self.begin(first, first + 2 + numbers[-1], 0 if kind == 1 else was_reversed)
 
-    def triangle(self, event, turn):
-        """The next triangle: its lowest, middle and highest corner, as the polygon has them."""
-        if self.second is not None:
-            if event is not None or turn != self.turn_before:
-                raise BadFile("the second triangle of a wart is not as it should be")
-            out, self.second = self.second, None
-            return out
-        if self.finished and self.stack:
-            self.a, self.b = self.stack.pop()
-            self.finished = False
-        elif self.finished:
-            a, b, was_reversed = self.begun
-            self.begin(b + 1, b + 1 + b - a, self.reversed)
-            self.begun = (self.a, self.b, was_reversed)
+    def follow(self):
+        """Begins the polygon behind the one begun last, if that one is finished; true if so."""
+        if not self.finished:
+            return False
+        if self.scopes:
+            raise BadFile("a part has fewer triangles than its scope")
+        a, b, was_reversed = self.begun
+        self.begin(b + 1, b + 1 + b - a, self.reversed)
+        self.begun = self.a, self.b, was_reversed
+        return True
+
+    def third_vertex(self, i, turn, code, numbers):
+        """x of triangle i, which an event gives."""
         a, b = self.a, self.b
-        if event is None:
-            x = a + 1 if turn else b - 1
-            self.a, self.b = (x, b) if turn else (a, x)
-            self.finished = (self.b - self.a) & WORD == 1
-            if self.finished and turn != self.turn_before:
-                raise BadFile("the turn of a corridor's last triangle is not that of the one before")
-        elif event == WART:
-            if (b - a) & WORD < 4:
-                raise BadFile("a wart is as large as its polygon")
-            x = a + 2 if turn else b - 2
-            self.second = (a, a + 1 & WORD, x & WORD) if turn else (x & WORD, b - 1 & WORD, b)
-            self.a, self.b = (x, b) if turn else (a, x)
-        elif event == JUMP:
-            size = 2 + self.bits.golomb(1)
-            x = a + size if turn else b - size
-            self.a, self.b = (x, b) if turn else (a, x)
-        else:
-            across = 3
-            if event == SPLIT:
-                size = 3 + self.bits.golomb(2)
-                x = a + size if turn else b - size
-            else:
-                across, x = self.bits.take(2), self.bits.take(self.width)
-                if turn and across != 3:
-                    raise BadFile("FAR has a turn that means nothing")
+        self.finished = False
+        if code == FAR:
+            across, x, count = numbers
+            if turn and across != 3:
+                raise BadFile("the turn of a FAR that goes on one way only is not 0")
             self.finished = across == 0
-            if across == 2 or (across == 3 and not turn):
-                self.a, self.b = x, b
-            else:
-                self.a, self.b = a, x
-            if across == 3:
-                self.push(*((x, b) if turn else (a, x)))
-        self.a &= WORD
-        self.b &= WORD
-        return a, x & WORD, b
+            low_first = turn if across == 3 else across != 2
+        else:
+            size, count = numbers
+            x = a + size if turn else b - size
+            low_first = turn if count else not turn
+        low, high = (a, x), (x, b)
+        if count:
+            self.open_scope(i, code, count, *(high if low_first else low))
+        self.a, self.b = (v & WORD for v in (low if low_first else high))
+        return x
+
+    def step(self, turn, required_last):
+        """x of a triangle without such an event."""
+        x = self.a + 1 if turn else self.b - 1
+        if turn:
+            self.a = x & WORD
+        else:
+            self.b = x & WORD
+        self.finished = (self.b - self.a) & WORD == 1
+        if self.finished and turn != required_last:
+            raise BadFile("the turn of a corridor's last triangle is not the one that it should have")
+        return x
 
 
-def read_event(bits, gap_bits):
-    """A gap and a code, or None behind the last event."""
-    left = bits.left
-    try:
-        gap = bits.unary() << gap_bits
-    except EndOfRecord:
-        if left >= 8:
-            raise BadFile("a record of the packed stream is filled up with more than a byte") from None
-        return None
-    gap |= bits.take(gap_bits)
-    return gap, bits.unary(7)
+def wart_triangles(record, turns):
+    """The triangles of the record at which warts are."""
+    candidates = [i for i, turn in enumerate(turns) if i + 1 == len(turns) or turns[i + 1] == turn]
+    if record.warts and record.warts[-1] >= len(candidates):
+        raise BadFile("a wart is behind the last candidate")
+    warts = [candidates[rank] for rank in record.warts]
+    if any(j - i < 2 for i, j in zip(warts, warts[1:])):
+        raise BadFile("two warts are next to each other")
+    return set(warts)
 
 
-def walk_record(record, turns, header, out):
-    """The triangles of one record, a turn each."""
-    width, gap_bits = header
-    bits = Bits(record)
-    walk = Walk(bits, width)
-    at = 0
-    event = read_event(bits, gap_bits)
-    if event is not None:
-        at += event[0]
+def walk_record(record, turns, out):
+    """Appends the triangles of one record. `turns`: of each triangle."""
+    walk = Walk(record.entry, len(turns))
+    warts = wart_triangles(record, turns)
+    flips = record.events[0][2][0] if record.events and record.events[0][1] == FLIPS else 0
+    events = iter(record.events)
+    event = next(events, None)
     for i, turn in enumerate(turns):
-        own = None
-        while event is not None and at == i:
-            if event[1] in (BESIDE, START, END, TURN):
-                if own is not None:
-                    raise BadFile("an event is behind the one that says where its triangle is")
-                walk.before(event[1])
-            elif own is not None:
-                raise BadFile("two events say where one triangle is")
-            else:
-                own = event[1]
-                corners = walk.triangle(own, turn)
-            event = read_event(bits, gap_bits)
-            if event is not None:
-                at += event[0]
-        if own is None:
-            corners = walk.triangle(None, turn)
-        walk.turn_before = turn
-        low, middle, high = corners
-        out += (low, middle, high) if walk.reversed else (low, high, middle)
-    if event is not None:
-        raise BadFile("an event is behind the last triangle of its record")
+        special = walk.close_scopes(i)
+        while event is not None and event[0] == i and event[1] not in THIRD_VERTEX:
+            walk.before(*event[1:])
+            special = True
+            event = next(events, None)
+        special |= walk.follow()
+        a, b = walk.a, walk.b
+        own = event is not None and event[0] == i
+        if own:
+            x = walk.third_vertex(i, turn, *event[1:])
+            event = next(events, None)
+        else:
+            x = walk.step(turn, 1 - turns[i - 1] if i else 0)
+        low, middle, high = a, x, b
+        if i in warts:
+            if own or (b - a) & WORD < 4:
+                raise BadFile("a wart is as large as its polygon, or an event gives its third vertex")
+            middle = a + 2 if turn else b - 2
+        elif i - 1 in warts:
+            if own or special:
+                raise BadFile("an event, a scope's end or a polygon's begin is between the triangles of a wart")
+            low, middle, high = (a - 1, a, a + 1) if turn else (b - 1, b, b + 1)
+        low, middle, high = low & WORD, middle & WORD, high & WORD
+        out += (low, middle, high) if walk_reversed(walk, flips, i) else (low, high, middle)
 
 
-def decode_block(length, take, turns, header, out):
-    """`take(n)` gives the next n bytes of records."""
-    n = len(turns)
-    if length <= 160:
-        walk_record(take(length), turns, header, out)
-    elif length < 255:
-        data = take(8 * (length - 160))
-        at = 4
-        for i, size in enumerate(data[:4]):
-            part = turns[64 * i:64 * i + 64]
-            if size > 160 or (size != 0) != bool(part):
-                raise BadFile("the lengths of a block's four records are wrong")
-            if part:
-                walk_record(data[at:at + size], part, header, out)
-            at += size
-        if not at <= len(data) < at + 8 or any(data[at:]):
-            raise BadFile("a block's four records are not followed by zeros")
-    else:
-        bits = Bits(take((3 * n * header[0] + 7) // 8))
-        out += [bits.take(header[0]) for _ in range(3 * n)]
-        if any(turns) or bits.rest != (1 << bits.left) - 1:
-            raise BadFile("a plain block has turns, or is not filled up with ones")
+def walk_reversed(walk, flips, i):
+    return walk.reversed ^ flips >> i & 1
+
+
+def parts(data):
+    """The records of a parted block, in 64 triangles each."""
+    at = 4
+    for size in data[:4]:
+        yield data[at:at + size]
+        at += size
+
+
+def decode_parted(data, entry, turns, head, out):
+    """Returns the entry of the first record."""
+    end = 4 + sum(data[:4])
+    if max(data[:4]) > 128 or not end <= len(data) < end + 4 or any(data[end:]):
+        raise BadFile("the records of a parted block are too long, or not followed by zeros up to a word")
+    for i, part in enumerate(parts(data)):
+        some = turns[64 * i:64 * i + 64]
+        if some:
+            record = Record(part, entry if i == 0 else None, head, len(some))
+            walk_record(record, some, out)
+            if i == 0:
+                first = record.entry
+        elif part:
+            raise BadFile("a parted block has a record without triangles")
+    return first
+
+
+def decode_group(data, turns, width, out):
+    """Returns how many bytes the group has."""
+    head = Head(data, (len(turns) + 255) // 256, width)
+    at = head.size
+    if head.lengths[0] == PLAIN and any(head.entry):
+        raise BadFile("a group's head has an entry for a plain block")
+    before = None  # the entry of the block before, None if that is plain
+    for k, length in enumerate(head.lengths):
+        some = turns[256 * k:256 * k + 256]
+        size = head.record_bytes(k, len(some))
+        block = data[at:at + size]
+        at += size
+        if at > len(data):
+            raise BadFile("a record is behind the end of the packed stream")
+        if head.links[k]:
+            if length == PLAIN or before is None:
+                raise BadFile("a plain block or the one behind it has an entry field that is not 0")
+            entry = head.linked(before, k)
+        else:
+            entry = head.entry if k == 0 else None
+        if length == PLAIN:
+            bits = Bits(block)
+            out += [bits.take(width) for _ in range(3 * len(some))]
+            if any(some) or not bits.only_ones():
+                raise BadFile("a plain block has turns, or is not filled up with ones")
+            before = None
+        elif length <= 104:
+            record = Record(block, entry, head, len(some))
+            walk_record(record, some, out)
+            before = record.entry
+        else:
+            before = decode_parted(block, entry, some, head, out)
+    return at
 
 
 def decode_packed(words):
     """Vertices, and all triangles, flat. `words`: the whole stream, header included."""
-    if len(words) < 8 or words[0] != 0x4B50524C or words[1] != 1 or words[6] != 0:
-        raise BadFile("not a packed stream of version 1")
-    vertices, triangles, record_bytes = words[2:5]
-    header = (words[5] & 0xFF, words[5] >> 8)
-    if not 1 <= header[0] <= 31 or not 3 <= header[1] <= 7:
-        raise BadFile("the packed stream's field widths are out of range")
-    if zlib.crc32(words[8:].tobytes(), zlib.crc32(words[:7].tobytes())) != words[7]:
+    header = Header(words)
+    if zlib.crc32(words[4:].tobytes(), zlib.crc32(words[:3].tobytes())) != words[3]:
         raise BadFile("the packed stream's checksum is wrong")
-    blocks = (triangles + 255) // 256
-    turn_words = (triangles + 31) // 32
-    directory_words = (blocks + 3) // 4 + (blocks + 15) // 16
-    at = 8 + turn_words + directory_words
-    if len(words) != at + (record_bytes + 3) // 4 + 2:
-        raise BadFile("the packed stream's size is not what its header says")
-    turn_bits = int.from_bytes(words[8:8 + turn_words].tobytes(), "little")
-    if turn_bits >> triangles:
+    count = header.triangles
+    turn_bits = int.from_bytes(words[4:header.table].tobytes(), "little")
+    if turn_bits >> count:
         raise BadFile("there are turns behind the last triangle")
-    turns = [bit == "1" for bit in reversed(f"{turn_bits:0{triangles}b}")] if triangles else []
-    directory = words[8 + turn_words:at].tobytes()
-    if any(directory[len(directory) - -blocks % 4:]):
-        raise BadFile("there are lengths behind the last block's")
-    records = words[at:].tobytes()
-    if any(records[record_bytes:]):
-        raise BadFile("there is something behind the last record")
-
+    turns = [int(bit) for bit in reversed(f"{turn_bits:0{count}b}")] if count else []
+    data = words[header.first_group:].tobytes()
     out = []
-    place = 0
-
-    def take(size):
-        nonlocal place
-        place += size
-        if place > record_bytes:
-            raise BadFile("a record is behind the last one")
-        return records[place - size:place]
-
-    for k in range(blocks):
-        group = directory[k // 16 * 20:k // 16 * 20 + 20]
-        if k % 16 == 0 and int.from_bytes(group[:4], "little") != place:
-            raise BadFile("the records are not without gaps")
-        try:
-            decode_block(group[4 + k % 16], take, turns[256 * k:256 * k + 256], header, out)
-        except EndOfRecord:
-            raise BadFile("a record of the packed stream ends within a field") from None
-    if place != record_bytes:
-        raise BadFile("the records are not as long as the header says")
-    if out and max(out) >= vertices:
+    at = 0
+    for g in range(header.groups):
+        if g and words[header.table + g - 1] != at:
+            raise BadFile("the packed stream's groups are not where its table says")
+        at += decode_group(data[at:at + (1 << 18)], turns[4096 * g:4096 * g + 4096], header.width, out)
+    if len(data) != (at + 3) // 4 * 4 or any(data[at:]):
+        raise BadFile("the packed stream's last group is not followed by zeros up to a word")
+    if out and max(out) >= header.vertices:
         raise BadFile("a vertex of the packed stream is out of range")
     corners = iter(out)
     if any(a == b or b == c or c == a for a, b, c in zip(corners, corners, corners)):
         raise BadFile("a triangle of the packed stream is degenerate")
-    return vertices, out
+    return header.vertices, out
+
+
+# --- One triangle ---
+
+
+class Turns:
+    """The turns of a record, packed, and ranks in them."""
+
+    def __init__(self, words, first, count):
+        self.bits = int.from_bytes(words[4 + first // 32:4 + (first + count + 31) // 32].tobytes(), "little")
+        same = ~(self.bits ^ self.bits >> 1)
+        self.candidates = same & (1 << count - 1) - 1 | 1 << count - 1
+
+    def turn(self, i):
+        return self.bits >> i & 1
+
+    def ones(self, begin, end):
+        return (self.bits >> begin & (1 << end - begin) - 1).bit_count()
+
+    def is_wart(self, i, warts):
+        """Is triangle i a candidate whose rank is among `warts`?"""
+        return bool(self.candidates >> i & 1) and (self.candidates & (1 << i) - 1).bit_count() in warts
+
+
+class Jump:
+    """The state at triangle `at`, moved on by popcounts. No scopes are kept but whether there is one."""
+
+    def __init__(self, entry, turns):
+        self.a, self.b, self.reversed = entry
+        self.begun = entry
+        self.turns = turns
+        self.at = 0
+        self.finished = self.scope = False
+
+    def polygon(self, skipped):
+        """Begins the polygon behind begun, and `skipped` further."""
+        a, b, was_reversed = self.begun
+        corners = b - a + 1
+        self.a, self.b = a + corners * (skipped + 1), b + corners * (skipped + 1)
+        self.begun = self.a, self.b, was_reversed
+        self.finished = False
+
+    def turns_only(self, to):
+        ones = self.turns.ones(self.at, to)
+        self.a += ones
+        self.b -= to - self.at - ones
+        self.at = to
+
+    def move(self, to):
+        """To triangle `to`, whose third vertex may be unknown yet. No event gives one before it."""
+        while self.at < to:
+            if self.finished:
+                size = (self.begun[1] - self.begun[0] - 1) & WORD
+                if size == 0:
+                    raise BadFile("a polygon has no triangle")
+                whole = (to - self.at - 1) // size  # all of whose triangles are before triangle to - 1
+                self.polygon(whole)
+                self.at += whole * size
+            left = (self.b - self.a - 1) & WORD
+            if left == 0:
+                raise BadFile("a polygon has no triangle")
+            self.turns_only(min(to, self.at + left))
+            left = (self.b - self.a - 1) & WORD
+            self.finished = left == 0
+
+    def begin(self, a, b, is_reversed):
+        self.a, self.b, self.reversed = a, b, is_reversed
+        if not self.scope:
+            self.begun = a, b, is_reversed
+        self.finished = False
+
+    def before(self, code, numbers):
+        begun = self.begun
+        if code == TURN:
+            self.reversed ^= 1
+        elif code == START and numbers[0] == 0:
+            self.begin(begun[0], begun[1], begun[2] ^ 1)
+        elif code == START and numbers[0] == 1:
+            self.begin(begun[1] + 1, begun[1] + 3 + numbers[1], 0)
+        elif code == START and numbers[0] == 2:
+            self.begin(begun[1] + numbers[1], begun[1] + numbers[1] + 2 + numbers[2], begun[2])
+        elif code == START:
+            self.begin(*numbers[1:])
+        elif code == BESIDE:
+            turned, place, step, other = numbers
+            ends = ((self.b + step, other), (other, self.a + step), (begun[0] + step, other), (other, begun[1] + step))
+            self.begin(*ends[place], self.reversed ^ turned)
+
+    def third_vertex(self, code, numbers):
+        """x of triangle `at`, the edge that the walk goes on across, and the rest and the part's triangles or None, 0."""
+        turn, a, b = self.turns.turn(self.at), self.a, self.b
+        if code == FAR:
+            across, x, count = numbers
+            low_first = turn == 1 if across == 3 else across != 2
+        else:
+            size, count = numbers
+            x = a + size if turn else b - size
+            low_first = (turn == 1) == (count > 0)
+        edges = [(a, x), (x, b)] if low_first else [(x, b), (a, x)]
+        return x, edges[0], edges[1] if count else None, count
+
+
+def find_record(words, header, t):
+    """The record that triangle t is in, its first triangle, and how many it has. A plain block: t's vertices only."""
+    block = t // 256
+    group, k = divmod(block, 16)
+    data = words[header.first_group:].tobytes()
+    start = words[header.table + group - 1] if group else 0
+    head = Head(data[start:start + 64], min(header.blocks - 16 * group, 16), header.width)
+    place = start + head.size
+    own = own_at = 0  # the last block with an entry of its own, and where its record is
+    for j in range(k + 1):
+        if not head.links[j]:
+            own, own_at = j, place
+        if j < k:
+            place += head.record_bytes(j, 256)
+    count = min(header.triangles - 256 * block, 256)
+    record = data[place:place + head.record_bytes(k, count)]
+    if head.lengths[k] == PLAIN:
+        bits = Bits(record)
+        bits.take(3 * header.width * (t - 256 * block))
+        return [bits.take(header.width) for _ in range(3)], None, None
+    entry = head.entry if own == 0 else None
+    if own < k:
+        if entry is None:
+            if head.lengths[own] > 104:
+                own_at += 4
+            entry = Bits(data[own_at:own_at + 8]).entry(header.width)
+        for j in range(own + 1, k + 1):
+            entry = head.linked(entry, j)
+    first = 256 * block
+    if head.lengths[k] > 104:
+        part = (t - first) // 64
+        record = list(parts(record))[part]
+        first += 64 * part
+        count = min(header.triangles - first, 64)
+        if part:
+            entry = None
+    return Record(record, entry, head, count), first, count
+
+
+def read_triangle(words, t):
+    """Triangle t of a valid stream, by the document's "Reading one triangle"."""
+    header = Header(words)
+    if t >= header.triangles:
+        raise BadFile("the packed stream has no such triangle")
+    record, first, count = find_record(words, header, t)
+    if first is None:
+        return tuple(record)
+    target = t - first
+    turns = Turns(words, first, count)
+    state = Jump(record.entry, turns)
+    middle = None
+    flip = 0
+    for at, code, numbers in record.events:
+        if at > target:
+            break
+        if code == FLIPS:
+            flip = numbers[0] >> target & 1
+        if at < state.at:
+            continue  # in a part that ends before the triangle
+        state.move(at)
+        if code not in THIRD_VERTEX:
+            state.before(code, numbers)
+            continue
+        if state.finished:
+            state.polygon(0)
+        x, edge, rest, part = state.third_vertex(code, numbers)
+        if at == target:
+            middle = x
+            break
+        end = at + part + 1
+        if rest is not None and end <= target:
+            (state.a, state.b), state.at, state.finished = rest, end, False
+        else:
+            (state.a, state.b), state.at, state.finished = edge, at + 1, code == FAR and numbers[0] == 0
+            state.scope |= rest is not None and end < count
+    state.move(target)
+    if middle is None and state.finished:
+        state.polygon(0)
+    low, high, turn = state.a, state.b, turns.turn(target)
+    if middle is None:
+        middle = low + 1 if turn else high - 1
+        if turns.is_wart(target, record.warts):
+            middle = low + 2 if turn else high - 2
+        elif target and turns.is_wart(target - 1, record.warts):
+            low, middle, high = (low - 1, low, low + 1) if turn else (high - 1, high, high + 1)
+    low, middle, high = low & WORD, middle & WORD, high & WORD
+    return (low, middle, high) if state.reversed ^ flip else (low, high, middle)

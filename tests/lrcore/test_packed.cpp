@@ -9,7 +9,7 @@
 #include "lacedring/mesh_files.hpp"
 #include "lacedring/streams.hpp"
 #include "lrcore/codec/packed/packed_format.h"
-#include "lrcore/codec/packed/record.h"
+#include "lrcore/codec/packed/packed_format.h"
 #include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 
@@ -76,13 +76,18 @@ EncodedPacked check(const Mesh& mesh, const RingOptions& ring, PackedProfile pro
     return std::move(*encoded);
 }
 
-/// Decodes every triangle from a copy of the stream in which all is poison but what its block needs.
+/// Decodes every triangle from a copy of the stream in which all is poison but its block's turns and its group.
 void check_random_access(const EncodedPacked& stream) {
     const Result<PackedView> view = view_packed(stream.words);
     REQUIRE(view);
     std::vector<std::uint32_t> indices(std::size_t{3} * view->triangles);
     decode_packed(*view, indices);
-    const auto* bytes = reinterpret_cast<const std::uint8_t*>(stream.words.data());
+    const auto group_begin = [&](std::uint32_t group) -> std::size_t {  // in bytes
+        const std::size_t word = view->table_word() + group - 1;
+        const std::size_t groups = view->groups_word() - view->table_word() + 1;
+        if (group >= groups) return 4 * (stream.words.size() - view->groups_word());
+        return group == 0 ? 0 : stream.words[word];
+    };
     for (std::uint32_t block = 0; block < view->blocks(); ++block) {
         std::vector<std::uint32_t> poisoned(stream.words.size(), 0xa5c3f10fU);
         const auto keep = [&](std::size_t first, std::size_t count) {
@@ -92,17 +97,11 @@ void check_random_access(const EncodedPacked& stream) {
         };
         keep(0, LR_PACKED_HEADER_WORDS);
         keep(LR_PACKED_HEADER_WORDS + std::size_t{block} * LR_PACKED_BLOCK_WORDS, LR_PACKED_BLOCK_WORDS);
-        const std::size_t group = view->directory_word() + std::size_t{block / LR_PACKED_GROUP} * LR_PACKED_GROUP_WORDS;
-        keep(group, LR_PACKED_GROUP_WORDS);
-        const PackedRecord record = find_record(*view, block * LR_PACKED_BLOCK);
-        const std::uint32_t length = stream.words[group + 1 + block % LR_PACKED_GROUP / 4] >> (8 * (block % 4)) & 0xff;
-        const bool parted = length > LR_PACKED_MAX_RECORD && length < LR_PACKED_PLAIN;
-        const auto begin = static_cast<std::size_t>(record.record - bytes) - (parted ? LR_PACKED_PARTS : 0);
-        const std::size_t size = block_bytes(
-            length, std::min(view->triangles - block * LR_PACKED_BLOCK, LR_PACKED_BLOCK), view->vertex_bits);
-        std::copy_n(bytes + begin, size, reinterpret_cast<std::uint8_t*>(poisoned.data()) + begin);
-        // What a triangle reads: turns, directory, lengths of parts, record with the bytes loaded behind it.
-        if (length <= LR_PACKED_MAX_RECORD) CHECK(8 + 5 + (record.length + 3 + 8 + 3) / 4 <= 64);
+        const std::uint32_t group = block / LR_PACKED_GROUP;
+        if (group > 0) keep(view->table_word() + group - 1, 1);
+        const auto* groups = reinterpret_cast<const std::uint8_t*>(stream.words.data() + view->groups_word());
+        std::copy(groups + group_begin(group), groups + group_begin(group + 1),
+                  reinterpret_cast<std::uint8_t*>(poisoned.data() + view->groups_word()) + group_begin(group));
 
         const Result<PackedView> far = view_packed(poisoned);
         REQUIRE(far);

@@ -16,7 +16,7 @@ LRIO = {"file.hpp", "mesh.hpp", "mesh_files.hpp", "lr_file.hpp"}
 # Decoding and validating: these files include each other, and nothing else of lrcore but base.
 DECODERS = {"lacedring/streams.hpp", "lacedring/operators.hpp", "lacedring/base.hpp", "lacedring/lacedring_decode.h",
             *("lrcore/codec/" + name for name in (
-                "stream_view.cpp", "decode_slot.h", "lean/lean_format.h", "lean/lean_stream.cpp", "packed/packed_format.h", "packed/record.h",
+                "stream_view.cpp", "decode_slot.h", "lean/lean_format.h", "lean/lean_stream.cpp", "packed/packed_format.h", "packed/packed_c.h", "packed/packed_stream.cpp",
                 "packed/record.cpp", "packed/decode.cpp", "packed/validate.cpp", "tables/lr_stream.cpp", "tables/tables_decode.h",
                 "tables/stream_header.h", "tables/validate.cpp"))}
 # The standard headers that a freestanding-minded library wants. <thread> is for those who ask for threads.
