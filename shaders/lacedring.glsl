@@ -330,8 +330,10 @@ struct LrPackedEvent {
 
 // The event behind e. What codes share is read in the same place, so that invocations wait little for each other.
 void lr_packed_next_event(LrPackedLayout p, inout LrPackedRecord r, inout LrPackedEvent e) {
-    uint high = lr_packed_unary(r.bits, 31u);
-    e.triangle = e.after + (high << r.gap_bits) + lr_packed_take(r.bits, r.gap_bits);
+    lr_packed_fill(r.bits);
+    uint high = min(lr_packed_ones(r.bits.bits.x), 31u);
+    lr_packed_take(r.bits, high);
+    e.triangle = e.after + (high << r.gap_bits) + (lr_packed_take(r.bits, 1u + r.gap_bits) >> 1);
     e.code = lr_packed_unary(r.bits, 7u);
     bool split = e.code == LR_PACKED_SPLIT, jump = e.code == LR_PACKED_JUMP, far = e.code == LR_PACKED_FAR;
     bool start = e.code == LR_PACKED_START, beside = e.code == LR_PACKED_BESIDE;

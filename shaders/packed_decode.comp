@@ -77,25 +77,29 @@ void begin_piece(Reader b, LrPackedState s, uint i) {
 }
 // The last piece that begins at triangle i or before, but behind `from`; else `from`.
 uint last_start(uint from, uint i) {
-    for (uint word = i / 32u + 1u; word > from / 32u; --word) {
-        uint bits = starts[word - 1u];
-        if (word - 1u == i / 32u) bits &= 0xffffffffu >> (31u - (i & 31u));
-        if (bits != 0u) return max(from, 32u * (word - 1u) + uint(findMSB(bits)));
+    uint last = from;
+    for (uint word = from / 32u; word <= i / 32u; ++word) {
+        uint bits = starts[word];
+        if (word == i / 32u) bits &= 0xffffffffu >> (31u - (i & 31u));
+        if (bits != 0u) last = max(last, 32u * word + uint(findMSB(bits)));
     }
-    return from;
+    return last;
+}
+
+// The state is that of the piece that begins at triangle i.
+void resume(inout Reader b, inout LrPackedState s, uint i) {
+    uint up = ups_before(b, i);
+    s.a = piece_a[i] + up;
+    s.b = piece_b[i] + up - i;
+    s.reversed = (piece_x[i] & LR_REVERSED) != 0u;
+    s.finished = false;
+    b.at = i;
 }
 
 // Moves the state to triangle `to`. Where a scope ended on the way, its piece is what the state is now.
 void advance(inout Reader b, inout LrPackedState s, uint to) {
     uint start = last_start(b.at, to);
-    if (start > b.at) {
-        uint up = ups_before(b, start);
-        s.a = piece_a[start] + up;
-        s.b = piece_b[start] + up - start;
-        s.reversed = (piece_x[start] & LR_REVERSED) != 0u;
-        s.finished = false;
-        b.at = start;
-    }
+    if (start > b.at) resume(b, s, start);
     uint left = s.finished ? 0u : lr_packed_left(s.a, s.b);
     for (uint k = 0u; k < LR_PACKED_BLOCK; ++k) {
         if (to - b.at <= left) break;
@@ -198,19 +202,22 @@ void read_block(LrPackedLayout p, uint k, uint first) {
                     begin_piece(b, LrPackedState(rest.x, rest.y, s.reversed, false, 0u, 0u, false), b.at + e.w);
                     if (b.at >= b.scopes_end) b.scopes_end = b.at + e.w;
                 }
-                if (left > 0u) begin_piece(b, s, b.at);
+                if (left > 0u && (starts[b.at / 32u] >> (b.at & 31u) & 1u) != 0u) {  // a scope ends here
+                    resume(b, s, b.at);
+                } else if (left > 0u) {
+                    begin_piece(b, s, b.at);
+                }
             } else {
                 if (e.code == LR_PACKED_TURN) {
                     s.reversed = !s.reversed;
-                    if (s.finished) continue;  // the polygon that follows has it
                 } else {
                     lr_packed_begin(e, s, at < b.scopes_end);
                 }
-                begin_piece(b, s, at);
+                if (!s.finished) begin_piece(b, s, at);  // else the polygon that follows has the orientation
             }
         }
-        advance(b, s, begin + r.triangles - 1u);
-        if (s.finished) {
+        if (b.at < begin + r.triangles) advance(b, s, begin + r.triangles - 1u);
+        if (s.finished && b.at < begin + r.triangles) {
             lr_packed_repeat(s);
             begin_piece(b, s, b.at);
         }

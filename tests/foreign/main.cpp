@@ -11,7 +11,6 @@
 #include <string>
 
 #include "lacedring/lacedring.hpp"
-#include "spirv/blocks_comp.h"
 #include "spirv/colour_frag.h"
 #include "spirv/expand_lean_comp.h"
 #include "spirv/expand_packed_comp.h"
@@ -207,11 +206,6 @@ bool draw_all(Gpu& gpu, const lacedring::Mesh& mesh, bool broken) {
         const Record drawing = draw_indexed(stream_vertices, indices, stream.triangles);
         const VkPipeline expand = gpu.compute(lean ? Spirv(expand_lean_comp) : Spirv(expand_packed_comp));
         draw("compute", expand_with(expand, stream.triangles), drawing);
-        if (!lean) {
-            const auto blocks = expand_with(gpu.compute(blocks_comp), (stream.triangles + 255) / 256);
-            std::memset(indices.mapped, 0, indices.bytes);
-            draw("compute, blocks", blocks, drawing);
-        }
         if (lean) {
             const Stage points{VK_SHADER_STAGE_VERTEX_BIT, points_vert};
             const Stage make{VK_SHADER_STAGE_GEOMETRY_BIT, points_lean_geom};

@@ -1,9 +1,9 @@
 // Tests of the tests: what must not pass does not pass.
 
-#include "lacedring/streams.hpp"
-#include "lrcore/codec/lean/lean_format.h"
 #include <cstring>
 
+#include "lacedring/streams.hpp"
+#include "lrcore/codec/lean/lean_format.h"
 #include "lrcore/codec/packed/packed_format.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/support/meshes.h"

@@ -189,7 +189,7 @@ class Walk:
             raise BadFile("a scope ends behind the one around it")
         if end < self.triangles:
             self.scopes.append((end, a & WORD, b & WORD, self.reversed))
-        elif code != SPLIT and end > self.triangles:
+        elif code != SPLIT:
             raise BadFile("FAR or JUMP has a part that ends behind the record")
 
     def begin(self, a, b, is_reversed):
@@ -218,7 +218,7 @@ class Walk:
                 self.begin(first, first + 2 + numbers[-1], 0 if kind == 1 else was_reversed)
 
     def follow(self):
-        """Begins the polygon behind the one begun last, if that one is finished; true if so."""
+        """Begins the polygon behind the one begun last, if the walk is finished; true if it was."""
         if not self.finished:
             return False
         if self.scopes:
@@ -303,11 +303,7 @@ def walk_record(record, turns, out):
                 raise BadFile("an event, a scope's end or a polygon's begin is between the triangles of a wart")
             low, middle, high = (a - 1, a, a + 1) if turn else (b - 1, b, b + 1)
         low, middle, high = low & WORD, middle & WORD, high & WORD
-        out += (low, middle, high) if walk_reversed(walk, flips, i) else (low, high, middle)
-
-
-def walk_reversed(walk, flips, i):
-    return walk.reversed ^ flips >> i & 1
+        out += (low, middle, high) if walk.reversed ^ flips >> i & 1 else (low, high, middle)
 
 
 def parts(data):
@@ -430,7 +426,7 @@ class Jump:
         self.finished = self.scope = False
 
     def polygon(self, skipped):
-        """Begins the polygon behind begun, and `skipped` further."""
+        """Begins the polygon behind begun, or the one that is `skipped` polygons further."""
         a, b, was_reversed = self.begun
         corners = b - a + 1
         self.a, self.b = a + corners * (skipped + 1), b + corners * (skipped + 1)
@@ -444,21 +440,21 @@ class Jump:
         self.at = to
 
     def move(self, to):
-        """To triangle `to`, whose third vertex may be unknown yet. No event gives one before it."""
+        """Moves on to triangle `to`; no event is at `at` or between. There `finished` may be left for later."""
         while self.at < to:
             if self.finished:
                 size = (self.begun[1] - self.begun[0] - 1) & WORD
                 if size == 0:
                     raise BadFile("a polygon has no triangle")
-                whole = (to - self.at - 1) // size  # all of whose triangles are before triangle to - 1
+                whole = (to - self.at - 1) // size  # polygons that triangle to - 1 is behind
                 self.polygon(whole)
                 self.at += whole * size
             left = (self.b - self.a - 1) & WORD
             if left == 0:
                 raise BadFile("a polygon has no triangle")
-            self.turns_only(min(to, self.at + left))
-            left = (self.b - self.a - 1) & WORD
-            self.finished = left == 0
+            last = self.at + left
+            self.turns_only(min(to, last))
+            self.finished = self.at == last
 
     def begin(self, a, b, is_reversed):
         self.a, self.b, self.reversed = a, b, is_reversed
@@ -484,7 +480,7 @@ class Jump:
             self.begin(*ends[place], self.reversed ^ turned)
 
     def third_vertex(self, code, numbers):
-        """x of triangle `at`, the edge that the walk goes on across, and the rest and the part's triangles or None, 0."""
+        """x of triangle `at`, the edge to go on across, and the rest and the part's triangles, or None and 0."""
         turn, a, b = self.turns.turn(self.at), self.a, self.b
         if code == FAR:
             across, x, count = numbers
@@ -498,7 +494,7 @@ class Jump:
 
 
 def find_record(words, header, t):
-    """The record that triangle t is in, its first triangle, and how many it has. A plain block: t's vertices only."""
+    """The record of triangle t, its first triangle, and how many it has. Of a plain block only t's vertices."""
     block = t // 256
     group, k = divmod(block, 16)
     data = words[header.first_group:].tobytes()

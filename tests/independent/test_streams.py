@@ -21,12 +21,13 @@ import lr_reader
 from lr_corners import check_corners
 from lr_tables_reader import Tables, decode_tables
 from mesh_readers import BadFile
-from packed_reader import decode_packed
+from packed_reader import decode_packed, read_triangle
 
 LACEDRING = None
 FORMATS = ("lean", "packed", "lr", "lr-compact")
 KINDS = ("sphere", "torus", "genus", "terrain", "blob", "parts", "moebius", "soup")
-VERTICES, WIDTH, GAP_BITS = 128, 7, 3
+VERTICES, WIDTH = 1024, 10  # of the packed streams made here
+GAP_BITS, WART_BITS, SPLIT_ORDER, COUNT_ORDER = 3, 1, 2, 1
 
 
 def with_checksum(head, payload):
@@ -42,117 +43,227 @@ def field(value, width):
     return f"{value:0{width}b}"[::-1] if width else ""
 
 
+def rice(value, k):
+    return "1" * (value >> k) + "0" + field(value & (1 << k) - 1, k)
+
+
 def golomb(value, k):
     u = value + (1 << k)
     n = u.bit_length()
-    return "1" * (n - 1 - k) + "0" + field(u - (1 << n - 1), n - 1)
+    return "1" * (n - 1 - k) + "0" * (n != 32) + field(u - (1 << n - 1), n - 1)
+
+
+def vertex(v):
+    return field(v, WIDTH)
+
+
+def in_bytes(bits):
+    """Filled up with ones."""
+    bits += "1" * (-len(bits) % 8)
+    return int("0" + bits[::-1], 2).to_bytes(len(bits) // 8, "little")
+
+
+SPLIT, BESIDE, START, FAR, JUMP, TURN, FLIPS = range(7)
 
 
 def event(gap, code, rest=""):
-    ones, low = divmod(gap, 1 << GAP_BITS)
-    return "1" * ones + "0" + field(low, GAP_BITS) + ("1111111" if code == 7 else "1" * code + "0") + rest
+    return rice(gap, GAP_BITS) + "1" * code + "0" + rest
 
 
-def record(a, b, is_reversed, *events):
-    bits = field(a, WIDTH) + field(b, WIDTH) + str(is_reversed) + "".join(events)
-    bits += "1" * (-len(bits) % 8)
-    return int(bits[::-1], 2).to_bytes(len(bits) // 8, "little")
+def record(*events, entry=None, warts=()):
+    if entry is None and not events and not warts:
+        return b""
+    bits = "" if entry is None else vertex(entry[0]) + vertex(entry[1]) + str(entry[2])
+    return in_bytes(bits + golomb(len(events), COUNT_ORDER) + "".join(events) +
+                    "".join(rice(gap, WART_BITS) for gap in warts))
 
 
-def packed(turns, *blocks):
-    """blocks: (length in the directory, record)."""
-    def words(data):
-        return array.array("I", data + bytes(-len(data) % 4)).tolist()
+def parted(*parts):
+    data = bytes(map(len, parts)) + bytes(4 - len(parts)) + b"".join(parts)
+    data += bytes(-len(data) % 4)
+    return 104 + len(data) // 4, data
 
-    directory = struct.pack("<I", 0) + bytes(length for length, _ in blocks)
-    records = b"".join(data for _, data in blocks)
+
+def plain(*corners):
+    return 255, in_bytes("".join(map(vertex, corners)))
+
+
+def packed(turns, entry, *blocks, entry_bits=0, table=None):
+    """Groups of 16 blocks, each a record, or the length in the head, bytes and entry field. `entry`: of each group."""
+    data, begins = b"", []
+    for first in range(0, len(blocks), 16):
+        begins.append(len(data))
+        head = field(8, 4) + field(entry_bits, 4) + field(GAP_BITS, 3) + field(WART_BITS, 3) + field(SPLIT_ORDER, 2)
+        head += field(COUNT_ORDER, 2) + vertex(entry[0]) + vertex(entry[1]) + str(entry[2])
+        records = b""
+        for k, block in enumerate(blocks[first:first + 16]):
+            length, contents, link = (len(block), block, 0) if isinstance(block, bytes) else (*block, 0)[:3]
+            head += field(length, 8) + (field(link, entry_bits) if k else "")
+            records += contents
+        data += in_bytes(head) + records
+    data += bytes(-len(data) % 4)
     bits = int("0" + turns[::-1], 2).to_bytes((len(turns) + 31) // 32 * 4, "little")
-    head = [0x4B50524C, 1, VERTICES, len(turns), len(records), WIDTH | GAP_BITS << 8, 0]
-    return with_checksum(head, words(bits) + words(directory) + words(records) + [0, 0])
+    payload = array.array("I", bits).tolist() + (begins[1:] if table is None else table)
+    return with_checksum([0x3250524C, VERTICES, len(turns)], payload + array.array("I", data).tolist())
 
 
-def unpacked(turns, *blocks):
-    blocks = [block if isinstance(block, tuple) else (len(block), block) for block in blocks]
-    _, flat = decode_packed(packed(turns, *blocks))
-    return [tuple(flat[i:i + 3]) for i in range(0, len(flat), 3)]
+def unpacked(turns, entry, *blocks, **options):
+    """The triangles, each read by itself, too."""
+    words = packed(turns, entry, *blocks, **options)
+    _, flat = decode_packed(words)
+    out = [tuple(flat[i:i + 3]) for i in range(0, len(flat), 3)]
+    if [read_triangle(words, t) for t in range(len(out))] != out:
+        raise AssertionError("a triangle read by itself is another one")
+    return out
 
 
 class Packed(unittest.TestCase):
+    def refused(self, why, *stream, **options):
+        with self.assertRaisesRegex(BadFile, why):
+            unpacked(*stream, **options)
+
+    def test_header(self):
+        whole = packed("1010", (0, 5, 0), b"")
+        self.assertEqual(decode_packed(whole)[0], VERTICES)
+        self.assertEqual(decode_packed(with_checksum([0x3250524C, 0, 0], [])), (0, []))
+        for head, payload, why in (
+                ([0x4B50524C, 1, 4], [0] * 5, "version 1"), ([0x4E4C524C, 1, 4], [0] * 5, "version 2"),
+                ([0x3250524C, (1 << 29) + 1, 4], whole[4:], "too many"),
+                ([0x3250524C, VERTICES, 1 << 31], [0], "too many"),
+                ([0x3250524C, VERTICES, 4], [whole[4] | 16, *whole[5:]], "turns behind"),
+                ([0x3250524C, VERTICES, 4], [*whole[4:], 0], "followed by zeros"),
+                ([0x3250524C, VERTICES, 4], whole[4:-1], "ends within"), ([0x3250524C, 5, 4], whole[4:], "")):
+            with self.assertRaisesRegex(BadFile, why):
+                decode_packed(with_checksum(head, payload))
+        whole[4] ^= 2
+        with self.assertRaisesRegex(BadFile, "checksum"):
+            decode_packed(whole)
+
     def test_turns(self):  # the document's example, and behind it the polygon 6 ... 11
         corridor = [(0, 5, 1), (1, 5, 4), (1, 4, 2), (2, 4, 3)]
-        self.assertEqual(unpacked("1011", record(0, 5, 0)), corridor)
-        self.assertEqual(unpacked("1011", record(0, 5, 1)), [(a, x, b) for a, b, x in corridor])
-        self.assertEqual(unpacked("10111011", record(0, 5, 0))[4:], [(a + 6, b + 6, x + 6) for a, b, x in corridor])
-        with self.assertRaises(BadFile):
-            decode_packed(packed("1010", (2, record(0, 5, 0))))
+        self.assertEqual(unpacked("1010", (0, 5, 0), b""), corridor)
+        self.assertEqual(unpacked("1010", (0, 5, 1), b""), [(a, x, b) for a, b, x in corridor])
+        self.assertEqual(unpacked("10101010", (0, 5, 0), b"")[4:], [(a + 6, b + 6, x + 6) for a, b, x in corridor])
+        self.refused("last triangle", "1011", (0, 5, 0), b"")
+        self.assertEqual(unpacked("010", (0, 2, 0), b""), [(0, 2, 1), (3, 5, 4), (6, 8, 7)])
+        self.refused("last triangle", "101", (0, 2, 0), b"")
+        self.refused("says nothing", "1010", (0, 5, 0), in_bytes(golomb(0, COUNT_ORDER)))
+        self.refused("out of range", "10101", (VERTICES - 6, VERTICES - 1, 0), b"")
 
     def test_wart(self):
-        self.assertEqual(unpacked("11000", record(0, 6, 0, event(0, 0), event(2, 0))),
+        self.assertEqual(unpacked("11001", (0, 6, 0), record(warts=(0, 0))),
                          [(0, 6, 2), (0, 2, 1), (2, 6, 4), (4, 6, 5), (2, 4, 3)])
-        for bad in (event(0, 0) + event(1, 7), event(0, 0) + event(1, 1), event(0, 0) + event(0, 0)):
-            with self.assertRaises(BadFile):
-                unpacked("11000", record(0, 6, 0, bad))
-        self.assertEqual(unpacked("1", record(0, 6, 0, event(0, 0))), [(0, 6, 2)])
+        self.assertEqual(unpacked("11", (0, 6, 1), record(event(0, FLIPS, "01"), warts=(0,))), [(0, 2, 6), (0, 2, 1)])
+        self.assertEqual(unpacked("1", (0, 6, 0), record(warts=(0,))), [(0, 6, 2)])
+        self.refused("as large", "110", (0, 3, 0), record(warts=(0,)))
+        self.refused("as large", "110", (0, 9, 0), record(event(0, JUMP, golomb(0, 1) + "0"), warts=(0,)))
+        self.refused("next to", "111", (0, 9, 0), record(warts=(0, 0)))
+        self.refused("last candidate", "110", (0, 9, 0), record(warts=(2,)))
+        for between in (event(1, TURN), event(1, JUMP, golomb(0, 1) + "0")):
+            self.refused("between", "110", (0, 9, 0), record(between, warts=(0,)))
+        self.refused("more than a byte", "110", (0, 9, 0), record(warts=(0,)) + b"\xFF")
 
-    def test_split_and_end(self):
-        split = event(0, 1, golomb(0, 2))
-        self.assertEqual(unpacked("111000", record(0, 7, 0, split)),
+    def test_split(self):
+        split = event(0, SPLIT, golomb(0, SPLIT_ORDER))
+        self.assertEqual(unpacked("110001", (0, 7, 0), record(split)),
                          [(0, 7, 3), (0, 3, 1), (1, 3, 2), (3, 7, 6), (3, 6, 5), (3, 5, 4)])
-        self.assertEqual(unpacked("011000", record(0, 7, 0, split)),
-                         [(0, 7, 4), (4, 7, 5), (5, 7, 6), (0, 4, 3), (0, 3, 2), (0, 2, 1)])
-        self.assertEqual(unpacked("11", record(0, 7, 0, split, event(1, 6))), [(0, 7, 3), (3, 7, 4)])
-        # Seventeen edges put aside: (55, 58), which is forgotten, (52, 55) ... (7, 10).
-        splits = [event(1 if i else 0, 4, "11" + field(55 - 3 * i, WIDTH)) for i in range(17)]
-        ends = [event(1, 6)] + [event(0, 6)] * 15
-        self.assertEqual(unpacked("1" * 18, record(0, 58, 0, *splits, *ends))[17], (52, 55, 53))
-        for bad in (record(0, 7, 0, event(1, 6)), record(0, 58, 0, *splits, *ends, event(0, 6))):
-            with self.assertRaises(BadFile):
-                unpacked("1" * 18, bad)
+        self.assertEqual(unpacked("001110", (0, 7, 0), record(split)),
+                         [(0, 7, 4), (4, 7, 6), (4, 6, 5), (0, 4, 1), (1, 4, 2), (2, 4, 3)])
+        self.assertEqual(unpacked("11", (0, 7, 0), record(split)), [(0, 7, 3), (0, 3, 1)])
+        # TURN in the part is forgotten at its end, and START there leaves begun alone.
+        self.assertEqual(unpacked("11010", (0, 7, 0), record(split, event(0, TURN))),
+                         [(0, 7, 3), (0, 1, 3), (1, 2, 3), (3, 7, 4), (4, 7, 6)])
+        inside = event(0, START, "111" + vertex(50) + vertex(60) + "1")
+        self.assertEqual(unpacked("1101010", (0, 7, 0), record(split, inside, event(3, START, "0"))),
+                         [(0, 7, 3), (50, 51, 60), (51, 59, 60), (3, 7, 4), (0, 6, 7), (0, 1, 6), (1, 5, 6)])
+        # Two scopes that end together: the outer one's rest is what counts.
+        outer = event(0, JUMP, golomb(4, 1) + "1" + golomb(3, 2))
+        inner = event(0, JUMP, golomb(0, 1) + "1" + golomb(2, 2))
+        inside = event(0, START, "10" + golomb(20, 2))
+        self.assertEqual(unpacked("1110001", (0, 40, 0), record(outer, inner, inside))[4:],
+                         [(42, 62, 61), (6, 40, 39), (6, 39, 7)])
+        part = event(0, FAR, "11" + vertex(40) + golomb(1, 2))
+        self.refused("behind the one around", "1111", (0, 9, 0), record(part, event(0, SPLIT, golomb(0, SPLIT_ORDER))))
+        self.refused("fewer triangles", "1100111", (0, 9, 0), record(event(0, JUMP, golomb(1, 1) + "1" + golomb(3, 2))))
 
     def test_jump_and_far(self):
-        self.assertEqual(unpacked("10", record(0, 9, 0, event(0, 5, golomb(1, 1)))), [(0, 9, 3), (3, 9, 8)])
-        self.assertEqual(unpacked("00", record(0, 9, 0, event(0, 5, golomb(1, 1)))), [(0, 9, 6), (0, 6, 5)])
+        self.assertEqual(unpacked("10", (0, 9, 0), record(event(0, JUMP, golomb(1, 1) + "0"))), [(0, 9, 3), (3, 9, 8)])
+        self.assertEqual(unpacked("00", (0, 9, 0), record(event(0, JUMP, golomb(1, 1) + "0"))), [(0, 9, 6), (0, 6, 5)])
+        self.assertEqual(unpacked("110", (0, 9, 0), record(event(0, JUMP, golomb(3, 1) + "1" + golomb(0, 2)))),
+                         [(0, 9, 5), (0, 5, 1), (5, 9, 8)])
         far = {"10": [(0, 9, 40), (0, 40, 39)], "01": [(0, 9, 40), (40, 9, 8)], "00": [(0, 9, 40), (10, 19, 18)]}
         for bits, triangles in far.items():
-            self.assertEqual(unpacked("00", record(0, 9, 0, event(0, 4, bits + field(40, WIDTH)))), triangles)
-            with self.assertRaises(BadFile):
-                unpacked("10", record(0, 9, 0, event(0, 4, bits + field(40, WIDTH))))
-        both = event(0, 4, "11" + field(40, WIDTH))
-        self.assertEqual(unpacked("100", record(0, 9, 0, both, event(2, 6))), [(0, 9, 40), (0, 40, 39), (40, 9, 8)])
-        self.assertEqual(unpacked("000", record(0, 9, 0, both, event(2, 6))), [(0, 9, 40), (40, 9, 8), (0, 40, 39)])
+            one = record(event(0, FAR, bits + vertex(40)))
+            self.assertEqual(unpacked("00", (0, 9, 0), one), triangles)
+            self.refused("FAR", "10", (0, 9, 0), one)
+        both = event(0, FAR, "11" + vertex(40) + golomb(0, 2))
+        self.assertEqual(unpacked("100", (0, 9, 0), record(both)), [(0, 9, 40), (0, 40, 39), (40, 9, 8)])
+        self.assertEqual(unpacked("000", (0, 9, 0), record(both)), [(0, 9, 40), (40, 9, 8), (0, 40, 39)])
+        self.refused("behind the record", "10", (0, 9, 0), record(both))
 
     def test_start_beside_turn(self):
         def second(*events, is_reversed=0, turns="00"):
-            return unpacked(turns, record(10, 20, is_reversed, *events))[-1]
+            return unpacked(turns, (10, 20, is_reversed), record(*events))[-1]
 
-        self.assertEqual(second(event(1, 3, "0")), (10, 19, 20))
-        self.assertEqual(second(event(1, 3, "10" + golomb(3, 2))), (21, 26, 25))
-        self.assertEqual(second(event(1, 3, "10" + golomb(3, 2)), is_reversed=1), (21, 26, 25))
-        self.assertEqual(second(event(1, 3, "110" + golomb(2, 2) + golomb(3, 2)), is_reversed=1), (22, 26, 27))
-        self.assertEqual(second(event(1, 3, "111" + field(40, WIDTH) + field(50, WIDTH) + "1")), (40, 49, 50))
-        self.assertEqual(second(event(1, 2, "0" + field(0, 2) + golomb(4, 1) + field(40, WIDTH))), (21, 40, 39))
-        self.assertEqual(second(event(1, 2, "0" + field(1, 2) + golomb(3, 1) + field(3, WIDTH))), (3, 8, 7))
-        self.assertEqual(second(event(1, 2, "1" + field(2, 2) + golomb(1, 1) + field(3, WIDTH))), (9, 2, 3))
-        self.assertEqual(second(event(1, 2, "0" + field(3, 2) + golomb(2, 1) + field(3, WIDTH))), (3, 21, 20))
-        self.assertEqual(second(event(1, 7)), (10, 18, 19))
-        self.assertEqual(second(event(1, 7), event(0, 7)), (10, 19, 18))
+        self.assertEqual(second(event(1, START, "0")), (10, 19, 20))
+        self.assertEqual(second(event(1, START, "10" + golomb(3, 2))), (21, 26, 25))
+        self.assertEqual(second(event(1, START, "10" + golomb(3, 2)), is_reversed=1), (21, 26, 25))
+        self.assertEqual(second(event(1, START, "110" + golomb(2, 2) + golomb(3, 2)), is_reversed=1), (22, 26, 27))
+        self.assertEqual(second(event(1, START, "111" + vertex(40) + vertex(50) + "1")), (40, 49, 50))
+        self.assertEqual(second(event(1, BESIDE, "0" + field(0, 2) + golomb(4, 1) + vertex(40))), (21, 40, 39))
+        self.assertEqual(second(event(1, BESIDE, "0" + field(1, 2) + golomb(3, 1) + vertex(3))), (3, 8, 7))
+        self.assertEqual(second(event(1, BESIDE, "1" + field(2, 2) + golomb(1, 1) + vertex(3))), (9, 2, 3))
+        self.assertEqual(second(event(1, BESIDE, "0" + field(3, 2) + golomb(2, 1) + vertex(3))), (3, 21, 20))
+        with self.assertRaisesRegex(BadFile, "step"):
+            second(event(1, BESIDE, "0" + field(0, 2) + golomb(1 << 30, 1) + vertex(40)))
+        self.assertEqual(second(event(1, TURN)), (10, 18, 19))
+        self.assertEqual(second(event(1, TURN), event(0, TURN)), (10, 19, 18))
+        self.assertEqual(second(event(0, FLIPS, "01")), (10, 18, 19))
+        for bad in ((event(1, FLIPS, "01"),), (event(0, TURN), event(0, FLIPS, "01")), (event(2, TURN),),
+                    (event(1, 7),)):
+            with self.assertRaises(BadFile):
+                second(*bad)
         # A polygon that follows by itself is reversed as it is then, but START asks for begun's, which it leaves alone.
-        self.assertEqual(unpacked("0000", record(0, 3, 0, event(2, 7), event(1, 3, "0"))),
+        self.assertEqual(unpacked("0100", (0, 3, 0), record(event(2, TURN), event(1, START, "0"))),
                          [(0, 3, 2), (0, 2, 1), (4, 6, 7), (4, 6, 7)])
 
     def test_blocks(self):
-        plain = "".join(field(v, WIDTH) for v in (5, 6, 7, 127, 58, 57))
-        plain += "1" * (-len(plain) % 8)
-        plain = int(plain[::-1], 2).to_bytes(len(plain) // 8, "little")
-        self.assertEqual(unpacked("00", (255, plain)), [(5, 6, 7), (127, 58, 57)])
-        for bad in (("01", plain), ("00", plain[:-1] + bytes([plain[-1] & 0x7F]))):
-            with self.assertRaises(BadFile):
-                unpacked(bad[0], (255, bad[1]))
-        parts = [record(0, 67, 0), record(0, 40, 1, event(0, 4, "00" + field(50, WIDTH)))]
-        data = bytes([*map(len, parts), 0, 0]) + b"".join(parts)
-        data += bytes(-len(data) % 8)
-        out = unpacked("0" * 65, (160 + len(data) // 8, data))
+        block = plain(5, 6, 7, 127, 58, 57)
+        self.assertEqual(unpacked("00", (0, 0, 0), block), [(5, 6, 7), (127, 58, 57)])
+        self.refused("turns", "01", (0, 0, 0), block)
+        self.refused("filled up", "00", (0, 0, 0), (255, block[1][:-1] + bytes([block[1][-1] & 0x7F])))
+        self.refused("entry for a plain", "00", (0, 1, 0), block)
+        second = record(event(0, FAR, "00" + vertex(50)), entry=(0, 40, 1))
+        out = unpacked("0" * 65, (0, 67, 0), parted(b"", second))
         self.assertEqual((len(out), out[0], out[63], out[64]), (65, (0, 67, 66), (0, 4, 3), (0, 50, 40)))
+        for change in ({0: 1}, {1: 129}, {2: 1}, {-1: 1}):
+            length, data = parted(b"", second)
+            data = bytearray(data + bytes(4) if -1 in change else data)
+            for at, value in change.items():
+                data[at] = value
+            self.refused("", "0" * 65, (0, 67, 0), (104 + len(data) // 4, bytes(data)))
+
+    def test_links(self):
+        turns = "10" * 128
+        first = (0, 600, 0)
+        then = [(128, 472, 129), (129, 472, 471)]
+        self.assertEqual(unpacked(turns + "10", first, b"", (0, b"", 8), entry_bits=4)[256:], then)
+        self.assertEqual(unpacked(turns + "10", first, b"", (0, b"", 9), entry_bits=4)[256], (129, 473, 130))
+        other = record(entry=(300, 900, 1))
+        for block in ((len(other), other, 0), (*parted(other, *[other] * 3), 0)):
+            out = unpacked(turns * 2 + "10", first, b"", block, (0, b"", 8), entry_bits=4)
+            self.assertEqual(out[256], (300, 301, 900))
+            self.assertEqual(out[512:], [(428, 429, 772), (429, 771, 772)])
+        no_turns = "0" * 256
+        corners = plain(*(5, 6, 7) * 256)
+        self.assertEqual(unpacked(no_turns + "10", (0, 0, 0), corners, other)[255:],
+                         [(5, 6, 7), (300, 301, 900), (301, 899, 900)])
+        self.refused("entry field", no_turns + "10", (0, 0, 0), corners, (len(other), other, 8), entry_bits=4)
+        self.refused("entry field", turns + "00", first, b"", (*plain(5, 6, 7, 5, 6, 7), 8), entry_bits=4)
+        blocks = [b""] + [other] * 15 + [b""]
+        self.assertEqual(unpacked(turns * 16 + "10", first, *blocks)[4096:], [(0, 600, 1), (1, 600, 599)])
+        self.refused("table", turns * 16 + "10", first, *blocks, table=[1])
+
 
 # --- LR tables made by hand ---
 
@@ -207,15 +318,20 @@ class LrTables(unittest.TestCase):
 # --- What the encoder writes ---
 
 
+def stream_of(data):
+    """The stream of an .lr file, which is its first section, and where it begins."""
+    _, _, offset, size, _, _ = struct.unpack_from("<IIQQII", data, 32)
+    return array.array("I", bytes(data[offset:offset + size])), offset
+
+
 def damaged(data, word, bit):
     """An .lr file with one bit of its stream changed and every checksum right again."""
     data = bytearray(data)
-    _, _, offset, size, _, _ = struct.unpack_from("<IIQQII", data, 32)  # the stream is the first section
-    stream = array.array("I", bytes(data[offset:offset + size]))
+    stream, offset = stream_of(data)
     stream[word] ^= 1 << bit
-    at = 9 if stream[0] >> 16 in (0x5443, 0x4243) else 7
+    at = {0x5443: 9, 0x4243: 9, 0x3250: 3}.get(stream[0] >> 16, 7)
     stream[at] = zlib.crc32(stream[at + 1:].tobytes(), zlib.crc32(stream[:at].tobytes()))
-    data[offset:offset + size] = stream.tobytes()
+    data[offset:offset + 4 * len(stream)] = stream.tobytes()
     struct.pack_into("<I", data, 36, zlib.crc32(stream.tobytes()))
     struct.pack_into("<I", data, 24, zlib.crc32(data[32:32 + 32 * struct.unpack_from("<I", data, 8)[0]]))
     struct.pack_into("<I", data, 28, zlib.crc32(data[:28]))
@@ -262,6 +378,24 @@ class Encoded(unittest.TestCase):
                         self.assertIsNone(check_decode.in_order(source, mesh))
                         if not weld and kind != "soup":  # no two vertices of which are equal
                             self.assertEqual([source.positions[v] for v in mesh.vertex_order], mesh.positions)
+
+    def same_alone(self, data, count):
+        """Reads each triangle of a packed stream, or `count` of them, by itself."""
+        words, _ = stream_of(data)
+        _, flat = decode_packed(words)
+        triangles = range(len(flat) // 3)
+        if len(triangles) > count:
+            triangles = random.Random(1).sample(triangles, count)
+        for t in triangles:
+            self.assertEqual(read_triangle(words, t), tuple(flat[3 * t:3 * t + 3]), t)
+
+    def test_single_triangles(self):
+        for kind in KINDS:
+            for triangles in (8, 300, 6000):  # the last in two groups
+                self.generate(kind, triangles)
+                for options in ((), ("--profile", "cache"), ("--weld=position",)):
+                    with self.subTest(kind=kind, triangles=triangles, options=options):
+                        self.same_alone(self.encode("packed", *options), 1500)
 
     def test_changed_bits(self):
         self.generate("genus", 200)
