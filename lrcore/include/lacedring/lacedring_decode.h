@@ -376,7 +376,14 @@ void lacedring_lean_triangles_u16(const struct lacedring_lean* lean, uint16_t* i
 enum { LACEDRING_SPLIT_, LACEDRING_BESIDE_, LACEDRING_START_, LACEDRING_FAR_, LACEDRING_JUMP_, LACEDRING_TURN_,
        LACEDRING_FLIPS_, LACEDRING_NO_EVENT_ };
 
-static uint32_t lacedring_ones_(uint64_t bits) { /* before the lowest zero; `bits` has one */
+/* What runs for every event. Where speed is wanted, compilers keep its state in registers only if it is inlined. */
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && !defined(LACEDRING_PLAIN)
+#define LACEDRING_HOT_ static inline __attribute__((always_inline))
+#else
+#define LACEDRING_HOT_ static
+#endif
+
+LACEDRING_HOT_ uint32_t lacedring_ones_(uint64_t bits) { /* before the lowest zero; `bits` has one */
 #if defined(__GNUC__) && !defined(LACEDRING_PLAIN)
     return (uint32_t)__builtin_ctzll(~bits);
 #else
@@ -386,7 +393,7 @@ static uint32_t lacedring_ones_(uint64_t bits) { /* before the lowest zero; `bit
 #endif
 }
 
-static uint32_t lacedring_popcount_(uint32_t bits) {
+LACEDRING_HOT_ uint32_t lacedring_popcount_(uint32_t bits) {
     bits -= (bits >> 1) & 0x55555555u;
     bits = (bits & 0x33333333u) + ((bits >> 2) & 0x33333333u);
     return (((bits + (bits >> 4)) & 0x0f0f0f0fu) * 0x01010101u) >> 24;
@@ -400,7 +407,7 @@ struct lacedring_bits_ {
 };
 
 /* At least 57 bits. */
-static uint64_t lacedring_window_(const struct lacedring_bits_* r) {
+LACEDRING_HOT_ uint64_t lacedring_window_(const struct lacedring_bits_* r) {
     const uint64_t at = r->at < r->end ? r->at : r->end, left = r->end - at;
     const size_t byte = (size_t)(at >> 3);
     uint64_t value = 0;
@@ -413,26 +420,26 @@ static uint64_t lacedring_window_(const struct lacedring_bits_* r) {
     return left < 64 ? value | UINT64_MAX << left : value;
 }
 
-static uint32_t lacedring_take_(struct lacedring_bits_* r, uint32_t count) { /* at most 32 */
+LACEDRING_HOT_ uint32_t lacedring_take_(struct lacedring_bits_* r, uint32_t count) { /* at most 32 */
     const uint32_t value = (uint32_t)(lacedring_window_(r) & ((UINT64_C(1) << count) - 1));
     r->at += count;
     return value;
 }
 
 /* Ones before a zero, at most `limit`: where there are as many, no zero is read. */
-static uint32_t lacedring_unary_(struct lacedring_bits_* r, uint32_t limit) {
+LACEDRING_HOT_ uint32_t lacedring_unary_(struct lacedring_bits_* r, uint32_t limit) {
     const uint32_t ones = lacedring_ones_(lacedring_window_(r) & ~(UINT64_C(1) << limit));
     r->at += ones + (ones < limit);
     return ones;
 }
 
-static uint32_t lacedring_golomb_(struct lacedring_bits_* r, uint32_t order) {
+LACEDRING_HOT_ uint32_t lacedring_golomb_(struct lacedring_bits_* r, uint32_t order) {
     const uint32_t low = lacedring_unary_(r, 31 - order) + order;
     return (lacedring_take_(r, low) | UINT32_C(1) << low) - (UINT32_C(1) << order);
 }
 
 /* Golomb-Rice, of at most 31 ones; UINT32_MAX where there are more. */
-static uint32_t lacedring_rice_(struct lacedring_bits_* r, uint32_t low) {
+LACEDRING_HOT_ uint32_t lacedring_rice_(struct lacedring_bits_* r, uint32_t low) {
     const uint64_t window = lacedring_window_(r);
     const uint32_t ones = lacedring_ones_(window & ~(UINT64_C(1) << 32));
     if (ones == 32) return UINT32_MAX;
@@ -597,9 +604,11 @@ static void lacedring_read_event_(const struct lacedring_packed* p, const struct
     switch (e->code) {
         case LACEDRING_SPLIT_:
             e->v = 3 + lacedring_golomb_(bits, g->split_order);
+            if (e->v >> 30 != 0) e->triangle = UINT32_MAX; /* and no count wraps round */
             break;
         case LACEDRING_JUMP_:
             e->v = 2 + lacedring_golomb_(bits, 1);
+            if (e->v >> 30 != 0) e->triangle = UINT32_MAX;
             e->choice = lacedring_take_(bits, 1);
             e->w = e->choice ? 1 + lacedring_golomb_(bits, 2) : 0;
             break;
@@ -669,7 +678,7 @@ static void lacedring_begin_(struct lacedring_state_* s, const struct lacedring_
 }
 
 /* Triangles of a polygon that is entered across (a, b) until it is finished. */
-static uint32_t lacedring_left_(uint32_t a, uint32_t b) { return b - a == 1 ? UINT32_MAX : b - a - 1; }
+LACEDRING_HOT_ uint32_t lacedring_left_(uint32_t a, uint32_t b) { return b - a == 1 ? UINT32_MAX : b - a - 1; }
 
 /* Where nothing else follows a finished polygon: the one behind the one begun last, and as long. */
 static void lacedring_repeat_(struct lacedring_state_* s, int inside) {
@@ -684,7 +693,7 @@ static void lacedring_repeat_(struct lacedring_state_* s, int inside) {
 
 /* An event that gives its triangle's third vertex: sets it, the edge that comes next, and the edge that comes when
    *count triangles more are through; 0: none does. */
-static uint32_t lacedring_third_(struct lacedring_state_* s, const struct lacedring_event_* e, uint32_t turn, uint32_t rest[2],
+LACEDRING_HOT_ uint32_t lacedring_third_(struct lacedring_state_* s, const struct lacedring_event_* e, uint32_t turn, uint32_t rest[2],
                                  uint32_t* count) {
     const uint32_t a = s->a, b = s->b;
     const uint32_t x = e->code == LACEDRING_FAR_ ? e->v : turn ? a + e->v : b - e->v;
@@ -702,35 +711,41 @@ static uint32_t lacedring_third_(struct lacedring_state_* s, const struct lacedr
     return x;
 }
 
-static void lacedring_put_(uint32_t* out, uint32_t a, uint32_t x, uint32_t b, uint32_t reversed) {
+LACEDRING_HOT_ void lacedring_put_(uint32_t* out, uint32_t a, uint32_t x, uint32_t b, uint32_t reversed) {
     out[0] = a;
     out[1] = reversed ? x : b;
     out[2] = reversed ? b : x;
 }
 
-/* Four turns at once: twelve indices, each a or (mask) b with something added; a grows by `ups`. b - a becomes smaller by
-   four whatever the turns. */
+/* Four turns at once: twelve indices, each a or (mask) b with something added; then a grows by `ups`. b - a becomes smaller
+   by four whatever the turns. */
 struct lacedring_nibble_ {
-    uint32_t add[12], mask[12];
+    uint32_t add[12], mask[12], ups;
 };
 
-/* Triangle k of four adds up(k), the turns before it that are 1, to a, and up(k) - k to b. */
-#define LACEDRING_UP_(bits, k) ((uint32_t)(((bits) & 1) * ((k) > 0) + ((bits) >> 1 & 1) * ((k) > 1) + ((bits) >> 2 & 1) * ((k) > 2)))
-#define LACEDRING_TURN_IS_(bits, k) ((bits) >> (k) & 1)
-#define LACEDRING_X_ADD_(bits, k) (LACEDRING_UP_(bits, k) + (LACEDRING_TURN_IS_(bits, k) ? 1u : 0u - (k) - 1u))
-#define LACEDRING_X_MASK_(bits, k) (LACEDRING_TURN_IS_(bits, k) ? 0u : UINT32_MAX)
-#define LACEDRING_ADDS_(bits, k) LACEDRING_UP_(bits, k), LACEDRING_UP_(bits, k) - (k), LACEDRING_X_ADD_(bits, k)
-#define LACEDRING_MASKS_(bits, k) 0, UINT32_MAX, LACEDRING_X_MASK_(bits, k)
-#define LACEDRING_NIBBLE_(bits)                                                                                       \
-    {                                                                                                                 \
-        {LACEDRING_ADDS_(bits, 0u), LACEDRING_ADDS_(bits, 1u), LACEDRING_ADDS_(bits, 2u), LACEDRING_ADDS_(bits, 3u)}, \
-        {LACEDRING_MASKS_(bits, 0u), LACEDRING_MASKS_(bits, 1u), LACEDRING_MASKS_(bits, 2u), LACEDRING_MASKS_(bits, 3u)} \
-    }
-static const struct lacedring_nibble_ lacedring_nibbles_[16] = {
-    LACEDRING_NIBBLE_(0),  LACEDRING_NIBBLE_(1),  LACEDRING_NIBBLE_(2),  LACEDRING_NIBBLE_(3),
-    LACEDRING_NIBBLE_(4),  LACEDRING_NIBBLE_(5),  LACEDRING_NIBBLE_(6),  LACEDRING_NIBBLE_(7),
-    LACEDRING_NIBBLE_(8),  LACEDRING_NIBBLE_(9),  LACEDRING_NIBBLE_(10), LACEDRING_NIBBLE_(11),
-    LACEDRING_NIBBLE_(12), LACEDRING_NIBBLE_(13), LACEDRING_NIBBLE_(14), LACEDRING_NIBBLE_(15)};
+/* Before triangle k of four, a has grown by UP and b by UP - k. Fields in the order of a, b, x or a, x, b. */
+#define LACEDRING_TURN_(bits, k) (((bits) >> (k)) & 1u)
+#define LACEDRING_UP_(bits, k) ((LACEDRING_TURN_(bits, 0) & ((k) > 0)) + (LACEDRING_TURN_(bits, 1) & ((k) > 1)) + (LACEDRING_TURN_(bits, 2) & ((k) > 2)))
+#define LACEDRING_B_(bits, k) (LACEDRING_UP_(bits, k) - (k))
+#define LACEDRING_X_(bits, k) (LACEDRING_UP_(bits, k) + (LACEDRING_TURN_(bits, k) ? 1u : 0u - (k) - 1u))
+#define LACEDRING_XM_(bits, k) (LACEDRING_TURN_(bits, k) ? 0u : UINT32_MAX)
+#define LACEDRING_ABX_(bits, k) LACEDRING_UP_(bits, k), LACEDRING_B_(bits, k), LACEDRING_X_(bits, k)
+#define LACEDRING_AXB_(bits, k) LACEDRING_UP_(bits, k), LACEDRING_X_(bits, k), LACEDRING_B_(bits, k)
+#define LACEDRING_ABXM_(bits, k) 0u, UINT32_MAX, LACEDRING_XM_(bits, k)
+#define LACEDRING_AXBM_(bits, k) 0u, LACEDRING_XM_(bits, k), UINT32_MAX
+#define LACEDRING_FOUR_(of, bits) {of(bits, 0u), of(bits, 1u), of(bits, 2u), of(bits, 3u)}
+#define LACEDRING_NIBBLE_(adds, masks, bits)                      \
+    {LACEDRING_FOUR_(adds, bits), LACEDRING_FOUR_(masks, bits),   \
+     LACEDRING_UP_(bits, 3u) + LACEDRING_TURN_(bits, 3)}
+#define LACEDRING_NIBBLES_(adds, masks)                                                                            \
+    {LACEDRING_NIBBLE_(adds, masks, 0u),  LACEDRING_NIBBLE_(adds, masks, 1u),  LACEDRING_NIBBLE_(adds, masks, 2u),  \
+     LACEDRING_NIBBLE_(adds, masks, 3u),  LACEDRING_NIBBLE_(adds, masks, 4u),  LACEDRING_NIBBLE_(adds, masks, 5u),  \
+     LACEDRING_NIBBLE_(adds, masks, 6u),  LACEDRING_NIBBLE_(adds, masks, 7u),  LACEDRING_NIBBLE_(adds, masks, 8u),  \
+     LACEDRING_NIBBLE_(adds, masks, 9u),  LACEDRING_NIBBLE_(adds, masks, 10u), LACEDRING_NIBBLE_(adds, masks, 11u), \
+     LACEDRING_NIBBLE_(adds, masks, 12u), LACEDRING_NIBBLE_(adds, masks, 13u), LACEDRING_NIBBLE_(adds, masks, 14u), \
+     LACEDRING_NIBBLE_(adds, masks, 15u)}
+static const struct lacedring_nibble_ lacedring_nibbles_[2][16] = {LACEDRING_NIBBLES_(LACEDRING_ABX_, LACEDRING_ABXM_),
+                                                                   LACEDRING_NIBBLES_(LACEDRING_AXB_, LACEDRING_AXBM_)};
 
 /* A record while it is decoded into 3 * triangles indices. */
 struct lacedring_decoder_ {
@@ -746,46 +761,43 @@ struct lacedring_decoder_ {
     uint32_t thirds[8]; /* an event gives its third vertex */
 };
 
-static uint32_t lacedring_turn_(const struct lacedring_decoder_* d, uint32_t i) { return d->turns[i / 8] >> (i % 8) & 1; }
+LACEDRING_HOT_ uint32_t lacedring_turn_(const struct lacedring_decoder_* d, uint32_t i) { return d->turns[i / 8] >> (i % 8) & 1; }
 
 /* Triangles [d->i, end), by their turns alone. Writes four at a time where there is room: what is too much is written
    again. */
 static void lacedring_run_(struct lacedring_decoder_* d, uint32_t end) {
-    uint32_t a = d->s.a, b = d->s.b, i = d->i;
-    const uint32_t reversed = d->s.reversed;
-    while (i < end) {
-        const uint32_t bits = (uint32_t)(d->turns[i / 8] | d->turns[i / 8 + 1] << 8) >> (i % 8);
-        uint32_t* out = d->out + (size_t)3 * i;
-        if (i + 4 <= d->triangles) {
-            const struct lacedring_nibble_* n = &lacedring_nibbles_[bits & 15];
-            const uint32_t span = b - a, todo = end - i < 4 ? end - i : 4;
-            uint32_t k, ups;
-            for (k = 0; k < 12; ++k) out[k] = a + n->add[k] + (span & n->mask[k]);
-            if (reversed) {
-                for (k = 0; k < 12; k += 3) {
-                    const uint32_t x = out[k + 1];
-                    out[k + 1] = out[k + 2];
-                    out[k + 2] = x;
-                }
-            }
-            ups = lacedring_popcount_(bits & ((1u << todo) - 1));
-            a += ups;
-            b -= todo - ups;
-            i += todo;
-        } else {
-            const uint32_t x = bits & 1 ? a + 1 : b - 1;
-            lacedring_put_(out, a, x, b, reversed);
-            if (bits & 1) {
-                a = x;
-            } else {
-                b = x;
-            }
-            ++i;
+    const struct lacedring_nibble_* table = lacedring_nibbles_[d->s.reversed];
+    const uint32_t at_end = d->s.b - d->s.a - (end - d->i); /* b - a, then */
+    const uint32_t room = d->triangles < 4 ? 0 : d->triangles - 3 < end ? d->triangles - 3 : end;
+    uint32_t a = d->s.a, i = d->i, k, ups = 0;
+    uint32_t* out = d->out + (size_t)3 * i;
+    while (i < room) {
+        uint64_t turns;
+        memcpy(&turns, d->turns + i / 8, 8);
+        turns >>= i % 8;
+        for (k = 0; k < 14 && i < room; ++k, i += 4, out += 12, turns >>= 4) {
+            const struct lacedring_nibble_* n = &table[turns & 15];
+            const uint32_t span = at_end + end - i;
+            uint32_t four[12], j; /* a copy of its own lets compilers use vectors */
+            for (j = 0; j < 12; ++j) four[j] = a + n->add[j] + (span & n->mask[j]);
+            memcpy(out, four, sizeof four);
+            ups = (uint32_t)turns & 15;
+            a += n->ups;
         }
     }
+    if (i > end) { /* take back what is too much */
+        a -= table[ups >> (4 - (i - end))].ups;
+        out -= (size_t)3 * (i - end);
+        i = end;
+    }
+    for (; i < end; ++i, out += 3) {
+        const uint32_t up = d->turns[i / 8] >> (i % 8) & 1, b = a + at_end + end - i;
+        lacedring_put_(out, a, up ? a + 1 : b - 1, b, d->s.reversed);
+        a += up;
+    }
     d->s.a = a;
-    d->s.b = b;
-    d->i = i;
+    d->s.b = a + at_end;
+    d->i = end;
 }
 
 /* Decodes up to triangle `target`, and closes the scopes that end there. 0: impossible. */
@@ -818,44 +830,62 @@ static int lacedring_advance_(struct lacedring_decoder_* d, uint32_t target) {
 }
 
 /* Makes triangle i the T0 of a wart, and the next one its T2. */
-static int lacedring_wart_(const struct lacedring_decoder_* d, uint32_t i) {
+LACEDRING_HOT_ int lacedring_wart_(const struct lacedring_decoder_* d, uint32_t i) {
     uint32_t* out = d->out + (size_t)3 * i;
     const uint32_t up = lacedring_turn_(d, i), a = out[0], next = i + 1;
-    const uint32_t reversed = out[1] == (up ? a + 1 : out[2] - 1), b = out[reversed ? 2 : 1];
+    const uint32_t reversed = out[1] == (up ? a + 1 : out[2] - 1), b = out[1 + reversed];
     const uint32_t inner = up ? a + 1 : b - 1;
     if ((d->thirds[i / 32] >> i % 32 & 1) || b - a < 4) return 0;
-    out[reversed ? 1 : 2] = up ? a + 2 : b - 2;
+    out[2 - reversed] = up ? a + 2 : b - 2;
     if (next == d->triangles) return 1;
     if (((d->thirds[next / 32] | d->fresh[next / 32]) >> next % 32) & 1) return 0;
     lacedring_put_(out + 3, inner - 1, inner, inner + 1, reversed);
     return 1;
 }
 
+/* The bit of `bits` that has `rank` others below it; `counts` has in byte k how many are in bytes 0 to k. */
+LACEDRING_HOT_ uint32_t lacedring_select_(uint64_t bits, uint64_t counts, uint32_t rank) {
+    static const uint8_t of_four[16][4] = {{0, 0, 0, 0}, {0, 0, 0, 0}, {1, 0, 0, 0}, {0, 1, 0, 0}, {2, 0, 0, 0}, {0, 2, 0, 0},
+                                           {1, 2, 0, 0}, {0, 1, 2, 0}, {3, 0, 0, 0}, {0, 3, 0, 0}, {1, 3, 0, 0}, {0, 1, 3, 0},
+                                           {2, 3, 0, 0}, {0, 2, 3, 0}, {1, 2, 3, 0}, {0, 1, 2, 3}};
+    static const uint8_t count[16] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
+    const uint64_t each = UINT64_C(0x0101010101010101), high = each << 7;
+    const uint64_t below = (((rank * each) | high) - counts) & high; /* bytes that end at or before it */
+    const uint32_t byte = (uint32_t)(((below >> 7) * each) >> 56);
+    const uint32_t in_byte = (uint32_t)(bits >> (8 * byte)) & 0xff, left = rank - ((uint32_t)((counts << 8) >> (8 * byte)) & 0xff);
+    const uint32_t low = count[in_byte & 15], upper = left >= low;
+    return 8 * byte + 4 * upper + of_four[upper ? in_byte >> 4 : in_byte & 15][upper ? left - low : left];
+}
+
 /* `least`: so many there must be. */
-static int lacedring_warts_(const struct lacedring_decoder_* d, struct lacedring_bits_* bits, uint32_t low, uint32_t least) {
-    uint32_t word = 0, last = UINT32_MAX - 1, candidates = 0, at_word = 0, warts = 0;
-    const uint32_t words = (d->triangles + 31) / 32;
+static int lacedring_warts_(const struct lacedring_decoder_* d, struct lacedring_bits_ bits, uint32_t low, uint32_t least) {
+    uint64_t candidates = 0, counts = 0;
+    uint32_t begin = 0, word = 0, rank = 0, count = 0, last = UINT32_MAX - 1, warts = 0;
     for (;;) {
-        uint32_t gap = lacedring_rice_(bits, low), i, count;
-        if (gap == UINT32_MAX) return bits->at <= bits->end && bits->end - bits->at < 8 && warts >= least;
-        if (bits->at > bits->end) return 0;
-        /* The candidate behind so many others. */
-        for (;;) {
-            count = lacedring_popcount_(candidates);
-            if (gap < count) break;
-            gap -= count;
-            if (at_word == words) return 0;
-            word = 32 * at_word;
-            candidates = (uint32_t)d->turns[word / 8] | (uint32_t)d->turns[word / 8 + 1] << 8 |
-                         (uint32_t)d->turns[word / 8 + 2] << 16 | (uint32_t)d->turns[word / 8 + 3] << 24;
-            candidates = ~(candidates ^ (candidates >> 1 | (uint32_t)d->turns[word / 8 + 4] << 31));
-            if (d->triangles - word < 32) candidates &= (UINT32_C(1) << (d->triangles - word)) - 1;
-            if (d->triangles - word <= 32) candidates |= UINT32_C(1) << (d->triangles - word - 1);
-            ++at_word;
+        const uint32_t gap = lacedring_rice_(&bits, low);
+        uint32_t i;
+        if (gap == UINT32_MAX) return bits.at <= bits.end && bits.end - bits.at < 8 && warts >= least;
+        if (bits.at > bits.end) return 0;
+        rank += gap; /* among the candidates from `begin` on */
+        while (rank >= count) {
+            uint64_t turns, next = 0;
+            rank -= count;
+            begin = 64 * word++;
+            if (begin >= d->triangles) return 0;
+            memcpy(&turns, d->turns + begin / 8, 8);
+            if (begin + 64 < d->triangles) next = (uint64_t)d->turns[begin / 8 + 8] << 63;
+            candidates = ~(turns ^ (turns >> 1 | next));
+            if (d->triangles - begin <= 64) {
+                const uint32_t left = d->triangles - begin - 1;
+                candidates = (candidates | UINT64_C(1) << left) & UINT64_MAX >> (63 - left);
+            }
+            counts = candidates - ((candidates >> 1) & UINT64_C(0x5555555555555555));
+            counts = (counts & UINT64_C(0x3333333333333333)) + ((counts >> 2) & UINT64_C(0x3333333333333333));
+            counts = ((counts + (counts >> 4)) & UINT64_C(0x0f0f0f0f0f0f0f0f)) * UINT64_C(0x0101010101010101);
+            count = (uint32_t)(counts >> 56);
         }
-        for (; gap > 0; --gap) candidates &= candidates - 1;
-        i = word + lacedring_ones_(~(uint64_t)candidates & (candidates - 1));
-        candidates &= candidates - 1;
+        i = begin + lacedring_select_(candidates, counts, rank);
+        ++rank;
         if (i == last + 1 || !lacedring_wart_(d, i)) return 0;
         last = i;
         ++warts;
@@ -928,7 +958,7 @@ static int lacedring_expand_record_(const struct lacedring_packed* p, const stru
         }
         if (d.i < d.triangles) d.fresh[d.i / 32] |= UINT32_C(1) << d.i % 32;
     }
-    if (!lacedring_advance_(&d, d.triangles) || !lacedring_warts_(&d, &r->bits, g->wart_bits, explicit_entry || events > 0 ? 0 : 1)) return 0;
+    if (!lacedring_advance_(&d, d.triangles) || !lacedring_warts_(&d, r->bits, g->wart_bits, explicit_entry || events > 0 ? 0 : 1)) return 0;
     if (flips) {
         struct lacedring_bits_ bits = r->bits;
         uint32_t i;
