@@ -47,6 +47,16 @@ std::vector<std::string> meshes_beside(const fs::path& path) {
     return out;
 }
 
+std::vector<std::string> sample_meshes() {
+    std::error_code error;
+    const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+    // Beside the program in the build folder, LACEDRING_ASSETS from there once installed.
+    for (const char* place : {"lacedring-assets", LACEDRING_ASSETS}) {
+        if (fs::is_directory(folder / place, error)) return meshes_beside(folder / place);
+    }
+    return {};
+}
+
 std::vector<std::string> read_recent() {
     constexpr std::uint64_t kMost = std::uint64_t{1} << 20;  // a dozen paths
     const Result<std::vector<std::byte>> bytes = read_file(recent_file(), kMost);

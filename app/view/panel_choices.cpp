@@ -93,6 +93,10 @@ void draw_files(State& state) {
     if (ImGui::BeginTabItem("Folder")) {
         ImGui::BeginChild("folder", size);
         list_files(state, state.files, "no meshes in this folder");
+        if (state.files.empty() && !state.samples.empty()) {
+            ImGui::TextDisabled("samples:");
+            list_files(state, state.samples, "");
+        }
         ImGui::EndChild();
         ImGui::EndTabItem();
     }

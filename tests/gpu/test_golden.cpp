@@ -1,10 +1,11 @@
-// Pictures of generated meshes against those in tests/image. A missing one fails.
+// Pictures of generated meshes and of those in assets/ against those in tests/image. A missing one fails.
 // LACEDRING_UPDATE_GOLDEN=1 test_gpu -tc="golden*" writes them anew: look at them before they are kept.
 
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
+#include "lacedring/mesh_files.hpp"
 #include "tests/gpu/gpu_test.h"
 
 using namespace lacedring;
@@ -55,17 +56,30 @@ gpu::Picture drawn(gpu::Context& context, const gpu::Model& model, gpu::View vie
 
 struct Golden {
     const char* name;
-    const char* kind;
-    std::uint64_t triangles;
+    const char* mesh;         ///< a file of assets/, or a kind to generate
+    std::uint64_t triangles;  ///< 0: a file
     gpu::View view;
 };
 
-constexpr Golden kGoldens[] = {
-    {"genus-smooth", "genus", 3000, gpu::View::smooth},        {"moebius-smooth", "moebius", 600, gpu::View::smooth},
-    {"terrain-flat", "terrain", 800, gpu::View::flat},         {"blob-class", "blob", 600, gpu::View::triangle_class},
-    {"parts-class", "parts", 500, gpu::View::triangle_class},  {"torus-ring", "torus", 1000, gpu::View::ring},
-    {"sphere-wire", "sphere", 500, gpu::View::wire},           {"blob-offsets", "blob", 600, gpu::View::offsets},
-    {"parts-silhouette", "parts", 2000, gpu::View::silhouette}};
+constexpr Golden kGoldens[] = {{"genus-smooth", "genus", 3000, gpu::View::smooth},
+                               {"moebius-smooth", "moebius", 600, gpu::View::smooth},
+                               {"terrain-flat", "terrain", 800, gpu::View::flat},
+                               {"blob-class", "blob", 600, gpu::View::triangle_class},
+                               {"parts-class", "parts", 500, gpu::View::triangle_class},
+                               {"torus-ring", "torus", 1000, gpu::View::ring},
+                               {"sphere-wire", "sphere", 500, gpu::View::wire},
+                               {"blob-offsets", "blob", 600, gpu::View::offsets},
+                               {"parts-silhouette", "parts", 2000, gpu::View::silhouette},
+                               {"blob-smooth", "blob.ply", 0, gpu::View::smooth},
+                               {"cut-torus-class", "cut_torus.ply", 0, gpu::View::triangle_class},
+                               {"globe-flat", "globe.glb", 0, gpu::View::flat}};
+
+Mesh mesh_of(const Golden& golden) {
+    if (golden.triangles != 0) return generated(golden.mesh, golden.triangles, 7);
+    Result<Mesh> mesh = read_mesh((std::filesystem::path(LACEDRING_ASSETS) / golden.mesh).string());
+    REQUIRE_MESSAGE(mesh, mesh.error().message);
+    return std::move(mesh).value();
+}
 
 }  // namespace
 
@@ -74,8 +88,7 @@ TEST_CASE_FIXTURE(GpuTest, "golden pictures") {
     std::vector<gpu::Picture> goldens;
     for (const Golden& golden : kGoldens) {
         CAPTURE(std::string(golden.name));
-        const Mesh mesh = generated(golden.kind, golden.triangles, 7);
-        const gpu::Model model = model_of(mesh);
+        const gpu::Model model = model_of(mesh_of(golden));
         const gpu::Picture lean = drawn(*context, model, golden.view, gpu::Source::lean);
         const gpu::Picture plain = drawn(*context, model, golden.view, gpu::Source::plain);
         const gpu::Difference d = gpu::difference(plain, lean);
