@@ -93,9 +93,9 @@ void draw_files(State& state) {
     if (ImGui::BeginTabItem("Folder")) {
         ImGui::BeginChild("folder", size);
         list_files(state, state.files, "no meshes in this folder");
-        if (state.files.empty() && !state.samples.empty()) {
+        if (state.files.empty() && !state.sample_files.empty()) {
             ImGui::TextDisabled("samples:");
-            list_files(state, state.samples, "");
+            list_files(state, state.sample_files, "");
         }
         ImGui::EndChild();
         ImGui::EndTabItem();

@@ -67,7 +67,7 @@ struct State {
     std::string device;
     bool mesh_shaders = false;
     std::optional<gpu::Difference> difference;
-    std::vector<std::string> files, recent, samples;
+    std::vector<std::string> files, recent, sample_files;
     Selection selection;
     struct TurntableJob {
         std::string folder;

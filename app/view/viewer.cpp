@@ -42,7 +42,7 @@ Result<std::unique_ptr<Viewer>> Viewer::create(gpu::Context& context, Threads& t
     state.mesh_shaders = context.info().max_mesh_groups != 0;
     state.samples = context.info().software ? 1 : 2;
     state.recent = read_recent();
-    state.samples = sample_meshes();
+    state.sample_files = sample_meshes();
     std::error_code error;
     out->loader_.list(options.input.path.empty() ? std::filesystem::current_path(error).string() : options.input.path);
     out->asked_ = state.ring;

@@ -15,6 +15,8 @@ sys.path.insert(0, INDEPENDENT)
 DONE, CHECK_FAILED, WRONG_USAGE, BAD_INPUT, NO_DEVICE = range(5)
 KINDS = ["sphere", "torus", "genus", "terrain", "blob", "parts", "moebius", "soup"]
 
+SANITIZED = os.environ.get("LACEDRING_SANITIZED", "0") == "1"  # ten times slower, and takes memory of its own
+
 program = None  # path of lacedring
 
 

@@ -10,13 +10,12 @@ import signal
 import struct
 import zlib
 
-from cli_support import BAD_INPUT, DONE, WRONG_USAGE, CliTest, in_parallel, main, run
+from cli_support import BAD_INPUT, DONE, SANITIZED, WRONG_USAGE, CliTest, in_parallel, main, run
 
 import check_decode
 import mesh_writers as write
 
 SEED = int(os.environ.get("LACEDRING_TEST_SEED") or random.SystemRandom().randrange(1 << 32))
-SANITIZED = os.environ.get("LACEDRING_SANITIZED", "0") == "1"  # ten times slower, and takes memory of its own
 CUTS = 50 if SANITIZED else 200  # places at which every format is cut off
 FLIPS = 50 if SANITIZED else 200
 

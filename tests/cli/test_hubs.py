@@ -2,13 +2,10 @@
 """test_hubs.py LACEDRING: vertices with very many triangles, many triangles at one place, huge coordinates. Baselines that
 would take quadratic time are absent with the reason; nothing hangs or fails."""
 
-import os
-
-from cli_support import CliTest, in_parallel, main, run
+from cli_support import SANITIZED, CliTest, in_parallel, main, run
 
 import mesh_writers as write
 
-SANITIZED = os.environ.get("LACEDRING_SANITIZED", "0") == "1"
 ORDERS = {"strip_restart", "strip_degenerate", "meshopt_index_codec", "meshlets"}
 REASON = "quadratic in a vertex's triangles"
 

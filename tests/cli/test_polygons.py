@@ -9,12 +9,11 @@ import re
 import struct
 import unittest
 
-from cli_support import CliTest, main
+from cli_support import SANITIZED, CliTest, main
 
 import mesh_writers as write
 
 SEED = int(os.environ.get("LACEDRING_TEST_SEED") or random.SystemRandom().randrange(1 << 32))
-SANITIZED = os.environ.get("LACEDRING_SANITIZED", "0") == "1"
 
 
 def as_float(x):

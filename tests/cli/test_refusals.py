@@ -11,13 +11,12 @@ import time
 import unittest
 
 import cli_support
-from cli_support import BAD_INPUT, DONE, WRONG_USAGE, CliTest, main, run
+from cli_support import BAD_INPUT, DONE, SANITIZED, WRONG_USAGE, CliTest, main, run
 
 import mesh_writers as write
 
 POINTS = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)]
 TRIANGLES = [(0, 1, 2), (0, 2, 3)]
-SANITIZED = os.environ.get("LACEDRING_SANITIZED", "0") == "1"
 
 
 def shell(command, **more):
@@ -378,7 +377,7 @@ class Faults(CliTest):
             took = time.monotonic() - started
             with open(path, "rb") as file:
                 whole = file.read()
-            for i in range(6):
+            for i in range(0, 6, 4 if SANITIZED else 1):
                 with self.subTest(command=command, i=i):
                     self.write(name, b"old")
                     process = subprocess.Popen([cli_support.program, *command, path], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)

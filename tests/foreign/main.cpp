@@ -26,7 +26,7 @@
 namespace {
 
 // docs/lean-format.md, docs/packed-format.md
-constexpr std::size_t kHeaderWords = 8, kChecksumWord = 7;
+constexpr std::size_t kLeanHeaderWords = 8, kPackedHeaderWords = 4;  // the last is the checksum
 constexpr std::uint32_t kTipMask = 0x1fffffff;
 
 /// What an engine keeps of either format: words to upload as they are, and the order of the vertices to go with them.
@@ -55,13 +55,13 @@ void break_stream(Stream& stream, std::uint32_t vertices) {
     for (std::uint32_t at = stream.triangles / 3; at < stream.triangles; ++at) {
         std::vector<std::uint32_t> words = stream.words;
         if (stream.lean) {
-            std::uint32_t& word = words[kHeaderWords + at];
+            std::uint32_t& word = words[kLeanHeaderWords + at];
             if ((word & ~kTipMask) != 0) continue;
             word = (word + vertices / 2) % vertices;
-            words[kChecksumWord] = lacedring::lean_checksum(words);
+            words[kLeanHeaderWords - 1] = lacedring::lean_checksum(words);
         } else {
-            words[kHeaderWords + at / 32] ^= 1U << at % 32;
-            words[kChecksumWord] = lacedring::packed_checksum(words);
+            words[kPackedHeaderWords + at / 32] ^= 1U << at % 32;
+            words[kPackedHeaderWords - 1] = lacedring::packed_checksum(words);
         }
         if (stream.lean ? lacedring::validate_lean(words).has_value() : lacedring::validate_packed(words).has_value()) {
             stream.words = std::move(words);

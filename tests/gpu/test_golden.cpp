@@ -88,7 +88,8 @@ TEST_CASE_FIXTURE(GpuTest, "golden pictures") {
     std::vector<gpu::Picture> goldens;
     for (const Golden& golden : kGoldens) {
         CAPTURE(std::string(golden.name));
-        const gpu::Model model = model_of(mesh_of(golden));
+        const Mesh mesh = mesh_of(golden);  // the model looks at it
+        const gpu::Model model = model_of(mesh);
         const gpu::Picture lean = drawn(*context, model, golden.view, gpu::Source::lean);
         const gpu::Picture plain = drawn(*context, model, golden.view, gpu::Source::plain);
         const gpu::Difference d = gpu::difference(plain, lean);

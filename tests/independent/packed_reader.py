@@ -317,7 +317,7 @@ def parts(data):
 def decode_parted(data, entry, turns, head, out):
     """Returns the entry of the first record."""
     end = 4 + sum(data[:4])
-    if max(data[:4]) > 128 or not end <= len(data) < end + 4 or any(data[end:]):
+    if max(data[:4]) > 200 or not end <= len(data) < end + 4 or any(data[end:]):
         raise BadFile("the records of a parted block are too long, or not followed by zeros up to a word")
     for i, part in enumerate(parts(data)):
         some = turns[64 * i:64 * i + 64]

@@ -35,7 +35,7 @@
 #define LR_PACKED_MAX_RECORD 104u
 #define LR_PACKED_PLAIN 255u
 #define LR_PACKED_PARTS 4u
-#define LR_PACKED_MAX_PART 128u
+#define LR_PACKED_MAX_PART 200u
 #define LR_PACKED_PART 64u       // triangles of a part
 #define LR_PACKED_PART_WORDS 2u  // their turn bits
 

@@ -514,7 +514,7 @@ static int lacedring_open_group_(const struct lacedring_packed* p, uint32_t bloc
 }
 
 /* Bytes of a part, at most. */
-#define LACEDRING_PACKED_MAX_PART_ 128u
+#define LACEDRING_PACKED_MAX_PART_ 200u
 
 static uint32_t lacedring_block_bytes_(const struct lacedring_packed* p, uint32_t length, uint32_t triangles) {
     if (length <= LACEDRING_PACKED_MAX_RECORD_) return length;
@@ -717,6 +717,7 @@ LACEDRING_HOT_ void lacedring_put_(uint32_t* out, uint32_t a, uint32_t x, uint32
     out[2] = reversed ? b : x;
 }
 
+#ifndef __OPTIMIZE_SIZE__
 /* Four turns at once: twelve indices, each a or (mask) b with something added; then a grows by `ups`. b - a becomes smaller
    by four whatever the turns. */
 struct lacedring_nibble_ {
@@ -746,6 +747,7 @@ struct lacedring_nibble_ {
      LACEDRING_NIBBLE_(adds, masks, 15u)}
 static const struct lacedring_nibble_ lacedring_nibbles_[2][16] = {LACEDRING_NIBBLES_(LACEDRING_ABX_, LACEDRING_ABXM_),
                                                                    LACEDRING_NIBBLES_(LACEDRING_AXB_, LACEDRING_AXBM_)};
+#endif
 
 /* A record while it is decoded into 3 * triangles indices. */
 struct lacedring_decoder_ {
@@ -766,11 +768,13 @@ LACEDRING_HOT_ uint32_t lacedring_turn_(const struct lacedring_decoder_* d, uint
 /* Triangles [d->i, end), by their turns alone. Writes four at a time where there is room: what is too much is written
    again. */
 static void lacedring_run_(struct lacedring_decoder_* d, uint32_t end) {
-    const struct lacedring_nibble_* table = lacedring_nibbles_[d->s.reversed];
     const uint32_t at_end = d->s.b - d->s.a - (end - d->i); /* b - a, then */
-    const uint32_t room = d->triangles < 4 ? 0 : d->triangles - 3 < end ? d->triangles - 3 : end;
-    uint32_t a = d->s.a, i = d->i, k, ups = 0;
+    uint32_t a = d->s.a, i = d->i;
     uint32_t* out = d->out + (size_t)3 * i;
+#ifndef __OPTIMIZE_SIZE__
+    const struct lacedring_nibble_* table = lacedring_nibbles_[d->s.reversed];
+    const uint32_t room = d->triangles < 4 ? 0 : d->triangles - 3 < end ? d->triangles - 3 : end;
+    uint32_t k, ups = 0;
     while (i < room) {
         uint64_t turns;
         memcpy(&turns, d->turns + i / 8, 8);
@@ -790,6 +794,7 @@ static void lacedring_run_(struct lacedring_decoder_* d, uint32_t end) {
         out -= (size_t)3 * (i - end);
         i = end;
     }
+#endif
     for (; i < end; ++i, out += 3) {
         const uint32_t up = d->turns[i / 8] >> (i % 8) & 1, b = a + at_end + end - i;
         lacedring_put_(out, a, up ? a + 1 : b - 1, b, d->s.reversed);
@@ -845,6 +850,11 @@ LACEDRING_HOT_ int lacedring_wart_(const struct lacedring_decoder_* d, uint32_t 
 
 /* The bit of `bits` that has `rank` others below it; `counts` has in byte k how many are in bytes 0 to k. */
 LACEDRING_HOT_ uint32_t lacedring_select_(uint64_t bits, uint64_t counts, uint32_t rank) {
+#ifdef __OPTIMIZE_SIZE__
+    (void)counts;
+    for (; rank > 0; --rank) bits &= bits - 1;
+    return lacedring_ones_(~bits & (bits - 1));
+#else
     static const uint8_t of_four[16][4] = {{0, 0, 0, 0}, {0, 0, 0, 0}, {1, 0, 0, 0}, {0, 1, 0, 0}, {2, 0, 0, 0}, {0, 2, 0, 0},
                                            {1, 2, 0, 0}, {0, 1, 2, 0}, {3, 0, 0, 0}, {0, 3, 0, 0}, {1, 3, 0, 0}, {0, 1, 3, 0},
                                            {2, 3, 0, 0}, {0, 2, 3, 0}, {1, 2, 3, 0}, {0, 1, 2, 3}};
@@ -855,6 +865,7 @@ LACEDRING_HOT_ uint32_t lacedring_select_(uint64_t bits, uint64_t counts, uint32
     const uint32_t in_byte = (uint32_t)(bits >> (8 * byte)) & 0xff, left = rank - ((uint32_t)((counts << 8) >> (8 * byte)) & 0xff);
     const uint32_t low = count[in_byte & 15], upper = left >= low;
     return 8 * byte + 4 * upper + of_four[upper ? in_byte >> 4 : in_byte & 15][upper ? left - low : left];
+#endif
 }
 
 /* `least`: so many there must be. */
