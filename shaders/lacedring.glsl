@@ -50,7 +50,7 @@
 #define LR_PACKED_SPLIT_FIELD 2u
 #define LR_PACKED_COUNT_FIELD 2u
 #define LR_PACKED_HEAD_BITS 18u
-#define LR_PACKED_MAX_RECORD 104u
+#define LR_PACKED_MAX_RECORD 160u
 #define LR_PACKED_PLAIN 255u
 #define LR_PACKED_PARTS 4u
 #define LR_PACKED_MAX_PART 200u
@@ -257,7 +257,7 @@ LrPackedRecord lr_packed_record(LrPackedLayout p, uint block, uint i) {
     uint middle = LR_PACKED_BLOCK / 2u - (1u << entry_bits >> 1);
     for (uint k = 1u; k <= member; ++k) {
         byte += length <= LR_PACKED_MAX_RECORD ? length
-                : length < LR_PACKED_PLAIN     ? 4u * (length - LR_PACKED_MAX_RECORD)
+                : length < LR_PACKED_PLAIN     ? 8u * (length - LR_PACKED_MAX_RECORD)
                                                : 3u * LR_PACKED_BLOCK / 8u * p.vertex_bits;
         uint both = lr_packed_take(head, length_bits + entry_bits);
         length = both & ((1u << length_bits) - 1u);

@@ -73,7 +73,7 @@ void mend_packed(Words& words) {
                                 count = std::min(view.triangles - k * LR_PACKED_BLOCK, LR_PACKED_BLOCK);
             if (k > block) at += entry_bits;
             records += length <= LR_PACKED_MAX_RECORD ? length
-                       : length < LR_PACKED_PLAIN     ? 4 * (length - LR_PACKED_MAX_RECORD)
+                       : length < LR_PACKED_PLAIN     ? 8 * (length - LR_PACKED_MAX_RECORD)
                                                       : (3 * count * width + 7) / 8;
         }
         byte = (at + 7) / 8 + records;

@@ -97,7 +97,7 @@ class Head:
         length = self.lengths[k]
         if length == PLAIN:
             return (3 * triangles * self.width + 7) // 8
-        return length if length <= 104 else 4 * (length - 104)
+        return length if length <= 160 else 8 * (length - 160)
 
     def linked(self, before, k):
         """The entry of block k, whose entry field is not 0, from that of the block before."""
@@ -317,7 +317,7 @@ def parts(data):
 def decode_parted(data, entry, turns, head, out):
     """Returns the entry of the first record."""
     end = 4 + sum(data[:4])
-    if max(data[:4]) > 200 or not end <= len(data) < end + 4 or any(data[end:]):
+    if max(data[:4]) > 200 or not end <= len(data) < end + 8 or any(data[end:]):
         raise BadFile("the records of a parted block are too long, or not followed by zeros up to a word")
     for i, part in enumerate(parts(data)):
         some = turns[64 * i:64 * i + 64]
@@ -357,7 +357,7 @@ def decode_group(data, turns, width, out):
             if any(some) or not bits.only_ones():
                 raise BadFile("a plain block has turns, or is not filled up with ones")
             before = None
-        elif length <= 104:
+        elif length <= 160:
             record = Record(block, entry, head, len(some))
             walk_record(record, some, out)
             before = record.entry
@@ -516,13 +516,13 @@ def find_record(words, header, t):
     entry = head.entry if own == 0 else None
     if own < k:
         if entry is None:
-            if head.lengths[own] > 104:
+            if head.lengths[own] > 160:
                 own_at += 4
             entry = Bits(data[own_at:own_at + 8]).entry(header.width)
         for j in range(own + 1, k + 1):
             entry = head.linked(entry, j)
     first = 256 * block
-    if head.lengths[k] > 104:
+    if head.lengths[k] > 160:
         part = (t - first) // 64
         record = list(parts(record))[part]
         first += 64 * part

@@ -80,8 +80,8 @@ def record(*events, entry=None, warts=()):
 
 def parted(*parts):
     data = bytes(map(len, parts)) + bytes(4 - len(parts)) + b"".join(parts)
-    data += bytes(-len(data) % 4)
-    return 104 + len(data) // 4, data
+    data += bytes(-len(data) % 8)
+    return 160 + len(data) // 8, data
 
 
 def plain(*corners):
@@ -236,12 +236,12 @@ class Packed(unittest.TestCase):
         second = record(event(0, FAR, "00" + vertex(50)), entry=(0, 40, 1))
         out = unpacked("0" * 65, (0, 67, 0), parted(b"", second))
         self.assertEqual((len(out), out[0], out[63], out[64]), (65, (0, 67, 66), (0, 4, 3), (0, 50, 40)))
-        for change in ({0: 1}, {1: 129}, {2: 1}, {-1: 1}):
+        for change in ({0: 1}, {1: 201}, {2: 1}, {-1: 1}):
             length, data = parted(b"", second)
-            data = bytearray(data + bytes(4) if -1 in change else data)
+            data = bytearray(data + bytes(8) if -1 in change else data)
             for at, value in change.items():
                 data[at] = value
-            self.refused("", "0" * 65, (0, 67, 0), (104 + len(data) // 4, bytes(data)))
+            self.refused("", "0" * 65, (0, 67, 0), (160 + len(data) // 8, bytes(data)))
 
     def test_links(self):
         turns = "10" * 128

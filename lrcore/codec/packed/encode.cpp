@@ -492,11 +492,11 @@ class GroupWriter {
             bodies_[begin + part] = static_cast<std::uint8_t>(bytes.size());
             bodies_.insert(bodies_.end(), bytes.begin(), bytes.end());
         }
-        const std::size_t quarters = (bodies_.size() - begin + 3) / 4;
-        if (fits && 4 * quarters < plain && quarters < LR_PACKED_PLAIN - LR_PACKED_MAX_RECORD) {
+        const std::size_t eighths = (bodies_.size() - begin + 7) / 8;
+        if (fits && 8 * eighths < plain && eighths < LR_PACKED_PLAIN - LR_PACKED_MAX_RECORD) {
             ++statistics_.parted_blocks;
-            bodies_.resize(begin + 4 * quarters, 0);
-            lengths_.push_back(LR_PACKED_MAX_RECORD + static_cast<std::uint32_t>(quarters));
+            bodies_.resize(begin + 8 * eighths, 0);
+            lengths_.push_back(LR_PACKED_MAX_RECORD + static_cast<std::uint32_t>(eighths));
             return;
         }
         bodies_.resize(begin);

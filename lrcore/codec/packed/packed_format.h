@@ -31,8 +31,8 @@
 
 // A block's length: up to LR_PACKED_MAX_RECORD bytes; or LR_PACKED_PLAIN, three vertices a triangle as they are; or
 // between these, LR_PACKED_PARTS records of so many triangles each, behind a byte with the length of each,
-// 4 * (length - LR_PACKED_MAX_RECORD) bytes in all.
-#define LR_PACKED_MAX_RECORD 104u
+// 8 * (length - LR_PACKED_MAX_RECORD) bytes in all.
+#define LR_PACKED_MAX_RECORD 160u
 #define LR_PACKED_PLAIN 255u
 #define LR_PACKED_PARTS 4u
 #define LR_PACKED_MAX_PART 200u

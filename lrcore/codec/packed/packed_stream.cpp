@@ -18,7 +18,7 @@ static_assert(LR_PACKED_MAGIC == magic::kPacked);
 static_assert(LR_PACKED_HEADER_WORDS == LACEDRING_PACKED_HEADER_WORDS && LR_PACKED_BLOCK == LACEDRING_PACKED_BLOCK);
 
 /// Describes the fault in English.
-std::string why(lacedring_status status, std::uint64_t where, std::span<const std::uint32_t> words) {
+std::string packed_fault(lacedring_status status, std::uint64_t where, std::span<const std::uint32_t> words) {
     using detail::message;
     switch (status) {
         case LACEDRING_STATUS_SHORT:
@@ -46,8 +46,8 @@ std::string why(lacedring_status status, std::uint64_t where, std::span<const st
     }
 }
 
-Error malformed(lacedring_status status, std::uint64_t where, std::span<const std::uint32_t> words) {
-    return {ErrorCode::malformed, "packed stream: " + why(status, where, words)};
+Error bad_packed(lacedring_status status, std::uint64_t where, std::span<const std::uint32_t> words) {
+    return {ErrorCode::malformed, "packed stream: " + packed_fault(status, where, words)};
 }
 
 constexpr std::uint32_t rounded_up(std::uint32_t value, std::uint32_t unit) {
@@ -91,7 +91,7 @@ Result<PackedView> view_packed(std::span<const std::uint32_t> words) {
     lacedring_packed packed;
     std::uint64_t where = 0;
     const lacedring_status status = lacedring_packed_open(words.data(), words.size(), &packed, &where);
-    if (status != LACEDRING_STATUS_OK) return malformed(status, where, words);
+    if (status != LACEDRING_STATUS_OK) return bad_packed(status, where, words);
     return PackedView{words, packed.vertices, packed.triangles, packed.vertex_bits};
 }
 
@@ -99,11 +99,11 @@ Result<PackedView> validate_packed(std::span<const std::uint32_t> words) {
     const Result<PackedView> view = view_packed(words);
     if (!view) return view;
     // The checksum is computed here, several times as fast as by the C file's small table.
-    if (words[LR_PACKED_WORD_CHECKSUM] != packed_checksum(words)) return malformed(LACEDRING_STATUS_CHECKSUM, 0, words);
+    if (words[LR_PACKED_WORD_CHECKSUM] != packed_checksum(words)) return bad_packed(LACEDRING_STATUS_CHECKSUM, 0, words);
     const lacedring_packed packed = detail::as_c(*view);
     std::uint64_t where = 0;
     const lacedring_status status = lacedring_packed_check(&packed, &where);
-    if (status != LACEDRING_STATUS_OK) return malformed(status, where, words);
+    if (status != LACEDRING_STATUS_OK) return bad_packed(status, where, words);
     return view;
 }
 

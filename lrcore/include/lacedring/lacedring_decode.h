@@ -1,5 +1,5 @@
-/* Decodes lean LR index streams: one vertex reference per triangle becomes an index list. C99 or C++, one file, no
-   library, no allocation; what lrcore decodes with. docs/lean-format.md has the format.
+/* Decodes LacedRing's lean and packed streams into index lists. C99 or C++, one file, no library, no allocation; what
+   lrcore decodes with. docs/lean-format.md and docs/packed-format.md have the formats.
 
    In one .c or .cpp file:
 
@@ -120,7 +120,8 @@ void lacedring_packed_triangles_u16(const struct lacedring_packed* packed, uint1
 /* Blocks [block, end): triangles [256 * block, 256 * end) or what the last block has. */
 void lacedring_packed_blocks_u32(const struct lacedring_packed* packed, uint32_t block, uint32_t end, uint32_t* indices);
 
-/* Any triangle, on its own: at most 48 words are read, beside the header. */
+/* Any triangle, on its own, in a few popcounts: at most 8 words of turns, 36 bytes of its group's head and 200 bytes of
+   its record are read. */
 void lacedring_packed_triangle(const struct lacedring_packed* packed, uint32_t triangle, uint32_t out[3]);
 
 #ifdef __cplusplus
@@ -369,7 +370,7 @@ void lacedring_lean_triangles_u16(const struct lacedring_lean* lean, uint16_t* i
 /* Packed streams: docs/packed-format.md. */
 
 #define LACEDRING_PACKED_GROUP_ 16u
-#define LACEDRING_PACKED_MAX_RECORD_ 104u
+#define LACEDRING_PACKED_MAX_RECORD_ 160u
 #define LACEDRING_PACKED_PLAIN_ 255u
 #define LACEDRING_PACKED_PART_ 64u
 
@@ -518,7 +519,7 @@ static int lacedring_open_group_(const struct lacedring_packed* p, uint32_t bloc
 
 static uint32_t lacedring_block_bytes_(const struct lacedring_packed* p, uint32_t length, uint32_t triangles) {
     if (length <= LACEDRING_PACKED_MAX_RECORD_) return length;
-    if (length < LACEDRING_PACKED_PLAIN_) return 4 * (length - LACEDRING_PACKED_MAX_RECORD_);
+    if (length < LACEDRING_PACKED_PLAIN_) return 8 * (length - LACEDRING_PACKED_MAX_RECORD_);
     return (3 * triangles * p->vertex_bits + 7) / 8;
 }
 
@@ -1042,7 +1043,7 @@ static int lacedring_unused_clear_(const struct lacedring_packed* p, const struc
         if (bytes[i] > LACEDRING_PACKED_MAX_PART_ || (i * LACEDRING_PACKED_PART_ >= left && bytes[i] != 0)) return 0;
         used += bytes[i];
     }
-    if (used > b->bytes || b->bytes - used > 3) return 0;
+    if (used > b->bytes || b->bytes - used > 7) return 0;
     for (i = used; i < b->bytes; ++i) {
         if (bytes[i] != 0) return 0;
     }
