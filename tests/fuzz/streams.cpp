@@ -46,11 +46,11 @@ void mend_packed(Words& words) {
     view.vertices = words[LR_PACKED_WORD_VERTICES];
     view.triangles = words[LR_PACKED_WORD_TRIANGLES];
     if (view.triangles == 0 || view.triangles > 8 * 4 * words.size()) return;  // a turn bit each
+    const std::uint32_t width = packed_vertex_bits(view.vertices), blocks = view.blocks();
+    if (view.groups_word() > words.size()) return;
     if (const std::uint32_t last = view.triangles % 32; last != 0) {
         words[LR_PACKED_HEADER_WORDS + view.triangles / 32] &= (1U << last) - 1;
     }
-    const std::uint32_t width = packed_vertex_bits(view.vertices), blocks = view.blocks();
-    if (view.groups_word() > words.size()) return;
     const std::uint64_t bits = 32 * (words.size() - view.groups_word());
     std::uint64_t at = 0, byte = 0;
     const auto take = [&](std::uint32_t count) {

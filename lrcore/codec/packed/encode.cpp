@@ -396,21 +396,22 @@ class GroupWriter {
     }
 
   private:
-    /// A reader takes 31 ones at most.
+    /// A reader takes 31 ones at most. With a low bit or more, the records of parts, which are planned later, have no more.
     static std::uint64_t rice_bits(std::uint32_t gap, std::uint32_t low) {
-        return gap >> low > 31 ? UINT32_MAX : (gap >> low) + 1 + low;
+        static_assert((LR_PACKED_PART - 1) >> 1 <= 31);
+        return low == 0 || gap >> low > 31 ? UINT32_MAX : std::uint64_t{gap >> low} + 1 + low;
     }
 
     void choose_codes() {
         codes_.gap_bits = cheapest(8, [&](std::uint32_t low) {
-            std::uint64_t bits = 0;
+            std::uint64_t bits = low == 0 ? 1 : 0;
             for (const PackedRecordPlan& r : records_) {
                 for_each_gap(r, [&](const PackedEvent&, std::uint32_t gap) { bits += rice_bits(gap, low); });
             }
             return bits;
         });
         codes_.wart_bits = cheapest(8, [&](std::uint32_t low) {
-            std::uint64_t bits = 0;
+            std::uint64_t bits = low == 0 ? 1 : 0;
             for (const PackedRecordPlan& r : records_) {
                 for (const std::uint32_t gap : r.wart_gaps) bits += rice_bits(gap, low);
             }
