@@ -57,7 +57,8 @@ Result<DecodePlan> PackedDecoder::plan(Descriptors& descriptors, const GpuMesh& 
     for (std::uint64_t block = 0, blocks = 0; block < view.blocks(); block += blocks) {
         const auto group_of = [](std::uint64_t k) { return k / LR_PACKED_GROUP; };
         const auto groups = [&] {
-            return Window(group_word(view, group_of(block)), group_word(view, group_of(block + blocks - 1) + 1) + 1, view);
+            return Window(group_word(view, group_of(block)), group_word(view, group_of(block + blocks - 1) + 1) + 1,
+                          view);
         };
         blocks = std::min(most, view.blocks() - block);
         while (blocks > 1 && groups().bytes() > mesh.max_range) blocks /= 2;

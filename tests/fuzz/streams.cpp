@@ -8,7 +8,6 @@
 #include "lacedring/streams.hpp"
 #include "lrcore/base/crc32.h"
 #include "lrcore/codec/lean/lean_format.h"
-#include "lrcore/codec/packed/packed_format.h"
 #include "lrcore/codec/packed/packed_c.h"
 #include "lrcore/codec/packed/packed_format.h"
 #include "tests/fuzz/use.h"

@@ -9,7 +9,6 @@
 #include "lacedring/mesh_files.hpp"
 #include "lacedring/streams.hpp"
 #include "lrcore/codec/packed/packed_format.h"
-#include "lrcore/codec/packed/packed_format.h"
 #include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 

@@ -45,7 +45,8 @@ void decode_packed(const PackedView& view, std::span<std::uint32_t> indices, uns
 
 void decode_packed_block(const PackedView& view, std::uint32_t block, std::span<std::uint32_t> indices) {
     assert(block < view.blocks());
-    assert(indices.size() >= std::size_t{3} * std::min(view.triangles - block * LACEDRING_PACKED_BLOCK, LACEDRING_PACKED_BLOCK));
+    assert(indices.size() >=
+           std::size_t{3} * std::min(view.triangles - block * LACEDRING_PACKED_BLOCK, LACEDRING_PACKED_BLOCK));
     const lacedring_packed packed = detail::as_c(view);
     lacedring_packed_blocks_u32(&packed, block, block + 1, indices.data());
 }

@@ -1,5 +1,5 @@
-// Writes the steps of walk_corridors as turn bits, events and warts. The writer keeps the state that a reader of the block
-// has, and says in events whatever the next triangle needs and that state does not give.
+// Writes the steps of walk_corridors as turn bits, events and warts. The writer keeps the state that a reader of the
+// block has, and says in events whatever the next triangle needs and that state does not give.
 
 #include <algorithm>
 #include <array>
@@ -121,7 +121,8 @@ class Planner {
     }
 
     PackedEvent& event(std::uint32_t i, std::uint32_t code) {
-        out_->events.push_back({static_cast<std::uint8_t>(i - first_), static_cast<std::uint8_t>(code), 0, false, 0, 0});
+        out_->events.push_back(
+            {static_cast<std::uint8_t>(i - first_), static_cast<std::uint8_t>(code), 0, false, 0, 0});
         return out_->events.back();
     }
 
@@ -309,7 +310,7 @@ class Planner {
     std::vector<std::uint32_t> number_, step_;
     std::uint32_t vertex_bits_;
     std::uint32_t* turns_;
-    bool bitmap_ = false;                     // does FLIPS say which triangles are flipped?
+    bool bitmap_ = false;                    // does FLIPS say which triangles are flipped?
     bool base_ = false, last_base_ = false;  // the flip that its bits are relative to
     PackedRecordPlan* out_ = nullptr;
     std::uint32_t first_ = 0, end_ = 0;
@@ -361,7 +362,8 @@ class GroupWriter {
 
     /// Appends the group that begins at a block.
     void write(std::uint32_t block, std::vector<std::uint8_t>& out) {
-        const std::uint32_t end = std::min(block + LR_PACKED_GROUP, (triangles_ + LR_PACKED_BLOCK - 1) / LR_PACKED_BLOCK);
+        const std::uint32_t end =
+            std::min(block + LR_PACKED_GROUP, (triangles_ + LR_PACKED_BLOCK - 1) / LR_PACKED_BLOCK);
         records_.clear();
         for (std::uint32_t k = block; k < end; ++k) {
             const std::uint32_t first = k * LR_PACKED_BLOCK;
@@ -396,7 +398,8 @@ class GroupWriter {
     }
 
   private:
-    /// A reader takes 31 ones at most. With a low bit or more, the records of parts, which are planned later, have no more.
+    /// A reader takes 31 ones at most. With a low bit or more, the records of parts, which are planned later, have no
+    /// more.
     static std::uint64_t rice_bits(std::uint32_t gap, std::uint32_t low) {
         static_assert((LR_PACKED_PART - 1) >> 1 <= 31);
         return low == 0 || gap >> low > 31 ? UINT32_MAX : std::uint64_t{gap >> low} + 1 + low;
@@ -439,7 +442,8 @@ class GroupWriter {
 
     /// A block whose (a, b) is what is left of the block before it needs no entry of its own, only a step of a.
     static std::optional<std::int32_t> entry_step(const PackedRecordPlan& before, const PackedRecordPlan& r) {
-        if (r.reversed != before.reversed || r.entry.b - r.entry.a != before.entry.b - before.entry.a - LR_PACKED_BLOCK) {
+        if (r.reversed != before.reversed ||
+            r.entry.b - r.entry.a != before.entry.b - before.entry.a - LR_PACKED_BLOCK) {
             return std::nullopt;
         }
         const auto step = static_cast<std::int32_t>(r.entry.a - before.entry.a - LR_PACKED_BLOCK / 2);
@@ -486,8 +490,9 @@ class GroupWriter {
         bool fits = true;
         for (std::uint32_t part = 0; part < LR_PACKED_PARTS && first + part * LR_PACKED_PART < end; ++part) {
             const std::uint32_t from = first + part * LR_PACKED_PART;
-            const PackedRecordPlan record = planner_.plan(
-                from, std::min(from + LR_PACKED_PART, end), part == 0 ? std::optional(records_[k].reversed) : std::nullopt);
+            const PackedRecordPlan record =
+                planner_.plan(from, std::min(from + LR_PACKED_PART, end),
+                              part == 0 ? std::optional(records_[k].reversed) : std::nullopt);
             const std::vector<std::uint8_t>& bytes = write_record(record, part > 0 || has_entry);
             fits = fits && bytes.size() <= LR_PACKED_MAX_PART;
             bodies_[begin + part] = static_cast<std::uint8_t>(bytes.size());

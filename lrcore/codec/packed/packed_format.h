@@ -44,9 +44,11 @@
 #define LR_PACKED_BESIDE 1u  // before its triangle: a corridor that begins where the one before began or ended
 #define LR_PACKED_START 2u   // before its triangle: another corridor
 #define LR_PACKED_FAR 3u     // at its triangle: any third vertex
-#define LR_PACKED_JUMP 4u    // at its triangle: a third vertex on the chain, and no corridor up to it, or of so many triangles
-#define LR_PACKED_TURN 5u    // before its triangle: the orientation changes
-#define LR_PACKED_FLIPS 6u   // before its triangle: a bit for each of the record's triangles, whether it is the other way round
+#define LR_PACKED_JUMP \
+    4u  // at its triangle: a third vertex on the chain, and no corridor up to it, or of so many triangles
+#define LR_PACKED_TURN 5u  // before its triangle: the orientation changes
+#define LR_PACKED_FLIPS \
+    6u  // before its triangle: a bit for each of the record's triangles, whether it is the other way round
 
 // What a corridor's start says, after its code: so many ones before the zero.
 #define LR_PACKED_START_OTHER 0u  // the other side of the polygon begun last

@@ -99,7 +99,8 @@ Result<PackedView> validate_packed(std::span<const std::uint32_t> words) {
     const Result<PackedView> view = view_packed(words);
     if (!view) return view;
     // The checksum is computed here, several times as fast as by the C file's small table.
-    if (words[LR_PACKED_WORD_CHECKSUM] != packed_checksum(words)) return bad_packed(LACEDRING_STATUS_CHECKSUM, 0, words);
+    if (words[LR_PACKED_WORD_CHECKSUM] != packed_checksum(words))
+        return bad_packed(LACEDRING_STATUS_CHECKSUM, 0, words);
     const lacedring_packed packed = detail::as_c(*view);
     std::uint64_t where = 0;
     const lacedring_status status = lacedring_packed_check(&packed, &where);

@@ -45,8 +45,8 @@ struct PackedStatistics {
     std::uint64_t event_bits[8] = {};  ///< with their gaps
     std::uint32_t warts = 0;
     std::uint64_t wart_bits = 0;
-    std::uint32_t parted_blocks = 0;   ///< whose events are too many for one record
-    std::uint32_t plain_blocks = 0;    ///< stored as three vertices a triangle
+    std::uint32_t parted_blocks = 0;  ///< whose events are too many for one record
+    std::uint32_t plain_blocks = 0;   ///< stored as three vertices a triangle
 };
 
 /// Counts of triangles by kind in LR tables, standard or bit-efficient. Paper: LR 2011, section 8.

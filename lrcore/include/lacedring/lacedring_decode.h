@@ -105,8 +105,8 @@ struct lacedring_packed {
     size_t group_bytes;
 };
 
-/* As for lean streams: open reads the header and checks sizes, constant time; check is all that decoders rely on but the
-   checksum, linear time; validate does all. 9 KB of stack. */
+/* As for lean streams: open reads the header and checks sizes, constant time; check is all that decoders rely on but
+   the checksum, linear time; validate does all. 9 KB of stack. */
 enum lacedring_status lacedring_packed_open(const uint32_t* words, size_t count, struct lacedring_packed* packed,
                                             uint64_t* where);
 enum lacedring_status lacedring_packed_check(const struct lacedring_packed* packed, uint64_t* where);
@@ -118,7 +118,8 @@ void lacedring_packed_triangles_u32(const struct lacedring_packed* packed, uint3
 void lacedring_packed_triangles_u16(const struct lacedring_packed* packed, uint16_t* indices);
 
 /* Blocks [block, end): triangles [256 * block, 256 * end) or what the last block has. */
-void lacedring_packed_blocks_u32(const struct lacedring_packed* packed, uint32_t block, uint32_t end, uint32_t* indices);
+void lacedring_packed_blocks_u32(const struct lacedring_packed* packed, uint32_t block, uint32_t end,
+                                 uint32_t* indices);
 
 /* Any triangle, on its own, in a few popcounts: at most 8 words of turns, 36 bytes of its group's head and 200 bytes of
    its record are read. */
@@ -374,8 +375,16 @@ void lacedring_lean_triangles_u16(const struct lacedring_lean* lean, uint16_t* i
 #define LACEDRING_PACKED_PLAIN_ 255u
 #define LACEDRING_PACKED_PART_ 64u
 
-enum { LACEDRING_SPLIT_, LACEDRING_BESIDE_, LACEDRING_START_, LACEDRING_FAR_, LACEDRING_JUMP_, LACEDRING_TURN_,
-       LACEDRING_FLIPS_, LACEDRING_NO_EVENT_ };
+enum {
+    LACEDRING_SPLIT_,
+    LACEDRING_BESIDE_,
+    LACEDRING_START_,
+    LACEDRING_FAR_,
+    LACEDRING_JUMP_,
+    LACEDRING_TURN_,
+    LACEDRING_FLIPS_,
+    LACEDRING_NO_EVENT_
+};
 
 /* What runs for every event. Where speed is wanted, compilers keep its state in registers only if it is inlined. */
 #if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && !defined(LACEDRING_PLAIN)
@@ -524,7 +533,8 @@ static uint32_t lacedring_block_bytes_(const struct lacedring_packed* p, uint32_
 }
 
 /* The next block of the group. 0: it goes on from a block that says nothing of where. */
-static int lacedring_next_block_(const struct lacedring_packed* p, struct lacedring_group_* g, struct lacedring_block_* b) {
+static int lacedring_next_block_(const struct lacedring_packed* p, struct lacedring_group_* g,
+                                 struct lacedring_block_* b) {
     const uint32_t first = g->block * LACEDRING_PACKED_BLOCK, left = p->triangles - first;
     const uint32_t later = g->block % LACEDRING_PACKED_GROUP_ != 0;
     uint32_t entry = 0;
@@ -679,7 +689,9 @@ static void lacedring_begin_(struct lacedring_state_* s, const struct lacedring_
 }
 
 /* Triangles of a polygon that is entered across (a, b) until it is finished. */
-LACEDRING_HOT_ uint32_t lacedring_left_(uint32_t a, uint32_t b) { return b - a == 1 ? UINT32_MAX : b - a - 1; }
+LACEDRING_HOT_ uint32_t lacedring_left_(uint32_t a, uint32_t b) {
+    return b - a == 1 ? UINT32_MAX : b - a - 1;
+}
 
 /* Where nothing else follows a finished polygon: the one behind the one begun last, and as long. */
 static void lacedring_repeat_(struct lacedring_state_* s, int inside) {
@@ -693,9 +705,9 @@ static void lacedring_repeat_(struct lacedring_state_* s, int inside) {
 }
 
 /* An event that gives its triangle's third vertex: sets it, the edge that comes next, and the edge that comes when
-   *count triangles more are through; 0: none does. */
-LACEDRING_HOT_ uint32_t lacedring_third_(struct lacedring_state_* s, const struct lacedring_event_* e, uint32_t turn, uint32_t rest[2],
-                                 uint32_t* count) {
+ *count triangles more are through; 0: none does. */
+LACEDRING_HOT_ uint32_t lacedring_third_(struct lacedring_state_* s, const struct lacedring_event_* e, uint32_t turn,
+                                         uint32_t rest[2], uint32_t* count) {
     const uint32_t a = s->a, b = s->b;
     const uint32_t x = e->code == LACEDRING_FAR_ ? e->v : turn ? a + e->v : b - e->v;
     const int both = e->code == LACEDRING_SPLIT_ || (e->code == LACEDRING_JUMP_ && e->choice);
@@ -719,33 +731,39 @@ LACEDRING_HOT_ void lacedring_put_(uint32_t* out, uint32_t a, uint32_t x, uint32
 }
 
 #ifndef __OPTIMIZE_SIZE__
-/* Four turns at once: twelve indices, each a or (mask) b with something added; then a grows by `ups`. b - a becomes smaller
-   by four whatever the turns. */
+/* Four turns at once: twelve indices, each a or (mask) b with something added; then a grows by `ups`. b - a becomes
+   smaller by four whatever the turns. */
 struct lacedring_nibble_ {
     uint32_t add[12], mask[12], ups;
 };
 
 /* Before triangle k of four, a has grown by UP and b by UP - k. Fields in the order of a, b, x or a, x, b. */
-#define LACEDRING_TURN_(bits, k) (((bits) >> (k)) & 1u)
-#define LACEDRING_UP_(bits, k) ((LACEDRING_TURN_(bits, 0) & ((k) > 0)) + (LACEDRING_TURN_(bits, 1) & ((k) > 1)) + (LACEDRING_TURN_(bits, 2) & ((k) > 2)))
+#define LACEDRING_BIT_(bits, k) (((bits) >> (k)) & 1u)
+#define LACEDRING_UP_(bits, k)                                                       \
+    ((LACEDRING_BIT_(bits, 0) & ((k) > 0)) + (LACEDRING_BIT_(bits, 1) & ((k) > 1)) + \
+     (LACEDRING_BIT_(bits, 2) & ((k) > 2)))
 #define LACEDRING_B_(bits, k) (LACEDRING_UP_(bits, k) - (k))
-#define LACEDRING_X_(bits, k) (LACEDRING_UP_(bits, k) + (LACEDRING_TURN_(bits, k) ? 1u : 0u - (k) - 1u))
-#define LACEDRING_XM_(bits, k) (LACEDRING_TURN_(bits, k) ? 0u : UINT32_MAX)
+#define LACEDRING_X_(bits, k) (LACEDRING_UP_(bits, k) + (LACEDRING_BIT_(bits, k) ? 1u : 0u - (k)-1u))
+#define LACEDRING_XM_(bits, k) (LACEDRING_BIT_(bits, k) ? 0u : UINT32_MAX)
 #define LACEDRING_ABX_(bits, k) LACEDRING_UP_(bits, k), LACEDRING_B_(bits, k), LACEDRING_X_(bits, k)
 #define LACEDRING_AXB_(bits, k) LACEDRING_UP_(bits, k), LACEDRING_X_(bits, k), LACEDRING_B_(bits, k)
 #define LACEDRING_ABXM_(bits, k) 0u, UINT32_MAX, LACEDRING_XM_(bits, k)
 #define LACEDRING_AXBM_(bits, k) 0u, LACEDRING_XM_(bits, k), UINT32_MAX
-#define LACEDRING_FOUR_(of, bits) {of(bits, 0u), of(bits, 1u), of(bits, 2u), of(bits, 3u)}
-#define LACEDRING_NIBBLE_(adds, masks, bits)                      \
-    {LACEDRING_FOUR_(adds, bits), LACEDRING_FOUR_(masks, bits),   \
-     LACEDRING_UP_(bits, 3u) + LACEDRING_TURN_(bits, 3)}
-#define LACEDRING_NIBBLES_(adds, masks)                                                                            \
-    {LACEDRING_NIBBLE_(adds, masks, 0u),  LACEDRING_NIBBLE_(adds, masks, 1u),  LACEDRING_NIBBLE_(adds, masks, 2u),  \
-     LACEDRING_NIBBLE_(adds, masks, 3u),  LACEDRING_NIBBLE_(adds, masks, 4u),  LACEDRING_NIBBLE_(adds, masks, 5u),  \
-     LACEDRING_NIBBLE_(adds, masks, 6u),  LACEDRING_NIBBLE_(adds, masks, 7u),  LACEDRING_NIBBLE_(adds, masks, 8u),  \
-     LACEDRING_NIBBLE_(adds, masks, 9u),  LACEDRING_NIBBLE_(adds, masks, 10u), LACEDRING_NIBBLE_(adds, masks, 11u), \
-     LACEDRING_NIBBLE_(adds, masks, 12u), LACEDRING_NIBBLE_(adds, masks, 13u), LACEDRING_NIBBLE_(adds, masks, 14u), \
-     LACEDRING_NIBBLE_(adds, masks, 15u)}
+#define LACEDRING_FOUR_(of, bits) \
+    { of(bits, 0u), of(bits, 1u), of(bits, 2u), of(bits, 3u) }
+#define LACEDRING_NIBBLE_(adds, masks, bits) \
+    { LACEDRING_FOUR_(adds, bits), LACEDRING_FOUR_(masks, bits), LACEDRING_UP_(bits, 3u) + LACEDRING_BIT_(bits, 3) }
+#define LACEDRING_NIBBLES_(adds, masks)                                                                             \
+    {                                                                                                               \
+        LACEDRING_NIBBLE_(adds, masks, 0u), LACEDRING_NIBBLE_(adds, masks, 1u), LACEDRING_NIBBLE_(adds, masks, 2u), \
+            LACEDRING_NIBBLE_(adds, masks, 3u), LACEDRING_NIBBLE_(adds, masks, 4u),                                 \
+            LACEDRING_NIBBLE_(adds, masks, 5u), LACEDRING_NIBBLE_(adds, masks, 6u),                                 \
+            LACEDRING_NIBBLE_(adds, masks, 7u), LACEDRING_NIBBLE_(adds, masks, 8u),                                 \
+            LACEDRING_NIBBLE_(adds, masks, 9u), LACEDRING_NIBBLE_(adds, masks, 10u),                                \
+            LACEDRING_NIBBLE_(adds, masks, 11u), LACEDRING_NIBBLE_(adds, masks, 12u),                               \
+            LACEDRING_NIBBLE_(adds, masks, 13u), LACEDRING_NIBBLE_(adds, masks, 14u),                               \
+            LACEDRING_NIBBLE_(adds, masks, 15u)                                                                     \
+    }
 static const struct lacedring_nibble_ lacedring_nibbles_[2][16] = {LACEDRING_NIBBLES_(LACEDRING_ABX_, LACEDRING_ABXM_),
                                                                    LACEDRING_NIBBLES_(LACEDRING_AXB_, LACEDRING_AXBM_)};
 #endif
@@ -764,7 +782,9 @@ struct lacedring_decoder_ {
     uint32_t thirds[8]; /* an event gives its third vertex */
 };
 
-LACEDRING_HOT_ uint32_t lacedring_turn_(const struct lacedring_decoder_* d, uint32_t i) { return d->turns[i / 8] >> (i % 8) & 1; }
+LACEDRING_HOT_ uint32_t lacedring_turn_(const struct lacedring_decoder_* d, uint32_t i) {
+    return d->turns[i / 8] >> (i % 8) & 1;
+}
 
 /* Triangles [d->i, end), by their turns alone. Writes four at a time where there is room: what is too much is written
    again. */
@@ -856,21 +876,23 @@ LACEDRING_HOT_ uint32_t lacedring_select_(uint64_t bits, uint64_t counts, uint32
     for (; rank > 0; --rank) bits &= bits - 1;
     return lacedring_ones_(~bits & (bits - 1));
 #else
-    static const uint8_t of_four[16][4] = {{0, 0, 0, 0}, {0, 0, 0, 0}, {1, 0, 0, 0}, {0, 1, 0, 0}, {2, 0, 0, 0}, {0, 2, 0, 0},
-                                           {1, 2, 0, 0}, {0, 1, 2, 0}, {3, 0, 0, 0}, {0, 3, 0, 0}, {1, 3, 0, 0}, {0, 1, 3, 0},
-                                           {2, 3, 0, 0}, {0, 2, 3, 0}, {1, 2, 3, 0}, {0, 1, 2, 3}};
+    static const uint8_t of_four[16][4] = {
+        {0, 0, 0, 0}, {0, 0, 0, 0}, {1, 0, 0, 0}, {0, 1, 0, 0}, {2, 0, 0, 0}, {0, 2, 0, 0}, {1, 2, 0, 0}, {0, 1, 2, 0},
+        {3, 0, 0, 0}, {0, 3, 0, 0}, {1, 3, 0, 0}, {0, 1, 3, 0}, {2, 3, 0, 0}, {0, 2, 3, 0}, {1, 2, 3, 0}, {0, 1, 2, 3}};
     static const uint8_t count[16] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
     const uint64_t each = UINT64_C(0x0101010101010101), high = each << 7;
     const uint64_t below = (((rank * each) | high) - counts) & high; /* bytes that end at or before it */
     const uint32_t byte = (uint32_t)(((below >> 7) * each) >> 56);
-    const uint32_t in_byte = (uint32_t)(bits >> (8 * byte)) & 0xff, left = rank - ((uint32_t)((counts << 8) >> (8 * byte)) & 0xff);
+    const uint32_t in_byte = (uint32_t)(bits >> (8 * byte)) & 0xff,
+                   left = rank - ((uint32_t)((counts << 8) >> (8 * byte)) & 0xff);
     const uint32_t low = count[in_byte & 15], upper = left >= low;
     return 8 * byte + 4 * upper + of_four[upper ? in_byte >> 4 : in_byte & 15][upper ? left - low : left];
 #endif
 }
 
 /* `least`: so many there must be. */
-static int lacedring_warts_(const struct lacedring_decoder_* d, struct lacedring_bits_ bits, uint32_t low, uint32_t least) {
+static int lacedring_warts_(const struct lacedring_decoder_* d, struct lacedring_bits_ bits, uint32_t low,
+                            uint32_t least) {
     uint64_t candidates = 0, counts = 0;
     uint32_t begin = 0, word = 0, rank = 0, count = 0, last = UINT32_MAX - 1, warts = 0;
     for (;;) {
@@ -904,10 +926,10 @@ static int lacedring_warts_(const struct lacedring_decoder_* d, struct lacedring
     }
 }
 
-/* Decodes a record. 0: it says something impossible, and some of `out` is not written. Whatever it says, nothing else is
-   written or read; vertices may be out of range. */
-static int lacedring_expand_record_(const struct lacedring_packed* p, const struct lacedring_group_* g, struct lacedring_record_* r,
-                             int explicit_entry, uint32_t* out) {
+/* Decodes a record. 0: it says something impossible, and some of `out` is not written. Whatever it says, nothing else
+   is written or read; vertices may be out of range. */
+static int lacedring_expand_record_(const struct lacedring_packed* p, const struct lacedring_group_* g,
+                                    struct lacedring_record_* r, int explicit_entry, uint32_t* out) {
     struct lacedring_decoder_ d;
     struct lacedring_event_ e = {0, 0, 0, 0, 0, 0, 0};
     uint8_t turns[40] = {0};
@@ -970,7 +992,9 @@ static int lacedring_expand_record_(const struct lacedring_packed* p, const stru
         }
         if (d.i < d.triangles) d.fresh[d.i / 32] |= UINT32_C(1) << d.i % 32;
     }
-    if (!lacedring_advance_(&d, d.triangles) || !lacedring_warts_(&d, r->bits, g->wart_bits, explicit_entry || events > 0 ? 0 : 1)) return 0;
+    if (!lacedring_advance_(&d, d.triangles) ||
+        !lacedring_warts_(&d, r->bits, g->wart_bits, explicit_entry || events > 0 ? 0 : 1))
+        return 0;
     if (flips) {
         struct lacedring_bits_ bits = r->bits;
         uint32_t i;
@@ -985,19 +1009,22 @@ static int lacedring_expand_record_(const struct lacedring_packed* p, const stru
     return 1;
 }
 
-static int lacedring_expand_block_(const struct lacedring_packed* p, struct lacedring_group_* g, struct lacedring_block_* b,
-                            uint32_t* out) {
+static int lacedring_expand_block_(const struct lacedring_packed* p, struct lacedring_group_* g,
+                                   struct lacedring_block_* b, uint32_t* out) {
     uint32_t i, left = p->triangles - b->record.first;
     if (left > LACEDRING_PACKED_BLOCK) left = LACEDRING_PACKED_BLOCK;
     if (b->length == LACEDRING_PACKED_PLAIN_) {
         for (i = 0; i < left; ++i) lacedring_plain_(p, b, i, out + (size_t)3 * i);
         return 1;
     }
-    if (b->length <= LACEDRING_PACKED_MAX_RECORD_) return lacedring_expand_record_(p, g, &b->record, (int)b->explicit_entry, out);
+    if (b->length <= LACEDRING_PACKED_MAX_RECORD_)
+        return lacedring_expand_record_(p, g, &b->record, (int)b->explicit_entry, out);
     for (i = 0; i * LACEDRING_PACKED_PART_ < left; ++i) {
         struct lacedring_record_ r;
         lacedring_part_(p, b, i, &r);
-        if (!lacedring_expand_record_(p, g, &r, i > 0 || b->explicit_entry, out + (size_t)3 * i * LACEDRING_PACKED_PART_)) return 0;
+        if (!lacedring_expand_record_(p, g, &r, i > 0 || b->explicit_entry,
+                                      out + (size_t)3 * i * LACEDRING_PACKED_PART_))
+            return 0;
     }
     return 1;
 }
@@ -1021,7 +1048,8 @@ enum lacedring_status lacedring_packed_open(const uint32_t* words, size_t count,
     p->turns = words + LACEDRING_PACKED_HEADER_WORDS;
     p->table = p->turns + turns;
     p->groups = (const uint8_t*)(p->table + (groups > 0 ? groups - 1 : 0));
-    p->group_bytes = 4 * (count - LACEDRING_PACKED_HEADER_WORDS - (size_t)turns - (size_t)(groups > 0 ? groups - 1 : 0));
+    p->group_bytes =
+        4 * (count - LACEDRING_PACKED_HEADER_WORDS - (size_t)turns - (size_t)(groups > 0 ? groups - 1 : 0));
     return LACEDRING_STATUS_OK;
 }
 
@@ -1158,8 +1186,8 @@ static void lacedring_skip_(struct lacedring_state_* s, const uint32_t* turns, u
 }
 
 /* One triangle of a record, in a few popcounts, whatever comes before it. */
-static void lacedring_seek_(const struct lacedring_packed* p, const struct lacedring_group_* g, struct lacedring_record_* r,
-                            uint32_t i, uint32_t t[3]) {
+static void lacedring_seek_(const struct lacedring_packed* p, const struct lacedring_group_* g,
+                            struct lacedring_record_* r, uint32_t i, uint32_t t[3]) {
     struct lacedring_state_ s;
     struct lacedring_event_ e = {0, 0, 0, 0, 0, 0, 0};
     uint32_t at = 0, skip = 0, k, events = 0, flip = 0, turn = r->turns[i / 32] >> (i % 32) & 1, x, rest[2], count;
@@ -1196,7 +1224,7 @@ static void lacedring_seek_(const struct lacedring_packed* p, const struct laced
             }
             at = here + 1;
             if (count == 0 || count >= r->triangles - at) continue; /* no scope */
-            if (i - at >= count) { /* behind the scope */
+            if (i - at >= count) {                                  /* behind the scope */
                 at += count;
                 skip = at;
                 s.a = rest[0];
@@ -1264,6 +1292,24 @@ void lacedring_packed_triangle(const struct lacedring_packed* p, uint32_t triang
 #undef LACEDRING_WART_
 #undef LACEDRING_CLOSE_
 #undef LACEDRING_FLIP_
+#undef LACEDRING_PACKED_GROUP_
+#undef LACEDRING_PACKED_MAX_RECORD_
+#undef LACEDRING_PACKED_PLAIN_
+#undef LACEDRING_PACKED_PART_
+#undef LACEDRING_HOT_
+#undef LACEDRING_PACKED_MAX_PART_
+#undef LACEDRING_BIT_
+#undef LACEDRING_UP_
+#undef LACEDRING_B_
+#undef LACEDRING_X_
+#undef LACEDRING_XM_
+#undef LACEDRING_ABX_
+#undef LACEDRING_AXB_
+#undef LACEDRING_ABXM_
+#undef LACEDRING_AXBM_
+#undef LACEDRING_FOUR_
+#undef LACEDRING_NIBBLE_
+#undef LACEDRING_NIBBLES_
 #ifdef __cplusplus
 }
 #endif

@@ -119,8 +119,8 @@ void decode_packed(const PackedView& view, std::span<std::uint32_t> indices, uns
 /// Expands one block: triangles [256 * block, ...), 3 * 256 entries or what the last block has.
 void decode_packed_block(const PackedView& view, std::uint32_t block, std::span<std::uint32_t> indices);
 
-/// One triangle, in a few popcounts. Reads at most 8 words of turn bits, 36 bytes of its group's head and 200 bytes of its
-/// record.
+/// One triangle, in a few popcounts. Reads at most 8 words of turn bits, 36 bytes of its group's head and 200 bytes of
+/// its record.
 Triangle decode_packed_triangle(const PackedView& view, std::uint32_t triangle);
 
 // The words of the standard LR tables. Paper: LR 2011, sections 4.4, 4.5 and 5.
