@@ -454,18 +454,16 @@ uvec3 lr_packed_plain(LrPackedLayout p, LrPackedRecord r, uint i) {
 
 uvec3 lr_packed_oriented(uint a, uint x, uint b, bool reversed) { return reversed ? uvec3(a, x, b) : uvec3(a, b, x); }
 
-// Of a record's turns: bits, and how many are 1 before each word.
-struct LrPackedTurns {
-    uint bits[LR_PACKED_BLOCK_WORDS + 1u];
-    uint ups[LR_PACKED_BLOCK_WORDS];
-};
-bool lr_packed_turn(LrPackedTurns t, uint i) { return (t.bits[i / 32u] >> (i & 31u) & 1u) != 0u; }
-uint lr_packed_ups(LrPackedTurns t, uint i) {  // turns before i that are 1
-    return t.ups[i / 32u] + uint(bitCount(bitfieldExtract(t.bits[i / 32u], 0, int(i & 31u))));
+// Of the record's turns: bits, and how many are 1 before each word. Global, for a function's parameter is a copy.
+uint lr_packed_turn_bits[LR_PACKED_BLOCK_WORDS + 1u];
+uint lr_packed_turn_ups[LR_PACKED_BLOCK_WORDS];
+bool lr_packed_turn(uint i) { return (lr_packed_turn_bits[i / 32u] >> (i & 31u) & 1u) != 0u; }
+uint lr_packed_ups(uint i) {  // turns before i that are 1
+    return lr_packed_turn_ups[i / 32u] + uint(bitCount(bitfieldExtract(lr_packed_turn_bits[i / 32u], 0, int(i & 31u))));
 }
 
 // Moves the state from triangle `at` to triangle `to`, by turns alone.
-void lr_packed_skip(LrPackedTurns t, inout LrPackedState s, inout uint at, uint to) {
+void lr_packed_skip(inout LrPackedState s, inout uint at, uint to) {
     uint left = s.finished ? 0u : lr_packed_left(s.a, s.b);
     if (to - at > left) {  // whole polygons
         uint each = lr_packed_left(s.begun_a, s.begun_b), behind = to - at - left, whole = (behind - 1u) / each;
@@ -476,7 +474,7 @@ void lr_packed_skip(LrPackedTurns t, inout LrPackedState s, inout uint at, uint 
         at = to - (behind - whole * each);
         left = each;
     }
-    uint ups = lr_packed_ups(t, to) - lr_packed_ups(t, at);
+    uint ups = lr_packed_ups(to) - lr_packed_ups(at);
     s.a += ups;
     s.b -= to - at - ups;
     if (to > at) s.finished = to - at == left;
@@ -488,14 +486,13 @@ uvec3 lr_packed_triangle(LrPackedLayout p, uint triangle) {
     LrPackedRecord r = lr_packed_record(p, block, i);
     if (r.plain) return lr_packed_plain(p, r, i);
     i -= r.begin;
-    LrPackedTurns t;
     uint last = min(i + 1u, r.triangles - 1u) / 32u, sum = 0u, rank = 0u;
-    for (uint k = 0u; k <= last; ++k) t.bits[k] = LR_PACKED_TURNS(r.turn_word + k);
+    for (uint k = 0u; k <= last; ++k) lr_packed_turn_bits[k] = LR_PACKED_TURNS(r.turn_word + k);
     for (uint k = 0u; k <= i / 32u; ++k) {
-        t.ups[k] = sum;
-        sum += uint(bitCount(t.bits[k]));
-        uint behind = k < last ? t.bits[k + 1u] << 31 : 0u;
-        uint candidates = ~(t.bits[k] ^ (t.bits[k] >> 1 | behind));
+        lr_packed_turn_ups[k] = sum;
+        sum += uint(bitCount(lr_packed_turn_bits[k]));
+        uint behind = k < last ? lr_packed_turn_bits[k + 1u] << 31 : 0u;
+        uint candidates = ~(lr_packed_turn_bits[k] ^ (lr_packed_turn_bits[k] >> 1 | behind));
         rank += uint(bitCount(bitfieldExtract(candidates, 0, int(min(i - 32u * k, 32u)))));
     }
     LrPackedState s = lr_packed_state(r);
@@ -507,7 +504,7 @@ uvec3 lr_packed_triangle(LrPackedLayout p, uint triangle) {
     for (uint k = 0u; k < events; ++k) {
         lr_packed_next_event(p, r, e);
         if (e.triangle > i || e.triangle < skip) continue;
-        lr_packed_skip(t, s, at, e.triangle);
+        lr_packed_skip(s, at, e.triangle);
         if (e.code == LR_PACKED_TURN) {
             s.reversed = !s.reversed;
         } else if (e.code == LR_PACKED_FLIPS) {
@@ -519,7 +516,7 @@ uvec3 lr_packed_triangle(LrPackedLayout p, uint triangle) {
             if (s.finished) lr_packed_repeat(s);
             uint a = s.a, b = s.b;
             uvec2 rest;
-            uint x = lr_packed_third(e, lr_packed_turn(t, e.triangle), s, rest);
+            uint x = lr_packed_third(e, lr_packed_turn(e.triangle), s, rest);
             if (e.triangle == i) return lr_packed_oriented(a, x, b, s.reversed != flip);
             at = e.triangle + 1u;
             if (e.w == 0u || e.w >= r.triangles - at) continue;  // no scope
@@ -534,10 +531,10 @@ uvec3 lr_packed_triangle(LrPackedLayout p, uint triangle) {
             }
         }
     }
-    lr_packed_skip(t, s, at, i);
+    lr_packed_skip(s, at, i);
     if (s.finished) lr_packed_repeat(s);
-    bool up = lr_packed_turn(t, i), before = i > 0u && lr_packed_turn(t, i - (i > 0u ? 1u : 0u)) == up;
-    bool here = i + 1u == r.triangles || lr_packed_turn(t, min(i + 1u, r.triangles - 1u)) == up;
+    bool up = lr_packed_turn(i), before = i > 0u && lr_packed_turn(i - (i > 0u ? 1u : 0u)) == up;
+    bool here = i + 1u == r.triangles || lr_packed_turn(min(i + 1u, r.triangles - 1u)) == up;
     uint by = 1u, seen = 0u;
     if (before || here) {  // the T0 of a wart, or the T2 behind it? Warts are told by their rank among the candidates
         while (seen <= rank) {
