@@ -313,7 +313,7 @@ LrPackedRecord lr_packed_record(LrPackedLayout p, uint block, uint i) {
     return r;
 }
 
-// How many events there are; never more than bits for them.
+// The number of events. A damaged stream may claim any: no more are read than the record has bits.
 uint lr_packed_events(inout LrPackedRecord r) {
     return r.bits.left == 0u ? 0u : min(lr_packed_golomb(r.bits, r.count_order), r.bits.left);
 }
@@ -367,7 +367,7 @@ void lr_packed_next_event(LrPackedLayout p, inout LrPackedRecord r, inout LrPack
     }
 }
 
-// What a reader knows: the edge entered, and the polygon begun last outside of all scopes.
+// A reader's state: the edge entered, and the polygon begun last outside of all scopes.
 struct LrPackedState {
     uint a, b;
     bool reversed, finished;
@@ -454,7 +454,7 @@ uvec3 lr_packed_plain(LrPackedLayout p, LrPackedRecord r, uint i) {
 
 uvec3 lr_packed_oriented(uint a, uint x, uint b, bool reversed) { return reversed ? uvec3(a, x, b) : uvec3(a, b, x); }
 
-// Of the record's turns: bits, and how many are 1 before each word. Global, for a function's parameter is a copy.
+// The record's turn bits, and for each word the number of ones before it. Global: an array parameter would be copied.
 uint lr_packed_turn_bits[LR_PACKED_BLOCK_WORDS + 1u];
 uint lr_packed_turn_ups[LR_PACKED_BLOCK_WORDS];
 bool lr_packed_turn(uint i) { return (lr_packed_turn_bits[i / 32u] >> (i & 31u) & 1u) != 0u; }

@@ -1,5 +1,5 @@
 #pragma once
-// What a packed record says, before it is written as bits.
+// A packed record's entry, events and warts, before they are written as bits.
 
 #include <cstdint>
 #include <vector>

@@ -121,7 +121,7 @@ void lacedring_packed_triangles_u16(const struct lacedring_packed* packed, uint1
 void lacedring_packed_blocks_u32(const struct lacedring_packed* packed, uint32_t block, uint32_t end,
                                  uint32_t* indices);
 
-/* Any triangle, on its own, in a few popcounts: at most 8 words of turns, 36 bytes of its group's head and 200 bytes of
+/* Any triangle, on its own, in a few popcounts: at most 8 words of turns, 41 bytes of its group's head and 200 bytes of
    its record are read. */
 void lacedring_packed_triangle(const struct lacedring_packed* packed, uint32_t triangle, uint32_t out[3]);
 
