@@ -393,6 +393,13 @@ enum {
 #define LACEDRING_HOT_ static
 #endif
 
+/* What is smaller inlined than called, though compilers think otherwise. */
+#if defined(__GNUC__)
+#define LACEDRING_SMALL_ static inline __attribute__((always_inline))
+#else
+#define LACEDRING_SMALL_ static
+#endif
+
 LACEDRING_HOT_ uint32_t lacedring_ones_(uint64_t bits) { /* before the lowest zero; `bits` has one */
 #if defined(__GNUC__) && !defined(LACEDRING_PLAIN)
     return (uint32_t)__builtin_ctzll(~bits);
@@ -403,7 +410,7 @@ LACEDRING_HOT_ uint32_t lacedring_ones_(uint64_t bits) { /* before the lowest ze
 #endif
 }
 
-LACEDRING_HOT_ uint32_t lacedring_popcount_(uint32_t bits) {
+LACEDRING_SMALL_ uint32_t lacedring_popcount_(uint32_t bits) {
     bits -= (bits >> 1) & 0x55555555u;
     bits = (bits & 0x33333333u) + ((bits >> 2) & 0x33333333u);
     return (((bits + (bits >> 4)) & 0x0f0f0f0fu) * 0x01010101u) >> 24;
@@ -416,9 +423,8 @@ struct lacedring_bits_ {
     uint64_t at, end;
 };
 
-/* At least 57 bits. */
-LACEDRING_HOT_ uint64_t lacedring_window_(const struct lacedring_bits_* r) {
-    const uint64_t at = r->at < r->end ? r->at : r->end, left = r->end - at;
+/* At least 57 bits from bit `at` of the groups on, whatever record they are of. */
+LACEDRING_HOT_ uint64_t lacedring_load_(const struct lacedring_bits_* r, uint64_t at) {
     const size_t byte = (size_t)(at >> 3);
     uint64_t value = 0;
     if (byte + 8 <= r->bytes) {
@@ -426,7 +432,13 @@ LACEDRING_HOT_ uint64_t lacedring_window_(const struct lacedring_bits_* r) {
     } else if (byte < r->bytes) {
         memcpy(&value, r->groups + byte, r->bytes - byte);
     }
-    value >>= at & 7;
+    return value >> (at & 7);
+}
+
+/* At least 57 bits. */
+LACEDRING_HOT_ uint64_t lacedring_window_(const struct lacedring_bits_* r) {
+    const uint64_t at = r->at < r->end ? r->at : r->end, left = r->end - at;
+    const uint64_t value = lacedring_load_(r, at);
     return left < 64 ? value | UINT64_MAX << left : value;
 }
 
@@ -437,7 +449,7 @@ LACEDRING_HOT_ uint32_t lacedring_take_(struct lacedring_bits_* r, uint32_t coun
 }
 
 /* Ones before a zero, at most `limit`: where there are as many, no zero is read. */
-LACEDRING_HOT_ uint32_t lacedring_unary_(struct lacedring_bits_* r, uint32_t limit) {
+LACEDRING_SMALL_ uint32_t lacedring_unary_(struct lacedring_bits_* r, uint32_t limit) {
     const uint32_t ones = lacedring_ones_(lacedring_window_(r) & ~(UINT64_C(1) << limit));
     r->at += ones + (ones < limit);
     return ones;
@@ -480,7 +492,7 @@ struct lacedring_block_ {
     uint32_t explicit_entry;
 };
 
-static uint32_t lacedring_packed_blocks_(const struct lacedring_packed* p) {
+LACEDRING_SMALL_ uint32_t lacedring_packed_blocks_(const struct lacedring_packed* p) {
     return p->triangles / LACEDRING_PACKED_BLOCK + (p->triangles % LACEDRING_PACKED_BLOCK != 0);
 }
 
@@ -493,8 +505,8 @@ static struct lacedring_bits_ lacedring_bits_at_(const struct lacedring_packed* 
     return r;
 }
 
-static void lacedring_take_entry_(const struct lacedring_packed* p, struct lacedring_bits_* r, uint32_t* a, uint32_t* b,
-                                  uint32_t* reversed) {
+LACEDRING_SMALL_ void lacedring_take_entry_(const struct lacedring_packed* p, struct lacedring_bits_* r, uint32_t* a,
+                                            uint32_t* b, uint32_t* reversed) {
     *a = lacedring_take_(r, p->vertex_bits);
     *b = lacedring_take_(r, p->vertex_bits);
     *reversed = lacedring_take_(r, 1);
@@ -730,11 +742,134 @@ LACEDRING_HOT_ void lacedring_put_(uint32_t* out, uint32_t a, uint32_t x, uint32
     out[2] = reversed ? b : x;
 }
 
+/* Turns that are 1 of triangles [begin, end). */
+static uint32_t lacedring_ups_(const uint32_t* turns, uint32_t begin, uint32_t end) {
+    uint32_t ups = 0, i;
+    for (i = begin / 32; i < (end + 31) / 32; ++i) {
+        uint32_t word = turns[i];
+        if (i == begin / 32) word &= UINT32_MAX << begin % 32;
+        if (i == end / 32) word &= (UINT32_C(1) << end % 32) - 1;
+        ups += lacedring_popcount_(word);
+    }
+    return ups;
+}
+
+/* A record is decoded in two steps: its events and warts are read, which makes a list of pieces, runs of triangles that
+   follow from a state by their turns alone; then the pieces are written, and over them the third vertices that events
+   give and the warts. Pieces are written eight triangles at a time with AVX2 where the processor has it, four with
+   vectors of 16 bytes, one elsewhere. */
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && !defined(LACEDRING_PLAIN)
+#define LACEDRING_VECTORS_ 1
+/* Not for Windows, where GCC does not align a stack for such vectors. */
+#if defined(__x86_64__) && !defined(_WIN32) && (defined(__clang__) || __GNUC__ >= 12)
+#define LACEDRING_AVX2_ 1
+#define LACEDRING_WIDE_ __attribute__((target("avx2,bmi,bmi2,popcnt,lzcnt")))
+#endif
+#endif
+
+#define LACEDRING_WORDS_ (LACEDRING_PACKED_BLOCK / 64 + 1)
+
+#ifdef __OPTIMIZE_SIZE__
+/* Here all is written at once. */
+struct lacedring_turns_ {
+    const uint32_t* words;
+};
+struct lacedring_pieces_ {
+    uint8_t barred[LACEDRING_PACKED_BLOCK + 1]; /* [i + 1]: triangle i is no T0, for what i or i + 1 are */
+    uint32_t* out;
+};
+#else
+/* The turns of a record, and zeros behind them. */
+struct lacedring_turns_ {
+    uint64_t words[LACEDRING_WORDS_];
+    uint32_t before[LACEDRING_WORDS_]; /* ones in the words before */
+};
+
+/* Triangle i of a piece, with `ups` turns of 1 before it in the record, is entered across (base + ups, base + ups +
+   span - i). */
+#define LACEDRING_PIECES_ (LACEDRING_PACKED_BLOCK + 10)
+struct lacedring_pieces_ {
+    uint32_t begin[LACEDRING_PIECES_], base[LACEDRING_PIECES_], span[LACEDRING_PIECES_];
+    uint32_t reversed[LACEDRING_PIECES_];           /* all bits or none */
+    uint32_t mixed;                                 /* not all are as the first */
+    uint64_t begins[LACEDRING_WORDS_];              /* bit i: a piece begins at triangle i */
+    uint64_t thirds[LACEDRING_WORDS_];              /* bit i: an event gives the third vertex of triangle i */
+    uint32_t warts[LACEDRING_PACKED_BLOCK / 8 + 1]; /* bit k, below 9, of word j: triangle 8 j + k - 1 is a T0 */
+};
+
+#endif
+
+#ifdef __OPTIMIZE_SIZE__
+LACEDRING_SMALL_ uint32_t lacedring_turn_(const struct lacedring_turns_* t, uint32_t i) {
+    return t->words[i / 32] >> i % 32 & 1;
+}
+
+static uint32_t lacedring_barred_(const struct lacedring_pieces_* p, uint32_t i) {
+    return p->barred[i];
+}
+#else
+/* No wart may be at triangle i - 1, for what it or i are. */
+LACEDRING_HOT_ uint32_t lacedring_barred_(const struct lacedring_pieces_* p, uint32_t i) {
+    return (p->begins[i / 64] | p->thirds[i / 64]) >> i % 64 & 1;
+}
+
+/* In byte k how many bits are set in bytes 0 to k. */
+LACEDRING_HOT_ uint64_t lacedring_counts_(uint64_t bits) {
+    bits -= (bits >> 1) & UINT64_C(0x5555555555555555);
+    bits = (bits & UINT64_C(0x3333333333333333)) + ((bits >> 2) & UINT64_C(0x3333333333333333));
+    return ((bits + (bits >> 4)) & UINT64_C(0x0f0f0f0f0f0f0f0f)) * UINT64_C(0x0101010101010101);
+}
+
+/* wide: where processors count bits. */
+LACEDRING_HOT_ uint32_t lacedring_count_(uint64_t bits, int wide) {
+#ifdef LACEDRING_AVX2_
+    if (wide) return (uint32_t)__builtin_popcountll(bits);
+#endif
+    (void)wide;
+    return (uint32_t)(lacedring_counts_(bits) >> 56);
+}
+
+LACEDRING_HOT_ void lacedring_load_turns_(struct lacedring_turns_* t, const uint32_t* turns, uint32_t triangles,
+                                          int wide) {
+    uint32_t i, ups = 0;
+    memset(t->words, 0, sizeof t->words);
+    if (triangles > LACEDRING_PACKED_BLOCK - 32) {
+        memcpy(t->words, turns, LACEDRING_PACKED_BLOCK / 8);
+    } else {
+        memcpy(t->words, turns, (size_t)4 * ((triangles + 31) / 32));
+    }
+    for (i = 0; i < LACEDRING_WORDS_; ++i) {
+        t->before[i] = ups;
+        ups += lacedring_count_(t->words[i], wide);
+    }
+}
+
+LACEDRING_SMALL_ uint32_t lacedring_turn_(const struct lacedring_turns_* t, uint32_t i) {
+    return (uint32_t)(t->words[i / 64] >> i % 64) & 1;
+}
+
+LACEDRING_HOT_ uint32_t lacedring_ups_before_(const struct lacedring_turns_* t, uint32_t i, int wide) {
+    return t->before[i / 64] + lacedring_count_(t->words[i / 64] & ((UINT64_C(1) << i % 64) - 1), wide);
+}
+#endif
+
+/* Triangles [i, end) of one piece, one by one. a: of triangle i; span: b - a + i. Returns what a is then. */
+LACEDRING_HOT_ uint32_t lacedring_write_(const struct lacedring_turns_* turns, uint32_t i, uint32_t end, uint32_t a,
+                                         uint32_t span, uint32_t reversed, uint32_t* out) {
+    for (; i < end; ++i) {
+        const uint32_t up = lacedring_turn_(turns, i), b = a + span - i;
+        lacedring_put_(out + (size_t)3 * i, a, up ? a + 1 : b - 1, b, reversed);
+        a += up;
+    }
+    return a;
+}
+
 #ifndef __OPTIMIZE_SIZE__
-/* Four turns at once: twelve indices, each a or (mask) b with something added; then a grows by `ups`. b - a becomes
+
+/* Four triangles at once: twelve indices, each a or (mask) b with something added; then a grows by `ups`. b - a becomes
    smaller by four whatever the turns. */
 struct lacedring_nibble_ {
-    uint32_t add[12], mask[12], ups;
+    uint32_t add[12], mask[12], ups[4], unused[4];
 };
 
 /* Before triangle k of four, a has grown by UP and b by UP - k. Fields in the order of a, b, x or a, x, b. */
@@ -751,8 +886,14 @@ struct lacedring_nibble_ {
 #define LACEDRING_AXBM_(bits, k) 0u, LACEDRING_XM_(bits, k), UINT32_MAX
 #define LACEDRING_FOUR_(of, bits) \
     { of(bits, 0u), of(bits, 1u), of(bits, 2u), of(bits, 3u) }
-#define LACEDRING_NIBBLE_(adds, masks, bits) \
-    { LACEDRING_FOUR_(adds, bits), LACEDRING_FOUR_(masks, bits), LACEDRING_UP_(bits, 3u) + LACEDRING_BIT_(bits, 3) }
+#define LACEDRING_UPS_(bits) LACEDRING_UP_(bits, 3u) + LACEDRING_BIT_(bits, 3)
+#define LACEDRING_NIBBLE_(adds, masks, bits)                                                            \
+    {                                                                                                   \
+        LACEDRING_FOUR_(adds, bits), LACEDRING_FOUR_(masks, bits),                                      \
+            {LACEDRING_UPS_(bits), LACEDRING_UPS_(bits), LACEDRING_UPS_(bits), LACEDRING_UPS_(bits)}, { \
+            0, 0, 0, 0                                                                                  \
+        }                                                                                               \
+    }
 #define LACEDRING_NIBBLES_(adds, masks)                                                                             \
     {                                                                                                               \
         LACEDRING_NIBBLE_(adds, masks, 0u), LACEDRING_NIBBLE_(adds, masks, 1u), LACEDRING_NIBBLE_(adds, masks, 2u), \
@@ -764,118 +905,360 @@ struct lacedring_nibble_ {
             LACEDRING_NIBBLE_(adds, masks, 13u), LACEDRING_NIBBLE_(adds, masks, 14u),                               \
             LACEDRING_NIBBLE_(adds, masks, 15u)                                                                     \
     }
+#ifdef LACEDRING_VECTORS_
+typedef uint32_t lacedring_four_ __attribute__((vector_size(16)));
+__attribute__((aligned(128)))
+#endif
 static const struct lacedring_nibble_ lacedring_nibbles_[2][16] = {LACEDRING_NIBBLES_(LACEDRING_ABX_, LACEDRING_ABXM_),
                                                                    LACEDRING_NIBBLES_(LACEDRING_AXB_, LACEDRING_AXBM_)};
+
+/* As lacedring_write_. Four at a time where there is room before `limit`: what is too much is written again. */
+LACEDRING_HOT_ void lacedring_write_four_(const struct lacedring_turns_* turns, uint32_t i, uint32_t end,
+                                          uint32_t limit, uint32_t a, uint32_t span, uint32_t reversed, uint32_t* out) {
+    const struct lacedring_nibble_* table = lacedring_nibbles_[reversed];
+    const uint32_t room = limit < 4 ? 0 : limit - 3 < end ? limit - 3 : end;
+    uint32_t left = span - i;
+    uint32_t* to = out + (size_t)3 * i;
+#ifdef LACEDRING_VECTORS_
+    const lacedring_four_ four = {4, 4, 4, 4};
+    lacedring_four_ as = {a, a, a, a}, spans = {left, left, left, left}, sum;
+#else
+    uint32_t as[1], sums[12], j; /* a copy of its own lets compilers use vectors */
+    as[0] = a;
+#endif
+    for (; i < room; i += 4, to += 12) {
+        const struct lacedring_nibble_* n;
+        uint32_t now;
+        memcpy(&now, (const uint8_t*)turns->words + i / 8, 4);
+        n = &table[now >> i % 8 & 15];
+#ifdef LACEDRING_VECTORS_
+        {
+            const lacedring_four_* of = (const lacedring_four_*)(const void*)n;
+            sum = (spans & of[3]) + of[0] + as;
+            memcpy(to, &sum, 16);
+            sum = (spans & of[4]) + of[1] + as;
+            memcpy(to + 4, &sum, 16);
+            sum = (spans & of[5]) + of[2] + as;
+            memcpy(to + 8, &sum, 16);
+            as += of[6];
+            spans -= four;
+        }
+#else
+        for (j = 0; j < 12; ++j) sums[j] = as[0] + n->add[j] + (left & n->mask[j]);
+        memcpy(to, sums, sizeof sums);
+        as[0] += n->ups[0];
+        left -= 4;
+#endif
+    }
+    lacedring_write_(turns, i, end, as[0], span, reversed, out);
+}
 #endif
 
-/* A record while it is decoded into 3 * triangles indices. */
-struct lacedring_decoder_ {
-    struct lacedring_state_ s;
-    const uint8_t* turns; /* 40 bytes: a copy, and zeros behind it */
-    uint32_t i, triangles;
-    uint32_t* out;
-    uint32_t depth; /* of open scopes */
-    struct {
-        uint32_t end, a, b, reversed;
-    } scopes[LACEDRING_PACKED_BLOCK];
-    uint32_t fresh[8];  /* bit i: triangle i does not go on from the one before by its turn */
-    uint32_t thirds[8]; /* an event gives its third vertex */
+#ifdef LACEDRING_AVX2_
+typedef uint32_t lacedring_eight_ __attribute__((vector_size(32)));
+typedef int32_t lacedring_signed_eight_ __attribute__((vector_size(32)));
+typedef char lacedring_bytes_ __attribute__((vector_size(32)));
+typedef float lacedring_floats_ __attribute__((vector_size(32)));
+
+/* Of eight bits: lane k has how many are set before bit k, and its sign is bit k. */
+struct lacedring_octet_ {
+    uint32_t before[8];
+};
+#define LACEDRING_OCTET_(a, b, c, d, e, f, g, h)                                                                    \
+    {                                                                                                               \
+        {                                                                                                           \
+            a *LACEDRING_SIGN_, b *LACEDRING_SIGN_ + a, c *LACEDRING_SIGN_ + a + b, d *LACEDRING_SIGN_ + a + b + c, \
+                e *LACEDRING_SIGN_ + a + b + c + d, f *LACEDRING_SIGN_ + a + b + c + d + e,                         \
+                g *LACEDRING_SIGN_ + a + b + c + d + e + f, h *LACEDRING_SIGN_ + a + b + c + d + e + f + g          \
+        }                                                                                                           \
+    }
+#define LACEDRING_SIGN_ 0x80000000u
+/* The entries of tables whose higher bits are given. */
+#define LACEDRING_OCTETS_7_(of, b, c, d, e, f, g, h) of(0, b, c, d, e, f, g, h), of(1, b, c, d, e, f, g, h)
+#define LACEDRING_OCTETS_6_(of, c, d, e, f, g, h) \
+    LACEDRING_OCTETS_7_(of, 0, c, d, e, f, g, h), LACEDRING_OCTETS_7_(of, 1, c, d, e, f, g, h)
+#define LACEDRING_OCTETS_5_(of, d, e, f, g, h) \
+    LACEDRING_OCTETS_6_(of, 0, d, e, f, g, h), LACEDRING_OCTETS_6_(of, 1, d, e, f, g, h)
+#define LACEDRING_OCTETS_4_(of, e, f, g, h) \
+    LACEDRING_OCTETS_5_(of, 0, e, f, g, h), LACEDRING_OCTETS_5_(of, 1, e, f, g, h)
+#define LACEDRING_OCTETS_3_(of, f, g, h) LACEDRING_OCTETS_4_(of, 0, f, g, h), LACEDRING_OCTETS_4_(of, 1, f, g, h)
+#define LACEDRING_OCTETS_2_(of, g, h) LACEDRING_OCTETS_3_(of, 0, g, h), LACEDRING_OCTETS_3_(of, 1, g, h)
+#define LACEDRING_OCTETS_1_(of, h) LACEDRING_OCTETS_2_(of, 0, h), LACEDRING_OCTETS_2_(of, 1, h)
+static const struct lacedring_octet_ lacedring_octets_[256]
+    __attribute__((aligned(64))) = {LACEDRING_OCTETS_1_(LACEDRING_OCTET_, 0), LACEDRING_OCTETS_1_(LACEDRING_OCTET_, 1)};
+#define LACEDRING_COUNTS_4_(n) n, n + 1, n + 1, n + 2
+#define LACEDRING_COUNTS_16_(n) \
+    LACEDRING_COUNTS_4_(n), LACEDRING_COUNTS_4_(n + 1), LACEDRING_COUNTS_4_(n + 1), LACEDRING_COUNTS_4_(n + 2)
+#define LACEDRING_COUNTS_64_(n) \
+    LACEDRING_COUNTS_16_(n), LACEDRING_COUNTS_16_(n + 1), LACEDRING_COUNTS_16_(n + 1), LACEDRING_COUNTS_16_(n + 2)
+static const uint32_t lacedring_octet_counts_[256] = {LACEDRING_COUNTS_64_(0), LACEDRING_COUNTS_64_(1),
+                                                      LACEDRING_COUNTS_64_(1), LACEDRING_COUNTS_64_(2)};
+
+#define LACEDRING_PERMUTE_(v, from) \
+    ((lacedring_eight_)__builtin_ia32_permvarsi256((lacedring_signed_eight_)(v), (lacedring_signed_eight_)(from)))
+/* w where the sign of `sign` is set, v elsewhere. */
+#define LACEDRING_BLEND_(v, w, sign)                                                              \
+    ((lacedring_eight_)__builtin_ia32_blendvps256((lacedring_floats_)(v), (lacedring_floats_)(w), \
+                                                  (lacedring_floats_)(sign)))
+
+/* Eight bytes, with their signs. */
+LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_eight_ lacedring_widen_(uint64_t bytes) {
+#ifdef __clang__
+    typedef signed char lacedring_few_ __attribute__((vector_size(8)));
+    return (lacedring_eight_) __builtin_convertvector((lacedring_few_)bytes, lacedring_signed_eight_);
+#else
+    typedef char lacedring_few_ __attribute__((vector_size(16)));
+    typedef uint64_t lacedring_two_ __attribute__((vector_size(16)));
+    const lacedring_two_ two = {bytes, 0};
+    return (lacedring_eight_)__builtin_ia32_pmovsxbd256((lacedring_few_)two);
+#endif
+}
+
+/* Eight triangles of lanes to three vectors: each half of a vector with its own, and then the halves in order. */
+LACEDRING_WIDE_ LACEDRING_HOT_ void lacedring_mix_(lacedring_eight_ a, lacedring_eight_ b, lacedring_eight_ x,
+                                                   lacedring_eight_ to[3]) {
+    lacedring_eight_ q0, q1, q2;
+    a = __builtin_shufflevector(a, a, 0, 3, 2, 1, 4, 7, 6, 5);
+    b = __builtin_shufflevector(b, b, 1, 0, 3, 2, 5, 4, 7, 6);
+    x = __builtin_shufflevector(x, x, 2, 1, 0, 3, 6, 5, 4, 7);
+    q0 = __builtin_shufflevector(a, b, 0, 9, 2, 3, 4, 13, 6, 7);
+    q1 = __builtin_shufflevector(b, x, 0, 9, 2, 3, 4, 13, 6, 7);
+    q2 = __builtin_shufflevector(x, a, 0, 9, 2, 3, 4, 13, 6, 7);
+    q0 = __builtin_shufflevector(q0, x, 0, 1, 10, 3, 4, 5, 14, 7);
+    q1 = __builtin_shufflevector(q1, a, 0, 1, 10, 3, 4, 5, 14, 7);
+    q2 = __builtin_shufflevector(q2, b, 0, 1, 10, 3, 4, 5, 14, 7);
+    to[0] = __builtin_shufflevector(q0, q1, 0, 1, 2, 3, 8, 9, 10, 11);
+    to[1] = (lacedring_eight_)__builtin_ia32_pblendd256((lacedring_signed_eight_)q2, (lacedring_signed_eight_)q0, 0xf0);
+    to[2] = __builtin_shufflevector(q1, q2, 4, 5, 6, 7, 12, 13, 14, 15);
+}
+
+/* As lacedring_nibble_, for eight triangles and in bytes: one below 128 is added to a; of one above, what is more than
+   136 is added to b. Then a and b grow. */
+struct lacedring_eighth_ {
+    uint8_t add[24];
+    uint32_t grow_a, grow_b;
+};
+#define LACEDRING_OF_ABX_(k, up, ups) (ups), (ups) + 136 - k, (up) ? (ups) + 1 : (ups) + 135 - k
+#define LACEDRING_OF_AXB_(k, up, ups) (ups), (up) ? (ups) + 1 : (ups) + 135 - k, (ups) + 136 - k
+#define LACEDRING_RUN_(of, a, b, c, d, e, f, g, h)                                \
+    {                                                                             \
+        {of(0, a, 0),                                                             \
+         of(1, b, a),                                                             \
+         of(2, c, a + b),                                                         \
+         of(3, d, a + b + c),                                                     \
+         of(4, e, a + b + c + d),                                                 \
+         of(5, f, a + b + c + d + e),                                             \
+         of(6, g, a + b + c + d + e + f),                                         \
+         of(7, h, a + b + c + d + e + f + g)},                                    \
+            a + b + c + d + e + f + g + h, 0u - 8 + a + b + c + d + e + f + g + h \
+    }
+#define LACEDRING_RUN_ABX_(a, b, c, d, e, f, g, h) LACEDRING_RUN_(LACEDRING_OF_ABX_, a, b, c, d, e, f, g, h)
+#define LACEDRING_RUN_AXB_(a, b, c, d, e, f, g, h) LACEDRING_RUN_(LACEDRING_OF_AXB_, a, b, c, d, e, f, g, h)
+static const struct lacedring_eighth_ lacedring_eighths_[2][256] __attribute__((aligned(64))) = {
+    {LACEDRING_OCTETS_1_(LACEDRING_RUN_ABX_, 0), LACEDRING_OCTETS_1_(LACEDRING_RUN_ABX_, 1)},
+    {LACEDRING_OCTETS_1_(LACEDRING_RUN_AXB_, 0), LACEDRING_OCTETS_1_(LACEDRING_RUN_AXB_, 1)}};
+
+LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_eight_ lacedring_sum_(const uint8_t* add, lacedring_eight_ a,
+                                                               lacedring_eight_ b) {
+    uint64_t bytes;
+    lacedring_eight_ all;
+    memcpy(&bytes, add, 8);
+    all = lacedring_widen_(bytes);
+    return LACEDRING_BLEND_(a, b, all) + (all & 15);
+}
+
+/* As lacedring_write_four_, eight at a time. */
+LACEDRING_WIDE_ static void lacedring_write_run_(const struct lacedring_turns_* turns, uint32_t i, uint32_t end,
+                                                 uint32_t triangles, uint32_t a, uint32_t span, uint32_t reversed,
+                                                 uint32_t* out) {
+    const lacedring_eight_ zero = {0, 0, 0, 0, 0, 0, 0, 0};
+    lacedring_eight_ as = zero + a, bs = zero + (a + span - i - 8), to[3];
+    for (out += (size_t)3 * i;; i += 8, out += 24) {
+        const struct lacedring_eighth_* n;
+        uint32_t now;
+        memcpy(&now, (const uint8_t*)turns->words + i / 8, 4);
+        n = &lacedring_eighths_[reversed][now >> i % 8 & 255];
+        to[0] = lacedring_sum_(n->add, as, bs);
+        to[1] = lacedring_sum_(n->add + 8, as, bs);
+        to[2] = lacedring_sum_(n->add + 16, as, bs);
+        as += n->grow_a;
+        bs += n->grow_b;
+        if (i + 8 > triangles) break;
+        memcpy(out, &to[0], 32);
+        memcpy(out + 8, &to[1], 32);
+        memcpy(out + 16, &to[2], 32);
+        if (i + 8 >= end) return;
+    }
+    memcpy(out, to, (size_t)12 * (triangles - i));
+}
+
+/* A record of one piece. 0: a wart where b - a is too small. */
+LACEDRING_WIDE_ static int lacedring_write_one_(const struct lacedring_turns_* turns, const struct lacedring_pieces_* p,
+                                                uint32_t triangles, uint32_t* out) {
+    const uint32_t reversed = p->reversed[0] & 1;
+    uint32_t k, good = 1;
+    lacedring_write_run_(turns, 0, triangles, triangles, p->base[0], p->span[0], reversed, out);
+    for (k = 0; 8 * k < triangles; ++k) {
+        uint32_t warts;
+        for (warts = p->warts[k] >> 1 & 255; warts != 0; warts &= warts - 1) {
+            const uint32_t i = 8 * k + lacedring_ones_(~warts & (warts - 1)), up = lacedring_turn_(turns, i);
+            const uint32_t a = p->base[0] + lacedring_ups_before_(turns, i, 1), b = a + p->span[0] - i;
+            const uint32_t inner = up ? a + 1 : b - 1;
+            good &= b - a >= 4;
+            out[3 * i + 2 - reversed] = up ? a + 2 : b - 2;
+            if (i + 1 < triangles) lacedring_put_(out + 3 * i + 3, inner - 1, inner, inner + 1, reversed);
+        }
+    }
+    return (int)good;
+}
+
+/* The triangles of a record, with warts, eight at a time whatever pieces they are of. In each vector, lane k is
+   triangle k's until three vectors are mixed to triangles. way: 0, none is reversed; 1, all are; 2, some. Returns where
+   b - a is too small for a wart. */
+LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_eight_ lacedring_write_eights_(const uint8_t* turns,
+                                                                        const struct lacedring_pieces_* pieces,
+                                                                        uint32_t triangles, uint32_t* out, int way) {
+    const lacedring_eight_ seven = {7, 7, 7, 7, 7, 7, 7, 7}, one = {1, 1, 1, 1, 1, 1, 1, 1}, three = one + one + one;
+    const lacedring_eight_ t2_bits = {1, 2, 4, 8, 16, 32, 64, 128}, t0_bits = t2_bits * 2;
+    const uint8_t* begin = (const uint8_t*)pieces->begins;
+    const uint32_t* warts = pieces->warts;
+    lacedring_eight_ numbers = {0, 1, 2, 3, 4, 5, 6, 7}, ups = one - one, bad = ups, to[3];
+    size_t piece = (size_t)0 - 1;
+    for (;; out += 24, triangles -= 8) {
+        const uint32_t now = *turns++, begins = *begin++;
+        lacedring_eight_ a, b, x, span, which, up, t0, t2, step, swap;
+        piece += begins & 1;
+        memcpy(&which, &lacedring_octets_[begins >> 1], 32);
+        memcpy(&up, &lacedring_octets_[now], 32);
+        memcpy(&a, pieces->base + piece, 32);
+        memcpy(&span, pieces->span + piece, 32);
+        a = LACEDRING_PERMUTE_(a, which) + (ups + (up & seven));
+        span = LACEDRING_PERMUTE_(span, which) - numbers;
+        ups += lacedring_octet_counts_[now];
+        numbers += seven + one;
+        t0 = (lacedring_eight_)(((one * 0 + *warts) & t0_bits) == t0_bits);
+        t2 = (lacedring_eight_)(((one * 0 + *warts++) & t2_bits) == t2_bits);
+        b = a + span;
+        bad |= t0 & (lacedring_eight_)(span <= three);
+        step = one - t0 + t2; /* 1; of a T0 2; of a T2 0, and x is between the other two */
+        x = LACEDRING_BLEND_(b - step, a + step, up);
+        a = LACEDRING_BLEND_(a, x - one, t2);
+        b = LACEDRING_BLEND_(b, x + one, t2);
+        if (way == 1) {
+            swap = b;
+            b = x;
+            x = swap;
+        } else if (way == 2) {
+            memcpy(&swap, pieces->reversed + piece, 32);
+            swap = LACEDRING_PERMUTE_(swap, which) & (b ^ x);
+            b ^= swap;
+            x ^= swap;
+        }
+        piece += (uint32_t)__builtin_popcount(begins >> 1);
+        lacedring_mix_(a, b, x, to);
+        if (triangles < 8) break;
+        memcpy(out, &to[0], 32);
+        memcpy(out + 8, &to[1], 32);
+        memcpy(out + 16, &to[2], 32);
+        if (triangles == 8) return bad;
+    }
+    memcpy(out, to, (size_t)12 * triangles);
+    return bad;
+}
+
+/* 0: a wart where b - a is too small. */
+LACEDRING_WIDE_ static int lacedring_write_wide_(const uint8_t* turns, const struct lacedring_pieces_* pieces,
+                                                 uint32_t triangles, uint32_t* out) {
+    lacedring_eight_ bad;
+    uint64_t any[4];
+    if (pieces->mixed) {
+        bad = lacedring_write_eights_(turns, pieces, triangles, out, 2);
+    } else if (pieces->reversed[0]) {
+        bad = lacedring_write_eights_(turns, pieces, triangles, out, 1);
+    } else {
+        bad = lacedring_write_eights_(turns, pieces, triangles, out, 0);
+    }
+    memcpy(any, &bad, 32);
+    return (any[0] | any[1] | any[2] | any[3]) == 0;
+}
+#endif
+
+struct lacedring_scope_ {
+    uint32_t end, a, b, reversed;
 };
 
-LACEDRING_HOT_ uint32_t lacedring_turn_(const struct lacedring_decoder_* d, uint32_t i) {
-    return d->turns[i / 8] >> (i % 8) & 1;
+/* A record while its events are read. */
+struct lacedring_decoder_ {
+    struct lacedring_state_ s;
+    const struct lacedring_turns_* turns;
+    uint32_t i, ups, triangles, piece;
+    struct lacedring_pieces_* pieces;
+    struct lacedring_scope_* scope; /* the open one; the outermost never ends */
+};
+
+LACEDRING_HOT_ int lacedring_inside_(const struct lacedring_decoder_* d) {
+    return d->scope->end != UINT32_MAX;
 }
 
-/* Triangles [d->i, end), by their turns alone. Writes four at a time where there is room: what is too much is written
-   again. */
-static void lacedring_run_(struct lacedring_decoder_* d, uint32_t end) {
-    const uint32_t at_end = d->s.b - d->s.a - (end - d->i); /* b - a, then */
-    uint32_t a = d->s.a, i = d->i;
-    uint32_t* out = d->out + (size_t)3 * i;
-#ifndef __OPTIMIZE_SIZE__
-    const struct lacedring_nibble_* table = lacedring_nibbles_[d->s.reversed];
-    const uint32_t room = d->triangles < 4 ? 0 : d->triangles - 3 < end ? d->triangles - 3 : end;
-    uint32_t k, ups = 0;
-    while (i < room) {
-        uint64_t turns;
-        memcpy(&turns, d->turns + i / 8, 8);
-        turns >>= i % 8;
-        for (k = 0; k < 14 && i < room; ++k, i += 4, out += 12, turns >>= 4) {
-            const struct lacedring_nibble_* n = &table[turns & 15];
-            const uint32_t span = at_end + end - i;
-            uint32_t four[12], j; /* a copy of its own lets compilers use vectors */
-            for (j = 0; j < 12; ++j) four[j] = a + n->add[j] + (span & n->mask[j]);
-            memcpy(out, four, sizeof four);
-            ups = (uint32_t)turns & 15;
-            a += n->ups;
-        }
-    }
-    if (i > end) { /* take back what is too much */
-        a -= table[ups >> (4 - (i - end))].ups;
-        out -= (size_t)3 * (i - end);
-        i = end;
-    }
+/* The state at triangle d->i is not what follows by turns. */
+LACEDRING_HOT_ void lacedring_begin_piece_(struct lacedring_decoder_* d) {
+    struct lacedring_pieces_* p = d->pieces;
+#ifdef __OPTIMIZE_SIZE__
+    p->barred[d->i] = 1;
+#else
+    if (p->begin[d->piece] != d->i) ++d->piece;
+    p->begin[d->piece] = d->i;
+    p->base[d->piece] = d->s.a - d->ups;
+    p->span[d->piece] = d->s.b - d->s.a + d->i;
+    p->reversed[d->piece] = 0 - d->s.reversed;
+    p->mixed |= p->reversed[0] ^ p->reversed[d->piece];
+    p->begins[d->i / 64] |= UINT64_C(1) << d->i % 64;
 #endif
-    for (; i < end; ++i, out += 3) {
-        const uint32_t up = d->turns[i / 8] >> (i % 8) & 1, b = a + at_end + end - i;
-        lacedring_put_(out, a, up ? a + 1 : b - 1, b, d->s.reversed);
-        a += up;
-    }
-    d->s.a = a;
-    d->s.b = a + at_end;
-    d->i = end;
 }
 
-/* Decodes up to triangle `target`, and closes the scopes that end there. 0: impossible. */
-static int lacedring_advance_(struct lacedring_decoder_* d, uint32_t target) {
+/* Moves up to triangle `target`, and closes the scopes that end there. 0: impossible. */
+LACEDRING_HOT_ int lacedring_advance_(struct lacedring_decoder_* d, uint32_t target, int wide) {
+    (void)wide;
     for (;;) {
-        uint32_t stop = target, left;
-        while (d->depth > 0 && d->scopes[d->depth - 1].end == d->i) {
-            --d->depth;
-            d->s.a = d->scopes[d->depth].a;
-            d->s.b = d->scopes[d->depth].b;
-            d->s.reversed = d->scopes[d->depth].reversed;
-            d->s.finished = 0;
-            d->fresh[d->i / 32] |= UINT32_C(1) << d->i % 32;
+        const uint32_t stop = d->scope->end < target ? d->scope->end : target;
+        while (d->i < stop) {
+            uint32_t left, end = stop, ups;
+            if (d->s.finished) {
+                if (lacedring_inside_(d)) return 0;
+                lacedring_repeat_(&d->s, 0);
+                lacedring_begin_piece_(d);
+            }
+            left = lacedring_left_(d->s.a, d->s.b);
+            if (end - d->i > left) end = d->i + left;
+#ifdef __OPTIMIZE_SIZE__
+            ups = lacedring_write_(d->turns, d->i, end, d->s.a, d->s.b - d->s.a + d->i, d->s.reversed, d->pieces->out) -
+                  d->s.a;
+#else
+            ups = lacedring_ups_before_(d->turns, end, wide) - d->ups;
+            d->ups += ups;
+#endif
+            d->s.a += ups;
+            d->s.b -= end - d->i - ups;
+            d->i = end;
+            d->s.finished = d->s.b - d->s.a == 1;
+            /* Both turns are true of a corridor's last triangle, so the format says which. */
+            if (d->s.finished &
+                (lacedring_turn_(d->turns, end - 1) == (end > 1 ? lacedring_turn_(d->turns, end - 2) : UINT32_C(1))))
+                return 0;
         }
-        if (d->i == target) return 1;
-        if (d->s.finished) {
-            if (d->depth > 0) return 0;
-            lacedring_repeat_(&d->s, 0);
-            d->fresh[d->i / 32] |= UINT32_C(1) << d->i % 32;
-        }
-        if (d->depth > 0 && d->scopes[d->depth - 1].end < stop) stop = d->scopes[d->depth - 1].end;
-        left = lacedring_left_(d->s.a, d->s.b);
-        if (left == 0) return 0;
-        if (stop - d->i > left) stop = d->i + left;
-        lacedring_run_(d, stop);
-        d->s.finished = d->s.b - d->s.a == 1;
-        /* Both turns are true of a corridor's last triangle, so the format says which. */
-        if (d->s.finished && lacedring_turn_(d, stop - 1) != (stop > 1 && !lacedring_turn_(d, stop - 2))) return 0;
+        if (d->scope->end != d->i) return 1;
+        d->s.a = d->scope->a;
+        d->s.b = d->scope->b;
+        d->s.reversed = d->scope->reversed;
+        d->s.finished = 0;
+        --d->scope;
+        lacedring_begin_piece_(d);
     }
 }
 
-/* Makes triangle i the T0 of a wart, and the next one its T2. */
-LACEDRING_HOT_ int lacedring_wart_(const struct lacedring_decoder_* d, uint32_t i) {
-    uint32_t* out = d->out + (size_t)3 * i;
-    const uint32_t up = lacedring_turn_(d, i), a = out[0], next = i + 1;
-    const uint32_t reversed = out[1] == (up ? a + 1 : out[2] - 1), b = out[1 + reversed];
-    const uint32_t inner = up ? a + 1 : b - 1;
-    if ((d->thirds[i / 32] >> i % 32 & 1) || b - a < 4) return 0;
-    out[2 - reversed] = up ? a + 2 : b - 2;
-    if (next == d->triangles) return 1;
-    if (((d->thirds[next / 32] | d->fresh[next / 32]) >> next % 32) & 1) return 0;
-    lacedring_put_(out + 3, inner - 1, inner, inner + 1, reversed);
-    return 1;
-}
-
+#ifndef __OPTIMIZE_SIZE__
 /* The bit of `bits` that has `rank` others below it; `counts` has in byte k how many are in bytes 0 to k. */
 LACEDRING_HOT_ uint32_t lacedring_select_(uint64_t bits, uint64_t counts, uint32_t rank) {
-#ifdef __OPTIMIZE_SIZE__
-    (void)counts;
-    for (; rank > 0; --rank) bits &= bits - 1;
-    return lacedring_ones_(~bits & (bits - 1));
-#else
     static const uint8_t of_four[16][4] = {
         {0, 0, 0, 0}, {0, 0, 0, 0}, {1, 0, 0, 0}, {0, 1, 0, 0}, {2, 0, 0, 0}, {0, 2, 0, 0}, {1, 2, 0, 0}, {0, 1, 2, 0},
         {3, 0, 0, 0}, {0, 3, 0, 0}, {1, 3, 0, 0}, {0, 1, 3, 0}, {2, 3, 0, 0}, {0, 2, 3, 0}, {1, 2, 3, 0}, {0, 1, 2, 3}};
@@ -885,120 +1268,274 @@ LACEDRING_HOT_ uint32_t lacedring_select_(uint64_t bits, uint64_t counts, uint32
     const uint32_t byte = (uint32_t)(((below >> 7) * each) >> 56);
     const uint32_t in_byte = (uint32_t)(bits >> (8 * byte)) & 0xff,
                    left = rank - ((uint32_t)((counts << 8) >> (8 * byte)) & 0xff);
-    const uint32_t low = count[in_byte & 15], upper = left >= low;
-    return 8 * byte + 4 * upper + of_four[upper ? in_byte >> 4 : in_byte & 15][upper ? left - low : left];
+    const uint32_t low = count[in_byte & 15], upper = left >= low; /* no branch: it would be taken half the time */
+    return 8 * byte + 4 * upper + of_four[in_byte >> 4 * upper & 15][left - (low & (0 - upper))];
+}
 #endif
+
+/* Makes triangle i the T0 of a wart, and the next one its T2. 0: b - a is too small. */
+LACEDRING_HOT_ int lacedring_write_wart_(const struct lacedring_decoder_* d, uint32_t i, uint32_t* out) {
+    const uint32_t up = lacedring_turn_(d->turns, i), a = out[3 * i];
+    const uint32_t reversed = out[3 * i + 1] == (up ? a + 1 : out[3 * i + 2] - 1), b = out[3 * i + 1 + reversed];
+    const uint32_t inner = up ? a + 1 : b - 1;
+    if (b - a < 4) return 0;
+    out[3 * i + 2 - reversed] = up ? a + 2 : b - 2;
+    if (i + 1 < d->triangles) lacedring_put_(out + 3 * i + 3, inner - 1, inner, inner + 1, reversed);
+    return 1;
 }
 
-/* `least`: so many there must be. */
-static int lacedring_warts_(const struct lacedring_decoder_* d, struct lacedring_bits_ bits, uint32_t low,
-                            uint32_t least) {
+/* Reads the warts and writes them. `least`: so many there must be. 0: they are where none may be. */
+LACEDRING_HOT_ int lacedring_warts_(const struct lacedring_decoder_* d, struct lacedring_bits_ bits, uint32_t low,
+                                    uint32_t least, uint32_t* out) {
+    uint32_t i = 0, warts = 0, last = UINT32_MAX - 1;
+#ifndef __OPTIMIZE_SIZE__
     uint64_t candidates = 0, counts = 0;
-    uint32_t begin = 0, word = 0, rank = 0, count = 0, last = UINT32_MAX - 1, warts = 0;
-    for (;;) {
-        const uint32_t gap = lacedring_rice_(&bits, low);
-        uint32_t i;
+    uint32_t word = 0, count = 0, rank = 0;
+#endif
+    for (;; ++warts) {
+        uint32_t gap = lacedring_rice_(&bits, low);
         if (gap == UINT32_MAX) return bits.at <= bits.end && bits.end - bits.at < 8 && warts >= least;
         if (bits.at > bits.end) return 0;
-        rank += gap; /* among the candidates from `begin` on */
-        while (rank >= count) {
-            uint64_t turns, next = 0;
+#ifdef __OPTIMIZE_SIZE__
+        for (;; ++i) {
+            if (i >= d->triangles) return 0;
+            if (i + 1 < d->triangles && lacedring_turn_(d->turns, i) != lacedring_turn_(d->turns, i + 1)) continue;
+            if (gap-- == 0) break;
+        }
+        ++i;
+#else
+        for (rank += gap; rank >= count; ++word) { /* among the candidates of the word */
+            uint64_t turns;
             rank -= count;
-            begin = 64 * word++;
-            if (begin >= d->triangles) return 0;
-            memcpy(&turns, d->turns + begin / 8, 8);
-            if (begin + 64 < d->triangles) next = (uint64_t)d->turns[begin / 8 + 8] << 63;
-            candidates = ~(turns ^ (turns >> 1 | next));
-            if (d->triangles - begin <= 64) {
-                const uint32_t left = d->triangles - begin - 1;
+            if (64 * word >= d->triangles) return 0;
+            turns = d->turns->words[word];
+            candidates = ~(turns ^ (turns >> 1 | d->turns->words[word + 1] << 63));
+            if (d->triangles - 64 * word <= 64) {
+                const uint32_t left = d->triangles - 64 * word - 1;
                 candidates = (candidates | UINT64_C(1) << left) & UINT64_MAX >> (63 - left);
             }
-            counts = candidates - ((candidates >> 1) & UINT64_C(0x5555555555555555));
-            counts = (counts & UINT64_C(0x3333333333333333)) + ((counts >> 2) & UINT64_C(0x3333333333333333));
-            counts = ((counts + (counts >> 4)) & UINT64_C(0x0f0f0f0f0f0f0f0f)) * UINT64_C(0x0101010101010101);
+            counts = lacedring_counts_(candidates);
             count = (uint32_t)(counts >> 56);
         }
-        i = begin + lacedring_select_(candidates, counts, rank);
-        ++rank;
-        if (i == last + 1 || !lacedring_wart_(d, i)) return 0;
+        i = 64 * word - 63 + lacedring_select_(candidates, counts, rank++);
+#endif
+        /* i is the T2, and may be behind the last triangle. */
+        if (i == last + 1 || lacedring_barred_(d->pieces, i) || !lacedring_write_wart_(d, i - 1, out)) return 0;
         last = i;
-        ++warts;
     }
 }
 
+#ifdef LACEDRING_AVX2_
+/* Reads the warts, all in four steps: a bit for each candidate, spread to where candidates are. */
+LACEDRING_WIDE_ static int lacedring_warts_wide_(const struct lacedring_decoder_* d, const struct lacedring_bits_* bits,
+                                                 uint32_t low, uint32_t least) {
+    uint64_t ranks[LACEDRING_WORDS_ + 1] = {0, 0, 0, 0, 0, 0}, bad = 0, last = 0, bars, at = bits->at;
+    const uint64_t end = bits->end, *turns = d->turns->words;
+    struct lacedring_pieces_* p = d->pieces;
+    uint32_t word, rank = 0, count = 0, warts = 0;
+    for (;; ++warts, ++rank) {
+        const uint64_t window = lacedring_load_(bits, at);
+        const uint32_t ones = lacedring_ones_(window & ~(UINT64_C(1) << 32));
+        if (ones >= end - at || ones == 32) break;
+        rank += (ones << low) + ((uint32_t)(window >> (ones + 1)) & ((UINT32_C(1) << low) - 1));
+        at += ones + 1 + low;
+        if (at > end || rank >= LACEDRING_PACKED_BLOCK) return 0;
+        ranks[rank / 64] |= UINT64_C(1) << rank % 64;
+    }
+    if (end - at >= 8 || warts < least) return 0;
+    bars = p->begins[0] | p->thirds[0];
+    for (word = 0; 64 * word < d->triangles; ++word) {
+        uint64_t candidates = ~(turns[word] ^ (turns[word] >> 1 | turns[word + 1] << 63)), t0;
+        const uint64_t here = ranks[count / 64] >> count % 64 | ranks[count / 64 + 1] << 1 << (63 - count % 64);
+        lacedring_eight_ groups;
+        if (d->triangles <= 64 * word + 64) {
+            const uint32_t left = d->triangles - 64 * word - 1;
+            candidates = (candidates | UINT64_C(1) << left) & UINT64_MAX >> (63 - left);
+        }
+        t0 = __builtin_ia32_pdep_di(here, candidates);
+        count += (uint32_t)__builtin_popcountll(candidates);
+        bad |= (last >> 63 | t0 << 1) & (bars | t0);
+        bars = p->begins[word + 1] | p->thirds[word + 1];
+        bad |= t0 >> 63 & bars;
+        groups = lacedring_widen_(t0) * 2 | (lacedring_widen_(t0 << 8 | last >> 56) >> 7 & 1);
+        memcpy(p->warts + 8 * word, &groups, 32);
+        last = t0;
+    }
+    p->warts[8 * word] = (uint32_t)(last >> 63);
+    return bad == 0 && rank <= count;
+}
+#endif
+
+#ifndef __OPTIMIZE_SIZE__
+/* Writes pieces one after the other. */
+LACEDRING_HOT_ void lacedring_write_pieces_(const struct lacedring_turns_* turns, const struct lacedring_pieces_* p,
+                                            uint32_t triangles, uint32_t* out) {
+    uint32_t k;
+    for (k = 0; p->begin[k] < triangles; ++k) {
+        const uint32_t a = p->base[k] + lacedring_ups_before_(turns, p->begin[k], 0);
+        lacedring_write_four_(turns, p->begin[k], p->begin[k + 1], triangles, a, p->span[k], p->reversed[k] & 1, out);
+    }
+}
+
+/* A SPLIT, as nearly all events are, from one window: its size, 0 if the next event is none or takes more bits. */
+LACEDRING_HOT_ uint32_t lacedring_read_split_(struct lacedring_bits_* r, uint32_t low, uint32_t order, uint32_t* gap) {
+    const uint64_t at = r->at;
+    uint64_t window;
+    uint32_t ones, first, bits, size;
+    if ((size_t)(at >> 3) + 8 > r->bytes) return 0;
+    memcpy(&window, r->groups + (at >> 3), 8);
+    window >>= at & 7;
+    ones = first = lacedring_ones_(window & ~(UINT64_C(1) << 32));
+    *gap = (ones << low) + ((uint32_t)(window >> (ones + 1)) & ((UINT32_C(1) << low) - 1));
+    bits = ones + low + 1;
+    window >>= bits;
+    ones = lacedring_ones_((window >> 1) & 0xff);
+    bits += 2 * ones + 2 + order;
+    size = (uint32_t)(window >> (ones + 2)) & ((UINT32_C(1) << (ones + order)) - 1);
+    size += (UINT32_C(1) << (ones + order)) - (UINT32_C(1) << order) + 3;
+    if ((window & 1) != 0 || bits > 57 || ones > 7 || first > 31 || at + bits > r->end) return 0;
+    r->at = at + bits;
+    return size;
+}
+#endif
+
 /* Decodes a record. 0: it says something impossible, and some of `out` is not written. Whatever it says, nothing else
-   is written or read; vertices may be out of range. */
-static int lacedring_expand_record_(const struct lacedring_packed* p, const struct lacedring_group_* g,
-                                    struct lacedring_record_* r, int explicit_entry, uint32_t* out) {
+   is written or read; vertices may be out of range. wide: with AVX2. */
+LACEDRING_HOT_ int lacedring_expand_(const struct lacedring_packed* p, const struct lacedring_group_* g,
+                                     struct lacedring_record_* r, int explicit_entry, uint32_t* out, int wide) {
     struct lacedring_decoder_ d;
-    struct lacedring_event_ e = {0, 0, 0, 0, 0, 0, 0};
-    uint8_t turns[40] = {0};
-    uint32_t k, events = 0;
-    int flips = 0;
-    memcpy(turns, r->turns, (size_t)4 * ((r->triangles + 31) / 32));
+    struct lacedring_scope_ scopes[LACEDRING_PACKED_BLOCK];
+    struct lacedring_turns_ turns;
+    struct lacedring_pieces_ pieces;
+#ifndef __OPTIMIZE_SIZE__
+    struct {
+        uint32_t at, x;
+    } thirds[LACEDRING_PACKED_BLOCK];
+    uint32_t third_count = 0;
+#endif
+    uint32_t k, events = 0, at = 0, least;
+    uint64_t flips = UINT64_MAX;
+    const int empty = r->bits.at == r->bits.end && !explicit_entry;
+    scopes[0].end = UINT32_MAX;
+#ifdef __OPTIMIZE_SIZE__
+    memset(pieces.barred, 0, sizeof pieces.barred);
+    pieces.out = out;
+    turns.words = r->turns;
+#else
+    memset(pieces.begins, 0, sizeof pieces.begins);
+    memset(pieces.thirds, 0, sizeof pieces.thirds);
+    pieces.begin[0] = pieces.mixed = 0;
+    pieces.reversed[0] = 0 - r->reversed;
+    lacedring_load_turns_(&turns, r->turns, r->triangles, wide);
+#endif
     d.s.a = d.s.begun_a = r->a;
     d.s.b = d.s.begun_b = r->b;
     d.s.reversed = d.s.begun_reversed = r->reversed;
     d.s.finished = 0;
-    d.turns = turns;
-    d.i = 0;
+    d.turns = &turns;
+    d.i = d.ups = d.piece = 0;
     d.triangles = r->triangles;
-    d.out = out;
-    d.depth = 0;
-    memset(d.fresh, 0, sizeof d.fresh);
-    memset(d.thirds, 0, sizeof d.thirds);
-    if (r->bits.at == r->bits.end && !explicit_entry) return lacedring_advance_(&d, d.triangles);
-    events = lacedring_golomb_(&r->bits, g->count_order);
-    for (k = 0; k < events; ++k) {
-        const uint32_t begin = e.triangle;
-        lacedring_read_event_(p, g, r, &e);
-        if (e.triangle < begin || e.triangle == UINT32_MAX || r->bits.at > r->bits.end) return 0;
-        if (!lacedring_advance_(&d, e.triangle)) return 0;
+    d.pieces = &pieces;
+    d.scope = scopes;
+    lacedring_begin_piece_(&d);
+    if (!empty) events = lacedring_golomb_(&r->bits, g->count_order);
+    for (k = 0;; ++k) {
+        struct lacedring_event_ e = {0, 0, 0, 0, 0, 0, 0};
+        e.triangle = d.triangles;
+        if (k < events) {
+#ifdef __OPTIMIZE_SIZE__
+            e.triangle = at;
+            lacedring_read_event_(p, g, r, &e);
+            if (e.triangle < at || e.triangle == UINT32_MAX || r->bits.at > r->bits.end) return 0;
+#else
+            uint32_t gap;
+            e.v = lacedring_read_split_(&r->bits, g->gap_bits, g->split_order, &gap);
+            if (e.v != 0) {
+                e.triangle = at + gap;
+                if (e.triangle >= d.triangles) return 0;
+            } else { /* a copy: the compiler keeps the other in registers */
+                struct lacedring_event_ read = {0, 0, 0, 0, 0, 0, 0};
+                read.triangle = at;
+                lacedring_read_event_(p, g, r, &read);
+                e = read;
+                if (e.triangle < at || e.triangle == UINT32_MAX || r->bits.at > r->bits.end) return 0;
+            }
+#endif
+        }
+        if (!lacedring_advance_(&d, e.triangle, wide)) return 0;
+        if (k == events) break;
+        at = d.i;
         if (e.code == LACEDRING_TURN_) {
             d.s.reversed ^= 1;
         } else if (e.code == LACEDRING_FLIPS_) {
             if (k != 0 || e.triangle != 0) return 0;
-            flips = 1;
+            flips = e.flips;
         } else if (e.code == LACEDRING_START_ || e.code == LACEDRING_BESIDE_) {
-            lacedring_begin_(&d.s, &e, d.depth > 0);
+#ifdef __OPTIMIZE_SIZE__
+            lacedring_begin_(&d.s, &e, lacedring_inside_(&d));
+#else
+            struct lacedring_state_ s = d.s;
+            lacedring_begin_(&s, &e, lacedring_inside_(&d));
+            d.s = s;
+#endif
         } else {
-            const uint32_t i = e.triangle, turn = lacedring_turn_(&d, i);
+            const uint32_t turn = lacedring_turn_(&turns, d.i);
             uint32_t rest[2], count, a, b, x;
             if (d.s.finished) {
-                if (d.depth > 0) return 0;
+                if (lacedring_inside_(&d)) return 0;
                 lacedring_repeat_(&d.s, 0);
+                lacedring_begin_piece_(&d);
             }
+            if (e.code == LACEDRING_FAR_ && e.choice != 3 && turn) return 0; /* a turn that says nothing */
             a = d.s.a;
             b = d.s.b;
             x = lacedring_third_(&d.s, &e, turn, rest, &count);
-            if (e.code == LACEDRING_FAR_ && e.choice != 3 && turn) return 0; /* a turn that says nothing */
-            lacedring_put_(out + (size_t)3 * i, a, x, b, d.s.reversed);
-            d.thirds[i / 32] |= UINT32_C(1) << i % 32;
+#ifdef __OPTIMIZE_SIZE__
+            pieces.barred[d.i] = 1;
+            lacedring_put_(out + 3 * d.i, a, x, b, d.s.reversed);
+#else
+            (void)a;
+            (void)b;
+            pieces.thirds[d.i / 64] |= UINT64_C(1) << d.i % 64;
+            thirds[third_count].at = 3 * d.i + 2 - d.s.reversed;
+            thirds[third_count++].x = x;
+#endif
             ++d.i;
+            d.ups += turn;
             if (count >= d.triangles - d.i) { /* back behind the record's end */
                 if (e.code != LACEDRING_SPLIT_ && count > 0) return 0;
-                if (count > 0 && d.depth > 0) return 0;
+                if (count > 0 && lacedring_inside_(&d)) return 0;
             } else if (count > 0) {
-                if (d.depth > 0 && d.scopes[d.depth - 1].end < d.i + count) return 0;
-                d.scopes[d.depth].end = d.i + count;
-                d.scopes[d.depth].a = rest[0];
-                d.scopes[d.depth].b = rest[1];
-                d.scopes[d.depth].reversed = d.s.reversed;
-                ++d.depth;
+                if (d.scope->end < d.i + count) return 0;
+                ++d.scope;
+                d.scope->end = d.i + count;
+                d.scope->a = rest[0];
+                d.scope->b = rest[1];
+                d.scope->reversed = d.s.reversed;
             }
-            e.triangle = i + 1; /* the next gap is from here */
-            if (d.i < d.triangles) d.fresh[d.i / 32] |= UINT32_C(1) << d.i % 32;
-            continue;
+            ++at; /* the next gap is from here */
         }
-        if (d.i < d.triangles) d.fresh[d.i / 32] |= UINT32_C(1) << d.i % 32;
+        lacedring_begin_piece_(&d);
     }
-    if (!lacedring_advance_(&d, d.triangles) ||
-        !lacedring_warts_(&d, r->bits, g->wart_bits, explicit_entry || events > 0 ? 0 : 1))
-        return 0;
-    if (flips) {
+    least = !explicit_entry && events == 0;
+#ifndef __OPTIMIZE_SIZE__
+    pieces.begin[d.piece + 1] = d.triangles;
+#ifdef LACEDRING_AVX2_
+    if (wide) {
+        if (!lacedring_warts_wide_(&d, &r->bits, g->wart_bits, least && !empty)) return 0;
+        if (!(d.piece == 0 ? lacedring_write_one_(&turns, &pieces, d.triangles, out)
+                           : lacedring_write_wide_((const uint8_t*)r->turns, &pieces, d.triangles, out)))
+            return 0;
+    } else
+#endif
+        lacedring_write_pieces_(&turns, &pieces, d.triangles, out);
+    for (k = 0; k < third_count; ++k) out[thirds[k].at] = thirds[k].x;
+#endif
+    if (!wide && !empty && !lacedring_warts_(&d, r->bits, g->wart_bits, least, out)) return 0;
+    if (flips != UINT64_MAX) {
         struct lacedring_bits_ bits = r->bits;
         uint32_t i;
-        bits.at = e.flips;
+        bits.at = flips;
         for (i = 0; i < d.triangles; ++i, out += 3) {
             const uint32_t b = out[1];
             if (!lacedring_take_(&bits, 1)) continue;
@@ -1007,6 +1544,24 @@ static int lacedring_expand_record_(const struct lacedring_packed* p, const stru
         }
     }
     return 1;
+}
+
+#ifdef LACEDRING_AVX2_
+LACEDRING_WIDE_ static int lacedring_expand_wide_(const struct lacedring_packed* p, const struct lacedring_group_* g,
+                                                  struct lacedring_record_* r, int explicit_entry, uint32_t* out) {
+    return lacedring_expand_(p, g, r, explicit_entry, out, 1);
+}
+#endif
+
+static int lacedring_expand_record_(const struct lacedring_packed* p, const struct lacedring_group_* g,
+                                    struct lacedring_record_* r, int explicit_entry, uint32_t* out) {
+#ifdef LACEDRING_AVX2_
+    /* The first two Zens have all of it, but take hundreds of cycles for one of its instructions. */
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2") && !__builtin_cpu_is("znver1") &&
+        !__builtin_cpu_is("znver2"))
+        return lacedring_expand_wide_(p, g, r, explicit_entry, out);
+#endif
+    return lacedring_expand_(p, g, r, explicit_entry, out, 0);
 }
 
 static int lacedring_expand_block_(const struct lacedring_packed* p, struct lacedring_group_* g,
@@ -1019,12 +1574,10 @@ static int lacedring_expand_block_(const struct lacedring_packed* p, struct lace
     }
     if (b->length <= LACEDRING_PACKED_MAX_RECORD_)
         return lacedring_expand_record_(p, g, &b->record, (int)b->explicit_entry, out);
-    for (i = 0; i * LACEDRING_PACKED_PART_ < left; ++i) {
+    for (i = 0; i < left; i += LACEDRING_PACKED_PART_) {
         struct lacedring_record_ r;
-        lacedring_part_(p, b, i, &r);
-        if (!lacedring_expand_record_(p, g, &r, i > 0 || b->explicit_entry,
-                                      out + (size_t)3 * i * LACEDRING_PACKED_PART_))
-            return 0;
+        lacedring_part_(p, b, i / LACEDRING_PACKED_PART_, &r);
+        if (!lacedring_expand_record_(p, g, &r, i > 0 || b->explicit_entry, out + (size_t)3 * i)) return 0;
     }
     return 1;
 }
@@ -1152,18 +1705,6 @@ void lacedring_packed_triangles_u16(const struct lacedring_packed* p, uint16_t* 
         if (count > LACEDRING_PACKED_BLOCK) count = LACEDRING_PACKED_BLOCK;
         for (i = 0; i < 3 * count; ++i) *indices++ = (uint16_t)block[i];
     }
-}
-
-/* Turns that are 1 of triangles [begin, end). */
-static uint32_t lacedring_ups_(const uint32_t* turns, uint32_t begin, uint32_t end) {
-    uint32_t ups = 0, i;
-    for (i = begin / 32; i < (end + 31) / 32; ++i) {
-        uint32_t word = turns[i];
-        if (i == begin / 32) word &= UINT32_MAX << begin % 32;
-        if (i == end / 32) word &= (UINT32_C(1) << end % 32) - 1;
-        ups += lacedring_popcount_(word);
-    }
-    return ups;
 }
 
 /* Moves the state from triangle *at to triangle `to`, by turns alone. */
@@ -1297,7 +1838,13 @@ void lacedring_packed_triangle(const struct lacedring_packed* p, uint32_t triang
 #undef LACEDRING_PACKED_PLAIN_
 #undef LACEDRING_PACKED_PART_
 #undef LACEDRING_HOT_
+#undef LACEDRING_SMALL_
 #undef LACEDRING_PACKED_MAX_PART_
+#undef LACEDRING_VECTORS_
+#undef LACEDRING_AVX2_
+#undef LACEDRING_WIDE_
+#undef LACEDRING_WORDS_
+#undef LACEDRING_PIECES_
 #undef LACEDRING_BIT_
 #undef LACEDRING_UP_
 #undef LACEDRING_B_
@@ -1308,8 +1855,28 @@ void lacedring_packed_triangle(const struct lacedring_packed* p, uint32_t triang
 #undef LACEDRING_ABXM_
 #undef LACEDRING_AXBM_
 #undef LACEDRING_FOUR_
+#undef LACEDRING_UPS_
 #undef LACEDRING_NIBBLE_
 #undef LACEDRING_NIBBLES_
+#undef LACEDRING_OCTET_
+#undef LACEDRING_SIGN_
+#undef LACEDRING_OCTETS_7_
+#undef LACEDRING_OCTETS_6_
+#undef LACEDRING_OCTETS_5_
+#undef LACEDRING_OCTETS_4_
+#undef LACEDRING_OCTETS_3_
+#undef LACEDRING_OCTETS_2_
+#undef LACEDRING_OCTETS_1_
+#undef LACEDRING_COUNTS_4_
+#undef LACEDRING_COUNTS_16_
+#undef LACEDRING_COUNTS_64_
+#undef LACEDRING_PERMUTE_
+#undef LACEDRING_BLEND_
+#undef LACEDRING_OF_ABX_
+#undef LACEDRING_OF_AXB_
+#undef LACEDRING_RUN_
+#undef LACEDRING_RUN_ABX_
+#undef LACEDRING_RUN_AXB_
 #ifdef __cplusplus
 }
 #endif
