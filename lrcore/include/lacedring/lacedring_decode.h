@@ -853,6 +853,13 @@ LACEDRING_HOT_ uint32_t lacedring_ups_before_(const struct lacedring_turns_* t, 
 }
 #endif
 
+/* Fetches where the next block is written, a line or two of it. */
+#if defined(__GNUC__) && !defined(LACEDRING_PLAIN)
+#define LACEDRING_AHEAD_(out) __builtin_prefetch((const void*)((uintptr_t)(out) + 12 * LACEDRING_PACKED_BLOCK), 1)
+#else
+#define LACEDRING_AHEAD_(out) (void)0
+#endif
+
 /* Triangles [i, end) of one piece, one by one. a: of triangle i; span: b - a + i. Returns what a is then. */
 LACEDRING_HOT_ uint32_t lacedring_write_(const struct lacedring_turns_* turns, uint32_t i, uint32_t end, uint32_t a,
                                          uint32_t span, uint32_t reversed, uint32_t* out) {
@@ -929,6 +936,7 @@ LACEDRING_HOT_ void lacedring_write_four_(const struct lacedring_turns_* turns, 
     for (; i < room; i += 4, to += 12) {
         const struct lacedring_nibble_* n;
         uint32_t now;
+        LACEDRING_AHEAD_(to);
         memcpy(&now, (const uint8_t*)turns->words + i / 8, 4);
         n = &table[now >> i % 8 & 15];
 #ifdef LACEDRING_VECTORS_
@@ -1083,6 +1091,8 @@ LACEDRING_WIDE_ static void lacedring_write_run_(const struct lacedring_turns_* 
         to[2] = lacedring_sum_(n->add + 16, as, bs);
         as += n->grow_a;
         bs += n->grow_b;
+        LACEDRING_AHEAD_(out);
+        LACEDRING_AHEAD_(out + 16);
         if (i + 8 > triangles) break;
         memcpy(out, &to[0], 32);
         memcpy(out + 8, &to[1], 32);
@@ -1156,6 +1166,8 @@ LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_eight_ lacedring_write_eights_(const ui
         }
         piece += (uint32_t)__builtin_popcount(begins >> 1);
         lacedring_mix_(a, b, x, to);
+        LACEDRING_AHEAD_(out);
+        LACEDRING_AHEAD_(out + 16);
         if (triangles < 8) break;
         memcpy(out, &to[0], 32);
         memcpy(out + 8, &to[1], 32);
@@ -1845,6 +1857,7 @@ void lacedring_packed_triangle(const struct lacedring_packed* p, uint32_t triang
 #undef LACEDRING_WIDE_
 #undef LACEDRING_WORDS_
 #undef LACEDRING_PIECES_
+#undef LACEDRING_AHEAD_
 #undef LACEDRING_BIT_
 #undef LACEDRING_UP_
 #undef LACEDRING_B_
