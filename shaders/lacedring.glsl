@@ -8,7 +8,7 @@
 //     uvec3 v = lr_lean_triangle(lr_lean_layout(), slot);  // slot < lr_lean_slots(lr_lean_layout())
 // Of a packed stream:
 //     #define LR_PACKED_WORD(i) words[i]
-//     uvec3 v = lr_packed_triangle(lr_packed_layout(), t);  // t < lr_packed_layout().triangles
+//     uvec3 v = lr_packed_triangle(lr_packed_layout(), t);  // t < lr_packed_triangles(lr_packed_layout())
 // v are vertices in the stream's order (its vertex_order). A lean triangle whose first two are equal is degenerate: it
 // covers nothing, draw it or skip it. A stream must be valid (lacedring::validate_lean, lacedring::validate_packed); on any other, every
 // loop still ends. docs/engine-guide.md has an example of every stage.
@@ -40,6 +40,9 @@
 #define LR_PACKED_WORD_VERTICES 1u
 #define LR_PACKED_WORD_TRIANGLES 2u
 #define LR_PACKED_WORD_CHECKSUM 3u
+#define LR_PACKED_DOUBLES 0x80000000u
+#define LR_PACKED_DOUBLES_WORDS 2u
+#define LR_PACKED_RUN_WORDS 2u
 #define LR_PACKED_BLOCK 256u
 #define LR_PACKED_BLOCK_WORDS 8u
 #define LR_PACKED_GROUP 16u
@@ -155,22 +158,52 @@ uvec3 lr_lean_triangle(LrLeanLayout lean, uint slot) {
 #ifdef LR_PACKED_HEADER
 
 struct LrPackedLayout {
-    uint triangles;
+    uint own;     // the first triangles; the others are their doubles
     uint table;   // first word of it
     uint groups;  // first word of them
     uint vertex_bits;
 };
 
+// The first word of what is said of doubles, or of the groups if nothing is.
+uint lr_packed_doubles(LrPackedLayout p) {
+    uint in_group = LR_PACKED_BLOCK * LR_PACKED_GROUP, groups = p.own / in_group + (p.own % in_group == 0u ? 0u : 1u);
+    return p.table + max(groups, 1u) - 1u;
+}
+
 LrPackedLayout lr_packed_layout() {
     LrPackedLayout p;
-    p.triangles = LR_PACKED_HEADER(LR_PACKED_WORD_TRIANGLES);
-    p.table = LR_PACKED_HEADER_WORDS + p.triangles / 32u + (p.triangles % 32u == 0u ? 0u : 1u);
-    uint in_group = LR_PACKED_BLOCK * LR_PACKED_GROUP;
-    uint groups = p.triangles / in_group + (p.triangles % in_group == 0u ? 0u : 1u);
-    p.groups = p.table + max(groups, 1u) - 1u;
-    uint vertices = max(LR_PACKED_HEADER(LR_PACKED_WORD_VERTICES), 2u);
-    p.vertex_bits = uint(findMSB(vertices - 1u)) + 1u;
+    p.own = LR_PACKED_HEADER(LR_PACKED_WORD_TRIANGLES);
+    p.table = LR_PACKED_HEADER_WORDS + p.own / 32u + (p.own % 32u == 0u ? 0u : 1u);
+    p.groups = lr_packed_doubles(p);
+    uint vertices = LR_PACKED_HEADER(LR_PACKED_WORD_VERTICES);
+    if ((vertices & LR_PACKED_DOUBLES) != 0u) {
+        p.groups += LR_PACKED_DOUBLES_WORDS + LR_PACKED_RUN_WORDS * LR_PACKED_TABLE(p.groups + 1u);
+    }
+    p.vertex_bits = uint(findMSB(max(vertices & ~LR_PACKED_DOUBLES, 2u) - 1u)) + 1u;
     return p;
+}
+
+// All of them.
+uint lr_packed_triangles(LrPackedLayout p) {
+    uint doubles = lr_packed_doubles(p);
+    return doubles < p.groups ? p.own + LR_PACKED_TABLE(doubles) : p.own;
+}
+
+// The own triangle that a double repeats, or LR_PACKED_DOUBLES if it is the other way round.
+uint lr_packed_source(LrPackedLayout p, uint triangle) {
+    uint runs = lr_packed_doubles(p) + LR_PACKED_DOUBLES_WORDS;
+    uint low = 0u, high = (p.groups - runs) / LR_PACKED_RUN_WORDS;
+    for (uint k = 0u; k < 32u; ++k) {
+        uint middle = (low + high) / 2u;
+        if (middle == low) break;
+        if (LR_PACKED_TABLE(runs + LR_PACKED_RUN_WORDS * middle) <= triangle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    uint run = runs + LR_PACKED_RUN_WORDS * low;
+    return LR_PACKED_TABLE(run + 1u) + triangle - LR_PACKED_TABLE(run);
 }
 
 // A reader of bits. Each word is loaded once, and none behind the end.
@@ -237,7 +270,7 @@ struct LrPackedRecord {
 // The record that holds triangle i of a block. Of a plain block the bits are those of its vertices.
 LrPackedRecord lr_packed_record(LrPackedLayout p, uint block, uint i) {
     uint group = block / LR_PACKED_GROUP, member = block % LR_PACKED_GROUP;
-    uint left = (p.triangles - 1u) / LR_PACKED_BLOCK + 1u - group * LR_PACKED_GROUP, blocks = min(left, LR_PACKED_GROUP);
+    uint left = (p.own - 1u) / LR_PACKED_BLOCK + 1u - group * LR_PACKED_GROUP, blocks = min(left, LR_PACKED_GROUP);
     uint byte = group == 0u ? 0u : LR_PACKED_TABLE(p.table + group - 1u);
     LrPackedBits head = lr_packed_bits(p, byte, LR_PACKED_HEAD_BITS + 2u * p.vertex_bits + 1u);
     uint widths = lr_packed_take(head, LR_PACKED_HEAD_BITS);
@@ -273,7 +306,7 @@ LrPackedRecord lr_packed_record(LrPackedLayout p, uint block, uint i) {
     uint first = block * LR_PACKED_BLOCK;
     r.turn_word = LR_PACKED_HEADER_WORDS + first / 32u;
     r.begin = 0u;
-    r.triangles = min(p.triangles - first, LR_PACKED_BLOCK);
+    r.triangles = min(p.own - first, LR_PACKED_BLOCK);
     r.plain = length == LR_PACKED_PLAIN;
     r.parted = length > LR_PACKED_MAX_RECORD && !r.plain;
     if (r.plain) {
@@ -481,7 +514,7 @@ void lr_packed_skip(inout LrPackedState s, inout uint at, uint to) {
     at = to;
 }
 
-uvec3 lr_packed_triangle(LrPackedLayout p, uint triangle) {
+uvec3 lr_packed_own_triangle(LrPackedLayout p, uint triangle) {
     uint block = triangle / LR_PACKED_BLOCK, i = triangle % LR_PACKED_BLOCK;
     LrPackedRecord r = lr_packed_record(p, block, i);
     if (r.plain) return lr_packed_plain(p, r, i);
@@ -551,6 +584,13 @@ uvec3 lr_packed_triangle(LrPackedLayout p, uint triangle) {
         }
     }
     return lr_packed_oriented(s.a, up ? s.a + by : s.b - by, s.b, s.reversed != flip);
+}
+
+uvec3 lr_packed_triangle(LrPackedLayout p, uint triangle) {
+    if (triangle < p.own) return lr_packed_own_triangle(p, triangle);
+    uint of = lr_packed_source(p, triangle);
+    uvec3 v = lr_packed_own_triangle(p, min(of & ~LR_PACKED_DOUBLES, p.own - 1u));
+    return (of & LR_PACKED_DOUBLES) != 0u ? v.xzy : v;
 }
 
 #endif  // LR_PACKED_HEADER

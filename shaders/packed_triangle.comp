@@ -12,7 +12,7 @@ layout(std430, binding = 1) writeonly buffer Indices { uint indices[]; };
 void main() {
     LrPackedLayout p = lr_packed_layout();
     uint triangle = gl_GlobalInvocationID.x;
-    if (triangle >= p.triangles) return;
+    if (triangle >= lr_packed_triangles(p)) return;
     uvec3 v = lr_packed_triangle(p, triangle);
     indices[3u * triangle] = v.x;
     indices[3u * triangle + 1u] = v.y;

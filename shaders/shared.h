@@ -25,9 +25,9 @@ struct DecodeConstants {
     uint slots;       // slots of this dispatch
     uint draws;       // draw commands to write: 0 in every dispatch but one
     uint draw_slots;  // slots of each draw command but the last
-    uint first_word;  // word of the stream (header included) at which its descriptor begins; packed: that of the turns
-    uint table;       // packed: of the table
-    uint groups;      // packed: of the groups
+    uint first_word;  // lean: word of the stream (header included) at which its descriptor begins
+    uint words;       // packed: of the stream
+    uvec2 stream;     // packed: its address
 };
 
 // rotate.comp: the window of the index buffer is the descriptor's.

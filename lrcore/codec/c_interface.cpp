@@ -183,7 +183,7 @@ lacedring_code lacedring_encode_bounds(int format, std::size_t index_count, std:
             words =
                 LR_PACKED_HEADER_WORDS + blocks * (LR_PACKED_BLOCK_WORDS + 3 * LR_PACKED_BLOCK * 29 / 32) +
                 (blocks / LR_PACKED_GROUP + 1) * (1 + (LR_PACKED_HEAD_BITS + 2 * 29 + 1 + LR_PACKED_GROUP * 16) / 32) +
-                1;
+                LR_PACKED_DOUBLES_WORDS + 1;
             break;
         case LACEDRING_FORMAT_LR:  // 3T vertices at most, each 2 words or 1, and copies; 6 for a T0 or 3 for another
                                    // triangle

@@ -46,8 +46,7 @@ struct DecodeTest : GpuTest {
         }
         const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
         REQUIRE(table);
-        const Rings optimised = optimize_rings(*table, expand_rings(*table), {.passes = 2});
-        model->packed = encode_packed(*table, optimised, PackedProfile::cache).value();
+        model->packed = encode_smallest_packed(*table, {}, {.passes = 2}, PackedProfile::cache).value().stream;
         check(*model, gpu::Source::packed, max_range);
     }
 

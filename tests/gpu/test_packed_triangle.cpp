@@ -54,9 +54,9 @@ struct RandomAccess : GpuTest {
     void check(const Mesh& mesh) {
         const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
         REQUIRE(table);
-        const Result<EncodedPacked> encoded = encode_packed(*table, expand_rings(*table));
+        const Result<PackedChoice> encoded = encode_smallest_packed(*table, {}, {.passes = 0});
         REQUIRE(encoded);
-        const EncodedPacked& stream = *encoded;
+        const EncodedPacked& stream = encoded->stream;
         const Result<PackedView> view = validate_packed(stream.words);
         REQUIRE(view);
         if (view->triangles == 0) return;

@@ -11,6 +11,7 @@
 #include "lrcore/base/message.h"
 #include "lrcore/codec/packed/bit_writer.h"
 #include "lrcore/codec/packed/corridors.h"
+#include "lrcore/codec/packed/doubles.h"
 #include "lrcore/codec/packed/packed_c.h"
 #include "lrcore/codec/packed/packed_format.h"
 #include "lrcore/codec/packed/planner.h"
@@ -303,7 +304,7 @@ Result<EncodedPacked> write_stream(const CornerTable& table, const Corridors& co
     const auto triangles = static_cast<std::uint32_t>(corridors.corners.size());
     const std::uint32_t vertex_bits = packed_vertex_bits(table.vertex_count);
     PackedView view;
-    view.triangles = triangles;
+    view.triangles = view.own = triangles;
     std::vector<std::uint32_t>& words = out.words;
     words.assign(view.groups_word(), 0);
     Planner planner(table, corridors, vertex_bits, words.data() + LR_PACKED_HEADER_WORDS);
@@ -342,8 +343,10 @@ Result<EncodedPacked> encode_packed(const CornerTable& table, const Rings& rings
     return encoded;
 }
 
-Result<PackedChoice> encode_smallest_packed(const CornerTable& table, const RingOptions& ring,
-                                            const OptimizeOptions& optimize, PackedProfile profile) {
+namespace {
+
+Result<PackedChoice> encode_smallest(const CornerTable& table, const RingOptions& ring, const OptimizeOptions& optimize,
+                                     PackedProfile profile) {
     Rings rings = expand_rings(table, ring);
     Result<EncodedPacked> plain = encode_packed(table, rings, profile);
     if (!plain) return plain.error();
@@ -352,6 +355,17 @@ Result<PackedChoice> encode_smallest_packed(const CornerTable& table, const Ring
     Result<EncodedPacked> optimized = encode_packed(table, optimize_rings(table, std::move(rings), optimize), profile);
     if (!optimized) return optimized.error();
     if (optimized->words.size() < out.stream.words.size()) out = {std::move(*optimized), optimize.passes};
+    return out;
+}
+
+}  // namespace
+
+Result<PackedChoice> encode_smallest_packed(const CornerTable& table, const RingOptions& ring,
+                                            const OptimizeOptions& optimize, PackedProfile profile) {
+    const std::optional<Doubles> doubles = find_doubles(table);
+    if (!doubles) return encode_smallest(table, ring, optimize, profile);
+    Result<PackedChoice> out = encode_smallest(doubles->table, ring, optimize, profile);
+    if (out) add_doubles(out->stream, *doubles);
     return out;
 }
 

@@ -1,8 +1,9 @@
 // The packed stream's constants, read by C++ and by GLSL. docs/packed-format.md has the whole format.
 //
 // A stream is LR_PACKED_HEADER_WORDS header words, and then, all little-endian u32:
-//     turn bits    one bit a triangle, LR_PACKED_BLOCK_WORDS words a block, the last block's cut short
+//     turn bits    one bit an own triangle (no double), LR_PACKED_BLOCK_WORDS words a block, the last block's cut short
 //     table        for each group of LR_PACKED_GROUP blocks but the first: the byte at which it begins
+//     doubles      LR_PACKED_DOUBLES_WORDS words and runs of LR_PACKED_RUN_WORDS, if the header says that there are any
 //     groups       a head each, of bits, and then a record for each block, of whole bytes; zeros up to a whole word
 #ifndef LACEDRING_PACKED_FORMAT_H
 #define LACEDRING_PACKED_FORMAT_H
@@ -11,9 +12,14 @@
 
 #define LR_PACKED_HEADER_WORDS 4u
 #define LR_PACKED_WORD_MAGIC 0u
-#define LR_PACKED_WORD_VERTICES 1u
-#define LR_PACKED_WORD_TRIANGLES 2u
-#define LR_PACKED_WORD_CHECKSUM 3u  // CRC-32 of the other three words and all that follows
+#define LR_PACKED_WORD_VERTICES 1u   // or LR_PACKED_DOUBLES
+#define LR_PACKED_WORD_TRIANGLES 2u  // own ones
+#define LR_PACKED_WORD_CHECKSUM 3u   // CRC-32 of the other three words and all that follows
+
+// Doubles: how many, how many runs; a run: its first triangle, the own triangle that this one is the double of.
+#define LR_PACKED_DOUBLES 0x80000000u  // of the vertices' word: there are any; of a run: they are turned round
+#define LR_PACKED_DOUBLES_WORDS 2u
+#define LR_PACKED_RUN_WORDS 2u
 
 #define LR_PACKED_BLOCK 256u      // triangles of a block; the last block has what is left
 #define LR_PACKED_BLOCK_WORDS 8u  // their turn bits

@@ -45,6 +45,7 @@ struct PackedStatistics {
     std::uint64_t event_bits[8] = {};  ///< with their gaps
     std::uint32_t warts = 0;
     std::uint64_t wart_bits = 0;
+    std::uint32_t doubles = 0;        ///< triangles stored as another one's number
     std::uint32_t parted_blocks = 0;  ///< whose events are too many for one record
     std::uint32_t plain_blocks = 0;   ///< stored as three vertices a triangle
 };
@@ -147,7 +148,8 @@ struct EncodedPacked {
 Result<EncodedPacked> encode_packed(const CornerTable& table, const Rings& rings,
                                     PackedProfile profile = PackedProfile::small);
 
-/// The smaller of two streams: over the rings of expand_rings, and over these optimized. Errors: encode_packed's.
+/// The smaller of two streams: over the rings of expand_rings, and over these optimized; of a mesh with doubled
+/// triangles both are of the mesh without the doubles, which only the stream gets. Errors: encode_packed's.
 struct PackedChoice {
     EncodedPacked stream;
     std::uint32_t passes = 0;  ///< of the optimizer; 0 where its rings were no better

@@ -56,7 +56,8 @@ enum lacedring_status {
     LACEDRING_STATUS_TRIANGLES,    /* how many triangles there are, not what the header says */
     LACEDRING_STATUS_GROUP,        /* the block whose group begins elsewhere, or has an impossible head */
     LACEDRING_STATUS_BLOCK,        /* the block that says something impossible */
-    LACEDRING_STATUS_TURNS         /* how many triangles have turns, and there are more */
+    LACEDRING_STATUS_TURNS,        /* how many triangles have turns, and there are more */
+    LACEDRING_STATUS_DOUBLES       /* which run of doubles is impossible */
 };
 
 /* A stream in memory, its header read. Holds no copy. Slots are numbered: 2 for each vertex of two-sided rings, 1 for
@@ -98,15 +99,18 @@ void lacedring_lean_triangles_u16(const struct lacedring_lean* lean, uint16_t* i
 /* A packed stream in memory, its header read. Holds no copy. */
 struct lacedring_packed {
     uint32_t vertices, triangles; /* of the mesh */
+    uint32_t own;                 /* the first triangles, each with vertices of its own; the others are their doubles */
     uint32_t vertex_bits;         /* of a vertex number in the stream */
-    const uint32_t* turns;        /* a bit for each triangle */
+    uint32_t runs;                /* of doubles */
+    const uint32_t* doubles;      /* two words a run */
+    const uint32_t* turns;        /* a bit for each of the own triangles */
     const uint32_t* table;        /* where groups begin */
     const uint8_t* groups;
     size_t group_bytes;
 };
 
 /* As for lean streams: open reads the header and checks sizes, constant time; check is all that decoders rely on but
-   the checksum, linear time; validate does all. 9 KB of stack. */
+   the checksum, linear time; validate does all. 12 KB of stack. */
 enum lacedring_status lacedring_packed_open(const uint32_t* words, size_t count, struct lacedring_packed* packed,
                                             uint64_t* where);
 enum lacedring_status lacedring_packed_check(const struct lacedring_packed* packed, uint64_t* where);
@@ -122,7 +126,7 @@ void lacedring_packed_blocks_u32(const struct lacedring_packed* packed, uint32_t
                                  uint32_t* indices);
 
 /* Any triangle, on its own, in a few popcounts: at most 8 words of turns, 41 bytes of its group's head and 200 bytes of
-   its record are read. */
+   its record are read; of a double, about log2(runs) words more. */
 void lacedring_packed_triangle(const struct lacedring_packed* packed, uint32_t triangle, uint32_t out[3]);
 
 #ifdef __cplusplus
@@ -370,6 +374,7 @@ void lacedring_lean_triangles_u16(const struct lacedring_lean* lean, uint16_t* i
 
 /* Packed streams: docs/packed-format.md. */
 
+#define LACEDRING_DOUBLES_ 0x80000000u /* in the word of vertices: there are doubles; in a run: turned round */
 #define LACEDRING_PACKED_GROUP_ 16u
 #define LACEDRING_PACKED_MAX_RECORD_ 160u
 #define LACEDRING_PACKED_PLAIN_ 255u
@@ -480,8 +485,8 @@ struct lacedring_block_ {
     uint32_t explicit_entry;
 };
 
-static uint32_t lacedring_packed_blocks_(const struct lacedring_packed* p) {
-    return p->triangles / LACEDRING_PACKED_BLOCK + (p->triangles % LACEDRING_PACKED_BLOCK != 0);
+static uint32_t lacedring_blocks_of_(uint32_t triangles) {
+    return triangles / LACEDRING_PACKED_BLOCK + (triangles % LACEDRING_PACKED_BLOCK != 0);
 }
 
 static struct lacedring_bits_ lacedring_bits_at_(const struct lacedring_packed* p, uint64_t byte, uint32_t bytes) {
@@ -503,7 +508,7 @@ static void lacedring_take_entry_(const struct lacedring_packed* p, struct laced
 /* Begins the group that holds `block`. 0: its head is impossible. */
 static int lacedring_open_group_(const struct lacedring_packed* p, uint32_t block, struct lacedring_group_* g) {
     const uint32_t group = block / LACEDRING_PACKED_GROUP_;
-    const uint32_t left = lacedring_packed_blocks_(p) - group * LACEDRING_PACKED_GROUP_;
+    const uint32_t left = lacedring_blocks_of_(p->own) - group * LACEDRING_PACKED_GROUP_;
     const uint32_t blocks = left < LACEDRING_PACKED_GROUP_ ? left : LACEDRING_PACKED_GROUP_;
     const uint32_t byte = group == 0 ? 0 : p->table[group - 1];
     uint32_t bits;
@@ -535,7 +540,7 @@ static uint32_t lacedring_block_bytes_(const struct lacedring_packed* p, uint32_
 /* The next block of the group. 0: it goes on from a block that says nothing of where. */
 static int lacedring_next_block_(const struct lacedring_packed* p, struct lacedring_group_* g,
                                  struct lacedring_block_* b) {
-    const uint32_t first = g->block * LACEDRING_PACKED_BLOCK, left = p->triangles - first;
+    const uint32_t first = g->block * LACEDRING_PACKED_BLOCK, left = p->own - first;
     const uint32_t later = g->block % LACEDRING_PACKED_GROUP_ != 0;
     uint32_t entry = 0;
     int good = 1;
@@ -575,7 +580,7 @@ static void lacedring_part_(const struct lacedring_packed* p, const struct laced
                             struct lacedring_record_* r) {
     struct lacedring_bits_ lengths = lacedring_bits_at_(p, b->begin, 4);
     uint64_t byte = b->begin + 4;
-    uint32_t i, first = b->record.first + part * LACEDRING_PACKED_PART_, left = p->triangles - first;
+    uint32_t i, first = b->record.first + part * LACEDRING_PACKED_PART_, left = p->own - first;
     *r = b->record;
     if (part == 0) return;
     for (i = 0; i < part; ++i) byte += lacedring_take_(&lengths, 8);
@@ -1011,7 +1016,7 @@ static int lacedring_expand_record_(const struct lacedring_packed* p, const stru
 
 static int lacedring_expand_block_(const struct lacedring_packed* p, struct lacedring_group_* g,
                                    struct lacedring_block_* b, uint32_t* out) {
-    uint32_t i, left = p->triangles - b->record.first;
+    uint32_t i, left = p->own - b->record.first;
     if (left > LACEDRING_PACKED_BLOCK) left = LACEDRING_PACKED_BLOCK;
     if (b->length == LACEDRING_PACKED_PLAIN_) {
         for (i = 0; i < left; ++i) lacedring_plain_(p, b, i, out + (size_t)3 * i);
@@ -1031,31 +1036,43 @@ static int lacedring_expand_block_(const struct lacedring_packed* p, struct lace
 
 enum lacedring_status lacedring_packed_open(const uint32_t* words, size_t count, struct lacedring_packed* p,
                                             uint64_t* where) {
-    uint64_t turns, groups;
+    uint64_t turns, groups, left;
     if (count < LACEDRING_PACKED_HEADER_WORDS) return lacedring_at_(where, 0, LACEDRING_STATUS_SHORT);
     if ((words[0] & 0xffffffu) != 0x50524cu) return lacedring_at_(where, 0, LACEDRING_STATUS_MAGIC);
     if (words[0] != 0x3250524cu) /* the first version had a K here */
         return lacedring_at_(where, words[0] >> 24 == 'K' ? 1 : (words[0] >> 24) - '0', LACEDRING_STATUS_VERSION);
-    p->vertices = words[1];
-    p->triangles = words[2];
+    p->vertices = words[1] & ~LACEDRING_DOUBLES_;
+    p->own = p->triangles = words[2];
+    p->runs = 0;
     if (p->vertices > UINT32_C(1) << 29) return lacedring_at_(where, 0, LACEDRING_STATUS_VERTICES);
-    if (p->triangles > UINT32_MAX / 3) return lacedring_at_(where, 0, LACEDRING_STATUS_SLOTS);
+    if (p->own > UINT32_MAX / 3) return lacedring_at_(where, 0, LACEDRING_STATUS_SLOTS);
     for (p->vertex_bits = 1; p->vertex_bits < 31 && p->vertices > UINT32_C(1) << p->vertex_bits;) ++p->vertex_bits;
-    turns = ((uint64_t)p->triangles + 31) / 32;
-    groups = ((uint64_t)lacedring_packed_blocks_(p) + LACEDRING_PACKED_GROUP_ - 1) / LACEDRING_PACKED_GROUP_;
-    if (turns + (groups > 0 ? groups - 1 : 0) > count - LACEDRING_PACKED_HEADER_WORDS)
-        return lacedring_at_(where, turns + groups, LACEDRING_STATUS_SIZE);
+    turns = ((uint64_t)p->own + 31) / 32;
+    groups = ((uint64_t)lacedring_blocks_of_(p->own) + LACEDRING_PACKED_GROUP_ - 1) / LACEDRING_PACKED_GROUP_;
+    groups -= groups > 0; /* in the table */
+    left = count - LACEDRING_PACKED_HEADER_WORDS;
+    if (turns + groups > left) return lacedring_at_(where, turns + groups, LACEDRING_STATUS_SIZE);
+    left -= turns + groups;
     p->turns = words + LACEDRING_PACKED_HEADER_WORDS;
     p->table = p->turns + turns;
-    p->groups = (const uint8_t*)(p->table + (groups > 0 ? groups - 1 : 0));
-    p->group_bytes =
-        4 * (count - LACEDRING_PACKED_HEADER_WORDS - (size_t)turns - (size_t)(groups > 0 ? groups - 1 : 0));
+    p->doubles = p->table + groups;
+    if (words[1] & LACEDRING_DOUBLES_) {
+        if (left < 2 || p->doubles[1] > (left - 2) / 2) return lacedring_at_(where, 0, LACEDRING_STATUS_SIZE);
+        p->runs = p->doubles[1];
+        if (p->runs == 0 || p->doubles[0] > p->own) return lacedring_at_(where, 0, LACEDRING_STATUS_DOUBLES);
+        p->triangles += p->doubles[0];
+        p->doubles += 2;
+        left -= 2 + (uint64_t)2 * p->runs;
+    }
+    if (p->triangles > UINT32_MAX / 3) return lacedring_at_(where, 0, LACEDRING_STATUS_SLOTS);
+    p->groups = (const uint8_t*)(p->doubles + (size_t)2 * p->runs);
+    p->group_bytes = (size_t)(4 * left);
     return LACEDRING_STATUS_OK;
 }
 
 /* What readers do not look at: what fills up bytes and words, turns of plain blocks. */
 static int lacedring_unused_clear_(const struct lacedring_packed* p, const struct lacedring_block_* b) {
-    uint32_t i, left = p->triangles - b->record.first, used = 4;
+    uint32_t i, left = p->own - b->record.first, used = 4;
     const uint8_t* bytes = p->groups + b->begin;
     if (left > LACEDRING_PACKED_BLOCK) left = LACEDRING_PACKED_BLOCK;
     if (b->length == LACEDRING_PACKED_PLAIN_) {
@@ -1078,11 +1095,22 @@ static int lacedring_unused_clear_(const struct lacedring_packed* p, const struc
     return 1;
 }
 
+/* The triangle behind a run. */
+static uint32_t lacedring_run_end_(const struct lacedring_packed* p, uint32_t run) {
+    return run + 1 < p->runs ? p->doubles[(size_t)2 * run + 2] : p->triangles;
+}
+
 enum lacedring_status lacedring_packed_check(const struct lacedring_packed* p, uint64_t* where) {
     struct lacedring_group_ g;
     struct lacedring_block_ b;
-    uint32_t indices[3 * LACEDRING_PACKED_BLOCK], block, blocks = lacedring_packed_blocks_(p), i, left;
+    uint32_t indices[3 * LACEDRING_PACKED_BLOCK], block, blocks = lacedring_blocks_of_(p->own), i, left;
     uint64_t end = 0;
+    for (i = 0; i < p->runs; ++i) {
+        const uint32_t *run = p->doubles + (size_t)2 * i, from = run[1] & ~LACEDRING_DOUBLES_;
+        const uint32_t run_end = lacedring_run_end_(p, i);
+        if ((i == 0 && run[0] != p->own) || run[0] >= run_end || from >= p->own || run_end - run[0] > p->own - from)
+            return lacedring_at_(where, i, LACEDRING_STATUS_DOUBLES);
+    }
     for (block = 0; block < blocks; ++block) {
         if (block % LACEDRING_PACKED_GROUP_ == 0) {
             const uint64_t begin = block == 0 ? 0 : p->table[block / LACEDRING_PACKED_GROUP_ - 1];
@@ -1092,7 +1120,7 @@ enum lacedring_status lacedring_packed_check(const struct lacedring_packed* p, u
             if (i != 0 && p->groups[g.head.end / 8] >> i != 0xff >> i)
                 return lacedring_at_(where, block, LACEDRING_STATUS_GROUP);
         }
-        left = p->triangles - block * LACEDRING_PACKED_BLOCK;
+        left = p->own - block * LACEDRING_PACKED_BLOCK;
         if (left > LACEDRING_PACKED_BLOCK) left = LACEDRING_PACKED_BLOCK;
         if (!lacedring_next_block_(p, &g, &b) || g.record > p->group_bytes || !lacedring_unused_clear_(p, &b))
             return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
@@ -1107,8 +1135,8 @@ enum lacedring_status lacedring_packed_check(const struct lacedring_packed* p, u
         }
         end = g.record;
     }
-    if (p->triangles % 32 != 0 && p->turns[p->triangles / 32] >> (p->triangles % 32) != 0)
-        return lacedring_at_(where, p->triangles, LACEDRING_STATUS_TURNS);
+    if (p->own % 32 != 0 && p->turns[p->own / 32] >> (p->own % 32) != 0)
+        return lacedring_at_(where, p->own, LACEDRING_STATUS_TURNS);
     if (end > p->group_bytes || p->group_bytes - end > 3) return lacedring_at_(where, end, LACEDRING_STATUS_SIZE);
     for (; end < p->group_bytes; ++end) {
         if (p->groups[end] != 0) return lacedring_at_(where, end, LACEDRING_STATUS_SIZE);
@@ -1127,7 +1155,8 @@ enum lacedring_status lacedring_packed_validate(const uint32_t* words, size_t co
     return lacedring_packed_check(p, where);
 }
 
-void lacedring_packed_blocks_u32(const struct lacedring_packed* p, uint32_t block, uint32_t end, uint32_t* indices) {
+/* Blocks [block, end), but no doubles. */
+static void lacedring_own_blocks_(const struct lacedring_packed* p, uint32_t block, uint32_t end, uint32_t* indices) {
     struct lacedring_group_ g;
     struct lacedring_block_ b;
     if (block >= end) return;
@@ -1140,13 +1169,62 @@ void lacedring_packed_blocks_u32(const struct lacedring_packed* p, uint32_t bloc
     }
 }
 
+/* The run that holds a double. */
+static uint32_t lacedring_run_of_(const struct lacedring_packed* p, uint32_t triangle) {
+    uint32_t low = 0, high = p->runs;
+    while (high - low > 1) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (p->doubles[(size_t)2 * middle] <= triangle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+static void lacedring_double_(const uint32_t* of, uint32_t turned, uint32_t* out) {
+    const uint32_t b = of[1], c = of[2];
+    out[0] = of[0];
+    out[1] = turned ? c : b;
+    out[2] = turned ? b : c;
+}
+
+/* Triangles [t, end), all of them doubles. */
+static void lacedring_double_triangles_(const struct lacedring_packed* p, uint32_t t, uint32_t end, uint32_t* out) {
+    uint32_t block[3 * LACEDRING_PACKED_BLOCK], held = UINT32_MAX, run = lacedring_run_of_(p, t);
+    for (; t < end; ++run) {
+        const uint32_t* r = p->doubles + (size_t)2 * run;
+        const uint32_t run_end = lacedring_run_end_(p, run), stop = run_end < end ? run_end : end;
+        for (; t < stop; ++t, out += 3) {
+            const uint32_t of = (r[1] & ~LACEDRING_DOUBLES_) + (t - r[0]);
+            if (of / LACEDRING_PACKED_BLOCK != held) {
+                held = of / LACEDRING_PACKED_BLOCK;
+                lacedring_own_blocks_(p, held, held + 1, block);
+            }
+            lacedring_double_(block + (size_t)3 * (of % LACEDRING_PACKED_BLOCK), r[1] & LACEDRING_DOUBLES_, out);
+        }
+    }
+}
+
+void lacedring_packed_blocks_u32(const struct lacedring_packed* p, uint32_t block, uint32_t end, uint32_t* indices) {
+    const uint32_t own = lacedring_blocks_of_(p->own);
+    lacedring_own_blocks_(p, block, end < own ? end : own, indices);
+    if (p->own < p->triangles && block < end) {
+        const uint64_t first = (uint64_t)block * LACEDRING_PACKED_BLOCK, last = (uint64_t)end * LACEDRING_PACKED_BLOCK;
+        const uint32_t begin = p->own < first ? (uint32_t)first : p->own;
+        const uint32_t stop = last < p->triangles ? (uint32_t)last : p->triangles;
+        if (begin < stop) lacedring_double_triangles_(p, begin, stop, indices + (size_t)3 * (begin - (size_t)first));
+    }
+}
+
 void lacedring_packed_triangles_u32(const struct lacedring_packed* p, uint32_t* indices) {
-    lacedring_packed_blocks_u32(p, 0, lacedring_packed_blocks_(p), indices);
+    lacedring_packed_blocks_u32(p, 0, lacedring_blocks_of_(p->triangles), indices);
 }
 
 void lacedring_packed_triangles_u16(const struct lacedring_packed* p, uint16_t* indices) {
     uint32_t block[3 * LACEDRING_PACKED_BLOCK], b, i, count;
-    for (b = 0; b < lacedring_packed_blocks_(p); ++b) {
+    for (b = 0; b < lacedring_blocks_of_(p->triangles); ++b) {
         lacedring_packed_blocks_u32(p, b, b + 1, block);
         count = p->triangles - b * LACEDRING_PACKED_BLOCK;
         if (count > LACEDRING_PACKED_BLOCK) count = LACEDRING_PACKED_BLOCK;
@@ -1272,7 +1350,13 @@ static void lacedring_seek_(const struct lacedring_packed* p, const struct laced
 void lacedring_packed_triangle(const struct lacedring_packed* p, uint32_t triangle, uint32_t out[3]) {
     struct lacedring_group_ g;
     struct lacedring_block_ b;
-    const uint32_t i = triangle % LACEDRING_PACKED_BLOCK;
+    uint32_t i, turned = 0;
+    if (triangle >= p->own) {
+        const uint32_t* run = p->doubles + (size_t)2 * lacedring_run_of_(p, triangle);
+        triangle = (run[1] & ~LACEDRING_DOUBLES_) + (triangle - run[0]);
+        turned = run[1] & LACEDRING_DOUBLES_;
+    }
+    i = triangle % LACEDRING_PACKED_BLOCK;
     lacedring_open_group_(p, triangle / LACEDRING_PACKED_BLOCK, &g);
     do {
         lacedring_next_block_(p, &g, &b);
@@ -1286,12 +1370,14 @@ void lacedring_packed_triangle(const struct lacedring_packed* p, uint32_t triang
         lacedring_part_(p, &b, i / LACEDRING_PACKED_PART_, &r);
         lacedring_seek_(p, &g, &r, i % LACEDRING_PACKED_PART_, out);
     }
+    lacedring_double_(out, turned, out);
 }
 
 #undef LACEDRING_TIP_
 #undef LACEDRING_WART_
 #undef LACEDRING_CLOSE_
 #undef LACEDRING_FLIP_
+#undef LACEDRING_DOUBLES_
 #undef LACEDRING_PACKED_GROUP_
 #undef LACEDRING_PACKED_MAX_RECORD_
 #undef LACEDRING_PACKED_PLAIN_

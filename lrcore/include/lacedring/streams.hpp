@@ -92,11 +92,14 @@ struct PackedView {
     std::span<const std::uint32_t> words;  ///< all of it
     std::uint32_t vertices = 0;
     std::uint32_t triangles = 0;
+    std::uint32_t own = 0;  ///< the first triangles; each of the others is the double of one of these
     std::uint32_t vertex_bits = 0;
+    std::uint32_t runs = 0;  ///< of doubles
 
     std::uint32_t blocks() const;
-    std::size_t table_word() const;   ///< where the table of groups begins in `words`
-    std::size_t groups_word() const;  ///< where the groups begin
+    std::size_t table_word() const;    ///< where the table of groups begins in `words`
+    std::size_t doubles_word() const;  ///< where what is said of doubles begins, if anything is
+    std::size_t groups_word() const;   ///< where the groups begin
     std::size_t bytes() const { return words.size_bytes(); }
 };
 
