@@ -46,15 +46,22 @@
 #define LR_PACKED_BLOCK 256u
 #define LR_PACKED_BLOCK_WORDS 8u
 #define LR_PACKED_GROUP 16u
-#define LR_PACKED_LENGTH_FIELD 4u
+#define LR_PACKED_STEP_FIELD 12u
+#define LR_PACKED_OFFSET_FIELD 5u
 #define LR_PACKED_ENTRY_FIELD 4u
 #define LR_PACKED_GAP_FIELD 3u
 #define LR_PACKED_WART_FIELD 3u
 #define LR_PACKED_SPLIT_FIELD 2u
 #define LR_PACKED_COUNT_FIELD 2u
-#define LR_PACKED_HEAD_BITS 18u
+#define LR_PACKED_KINDS_FIELD 1u
+#define LR_PACKED_HEAD_BITS 32u
+#define LR_PACKED_MAX_OFFSET_BITS 16u
+#define LR_PACKED_MAX_ENTRY_BITS 12u
+#define LR_PACKED_KIND_BITS 2u
+#define LR_PACKED_RECORD 0u
+#define LR_PACKED_PARTED 1u
+#define LR_PACKED_PLAIN 2u
 #define LR_PACKED_MAX_RECORD 160u
-#define LR_PACKED_PLAIN 255u
 #define LR_PACKED_PARTS 4u
 #define LR_PACKED_MAX_PART 200u
 #define LR_PACKED_PART 64u
@@ -256,6 +263,22 @@ uint lr_packed_golomb(inout LrPackedBits r, uint order) {
     return (lr_packed_take(r, low) | 1u << low) - (1u << order);
 }
 
+// `count` bits of the groups, at most 32. No word behind them is read.
+uint lr_packed_bits_at(LrPackedLayout p, uint bit, uint count) {
+    uint shift = bit & 31u, low = LR_PACKED_GROUPS(p.groups + bit / 32u);
+    uint high = LR_PACKED_GROUPS(p.groups + (bit + max(count, 1u) - 1u) / 32u);
+    return bitfieldExtract(low >> shift | high << 1 << (31u - shift), 0, int(count));
+}
+// a, b and reversed.
+uvec3 lr_packed_entry_at(LrPackedLayout p, uint bit) {
+    uint shift = bit & 31u, word = p.groups + bit / 32u, last = p.groups + (bit + 2u * p.vertex_bits) / 32u;
+    uint x = LR_PACKED_GROUPS(word), y = LR_PACKED_GROUPS(min(word + 1u, last)), z = LR_PACKED_GROUPS(min(word + 2u, last));
+    uint low = x >> shift | y << 1 << (31u - shift), high = y >> shift | z << 1 << (31u - shift);
+    uint b = low >> p.vertex_bits | high << (32u - p.vertex_bits), r = 2u * p.vertex_bits;
+    return uvec3(bitfieldExtract(low, 0, int(p.vertex_bits)), bitfieldExtract(b, 0, int(p.vertex_bits)),
+                 (r < 32u ? low >> r : high >> (r - 32u)) & 1u);
+}
+
 // A record, from its number of events on.
 struct LrPackedRecord {
     LrPackedBits bits;
@@ -269,79 +292,64 @@ struct LrPackedRecord {
 
 // The record that holds triangle i of a block. Of a plain block the bits are those of its vertices.
 LrPackedRecord lr_packed_record(LrPackedLayout p, uint block, uint i) {
-    uint group = block / LR_PACKED_GROUP, member = block % LR_PACKED_GROUP;
-    uint left = (p.own - 1u) / LR_PACKED_BLOCK + 1u - group * LR_PACKED_GROUP, blocks = min(left, LR_PACKED_GROUP);
-    uint byte = group == 0u ? 0u : LR_PACKED_TABLE(p.table + group - 1u);
-    LrPackedBits head = lr_packed_bits(p, byte, LR_PACKED_HEAD_BITS + 2u * p.vertex_bits + 1u);
-    uint widths = lr_packed_take(head, LR_PACKED_HEAD_BITS);
-    uint length_bits = widths & 15u, entry_bits = widths >> 4 & 15u;
-    head.left += blocks * length_bits + (blocks - 1u) * entry_bits;
+    uint group = block / LR_PACKED_GROUP, k = block % LR_PACKED_GROUP, first = block * LR_PACKED_BLOCK;
+    uint blocks = min((p.own - 1u) / LR_PACKED_BLOCK + 1u - group * LR_PACKED_GROUP, LR_PACKED_GROUP);
+    uint begin = group == 0u ? 0u : LR_PACKED_TABLE(p.table + group - 1u), bit = 32u * begin;
+    uint head = LR_PACKED_GROUPS(p.groups + begin), step = head & 0xfffu;
+    uint offset_bits = min(head >> 12 & 31u, LR_PACKED_MAX_OFFSET_BITS), entry_bits = min(head >> 17 & 15u, LR_PACKED_MAX_ENTRY_BITS);
     LrPackedRecord r;
-    r.gap_bits = widths >> 8 & 7u;
-    r.wart_bits = widths >> 11 & 7u;
-    r.split_order = widths >> 14 & 3u;
-    r.count_order = widths >> 16 & 3u;
-    r.a = lr_packed_take(head, p.vertex_bits);
-    r.b = lr_packed_take(head, p.vertex_bits);
-    r.reversed = lr_packed_take(head, 1u) != 0u;
-    byte += (LR_PACKED_HEAD_BITS + 2u * p.vertex_bits + 1u + blocks * length_bits + (blocks - 1u) * entry_bits + 7u) / 8u;
-    // Lengths lead to the record, entries from the last block that has its own to (a, b).
-    uint length = lr_packed_take(head, length_bits), from = 0u, from_byte = byte, from_length = 0u, steps = 0u;
-    uint middle = LR_PACKED_BLOCK / 2u - (1u << entry_bits >> 1);
-    for (uint k = 1u; k <= member; ++k) {
-        byte += length <= LR_PACKED_MAX_RECORD ? length
-                : length < LR_PACKED_PLAIN     ? 8u * (length - LR_PACKED_MAX_RECORD)
-                                               : 3u * LR_PACKED_BLOCK / 8u * p.vertex_bits;
-        uint both = lr_packed_take(head, length_bits + entry_bits);
-        length = both & ((1u << length_bits) - 1u);
-        uint entry = both >> length_bits;
-        steps += entry + middle;
-        if (entry == 0u) {
-            from = k;
-            from_byte = byte;
-            from_length = length;
-            steps = 0u;
-        }
+    r.gap_bits = head >> 21 & 7u;
+    r.wart_bits = head >> 24 & 7u;
+    r.split_order = head >> 27 & 3u;
+    r.count_order = head >> 29 & 3u;
+
+    // Blocks 1 to blocks - 1 whose entry is in the head; where the fields are.
+    uint owns = lr_packed_bits_at(p, bit + 32u, blocks - 1u), own = bitfieldExtract(owns, 0, int(k));
+    uint entries = bit + 32u + blocks - 1u, entry_size = 2u * p.vertex_bits + 1u;
+    uint kinds = entries + (1u + uint(bitCount(owns))) * entry_size;
+    bool has_kinds = head >> 31 != 0u;
+    uint offsets = kinds + (has_kinds ? 2u * blocks : 0u), steps = offsets + blocks * offset_bits;
+    uint kind = has_kinds ? lr_packed_bits_at(p, kinds + 2u * k, 2u) : LR_PACKED_RECORD;
+    uint both = lr_packed_bits_at(p, offsets + (max(k, 1u) - 1u) * offset_bits, offset_bits * (k == 0u ? 1u : 2u));
+    uint here = bitfieldExtract(both, 0, int(offset_bits)), next = k == 0u ? here : both >> 1 >> (max(offset_bits, 1u) - 1u);
+    uint middle = 1u << offset_bits >> 1;
+    if (offset_bits == 0u) next = 0u;
+    uint from = k == 0u ? 0u : k * step + here - middle, end = (k + 1u) * step + next - middle;
+    uint byte = (steps + (blocks - 1u) * entry_bits + 7u) / 8u + from, bytes = end - from;
+
+    uvec3 entry = lr_packed_entry_at(p, entries + uint(bitCount(own)) * entry_size);
+    uint origin = uint(findMSB(own) + 1);  // the block that this entry is of
+    r.a = entry.x;
+    r.b = entry.y;
+    r.reversed = entry.z != 0u;
+    if (origin < k) {
+        uint span = r.b - r.a;
+        r.a += (k - origin) * (LR_PACKED_BLOCK / 2u) - (1u << entry_bits >> 1) +
+               lr_packed_bits_at(p, steps + (k - 1u) * entry_bits, entry_bits);
+        r.b = r.a + span - (k - origin) * LR_PACKED_BLOCK;
     }
-    uint first = block * LR_PACKED_BLOCK;
+
     r.turn_word = LR_PACKED_HEADER_WORDS + first / 32u;
     r.begin = 0u;
     r.triangles = min(p.own - first, LR_PACKED_BLOCK);
-    r.plain = length == LR_PACKED_PLAIN;
-    r.parted = length > LR_PACKED_MAX_RECORD && !r.plain;
-    if (r.plain) {
-        r.bits = lr_packed_bits(p, byte, 0x7fffffffu);
-        return r;
-    }
-    uint bytes = length, part = r.parted ? i / LR_PACKED_PART : 0u;
+    r.plain = kind == LR_PACKED_PLAIN;
+    r.parted = kind == LR_PACKED_PARTED;
+    uint part = 0u;
     if (r.parted) {
-        LrPackedBits lengths = lr_packed_bits(p, byte, 32u);
+        part = i / LR_PACKED_PART;
+        uint lengths = lr_packed_bits_at(p, 8u * byte, 32u);
         byte += LR_PACKED_PARTS;
-        bytes = lr_packed_take(lengths, 8u);
-        for (uint k = 0u; k < part; ++k) {
-            byte += bytes;
-            bytes = lr_packed_take(lengths, 8u);
-        }
+        for (uint n = 0u; n < part; ++n) byte += lengths >> (8u * n) & 255u;
+        bytes = lengths >> (8u * part) & 255u;
         r.begin = part * LR_PACKED_PART;
         r.turn_word += r.begin / 32u;
         r.triangles = min(r.triangles - r.begin, LR_PACKED_PART);
     }
     r.bits = lr_packed_bits(p, byte, 8u * bytes);
-    bool own = part > 0u || (from == member && member > 0u);
-    if (own || from > 0u) {
-        LrPackedBits entry = r.bits;
-        if (!own) {
-            bool parted = from_length > LR_PACKED_MAX_RECORD;
-            entry = lr_packed_bits(p, from_byte + (parted ? LR_PACKED_PARTS : 0u), 2u * p.vertex_bits + 1u);
-        }
-        r.a = lr_packed_take(entry, p.vertex_bits);
-        r.b = lr_packed_take(entry, p.vertex_bits);
-        r.reversed = lr_packed_take(entry, 1u) != 0u;
-        if (own) r.bits = entry;
-    }
-    if (!own) {
-        r.b += steps - (member - from) * LR_PACKED_BLOCK;
-        r.a += steps;
+    if (part > 0u) {
+        r.a = lr_packed_take(r.bits, p.vertex_bits);
+        r.b = lr_packed_take(r.bits, p.vertex_bits);
+        r.reversed = lr_packed_take(r.bits, 1u) != 0u;
     }
     return r;
 }

@@ -94,7 +94,7 @@ void check_random_access(const EncodedPacked& stream) {
         const std::size_t word = view->table_word() + group - 1;
         const std::size_t groups = view->doubles_word() - view->table_word() + 1;
         if (group >= groups) return 4 * (stream.words.size() - view->groups_word());
-        return group == 0 ? 0 : stream.words[word];
+        return group == 0 ? 0 : 4 * std::size_t{stream.words[word]};
     };
     for (std::uint32_t block = 0; block * LR_PACKED_BLOCK < view->own; ++block) {
         std::vector<std::uint32_t> poisoned(stream.words.size(), 0xa5c3f10fU);

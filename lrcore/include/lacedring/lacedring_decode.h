@@ -377,7 +377,6 @@ void lacedring_lean_triangles_u16(const struct lacedring_lean* lean, uint16_t* i
 #define LACEDRING_DOUBLES_ 0x80000000u /* in the word of vertices: there are doubles; in a run: turned round */
 #define LACEDRING_PACKED_GROUP_ 16u
 #define LACEDRING_PACKED_MAX_RECORD_ 160u
-#define LACEDRING_PACKED_PLAIN_ 255u
 #define LACEDRING_PACKED_PART_ 64u
 
 enum {
@@ -462,12 +461,12 @@ LACEDRING_HOT_ uint32_t lacedring_rice_(struct lacedring_bits_* r, uint32_t low)
     return (ones << low) + ((uint32_t)(window >> (ones + 1)) & ((UINT32_C(1) << low) - 1));
 }
 
-/* The blocks of a group in turn. */
+/* A group's head. */
 struct lacedring_group_ {
-    struct lacedring_bits_ head;
-    uint64_t record; /* byte of the groups at which the next block's records begin */
-    uint32_t block, length_bits, entry_bits, gap_bits, wart_bits, split_order, count_order;
-    uint32_t a, b, reversed, linked; /* the entry of the block before; linked: the next one may be relative to it */
+    uint64_t own, entries, kinds, offsets, steps; /* bits of the groups at which these begin */
+    uint64_t records, end;                        /* bytes: behind the head, and behind the records */
+    uint32_t first, blocks;                       /* which it has */
+    uint32_t step, offset_bits, entry_bits, has_kinds, gap_bits, wart_bits, split_order, count_order;
 };
 
 /* A record: what it is for, and its bits. */
@@ -478,11 +477,12 @@ struct lacedring_record_ {
     uint32_t a, b, reversed;
 };
 
+enum { LACEDRING_RECORD_, LACEDRING_PARTED_, LACEDRING_PLAIN_ };
+
 struct lacedring_block_ {
-    struct lacedring_record_ record; /* the first; its bits begin behind its entry */
+    struct lacedring_record_ record; /* the first */
     uint64_t begin;                  /* byte of the groups */
-    uint32_t length, bytes;          /* as the head has it; of all records */
-    uint32_t explicit_entry;
+    uint32_t bytes, kind;            /* of all records */
 };
 
 static uint32_t lacedring_blocks_of_(uint32_t triangles) {
@@ -505,74 +505,82 @@ static void lacedring_take_entry_(const struct lacedring_packed* p, struct laced
     *reversed = lacedring_take_(r, 1);
 }
 
-/* Begins the group that holds `block`. 0: its head is impossible. */
+static uint32_t lacedring_take_at_(const struct lacedring_packed* p, uint64_t bit, uint32_t count) {
+    struct lacedring_bits_ r = lacedring_bits_at_(p, 0, 0);
+    r.at = bit;
+    r.end = bit + count;
+    return count == 0 ? 0 : lacedring_take_(&r, count);
+}
+
+/* Bytes of the group's records before block k of the group. */
+static uint32_t lacedring_offset_(const struct lacedring_packed* p, const struct lacedring_group_* g, uint32_t k) {
+    const uint32_t bits = g->offset_bits;
+    if (k == 0) return 0;
+    return k * g->step + lacedring_take_at_(p, g->offsets + (uint64_t)(k - 1) * bits, bits) -
+           (UINT32_C(1) << bits >> 1);
+}
+
+/* The group that holds `block`. 0: its head is impossible. */
 static int lacedring_open_group_(const struct lacedring_packed* p, uint32_t block, struct lacedring_group_* g) {
     const uint32_t group = block / LACEDRING_PACKED_GROUP_;
     const uint32_t left = lacedring_blocks_of_(p->own) - group * LACEDRING_PACKED_GROUP_;
-    const uint32_t blocks = left < LACEDRING_PACKED_GROUP_ ? left : LACEDRING_PACKED_GROUP_;
-    const uint32_t byte = group == 0 ? 0 : p->table[group - 1];
-    uint32_t bits;
-    g->head = lacedring_bits_at_(p, byte, 0x1000);
-    g->length_bits = lacedring_take_(&g->head, 4);
-    g->entry_bits = lacedring_take_(&g->head, 4);
-    g->gap_bits = lacedring_take_(&g->head, 3);
-    g->wart_bits = lacedring_take_(&g->head, 3);
-    g->split_order = lacedring_take_(&g->head, 2);
-    g->count_order = lacedring_take_(&g->head, 2);
-    lacedring_take_entry_(p, &g->head, &g->a, &g->b, &g->reversed);
-    g->linked = 1;
-    g->block = group * LACEDRING_PACKED_GROUP_;
-    bits = (uint32_t)(g->head.at - (uint64_t)8 * byte) + blocks * g->length_bits + (blocks - 1) * g->entry_bits;
-    g->head.end = (uint64_t)8 * byte + bits;
-    g->record = byte + (uint64_t)(bits + 7) / 8;
-    return g->length_bits <= 8 && g->entry_bits <= 8;
+    const uint64_t begin = (uint64_t)32 * (group == 0 ? 0 : p->table[group - 1]);
+    const uint32_t head = lacedring_take_at_(p, begin, 32);
+    uint32_t owns;
+    g->first = group * LACEDRING_PACKED_GROUP_;
+    g->blocks = left < LACEDRING_PACKED_GROUP_ ? left : LACEDRING_PACKED_GROUP_;
+    g->step = head & 0xfff;
+    g->offset_bits = head >> 12 & 31;
+    g->entry_bits = head >> 17 & 15;
+    g->gap_bits = head >> 21 & 7;
+    g->wart_bits = head >> 24 & 7;
+    g->split_order = head >> 27 & 3;
+    g->count_order = head >> 29 & 3;
+    g->has_kinds = head >> 31;
+    g->own = begin + 32;
+    g->entries = g->own + g->blocks - 1;
+    owns = lacedring_take_at_(p, g->own, g->blocks - 1);
+    g->kinds = g->entries + (uint64_t)(1 + lacedring_popcount_(owns)) * (2 * p->vertex_bits + 1);
+    g->offsets = g->kinds + (g->has_kinds ? 2 * g->blocks : 0);
+    g->steps = g->offsets + (uint64_t)g->blocks * g->offset_bits;
+    g->records = (g->steps + (uint64_t)(g->blocks - 1) * g->entry_bits + 7) / 8;
+    g->end = g->records + lacedring_offset_(p, g, g->blocks);
+    return g->offset_bits <= 16 && g->entry_bits <= 12;
 }
 
 /* Bytes of a part, at most. */
 #define LACEDRING_PACKED_MAX_PART_ 200u
 
-static uint32_t lacedring_block_bytes_(const struct lacedring_packed* p, uint32_t length, uint32_t triangles) {
-    if (length <= LACEDRING_PACKED_MAX_RECORD_) return length;
-    if (length < LACEDRING_PACKED_PLAIN_) return 8 * (length - LACEDRING_PACKED_MAX_RECORD_);
-    return (3 * triangles * p->vertex_bits + 7) / 8;
-}
-
-/* The next block of the group. 0: it goes on from a block that says nothing of where. */
-static int lacedring_next_block_(const struct lacedring_packed* p, struct lacedring_group_* g,
-                                 struct lacedring_block_* b) {
-    const uint32_t first = g->block * LACEDRING_PACKED_BLOCK, left = p->own - first;
-    const uint32_t later = g->block % LACEDRING_PACKED_GROUP_ != 0;
-    uint32_t entry = 0;
-    int good = 1;
-    b->length = lacedring_take_(&g->head, g->length_bits);
-    if (later) entry = lacedring_take_(&g->head, g->entry_bits);
-    b->begin = g->record;
-    b->record.first = first;
-    b->record.triangles = left < LACEDRING_PACKED_BLOCK ? left : LACEDRING_PACKED_BLOCK;
-    b->record.turns = p->turns + first / 32;
-    b->bytes = lacedring_block_bytes_(p, b->length, b->record.triangles);
-    b->record.bits = lacedring_bits_at_(p, b->begin, b->bytes);
-    b->explicit_entry = later && entry == 0 && b->length != LACEDRING_PACKED_PLAIN_;
-    if (b->length > LACEDRING_PACKED_MAX_RECORD_ && b->length < LACEDRING_PACKED_PLAIN_) { /* the first part */
-        struct lacedring_bits_ parts = b->record.bits;
-        b->record.bits = lacedring_bits_at_(p, b->begin + 4, lacedring_take_(&parts, 8));
-        if (b->record.triangles > LACEDRING_PACKED_PART_) b->record.triangles = LACEDRING_PACKED_PART_;
+static void lacedring_block_of_(const struct lacedring_packed* p, const struct lacedring_group_* g, uint32_t block,
+                                struct lacedring_block_* b) {
+    const uint32_t k = block - g->first, left = p->own - block * LACEDRING_PACKED_BLOCK;
+    const uint32_t offset = lacedring_offset_(p, g, k);
+    const uint32_t own = lacedring_take_at_(p, g->own, k); /* of blocks 1 to k */
+    uint32_t from = k;
+    struct lacedring_bits_ entry = lacedring_bits_at_(p, 0, 0);
+    struct lacedring_record_* r = &b->record;
+    b->kind = LACEDRING_RECORD_;
+    if (g->has_kinds) b->kind = lacedring_take_at_(p, g->kinds + 2 * k, 2);
+    b->begin = g->records + offset;
+    b->bytes = lacedring_offset_(p, g, k + 1) - offset;
+    r->first = block * LACEDRING_PACKED_BLOCK;
+    r->triangles = left < LACEDRING_PACKED_BLOCK ? left : LACEDRING_PACKED_BLOCK;
+    r->turns = p->turns + r->first / 32;
+    r->bits = lacedring_bits_at_(p, b->begin, b->bytes);
+    entry.at = g->entries + (uint64_t)lacedring_popcount_(own) * (2 * p->vertex_bits + 1);
+    entry.end = entry.at + 2 * p->vertex_bits + 1;
+    lacedring_take_entry_(p, &entry, &r->a, &r->b, &r->reversed);
+    while (from > 0 && !(own >> (from - 1) & 1)) --from;
+    if (from < k) {
+        const uint32_t span = r->b - r->a,
+                       step = lacedring_take_at_(p, g->steps + (uint64_t)(k - 1) * g->entry_bits, g->entry_bits);
+        r->a += (k - from) * (LACEDRING_PACKED_BLOCK / 2) + step - (UINT32_C(1) << g->entry_bits >> 1);
+        r->b = r->a + span - (k - from) * LACEDRING_PACKED_BLOCK;
     }
-    if (entry != 0) {
-        const uint32_t span = g->b - g->a;
-        good = g->linked && b->length != LACEDRING_PACKED_PLAIN_;
-        g->a += LACEDRING_PACKED_BLOCK / 2 + entry - (UINT32_C(1) << (g->entry_bits - 1));
-        g->b = g->a + span - LACEDRING_PACKED_BLOCK;
-    } else if (b->explicit_entry) {
-        lacedring_take_entry_(p, &b->record.bits, &g->a, &g->b, &g->reversed);
+    if (b->kind == LACEDRING_PARTED_) { /* the first part */
+        r->bits = lacedring_bits_at_(p, b->begin + 4, lacedring_take_at_(p, 8 * b->begin, 8));
+        if (r->triangles > LACEDRING_PACKED_PART_) r->triangles = LACEDRING_PACKED_PART_;
     }
-    g->linked = b->length != LACEDRING_PACKED_PLAIN_;
-    b->record.a = g->a;
-    b->record.b = g->b;
-    b->record.reversed = g->reversed;
-    g->record += b->bytes;
-    ++g->block;
-    return good;
 }
 
 /* Part `part` of a parted block. */
@@ -1014,22 +1022,19 @@ static int lacedring_expand_record_(const struct lacedring_packed* p, const stru
     return 1;
 }
 
-static int lacedring_expand_block_(const struct lacedring_packed* p, struct lacedring_group_* g,
+static int lacedring_expand_block_(const struct lacedring_packed* p, const struct lacedring_group_* g,
                                    struct lacedring_block_* b, uint32_t* out) {
     uint32_t i, left = p->own - b->record.first;
     if (left > LACEDRING_PACKED_BLOCK) left = LACEDRING_PACKED_BLOCK;
-    if (b->length == LACEDRING_PACKED_PLAIN_) {
+    if (b->kind == LACEDRING_PLAIN_) {
         for (i = 0; i < left; ++i) lacedring_plain_(p, b, i, out + (size_t)3 * i);
         return 1;
     }
-    if (b->length <= LACEDRING_PACKED_MAX_RECORD_)
-        return lacedring_expand_record_(p, g, &b->record, (int)b->explicit_entry, out);
+    if (b->kind == LACEDRING_RECORD_) return lacedring_expand_record_(p, g, &b->record, 0, out);
     for (i = 0; i * LACEDRING_PACKED_PART_ < left; ++i) {
         struct lacedring_record_ r;
         lacedring_part_(p, b, i, &r);
-        if (!lacedring_expand_record_(p, g, &r, i > 0 || b->explicit_entry,
-                                      out + (size_t)3 * i * LACEDRING_PACKED_PART_))
-            return 0;
+        if (!lacedring_expand_record_(p, g, &r, i > 0, out + (size_t)3 * i * LACEDRING_PACKED_PART_)) return 0;
     }
     return 1;
 }
@@ -1070,29 +1075,33 @@ enum lacedring_status lacedring_packed_open(const uint32_t* words, size_t count,
     return LACEDRING_STATUS_OK;
 }
 
-/* What readers do not look at: what fills up bytes and words, turns of plain blocks. */
-static int lacedring_unused_clear_(const struct lacedring_packed* p, const struct lacedring_block_* b) {
+/* What readers do not look at: what fills up bytes, turns of plain blocks, fields of a head that say nothing. */
+static int lacedring_unused_clear_(const struct lacedring_packed* p, const struct lacedring_group_* g,
+                                   const struct lacedring_block_* b) {
     uint32_t i, left = p->own - b->record.first, used = 4;
+    const uint32_t k = b->record.first / LACEDRING_PACKED_BLOCK - g->first, plain = b->kind == LACEDRING_PLAIN_;
+    const uint32_t own = k > 0 && lacedring_take_at_(p, g->own + k - 1, 1);
+    const uint32_t step =
+        k > 0 ? lacedring_take_at_(p, g->steps + (uint64_t)(k - 1) * g->entry_bits, g->entry_bits) : 0;
     const uint8_t* bytes = p->groups + b->begin;
     if (left > LACEDRING_PACKED_BLOCK) left = LACEDRING_PACKED_BLOCK;
-    if (b->length == LACEDRING_PACKED_PLAIN_) {
+    if ((own || plain) && step != 0) return 0;
+    if (plain) {
         const uint32_t bits = 3 * left * p->vertex_bits;
+        if (own || b->bytes != (bits + 7) / 8) return 0;
+        if (k == 0 && (b->record.a | b->record.b | b->record.reversed)) return 0;
         for (i = 0; i < (left + 31) / 32; ++i) {
             if (b->record.turns[i] != 0) return 0;
         }
         return bits % 8 == 0 || bytes[bits / 8] >> bits % 8 == 0xff >> bits % 8;
     }
-    if (b->length <= LACEDRING_PACKED_MAX_RECORD_) return 1;
-    if (b->bytes < 4) return 0;
+    if (b->kind == LACEDRING_RECORD_) return b->bytes <= LACEDRING_PACKED_MAX_RECORD_;
+    if (b->kind != LACEDRING_PARTED_ || b->bytes < 4) return 0;
     for (i = 0; i < 4; ++i) {
         if (bytes[i] > LACEDRING_PACKED_MAX_PART_ || (i * LACEDRING_PACKED_PART_ >= left && bytes[i] != 0)) return 0;
         used += bytes[i];
     }
-    if (used > b->bytes || b->bytes - used > 7) return 0;
-    for (i = used; i < b->bytes; ++i) {
-        if (bytes[i] != 0) return 0;
-    }
-    return 1;
+    return used == b->bytes;
 }
 
 /* The triangle behind a run. */
@@ -1103,7 +1112,7 @@ static uint32_t lacedring_run_end_(const struct lacedring_packed* p, uint32_t ru
 enum lacedring_status lacedring_packed_check(const struct lacedring_packed* p, uint64_t* where) {
     struct lacedring_group_ g;
     struct lacedring_block_ b;
-    uint32_t indices[3 * LACEDRING_PACKED_BLOCK], block, blocks = lacedring_blocks_of_(p->own), i, left;
+    uint32_t indices[3 * LACEDRING_PACKED_BLOCK], block, blocks = lacedring_blocks_of_(p->own), i, left, plain = 0;
     uint64_t end = 0;
     for (i = 0; i < p->runs; ++i) {
         const uint32_t *run = p->doubles + (size_t)2 * i, from = run[1] & ~LACEDRING_DOUBLES_;
@@ -1113,34 +1122,35 @@ enum lacedring_status lacedring_packed_check(const struct lacedring_packed* p, u
     }
     for (block = 0; block < blocks; ++block) {
         if (block % LACEDRING_PACKED_GROUP_ == 0) {
-            const uint64_t begin = block == 0 ? 0 : p->table[block / LACEDRING_PACKED_GROUP_ - 1];
-            if (begin != end || !lacedring_open_group_(p, block, &g) || g.record > p->group_bytes)
+            const uint64_t begin = (uint64_t)4 * (block == 0 ? 0 : p->table[block / LACEDRING_PACKED_GROUP_ - 1]);
+            if (begin != end || !lacedring_open_group_(p, block, &g) || g.end > p->group_bytes)
                 return lacedring_at_(where, block, LACEDRING_STATUS_GROUP);
-            i = (uint32_t)(g.head.end % 8);
-            if (i != 0 && p->groups[g.head.end / 8] >> i != 0xff >> i)
+            i = (uint32_t)((g.steps + (uint64_t)(g.blocks - 1) * g.entry_bits) % 8);
+            if (i != 0 && p->groups[g.records - 1] >> i != 0xff >> i)
                 return lacedring_at_(where, block, LACEDRING_STATUS_GROUP);
+            for (end = g.end; end % 4 != 0; ++end) {
+                if (p->groups[end] != 0) return lacedring_at_(where, block, LACEDRING_STATUS_GROUP);
+            }
+            plain = 0;
         }
         left = p->own - block * LACEDRING_PACKED_BLOCK;
         if (left > LACEDRING_PACKED_BLOCK) left = LACEDRING_PACKED_BLOCK;
-        if (!lacedring_next_block_(p, &g, &b) || g.record > p->group_bytes || !lacedring_unused_clear_(p, &b))
+        lacedring_block_of_(p, &g, block, &b);
+        if (block == g.first) plain = b.kind == LACEDRING_PLAIN_;
+        if (block > g.first && lacedring_take_at_(p, g.own + block - g.first - 1, 1)) plain = 0;
+        /* What goes on from a group's first block needs it to have an entry. */
+        if (b.begin + b.bytes > p->group_bytes || !lacedring_unused_clear_(p, &g, &b) ||
+            (plain && b.kind != LACEDRING_PLAIN_) || !lacedring_expand_block_(p, &g, &b, indices))
             return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
-        /* A plain block says nothing of where the next one begins, and nothing is said of where it does. */
-        if (b.length == LACEDRING_PACKED_PLAIN_ && block % LACEDRING_PACKED_GROUP_ == 0 && (g.a | g.b | g.reversed))
-            return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
-        if (!lacedring_expand_block_(p, &g, &b, indices)) return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
         for (i = 0; i < 3 * left; i += 3) {
             const uint32_t *t = indices + i, n = p->vertices;
             if (t[0] >= n || t[1] >= n || t[2] >= n || t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
                 return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
         }
-        end = g.record;
     }
     if (p->own % 32 != 0 && p->turns[p->own / 32] >> (p->own % 32) != 0)
         return lacedring_at_(where, p->own, LACEDRING_STATUS_TURNS);
-    if (end > p->group_bytes || p->group_bytes - end > 3) return lacedring_at_(where, end, LACEDRING_STATUS_SIZE);
-    for (; end < p->group_bytes; ++end) {
-        if (p->groups[end] != 0) return lacedring_at_(where, end, LACEDRING_STATUS_SIZE);
-    }
+    if (end != p->group_bytes) return lacedring_at_(where, end, LACEDRING_STATUS_SIZE);
     return LACEDRING_STATUS_OK;
 }
 
@@ -1161,10 +1171,9 @@ static void lacedring_own_blocks_(const struct lacedring_packed* p, uint32_t blo
     struct lacedring_block_ b;
     if (block >= end) return;
     lacedring_open_group_(p, block, &g);
-    while (g.block < block) lacedring_next_block_(p, &g, &b);
     for (; block < end; ++block, indices += (size_t)3 * LACEDRING_PACKED_BLOCK) {
         if (block % LACEDRING_PACKED_GROUP_ == 0) lacedring_open_group_(p, block, &g);
-        lacedring_next_block_(p, &g, &b);
+        lacedring_block_of_(p, &g, block, &b);
         lacedring_expand_block_(p, &g, &b, indices);
     }
 }
@@ -1358,12 +1367,10 @@ void lacedring_packed_triangle(const struct lacedring_packed* p, uint32_t triang
     }
     i = triangle % LACEDRING_PACKED_BLOCK;
     lacedring_open_group_(p, triangle / LACEDRING_PACKED_BLOCK, &g);
-    do {
-        lacedring_next_block_(p, &g, &b);
-    } while (g.block <= triangle / LACEDRING_PACKED_BLOCK);
-    if (b.length == LACEDRING_PACKED_PLAIN_) {
+    lacedring_block_of_(p, &g, triangle / LACEDRING_PACKED_BLOCK, &b);
+    if (b.kind == LACEDRING_PLAIN_) {
         lacedring_plain_(p, &b, i, out);
-    } else if (b.length <= LACEDRING_PACKED_MAX_RECORD_) {
+    } else if (b.kind == LACEDRING_RECORD_) {
         lacedring_seek_(p, &g, &b.record, i, out);
     } else {
         struct lacedring_record_ r;
@@ -1380,7 +1387,6 @@ void lacedring_packed_triangle(const struct lacedring_packed* p, uint32_t triang
 #undef LACEDRING_DOUBLES_
 #undef LACEDRING_PACKED_GROUP_
 #undef LACEDRING_PACKED_MAX_RECORD_
-#undef LACEDRING_PACKED_PLAIN_
 #undef LACEDRING_PACKED_PART_
 #undef LACEDRING_HOT_
 #undef LACEDRING_PACKED_MAX_PART_
