@@ -9,6 +9,7 @@
 // Of a packed stream:
 //     #define LR_PACKED_WORD(i) words[i]
 //     uvec3 v = lr_packed_triangle(lr_packed_layout(), t);  // t < lr_packed_triangles(lr_packed_layout())
+// Or four at once, for about what one takes: lr_packed_triangles_of_quad.
 // v are vertices in the stream's order (its vertex_order). A lean triangle whose first two are equal is degenerate: it
 // covers nothing, draw it or skip it. A stream must be valid (lacedring::validate_lean, lacedring::validate_packed); on any other, every
 // loop still ends. docs/engine-guide.md has an example of every stage.
@@ -196,10 +197,11 @@ uint lr_packed_triangles(LrPackedLayout p) {
     return doubles < p.groups ? p.own + LR_PACKED_TABLE(doubles) : p.own;
 }
 
-// The own triangle that a double repeats, or LR_PACKED_DOUBLES if it is the other way round.
-uint lr_packed_source(LrPackedLayout p, uint triangle) {
-    uint runs = lr_packed_doubles(p) + LR_PACKED_DOUBLES_WORDS;
-    uint low = 0u, high = (p.groups - runs) / LR_PACKED_RUN_WORDS;
+// A run of doubles: where it begins, where it ends, and its first one's own triangle, or LR_PACKED_DOUBLES if they are turned
+// round.
+uvec3 lr_packed_run(LrPackedLayout p, uint triangle) {
+    uint runs = lr_packed_doubles(p) + LR_PACKED_DOUBLES_WORDS, count = (p.groups - runs) / LR_PACKED_RUN_WORDS;
+    uint low = 0u, high = count;
     for (uint k = 0u; k < 32u; ++k) {
         uint middle = (low + high) / 2u;
         if (middle == low) break;
@@ -210,7 +212,8 @@ uint lr_packed_source(LrPackedLayout p, uint triangle) {
         }
     }
     uint run = runs + LR_PACKED_RUN_WORDS * low;
-    return LR_PACKED_TABLE(run + 1u) + triangle - LR_PACKED_TABLE(run);
+    uint end = low + 1u < count ? LR_PACKED_TABLE(run + LR_PACKED_RUN_WORDS) : lr_packed_triangles(p);
+    return uvec3(LR_PACKED_TABLE(run), end, LR_PACKED_TABLE(run + 1u));
 }
 
 // A reader of bits. Each word is loaded once, and none behind the end.
@@ -221,11 +224,11 @@ struct LrPackedBits {
     uint word;  // the next word to load
 };
 
-// From a byte of the groups on.
-LrPackedBits lr_packed_bits(LrPackedLayout p, uint byte, uint count) {
+// From a bit of the groups on.
+LrPackedBits lr_packed_bits(LrPackedLayout p, uint bit, uint count) {
     LrPackedBits r;
-    uint shift = byte % 4u * 8u;
-    r.word = p.groups + byte / 4u;
+    uint shift = bit & 31u;
+    r.word = p.groups + bit / 32u;
     r.bits = uvec2(count == 0u ? 0u : LR_PACKED_GROUPS(r.word) >> shift, 0u);
     ++r.word;
     r.ready = 32u - shift;
@@ -304,7 +307,7 @@ LrPackedRecord lr_packed_record(LrPackedLayout p, uint block, uint i) {
     r.count_order = head >> 29 & 3u;
 
     // Blocks 1 to blocks - 1 whose entry is in the head; where the fields are.
-    uint owns = lr_packed_bits_at(p, bit + 32u, blocks - 1u), own = bitfieldExtract(owns, 0, int(k));
+    uint owns = bitfieldExtract(LR_PACKED_GROUPS(p.groups + begin + 1u), 0, int(blocks - 1u)), own = bitfieldExtract(owns, 0, int(k));
     uint entries = bit + 32u + blocks - 1u, entry_size = 2u * p.vertex_bits + 1u;
     uint kinds = entries + (1u + uint(bitCount(owns))) * entry_size;
     bool has_kinds = head >> 31 != 0u;
@@ -315,10 +318,31 @@ LrPackedRecord lr_packed_record(LrPackedLayout p, uint block, uint i) {
     uint middle = 1u << offset_bits >> 1;
     if (offset_bits == 0u) next = 0u;
     uint from = k == 0u ? 0u : k * step + here - middle, end = (k + 1u) * step + next - middle;
-    uint byte = (steps + (blocks - 1u) * entry_bits + 7u) / 8u + from, bytes = end - from;
+    uint byte = (steps + (blocks - 1u) * entry_bits + 7u) / 8u + from, bytes = min(end - from, LR_PACKED_MAX_RECORD);
 
-    uvec3 entry = lr_packed_entry_at(p, entries + uint(bitCount(own)) * entry_size);
-    uint origin = uint(findMSB(own) + 1);  // the block that this entry is of
+    r.turn_word = LR_PACKED_HEADER_WORDS + first / 32u;
+    r.begin = 0u;
+    r.triangles = min(p.own - first, LR_PACKED_BLOCK);
+    r.plain = kind == LR_PACKED_PLAIN;
+    r.parted = kind == LR_PACKED_PARTED;
+    uint entry_bit = entries + uint(bitCount(own)) * entry_size, origin = uint(findMSB(own) + 1);  // its block
+    uint skipped = 0u;  // bits of the record, if it begins with an entry
+    if (r.parted) {
+        uint part = i / LR_PACKED_PART;
+        uint lengths = lr_packed_bits_at(p, 8u * byte, 32u);
+        byte += LR_PACKED_PARTS;
+        for (uint n = 0u; n < part; ++n) byte += lengths >> (8u * n) & 255u;
+        bytes = lengths >> (8u * part) & 255u;
+        if (part > 0u) {
+            entry_bit = 8u * byte;
+            origin = k;
+            skipped = entry_size;
+        }
+        r.begin = part * LR_PACKED_PART;
+        r.turn_word += r.begin / 32u;
+        r.triangles = min(r.triangles - r.begin, LR_PACKED_PART);
+    }
+    uvec3 entry = lr_packed_entry_at(p, entry_bit);
     r.a = entry.x;
     r.b = entry.y;
     r.reversed = entry.z != 0u;
@@ -328,29 +352,7 @@ LrPackedRecord lr_packed_record(LrPackedLayout p, uint block, uint i) {
                lr_packed_bits_at(p, steps + (k - 1u) * entry_bits, entry_bits);
         r.b = r.a + span - (k - origin) * LR_PACKED_BLOCK;
     }
-
-    r.turn_word = LR_PACKED_HEADER_WORDS + first / 32u;
-    r.begin = 0u;
-    r.triangles = min(p.own - first, LR_PACKED_BLOCK);
-    r.plain = kind == LR_PACKED_PLAIN;
-    r.parted = kind == LR_PACKED_PARTED;
-    uint part = 0u;
-    if (r.parted) {
-        part = i / LR_PACKED_PART;
-        uint lengths = lr_packed_bits_at(p, 8u * byte, 32u);
-        byte += LR_PACKED_PARTS;
-        for (uint n = 0u; n < part; ++n) byte += lengths >> (8u * n) & 255u;
-        bytes = lengths >> (8u * part) & 255u;
-        r.begin = part * LR_PACKED_PART;
-        r.turn_word += r.begin / 32u;
-        r.triangles = min(r.triangles - r.begin, LR_PACKED_PART);
-    }
-    r.bits = lr_packed_bits(p, byte, 8u * bytes);
-    if (part > 0u) {
-        r.a = lr_packed_take(r.bits, p.vertex_bits);
-        r.b = lr_packed_take(r.bits, p.vertex_bits);
-        r.reversed = lr_packed_take(r.bits, 1u) != 0u;
-    }
+    r.bits = lr_packed_bits(p, 8u * byte + skipped, max(8u * bytes, skipped) - skipped);
     return r;
 }
 
@@ -484,8 +486,7 @@ uint lr_packed_third(LrPackedEvent e, bool up, inout LrPackedState s, out uvec2 
 // Triangle i of a plain block.
 uvec3 lr_packed_plain(LrPackedLayout p, LrPackedRecord r, uint i) {
     uint bit = (r.bits.word - p.groups) * 32u - r.bits.ready + 3u * p.vertex_bits * i;
-    LrPackedBits bits = lr_packed_bits(p, bit / 8u, bit % 8u + 3u * p.vertex_bits);
-    lr_packed_take(bits, bit % 8u);
+    LrPackedBits bits = lr_packed_bits(p, bit, 3u * p.vertex_bits);
     uvec3 v;
     v.x = lr_packed_take(bits, p.vertex_bits);
     v.y = lr_packed_take(bits, p.vertex_bits);
@@ -596,9 +597,132 @@ uvec3 lr_packed_own_triangle(LrPackedLayout p, uint triangle) {
 
 uvec3 lr_packed_triangle(LrPackedLayout p, uint triangle) {
     if (triangle < p.own) return lr_packed_own_triangle(p, triangle);
-    uint of = lr_packed_source(p, triangle);
-    uvec3 v = lr_packed_own_triangle(p, min(of & ~LR_PACKED_DOUBLES, p.own - 1u));
-    return (of & LR_PACKED_DOUBLES) != 0u ? v.xzy : v;
+    uvec3 run = lr_packed_run(p, triangle);
+    uint of = (run.z & ~LR_PACKED_DOUBLES) + triangle - run.x;
+    uvec3 v = lr_packed_own_triangle(p, min(of, p.own - 1u));
+    return (run.z & LR_PACKED_DOUBLES) != 0u ? v.xzy : v;
+}
+
+// Up to four own triangles from `first` on, into lr_packed_four: those of its record that have their turns in one word. What
+// they share is read once. Returns how many they are.
+uvec3 lr_packed_four[4];
+uint lr_packed_own_four(LrPackedLayout p, uint first) {
+    uint i = first % LR_PACKED_BLOCK;
+    LrPackedRecord r = lr_packed_record(p, first / LR_PACKED_BLOCK, i);
+    if (r.plain) {
+        for (uint j = 0u; j < 4u; ++j) lr_packed_four[j] = lr_packed_plain(p, r, min(i + j, r.triangles - 1u));
+        return min(4u, r.triangles - i);
+    }
+    i -= r.begin;
+    uint word = i / 32u, last = min(i + 4u, r.triangles - 1u) / 32u, sum = 0u, rank[4], candidates = 0u, before = 0u;
+    for (uint k = 0u; k <= last; ++k) lr_packed_turn_bits[k] = LR_PACKED_TURNS(r.turn_word + k);
+    for (uint k = 0u; k <= word; ++k) {
+        lr_packed_turn_ups[k] = sum;
+        sum += uint(bitCount(lr_packed_turn_bits[k]));
+        uint behind = k < last ? lr_packed_turn_bits[k + 1u] << 31 : 0u;
+        candidates = ~(lr_packed_turn_bits[k] ^ (lr_packed_turn_bits[k] >> 1 | behind));
+        if (k < word) before += uint(bitCount(candidates));
+    }
+    if (r.triangles - 32u * word <= 32u) candidates |= 1u << (r.triangles - 1u - 32u * word);  // the last one, too
+    LrPackedState s[4];
+    uint at[4], skip[4];
+    bool inside[4], flip[4], known[4];
+    for (uint j = 0u; j < 4u; ++j) {
+        s[j] = lr_packed_state(r);
+        at[j] = skip[j] = 0u;
+        inside[j] = flip[j] = known[j] = false;
+        rank[j] = before + uint(bitCount(bitfieldExtract(candidates, 0, int(min((i & 31u) + j, 32u)))));
+    }
+    LrPackedEvent e;
+    e.after = 0u;
+    uint events = lr_packed_events(r);
+    for (uint k = 0u; k < events; ++k) {
+        lr_packed_next_event(p, r, e);
+        bool third = e.after > e.triangle;
+        uint flips = 0u;
+        if (e.code == LR_PACKED_FLIPS) flips = lr_packed_bits_at(p, e.flips + i, 4u);
+        for (uint j = 0u; j < 4u; ++j) {
+            if (e.triangle > i + j || e.triangle < skip[j]) continue;
+            lr_packed_skip(s[j], at[j], e.triangle);
+            if (e.code == LR_PACKED_TURN) {
+                s[j].reversed = !s[j].reversed;
+            } else if (e.code == LR_PACKED_FLIPS) {
+                flip[j] = (flips >> j & 1u) != 0u;
+            } else if (!third) {
+                lr_packed_begin(e, s[j], inside[j]);
+            } else {
+                if (s[j].finished) lr_packed_repeat(s[j]);
+                uint a = s[j].a, b = s[j].b;
+                uvec2 rest;
+                uint x = lr_packed_third(e, lr_packed_turn(e.triangle), s[j], rest);
+                at[j] = e.triangle + 1u;
+                if (e.triangle == i + j) {
+                    lr_packed_four[j] = lr_packed_oriented(a, x, b, s[j].reversed != flip[j]);
+                    known[j] = true;
+                    skip[j] = 0xffffffffu;
+                } else if (e.w != 0u && e.w < r.triangles - at[j]) {
+                    if (i + j - at[j] >= e.w) {
+                        skip[j] = at[j] += e.w;
+                        s[j].a = rest.x;
+                        s[j].b = rest.y;
+                        s[j].finished = false;
+                    } else {
+                        inside[j] = true;
+                    }
+                }
+            }
+        }
+    }
+    uint seen = 0u, firsts = 0u, seconds = 0u;  // T0 of warts among the four, and T2
+    while (seen <= rank[3]) {
+        lr_packed_fill(r.bits);
+        uint high = lr_packed_ones(r.bits.bits.x);
+        if (high >= min(r.bits.left, 32u)) break;
+        lr_packed_take(r.bits, high);
+        seen += (high << r.wart_bits) + (lr_packed_take(r.bits, 1u + r.wart_bits) >> 1) + 1u;
+        for (uint j = 0u; j < 4u; ++j) {
+            if (seen == rank[j]) seconds |= 1u << j;
+            if (seen == rank[j] + 1u) firsts |= 1u << j;
+        }
+    }
+    uint bits = lr_packed_turn_bits[word] >> (i & 31u);
+    uint turn_before = i == 0u ? ~bits & 1u : uint(lr_packed_turn(i - 1u));
+    seconds &= ~(bits ^ (bits << 1 | turn_before));
+    firsts &= candidates >> (i & 31u);
+    for (uint j = 0u; j < 4u; ++j) {
+        if (known[j]) continue;
+        uint t = min(i + j, r.triangles - 1u);
+        lr_packed_skip(s[j], at[j], t);
+        if (s[j].finished) lr_packed_repeat(s[j]);
+        bool up = (bits >> j & 1u) != 0u;
+        uint by = (firsts >> j & 1u) != 0u ? 2u : 1u, x = up ? s[j].a + by : s[j].b - by, inner = up ? s[j].a : s[j].b;
+        bool t2 = (seconds >> j & 1u) != 0u;
+        lr_packed_four[j] = lr_packed_oriented(t2 ? inner - 1u : s[j].a, t2 ? inner : x, t2 ? inner + 1u : s[j].b,
+                                               s[j].reversed != flip[j]);
+    }
+    return min(4u, min(32u - (i & 31u), r.triangles - i));
+}
+
+// Four triangles, or `count`, from a multiple of four on, into lr_packed_quad: faster by far than one by one.
+uvec3 lr_packed_quad[4];
+void lr_packed_triangles_of_quad(LrPackedLayout p, uint first, uint count) {
+    uint done = 0u;
+    for (uint pass = 0u; pass < 4u; ++pass) {  // one, but for doubles and at the end of the own ones
+        uint t = first + done, left = min(count - done, p.own - t);
+        bool turned = false;
+        if (t >= p.own) {
+            uvec3 run = lr_packed_run(p, t);
+            left = min(count - done, run.y - t);
+            turned = (run.z & LR_PACKED_DOUBLES) != 0u;
+            t = min((run.z & ~LR_PACKED_DOUBLES) + t - run.x, p.own - 1u);
+        }
+        left = min(left, lr_packed_own_four(p, t));
+        for (uint j = 0u; j < 4u; ++j) {
+            if (j < left) lr_packed_quad[done + j] = turned ? lr_packed_four[j].xzy : lr_packed_four[j];
+        }
+        done += left;
+        if (done >= count || left == 0u) break;
+    }
 }
 
 #endif  // LR_PACKED_HEADER

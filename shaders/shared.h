@@ -66,6 +66,8 @@ struct DrawConstants {
 
 // Floats of a vertex: position, normal, place along the rings.
 #define LR_VERTEX_FLOATS 7u
+// Slots of a point that surface.geom gets.
+#define LR_GEOMETRY_SLOTS 4u
 // Triangles of a workgroup of surface.mesh; three times as many vertices, and both are within what Vulkan promises.
 #define LR_MESH_TRIANGLES 64u
 
