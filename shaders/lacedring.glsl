@@ -268,14 +268,16 @@ uint lr_packed_golomb(inout LrPackedBits r, uint order) {
 
 // `count` bits of the groups, at most 32. No word behind them is read.
 uint lr_packed_bits_at(LrPackedLayout p, uint bit, uint count) {
-    uint shift = bit & 31u, low = LR_PACKED_GROUPS(p.groups + bit / 32u);
-    uint high = LR_PACKED_GROUPS(p.groups + (bit + max(count, 1u) - 1u) / 32u);
+    uint shift = bit & 31u, low = LR_PACKED_GROUPS(p.groups + bit / 32u), high = 0u;
+    if (shift + count > 32u) high = LR_PACKED_GROUPS(p.groups + bit / 32u + 1u);
     return bitfieldExtract(low >> shift | high << 1 << (31u - shift), 0, int(count));
 }
 // a, b and reversed.
 uvec3 lr_packed_entry_at(LrPackedLayout p, uint bit) {
-    uint shift = bit & 31u, word = p.groups + bit / 32u, last = p.groups + (bit + 2u * p.vertex_bits) / 32u;
-    uint x = LR_PACKED_GROUPS(word), y = LR_PACKED_GROUPS(min(word + 1u, last)), z = LR_PACKED_GROUPS(min(word + 2u, last));
+    uint shift = bit & 31u, word = p.groups + bit / 32u, end = shift + 2u * p.vertex_bits + 1u;
+    uint x = LR_PACKED_GROUPS(word), y = 0u, z = 0u;
+    if (end > 32u) y = LR_PACKED_GROUPS(word + 1u);
+    if (end > 64u) z = LR_PACKED_GROUPS(word + 2u);
     uint low = x >> shift | y << 1 << (31u - shift), high = y >> shift | z << 1 << (31u - shift);
     uint b = low >> p.vertex_bits | high << (32u - p.vertex_bits), r = 2u * p.vertex_bits;
     return uvec3(bitfieldExtract(low, 0, int(p.vertex_bits)), bitfieldExtract(b, 0, int(p.vertex_bits)),
