@@ -19,6 +19,7 @@ Error invalid(std::string message) {
 RingOptions ring_options(const EncodeOptions& options, std::size_t triangles) {
     RingOptions out;
     out.random_seed = options.random_seed;
+    out.threads = options.threads;
     out.k = options.periods.empty() ? 0 : options.periods[0];
     if (options.seeds) {
         out.seeds = *options.seeds;
@@ -33,6 +34,7 @@ OptimizeOptions optimize_options(const EncodeOptions& options, const RingCost& c
     out.cost = cost;
     out.passes = options.passes.value_or(passes_at(options.effort));
     out.random_seed = options.random_seed;
+    out.threads = options.threads;
     out.progress = options.progress;
     return out;
 }

@@ -4,143 +4,155 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "lacedring/ring.hpp"
 #include "lacedring/topology.hpp"
-#include "lrcore/base/bits.h"
 
 namespace lacedring {
 
-/// What the rings make of every triangle, and what that costs. An edge is a mesh edge, known by the corners that face
-/// it, never a pair of vertices: two edges may have the same ends. Memory: a byte a triangle and a bit a vertex.
+/// Triangles begin to end - 1 of `size`, in Lacing's numbers.
+struct TriangleRange {
+    TriangleRange(std::uint32_t b, std::uint32_t e, std::uint32_t size)
+        : begin(b), end(e), lowest(b == 0 ? INT64_MIN / 2 : b), highest(e == size ? INT64_MAX / 2 : e) {}
+
+    std::uint32_t begin, end;
+    std::int64_t lowest, highest;  ///< the same, but unbounded where there is nothing beyond
+
+    bool has(std::uint32_t t) const { return t - begin < end - begin; }
+};
+
+/// What the rings make of every triangle, and what changes cost. An edge is a mesh edge, known by the corners that face
+/// it, never a pair of vertices: two edges may have the same ends.
+///
+/// Triangles are renumbered breadth first: neighbors are near each other in memory however the mesh lists them, and a
+/// range of numbers is a band of surface with a short border. Corner k of triangle t is 4 * t + k; the table's k.
+/// Functions that change something touch only triangles within a range that they are given, so several
+/// threads may work in disjoint ranges, and what they do is what one would do range after range.
+/// Memory: 21 bytes a triangle.
 class Lacing {
   public:
     static constexpr std::int64_t kScale = 16;  ///< of costs, so that temperatures are not coarse beside small numbers
+    static constexpr std::uint32_t kNone = UINT32_MAX;
 
-    Lacing(const CornerTable& table, const Rings& rings, const RingCost& cost)
-        : table_(&table),
-          isolated_(cost.isolated * kScale),
-          state_(table.triangle_count()),
-          on_ring_(table.vertex_count) {
-        for (std::size_t ends = 0; ends < 4; ++ends) {
-            t0_[ends * kDeadEnd] = kScale * (ends == 0 ? cost.t0 : cost.t0_wart);
-        }
-        for (const RingEdge& edge : rings.edges) {
-            on_ring_.set(edge.start.value);
-            state_[triangle(edge.left).value] |= bit(edge.left);
-            if (edge.right.is_null()) continue;
-            state_[triangle(edge.right).value] |= static_cast<std::uint8_t>(bit(edge.right) | kRight);
-        }
-        for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
-            if (!is_t2(TriangleId{t})) continue;
-            const CornerId across = table.opposite(t2_corner(TriangleId{t}));
-            if (!across.is_null()) state_[triangle(across).value] += kDeadEnd;
-        }
-    }
+    /// What turn_over changed.
+    class Changes {
+      public:
+        void clear() { size_ = 0; }
 
-    /// kScale times the cost, up to a constant.
-    std::int64_t cost() const { return cost_; }
+      private:
+        friend class Lacing;
+        std::array<std::uint32_t, 16> triangle_;  // eight for a call, of two
+        std::array<std::uint8_t, 16> state_;
+        std::uint32_t size_ = 0;
+    };
 
-    bool is_t0(TriangleId t) const { return mask(t) == 0; }
-    bool is_t0_beside_no_t2(TriangleId t) const { return (state_[t.value] & kT0Key) == 0; }
-    bool is_t2(TriangleId t) const { return kBits[mask(t)] == 2; }
+    Lacing(const CornerTable& table, Rings rings, const RingCost& cost);
+
+    std::uint32_t size() const { return static_cast<std::uint32_t>(state_.size()); }
+
+    static std::uint32_t next(std::uint32_t c) { return (c & 3) == 2 ? c - 2 : c + 1; }
+    static std::uint32_t previous(std::uint32_t c) { return (c & 3) == 0 ? c + 2 : c - 1; }
+    std::uint32_t opposite(std::uint32_t c) const { return opposite_[c]; }
+
+    bool is_t0(std::uint32_t t) const { return mask(t) == 0; }
+    /// Is it a T0 beside no T2, and not degenerate?
+    bool is_expensive(std::uint32_t t) const { return (state_[t] & (kT0Key | kDegenerate)) == 0; }
+    bool is_t2(std::uint32_t t) const { return kBits[mask(t)] == 2; }
     /// Of a T2, the corner between its ring edges.
-    CornerId t2_corner(TriangleId t) const { return corner(t, kCornerOfT2[mask(t)]); }
-    /// Of a T1, the corner that faces its ring edge.
-    CornerId tip_corner(TriangleId t) const {
-        return corner(t, static_cast<std::uint32_t>(std::countr_zero(unsigned{mask(t)})));
-    }
-    bool on_ring(VertexId v) const { return on_ring_.test(v.value); }
-    void set_on_ring(VertexId v, bool on) {
-        on ? on_ring_.set(v.value) : on_ring_.clear(v.value);
-        cost_ += on ? -isolated_ : isolated_;
-    }
+    std::uint32_t t2_corner(std::uint32_t t) const { return 4 * t + kCornerOfT2[mask(t)]; }
     /// Does corner c face a ring edge?
-    bool faces_ring(CornerId c) const { return (state_[triangle(c).value] & bit(c)) != 0; }
+    bool faces_ring(std::uint32_t c) const { return (state_[c >> 2] & bit(c)) != 0; }
     /// Is the triangle of c, no T0, on the right of its ring edges?
-    bool is_right(CornerId c) const { return (state_[triangle(c).value] & kRight) != 0; }
+    bool is_right(std::uint32_t c) const { return (state_[c >> 2] & kRight) != 0; }
+
+    /// Does turn_over(t) touch triangles of that range only?
+    bool within(TriangleRange range, std::uint32_t t) const {
+        const std::int64_t reach = opposite_[4 * std::size_t{t} + 3];
+        return (t - ((reach & 0xffff) << reach_unit_) >= range.lowest) &
+               (t + ((reach >> 16) << reach_unit_) < range.highest);
+    }
 
     /// A flag to use at will.
-    bool marked(TriangleId t) const { return (state_[t.value] & kMark) != 0; }
-    void mark(TriangleId t, bool on) {
-        state_[t.value] = static_cast<std::uint8_t>((state_[t.value] & ~kMark) | (on ? kMark : 0));
+    bool marked(std::uint32_t t) const { return (state_[t] & kMark) != 0; }
+    void mark(std::uint32_t t, bool on) {
+        state_[t] = static_cast<std::uint8_t>((state_[t] & ~kMark) | (on ? kMark : 0));
     }
 
     /// May the T2 of c, its t2_corner, be turned over? A ring edge needs a triangle on its left.
-    bool can_take_out(CornerId c) const { return is_right(c) || !table_->opposite(c).is_null(); }
-    /// May the T1 of c, its tip_corner, be?
-    bool can_lace_in(CornerId c) const {
-        return is_right(c) || (!table_->left(c).is_null() && !table_->right(c).is_null());
+    bool can_take_out(std::uint32_t c) const { return is_right(c) || opposite(c) != kNone; }
+    /// Is the triangle of c a T1 with c as its tip corner, which may be turned over? Given that vertex(c) is on no
+    /// ring, or that no other triangle of the fan is a T2 with a corner there.
+    bool can_lace_in(std::uint32_t c) const {
+        const bool inner = (opposite(next(c)) != kNone) & (opposite(previous(c)) != kNone);
+        return faces_ring(c) & (is_right(c) | inner);
     }
 
-    /// Turns a T1 or T2 over to the other side: its ring edges leave the ring, its other edges enter it. Undone by
-    /// doing it again.
-    void turn_over(TriangleId t) {
+    /// Turns a T1 or T2 over to the other side: its ring edges leave the ring, its other edges enter it. Returns what
+    /// that costs, and notes what was there before.
+    std::int64_t turn_over(std::uint32_t t, Changes& changes) {
         // Bytes may alias anything: what is read again and again is kept in locals.
-        const CornerTable::Corner* const corners = table_->corners.data();
+        const std::uint32_t* const opposite = opposite_.data();
         std::uint8_t* const state = state_.data();
+        std::uint32_t noted = changes.size_;
         std::int64_t change = 0;
         const auto flip = [&](std::uint32_t u, std::uint32_t bits) {
             const std::uint8_t old = state[u];
-            state[u] = static_cast<std::uint8_t>(old ^ bits);
-            change += t0_[state[u] & kT0Key] - t0_[old & kT0Key];
+            const auto now = static_cast<std::uint8_t>(old ^ bits);
+            changes.triangle_[noted] = u;
+            changes.state_[noted++] = old;
+            state[u] = now;
+            change += t0_[now & kT0Key] - t0_[old & kT0Key];
             // Before or after it may be a T2, never both. Where neither, a change of 0 is made: cheaper than to branch.
-            const DeadEndChange end = kDeadEndChange[old & kMask][state[u] & kMask];
-            const CornerId across = corners[3 * std::size_t{u} + end.corner].opposite;
-            if (across.is_null()) return;
-            std::uint8_t& s = state[triangle(across).value];
-            change -= t0_[s & kT0Key];
-            s = static_cast<std::uint8_t>(s + end.change);
-            change += t0_[s & kT0Key];
+            const DeadEndChange end = kDeadEndChange[old & kMask][now & kMask];
+            const std::uint32_t across = opposite[4 * std::size_t{u} + end.corner];
+            if (across == kNone) return;
+            const std::uint8_t was = state[across >> 2];
+            const auto is = static_cast<std::uint8_t>(was + end.change);
+            changes.triangle_[noted] = across >> 2;
+            changes.state_[noted++] = was;
+            state[across >> 2] = is;
+            change += t0_[is & kT0Key] - t0_[was & kT0Key];
         };
-        flip(t.value, kMask | kRight);
+        flip(t, kMask | kRight);
         for (std::uint32_t k = 0; k < 3; ++k) {
-            const CornerId o = corners[corner(t, k).value].opposite;
-            if (o.is_null()) continue;
-            const std::uint32_t u = triangle(o).value;
-            const bool enters = (state[t.value] >> k & 1) != 0;
-            const bool same_side = ((state[t.value] ^ state[u]) & kRight) == 0;
-            flip(u, bit(o) | (enters && same_side ? kRight : 0U));
+            const std::uint32_t o = opposite[4 * std::size_t{t} + k];
+            if (o == kNone) continue;
+            const std::uint32_t u = o >> 2;
+            const bool enters = (state[t] >> k & 1) != 0;
+            const bool same_side = ((state[t] ^ state[u]) & kRight) == 0;
+            flip(u, bit(o) | (enters & same_side ? kRight : 0U));
         }
-        cost_ += change;
+        changes.size_ = noted;
+        return change;
+    }
+    void undo(const Changes& changes) {
+        for (std::uint32_t i = changes.size_; i-- > 0;) state_[changes.triangle_[i]] = changes.state_[i];
     }
 
-    /// Has the ring of the edge that c faces only two edges?
-    bool is_two_ring(CornerId c) const {
-        const CornerId left = is_right(c) ? table_->opposite(c) : c;
-        return table_->vertex(next(edge_after(left))) == table_->vertex(previous(left));
+    /// Has the ring of the edge that c faces only two edges? True, too, where the range does not tell.
+    bool maybe_two_ring(TriangleRange range, std::uint32_t c) const {
+        const std::uint32_t left = is_right(c) ? opposite(c) : c;
+        if (!range.has(left >> 2)) return true;
+        const std::uint32_t after = edge_after(range, left);
+        if (after == kNone) return true;
+        const std::uint32_t last = edge_after(range, after);
+        return last == kNone || last == left;
     }
 
-    /// The rings as they are, in the order of their first triangles.
-    Rings rings() const {
-        std::size_t size = 0;  // each edge has one triangle on its left
-        for (const std::uint8_t s : state_) size += (s & kRight) != 0 ? 0 : kBits[s & kMask];
-        Rings out;
-        out.edges.reserve(size);
-        BitVector done(table_->vertex_count);
-        for (std::uint32_t i = 0; i < table_->corners.size(); ++i) {
-            const CornerId c{i};
-            if (!faces_ring(c) || is_right(c) || done.test(table_->vertex(previous(c)).value)) continue;
-            out.first.push_back(static_cast<std::uint32_t>(out.edges.size()));
-            CornerId left = c;
-            do {
-                const VertexId v = table_->vertex(previous(left));
-                const CornerId right = table_->opposite(left);
-                done.set(v.value);
-                out.edges.push_back(
-                    {v, left, right, table_->vertex(left), right.is_null() ? kNullVertex : table_->vertex(right)});
-                left = edge_after(left);
-            } while (left != c);
-        }
-        out.first.push_back(static_cast<std::uint32_t>(out.edges.size()));
-        return out;
-    }
+    /// A corner of each vertex that was on no ring to begin with, in ascending order.
+    std::vector<std::uint32_t> take_isolated() { return std::move(isolated_); }
+
+    /// What the rings make of the triangles, all of it.
+    const std::vector<std::uint8_t>& states() const { return state_; }
+    /// The rings of such states, in the order of their first triangles. Frees all but what it needs.
+    static Rings rings(Lacing lacing, const std::vector<std::uint8_t>& states);
 
   private:
     // Of a triangle's state: bits 0 to 2, which corners face a ring edge; is it on the right of its ring edges; how
-    // many T2 have it across their third edge; the mark.
-    static constexpr std::uint8_t kMask = 7, kRight = 8, kDeadEnd = 16, kDeadEnds = 0x30, kMark = 64;
+    // many T2 have it across their third edge; is it degenerate; the mark.
+    static constexpr std::uint8_t kMask = 7, kRight = 8, kDeadEnd = 16, kDeadEnds = 0x30, kDegenerate = 64, kMark = 128;
     static constexpr std::uint8_t kT0Key = kMask | kDeadEnds;  // decides whether it is a T0, and its cost
     static constexpr std::array<std::uint8_t, 8> kBits{0, 1, 1, 2, 1, 2, 2, 3};
     static constexpr std::array<std::uint8_t, 8> kCornerOfT2{0, 0, 0, 2, 0, 1, 0, 0};
@@ -161,30 +173,36 @@ class Lacing {
         return out;
     }();
 
-    static std::uint8_t bit(CornerId c) { return static_cast<std::uint8_t>(1U << c.value % 3); }
-    std::uint8_t mask(TriangleId t) const { return state_[t.value] & kMask; }
+    static std::uint8_t bit(std::uint32_t c) { return static_cast<std::uint8_t>(1U << (c & 3)); }
+    std::uint8_t mask(std::uint32_t t) const { return state_[t] & kMask; }
 
-    /// The left corner of the ring edge after that of left corner x.
-    CornerId edge_after(CornerId x) const {
-        CornerId y = table_->opposite(x);
+    void join(const CornerTable& table);
+    void set_reach();
+
+    /// The left corner of the ring edge after that of left corner x; kNone where it is not all within the range.
+    std::uint32_t edge_after(TriangleRange range, std::uint32_t x) const {
+        std::uint32_t y = opposite(x);
         do {  // through the triangles on the left, around the vertex between the edges
-            const CornerId p = previous(x);
+            const std::uint32_t p = previous(x);
             if (faces_ring(p)) return p;
-            x = table_->opposite(p);
-        } while (!x.is_null());
+            x = opposite(p);
+            if (x != kNone && !range.has(x >> 2)) return kNone;
+        } while (x != kNone);
         while (true) {  // the fan is open on the left: through those on the right
-            const CornerId n = next(y);
-            y = table_->opposite(n);
-            if (faces_ring(n)) return y;
+            if (y == kNone || !range.has(y >> 2)) return kNone;
+            const std::uint32_t n = next(y);
+            y = opposite(n);
+            if (faces_ring(n)) return y != kNone && range.has(y >> 2) ? y : kNone;
         }
     }
 
     const CornerTable* table_;
-    std::array<std::int64_t, 64> t0_{};  // cost of a triangle by state & kT0Key
-    std::int64_t isolated_;
-    std::int64_t cost_ = 0;
-    std::vector<std::uint8_t> state_;
-    BitVector on_ring_;
+    std::array<std::int64_t, 64> t0_{};    // cost of a triangle by state & kT0Key
+    std::vector<std::uint32_t> isolated_;  // corners
+    int reach_unit_ = 0;                   // a binary logarithm
+    std::vector<std::uint32_t> order_;     // the table's number of each triangle
+    std::vector<std::uint8_t> state_;      // of each triangle
+    std::vector<std::uint32_t> opposite_;  // of each corner; and how far turn_over reaches down and up, as the fourth
 };
 
 }  // namespace lacedring

@@ -67,8 +67,9 @@ struct EncodeOptions {
     /// RingOptions::k: of lr_compact the values of which the best is kept, of any other format one or none.
     std::vector<std::uint32_t> periods = {};
     std::uint64_t random_seed = 1;
+    unsigned threads = 1;  ///< run on at most that many, including the calling one; the same words for any
 
-    /// Called after each pass of the optimizer with how many are done; false: stop, the best so far is encoded.
+    /// Called after each pass of the optimizer, by the calling thread, with how many are done; false: stop, the best so far is encoded.
     /// lr_compact, which has no such passes, never calls it.
     std::function<bool(std::uint32_t)> progress = {};
 };
