@@ -110,7 +110,7 @@ class Annealer {
     static constexpr std::uint32_t kNear = 10;    // edges from a T0 in no wart to the T2 that are tried
     static constexpr std::uint32_t kMarking = 4;  // passes that use the same marks
     static constexpr std::uint32_t kSweeps = 8;   // passes until every T2 has had its turn
-    static constexpr std::uint32_t kSpread = 2;   // triangles for each try of a pass, at least
+    static constexpr std::uint32_t kSpread = 3;   // triangles for each try of a pass, at least
     static constexpr std::size_t kBatch = 128;    // dead ends
 
     std::uint64_t random() { return mix(random_ += 0x9e3779b97f4a7c15U); }
@@ -228,7 +228,7 @@ class Annealer {
         }
     }
 
-    /// Collects the T2 that are marked, and of the others one in kSweeps.
+    /// Collects the T2 that are marked; tries one change at some of the others.
     void find_ends(std::uint32_t pass) {
         std::array<std::uint32_t, 256> found;
         for (std::uint32_t begin = range_.begin; begin < range_.end;) {
@@ -238,7 +238,13 @@ class Annealer {
                 found[count] = t;
                 count += lacing_.is_t2(t) & (lacing_.marked(t) | ((t + pass) % kSweeps == 0)) ? 1 : 0;
             }
-            ends_.insert(ends_.end(), found.begin(), found.begin() + count);
+            for (std::size_t i = 0; i < count; ++i) {
+                if (lacing_.marked(found[i])) {
+                    ends_.push_back(found[i]);
+                } else if (lacing_.is_t2(found[i])) {
+                    try_t2(found[i]);
+                }
+            }
             begin = end;
         }
     }
