@@ -85,8 +85,8 @@ class Lacing {
     /// Is the triangle of c a T1 with c as its tip corner, which may be turned over? Given that vertex(c) is on no
     /// ring, or that no other triangle of the fan is a T2 with a corner there.
     bool can_lace_in(std::uint32_t c) const {
-        const bool inner = (opposite(next(c)) != kNone) & (opposite(previous(c)) != kNone);
-        return faces_ring(c) & (is_right(c) | inner);
+        const int inner = int{opposite(next(c)) != kNone} & int{opposite(previous(c)) != kNone};
+        return (int{faces_ring(c)} & (int{is_right(c)} | inner)) != 0;
     }
 
     /// Turns a T1 or T2 over to the other side: its ring edges leave the ring, its other edges enter it. Returns what
@@ -122,7 +122,7 @@ class Lacing {
             const std::uint32_t u = o >> 2;
             const bool enters = (state[t] >> k & 1) != 0;
             const bool same_side = ((state[t] ^ state[u]) & kRight) == 0;
-            flip(u, bit(o) | (enters & same_side ? kRight : 0U));
+            flip(u, bit(o) | ((int{enters} & int{same_side}) != 0 ? kRight : 0U));
         }
         changes.size_ = noted;
         return change;

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <span>
 #include <vector>
 
@@ -96,7 +95,8 @@ class Annealer {
         rounds = static_cast<std::uint32_t>(std::clamp<std::size_t>(affordable, 2, rounds));
         // A few at a time, so that what they touch stays in the cache.
         for (std::size_t i = 0; i < ends_.size(); i += kBatch) {
-            batch_.assign(ends_.begin() + i, ends_.begin() + std::min(i + kBatch, ends_.size()));
+            const std::span batch = std::span(ends_).subspan(i, std::min(kBatch, ends_.size() - i));
+            batch_.assign(batch.begin(), batch.end());
             for (std::uint32_t round = 0; round < rounds; ++round) try_batch();
         }
         std::sort(isolated_.begin(), isolated_.end());
@@ -136,7 +136,7 @@ class Annealer {
     }
     void add_place(std::uint32_t x) {
         place_[places_] = x;
-        places_ += lacing_.can_lace_in(x) & lacing_.within(range_, x >> 2) ? 1 : 0;
+        places_ += std::uint32_t{lacing_.can_lace_in(x)} & std::uint32_t{lacing_.within(range_, x >> 2)};
     }
     std::uint32_t any_place(std::uint64_t bits) const { return place_[(bits >> 32U) * places_ >> 32U]; }
 
@@ -236,7 +236,8 @@ class Annealer {
             std::size_t count = 0;  // no branch on what a triangle is: no processor foretells it
             for (std::uint32_t t = begin; t < end; ++t) {
                 found[count] = t;
-                count += lacing_.is_t2(t) & (lacing_.marked(t) | ((t + pass) % kSweeps == 0)) ? 1 : 0;
+                const int wanted = int{lacing_.marked(t)} | int{(t + pass) % kSweeps == 0};
+                count += static_cast<std::size_t>(int{lacing_.is_t2(t)} & wanted);
             }
             for (std::size_t i = 0; i < count; ++i) {
                 if (lacing_.marked(found[i])) {
