@@ -9,28 +9,25 @@
 
 #include "lacedring/ring.hpp"
 #include "lacedring/topology.hpp"
+#include "lrcore/base/bits.h"
 
 namespace lacedring {
 
-/// Triangles begin to end - 1 of `size`, in Lacing's numbers.
+/// Triangles begin to end - 1 in Lacing's numbers.
 struct TriangleRange {
-    TriangleRange(std::uint32_t b, std::uint32_t e, std::uint32_t size)
-        : begin(b), end(e), lowest(b == 0 ? INT64_MIN / 2 : b), highest(e == size ? INT64_MAX / 2 : e) {}
-
     std::uint32_t begin, end;
-    std::int64_t lowest, highest;  ///< the same, but unbounded where there is nothing beyond
 
     bool has(std::uint32_t t) const { return t - begin < end - begin; }
 };
 
-/// What the rings make of every triangle, and what changes cost. An edge is a mesh edge, known by the corners that face
-/// it, never a pair of vertices: two edges may have the same ends.
+/// Which edges are on the rings, as seen from every triangle, and what changes cost. An edge is a mesh edge, known by
+/// the corners that face it, never a pair of vertices: two edges may have the same ends.
 ///
-/// Triangles are renumbered breadth first: neighbors are near each other in memory however the mesh lists them, and a
-/// range of numbers is a band of surface with a short border. Corner k of triangle t is 4 * t + k; the table's k.
-/// Functions that change something touch only triangles within a range that they are given, so several
-/// threads may work in disjoint ranges, and what they do is what one would do range after range.
-/// Memory: 21 bytes a triangle.
+/// Corner k of triangle t is 4 * t + k; k is the table's. Triangles of a large mesh whose neighbors are far apart in
+/// the table are renumbered breadth first: then neighbors are near each other in memory, and a range of numbers is a
+/// band of surface with a short border. What is not const changes states in the given range only, and what takes a
+/// range reads states there only. So threads may work in disjoint ranges.
+/// Memory: 17 bytes a triangle, and 4 to 8 more while number_triangles() runs.
 class Lacing {
   public:
     static constexpr std::int64_t kScale = 16;  ///< of costs, so that temperatures are not coarse beside small numbers
@@ -48,7 +45,15 @@ class Lacing {
         std::uint32_t size_ = 0;
     };
 
-    Lacing(const CornerTable& table, Rings rings, const RingCost& cost);
+    /// Reads the rings. Only has_expensive() and number_triangles() may be called then.
+    Lacing(const CornerTable& table, const Rings& rings, const RingCost& cost);
+    /// Prepares all else. Renumbers the triangles if ranges of so many had long borders otherwise.
+    void number_triangles(std::uint32_t range);
+
+    /// Is there a T0 beside no T2, not degenerate?
+    bool has_expensive() const;
+
+    bool all_on_rings() const { return all_on_rings_; }
 
     std::uint32_t size() const { return static_cast<std::uint32_t>(state_.size()); }
 
@@ -67,18 +72,47 @@ class Lacing {
     /// Is the triangle of c, no T0, on the right of its ring edges?
     bool is_right(std::uint32_t c) const { return (state_[c >> 2] & kRight) != 0; }
 
-    /// Does turn_over(t) touch triangles of that range only?
+    std::uint8_t state(std::uint32_t t) const { return state_[t]; }
+    /// How many ring edges a triangle of that state has.
+    static std::uint32_t ring_edges(std::uint8_t state) { return kBits[state & kMask]; }
+    /// What a triangle of that state costs; and what it would cost as a T0.
+    std::int64_t cost(std::uint8_t state) const { return t0_[state & kT0Key]; }
+    std::int64_t cost_as_t0(std::uint8_t state) const { return t0_[state & kDeadEnds]; }
+    std::int64_t wart_cost() const { return t0_[kDeadEnd]; }
+
+    /// Does turn_over(t) touch triangles of that range only? These are at most two edges away.
     bool within(TriangleRange range, std::uint32_t t) const {
-        const std::int64_t reach = opposite_[4 * std::size_t{t} + 3];
-        return (t - ((reach & 0xffff) << reach_unit_) >= range.lowest) &
-               (t + ((reach >> 16) << reach_unit_) < range.highest);
+        if (range.end - range.begin == size()) return true;
+        bool all = range.has(t);
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const std::uint32_t o = opposite(4 * t + k);
+            if (o == kNone) continue;
+            for (const std::uint32_t p : {o, opposite(next(o)), opposite(previous(o))}) {
+                all &= p == kNone || range.has(p >> 2);
+            }
+        }
+        return all;
+    }
+
+    /// Length of the dead end of T2 t: the T1 between it and a T0, at most `most`. `most` where it has no T0.
+    std::uint32_t dead_end(TriangleRange range, std::uint32_t t, std::uint32_t most) const {
+        std::uint32_t x = opposite(t2_corner(t));
+        for (std::uint32_t n = 0; n < most; ++n) {
+            if (x == kNone || !range.has(x >> 2)) return most;
+            if (is_t0(x >> 2)) return n;
+            if (kBits[mask(x >> 2)] != 1) return most;
+            x = opposite(faces_ring(next(x)) ? previous(x) : next(x));
+        }
+        return most;
     }
 
     /// A flag to use at will.
     bool marked(std::uint32_t t) const { return (state_[t] & kMark) != 0; }
-    void mark(std::uint32_t t, bool on) {
-        state_[t] = static_cast<std::uint8_t>((state_[t] & ~kMark) | (on ? kMark : 0));
-    }
+    void mark(std::uint32_t t) { state_[t] |= kMark; }
+    /// Marks the T0 beside no T2, and nothing else; appends them to `out`.
+    void mark_expensive(TriangleRange range, std::vector<std::uint32_t>& out);
+    /// Appends the marked T2.
+    void find_marked_t2(TriangleRange range, std::vector<std::uint32_t>& out) const;
 
     /// May the T2 of c, its t2_corner, be turned over? A ring edge needs a triangle on its left.
     bool can_take_out(std::uint32_t c) const { return is_right(c) || opposite(c) != kNone; }
@@ -141,7 +175,7 @@ class Lacing {
         return last == kNone || last == left;
     }
 
-    /// A corner of each vertex that was on no ring to begin with, in ascending order.
+    /// A corner of each vertex that is on no ring to begin with, in ascending order.
     std::vector<std::uint32_t> take_isolated() { return std::move(isolated_); }
 
     /// What the rings make of the triangles, all of it.
@@ -176,8 +210,8 @@ class Lacing {
     static std::uint8_t bit(std::uint32_t c) { return static_cast<std::uint8_t>(1U << (c & 3)); }
     std::uint8_t mask(std::uint32_t t) const { return state_[t] & kMask; }
 
-    void join(const CornerTable& table);
-    void set_reach();
+    bool scattered(std::uint32_t range) const;
+    void renumber();
 
     /// The left corner of the ring edge after that of left corner x; kNone where it is not all within the range.
     std::uint32_t edge_after(TriangleRange range, std::uint32_t x) const {
@@ -198,11 +232,11 @@ class Lacing {
 
     const CornerTable* table_;
     std::array<std::int64_t, 64> t0_{};    // cost of a triangle by state & kT0Key
+    BitVector on_ring_;                    // vertices; or with a corner in isolated_
+    bool all_on_rings_;
     std::vector<std::uint32_t> isolated_;  // corners
-    int reach_unit_ = 0;                   // a binary logarithm
-    std::vector<std::uint32_t> order_;     // the table's number of each triangle
     std::vector<std::uint8_t> state_;      // of each triangle
-    std::vector<std::uint32_t> opposite_;  // of each corner; and how far turn_over reaches down and up, as the fourth
+    std::vector<std::uint32_t> opposite_;  // of each corner; the fourth is the table's number of the triangle
 };
 
 }  // namespace lacedring

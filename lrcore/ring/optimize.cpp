@@ -75,111 +75,148 @@ std::int64_t exponential(std::int64_t x) {
 /// One pass over one part.
 class Annealer {
   public:
-    Annealer(Lacing& lacing, TriangleRange range, const Temperature& temperature, std::int64_t isolated_cost,
+    Annealer(Lacing& lacing, TriangleRange range, const Temperature& temperature, const RingCost& cost,
              std::uint64_t random_seed)
         : lacing_(lacing),
           range_(range),
           temperature_(temperature),
-          isolated_cost_(isolated_cost),
+          isolated_cost_(Lacing::kScale * cost.isolated),
+          slack_(Lacing::kScale * std::int64_t{cost.t0 - cost.t0_wart} * 3 / 2),
+          warts_are_cheap_(2 * std::int64_t{cost.t0_wart} < cost.t0),
           random_(random_seed) {}
 
-    /// Tries one change at every vertex off the rings and `rounds` at every T2 near a T0 that is in no wart, and at
-    /// some others. `isolated` has corners of the vertices off the rings.
-    void run(std::uint32_t pass, std::uint32_t rounds, std::span<const std::uint32_t> isolated) {
+    /// Tries changes at every vertex off the rings and at every T2 near a T0 that is in no wart. `isolated` has corners
+    /// of the vertices off the rings.
+    void run(std::uint32_t pass, std::span<const std::uint32_t> isolated) {
         for (const std::uint32_t c : isolated) {
             if (!try_lace_in(c)) isolated_.push_back(c);
         }
-        if (pass % kMarking == 0) mark_near();
-        find_ends(pass);
-        const std::size_t affordable = (range_.end - range_.begin) / (kSpread * std::max<std::size_t>(ends_.size(), 1));
-        rounds = static_cast<std::uint32_t>(std::clamp<std::size_t>(affordable, 2, rounds));
+        if (pass % (warts_are_cheap_ ? kMarkingWarts : kMarking) == 0) mark_near();
+        lacing_.find_marked_t2(range_, ends_);
         // A few at a time, so that what they touch stays in the cache.
         for (std::size_t i = 0; i < ends_.size(); i += kBatch) {
-            const std::span batch = std::span(ends_).subspan(i, std::min(kBatch, ends_.size() - i));
-            batch_.assign(batch.begin(), batch.end());
-            for (std::uint32_t round = 0; round < rounds; ++round) try_batch();
+            batch_.assign(ends_.begin() + i, ends_.begin() + std::min(i + kBatch, ends_.size()));
+            for (std::uint32_t round = 0; round < kRounds && !batch_.empty(); ++round) try_batch();
         }
         std::sort(isolated_.begin(), isolated_.end());
     }
 
-    std::int64_t cost() const { return cost_; }  ///< of all changes made
+    std::int64_t cost() const { return cost_; }                                    ///< of all changes made
+    std::size_t tried() const { return ends_.size() + isolated_.size(); }          ///< dead ends and vertices, about
     std::vector<std::uint32_t>& isolated() { return isolated_; }
 
   private:
     static constexpr std::uint32_t kReach = 24;   // triangles of a fan looked at each way, so that hubs cost no more
-    static constexpr std::uint32_t kNear = 10;    // edges from a T0 in no wart to the T2 that are tried
-    static constexpr std::uint32_t kMarking = 4;  // passes that use the same marks
-    static constexpr std::uint32_t kSweeps = 8;   // passes until every T2 has had its turn
-    static constexpr std::uint32_t kSpread = 3;   // triangles for each try of a pass, at least
+    static constexpr std::uint32_t kRounds = 4;   // changes tried at a dead end in a pass
     static constexpr std::size_t kBatch = 128;    // dead ends
+    /// Edges from a T0 in no wart to the T2 that are tried, and passes that use the same marks; where warts are cheap.
+    static constexpr std::uint32_t kNearWarts = 6, kMarkingWarts = 2;
+    static constexpr std::uint32_t kNear = 20, kMarking = 4;  // where they are not
+
+    /// What became of a try.
+    enum class Try : std::uint8_t { done, refused, hopeless };
 
     std::uint64_t random() { return mix(random_ += 0x9e3779b97f4a7c15U); }
 
-    /// Collects the corners of vertex(c) near c, but not c, through whose triangles it can be laced in.
-    void find_places(std::uint32_t c) {
-        places_ = 0;
+    /// Collects the corners of vertex(c) near c, but not c, in their order around it.
+    void walk_fan(std::uint32_t c) {
+        fan_ = 0;
         std::uint32_t x = c;
         for (std::uint32_t n = 0; n < kReach; ++n) {
             x = lacing_.opposite(Lacing::next(x));
             if (x == Lacing::kNone || !range_.has(x >> 2)) break;
             x = Lacing::next(x);
             if (x == c) return;
-            add_place(x);
+            add_to_fan(x);
         }
+        const std::uint32_t first = fan_;
         x = c;
         for (std::uint32_t n = 0; n < kReach; ++n) {  // on the other side of c, where the fan is open or too large
             x = lacing_.opposite(Lacing::previous(x));
-            if (x == Lacing::kNone || !range_.has(x >> 2)) return;
+            if (x == Lacing::kNone || !range_.has(x >> 2)) break;
             x = Lacing::previous(x);
-            add_place(x);
+            add_to_fan(x);
         }
+        std::reverse(corner_.begin() + first, corner_.begin() + fan_);
+        std::reverse(state_.begin() + first, state_.begin() + fan_);
     }
-    void add_place(std::uint32_t x) {
-        place_[places_] = x;
-        places_ += std::uint32_t{lacing_.can_lace_in(x)} & std::uint32_t{lacing_.within(range_, x >> 2)};
+    void add_to_fan(std::uint32_t x) {
+        corner_[fan_] = x;
+        state_[fan_++] = lacing_.state(x >> 2);
     }
-    std::uint32_t any_place(std::uint64_t bits) const { return place_[(bits >> 32U) * places_ >> 32U]; }
+
+    /// About what it costs to take vertex(c) out of the T2 of c and lace it in at corner_[i]: counts the T0 that come
+    /// and go, but not those that get into a wart or lose theirs.
+    std::int64_t estimate(std::uint32_t i) const {
+        std::int64_t out = 0;
+        if (i != 1 && Lacing::ring_edges(state_[0]) == 1) out += lacing_.cost_as_t0(state_[0]);
+        if (i + 2 != fan_ && Lacing::ring_edges(state_[fan_ - 1]) == 1) out += lacing_.cost_as_t0(state_[fan_ - 1]);
+        if (i > 0) out -= lacing_.cost(state_[i - 1]);
+        if (i + 1 < fan_) out -= lacing_.cost(state_[i + 1]);
+        const std::uint32_t across = lacing_.opposite(corner_[i]);
+        if (across == Lacing::kNone || !range_.has(across >> 2)) return out;
+        return Lacing::ring_edges(lacing_.state(across >> 2)) == 1 ? out + lacing_.wart_cost() : out;
+    }
 
     /// Takes a T2's vertex out, and mostly laces it in elsewhere. It is left out on the right side only: so the left
     /// one remains a tree of triangles, all their vertices on the ring, and has dead ends for encoders to close it at.
-    /// Returns whether it did; then place_[0] is the place, or c.
-    bool try_t2(std::uint32_t t) {
-        const std::uint32_t c = lacing_.t2_corner(t);
-        if (!lacing_.can_take_out(c) || !lacing_.within(range_, t)) return false;
+    /// If done, place_ is where it was laced in, or c.
+    Try try_t2(std::uint32_t t) {
+        const std::uint32_t c = lacing_.t2_corner(t), across = lacing_.opposite(c);
+        if (!lacing_.can_take_out(c)) return Try::hopeless;
         const std::uint64_t bits = random();
         const std::int64_t most = temperature_.rise(bits);
+        const std::int64_t gain =
+            across != Lacing::kNone && range_.has(across >> 2) ? lacing_.cost(lacing_.state(across >> 2)) : 0;
         changes_.clear();
-        if ((bits >> 10U) % 8 != 0 || lacing_.is_right(c)) {
-            find_places(c);
-            if (places_ == 0) return false;
-            place_[0] = any_place(bits);
-            const std::int64_t cost = lacing_.turn_over(t, changes_) + lacing_.turn_over(place_[0] >> 2, changes_);
-            // If the edge that faces v is still on a ring, that may be one of two edges: v came from a ring of three.
-            if (cost <= most && !(lacing_.faces_ring(c) && lacing_.maybe_two_ring(range_, c))) {
-                cost_ += cost;
-                return true;
-            }
-        } else {
+        if ((bits >> 10U) % 8 == 0 && !lacing_.is_right(c)) {
+            if (isolated_cost_ - gain > most + slack_ || !lacing_.within(range_, t)) return Try::refused;
             const std::int64_t cost = lacing_.turn_over(t, changes_) + isolated_cost_;
             if (cost <= most && !lacing_.maybe_two_ring(range_, c)) {
                 cost_ += cost;
                 isolated_.push_back(c);
-                place_[0] = c;
-                return true;
+                place_ = c;
+                return Try::done;
             }
+            lacing_.undo(changes_);
+            return Try::refused;
         }
-        lacing_.undo(changes_);
-        return false;
+        walk_fan(c);
+        std::uint32_t places = 0;
+        for (std::uint32_t i = 0; i < fan_; ++i) {
+            if (!lacing_.can_lace_in(corner_[i])) continue;
+            if (warts_are_cheap_ || estimate(i) - gain <= most + slack_) corner_[places++] = corner_[i];
+        }
+        if (places == 0) return Try::hopeless;
+        place_ = any_place(places, bits);
+        if (!lacing_.within(range_, t) || !lacing_.within(range_, place_ >> 2)) return Try::refused;
+        const std::uint32_t length = warts_are_cheap_ ? lacing_.dead_end(range_, t, kLong) : kLong;
+        const std::int64_t cost = lacing_.turn_over(t, changes_) + lacing_.turn_over(place_ >> 2, changes_);
+        // If the edge that faces v is still on a ring, that may be one of two edges: v came from a ring of three.
+        if (cost > most || (lacing_.faces_ring(c) && lacing_.maybe_two_ring(range_, c)) ||
+            (cost == 0 && length < kLong && (bits >> 13U) % 16 != 0 && lacing_.is_t2(place_ >> 2) &&
+             lacing_.dead_end(range_, place_ >> 2, kLong) > length)) {
+            lacing_.undo(changes_);
+            return Try::refused;
+        }
+        cost_ += cost;
+        return Try::done;
     }
 
     /// Laces in vertex(c), which is off the rings.
     bool try_lace_in(std::uint32_t c) {
-        find_places(c);
-        add_place(c);
-        if (places_ == 0) return false;
+        walk_fan(c);
+        add_to_fan(c);
+        std::uint32_t places = 0;
+        for (std::uint32_t i = 0; i < fan_; ++i) {
+            if (lacing_.can_lace_in(corner_[i])) corner_[places++] = corner_[i];
+        }
+        if (places == 0) return false;
         const std::uint64_t bits = random();
+        const std::uint32_t place = any_place(places, bits);
+        if (!lacing_.within(range_, place >> 2)) return false;
         changes_.clear();
-        const std::int64_t cost = lacing_.turn_over(any_place(bits) >> 2, changes_) - isolated_cost_;
+        const std::int64_t cost = lacing_.turn_over(place >> 2, changes_) - isolated_cost_;
         if (cost <= temperature_.rise(bits)) {
             cost_ += cost;
             return true;
@@ -188,91 +225,80 @@ class Annealer {
         return false;
     }
 
-    /// Tries a change at each T2 of batch_, and notes where the dead ends are then.
+    std::uint32_t any_place(std::uint32_t places, std::uint64_t bits) const {
+        return corner_[(bits >> 32U) * places >> 32U];
+    }
+
+    /// Tries a change at each T2 of batch_, and notes where the dead ends are then. Drops those where nothing can be
+    /// done.
     void try_batch() {
         std::size_t kept = 0;
         moved_.clear();
         for (const std::uint32_t t : batch_) {
             if (!lacing_.is_t2(t)) continue;
             const std::uint32_t across = lacing_.opposite(lacing_.t2_corner(t));
-            if (!try_t2(t)) {
-                batch_[kept++] = t;
-                continue;
-            }
-            // The dead end got shorter, and place_[0] is the end of another one.
+            const Try tried = try_t2(t);
+            if (tried == Try::refused) batch_[kept++] = t;
+            if (tried != Try::done) continue;
+            // The dead end got shorter, and place_ is the end of another one.
             if (range_.has(across >> 2) && lacing_.is_t2(across >> 2)) batch_[kept++] = across >> 2;
-            if (lacing_.is_t2(place_[0] >> 2)) moved_.push_back(place_[0] >> 2);
+            if (lacing_.is_t2(place_ >> 2)) moved_.push_back(place_ >> 2);
         }
         batch_.resize(kept);
         batch_.insert(batch_.end(), moved_.begin(), moved_.end());
     }
 
-    /// Marks the triangles within kNear edges of a T0 in no wart, and no others.
+    /// Marks the triangles near a T0 in no wart, and no others.
     void mark_near() {
         std::vector<std::uint32_t> near;
-        for (std::uint32_t t = range_.begin; t < range_.end; ++t) {
-            const bool expensive = lacing_.is_expensive(t);
-            lacing_.mark(t, expensive);
-            if (expensive) near.push_back(t);
-        }
+        lacing_.mark_expensive(range_, near);
         std::size_t i = 0;
-        for (std::uint32_t distance = 0; distance < kNear; ++distance) {
+        for (std::uint32_t distance = warts_are_cheap_ ? kNearWarts : kNear; distance > 0; --distance) {
             for (const std::size_t end = near.size(); i < end; ++i) {
                 for (std::uint32_t k = 0; k < 3; ++k) {
                     const std::uint32_t o = lacing_.opposite(4 * near[i] + k);
                     if (!range_.has(o >> 2) || lacing_.marked(o >> 2)) continue;  // kNone is in no range
-                    lacing_.mark(o >> 2, true);
+                    lacing_.mark(o >> 2);
                     near.push_back(o >> 2);
                 }
             }
         }
     }
 
-    /// Collects the T2 that are marked; tries one change at some of the others.
-    void find_ends(std::uint32_t pass) {
-        std::array<std::uint32_t, 256> found;
-        for (std::uint32_t begin = range_.begin; begin < range_.end;) {
-            const std::uint32_t end = begin + std::min<std::uint32_t>(range_.end - begin, found.size());
-            std::size_t count = 0;  // no branch on what a triangle is: no processor foretells it
-            for (std::uint32_t t = begin; t < end; ++t) {
-                found[count] = t;
-                const int wanted = int{lacing_.marked(t)} | int{(t + pass) % kSweeps == 0};
-                count += static_cast<std::size_t>(int{lacing_.is_t2(t)} & wanted);
-            }
-            for (std::size_t i = 0; i < count; ++i) {
-                if (lacing_.marked(found[i])) {
-                    ends_.push_back(found[i]);
-                } else if (lacing_.is_t2(found[i])) {
-                    try_t2(found[i]);
-                }
-            }
-            begin = end;
-        }
-    }
+    static constexpr std::uint32_t kLong = 4;  // of a dead end: as good as longer ones
 
     Lacing& lacing_;
     TriangleRange range_;
     const Temperature& temperature_;
     std::int64_t isolated_cost_;
+    std::int64_t slack_;    // what an estimate may be above the cost
+    bool warts_are_cheap_;  // then dead ends are kept short: they become warts
     std::uint64_t random_;
     std::int64_t cost_ = 0;
     std::vector<std::uint32_t> isolated_;
     Lacing::Changes changes_;
-    std::array<std::uint32_t, 2 * kReach + 1> place_;
-    std::uint32_t places_ = 0;
+    std::array<std::uint32_t, 2 * kReach + 1> corner_;  // of the fan, fan_ of them
+    std::array<std::uint8_t, 2 * kReach + 1> state_;    // of their triangles
+    std::uint32_t fan_ = 0, place_ = 0;
     std::vector<std::uint32_t> ends_, batch_, moved_;  // triangles that were T2 when noted
 };
 
 /// What a pass over a part came to.
 struct Outcome {
     std::int64_t cost = 0;
+    std::size_t tried = 0;
     std::vector<std::uint32_t> isolated;
 };
 
-/// Where the parts of a pass begin, and the end. Their number depends on the size of the mesh only.
+/// How many parts a mesh of that size is annealed in.
+std::uint32_t number_of_parts(std::uint32_t triangles) {
+    constexpr std::uint32_t kLeast = 16384, kMost = 16;  // triangles of a part; parts
+    return std::clamp(triangles / kLeast, 1U, kMost);
+}
+
+/// Where the parts of a pass begin, and the end.
 std::vector<std::uint32_t> parts_of(std::uint32_t triangles, std::uint32_t pass) {
-    constexpr std::uint32_t kLeast = 12288, kMost = 16;  // triangles of a part; parts
-    const std::uint32_t parts = std::clamp(triangles / kLeast, 1U, kMost);
+    const std::uint32_t parts = number_of_parts(triangles);
     if (parts == 1) return {0, triangles};
     // Shifted by a multiple of the golden ratio each time: any place is far from a border in most passes.
     const std::uint32_t size = triangles / parts;
@@ -289,39 +315,45 @@ std::vector<std::uint32_t> parts_of(std::uint32_t triangles, std::uint32_t pass)
 }  // namespace
 
 Rings optimize_rings(const CornerTable& table, Rings rings, const OptimizeOptions& options) {
+    constexpr std::size_t kTriedOfThread = 2048;  // half a millisecond: ten times what a thread takes to start
     constexpr std::uint32_t kMostTriangles = 1U << 30;  // that Lacing numbers the corners of
     if (options.passes == 0 || rings.edges.empty() || table.triangle_count() >= kMostTriangles) return rings;
     // Temperatures fall from kHot to kCold geometrically, in units of what a T0 gains by a wart, or one in a wart
     // costs.
-    constexpr std::int64_t kHot = 35, kCooling = 396193577;  // in hundredths; ln(0.35 / 0.08) * 2^28
+    constexpr std::int64_t kHot = 50, kCooling = 396193577;  // in hundredths; ln(0.5 / 0.11) * 2^28 about
     const std::int64_t unit = Lacing::kScale * std::max(std::int64_t{options.cost.t0} - options.cost.t0_wart,
                                                         std::int64_t{options.cost.t0_wart});
     const std::uint32_t descent = options.anneal ? 1 + options.passes / 8 : options.passes;
-    Lacing lacing(table, std::move(rings), options.cost);
+    Lacing lacing(table, rings, options.cost);
+    if (!lacing.has_expensive() && (options.cost.isolated <= 0 || lacing.all_on_rings())) return rings;
+    rings = {};
+    lacing.number_triangles(lacing.size() / number_of_parts(lacing.size()));
     std::vector<std::uint8_t> best = lacing.states();
     std::vector<std::uint32_t> isolated = lacing.take_isolated();
     std::int64_t cost = 0, best_cost = 0;
-    // Small meshes, where chance weighs more and trying is cheap, get more.
-    const std::uint32_t rounds = lacing.size() < 16384 ? 24 : 6;
+    std::size_t tried = lacing.size() / 16;  // in the pass before
     Temperature temperature;
-    for (std::uint32_t p = 0; p < options.passes; ++p) {
+    for (std::uint32_t p = 0; p < options.passes && tried > 0; ++p) {
         const bool cold = p + descent >= options.passes;
         temperature.set(cold ? 0 : (unit * kHot / 100 * exponential(kCooling * p / options.passes)) >> 28);
         const std::vector<std::uint32_t> begins = parts_of(lacing.size(), p);
         std::vector<Outcome> outcomes(begins.size() - 1);
-        detail::in_parallel(options.threads, static_cast<std::uint32_t>(outcomes.size()), [&](std::uint32_t i) {
-            const TriangleRange range(begins[i], begins[i + 1], lacing.size());
-            Annealer annealer(lacing, range, temperature, Lacing::kScale * options.cost.isolated,
+        const unsigned threads = tried < kTriedOfThread ? 1 : options.threads;
+        detail::in_parallel(threads, static_cast<std::uint32_t>(outcomes.size()), [&](std::uint32_t i) {
+            const TriangleRange range{begins[i], begins[i + 1]};
+            Annealer annealer(lacing, range, temperature, options.cost,
                               mix(options.random_seed + mix((std::uint64_t{p} << 32U) + i)));
             const auto first_of = [&](std::uint32_t t) {
                 return std::lower_bound(isolated.begin(), isolated.end(), 4 * t);
             };
-            annealer.run(p, rounds, {first_of(range.begin), first_of(range.end)});
-            outcomes[i] = {annealer.cost(), std::move(annealer.isolated())};
+            annealer.run(p, {first_of(range.begin), first_of(range.end)});
+            outcomes[i] = {annealer.cost(), annealer.tried(), std::move(annealer.isolated())};
         });
         isolated.clear();
+        tried = 0;
         for (const Outcome& outcome : outcomes) {
             cost += outcome.cost;
+            tried += outcome.tried;
             isolated.insert(isolated.end(), outcome.isolated.begin(), outcome.isolated.end());
         }
         if (cost < best_cost) {
