@@ -110,7 +110,7 @@ EncodeOptions encode_options(const RingChoice& choice, Format format, std::size_
     if (choice.optimize != "auto" || given) {
         options.passes = optimize.passes;
     } else {
-        optimize.progress = progress_bar("optimising the ring", passes_at(choice.effort));
+        optimize.progress = progress_bar("optimising the ring", passes_at(choice.effort, format));
     }
     options.progress = optimize.progress;
     if (compact && given) options.periods = ring_periods(choice, triangles);
