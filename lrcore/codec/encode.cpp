@@ -26,7 +26,7 @@ RingOptions ring_options(const EncodeOptions& options, std::size_t triangles) {
     } else if (options.effort > 0 && options.format != Format::lr_compact) {  // which tries each period with them
         // For packed streams of large meshes, passes of the optimizer gain more than as much time spent on seeds.
         const bool fewer = options.format == Format::packed && options.effort <= 6;
-        out.seeds = recommended_seeds(fewer ? 4 * triangles : triangles);
+        out.seeds = recommended_seeds(fewer ? 6 * triangles : triangles);
     }
     return out;
 }

@@ -30,7 +30,10 @@ CornerId table_edge_after(const CornerTable& table, CornerId x, const Mask& mask
 }  // namespace
 
 Lacing::Lacing(const CornerTable& table, const Rings& rings, const RingCost& cost)
-    : table_(&table), on_ring_(table.vertex_count), all_on_rings_(rings.edges.size() == table.vertex_count), state_(table.triangle_count()) {
+    : table_(&table),
+      on_ring_(table.vertex_count),
+      all_on_rings_(rings.edges.size() == table.vertex_count),
+      state_(table.triangle_count()) {
     for (std::size_t ends = 0; ends < 4; ++ends) {
         t0_[ends * kDeadEnd] = kScale * (ends == 0 ? cost.t0 : cost.t0_wart);
     }
@@ -142,7 +145,9 @@ std::uint64_t word(const std::uint8_t* states) {
     std::memcpy(&out, states, kWord);
     return out;
 }
-constexpr std::uint64_t each(std::uint8_t byte) { return byte * 0x0101010101010101U; }
+constexpr std::uint64_t each(std::uint8_t byte) {
+    return byte * 0x0101010101010101U;
+}
 
 }  // namespace
 

@@ -231,8 +231,8 @@ class Lacing {
     }
 
     const CornerTable* table_;
-    std::array<std::int64_t, 64> t0_{};    // cost of a triangle by state & kT0Key
-    BitVector on_ring_;                    // vertices; or with a corner in isolated_
+    std::array<std::int64_t, 64> t0_{};  // cost of a triangle by state & kT0Key
+    BitVector on_ring_;                  // vertices; or with a corner in isolated_
     bool all_on_rings_;
     std::vector<std::uint32_t> isolated_;  // corners
     std::vector<std::uint8_t> state_;      // of each triangle

@@ -62,7 +62,7 @@ class Temperature {
     std::array<std::int64_t, kLevels> rise_{};
 };
 
-/// e^-(x / 2^28), with 28 bits behind the point, for x up to 2 * 2^28.
+/// e^-(x / 2^28), with 28 bits behind the point, for x up to 3 * 2^28.
 std::int64_t exponential(std::int64_t x) {
     std::int64_t sum = 0, term = std::int64_t{1} << 28;
     for (std::int64_t i = 1; i <= 20; ++i) {
@@ -83,6 +83,7 @@ class Annealer {
           isolated_cost_(Lacing::kScale * cost.isolated),
           slack_(Lacing::kScale * std::int64_t{cost.t0 - cost.t0_wart} * 3 / 2),
           warts_are_cheap_(2 * std::int64_t{cost.t0_wart} < cost.t0),
+          rounds_(std::clamp<std::uint32_t>(kSmall / lacing.size(), 4, 24)),
           random_(random_seed) {}
 
     /// Tries changes at every vertex off the rings and at every T2 near a T0 that is in no wart. `isolated` has corners
@@ -96,22 +97,24 @@ class Annealer {
         // A few at a time, so that what they touch stays in the cache.
         for (std::size_t i = 0; i < ends_.size(); i += kBatch) {
             batch_.assign(ends_.begin() + i, ends_.begin() + std::min(i + kBatch, ends_.size()));
-            for (std::uint32_t round = 0; round < kRounds && !batch_.empty(); ++round) try_batch();
+            for (std::uint32_t round = 0; round < rounds_ && !batch_.empty(); ++round) try_batch();
         }
         std::sort(isolated_.begin(), isolated_.end());
     }
 
-    std::int64_t cost() const { return cost_; }                                    ///< of all changes made
-    std::size_t tried() const { return ends_.size() + isolated_.size(); }          ///< dead ends and vertices, about
+    std::int64_t cost() const { return cost_; }                            ///< of all changes made
+    std::size_t tried() const { return ends_.size() + isolated_.size(); }  ///< dead ends and vertices, about
     std::vector<std::uint32_t>& isolated() { return isolated_; }
 
   private:
-    static constexpr std::uint32_t kReach = 24;   // triangles of a fan looked at each way, so that hubs cost no more
-    static constexpr std::uint32_t kRounds = 4;   // changes tried at a dead end in a pass
-    static constexpr std::size_t kBatch = 128;    // dead ends
+    static constexpr std::uint32_t kReach = 24;  // triangles of a fan looked at each way, so that hubs cost no more
+    static constexpr std::uint32_t kSmall = 32768;
+    static constexpr std::size_t kBatch = 128;  // dead ends
     /// Edges from a T0 in no wart to the T2 that are tried, and passes that use the same marks; where warts are cheap.
     static constexpr std::uint32_t kNearWarts = 6, kMarkingWarts = 2;
-    static constexpr std::uint32_t kNear = 20, kMarking = 4;  // where they are not
+    static constexpr std::uint32_t kNear = 20, kMarking = 8;  // where they are not
+    /// Up to kFar edges where less than one in kFew triangles would be near.
+    static constexpr std::uint32_t kFar = 20, kFew = 32;
 
     /// What became of a try.
     enum class Try : std::uint8_t { done, refused, hopeless };
@@ -253,7 +256,9 @@ class Annealer {
         std::vector<std::uint32_t> near;
         lacing_.mark_expensive(range_, near);
         std::size_t i = 0;
-        for (std::uint32_t distance = warts_are_cheap_ ? kNearWarts : kNear; distance > 0; --distance) {
+        const std::size_t few = (range_.end - range_.begin) / kFew;
+        const std::uint32_t least = warts_are_cheap_ ? kNearWarts : kNear;
+        for (std::uint32_t distance = 0; distance < least || (distance < kFar && near.size() < few); ++distance) {
             for (const std::size_t end = near.size(); i < end; ++i) {
                 for (std::uint32_t k = 0; k < 3; ++k) {
                     const std::uint32_t o = lacing_.opposite(4 * near[i] + k);
@@ -273,6 +278,7 @@ class Annealer {
     std::int64_t isolated_cost_;
     std::int64_t slack_;    // what an estimate may be above the cost
     bool warts_are_cheap_;  // then dead ends are kept short: they become warts
+    std::uint32_t rounds_;  // changes tried at a dead end in a pass: more on small meshes, where chance weighs more
     std::uint64_t random_;
     std::int64_t cost_ = 0;
     std::vector<std::uint32_t> isolated_;
@@ -315,12 +321,15 @@ std::vector<std::uint32_t> parts_of(std::uint32_t triangles, std::uint32_t pass)
 }  // namespace
 
 Rings optimize_rings(const CornerTable& table, Rings rings, const OptimizeOptions& options) {
-    constexpr std::size_t kTriedOfThread = 2048;  // half a millisecond: ten times what a thread takes to start
+    constexpr std::size_t kTriedOfThread = 2048;        // half a millisecond: ten times what a thread takes to start
     constexpr std::uint32_t kMostTriangles = 1U << 30;  // that Lacing numbers the corners of
     if (options.passes == 0 || rings.edges.empty() || table.triangle_count() >= kMostTriangles) return rings;
-    // Temperatures fall from kHot to kCold geometrically, in units of what a T0 gains by a wart, or one in a wart
-    // costs.
-    constexpr std::int64_t kHot = 50, kCooling = 396193577;  // in hundredths; ln(0.5 / 0.11) * 2^28 about
+    // Temperatures fall geometrically, in units of what a T0 gains by a wart, or one in a wart costs; further where
+    // warts are cheap.
+    constexpr std::int64_t kHot = 50;  // hundredths
+    const std::int64_t cooling = 2 * std::int64_t{options.cost.t0_wart} < options.cost.t0
+                                     ? 618095479   // ln(0.5 / 0.05) * 2^28
+                                     : 396193577;  // ln(0.5 / 0.114) * 2^28
     const std::int64_t unit = Lacing::kScale * std::max(std::int64_t{options.cost.t0} - options.cost.t0_wart,
                                                         std::int64_t{options.cost.t0_wart});
     const std::uint32_t descent = options.anneal ? 1 + options.passes / 8 : options.passes;
@@ -335,7 +344,7 @@ Rings optimize_rings(const CornerTable& table, Rings rings, const OptimizeOption
     Temperature temperature;
     for (std::uint32_t p = 0; p < options.passes && tried > 0; ++p) {
         const bool cold = p + descent >= options.passes;
-        temperature.set(cold ? 0 : (unit * kHot / 100 * exponential(kCooling * p / options.passes)) >> 28);
+        temperature.set(cold ? 0 : (unit * kHot / 100 * exponential(cooling * p / options.passes)) >> 28);
         const std::vector<std::uint32_t> begins = parts_of(lacing.size(), p);
         std::vector<Outcome> outcomes(begins.size() - 1);
         const unsigned threads = tried < kTriedOfThread ? 1 : options.threads;

@@ -85,8 +85,8 @@ struct OptimizeOptions {
     std::uint64_t random_seed = 1;
     bool anneal = true;    ///< else no change that raises the cost is made
     unsigned threads = 1;  ///< run on at most that many, including the calling one; the result is the same for any
-    /// Called after each pass, by the calling thread, with how many are done; false: stop, the best rings so far are the
-    /// result.
+    /// Called after each pass, by the calling thread, with how many are done; false: stop, the best rings so far are
+    /// the result.
     std::function<bool(std::uint32_t)> progress = {};
 };
 
