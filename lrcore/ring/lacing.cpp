@@ -27,6 +27,17 @@ CornerId table_edge_after(const CornerTable& table, CornerId x, const Mask& mask
     }
 }
 
+constexpr std::uint32_t kWord = 8;  // states that are looked at together
+
+std::uint64_t word(const std::uint8_t* states) {
+    std::uint64_t out = 0;
+    std::memcpy(&out, states, kWord);
+    return out;
+}
+constexpr std::uint64_t each(std::uint8_t byte) {
+    return byte * 0x0101010101010101U;
+}
+
 }  // namespace
 
 Lacing::Lacing(const CornerTable& table, const Rings& rings, const RingCost& cost)
@@ -135,21 +146,6 @@ void Lacing::number_triangles(std::uint32_t range) {
     }
     on_ring_ = BitVector(0);
 }
-
-namespace {
-
-constexpr std::uint32_t kWord = 8;  // states that are looked at together
-
-std::uint64_t word(const std::uint8_t* states) {
-    std::uint64_t out = 0;
-    std::memcpy(&out, states, kWord);
-    return out;
-}
-constexpr std::uint64_t each(std::uint8_t byte) {
-    return byte * 0x0101010101010101U;
-}
-
-}  // namespace
 
 void Lacing::mark_expensive(TriangleRange range, std::vector<std::uint32_t>& out) {
     const auto look = [&](std::uint32_t t) {

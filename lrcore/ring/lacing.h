@@ -53,6 +53,7 @@ class Lacing {
     /// Is there a T0 beside no T2, not degenerate?
     bool has_expensive() const;
 
+    /// Is every vertex on a ring? False, too, if some vertices are in no triangle.
     bool all_on_rings() const { return all_on_rings_; }
 
     std::uint32_t size() const { return static_cast<std::uint32_t>(state_.size()); }

@@ -3,7 +3,8 @@
 // ring, v is laced in. Either way each ring stays one cycle. What is tried at a T2 is to take v out and lace it in
 // again elsewhere in its fan. That shortens one dead end and lengthens another: dead ends wander until they are as
 // short as a wart, or gone with their bifurcation. Most such changes cost nothing, so annealing at low temperatures
-// goes far; and only those near a T0 without a wart can gain, so most are tried there.
+// goes far. Only dead ends near a T0 without a wart are tried: few others can gain. Most changes that would not be kept
+// are known by the ring edges of the triangles around v, and not made.
 //
 // Large meshes are annealed in parts. A change is made only where all that it reads and writes is in one part, so that
 // the parts of a pass do not depend on each other; borders between parts move from pass to pass. Parts and their random
