@@ -55,7 +55,7 @@ struct lacedring_encode_options {
     int cache;            /* packed: not 0 for an order that suits the vertex cache, in about one bit and a half more */
     int effort;           /* 0 to 9: how long to look for good rings; 6 is the default */
     int no_wart_skipping; /* lean and lr: not 0 for none */
-    int threads;          /* run on at most that many, the calling one included; 0 as 1. The same words for any number */
+    int threads; /* run on at most that many, the calling one included; 0 as 1. The same words for any number */
 };
 
 /* packed, small, effort 6, wart skipping, one thread. */
