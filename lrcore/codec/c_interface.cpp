@@ -164,7 +164,7 @@ const char* lacedring_code_string(int code) {
 }
 
 void lacedring_default_options(lacedring_encode_options* options) {
-    *options = {LACEDRING_FORMAT_PACKED, 0, static_cast<int>(EncodeOptions{}.effort), 0};
+    *options = {LACEDRING_FORMAT_PACKED, 0, static_cast<int>(EncodeOptions{}.effort), 0, 1};
 }
 
 lacedring_code lacedring_encode_bounds(int format, std::size_t index_count, std::uint32_t vertex_count,
@@ -220,6 +220,7 @@ lacedring_code lacedring_encode(const std::uint32_t* indices, std::size_t index_
         how.profile = chosen.cache != 0 ? PackedProfile::cache : PackedProfile::small;
         how.effort = static_cast<std::uint32_t>(chosen.effort);
         how.wart_skipping = chosen.no_wart_skipping == 0;
+        how.threads = static_cast<unsigned>(std::max(chosen.threads, 1));
         const Result<Encoded> made = encode({indices, index_count}, vertex_count, how);
         if (!made) return fail(code_of(made.error().code), made.error().message, message);
         encoded->degenerate = made->report.topology.degenerate;

@@ -68,14 +68,16 @@ struct EncodeOptions {
     /// RingOptions::k: of lr_compact the values of which the best is kept, of any other format one or none.
     std::vector<std::uint32_t> periods = {};
     std::uint64_t random_seed = 1;
+    unsigned threads = 1;  ///< run on at most that many, including the calling one; the same words for any
 
-    /// Called after each pass of the optimizer with how many are done; false: stop, the best so far is encoded.
+    /// Called after each pass of the optimizer, by the calling thread, with how many are done; false: stop, the best so
+    /// far is encoded. Fewer passes are made where nothing is left to gain.
     /// lr_compact, which has no such passes, never calls it.
     std::function<bool(std::uint32_t)> progress = {};
 };
 
-/// The optimizer's passes at that effort.
-std::uint32_t passes_at(std::uint32_t effort);
+/// The optimizer's passes for a format at that effort.
+std::uint32_t passes_at(std::uint32_t effort, Format format);
 
 /// How a mesh was encoded.
 struct EncodeReport {
