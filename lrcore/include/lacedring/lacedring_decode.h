@@ -125,8 +125,8 @@ void lacedring_packed_triangles_u16(const struct lacedring_packed* packed, uint1
 void lacedring_packed_blocks_u32(const struct lacedring_packed* packed, uint32_t block, uint32_t end,
                                  uint32_t* indices);
 
-/* Any triangle, on its own, in a few popcounts: at most 8 words of turns, 41 bytes of its group's head and 200 bytes of
-   its record are read; of a double, about log2(runs) words more. */
+/* Any triangle, on its own, in a few popcounts: at most 8 words of turns, 12 words of its group's head and 200 bytes
+   of its record are read; of a double, about log2(runs) words more. */
 void lacedring_packed_triangle(const struct lacedring_packed* packed, uint32_t triangle, uint32_t out[3]);
 
 #ifdef __cplusplus

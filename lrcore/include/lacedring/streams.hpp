@@ -122,7 +122,7 @@ void decode_packed(const PackedView& view, std::span<std::uint32_t> indices, uns
 /// Expands one block: triangles [256 * block, ...), 3 * 256 entries or what the last block has.
 void decode_packed_block(const PackedView& view, std::uint32_t block, std::span<std::uint32_t> indices);
 
-/// One triangle, in a few popcounts. Reads at most 8 words of turn bits, 41 bytes of its group's head and 200 bytes of
+/// One triangle, in a few popcounts. Reads at most 8 words of turn bits, 12 words of its group's head and 200 bytes of
 /// its record.
 Triangle decode_packed_triangle(const PackedView& view, std::uint32_t triangle);
 
