@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <system_error>
+#include <thread>
 
 #include "app/progress.h"
 #include "lacedring/lacedring.hpp"
@@ -91,6 +93,7 @@ OptimizeOptions optimize_options(const RingChoice& choice, const RingCost& cost)
     } else if (!choice.ring.empty() || choice.k != "auto") {
         options.passes = 0;
     }
+    options.threads = std::max(std::thread::hardware_concurrency(), 1U);
     options.progress = progress_bar("optimising the ring", options.passes);
     return options;
 }
@@ -102,11 +105,12 @@ EncodeOptions encode_options(const RingChoice& choice, Format format, std::size_
     options.format = format;
     options.effort = choice.effort;
     options.random_seed = choice.random_seed;
+    options.threads = optimize.threads;
     if (choice.seeds != 0) options.seeds = choice.seeds;
     if (choice.optimize != "auto" || given) {
         options.passes = optimize.passes;
     } else {
-        optimize.progress = progress_bar("optimising the ring", passes_at(choice.effort));
+        optimize.progress = progress_bar("optimising the ring", passes_at(choice.effort, format));
     }
     options.progress = optimize.progress;
     if (compact && given) options.periods = ring_periods(choice, triangles);

@@ -267,7 +267,7 @@ Result<GpuMesh> upload_packed(Context& context, Transfer& transfer, const Model&
                           stream.words,
                           stream.vertex_order,
                           stream.triangle_order,
-                          {view.triangles, static_cast<std::uint32_t>(view.table_word()),
+                          {view.own, static_cast<std::uint32_t>(view.table_word()),
                            static_cast<std::uint32_t>(view.groups_word()), view.vertex_bits}});
 }
 

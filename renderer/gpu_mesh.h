@@ -24,7 +24,7 @@ enum class Source {
 enum class Path {
     compute,   ///< a compute shader expands the stream to an index buffer, which is drawn
     pull,      ///< the vertex shader decodes the triangle of its vertex; no index buffer, no vertex buffer bound
-    geometry,  ///< a geometry shader decodes two slots a point
+    geometry,  ///< a geometry shader decodes four slots a point
     mesh,      ///< a mesh shader decodes 64 slots a workgroup (VK_EXT_mesh_shader)
 };
 

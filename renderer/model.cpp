@@ -81,14 +81,13 @@ Result<Model> make_model(const Mesh& mesh, const ModelOptions& options) {
     LR_ASSIGN(Model model, make_surface(mesh));
     LR_ASSIGN(const CornerTable table, build_corner_table(mesh.indices, mesh.vertex_count));
     const Rings rings = expand_rings(table, options.ring);
-    const auto optimised = [&](const RingCost& cost) {
-        OptimizeOptions optimize = options.optimize;
-        optimize.cost = cost;
-        return optimize_rings(table, rings, optimize);
-    };
-    LR_ASSIGN(model.lean, encode_lean(table, optimised(kLeanRingCost), options.lean));
+    OptimizeOptions optimize = options.optimize;
+    optimize.cost = kLeanRingCost;
+    LR_ASSIGN(model.lean, encode_lean(table, optimize_rings(table, rings, optimize), options.lean));
     if (options.packed) {
-        LR_ASSIGN(model.packed, encode_packed(table, optimised(kPackedRingCost)));
+        optimize.cost = kPackedRingCost;
+        LR_ASSIGN(PackedChoice packed, encode_smallest_packed(table, options.ring, optimize));
+        model.packed = std::move(packed.stream);
     }
     return model;
 }

@@ -10,8 +10,8 @@ class PackedDecoder : public Decoder {
   public:
     static Result<PackedDecoder> create(Context& context);
 
-    /// Splits the stream, which `view` is of, and the index buffer so that no descriptor covers more than
-    /// mesh.max_range bytes.
+    /// Splits the index buffer so that no descriptor covers more than mesh.max_range bytes. The stream, which `view` is
+    /// of, is read through its address.
     Result<DecodePlan> plan(Descriptors& descriptors, const GpuMesh& mesh, const PackedView& view) const;
 
   private:

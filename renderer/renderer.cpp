@@ -92,7 +92,7 @@ Result<std::vector<std::uint32_t>> Renderer::read_indices(Drawable& drawable) {
     return out;
 }
 
-Result<std::uint64_t> Renderer::words_read(const Drawable& drawable) {
+Result<WordsRead> Renderer::words_read(const Drawable& drawable) {
     return slots_.words_read(*commands_, *transfer_, drawable.mesh);
 }
 

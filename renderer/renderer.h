@@ -43,7 +43,7 @@ class Renderer {
 
     /// Words of its stream that decoding every slot by itself loads: what a picture by Path::geometry or mesh reads,
     /// and a third of what one by Path::pull does.
-    Result<std::uint64_t> words_read(const Drawable& drawable);
+    Result<WordsRead> words_read(const Drawable& drawable);
 
     /// Runs of vertex shaders for one picture in one pass, as the device counts them. What draws it must be decoded.
     /// Errors: kNoDevice (DeviceInfo::statistics).

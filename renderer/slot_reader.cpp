@@ -22,11 +22,12 @@ Result<SlotReader> SlotReader::create(Context& context) {
 template <class Done>
 Result<void> SlotReader::run(Commands& commands, const GpuMesh& mesh, Task task, const Done& done) {
     if (mesh.source == Source::plain) return Error{ErrorCode::invalid_argument, "an index list has no stream"};
-    const bool packed = mesh.source == Source::packed;
+    const bool packed = mesh.source == Source::packed, fours = task == Task::words_by_fours;
     PipelineHandle& pipeline = pipelines_[2 * static_cast<std::size_t>(task) + (packed ? 1 : 0)];
     if (!pipeline) {
-        const std::array<std::uint32_t, 4> constants{0, 0, packed ? 1U : 0U, 0};  // the triangles as they are
-        const Shader& shader = task == Task::words ? spirv_slot_words_comp : spirv_slot_indices_comp;
+        const std::array<std::uint32_t, 5> constants{0, 0, packed ? 1U : 0U, 0,
+                                                     fours ? 1U : 0U};  // triangles as they are
+        const Shader& shader = task == Task::indices ? spirv_slot_indices_comp : spirv_slot_words_comp;
         LR_ASSIGN(pipeline, create_compute(*context_, "slots", layout_, shader, constants));
     }
     constexpr std::uint32_t kSlots = 1U << 20;
@@ -59,16 +60,20 @@ Result<std::vector<std::uint32_t>> SlotReader::read(Commands& commands, Transfer
     return out;
 }
 
-Result<std::uint64_t> SlotReader::words_read(Commands& commands, Transfer& transfer, const GpuMesh& mesh) {
-    std::uint64_t sum = 0;
+Result<WordsRead> SlotReader::words_read(Commands& commands, Transfer& transfer, const GpuMesh& mesh) {
+    WordsRead out;
+    const Task task = mesh.path == Path::geometry ? Task::words_by_fours : Task::words;
     std::vector<std::uint32_t> words;
-    LR_TRY(run(commands, mesh, Task::words, [&](std::uint32_t, std::uint32_t slots, const Buffer& part) {
+    LR_TRY(run(commands, mesh, task, [&](std::uint32_t, std::uint32_t slots, const Buffer& part) {
         words.resize(slots);
         Result<void> read = transfer.read(part, 0, std::as_writable_bytes(std::span(words)));
-        for (const std::uint32_t count : words) sum += count;
+        for (const std::uint32_t count : words) {
+            out.all += count;
+            out.most = std::max(out.most, count);
+        }
         return read;
     }));
-    return sum;
+    return out;
 }
 
 }  // namespace lacedring::gpu

@@ -11,6 +11,11 @@
 
 namespace lacedring::gpu {
 
+struct WordsRead {
+    std::uint64_t all = 0;
+    std::uint32_t most = 0;  ///< by one slot, or by four
+};
+
 class SlotReader {
   public:
     static Result<SlotReader> create(Context& context);
@@ -19,18 +24,19 @@ class SlotReader {
     /// first needed. Device memory: up to 16 MiB while it runs.
     Result<std::vector<std::uint32_t>> read(Commands& commands, Transfer& transfer, const GpuMesh& mesh);
 
-    /// Words of the stream that decoding every slot once, each by itself, loads.
-    Result<std::uint64_t> words_read(Commands& commands, Transfer& transfer, const GpuMesh& mesh);
+    /// Words of the stream that it takes to decode every slot once, as the mesh's path does: each by itself, or four at
+    /// a time.
+    Result<WordsRead> words_read(Commands& commands, Transfer& transfer, const GpuMesh& mesh);
 
   private:
-    enum class Task { indices, words };
+    enum class Task { indices, words, words_by_fours };
     /// Dispatches a task over all slots in parts; `done(first, slots, buffer)` reads what each part has written.
     template <class Done>
     Result<void> run(Commands& commands, const GpuMesh& mesh, Task task, const Done& done);
 
     Context* context_ = nullptr;
     Layout layout_;
-    std::array<PipelineHandle, 4> pipelines_;  // lean, packed; of each task
+    std::array<PipelineHandle, 6> pipelines_;  // lean, packed; of each task
 };
 
 }  // namespace lacedring::gpu

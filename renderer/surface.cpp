@@ -105,7 +105,7 @@ void Surface::draw(VkCommandBuffer commands, Pass pass, const GpuMesh& mesh, con
                 vkCmdDraw(commands, 3 * slots, 1, 0, 0);
                 break;
             case Path::geometry:
-                vkCmdDraw(commands, (slots + 1) / 2, 1, 0, 0);
+                vkCmdDraw(commands, (slots + LR_GEOMETRY_SLOTS - 1) / LR_GEOMETRY_SLOTS, 1, 0, 0);
                 break;
             case Path::mesh:
                 context_->draw_mesh_tasks()(commands, (slots + LR_MESH_TRIANGLES - 1) / LR_MESH_TRIANGLES, 1, 1);

@@ -87,9 +87,9 @@ Result<void> count_bytes(Renderer& renderer, Uploaded& uploaded, std::size_t str
         way.bytes_read = index_bytes;
         return {};
     }
-    LR_ASSIGN(const std::uint64_t words, renderer.words_read(uploaded.drawable));
+    LR_ASSIGN(const WordsRead words, renderer.words_read(uploaded.drawable));
     way.connectivity_bytes = stream_bytes;
-    way.bytes_read = sizeof(std::uint32_t) * words * (way.path == Path::pull ? 3 : 1);
+    way.bytes_read = sizeof(std::uint32_t) * words.all * (way.path == Path::pull ? 3 : 1);
     return {};
 }
 

@@ -8,7 +8,8 @@
 //     uvec3 v = lr_lean_triangle(lr_lean_layout(), slot);  // slot < lr_lean_slots(lr_lean_layout())
 // Of a packed stream:
 //     #define LR_PACKED_WORD(i) words[i]
-//     uvec3 v = lr_packed_triangle(lr_packed_layout(), t);  // t < lr_packed_layout().triangles
+//     uvec3 v = lr_packed_triangle(lr_packed_layout(), t);  // t < lr_packed_triangles(lr_packed_layout())
+// Or four at once, for about what one takes: lr_packed_triangles_of_quad.
 // v are vertices in the stream's order (its vertex_order). A lean triangle whose first two are equal is degenerate: it
 // covers nothing, draw it or skip it. A stream must be valid (lacedring::validate_lean, lacedring::validate_packed); on any other, every
 // loop still ends. docs/engine-guide.md has an example of every stage.
@@ -40,18 +41,28 @@
 #define LR_PACKED_WORD_VERTICES 1u
 #define LR_PACKED_WORD_TRIANGLES 2u
 #define LR_PACKED_WORD_CHECKSUM 3u
+#define LR_PACKED_DOUBLES 0x80000000u
+#define LR_PACKED_DOUBLES_WORDS 2u
+#define LR_PACKED_RUN_WORDS 2u
 #define LR_PACKED_BLOCK 256u
 #define LR_PACKED_BLOCK_WORDS 8u
 #define LR_PACKED_GROUP 16u
-#define LR_PACKED_LENGTH_FIELD 4u
+#define LR_PACKED_STEP_FIELD 12u
+#define LR_PACKED_OFFSET_FIELD 5u
 #define LR_PACKED_ENTRY_FIELD 4u
 #define LR_PACKED_GAP_FIELD 3u
 #define LR_PACKED_WART_FIELD 3u
 #define LR_PACKED_SPLIT_FIELD 2u
 #define LR_PACKED_COUNT_FIELD 2u
-#define LR_PACKED_HEAD_BITS 18u
+#define LR_PACKED_KINDS_FIELD 1u
+#define LR_PACKED_HEAD_BITS 32u
+#define LR_PACKED_MAX_OFFSET_BITS 16u
+#define LR_PACKED_MAX_ENTRY_BITS 12u
+#define LR_PACKED_KIND_BITS 2u
+#define LR_PACKED_RECORD 0u
+#define LR_PACKED_PARTED 1u
+#define LR_PACKED_PLAIN 2u
 #define LR_PACKED_MAX_RECORD 160u
-#define LR_PACKED_PLAIN 255u
 #define LR_PACKED_PARTS 4u
 #define LR_PACKED_MAX_PART 200u
 #define LR_PACKED_PART 64u
@@ -155,22 +166,54 @@ uvec3 lr_lean_triangle(LrLeanLayout lean, uint slot) {
 #ifdef LR_PACKED_HEADER
 
 struct LrPackedLayout {
-    uint triangles;
+    uint own;     // the first triangles; the others are their doubles
     uint table;   // first word of it
     uint groups;  // first word of them
     uint vertex_bits;
 };
 
+// The first word of what is said of doubles, or of the groups if nothing is.
+uint lr_packed_doubles(LrPackedLayout p) {
+    uint in_group = LR_PACKED_BLOCK * LR_PACKED_GROUP, groups = p.own / in_group + (p.own % in_group == 0u ? 0u : 1u);
+    return p.table + max(groups, 1u) - 1u;
+}
+
 LrPackedLayout lr_packed_layout() {
     LrPackedLayout p;
-    p.triangles = LR_PACKED_HEADER(LR_PACKED_WORD_TRIANGLES);
-    p.table = LR_PACKED_HEADER_WORDS + p.triangles / 32u + (p.triangles % 32u == 0u ? 0u : 1u);
-    uint in_group = LR_PACKED_BLOCK * LR_PACKED_GROUP;
-    uint groups = p.triangles / in_group + (p.triangles % in_group == 0u ? 0u : 1u);
-    p.groups = p.table + max(groups, 1u) - 1u;
-    uint vertices = max(LR_PACKED_HEADER(LR_PACKED_WORD_VERTICES), 2u);
-    p.vertex_bits = uint(findMSB(vertices - 1u)) + 1u;
+    p.own = LR_PACKED_HEADER(LR_PACKED_WORD_TRIANGLES);
+    p.table = LR_PACKED_HEADER_WORDS + p.own / 32u + (p.own % 32u == 0u ? 0u : 1u);
+    p.groups = lr_packed_doubles(p);
+    uint vertices = LR_PACKED_HEADER(LR_PACKED_WORD_VERTICES);
+    if ((vertices & LR_PACKED_DOUBLES) != 0u) {
+        p.groups += LR_PACKED_DOUBLES_WORDS + LR_PACKED_RUN_WORDS * LR_PACKED_TABLE(p.groups + 1u);
+    }
+    p.vertex_bits = uint(findMSB(max(vertices & ~LR_PACKED_DOUBLES, 2u) - 1u)) + 1u;
     return p;
+}
+
+// All of them.
+uint lr_packed_triangles(LrPackedLayout p) {
+    uint doubles = lr_packed_doubles(p);
+    return doubles < p.groups ? p.own + LR_PACKED_TABLE(doubles) : p.own;
+}
+
+// A run of doubles: where it begins, where it ends, and its first one's own triangle, or LR_PACKED_DOUBLES if they are turned
+// round.
+uvec3 lr_packed_run(LrPackedLayout p, uint triangle) {
+    uint runs = lr_packed_doubles(p) + LR_PACKED_DOUBLES_WORDS, count = (p.groups - runs) / LR_PACKED_RUN_WORDS;
+    uint low = 0u, high = count;
+    for (uint k = 0u; k < 32u; ++k) {
+        uint middle = (low + high) / 2u;
+        if (middle == low) break;
+        if (LR_PACKED_TABLE(runs + LR_PACKED_RUN_WORDS * middle) <= triangle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    uint run = runs + LR_PACKED_RUN_WORDS * low;
+    uint end = low + 1u < count ? LR_PACKED_TABLE(run + LR_PACKED_RUN_WORDS) : lr_packed_triangles(p);
+    return uvec3(LR_PACKED_TABLE(run), end, LR_PACKED_TABLE(run + 1u));
 }
 
 // A reader of bits. Each word is loaded once, and none behind the end.
@@ -181,11 +224,11 @@ struct LrPackedBits {
     uint word;  // the next word to load
 };
 
-// From a byte of the groups on.
-LrPackedBits lr_packed_bits(LrPackedLayout p, uint byte, uint count) {
+// From a bit of the groups on.
+LrPackedBits lr_packed_bits(LrPackedLayout p, uint bit, uint count) {
     LrPackedBits r;
-    uint shift = byte % 4u * 8u;
-    r.word = p.groups + byte / 4u;
+    uint shift = bit & 31u;
+    r.word = p.groups + bit / 32u;
     r.bits = uvec2(count == 0u ? 0u : LR_PACKED_GROUPS(r.word) >> shift, 0u);
     ++r.word;
     r.ready = 32u - shift;
@@ -223,6 +266,24 @@ uint lr_packed_golomb(inout LrPackedBits r, uint order) {
     return (lr_packed_take(r, low) | 1u << low) - (1u << order);
 }
 
+// `count` bits of the groups, at most 32. No word behind them is read.
+uint lr_packed_bits_at(LrPackedLayout p, uint bit, uint count) {
+    uint shift = bit & 31u, low = LR_PACKED_GROUPS(p.groups + bit / 32u), high = 0u;
+    if (shift + count > 32u) high = LR_PACKED_GROUPS(p.groups + bit / 32u + 1u);
+    return bitfieldExtract(low >> shift | high << 1 << (31u - shift), 0, int(count));
+}
+// a, b and reversed.
+uvec3 lr_packed_entry_at(LrPackedLayout p, uint bit) {
+    uint shift = bit & 31u, word = p.groups + bit / 32u, end = shift + 2u * p.vertex_bits + 1u;
+    uint x = LR_PACKED_GROUPS(word), y = 0u, z = 0u;
+    if (end > 32u) y = LR_PACKED_GROUPS(word + 1u);
+    if (end > 64u) z = LR_PACKED_GROUPS(word + 2u);
+    uint low = x >> shift | y << 1 << (31u - shift), high = y >> shift | z << 1 << (31u - shift);
+    uint b = low >> p.vertex_bits | high << (32u - p.vertex_bits), r = 2u * p.vertex_bits;
+    return uvec3(bitfieldExtract(low, 0, int(p.vertex_bits)), bitfieldExtract(b, 0, int(p.vertex_bits)),
+                 (r < 32u ? low >> r : high >> (r - 32u)) & 1u);
+}
+
 // A record, from its number of events on.
 struct LrPackedRecord {
     LrPackedBits bits;
@@ -236,80 +297,64 @@ struct LrPackedRecord {
 
 // The record that holds triangle i of a block. Of a plain block the bits are those of its vertices.
 LrPackedRecord lr_packed_record(LrPackedLayout p, uint block, uint i) {
-    uint group = block / LR_PACKED_GROUP, member = block % LR_PACKED_GROUP;
-    uint left = (p.triangles - 1u) / LR_PACKED_BLOCK + 1u - group * LR_PACKED_GROUP, blocks = min(left, LR_PACKED_GROUP);
-    uint byte = group == 0u ? 0u : LR_PACKED_TABLE(p.table + group - 1u);
-    LrPackedBits head = lr_packed_bits(p, byte, LR_PACKED_HEAD_BITS + 2u * p.vertex_bits + 1u);
-    uint widths = lr_packed_take(head, LR_PACKED_HEAD_BITS);
-    uint length_bits = widths & 15u, entry_bits = widths >> 4 & 15u;
-    head.left += blocks * length_bits + (blocks - 1u) * entry_bits;
+    uint group = block / LR_PACKED_GROUP, k = block % LR_PACKED_GROUP, first = block * LR_PACKED_BLOCK;
+    uint blocks = min((p.own - 1u) / LR_PACKED_BLOCK + 1u - group * LR_PACKED_GROUP, LR_PACKED_GROUP);
+    uint begin = group == 0u ? 0u : LR_PACKED_TABLE(p.table + group - 1u), bit = 32u * begin;
+    uint head = LR_PACKED_GROUPS(p.groups + begin), step = head & 0xfffu;
+    uint offset_bits = min(head >> 12 & 31u, LR_PACKED_MAX_OFFSET_BITS), entry_bits = min(head >> 17 & 15u, LR_PACKED_MAX_ENTRY_BITS);
     LrPackedRecord r;
-    r.gap_bits = widths >> 8 & 7u;
-    r.wart_bits = widths >> 11 & 7u;
-    r.split_order = widths >> 14 & 3u;
-    r.count_order = widths >> 16 & 3u;
-    r.a = lr_packed_take(head, p.vertex_bits);
-    r.b = lr_packed_take(head, p.vertex_bits);
-    r.reversed = lr_packed_take(head, 1u) != 0u;
-    byte += (LR_PACKED_HEAD_BITS + 2u * p.vertex_bits + 1u + blocks * length_bits + (blocks - 1u) * entry_bits + 7u) / 8u;
-    // Lengths lead to the record, entries from the last block that has its own to (a, b).
-    uint length = lr_packed_take(head, length_bits), from = 0u, from_byte = byte, from_length = 0u, steps = 0u;
-    uint middle = LR_PACKED_BLOCK / 2u - (1u << entry_bits >> 1);
-    for (uint k = 1u; k <= member; ++k) {
-        byte += length <= LR_PACKED_MAX_RECORD ? length
-                : length < LR_PACKED_PLAIN     ? 8u * (length - LR_PACKED_MAX_RECORD)
-                                               : 3u * LR_PACKED_BLOCK / 8u * p.vertex_bits;
-        uint both = lr_packed_take(head, length_bits + entry_bits);
-        length = both & ((1u << length_bits) - 1u);
-        uint entry = both >> length_bits;
-        steps += entry + middle;
-        if (entry == 0u) {
-            from = k;
-            from_byte = byte;
-            from_length = length;
-            steps = 0u;
-        }
-    }
-    uint first = block * LR_PACKED_BLOCK;
+    r.gap_bits = head >> 21 & 7u;
+    r.wart_bits = head >> 24 & 7u;
+    r.split_order = head >> 27 & 3u;
+    r.count_order = head >> 29 & 3u;
+
+    // Blocks 1 to blocks - 1 whose entry is in the head; where the fields are.
+    uint owns = bitfieldExtract(LR_PACKED_GROUPS(p.groups + begin + 1u), 0, int(blocks - 1u)), own = bitfieldExtract(owns, 0, int(k));
+    uint entries = bit + 32u + blocks - 1u, entry_size = 2u * p.vertex_bits + 1u;
+    uint kinds = entries + (1u + uint(bitCount(owns))) * entry_size;
+    bool has_kinds = head >> 31 != 0u;
+    uint offsets = kinds + (has_kinds ? 2u * blocks : 0u), steps = offsets + blocks * offset_bits;
+    uint kind = has_kinds ? lr_packed_bits_at(p, kinds + 2u * k, 2u) : LR_PACKED_RECORD;
+    uint both = lr_packed_bits_at(p, offsets + (max(k, 1u) - 1u) * offset_bits, offset_bits * (k == 0u ? 1u : 2u));
+    uint here = bitfieldExtract(both, 0, int(offset_bits)), next = k == 0u ? here : both >> 1 >> (max(offset_bits, 1u) - 1u);
+    uint middle = 1u << offset_bits >> 1;
+    if (offset_bits == 0u) next = 0u;
+    uint from = k == 0u ? 0u : k * step + here - middle, end = (k + 1u) * step + next - middle;
+    uint byte = (steps + (blocks - 1u) * entry_bits + 7u) / 8u + from, bytes = min(end - from, LR_PACKED_MAX_RECORD);
+
     r.turn_word = LR_PACKED_HEADER_WORDS + first / 32u;
     r.begin = 0u;
-    r.triangles = min(p.triangles - first, LR_PACKED_BLOCK);
-    r.plain = length == LR_PACKED_PLAIN;
-    r.parted = length > LR_PACKED_MAX_RECORD && !r.plain;
-    if (r.plain) {
-        r.bits = lr_packed_bits(p, byte, 0x7fffffffu);
-        return r;
-    }
-    uint bytes = length, part = r.parted ? i / LR_PACKED_PART : 0u;
+    r.triangles = min(p.own - first, LR_PACKED_BLOCK);
+    r.plain = kind == LR_PACKED_PLAIN;
+    r.parted = kind == LR_PACKED_PARTED;
+    uint entry_bit = entries + uint(bitCount(own)) * entry_size, origin = uint(findMSB(own) + 1);  // its block
+    uint skipped = 0u;  // bits of the record, if it begins with an entry
     if (r.parted) {
-        LrPackedBits lengths = lr_packed_bits(p, byte, 32u);
+        uint part = i / LR_PACKED_PART;
+        uint lengths = lr_packed_bits_at(p, 8u * byte, 32u);
         byte += LR_PACKED_PARTS;
-        bytes = lr_packed_take(lengths, 8u);
-        for (uint k = 0u; k < part; ++k) {
-            byte += bytes;
-            bytes = lr_packed_take(lengths, 8u);
+        for (uint n = 0u; n < part; ++n) byte += lengths >> (8u * n) & 255u;
+        bytes = lengths >> (8u * part) & 255u;
+        if (part > 0u) {
+            entry_bit = 8u * byte;
+            origin = k;
+            skipped = entry_size;
         }
         r.begin = part * LR_PACKED_PART;
         r.turn_word += r.begin / 32u;
         r.triangles = min(r.triangles - r.begin, LR_PACKED_PART);
     }
-    r.bits = lr_packed_bits(p, byte, 8u * bytes);
-    bool own = part > 0u || (from == member && member > 0u);
-    if (own || from > 0u) {
-        LrPackedBits entry = r.bits;
-        if (!own) {
-            bool parted = from_length > LR_PACKED_MAX_RECORD;
-            entry = lr_packed_bits(p, from_byte + (parted ? LR_PACKED_PARTS : 0u), 2u * p.vertex_bits + 1u);
-        }
-        r.a = lr_packed_take(entry, p.vertex_bits);
-        r.b = lr_packed_take(entry, p.vertex_bits);
-        r.reversed = lr_packed_take(entry, 1u) != 0u;
-        if (own) r.bits = entry;
+    uvec3 entry = lr_packed_entry_at(p, entry_bit);
+    r.a = entry.x;
+    r.b = entry.y;
+    r.reversed = entry.z != 0u;
+    if (origin < k) {
+        uint span = r.b - r.a;
+        r.a += (k - origin) * (LR_PACKED_BLOCK / 2u) - (1u << entry_bits >> 1) +
+               lr_packed_bits_at(p, steps + (k - 1u) * entry_bits, entry_bits);
+        r.b = r.a + span - (k - origin) * LR_PACKED_BLOCK;
     }
-    if (!own) {
-        r.b += steps - (member - from) * LR_PACKED_BLOCK;
-        r.a += steps;
-    }
+    r.bits = lr_packed_bits(p, 8u * byte + skipped, max(8u * bytes, skipped) - skipped);
     return r;
 }
 
@@ -443,8 +488,7 @@ uint lr_packed_third(LrPackedEvent e, bool up, inout LrPackedState s, out uvec2 
 // Triangle i of a plain block.
 uvec3 lr_packed_plain(LrPackedLayout p, LrPackedRecord r, uint i) {
     uint bit = (r.bits.word - p.groups) * 32u - r.bits.ready + 3u * p.vertex_bits * i;
-    LrPackedBits bits = lr_packed_bits(p, bit / 8u, bit % 8u + 3u * p.vertex_bits);
-    lr_packed_take(bits, bit % 8u);
+    LrPackedBits bits = lr_packed_bits(p, bit, 3u * p.vertex_bits);
     uvec3 v;
     v.x = lr_packed_take(bits, p.vertex_bits);
     v.y = lr_packed_take(bits, p.vertex_bits);
@@ -481,7 +525,7 @@ void lr_packed_skip(inout LrPackedState s, inout uint at, uint to) {
     at = to;
 }
 
-uvec3 lr_packed_triangle(LrPackedLayout p, uint triangle) {
+uvec3 lr_packed_own_triangle(LrPackedLayout p, uint triangle) {
     uint block = triangle / LR_PACKED_BLOCK, i = triangle % LR_PACKED_BLOCK;
     LrPackedRecord r = lr_packed_record(p, block, i);
     if (r.plain) return lr_packed_plain(p, r, i);
@@ -551,6 +595,136 @@ uvec3 lr_packed_triangle(LrPackedLayout p, uint triangle) {
         }
     }
     return lr_packed_oriented(s.a, up ? s.a + by : s.b - by, s.b, s.reversed != flip);
+}
+
+uvec3 lr_packed_triangle(LrPackedLayout p, uint triangle) {
+    if (triangle < p.own) return lr_packed_own_triangle(p, triangle);
+    uvec3 run = lr_packed_run(p, triangle);
+    uint of = (run.z & ~LR_PACKED_DOUBLES) + triangle - run.x;
+    uvec3 v = lr_packed_own_triangle(p, min(of, p.own - 1u));
+    return (run.z & LR_PACKED_DOUBLES) != 0u ? v.xzy : v;
+}
+
+// Up to four own triangles from `first` on, into lr_packed_four: those of its record that have their turns in one word. What
+// they share is read once. Returns how many they are.
+uvec3 lr_packed_four[4];
+uint lr_packed_own_four(LrPackedLayout p, uint first) {
+    uint i = first % LR_PACKED_BLOCK;
+    LrPackedRecord r = lr_packed_record(p, first / LR_PACKED_BLOCK, i);
+    if (r.plain) {
+        for (uint j = 0u; j < 4u; ++j) lr_packed_four[j] = lr_packed_plain(p, r, min(i + j, r.triangles - 1u));
+        return min(4u, r.triangles - i);
+    }
+    i -= r.begin;
+    uint word = i / 32u, last = min(i + 4u, r.triangles - 1u) / 32u, sum = 0u, rank[4], candidates = 0u, before = 0u;
+    for (uint k = 0u; k <= last; ++k) lr_packed_turn_bits[k] = LR_PACKED_TURNS(r.turn_word + k);
+    for (uint k = 0u; k <= word; ++k) {
+        lr_packed_turn_ups[k] = sum;
+        sum += uint(bitCount(lr_packed_turn_bits[k]));
+        uint behind = k < last ? lr_packed_turn_bits[k + 1u] << 31 : 0u;
+        candidates = ~(lr_packed_turn_bits[k] ^ (lr_packed_turn_bits[k] >> 1 | behind));
+        if (k < word) before += uint(bitCount(candidates));
+    }
+    if (r.triangles - 32u * word <= 32u) candidates |= 1u << (r.triangles - 1u - 32u * word);  // the last one, too
+    LrPackedState s[4];
+    uint at[4], skip[4];
+    bool inside[4], flip[4], known[4];
+    for (uint j = 0u; j < 4u; ++j) {
+        s[j] = lr_packed_state(r);
+        at[j] = skip[j] = 0u;
+        inside[j] = flip[j] = known[j] = false;
+        rank[j] = before + uint(bitCount(bitfieldExtract(candidates, 0, int(min((i & 31u) + j, 32u)))));
+    }
+    LrPackedEvent e;
+    e.after = 0u;
+    uint events = lr_packed_events(r);
+    for (uint k = 0u; k < events; ++k) {
+        lr_packed_next_event(p, r, e);
+        bool third = e.after > e.triangle;
+        uint flips = 0u;
+        if (e.code == LR_PACKED_FLIPS) flips = lr_packed_bits_at(p, e.flips + i, 4u);
+        for (uint j = 0u; j < 4u; ++j) {
+            if (e.triangle > i + j || e.triangle < skip[j]) continue;
+            lr_packed_skip(s[j], at[j], e.triangle);
+            if (e.code == LR_PACKED_TURN) {
+                s[j].reversed = !s[j].reversed;
+            } else if (e.code == LR_PACKED_FLIPS) {
+                flip[j] = (flips >> j & 1u) != 0u;
+            } else if (!third) {
+                lr_packed_begin(e, s[j], inside[j]);
+            } else {
+                if (s[j].finished) lr_packed_repeat(s[j]);
+                uint a = s[j].a, b = s[j].b;
+                uvec2 rest;
+                uint x = lr_packed_third(e, lr_packed_turn(e.triangle), s[j], rest);
+                at[j] = e.triangle + 1u;
+                if (e.triangle == i + j) {
+                    lr_packed_four[j] = lr_packed_oriented(a, x, b, s[j].reversed != flip[j]);
+                    known[j] = true;
+                    skip[j] = 0xffffffffu;
+                } else if (e.w != 0u && e.w < r.triangles - at[j]) {
+                    if (i + j - at[j] >= e.w) {
+                        skip[j] = at[j] += e.w;
+                        s[j].a = rest.x;
+                        s[j].b = rest.y;
+                        s[j].finished = false;
+                    } else {
+                        inside[j] = true;
+                    }
+                }
+            }
+        }
+    }
+    uint seen = 0u, firsts = 0u, seconds = 0u;  // T0 of warts among the four, and T2
+    while (seen <= rank[3]) {
+        lr_packed_fill(r.bits);
+        uint high = lr_packed_ones(r.bits.bits.x);
+        if (high >= min(r.bits.left, 32u)) break;
+        lr_packed_take(r.bits, high);
+        seen += (high << r.wart_bits) + (lr_packed_take(r.bits, 1u + r.wart_bits) >> 1) + 1u;
+        for (uint j = 0u; j < 4u; ++j) {
+            if (seen == rank[j]) seconds |= 1u << j;
+            if (seen == rank[j] + 1u) firsts |= 1u << j;
+        }
+    }
+    uint bits = lr_packed_turn_bits[word] >> (i & 31u);
+    uint turn_before = i == 0u ? ~bits & 1u : uint(lr_packed_turn(i - 1u));
+    seconds &= ~(bits ^ (bits << 1 | turn_before));
+    firsts &= candidates >> (i & 31u);
+    for (uint j = 0u; j < 4u; ++j) {
+        if (known[j]) continue;
+        uint t = min(i + j, r.triangles - 1u);
+        lr_packed_skip(s[j], at[j], t);
+        if (s[j].finished) lr_packed_repeat(s[j]);
+        bool up = (bits >> j & 1u) != 0u;
+        uint by = (firsts >> j & 1u) != 0u ? 2u : 1u, x = up ? s[j].a + by : s[j].b - by, inner = up ? s[j].a : s[j].b;
+        bool t2 = (seconds >> j & 1u) != 0u;
+        lr_packed_four[j] = lr_packed_oriented(t2 ? inner - 1u : s[j].a, t2 ? inner : x, t2 ? inner + 1u : s[j].b,
+                                               s[j].reversed != flip[j]);
+    }
+    return min(4u, min(32u - (i & 31u), r.triangles - i));
+}
+
+// Four triangles, or `count`, from a multiple of four on, into lr_packed_quad: faster by far than one by one.
+uvec3 lr_packed_quad[4];
+void lr_packed_triangles_of_quad(LrPackedLayout p, uint first, uint count) {
+    uint done = 0u;
+    for (uint pass = 0u; pass < 4u; ++pass) {  // one, but for doubles and at the end of the own ones
+        uint t = first + done, left = min(count - done, p.own - t);
+        bool turned = false;
+        if (t >= p.own) {
+            uvec3 run = lr_packed_run(p, t);
+            left = min(count - done, run.y - t);
+            turned = (run.z & LR_PACKED_DOUBLES) != 0u;
+            t = min((run.z & ~LR_PACKED_DOUBLES) + t - run.x, p.own - 1u);
+        }
+        left = min(left, lr_packed_own_four(p, t));
+        for (uint j = 0u; j < 4u; ++j) {
+            if (j < left) lr_packed_quad[done + j] = turned ? lr_packed_four[j].xzy : lr_packed_four[j];
+        }
+        done += left;
+        if (done >= count || left == 0u) break;
+    }
 }
 
 #endif  // LR_PACKED_HEADER

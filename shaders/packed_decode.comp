@@ -1,5 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
 // Expands a packed stream into an index buffer, and writes the commands that draw it.
 //
 // A workgroup has LR_BLOCKS_PER_GROUP blocks. One invocation a block reads its events and writes pieces of corridors into
@@ -16,12 +18,9 @@ layout(local_size_x_id = 0) in;
 
 layout(push_constant) uniform Push { DecodeConstants push; };
 
-layout(std430, binding = 0) restrict readonly buffer Header { uint header[]; };
-layout(std430, binding = 1) restrict readonly buffer Turns { uint turns[]; };
-layout(std430, binding = 2) restrict readonly buffer Table { uint table[]; };
-layout(std430, binding = 3) restrict readonly buffer Groups { uint groups[]; };
-layout(std430, binding = 4) restrict writeonly buffer Indices { uvec4 indices[]; };
-#define LR_BINDING_COMMANDS 5
+layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Words { uint at[]; };
+layout(std430, binding = 0) restrict writeonly buffer Indices { uvec4 indices[]; };
+#define LR_BINDING_COMMANDS 1
 #include "shaders/draw_commands.glsl"
 
 const uint kBlocks = LR_BLOCKS_PER_GROUP;
@@ -40,20 +39,16 @@ shared uint flips[kBlocks * kWords];   // triangles that come out the other way 
 shared uint piece_a[kBlocks * LR_PACKED_BLOCK];
 shared uint piece_b[kBlocks * LR_PACKED_BLOCK];
 shared uint piece_x[kBlocks * LR_PACKED_BLOCK];
-shared uint plain_blocks;
+shared uint single_blocks;  // whose triangles are read one by one: plain, or with doubles
 #define LR_REVERSED 0x80000000u
 
 uint bits_below(uint word, uint count) { return uint(bitCount(bitfieldExtract(word, 0, int(count)))); }
 
-uint turn_word(uint triangle) {
-    return turns[min(LR_PACKED_HEADER_WORDS + triangle / 32u - push.first_word, uint(turns.length()) - 1u)];
-}
+// Nothing is read behind the stream, whatever it says.
+uint stream_word(uint i) { return Words(push.stream).at[min(i, push.words - 1u)]; }
+uint turn_word(uint triangle) { return stream_word(LR_PACKED_HEADER_WORDS + triangle / 32u); }
 
-// Nothing is read past a descriptor, whatever the stream says.
-#define LR_PACKED_HEADER(i) header[i]
-#define LR_PACKED_TURNS(i) turns[min((i) - push.first_word, uint(turns.length()) - 1u)]
-#define LR_PACKED_TABLE(i) table[min((i) - push.table, uint(table.length()) - 1u)]
-#define LR_PACKED_GROUPS(i) groups[min((i) - push.groups, uint(groups.length()) - 1u)]
+#define LR_PACKED_WORD(i) stream_word(i)
 #include "shaders/lacedring.glsl"
 
 // A block while its events are read. Triangles count from the workgroup's first.
@@ -159,13 +154,13 @@ void read_block(LrPackedLayout p, uint k, uint first) {
         ups[word] = count;
         count += uint(bitCount(turn_word(i)));
     }
-    uint end = min(p.triangles - first, LR_PACKED_BLOCK), base = k * LR_PACKED_BLOCK, i = 0u;
+    uint end = min(p.own - first, LR_PACKED_BLOCK), base = k * LR_PACKED_BLOCK, i = 0u;
     Reader b;
     b.first = first - base;
     do {  // records
         LrPackedRecord r = lr_packed_record(p, first / LR_PACKED_BLOCK, i);
         if (r.plain) {
-            atomicOr(plain_blocks, 1u << k);
+            atomicOr(single_blocks, 1u << k);
             break;
         }
         uint begin = base + i;
@@ -298,31 +293,35 @@ void expand_quad(Word w, uint quad, uint triangle, uint left) {
           uvec3(a.z, second.z, last.z), uvec3(a.w, second.w, last.w));
 }
 
-void expand_plain(LrPackedLayout p, uint quad, uint triangle, uint left) {
-    uint i = triangle % LR_PACKED_BLOCK;
-    LrPackedRecord r = lr_packed_record(p, triangle / LR_PACKED_BLOCK, i);
+void expand_singly(LrPackedLayout p, uint triangle, uint left) {
     uvec3 t[4];
-    for (uint k = 0u; k < 4u; ++k) t[k] = k < left ? lr_packed_plain(p, r, i + k) : uvec3(0u);
+    for (uint k = 0u; k < 4u; ++k) t[k] = k < left ? lr_packed_triangle(p, triangle + k) : uvec3(0u);
     store((triangle - push.first_slot) / 4u * 3u, t[0], t[1], t[2], t[3]);
 }
 
 void main() {
     LrPackedLayout p = lr_packed_layout();
     uint id = gl_LocalInvocationID.x, size = gl_WorkGroupSize.x;
-    if (gl_GlobalInvocationID.x == 0u) write_commands(push.draws, push.draw_slots, p.triangles);
+    uint triangles = lr_packed_triangles(p);
+    if (gl_GlobalInvocationID.x == 0u) write_commands(push.draws, push.draw_slots, triangles);
     uint first = push.first_slot + gl_WorkGroupID.x * kBlocks * LR_PACKED_BLOCK;
-    uint end = min(p.triangles, push.first_slot + push.slots);
-    if (id == 0u) plain_blocks = 0u;
+    uint end = min(triangles, push.first_slot + push.slots);
+    if (id == 0u) single_blocks = 0u;
     for (uint word = id; word < kBlocks * kWords; word += size) starts[word] = thirds[word] = warts[word] = flips[word] = 0u;
     barrier();
     for (uint k = id; k < kBlocks; k += size) {
-        if (first + k * LR_PACKED_BLOCK < end) read_block(p, k, first + k * LR_PACKED_BLOCK);
+        uint begin = first + k * LR_PACKED_BLOCK;
+        if (min(end, begin + LR_PACKED_BLOCK) > p.own) {
+            atomicOr(single_blocks, 1u << k);
+        } else if (begin < end) {
+            read_block(p, k, begin);
+        }
     }
     barrier();
     uint quads = (min(end - first, kBlocks * LR_PACKED_BLOCK) + 3u) / 4u;
     uint quad = 2u * id;
     do {
-        if (quad < quads && (plain_blocks >> quad / kQuads & 1u) == 0u) {
+        if (quad < quads && (single_blocks >> quad / kQuads & 1u) == 0u) {
             uint triangle = first + 4u * quad;
             Word w = load_word(quad / 8u, triangle);
             expand_quad(w, quad, triangle, end - triangle);
@@ -330,10 +329,10 @@ void main() {
         }
         quad += 2u * size;
     } while (quad < quads);
-    for (uint rest = plain_blocks; rest != 0u; rest &= rest - 1u) {
+    for (uint rest = single_blocks; rest != 0u; rest &= rest - 1u) {
         uint begin = uint(findLSB(rest)) * kQuads;
         for (uint q = begin + id; q < min(begin + kQuads, quads); q += size) {
-            expand_plain(p, q, first + 4u * q, end - first - 4u * q);
+            expand_singly(p, first + 4u * q, end - first - 4u * q);
         }
     }
 }

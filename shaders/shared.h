@@ -25,9 +25,9 @@ struct DecodeConstants {
     uint slots;       // slots of this dispatch
     uint draws;       // draw commands to write: 0 in every dispatch but one
     uint draw_slots;  // slots of each draw command but the last
-    uint first_word;  // word of the stream (header included) at which its descriptor begins; packed: that of the turns
-    uint table;       // packed: of the table
-    uint groups;      // packed: of the groups
+    uint first_word;  // lean: word of the stream (header included) at which its descriptor begins
+    uint words;       // packed: of the stream
+    uvec2 stream;     // packed: its address
 };
 
 // rotate.comp: the window of the index buffer is the descriptor's.
@@ -64,8 +64,12 @@ struct DrawConstants {
 #define LR_CONSTANT_PACKED 2  // of a packed stream
 #define LR_CONSTANT_ROTATE 3  // triangles begin with their smallest original vertex
 
+#define LR_CONSTANT_FOURS 4   // slot_words.comp: four slots at a time
+
 // Floats of a vertex: position, normal, place along the rings.
 #define LR_VERTEX_FLOATS 7u
+// Slots of a point that surface.geom gets.
+#define LR_GEOMETRY_SLOTS 4u
 // Triangles of a workgroup of surface.mesh; three times as many vertices, and both are within what Vulkan promises.
 #define LR_MESH_TRIANGLES 64u
 

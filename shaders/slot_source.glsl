@@ -47,10 +47,10 @@ uvec3 slot_triangle(uint slot) {
     return rotate ? rotated(t) : t;
 }
 
-// The triangles of slots 2i and 2i + 1. Those of one ring edge of a lean stream need its two words once.
+// The triangles of slots 2i and 2i + 1 of a lean stream. Those of one ring edge need its two words once.
 void slot_pair(uint slot, out uvec3 t0, out uvec3 t1) {
     LrLeanLayout lean = LrLeanLayout(push.stream_layout.x, push.stream_layout.y, push.stream_layout.z);
-    if (packed_stream || slot >= 2u * lean.rings2) {
+    if (slot >= 2u * lean.rings2) {
         t0 = slot_triangle(slot);
         t1 = slot + 1u < push.first_slot + push.slots ? slot_triangle(slot + 1u) : uvec3(0u);
         return;
@@ -66,4 +66,18 @@ void slot_pair(uint slot, out uvec3 t0, out uvec3 t1) {
         t0 = rotated(t0);
         t1 = rotated(t1);
     }
+}
+
+// The triangles of slots 4i to 4i + 3, of which the first `count` are there.
+uvec3 slot_four[4];
+void read_slot_four(uint slot, uint count) {
+    if (packed_stream) {
+        uvec4 l = push.stream_layout;
+        lr_packed_triangles_of_quad(LrPackedLayout(l.x, l.y, l.z, l.w), slot, count);
+        for (uint i = 0u; i < 4u; ++i) slot_four[i] = rotate ? rotated(lr_packed_quad[i]) : lr_packed_quad[i];
+    } else {
+        slot_pair(slot, slot_four[0], slot_four[1]);
+        if (count > 2u) slot_pair(slot + 2u, slot_four[2], slot_four[3]);
+    }
+    for (uint i = count; i < 4u; ++i) slot_four[i] = uvec3(0u);
 }

@@ -1,10 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A point becomes the triangles of two slots: of a lean stream's two-sided rings, those of one ring edge.
+// A point becomes the triangles of LR_GEOMETRY_SLOTS slots.
 #include "shaders/pulled_vertex.glsl"
 
 layout(points) in;
-layout(triangle_strip, max_vertices = 6) out;
+layout(triangle_strip, max_vertices = 3 * LR_GEOMETRY_SLOTS) out;
 
 layout(location = 0) out vec3 out_position;
 layout(location = 1) out vec3 out_normal;
@@ -23,14 +23,14 @@ void emit(uint vertex, uint local) {
 }
 
 void main() {
-    uint begin = 2u * uint(gl_PrimitiveIDIn);
-    uvec3 t[2];
-    slot_pair(push.first_slot + begin, t[0], t[1]);
-    for (uint i = 0u; i < 2u; ++i) {
-        if (t[i].x == t[i].y) continue;  // degenerate
-        emit(t[i].x, begin + i);
-        emit(t[i].y, begin + i);
-        emit(t[i].z, begin + i);
+    uint begin = LR_GEOMETRY_SLOTS * uint(gl_PrimitiveIDIn);
+    read_slot_four(push.first_slot + begin, min(push.slots - begin, LR_GEOMETRY_SLOTS));
+    for (uint i = 0u; i < LR_GEOMETRY_SLOTS; ++i) {
+        uvec3 t = slot_four[i];
+        if (t.x == t.y) continue;  // degenerate, or none
+        emit(t.x, begin + i);
+        emit(t.y, begin + i);
+        emit(t.z, begin + i);
         EndPrimitive();
     }
 }

@@ -299,28 +299,29 @@ Result<void> Loader::Job::finish(Document& document, bool quick) {
         measure(early);
         publish(early);
     };
-    const auto optimised = [&](const RingCost& cost, double from, double to, const char* what) {
-        if (quick || settings.passes == 0) return rings;
+    const auto optimise_options = [&](const RingCost& cost, double from, double to, const char* what) {
+        say(what, from);
         OptimizeOptions options;
         options.cost = cost;
-        options.passes = settings.passes;
+        options.passes = quick ? 0 : settings.passes;
         options.random_seed = settings.random_seed;
         options.progress = [&, from, to, what](std::uint32_t done) {
             say(what, from + (to - from) * done / settings.passes);
             show();
             return !stopped();
         };
-        say(what, from);
-        return optimize_rings(table, rings, options);
+        return options;
     };
-    auto lean_rings = std::make_shared<Rings>(optimised(kLeanRingCost, share, 0.8, "optimising the ring"));
+    auto lean_rings = std::make_shared<Rings>(
+        optimize_rings(table, rings, optimise_options(kLeanRingCost, share, 0.8, "optimising the ring")));
     if (stopped()) return {};
     auto model = std::make_shared<gpu::Model>(*document.model);
     LR_ASSIGN(model->lean, encode_lean(table, *lean_rings, {.wart_skipping = settings.warts}));
     if (!quick) {
-        const Rings packed_rings = optimised(kPackedRingCost, 0.8, 1.0, "optimising for the packed stream");
-        if (stopped()) return {};
-        LR_ASSIGN(model->packed, encode_packed(table, packed_rings));
+        const OptimizeOptions optimise =
+            optimise_options(kPackedRingCost, 0.8, 1.0, "optimising for the packed stream");
+        LR_ASSIGN(PackedChoice packed, encode_smallest_packed(table, ring_options(settings, quick), optimise));
+        model->packed = std::move(packed.stream);
     }
     if (stopped()) return {};
     document.rings = std::move(lean_rings);

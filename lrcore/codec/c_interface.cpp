@@ -164,7 +164,7 @@ const char* lacedring_code_string(int code) {
 }
 
 void lacedring_default_options(lacedring_encode_options* options) {
-    *options = {LACEDRING_FORMAT_PACKED, 0, static_cast<int>(EncodeOptions{}.effort), 0};
+    *options = {LACEDRING_FORMAT_PACKED, 0, static_cast<int>(EncodeOptions{}.effort), 0, 1};
 }
 
 lacedring_code lacedring_encode_bounds(int format, std::size_t index_count, std::uint32_t vertex_count,
@@ -180,10 +180,13 @@ lacedring_code lacedring_encode_bounds(int format, std::size_t index_count, std:
             words = LACEDRING_LEAN_HEADER_WORDS + 3 * triangles;
             break;
         case LACEDRING_FORMAT_PACKED:  // turn bits, plain blocks of 29 bits a vertex; an entry and a head a group
-            words =
-                LR_PACKED_HEADER_WORDS + blocks * (LR_PACKED_BLOCK_WORDS + 3 * LR_PACKED_BLOCK * 29 / 32) +
-                (blocks / LR_PACKED_GROUP + 1) * (1 + (LR_PACKED_HEAD_BITS + 2 * 29 + 1 + LR_PACKED_GROUP * 16) / 32) +
-                1;
+            words = LR_PACKED_HEADER_WORDS + blocks * (LR_PACKED_BLOCK_WORDS + 3 * LR_PACKED_BLOCK * 29 / 32) +
+                    (blocks / LR_PACKED_GROUP + 1) *
+                        (2 + (LR_PACKED_HEAD_BITS +
+                              LR_PACKED_GROUP * (1 + 2 * 29 + 1 + LR_PACKED_KIND_BITS + LR_PACKED_MAX_OFFSET_BITS +
+                                                 LR_PACKED_MAX_ENTRY_BITS)) /
+                                 32) +
+                    LR_PACKED_DOUBLES_WORDS + 1;
             break;
         case LACEDRING_FORMAT_LR:  // 3T vertices at most, each 2 words or 1, and copies; 6 for a T0 or 3 for another
                                    // triangle
@@ -217,6 +220,7 @@ lacedring_code lacedring_encode(const std::uint32_t* indices, std::size_t index_
         how.profile = chosen.cache != 0 ? PackedProfile::cache : PackedProfile::small;
         how.effort = static_cast<std::uint32_t>(chosen.effort);
         how.wart_skipping = chosen.no_wart_skipping == 0;
+        how.threads = static_cast<unsigned>(std::max(chosen.threads, 1));
         const Result<Encoded> made = encode({indices, index_count}, vertex_count, how);
         if (!made) return fail(code_of(made.error().code), made.error().message, message);
         encoded->degenerate = made->report.topology.degenerate;

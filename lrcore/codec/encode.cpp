@@ -19,11 +19,14 @@ Error invalid(std::string message) {
 RingOptions ring_options(const EncodeOptions& options, std::size_t triangles) {
     RingOptions out;
     out.random_seed = options.random_seed;
+    out.threads = options.threads;
     out.k = options.periods.empty() ? 0 : options.periods[0];
     if (options.seeds) {
         out.seeds = *options.seeds;
     } else if (options.effort > 0 && options.format != Format::lr_compact) {  // which tries each period with them
-        out.seeds = recommended_seeds(triangles);
+        // For packed streams of large meshes, passes of the optimizer gain more than as much time spent on seeds.
+        const bool fewer = options.format == Format::packed && options.effort <= 6;
+        out.seeds = recommended_seeds(fewer ? 6 * triangles : triangles);
     }
     return out;
 }
@@ -31,8 +34,9 @@ RingOptions ring_options(const EncodeOptions& options, std::size_t triangles) {
 OptimizeOptions optimize_options(const EncodeOptions& options, const RingCost& cost) {
     OptimizeOptions out;
     out.cost = cost;
-    out.passes = options.passes.value_or(passes_at(options.effort));
+    out.passes = options.passes.value_or(passes_at(options.effort, options.format));
     out.random_seed = options.random_seed;
+    out.threads = options.threads;
     out.progress = options.progress;
     return out;
 }
@@ -110,8 +114,9 @@ Encoded take(Stream& stream, Format format, std::vector<std::uint32_t>& order) {
 
 }  // namespace
 
-std::uint32_t passes_at(std::uint32_t effort) {
-    return kPasses[std::min<std::size_t>(effort, std::size(kPasses) - 1)];
+std::uint32_t passes_at(std::uint32_t effort, Format format) {
+    const std::uint32_t passes = kPasses[std::min<std::size_t>(effort, std::size(kPasses) - 1)];
+    return format == Format::packed ? (passes + 1) / 2 : passes;
 }
 
 Encoded as_encoded(EncodedLean stream) {

@@ -13,6 +13,7 @@
 #include "lrcore/base/bits.h"
 #include "lrcore/base/compiler.h"
 #include "lrcore/base/message.h"
+#include "lrcore/base/parallel.h"
 #include "lrcore/ring/ring_walk.h"
 
 namespace lacedring {
@@ -180,6 +181,27 @@ class Expander {
     std::vector<TriangleId> paired_;
 };
 
+/// Sets costs[i], i > 0, to the cost of the ring from seeds[i]. `size` is the size of one such ring.
+void try_seeds(Expander& expander, const RingOptions& options, std::size_t size, std::span<const CornerId> seeds,
+               std::span<std::int64_t> costs) {
+    constexpr std::size_t kEdgesOfThread = 1U << 15;  // a millisecond: some ten times what a thread takes to start
+    const auto threads = static_cast<std::uint32_t>(
+        std::min<std::size_t>({options.threads, seeds.size() - 1, (seeds.size() - 1) * size / kEdgesOfThread}));
+    const auto try_from = [&](Expander& with, std::size_t begin, std::size_t step) {
+        std::vector<RingEdge> trial;
+        trial.reserve(size + size / 4);
+        for (std::size_t i = begin; i < seeds.size(); i += step) {
+            trial.clear();
+            with.grow(seeds[i], options.k, trial);
+            costs[i] = with.cost(trial);
+            with.undo(trial);
+        }
+    };
+    if (threads <= 1) return try_from(expander, 1, 1);
+    std::vector<Expander> copies(threads, expander);
+    detail::in_parallel(threads, threads, [&](std::uint32_t i) { try_from(copies[i], 1 + i, threads); });
+}
+
 }  // namespace
 
 std::uint32_t recommended_seeds(std::size_t triangles) {
@@ -194,7 +216,9 @@ Rings expand_rings(const CornerTable& table, const RingOptions& options, Expansi
     std::vector<CornerId>* const entered = expansion != nullptr ? &expansion->corners : nullptr;
     Expander expander(table);
     std::uint64_t random = options.random_seed;
-    std::vector<RingEdge> trial, region;
+    std::vector<RingEdge> region;
+    std::vector<CornerId> seeds;
+    std::vector<std::int64_t> costs;
     // With one_per_shell: which triangles belong to a shell that has its ring. Most meshes leave no vertices for
     // another ring to begin at, so shells are walked only once that is in question.
     std::optional<Swirl> shells;
@@ -219,32 +243,25 @@ Rings expand_rings(const CornerTable& table, const RingOptions& options, Expansi
 
         // More seeds, drawn from the triangles at the first ring; only the best seed is remembered and grown again.
         region.assign(rings.edges.begin() + static_cast<std::ptrdiff_t>(begin), rings.edges.end());
-        std::int64_t best_cost = expander.cost(region);
-        CornerId grown = best;
-        trial = region;
-        for (std::uint32_t s = 1; s < options.seeds; ++s) {
-            expander.undo(trial);
-            trial.clear();
+        expander.undo(region);
+        seeds.assign(1, best);
+        while (seeds.size() < options.seeds) {
             const RingEdge& edge = region[random_next(random) % region.size()];
-            grown = edge.right;
-            if (grown.is_null() || random_next(random) % 2 == 0) grown = edge.left;
-            if (!expander.can_seed(triangle(grown))) grown = best;
-            expander.grow(grown, options.k, trial);
-            if (const std::int64_t cost = expander.cost(trial); cost < best_cost) {
-                best_cost = cost;
-                best = grown;
-            }
+            CornerId seed = edge.right;
+            if (seed.is_null() || random_next(random) % 2 == 0) seed = edge.left;
+            seeds.push_back(expander.can_seed(triangle(seed)) ? seed : best);
         }
-        // Of the trials, nothing but their cost is kept; of the first one, what it entered.
+        costs.assign(seeds.size(), 0);
+        costs[0] = expander.cost(region);
+        try_seeds(expander, options, region.size(), seeds, costs);
+        best = seeds[static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) - costs.begin())];
+        // What the first one entered is there already.
         const bool enter_again = entered != nullptr && best != first;
         if (enter_again) entered->resize(expansion->first.back());
-        if (grown != best || enter_again) {
-            expander.undo(trial);
-            trial.clear();
-            expander.grow(best, options.k, trial, enter_again ? entered : nullptr);
-        }
+        region.clear();
+        expander.grow(best, options.k, region, enter_again ? entered : nullptr);
         rings.edges.resize(begin);
-        rings.edges.insert(rings.edges.end(), trial.begin(), trial.end());
+        rings.edges.insert(rings.edges.end(), region.begin(), region.end());
     }
     rings.first.push_back(static_cast<std::uint32_t>(rings.edges.size()));
     if (expansion != nullptr) expansion->first.push_back(static_cast<std::uint32_t>(entered->size()));

@@ -3,202 +3,376 @@
 // ring, v is laced in. Either way each ring stays one cycle. What is tried at a T2 is to take v out and lace it in
 // again elsewhere in its fan. That shortens one dead end and lengthens another: dead ends wander until they are as
 // short as a wart, or gone with their bifurcation. Most such changes cost nothing, so annealing at low temperatures
-// goes far; and only those near a T0 without a wart can gain, so most are tried there.
+// goes far. Only dead ends near a T0 without a wart are tried: few others can gain. Most changes that would not be kept
+// are known by the ring edges of the triangles around v, and not made.
+//
+// Large meshes are annealed in parts. A change is made only where all that it reads and writes is in one part, so that
+// the parts of a pass do not depend on each other; borders between parts move from pass to pass. Parts and their random
+// numbers follow from the mesh and the seed alone: the result is the same for any number of threads. Temperatures are
+// in integers, which are the same on every machine.
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
+#include <array>
+#include <span>
+#include <vector>
 
 #include "lacedring/ring.hpp"
+#include "lrcore/base/parallel.h"
 #include "lrcore/ring/lacing.h"
 
 namespace lacedring {
 namespace {
 
-class Annealer {
+/// The finalizer of SplitMix64 (Steele, Lea, Flood 2014).
+std::uint64_t mix(std::uint64_t z) {
+    z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
+    z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
+    return z ^ (z >> 31U);
+}
+
+/// By how much a change may raise the cost: Metropolis' rule.
+class Temperature {
   public:
-    Annealer(const CornerTable& table, Lacing& lacing, std::uint64_t random_seed)
-        : table_(table), lacing_(lacing), random_(random_seed) {
-        for (std::uint32_t t = 0; t < table.triangle_count(); ++t) expensive_ += is_expensive(TriangleId{t}) ? 1 : 0;
-    }
+    static constexpr std::size_t kLevels = 512;
 
-    void set_temperature(double temperature) {
-        for (std::size_t i = 0; i < kLevels; ++i) {
-            rise_[i] = static_cast<std::int64_t>(-std::log((static_cast<double>(i) + 0.5) / kLevels) * temperature);
-        }
+    void set(std::int64_t temperature) {
+        for (std::size_t i = 0; i < kLevels; ++i) rise_[i] = kMinusLog[i] * temperature >> 16;
     }
-
-    /// Tries one change at every vertex off the rings and at some of the T2, and many around T0 that are in no wart.
-    void pass() {
-        ++passes_;
-        const std::uint64_t budget = kStepsPerTriangle * std::uint64_t{table_.triangle_count()};
-        const std::uint64_t steps =
-            std::min<std::uint64_t>(kMostSteps, budget / std::max<std::uint64_t>(expensive_, 1));
-        expensive_ = 0;
-        for (std::uint32_t i = 0; i < table_.triangle_count(); ++i) {
-            const TriangleId t{i};
-            if (lacing_.is_t2(t)) {
-                if ((i + passes_) % kSweeps == 0) try_t2(t);
-            } else if (lacing_.is_t0(t)) {
-                try_t0(t);
-                if (!is_expensive(t)) continue;
-                ++expensive_;
-                try_around(t, steps);
-            } else if (lacing_.marked(t)) {
-                const CornerId c = lacing_.tip_corner(t);
-                if (lacing_.on_ring(table_.vertex(c)) || try_lace_in(c)) lacing_.mark(t, false);
-            }
-        }
-    }
+    std::int64_t rise(std::uint64_t bits) const { return rise_[bits % kLevels]; }
 
   private:
-    static constexpr std::size_t kLevels = 512;
+    /// -ln((i + 1/2) / kLevels) with 16 bits behind the point, by squaring.
+    static constexpr auto kMinusLog = [] {
+        std::array<std::int64_t, kLevels> out{};
+        for (std::size_t i = 0; i < kLevels; ++i) {
+            std::uint64_t x = (2 * i + 1) << 21U;  // over 2^31; below 1
+            std::uint64_t log = 0;                 // -log2, 32 bits behind the point
+            for (; x < std::uint64_t{1} << 30U; x *= 2) log += std::uint64_t{1} << 32U;
+            log += std::uint64_t{1} << 32U;
+            x *= 2;  // in [1, 2)
+            for (std::uint64_t bit = std::uint64_t{1} << 31U; bit != 0; bit /= 2) {
+                x = x * x >> 31U;
+                if (x >> 32U == 0) continue;
+                x /= 2;
+                log -= bit;
+            }
+            out[i] = static_cast<std::int64_t>((log >> 16U) * 45426 >> 16U);  // ln 2
+        }
+        return out;
+    }();
+    std::array<std::int64_t, kLevels> rise_{};
+};
+
+/// e^-(x / 2^28), with 28 bits behind the point, for x up to 3 * 2^28.
+std::int64_t exponential(std::int64_t x) {
+    std::int64_t sum = 0, term = std::int64_t{1} << 28;
+    for (std::int64_t i = 1; i <= 20; ++i) {
+        sum += term;
+        term = -(term * x >> 28) / i;
+    }
+    return sum;
+}
+
+/// One pass over one part.
+class Annealer {
+  public:
+    Annealer(Lacing& lacing, TriangleRange range, const Temperature& temperature, const RingCost& cost,
+             std::uint64_t random_seed)
+        : lacing_(lacing),
+          range_(range),
+          temperature_(temperature),
+          isolated_cost_(Lacing::kScale * cost.isolated),
+          slack_(Lacing::kScale * std::int64_t{cost.t0 - cost.t0_wart} * 3 / 2),
+          warts_are_cheap_(2 * std::int64_t{cost.t0_wart} < cost.t0),
+          rounds_(std::clamp<std::uint32_t>(kSmall / lacing.size(), 4, 24)),
+          random_(random_seed) {}
+
+    /// Tries changes at every vertex off the rings and at every T2 near a T0 that is in no wart. `isolated` has corners
+    /// of the vertices off the rings.
+    void run(std::uint32_t pass, std::span<const std::uint32_t> isolated) {
+        for (const std::uint32_t c : isolated) {
+            if (!try_lace_in(c)) isolated_.push_back(c);
+        }
+        if (pass % (warts_are_cheap_ ? kMarkingWarts : kMarking) == 0) mark_near();
+        lacing_.find_marked_t2(range_, ends_);
+        // A few at a time, so that what they touch stays in the cache.
+        for (std::size_t i = 0; i < ends_.size(); i += kBatch) {
+            batch_.assign(ends_.begin() + i, ends_.begin() + std::min(i + kBatch, ends_.size()));
+            for (std::uint32_t round = 0; round < rounds_ && !batch_.empty(); ++round) try_batch();
+        }
+        std::sort(isolated_.begin(), isolated_.end());
+    }
+
+    std::int64_t cost() const { return cost_; }                            ///< of all changes made
+    std::size_t tried() const { return ends_.size() + isolated_.size(); }  ///< dead ends and vertices, about
+    std::vector<std::uint32_t>& isolated() { return isolated_; }
+
+  private:
     static constexpr std::uint32_t kReach = 24;  // triangles of a fan looked at each way, so that hubs cost no more
-    static constexpr std::uint32_t kSweeps = 8;  // passes until every T2 has had its turn
-    static constexpr std::uint64_t kStepsPerTriangle = 2, kMostSteps = 512, kWalk = 32;  // of try_around, in a pass
+    static constexpr std::uint32_t kSmall = 32768;
+    static constexpr std::size_t kBatch = 128;  // dead ends
+    /// Edges from a T0 in no wart to the T2 that are tried, and passes that use the same marks; where warts are cheap.
+    static constexpr std::uint32_t kNearWarts = 6, kMarkingWarts = 2;
+    static constexpr std::uint32_t kNear = 20, kMarking = 8;  // where they are not
+    /// Up to kFar edges where less than one in kFew triangles would be near.
+    static constexpr std::uint32_t kFar = 20, kFew = 32;
 
-    bool is_expensive(TriangleId t) const { return lacing_.is_t0_beside_no_t2(t) && !table_.degenerate(t); }
+    /// What became of a try.
+    enum class Try : std::uint8_t { done, refused, hopeless };
 
-    /// SplitMix64 (Steele, Lea, Flood 2014).
-    std::uint64_t random() {
-        std::uint64_t z = (random_ += 0x9e3779b97f4a7c15U);
-        z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
-        z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
-        return z ^ (z >> 31U);
-    }
-    /// The cost up to which a change stays: Metropolis' rule.
-    std::int64_t limit(std::uint64_t bits) const { return lacing_.cost() + rise_[bits % kLevels]; }
+    std::uint64_t random() { return mix(random_ += 0x9e3779b97f4a7c15U); }
 
-    /// Collects the corners of vertex(c) near c, but not c, through whose triangles it can be laced in.
-    void find_places(CornerId c) {
-        places_ = 0;
-        CornerId x = c;
+    /// Collects the corners of vertex(c) near c, but not c, in their order around it.
+    void walk_fan(std::uint32_t c) {
+        fan_ = 0;
+        std::uint32_t x = c;
         for (std::uint32_t n = 0; n < kReach; ++n) {
-            x = table_.swing(x);
+            x = lacing_.opposite(Lacing::next(x));
+            if (x == Lacing::kNone || !range_.has(x >> 2)) break;
+            x = Lacing::next(x);
             if (x == c) return;
-            if (x.is_null()) break;
-            add_place(x);
+            add_to_fan(x);
         }
-        if (!x.is_null()) return;
+        const std::uint32_t first = fan_;
         x = c;
-        for (std::uint32_t n = 0; n < kReach; ++n) {  // on the other side of c, where the fan is open
-            x = table_.right(x);
-            if (x.is_null()) return;
-            x = previous(x);
-            add_place(x);
+        for (std::uint32_t n = 0; n < kReach; ++n) {  // on the other side of c, where the fan is open or too large
+            x = lacing_.opposite(Lacing::previous(x));
+            if (x == Lacing::kNone || !range_.has(x >> 2)) break;
+            x = Lacing::previous(x);
+            add_to_fan(x);
         }
+        std::reverse(corner_.begin() + first, corner_.begin() + fan_);
+        std::reverse(state_.begin() + first, state_.begin() + fan_);
     }
-    void add_place(CornerId x) {
-        if (lacing_.faces_ring(x) && lacing_.can_lace_in(x)) place_[places_++] = x;
+    void add_to_fan(std::uint32_t x) {
+        corner_[fan_] = x;
+        state_[fan_++] = lacing_.state(x >> 2);
     }
-    CornerId any_place(std::uint64_t bits) const { return place_[(bits >> 32U) * places_ >> 32U]; }
+
+    /// About what it costs to take vertex(c) out of the T2 of c and lace it in at corner_[i]: counts the T0 that come
+    /// and go, but not those that get into a wart or lose theirs.
+    std::int64_t estimate(std::uint32_t i) const {
+        std::int64_t out = 0;
+        if (i != 1 && Lacing::ring_edges(state_[0]) == 1) out += lacing_.cost_as_t0(state_[0]);
+        if (i + 2 != fan_ && Lacing::ring_edges(state_[fan_ - 1]) == 1) out += lacing_.cost_as_t0(state_[fan_ - 1]);
+        if (i > 0) out -= lacing_.cost(state_[i - 1]);
+        if (i + 1 < fan_) out -= lacing_.cost(state_[i + 1]);
+        const std::uint32_t across = lacing_.opposite(corner_[i]);
+        if (across == Lacing::kNone || !range_.has(across >> 2)) return out;
+        return Lacing::ring_edges(lacing_.state(across >> 2)) == 1 ? out + lacing_.wart_cost() : out;
+    }
 
     /// Takes a T2's vertex out, and mostly laces it in elsewhere. It is left out on the right side only: so the left
     /// one remains a tree of triangles, all their vertices on the ring, and has dead ends for encoders to close it at.
-    void try_t2(TriangleId t) {
-        const CornerId c = lacing_.t2_corner(t);
-        if (!lacing_.can_take_out(c)) return;
+    /// If done, place_ is where it was laced in, or c.
+    Try try_t2(std::uint32_t t) {
+        const std::uint32_t c = lacing_.t2_corner(t), across = lacing_.opposite(c);
+        if (!lacing_.can_take_out(c)) return Try::hopeless;
         const std::uint64_t bits = random();
-        const std::int64_t most = limit(bits);
-        if ((bits >> 10U) % 8 != 0 || lacing_.is_right(c)) {
-            find_places(c);
-            if (places_ == 0) return;
-            const TriangleId place = triangle(any_place(bits));
-            lacing_.turn_over(t);
-            lacing_.turn_over(place);
-            // If the edge that faces v is still on a ring, that may be one of two edges: v came from a ring of three.
-            if (lacing_.cost() <= most && !(lacing_.faces_ring(c) && lacing_.is_two_ring(c))) return;
-            lacing_.turn_over(place);
-        } else {
-            lacing_.turn_over(t);
-            lacing_.set_on_ring(table_.vertex(c), false);
-            if (lacing_.cost() <= most && !lacing_.is_two_ring(c)) {
-                lacing_.mark(t, true);  // there may be no T0 from which v would be found again
-                return;
+        const std::int64_t most = temperature_.rise(bits);
+        const std::int64_t gain =
+            across != Lacing::kNone && range_.has(across >> 2) ? lacing_.cost(lacing_.state(across >> 2)) : 0;
+        changes_.clear();
+        if ((bits >> 10U) % 8 == 0 && !lacing_.is_right(c)) {
+            if (isolated_cost_ - gain > most + slack_ || !lacing_.within(range_, t)) return Try::refused;
+            const std::int64_t cost = lacing_.turn_over(t, changes_) + isolated_cost_;
+            if (cost <= most && !lacing_.maybe_two_ring(range_, c)) {
+                cost_ += cost;
+                isolated_.push_back(c);
+                place_ = c;
+                return Try::done;
             }
-            lacing_.set_on_ring(table_.vertex(c), true);
+            lacing_.undo(changes_);
+            return Try::refused;
         }
-        lacing_.turn_over(t);
+        walk_fan(c);
+        std::uint32_t places = 0;
+        for (std::uint32_t i = 0; i < fan_; ++i) {
+            if (!lacing_.can_lace_in(corner_[i])) continue;
+            if (warts_are_cheap_ || estimate(i) - gain <= most + slack_) corner_[places++] = corner_[i];
+        }
+        if (places == 0) return Try::hopeless;
+        place_ = any_place(places, bits);
+        if (!lacing_.within(range_, t) || !lacing_.within(range_, place_ >> 2)) return Try::refused;
+        const std::uint32_t length = warts_are_cheap_ ? lacing_.dead_end(range_, t, kLong) : kLong;
+        const std::int64_t cost = lacing_.turn_over(t, changes_) + lacing_.turn_over(place_ >> 2, changes_);
+        // If the edge that faces v is still on a ring, that may be one of two edges: v came from a ring of three.
+        if (cost > most || (lacing_.faces_ring(c) && lacing_.maybe_two_ring(range_, c)) ||
+            (cost == 0 && length < kLong && (bits >> 13U) % 16 != 0 && lacing_.is_t2(place_ >> 2) &&
+             lacing_.dead_end(range_, place_ >> 2, kLong) > length)) {
+            lacing_.undo(changes_);
+            return Try::refused;
+        }
+        cost_ += cost;
+        return Try::done;
     }
 
-    /// Tries to lace in a vertex that the T0 has off the rings.
-    void try_t0(TriangleId t) {
-        for (std::uint32_t k = 0; k < 3; ++k) {
-            if (lacing_.on_ring(table_.vertex(corner(t, k)))) continue;
-            if (table_.degenerate(t) || try_lace_in(corner(t, k))) return;
+    /// Laces in vertex(c), which is off the rings.
+    bool try_lace_in(std::uint32_t c) {
+        walk_fan(c);
+        add_to_fan(c);
+        std::uint32_t places = 0;
+        for (std::uint32_t i = 0; i < fan_; ++i) {
+            if (lacing_.can_lace_in(corner_[i])) corner_[places++] = corner_[i];
         }
-    }
-
-    bool try_lace_in(CornerId c) {
-        find_places(c);
-        add_place(c);
-        if (places_ == 0) return false;
+        if (places == 0) return false;
         const std::uint64_t bits = random();
-        const std::int64_t most = limit(bits);
-        const TriangleId place = triangle(any_place(bits));
-        lacing_.turn_over(place);
-        lacing_.set_on_ring(table_.vertex(c), true);
-        if (lacing_.cost() <= most) return true;
-        lacing_.set_on_ring(table_.vertex(c), false);
-        lacing_.turn_over(place);
+        const std::uint32_t place = any_place(places, bits);
+        if (!lacing_.within(range_, place >> 2)) return false;
+        changes_.clear();
+        const std::int64_t cost = lacing_.turn_over(place >> 2, changes_) - isolated_cost_;
+        if (cost <= temperature_.rise(bits)) {
+            cost_ += cost;
+            return true;
+        }
+        lacing_.undo(changes_);
         return false;
     }
 
-    /// Random walks from a T0 in no wart, with a change tried at each T2 met, until the T0 is gone or in a wart.
-    void try_around(TriangleId t, std::uint64_t steps) {
-        TriangleId at = t;
-        std::uint64_t bits = 0;
-        for (std::uint64_t i = 0; i < steps; ++i) {
-            if (i % 16 == 0) bits = random();
-            if (i % kWalk == 0) at = t;
-            const CornerId o = table_.opposite(corner(at, static_cast<std::uint32_t>(bits % 16 * 3 / 16)));
-            bits /= 16;
-            if (o.is_null()) continue;
-            at = triangle(o);
-            if (!lacing_.is_t2(at)) continue;
-            try_t2(at);
-            if (!lacing_.is_t0_beside_no_t2(t)) return;
+    std::uint32_t any_place(std::uint32_t places, std::uint64_t bits) const {
+        return corner_[(bits >> 32U) * places >> 32U];
+    }
+
+    /// Tries a change at each T2 of batch_, and notes where the dead ends are then. Drops those where nothing can be
+    /// done.
+    void try_batch() {
+        std::size_t kept = 0;
+        moved_.clear();
+        for (const std::uint32_t t : batch_) {
+            if (!lacing_.is_t2(t)) continue;
+            const std::uint32_t across = lacing_.opposite(lacing_.t2_corner(t));
+            const Try tried = try_t2(t);
+            if (tried == Try::refused) batch_[kept++] = t;
+            if (tried != Try::done) continue;
+            // The dead end got shorter, and place_ is the end of another one.
+            if (range_.has(across >> 2) && lacing_.is_t2(across >> 2)) batch_[kept++] = across >> 2;
+            if (lacing_.is_t2(place_ >> 2)) moved_.push_back(place_ >> 2);
+        }
+        batch_.resize(kept);
+        batch_.insert(batch_.end(), moved_.begin(), moved_.end());
+    }
+
+    /// Marks the triangles near a T0 in no wart, and no others.
+    void mark_near() {
+        std::vector<std::uint32_t> near;
+        lacing_.mark_expensive(range_, near);
+        std::size_t i = 0;
+        const std::size_t few = (range_.end - range_.begin) / kFew;
+        const std::uint32_t least = warts_are_cheap_ ? kNearWarts : kNear;
+        for (std::uint32_t distance = 0; distance < least || (distance < kFar && near.size() < few); ++distance) {
+            for (const std::size_t end = near.size(); i < end; ++i) {
+                for (std::uint32_t k = 0; k < 3; ++k) {
+                    const std::uint32_t o = lacing_.opposite(4 * near[i] + k);
+                    if (!range_.has(o >> 2) || lacing_.marked(o >> 2)) continue;  // kNone is in no range
+                    lacing_.mark(o >> 2);
+                    near.push_back(o >> 2);
+                }
+            }
         }
     }
 
-    const CornerTable& table_;
+    static constexpr std::uint32_t kLong = 4;  // of a dead end: as good as longer ones
+
     Lacing& lacing_;
+    TriangleRange range_;
+    const Temperature& temperature_;
+    std::int64_t isolated_cost_;
+    std::int64_t slack_;    // what an estimate may be above the cost
+    bool warts_are_cheap_;  // then dead ends are kept short: they become warts
+    std::uint32_t rounds_;  // changes tried at a dead end in a pass: more on small meshes, where chance weighs more
     std::uint64_t random_;
-    std::uint32_t passes_ = 0;
-    std::uint64_t expensive_ = 0;  // T0 in no wart, when last counted
-    std::array<std::int64_t, kLevels> rise_{};
-    std::array<CornerId, 2 * kReach + 1> place_{};
-    std::uint32_t places_ = 0;
+    std::int64_t cost_ = 0;
+    std::vector<std::uint32_t> isolated_;
+    Lacing::Changes changes_;
+    std::array<std::uint32_t, 2 * kReach + 1> corner_;  // of the fan, fan_ of them
+    std::array<std::uint8_t, 2 * kReach + 1> state_;    // of their triangles
+    std::uint32_t fan_ = 0, place_ = 0;
+    std::vector<std::uint32_t> ends_, batch_, moved_;  // triangles that were T2 when noted
 };
+
+/// What a pass over a part came to.
+struct Outcome {
+    std::int64_t cost = 0;
+    std::size_t tried = 0;
+    std::vector<std::uint32_t> isolated;
+};
+
+/// How many parts a mesh of that size is annealed in.
+std::uint32_t number_of_parts(std::uint32_t triangles) {
+    constexpr std::uint32_t kLeast = 16384, kMost = 16;  // triangles of a part; parts
+    return std::clamp(triangles / kLeast, 1U, kMost);
+}
+
+/// Where the parts of a pass begin, and the end.
+std::vector<std::uint32_t> parts_of(std::uint32_t triangles, std::uint32_t pass) {
+    const std::uint32_t parts = number_of_parts(triangles);
+    if (parts == 1) return {0, triangles};
+    // Shifted by a multiple of the golden ratio each time: any place is far from a border in most passes.
+    const std::uint32_t size = triangles / parts;
+    const auto shift = static_cast<std::uint32_t>(std::uint64_t{size} * (pass * 0x9e3779b9U) >> 32U);
+    std::vector<std::uint32_t> out{0};
+    for (std::uint32_t i = 0; i < parts; ++i) {
+        const std::uint32_t begin = i * size + shift;
+        if (begin != 0) out.push_back(begin);
+    }
+    out.push_back(triangles);
+    return out;
+}
 
 }  // namespace
 
 Rings optimize_rings(const CornerTable& table, Rings rings, const OptimizeOptions& options) {
-    if (options.passes == 0 || rings.edges.empty()) return rings;
-    // Temperatures fall from kHot to kCold geometrically, in units of what a T0 gains by a wart, or one in a wart
-    // costs.
-    constexpr double kHot = 0.35, kCold = 0.08;
-    const double unit =
-        static_cast<double>(Lacing::kScale) * std::max(options.cost.t0 - options.cost.t0_wart, options.cost.t0_wart);
+    constexpr std::size_t kTriedOfThread = 2048;        // half a millisecond: ten times what a thread takes to start
+    constexpr std::uint32_t kMostTriangles = 1U << 30;  // that Lacing numbers the corners of
+    if (options.passes == 0 || rings.edges.empty() || table.triangle_count() >= kMostTriangles) return rings;
+    // Temperatures fall geometrically, in units of what a T0 gains by a wart, or one in a wart costs; further where
+    // warts are cheap.
+    constexpr std::int64_t kHot = 50;  // hundredths
+    const std::int64_t cooling = 2 * std::int64_t{options.cost.t0_wart} < options.cost.t0
+                                     ? 618095479   // ln(0.5 / 0.05) * 2^28
+                                     : 396193577;  // ln(0.5 / 0.114) * 2^28
+    const std::int64_t unit = Lacing::kScale * std::max(std::int64_t{options.cost.t0} - options.cost.t0_wart,
+                                                        std::int64_t{options.cost.t0_wart});
     const std::uint32_t descent = options.anneal ? 1 + options.passes / 8 : options.passes;
     Lacing lacing(table, rings, options.cost);
-    Annealer annealer(table, lacing, options.random_seed);
-    std::int64_t best_cost = lacing.cost();
-    std::optional<Lacing> best;
-    for (std::uint32_t p = 0; p < options.passes; ++p) {
+    if (!lacing.has_expensive() && (options.cost.isolated <= 0 || lacing.all_on_rings())) return rings;
+    rings = {};
+    lacing.number_triangles(lacing.size() / number_of_parts(lacing.size()));
+    std::vector<std::uint8_t> best = lacing.states();
+    std::vector<std::uint32_t> isolated = lacing.take_isolated();
+    std::int64_t cost = 0, best_cost = 0;
+    std::size_t tried = lacing.size() / 16;  // in the pass before
+    Temperature temperature;
+    for (std::uint32_t p = 0; p < options.passes && tried > 0; ++p) {
         const bool cold = p + descent >= options.passes;
-        annealer.set_temperature(cold ? 0
-                                      : unit * kHot * std::pow(kCold / kHot, static_cast<double>(p) / options.passes));
-        annealer.pass();
-        if (lacing.cost() < best_cost) {
-            best_cost = lacing.cost();
-            best = lacing;
+        temperature.set(cold ? 0 : (unit * kHot / 100 * exponential(cooling * p / options.passes)) >> 28);
+        const std::vector<std::uint32_t> begins = parts_of(lacing.size(), p);
+        std::vector<Outcome> outcomes(begins.size() - 1);
+        const unsigned threads = tried < kTriedOfThread ? 1 : options.threads;
+        detail::in_parallel(threads, static_cast<std::uint32_t>(outcomes.size()), [&](std::uint32_t i) {
+            const TriangleRange range{begins[i], begins[i + 1]};
+            Annealer annealer(lacing, range, temperature, options.cost,
+                              mix(options.random_seed + mix((std::uint64_t{p} << 32U) + i)));
+            const auto first_of = [&](std::uint32_t t) {
+                return std::lower_bound(isolated.begin(), isolated.end(), 4 * t);
+            };
+            annealer.run(p, {first_of(range.begin), first_of(range.end)});
+            outcomes[i] = {annealer.cost(), annealer.tried(), std::move(annealer.isolated())};
+        });
+        isolated.clear();
+        tried = 0;
+        for (const Outcome& outcome : outcomes) {
+            cost += outcome.cost;
+            tried += outcome.tried;
+            isolated.insert(isolated.end(), outcome.isolated.begin(), outcome.isolated.end());
+        }
+        if (cost < best_cost) {
+            best_cost = cost;
+            best = lacing.states();
         }
         if (options.progress && !options.progress(p + 1)) break;
     }
-    if (!best) return rings;
-    rings = Rings{};
-    return best->rings();
+    return Lacing::rings(std::move(lacing), best);
 }
 
 }  // namespace lacedring

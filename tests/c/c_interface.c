@@ -140,7 +140,7 @@ static void check_format(enum lacedring_format format, int cache, const struct m
     uint32_t i, triangles = 0;
     size_t count;
     lacedring_default_options(&options);
-    CHECK(options.format == LACEDRING_FORMAT_PACKED && options.effort == 6);
+    CHECK(options.format == LACEDRING_FORMAT_PACKED && options.effort == 6 && options.threads == 1);
     options.format = format;
     options.cache = cache;
     options.effort = 1;
@@ -220,6 +220,10 @@ static void check_format(enum lacedring_format format, int cache, const struct m
     CHECK(lacedring_encode(mesh->indices, count, mesh->vertices, &options, &encoded, &message) ==
           LACEDRING_CODE_INVALID_ARGUMENT);
     options.effort = 1;
+    options.threads = -1;
+    CHECK(lacedring_encode(mesh->indices, count, mesh->vertices, &options, &encoded, &message) == LACEDRING_CODE_OK);
+    options.threads = 3;
+    CHECK(lacedring_encode(mesh->indices, count, mesh->vertices, &options, &encoded, &message) == LACEDRING_CODE_OK);
     options.format = 7;
     CHECK(lacedring_encode(mesh->indices, count, mesh->vertices, &options, &encoded, &message) ==
           LACEDRING_CODE_INVALID_ARGUMENT);

@@ -42,44 +42,42 @@ void mend_lean(Words& words) {
 /// The table of groups from their heads; zeros where they have to be.
 void mend_packed(Words& words) {
     PackedView view;
-    view.vertices = words[LR_PACKED_WORD_VERTICES];
-    view.triangles = words[LR_PACKED_WORD_TRIANGLES];
-    if (view.triangles == 0 || view.triangles > 8 * 4 * words.size()) return;  // a turn bit each
-    const std::uint32_t width = packed_vertex_bits(view.vertices), blocks = view.blocks();
+    view.vertices = words[LR_PACKED_WORD_VERTICES] & ~LR_PACKED_DOUBLES;
+    view.own = words[LR_PACKED_WORD_TRIANGLES];
+    if (view.own == 0 || view.own > 8 * 4 * words.size()) return;  // a turn bit each
+    if (view.doubles_word() + LR_PACKED_DOUBLES_WORDS > words.size()) return;
+    if ((words[LR_PACKED_WORD_VERTICES] & LR_PACKED_DOUBLES) != 0) view.runs = words[view.doubles_word() + 1];
     if (view.groups_word() > words.size()) return;
-    if (const std::uint32_t last = view.triangles % 32; last != 0) {
-        words[LR_PACKED_HEADER_WORDS + view.triangles / 32] &= (1U << last) - 1;
+    if (const std::uint32_t last = view.own % 32; last != 0) {
+        words[LR_PACKED_HEADER_WORDS + view.own / 32] &= (1U << last) - 1;
     }
-    const std::uint64_t bits = 32 * (words.size() - view.groups_word());
-    std::uint64_t at = 0, byte = 0;
-    const auto take = [&](std::uint32_t count) {
+    const std::uint64_t width = packed_vertex_bits(view.vertices), bits = 32 * (words.size() - view.groups_word());
+    const auto field = [&](std::uint64_t at, std::uint32_t count) {
         std::uint32_t value = 0;
         for (std::uint32_t k = 0; k < count && at + k < bits; ++k) {
             value |= (words[view.groups_word() + (at + k) / 32] >> ((at + k) % 32) & 1) << k;
         }
-        at += count;
         return value;
     };
-    for (std::uint32_t block = 0; block < blocks; ++block) {
-        if (block % LR_PACKED_GROUP != 0) continue;
-        if (block > 0) words[view.table_word() + block / LR_PACKED_GROUP - 1] = static_cast<std::uint32_t>(byte);
-        at = 8 * byte;
-        const std::uint32_t length_bits = take(LR_PACKED_LENGTH_FIELD), entry_bits = take(LR_PACKED_ENTRY_FIELD);
-        at = 8 * byte + LR_PACKED_HEAD_BITS + 2 * width + 1;
-        std::uint64_t records = 0;
-        for (std::uint32_t k = block; k < std::min(block + LR_PACKED_GROUP, blocks); ++k) {
-            const std::uint32_t length = take(length_bits),
-                                count = std::min(view.triangles - k * LR_PACKED_BLOCK, LR_PACKED_BLOCK);
-            if (k > block) at += entry_bits;
-            records += length <= LR_PACKED_MAX_RECORD ? length
-                       : length < LR_PACKED_PLAIN     ? 8 * (length - LR_PACKED_MAX_RECORD)
-                                                      : (3 * count * width + 7) / 8;
-        }
-        byte = (at + 7) / 8 + records;
-        if (8 * byte > bits) return;
+    const std::uint32_t all = (view.own - 1) / LR_PACKED_BLOCK + 1;
+    std::uint64_t word = 0;
+    for (std::uint32_t block = 0; block < all; block += LR_PACKED_GROUP) {
+        if (block > 0) words[view.table_word() + block / LR_PACKED_GROUP - 1] = static_cast<std::uint32_t>(word);
+        const std::uint64_t begin = 32 * word, blocks = std::min(all - block, LR_PACKED_GROUP);
+        constexpr std::uint32_t kEntryAt = LR_PACKED_STEP_FIELD + LR_PACKED_OFFSET_FIELD;
+        const std::uint32_t step = field(begin, LR_PACKED_STEP_FIELD),
+                            offset_bits = field(begin + LR_PACKED_STEP_FIELD, LR_PACKED_OFFSET_FIELD),
+                            entry_bits = field(begin + kEntryAt, LR_PACKED_ENTRY_FIELD);
+        const bool kinds = field(begin + LR_PACKED_HEAD_BITS - 1, 1) != 0;
+        std::uint64_t entries = 1;
+        for (std::uint64_t k = 1; k < blocks; ++k) entries += field(begin + LR_PACKED_HEAD_BITS + k - 1, 1);
+        const std::uint64_t ends = begin + LR_PACKED_HEAD_BITS + blocks - 1 + entries * (2 * width + 1) +
+                                   (kinds ? LR_PACKED_KIND_BITS * blocks : 0);
+        const std::uint64_t head = ends + blocks * offset_bits + (blocks - 1) * entry_bits;
+        const std::uint64_t size = blocks * step + field(ends + (blocks - 1) * offset_bits, offset_bits);
+        word = ((head + 7) / 8 + size - std::min<std::uint64_t>(size, (1ULL << offset_bits) / 2) + 3) / 4;
+        if (32 * word > bits) return;
     }
-    auto* groups = reinterpret_cast<std::uint8_t*>(words.data() + view.groups_word());
-    std::fill(groups + byte, reinterpret_cast<std::uint8_t*>(words.data() + words.size()), std::uint8_t{0});
 }
 
 /// The entries of VO* from the number of words: nothing else says how many they are.

@@ -4,6 +4,7 @@ decode_packed decodes and validates a whole stream; read_triangle finds one tria
 """
 
 import zlib
+from bisect import bisect_right
 
 from mesh_readers import BadFile
 
@@ -12,6 +13,7 @@ MAGIC, MAGIC_1 = 0x3250524C, 0x4B50524C
 SPLIT, BESIDE, START, FAR, JUMP, TURN, FLIPS = range(7)
 THIRD_VERTEX = (SPLIT, FAR, JUMP)  # the events that give a triangle's third vertex
 PLAIN = 255
+HIGH = 1 << 31  # of the header's vertices: there are doubles; of a run's own triangle: turned round
 
 
 class Bits:
@@ -54,14 +56,14 @@ class Bits:
 
 
 class Header:
-    """The stream's header, and where its parts are."""
+    """The stream's header, and where its parts are. `triangles`: the own ones; `doubles`: how many; `runs`: of them."""
 
     def __init__(self, words):
         if len(words) >= 1 and words[0] == MAGIC_1:
             raise BadFile("a packed stream of version 1, which is not read any more; version 2 is")
         if len(words) < 4 or words[0] != MAGIC:
             raise BadFile("not a packed stream of version 2")
-        self.vertices, self.triangles = words[1:3]
+        self.vertices, self.triangles = words[1] & ~HIGH, words[2]
         if self.vertices > 1 << 29 or self.triangles > WORD // 3:
             raise BadFile("the packed stream has too many vertices or triangles")
         self.width = max((self.vertices - 1).bit_length(), 1) if self.vertices else 1
@@ -69,6 +71,16 @@ class Header:
         self.groups = (self.blocks + 15) // 16
         self.table = 4 + (self.triangles + 31) // 32
         self.first_group = self.table + max(self.groups - 1, 0)
+        self.doubles = self.runs = 0
+        self.first_run = self.first_group
+        if words[1] & HIGH:
+            self.first_run += 2
+            if len(words) < self.first_run:
+                raise BadFile("the packed stream is shorter than its header says")
+            self.doubles, self.runs = words[self.first_group:self.first_run]
+            if not 1 <= self.doubles <= min(self.triangles, WORD // 3 - self.triangles) or self.runs == 0:
+                raise BadFile("the packed stream has no doubles, too many, or no runs of them")
+            self.first_group = self.first_run + 2 * self.runs
         if len(words) < self.first_group:
             raise BadFile("the packed stream is shorter than its header says")
 
@@ -366,8 +378,28 @@ def decode_group(data, turns, width, out):
     return at
 
 
+def double(corners, own):
+    """The corners of a double, of those of the own triangle. `own`: the run's second word."""
+    p, q, r = corners
+    return (p, r, q) if own & HIGH else (p, q, r)
+
+
+def decode_doubles(words, header, out):
+    """Appends the doubles to the own triangles."""
+    firsts, owns = (words[header.first_run + i:header.first_group:2] for i in range(2))
+    ends = [*firsts[1:], header.triangles + header.doubles]
+    if header.runs and (firsts[0] != header.triangles or any(first >= end for first, end in zip(firsts, ends))):
+        raise BadFile("the runs of doubles do not follow one another from the last own triangle to the last double")
+    for first, end, own in zip(firsts, ends, owns):
+        begin = own & ~HIGH
+        if begin + end - first > header.triangles:
+            raise BadFile("a double is of a triangle that is no own one")
+        for t in range(begin, begin + end - first):
+            out += double(out[3 * t:3 * t + 3], own)
+
+
 def decode_packed(words):
-    """Vertices, and all triangles, flat. `words`: the whole stream, header included."""
+    """Vertices, and all triangles, flat, doubles last. `words`: the whole stream, header included."""
     header = Header(words)
     if zlib.crc32(words[4:].tobytes(), zlib.crc32(words[:3].tobytes())) != words[3]:
         raise BadFile("the packed stream's checksum is wrong")
@@ -390,6 +422,7 @@ def decode_packed(words):
     corners = iter(out)
     if any(a == b or b == c or c == a for a, b, c in zip(corners, corners, corners)):
         raise BadFile("a triangle of the packed stream is degenerate")
+    decode_doubles(words, header, out)
     return header.vertices, out
 
 
@@ -535,8 +568,12 @@ def find_record(words, header, t):
 def read_triangle(words, t):
     """Triangle t of a valid stream, by the document's "Reading one triangle"."""
     header = Header(words)
-    if t >= header.triangles:
+    if t >= header.triangles + header.doubles:
         raise BadFile("the packed stream has no such triangle")
+    if t >= header.triangles:
+        run = bisect_right(range(header.runs), t, key=lambda i: words[header.first_run + 2 * i]) - 1
+        first, own = words[header.first_run + 2 * run:header.first_run + 2 * run + 2]
+        return double(read_triangle(words, (own & ~HIGH) + t - first), own)
     record, first, count = find_record(words, header, t)
     if first is None:
         return tuple(record)

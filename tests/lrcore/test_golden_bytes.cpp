@@ -64,15 +64,20 @@ Words decode_tables(const Words& words) {
 
 constexpr std::uint32_t kPeriods[] = {0, 7};
 
+template <PackedProfile profile>
+Stream packed_of(const CornerTable& table) {
+    Result<PackedChoice> encoded = encode_smallest_packed(table, {}, {.passes = 0}, profile);
+    REQUIRE(encoded);
+    return {std::move(encoded->stream.words), std::move(encoded->stream.vertex_order)};
+}
+
 const GoldenFormat kFormats[] = {
     {"lean", [](const CornerTable& t) { return stream_of(encode_lean(t, expand_rings(t))); }, decode_lean},
     {"lean-no-warts",
      [](const CornerTable& t) { return stream_of(encode_lean(t, expand_rings(t), {.wart_skipping = false})); },
      decode_lean},
-    {"packed-small", [](const CornerTable& t) { return stream_of(encode_packed(t, expand_rings(t))); }, decode_packed},
-    {"packed-cache",
-     [](const CornerTable& t) { return stream_of(encode_packed(t, expand_rings(t), PackedProfile::cache)); },
-     decode_packed},
+    {"packed-small", packed_of<PackedProfile::small>, decode_packed},
+    {"packed-cache", packed_of<PackedProfile::cache>, decode_packed},
     {"lr", [](const CornerTable& t) { return stream_of(encode_lr(t, {})); }, decode_tables<validate_lr>},
     {"lr-compact", [](const CornerTable& t) { return stream_of(encode_compact_lr(t, {}, kPeriods)); },
      decode_tables<validate_compact_lr>},
@@ -83,10 +88,19 @@ struct Sample {
     Mesh mesh;
 };
 
+Mesh both_sides(Mesh mesh) {
+    for (std::size_t i = 0, end = mesh.indices.size(); i < end; i += 3) {
+        const auto [a, b, c] = std::array{mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]};
+        mesh.indices.insert(mesh.indices.end(), {b, a, c});
+    }
+    return mesh;
+}
+
 std::vector<Sample> samples() {
-    return {{"blob", generate("blob", 300, 7).value()},   // closed: two blocks
-            {"glued", test::random_gluing(40, 120, 11)},  // borders, non-manifold edges, turned triangles
-            {"soup", test::random_soup(60, 90, 3)}};      // anything, degenerate triangles too
+    return {{"blob", generate("blob", 300, 7).value()},                // closed: two blocks
+            {"glued", test::random_gluing(40, 120, 11)},               // borders, non-manifold edges, turned triangles
+            {"soup", test::random_soup(60, 90, 3)},                    // anything, degenerate triangles too
+            {"sheet", both_sides(generate("blob", 300, 8).value())}};  // doubled triangles
 }
 
 std::filesystem::path path_of(const Sample& sample, const GoldenFormat& format) {

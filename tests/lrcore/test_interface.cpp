@@ -125,7 +125,8 @@ TEST_CASE("more effort makes no stream larger by a hundredth, and its parts can 
             CHECK(100 * encoded.words.size() <= 101 * before);
             before = std::min(before, encoded.words.size());
         }
-        EncodeOptions six{.format = format, .seeds = recommended_seeds(mesh.triangle_count()), .passes = 24};
+        const std::size_t triangles = mesh.triangle_count() * (format == Format::packed ? 6 : 1);
+        EncodeOptions six{.format = format, .seeds = recommended_seeds(triangles), .passes = passes_at(6, format)};
         if (format == Format::lr_compact) {
             six.seeds = 1;
             six.periods = recommended_periods(mesh.triangle_count());

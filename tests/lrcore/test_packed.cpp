@@ -9,6 +9,7 @@
 #include "lacedring/mesh_files.hpp"
 #include "lacedring/streams.hpp"
 #include "lrcore/codec/packed/packed_format.h"
+#include "lrlab/generate/generate.h"
 #include "tests/support/capture.h"
 #include "tests/support/meshes.h"
 
@@ -28,10 +29,10 @@ EncodedPacked check(const Mesh& mesh, const RingOptions& ring, PackedProfile pro
                     std::uint32_t passes = 0) {
     const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
     REQUIRE(table);
-    const Rings rings = optimize_rings(*table, expand_rings(*table, ring), {.cost = kPackedRingCost, .passes = passes});
-    Result<EncodedPacked> encoded = encode_packed(*table, rings, profile);
+    Result<PackedChoice> encoded =
+        encode_smallest_packed(*table, ring, {.cost = kPackedRingCost, .passes = passes}, profile);
     REQUIRE(encoded);
-    EncodedPacked& stream = *encoded;
+    EncodedPacked& stream = encoded->stream;
 
     // The stream alone, in a buffer of exactly its size, so that a sanitizer sees any read beyond it.
     const auto exact = std::make_unique<std::uint32_t[]>(stream.words.size());
@@ -72,10 +73,18 @@ EncodedPacked check(const Mesh& mesh, const RingOptions& ring, PackedProfile pro
     }
     for (std::uint32_t& v : threaded) v = stream.vertex_order[v];
     CHECK(test::oriented_triangles(threaded) == test::oriented_triangles(mesh.indices));
-    return std::move(*encoded);
+    return std::move(stream);
 }
 
-/// Decodes every triangle from a copy of the stream in which all is poison but its block's turns and its group.
+std::uint32_t own_triangle(const PackedView& view, std::uint32_t triangle) {
+    const std::span<const std::uint32_t> runs = view.words.subspan(view.doubles_word() + LR_PACKED_DOUBLES_WORDS);
+    std::size_t run = 0;
+    while (run + 1 < view.runs && runs[2 * (run + 1)] <= triangle) ++run;
+    return (runs[2 * run + 1] & ~LR_PACKED_DOUBLES) + triangle - runs[2 * run];
+}
+
+/// Decodes every triangle from a copy of the stream in which all is poison but what is said of doubles, its block's
+/// turns and its group.
 void check_random_access(const EncodedPacked& stream) {
     const Result<PackedView> view = view_packed(stream.words);
     REQUIRE(view);
@@ -83,11 +92,11 @@ void check_random_access(const EncodedPacked& stream) {
     decode_packed(*view, indices);
     const auto group_begin = [&](std::uint32_t group) -> std::size_t {  // in bytes
         const std::size_t word = view->table_word() + group - 1;
-        const std::size_t groups = view->groups_word() - view->table_word() + 1;
+        const std::size_t groups = view->doubles_word() - view->table_word() + 1;
         if (group >= groups) return 4 * (stream.words.size() - view->groups_word());
-        return group == 0 ? 0 : stream.words[word];
+        return group == 0 ? 0 : 4 * std::size_t{stream.words[word]};
     };
-    for (std::uint32_t block = 0; block < view->blocks(); ++block) {
+    for (std::uint32_t block = 0; block * LR_PACKED_BLOCK < view->own; ++block) {
         std::vector<std::uint32_t> poisoned(stream.words.size(), 0xa5c3f10fU);
         const auto keep = [&](std::size_t first, std::size_t count) {
             count = std::min(count, stream.words.size() - first);
@@ -98,14 +107,18 @@ void check_random_access(const EncodedPacked& stream) {
         keep(LR_PACKED_HEADER_WORDS + std::size_t{block} * LR_PACKED_BLOCK_WORDS, LR_PACKED_BLOCK_WORDS);
         const std::uint32_t group = block / LR_PACKED_GROUP;
         if (group > 0) keep(view->table_word() + group - 1, 1);
+        keep(view->doubles_word(), view->groups_word() - view->doubles_word());
         const auto* groups = reinterpret_cast<const std::uint8_t*>(stream.words.data() + view->groups_word());
         std::copy(groups + group_begin(group), groups + group_begin(group + 1),
                   reinterpret_cast<std::uint8_t*>(poisoned.data() + view->groups_word()) + group_begin(group));
 
         const Result<PackedView> far = view_packed(poisoned);
         REQUIRE(far);
-        for (std::uint32_t t = block * LR_PACKED_BLOCK; t < std::min((block + 1) * LR_PACKED_BLOCK, view->triangles);
-             ++t) {
+        const std::uint32_t first = block * LR_PACKED_BLOCK;
+        for (std::uint32_t t = 0; t < view->triangles; ++t) {
+            // A double's block is that of its own triangle, which comes behind it in no run.
+            const std::uint32_t of = t < view->own ? t : own_triangle(*view, t);
+            if (of < first || of >= first + LR_PACKED_BLOCK) continue;
             const auto got = decode_packed_triangle(*far, t);
             for (std::size_t k = 0; k < 3; ++k) REQUIRE(got.v[k] == indices[std::size_t{3} * t + k]);
         }
@@ -122,6 +135,47 @@ TEST_CASE("packed streams of named meshes") {
         check_random_access(check(mesh, {}, PackedProfile::cache));
         check(mesh, {.k = 5}, PackedProfile::cache, 3);
     }
+}
+
+TEST_CASE("a doubled triangle is told by its number") {
+    const Mesh sheet = generate("blob", 20000, 1).value();
+    const auto doubled = [&](std::uint32_t begin, std::uint32_t end, bool turned) {
+        Mesh mesh = sheet;
+        for (std::uint32_t t = begin; t < end; ++t) {
+            const std::uint32_t* v = &sheet.indices[std::size_t{3} * t];
+            for (const std::uint32_t i : {v[1], turned ? v[0] : v[2], turned ? v[2] : v[0]}) mesh.indices.push_back(i);
+        }
+        return mesh;
+    };
+    const auto all = static_cast<std::uint32_t>(sheet.triangle_count());
+    const EncodedPacked once = check(sheet, {}), both = check(doubled(0, all, true), {});
+    CHECK(both.statistics.doubles == all);
+    CHECK(both.words.size() == once.words.size() + LR_PACKED_DOUBLES_WORDS + LR_PACKED_RUN_WORDS);
+    CHECK(check(doubled(0, all, false), {}, PackedProfile::cache).statistics.doubles == all);
+    CHECK(check(doubled(100, 164, true), {}).statistics.doubles == 64);
+    CHECK(check(doubled(100, 116, true), {}).statistics.doubles == 0);  // too few
+    check_random_access(check(doubled(100, 3000, true), {}, PackedProfile::small, 2));
+
+    // Runs that say something impossible.
+    const std::size_t at = view_packed(both.words)->doubles_word();
+    const auto refused = [&](std::size_t word, std::uint32_t value) {
+        std::vector<std::uint32_t> bad = both.words;
+        bad[word] = value;
+        bad[LR_PACKED_WORD_CHECKSUM] = packed_checksum(bad);
+        return !validate_packed(bad);
+    };
+    REQUIRE_FALSE(refused(at, all));  // how many
+    CHECK(refused(at, 0));
+    CHECK(refused(at, all + 1));
+    CHECK(refused(at, UINT32_MAX));
+    CHECK(refused(at + 1, 0));  // runs
+    CHECK(refused(at + 1, 2));
+    CHECK(refused(at + 1, UINT32_MAX));
+    CHECK(refused(at + 2, all - 1));  // where the first begins
+    CHECK(refused(at + 2, all + 1));
+    CHECK(refused(at + 3, 1));        // beyond the last own triangle
+    CHECK_FALSE(refused(at + 3, 0));  // the same way round, then
+    CHECK(refused(at + 3, all));
 }
 
 TEST_CASE("packed streams of random soups") {

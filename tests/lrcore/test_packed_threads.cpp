@@ -1,4 +1,4 @@
-// decode_packed with threads, and without the permission to create any: this file replaces pthread_create.
+// decode_packed and encode with threads, and without the permission to create any: this file replaces pthread_create.
 
 #include <dlfcn.h>
 #include <doctest/doctest.h>
@@ -43,12 +43,15 @@ struct Sample {
     PackedView view;
 };
 
+EncodedPacked encode_packed_of(const Mesh& mesh) {
+    const CornerTable table = build_corner_table(mesh.indices, mesh.vertex_count).value();
+    return encode_packed(table, expand_rings(table)).value();
+}
+
 const Sample& sample() {
     static const Sample only = [] {
         Sample out;
-        const Mesh mesh = generate("sphere", 200000, 1).value();
-        const CornerTable table = build_corner_table(mesh.indices, mesh.vertex_count).value();
-        out.words = encode_packed(table, expand_rings(table)).value().words;
+        out.words = encode_packed_of(generate("sphere", 600000, 1).value()).words;
         out.view = validate_packed(out.words).value();
         out.indices.resize(std::size_t{3} * out.view.triangles);
         decode_packed(out.view, out.indices);
@@ -87,6 +90,36 @@ TEST_CASE("decode_packed where no more threads can be made") {
             CHECK(made <= most);
         }
     }
+}
+
+TEST_CASE("encode makes no thread that was not asked for, and does without those that cannot be made") {
+    const Mesh mesh = generate("blob", 40000, 1).value();
+    EncodeOptions options{.effort = 1};
+    made = 0;
+    const std::vector<std::uint32_t> words = encode(mesh.indices, mesh.vertex_count, options).value().words;
+    CHECK(made == 0);
+    options.threads = 2;
+    CHECK(encode(mesh.indices, mesh.vertex_count, options).value().words == words);
+    CHECK(made > 0);
+    for (const int most : {0, 1, 2}) {
+        CAPTURE(most);
+        made = 0;
+        allowed = most;
+        options.threads = 8;
+        CHECK(encode(mesh.indices, mesh.vertex_count, options).value().words == words);
+        allowed = INT_MAX;
+        CHECK(made <= most);
+    }
+}
+
+TEST_CASE("decode_packed on two threads starts none for a small stream") {
+    const Mesh mesh = generate("sphere", 100000, 1).value();
+    const EncodedPacked small = encode_packed_of(mesh);
+    const PackedView view = validate_packed(small.words).value();
+    std::vector<std::uint32_t> out(std::size_t{3} * view.triangles);
+    made = 0;
+    decode_packed(view, out, 2);
+    CHECK(made == 0);
 }
 
 TEST_CASE("decode_packed where no stack of a thread fits the address space" * doctest::skip(kSanitized)) {

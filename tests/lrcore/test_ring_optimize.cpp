@@ -114,6 +114,39 @@ TEST_CASE("optimised rings of random soups") {
     }
 }
 
+TEST_CASE("rings and words are the same for any number of threads") {
+    for (const char* kind : {"blob", "terrain", "genus", "parts", "moebius"}) {
+        CAPTURE(kind);
+        const Result<Mesh> mesh = generate(kind, 60000, 3);
+        REQUIRE(mesh);
+        const Result<CornerTable> table = build_corner_table(mesh->indices, mesh->vertex_count);
+        REQUIRE(table);
+        for (const RingCost& cost : {kLeanRingCost, kPackedRingCost, RingCost{1, 0, -5}}) {
+            OptimizeOptions optimize = options_of(cost, 6, 1);
+            RingOptions ring{.seeds = 9};
+            const Rings found = expand_rings(*table, ring), one = optimize_rings(*table, found, optimize);
+            CHECK(check_rings(*table, one) == "");
+            CHECK(one.count() == found.count());
+            CHECK(cost_of(*table, one, cost) < cost_of(*table, found, cost));
+            for (const unsigned threads : {0U, 2U, 3U, 8U}) {
+                CAPTURE(threads);
+                optimize.threads = ring.threads = threads;
+                CHECK(same(expand_rings(*table, ring), found));
+                CHECK(same(optimize_rings(*table, found, optimize), one));
+            }
+        }
+        for (const Format format : {Format::packed, Format::lean, Format::lr}) {
+            EncodeOptions options{.format = format, .effort = 2};
+            const std::vector<std::uint32_t> words = encode(*table, options).value().words;
+            for (const unsigned threads : {2U, 3U, 8U}) {
+                CAPTURE(threads);
+                options.threads = threads;
+                CHECK(encode(*table, options).value().words == words);
+            }
+        }
+    }
+}
+
 TEST_CASE("optimising stops when told to, and never in a worse state") {
     const Mesh mesh = test::random_gluing(300, 600, 5);
     const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);

@@ -21,9 +21,9 @@ DECODERS = {"lacedring/streams.hpp", "lacedring/operators.hpp", "lacedring/base.
                 "tables/stream_header.h", "tables/validate.cpp"))}
 # The standard headers that a freestanding-minded library wants. <thread> is for those who ask for threads.
 STANDARD = {"algorithm", "array", "atomic", "bit", "cassert", "cmath", "compare", "concepts", "cstddef", "cstdint", "cstring",
-            "functional", "iterator", "limits", "memory", "new", "numeric", "optional", "queue", "span", "string", "string_view", "system_error",
+            "exception", "functional", "iterator", "limits", "memory", "new", "numeric", "optional", "queue", "span", "string", "string_view", "system_error",
             "tuple", "type_traits", "utility", "variant", "vector"}
-THREADS = "lrcore/codec/packed/decode.cpp"
+THREADS = "lrcore/base/parallel.cpp"
 
 
 def includes(path):

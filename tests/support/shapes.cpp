@@ -212,6 +212,14 @@ Shape turn_some(Shape shape, std::uint32_t k) {
     return shape;
 }
 
+Shape double_some(Shape shape, std::uint32_t k, bool turned) {
+    for (std::size_t t = 0, end = shape.triangles.size(); t < end; t += k) {
+        const auto [a, b, c] = shape.triangles[t];
+        shape.triangles.push_back(turned ? Triangle{b, a, c} : Triangle{b, c, a});
+    }
+    return shape;
+}
+
 Shape shuffle(Shape shape, std::uint64_t seed) {
     std::vector<std::uint32_t> number(shape.vertices);
     for (std::uint32_t v = 0; v < shape.vertices; ++v) number[v] = v;

@@ -48,6 +48,8 @@ Shape beside(const Shape& a, const Shape& b);
 Shape pinch(Shape shape, std::uint32_t from, std::uint32_t to);
 /// Every k-th triangle turned round.
 Shape turn_some(Shape shape, std::uint32_t k);
+/// Every k-th triangle once more, behind the others, or its reverse.
+Shape double_some(Shape shape, std::uint32_t k, bool turned);
 /// Triangles in random order, rotated, and vertices renumbered at random.
 Shape shuffle(Shape shape, std::uint64_t seed);
 

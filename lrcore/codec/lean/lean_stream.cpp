@@ -72,6 +72,7 @@ std::string why(lacedring_status status, std::uint64_t where, std::span<const st
         case LACEDRING_STATUS_GROUP:
         case LACEDRING_STATUS_BLOCK:
         case LACEDRING_STATUS_TURNS:
+        case LACEDRING_STATUS_DOUBLES:
             break;  // of packed streams
     }
     return "unknown";

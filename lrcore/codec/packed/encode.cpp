@@ -11,6 +11,7 @@
 #include "lrcore/base/message.h"
 #include "lrcore/codec/packed/bit_writer.h"
 #include "lrcore/codec/packed/corridors.h"
+#include "lrcore/codec/packed/doubles.h"
 #include "lrcore/codec/packed/packed_c.h"
 #include "lrcore/codec/packed/packed_format.h"
 #include "lrcore/codec/packed/planner.h"
@@ -24,7 +25,8 @@ constexpr std::uint32_t kMostVertices = 1U << 29;  // keeps folded BESIDE steps 
 
 /// Widths and orders of one group.
 struct GroupCodes {
-    std::uint32_t length_bits = 0, entry_bits = 0, gap_bits = 0, wart_bits = 0, split_order = 0, count_order = 0;
+    std::uint32_t step = 0, offset_bits = 0, entry_bits = 0;
+    std::uint32_t gap_bits = 0, wart_bits = 0, split_order = 0, count_order = 0;
 };
 
 /// The argument below `end` at which `cost` is least.
@@ -71,31 +73,46 @@ class GroupWriter {
             records_.push_back(planner_.plan(first, std::min(first + LR_PACKED_BLOCK, triangles_)));
         }
         choose_codes();
-        choose_entries();
         bodies_.clear();
-        lengths_.clear();
+        ends_.clear();
+        kinds_.clear();
         for (std::size_t k = 0; k < records_.size(); ++k) write_block(k);
-        codes_.length_bits =
-            static_cast<std::uint32_t>(std::bit_width(*std::max_element(lengths_.begin(), lengths_.end())));
+        choose_entries();
+        choose_offsets();
 
         head_.clear();
-        head_.put(codes_.length_bits, LR_PACKED_LENGTH_FIELD);
+        head_.put(codes_.step, LR_PACKED_STEP_FIELD);
+        head_.put(codes_.offset_bits, LR_PACKED_OFFSET_FIELD);
         head_.put(codes_.entry_bits, LR_PACKED_ENTRY_FIELD);
         head_.put(codes_.gap_bits, LR_PACKED_GAP_FIELD);
         head_.put(codes_.wart_bits, LR_PACKED_WART_FIELD);
         head_.put(codes_.split_order, LR_PACKED_SPLIT_FIELD);
         head_.put(codes_.count_order, LR_PACKED_COUNT_FIELD);
-        const bool plain = lengths_[0] == LR_PACKED_PLAIN;
-        head_.put(plain ? 0 : records_[0].entry.a, vertex_bits_);
-        head_.put(plain ? 0 : records_[0].entry.b, vertex_bits_);
-        head_.put(!plain && records_[0].reversed ? 1 : 0, 1);
+        const bool has_kinds = std::any_of(kinds_.begin(), kinds_.end(), [](auto k) { return k != LR_PACKED_RECORD; });
+        head_.put(has_kinds ? 1 : 0, LR_PACKED_KINDS_FIELD);
+        for (std::size_t k = 1; k < records_.size(); ++k) head_.put(entries_[k].own ? 1 : 0, 1);
         for (std::size_t k = 0; k < records_.size(); ++k) {
-            head_.put(lengths_[k], codes_.length_bits);
-            if (k > 0) head_.put(entries_[k], codes_.entry_bits);
+            if (!entries_[k].own) continue;
+            const PackedRecordPlan& r = records_[k];
+            const bool plain = kinds_[k] == LR_PACKED_PLAIN;
+            head_.put(plain ? 0 : r.entry.a, vertex_bits_);
+            head_.put(plain ? 0 : r.entry.b, vertex_bits_);
+            head_.put(!plain && r.reversed ? 1 : 0, 1);
+        }
+        for (const std::uint32_t kind : kinds_) head_.put(kind, has_kinds ? LR_PACKED_KIND_BITS : 0);
+        for (std::size_t k = 0; k < records_.size(); ++k) {
+            const std::uint32_t middle = 1U << codes_.offset_bits >> 1;
+            head_.put(ends_[k] + middle - static_cast<std::uint32_t>(k + 1) * codes_.step, codes_.offset_bits);
+        }
+        for (std::size_t k = 1; k < records_.size(); ++k) {
+            const std::uint32_t middle = 1U << codes_.entry_bits >> 1;
+            const bool says = !entries_[k].own && kinds_[k] != LR_PACKED_PLAIN;
+            head_.put(says ? static_cast<std::uint32_t>(entries_[k].step) + middle : 0, codes_.entry_bits);
         }
         const std::vector<std::uint8_t>& head = head_.finish();
         out.insert(out.end(), head.begin(), head.end());
         out.insert(out.end(), bodies_.begin(), bodies_.end());
+        out.resize((out.size() + 3) / 4 * 4, 0);
     }
 
   private:
@@ -141,48 +158,76 @@ class GroupWriter {
         });
     }
 
-    /// A block whose (a, b) is what is left of the block before it needs no entry of its own, only a step of a.
-    static std::optional<std::int32_t> entry_step(const PackedRecordPlan& before, const PackedRecordPlan& r) {
-        if (r.reversed != before.reversed ||
-            r.entry.b - r.entry.a != before.entry.b - before.entry.a - LR_PACKED_BLOCK) {
-            return std::nullopt;
-        }
-        const auto step = static_cast<std::int32_t>(r.entry.a - before.entry.a - LR_PACKED_BLOCK / 2);
-        return step >= -127 && step <= 127 ? std::optional(step) : std::nullopt;
-    }
+    /// Where a record begins: its entry is in the head, or step is what a differs by from what it would be if the group
+    /// went on evenly from the last such entry.
+    struct Entry {
+        bool own = true;
+        std::int32_t step = 0;
+    };
 
-    void choose_entries() {
-        const auto fits = [](std::int32_t step, std::uint32_t bits) {
-            const std::int32_t half = bits == 0 ? 0 : 1 << (bits - 1);
-            return bits > 0 && step > -half && step < half;
-        };
-        codes_.entry_bits = cheapest(9, [&](std::uint32_t bits) {
-            std::uint64_t cost = 0;
-            for (std::size_t k = 1; k < records_.size(); ++k) {
-                const auto step = entry_step(records_[k - 1], records_[k]);
-                cost += bits + (step && fits(*step, bits) ? 0 : 2 * vertex_bits_ + 1);
-            }
-            return cost;
-        });
-        entries_.assign(records_.size(), 0);
+    /// Into entries_; returns what they take with so many bits for a step.
+    std::uint64_t set_entries(std::uint32_t bits) {
+        const std::int32_t half = 1 << bits >> 1;
+        entries_.assign(records_.size(), {});
+        std::uint64_t cost = 0;
+        std::size_t from = 0;
+        bool begun = kinds_[0] != LR_PACKED_PLAIN;  // does any block say where it begins?
         for (std::size_t k = 1; k < records_.size(); ++k) {
-            const auto step = entry_step(records_[k - 1], records_[k]);
-            if (step && fits(*step, codes_.entry_bits)) {
-                entries_[k] = static_cast<std::uint32_t>(*step + (1 << (codes_.entry_bits - 1)));
+            cost += bits;
+            if (kinds_[k] == LR_PACKED_PLAIN) {
+                entries_[k].own = false;
+                continue;
             }
+            const PackedRecordPlan &before = records_[from], &r = records_[k];
+            const auto blocks = static_cast<std::uint32_t>(k - from);
+            const auto step = static_cast<std::int32_t>(r.entry.a - before.entry.a - blocks * (LR_PACKED_BLOCK / 2));
+            const bool goes_on = begun && r.reversed == before.reversed &&
+                                 r.entry.b - r.entry.a == before.entry.b - before.entry.a - blocks * LR_PACKED_BLOCK;
+            if (goes_on && step >= -half && (bits == 0 ? step == 0 : step < half)) {
+                entries_[k] = {false, step};
+                continue;
+            }
+            from = k;
+            begun = true;
+            cost += 2 * vertex_bits_ + 1;
+        }
+        return cost;
+    }
+    void choose_entries() {
+        codes_.entry_bits =
+            cheapest(LR_PACKED_MAX_ENTRY_BITS + 1, [&](std::uint32_t bits) { return set_entries(bits); });
+        set_entries(codes_.entry_bits);
+    }
+
+    /// The fewest bits with which some step leads near every end.
+    void choose_offsets() {
+        for (codes_.offset_bits = 0;; ++codes_.offset_bits) {
+            const std::int64_t half = 1 << codes_.offset_bits >> 1, most = std::max<std::int64_t>(half - 1, 0);
+            std::int64_t least = 0, greatest = (1 << LR_PACKED_STEP_FIELD) - 1;
+            for (std::size_t k = 0; k < ends_.size(); ++k) {
+                const auto n = static_cast<std::int64_t>(k + 1);
+                least = std::max(least, (ends_[k] - most + n - 1) / n);
+                greatest = std::min(greatest, (ends_[k] + half) / n);
+            }
+            if (least > greatest) continue;
+            codes_.step = static_cast<std::uint32_t>(least);
+            return;
         }
     }
 
-    /// Appends the block's records to bodies_ and its length to lengths_.
+    /// Appends the block's records to bodies_; sets its kind and where it ends.
     void write_block(std::size_t k) {
         const std::uint32_t first = records_[k].first, end = first + records_[k].triangles;
-        const bool has_entry = k > 0 && entries_[k] == 0;
+        kinds_.push_back(write_records(records_[k], first, end));
+        ends_.push_back(static_cast<std::uint32_t>(bodies_.size()));
+    }
+
+    std::uint32_t write_records(const PackedRecordPlan& record, std::uint32_t first, std::uint32_t end) {
         const PackedStatistics before = statistics_;
-        const std::vector<std::uint8_t>& whole = write_record(records_[k], has_entry);
+        const std::vector<std::uint8_t>& whole = write_record(record, false);
         if (whole.size() <= LR_PACKED_MAX_RECORD) {
             bodies_.insert(bodies_.end(), whole.begin(), whole.end());
-            lengths_.push_back(static_cast<std::uint32_t>(whole.size()));
-            return;
+            return LR_PACKED_RECORD;
         }
         const std::size_t begin = bodies_.size();
         const std::uint32_t plain = (3 * (end - first) * vertex_bits_ + 7) / 8;
@@ -191,20 +236,16 @@ class GroupWriter {
         bool fits = true;
         for (std::uint32_t part = 0; part < LR_PACKED_PARTS && first + part * LR_PACKED_PART < end; ++part) {
             const std::uint32_t from = first + part * LR_PACKED_PART;
-            const PackedRecordPlan record =
-                planner_.plan(from, std::min(from + LR_PACKED_PART, end),
-                              part == 0 ? std::optional(records_[k].reversed) : std::nullopt);
-            const std::vector<std::uint8_t>& bytes = write_record(record, part > 0 || has_entry);
+            const PackedRecordPlan of_part = planner_.plan(from, std::min(from + LR_PACKED_PART, end),
+                                                           part == 0 ? std::optional(record.reversed) : std::nullopt);
+            const std::vector<std::uint8_t>& bytes = write_record(of_part, part > 0);
             fits = fits && bytes.size() <= LR_PACKED_MAX_PART;
             bodies_[begin + part] = static_cast<std::uint8_t>(bytes.size());
             bodies_.insert(bodies_.end(), bytes.begin(), bytes.end());
         }
-        const std::size_t eighths = (bodies_.size() - begin + 7) / 8;
-        if (fits && 8 * eighths < plain && eighths < LR_PACKED_PLAIN - LR_PACKED_MAX_RECORD) {
+        if (fits && bodies_.size() - begin < plain) {
             ++statistics_.parted_blocks;
-            bodies_.resize(begin + 8 * eighths, 0);
-            lengths_.push_back(LR_PACKED_MAX_RECORD + static_cast<std::uint32_t>(eighths));
-            return;
+            return LR_PACKED_PARTED;
         }
         bodies_.resize(begin);
         statistics_ = before;
@@ -219,9 +260,7 @@ class GroupWriter {
         }
         const std::vector<std::uint8_t>& bytes = bits_.finish();
         bodies_.insert(bodies_.end(), bytes.begin(), bytes.end());
-        lengths_.push_back(LR_PACKED_PLAIN);
-        entries_[k] = 0;
-        if (k + 1 < entries_.size()) entries_[k + 1] = 0;
+        return LR_PACKED_PLAIN;
     }
 
     const std::vector<std::uint8_t>& write_record(const PackedRecordPlan& r, bool has_entry) {
@@ -293,7 +332,8 @@ class GroupWriter {
     PackedStatistics& statistics_;
     GroupCodes codes_;
     std::vector<PackedRecordPlan> records_;
-    std::vector<std::uint32_t> entries_, lengths_;
+    std::vector<Entry> entries_;
+    std::vector<std::uint32_t> ends_, kinds_;  // of each block: where it ends in bodies_; its kind
     std::vector<std::uint8_t> bodies_;
     BitWriter bits_, head_;
 };
@@ -303,20 +343,20 @@ Result<EncodedPacked> write_stream(const CornerTable& table, const Corridors& co
     const auto triangles = static_cast<std::uint32_t>(corridors.corners.size());
     const std::uint32_t vertex_bits = packed_vertex_bits(table.vertex_count);
     PackedView view;
-    view.triangles = triangles;
+    view.triangles = view.own = triangles;
     std::vector<std::uint32_t>& words = out.words;
     words.assign(view.groups_word(), 0);
     Planner planner(table, corridors, vertex_bits, words.data() + LR_PACKED_HEADER_WORDS);
     GroupWriter writer(planner, triangles, vertex_bits, out.statistics);
     std::vector<std::uint8_t> groups;
     for (std::uint32_t block = 0; block < view.blocks(); block += LR_PACKED_GROUP) {
-        if (groups.size() > UINT32_MAX) return Error{ErrorCode::too_large, "packed stream: groups of 4 GiB"};
+        if (groups.size() / 4 > UINT32_MAX) return Error{ErrorCode::too_large, "packed stream: groups of 16 GiB"};
         if (block > 0) {
-            words[view.table_word() + block / LR_PACKED_GROUP - 1] = static_cast<std::uint32_t>(groups.size());
+            words[view.table_word() + block / LR_PACKED_GROUP - 1] = static_cast<std::uint32_t>(groups.size() / 4);
         }
         writer.write(block, groups);
     }
-    words.resize(words.size() + (groups.size() + 3) / 4, 0);
+    words.resize(words.size() + groups.size() / 4);
     std::copy(groups.begin(), groups.end(), reinterpret_cast<std::uint8_t*>(words.data() + view.groups_word()));
     words[LR_PACKED_WORD_MAGIC] = LR_PACKED_MAGIC;
     words[LR_PACKED_WORD_VERTICES] = table.vertex_count;
@@ -342,8 +382,10 @@ Result<EncodedPacked> encode_packed(const CornerTable& table, const Rings& rings
     return encoded;
 }
 
-Result<PackedChoice> encode_smallest_packed(const CornerTable& table, const RingOptions& ring,
-                                            const OptimizeOptions& optimize, PackedProfile profile) {
+namespace {
+
+Result<PackedChoice> encode_smallest(const CornerTable& table, const RingOptions& ring, const OptimizeOptions& optimize,
+                                     PackedProfile profile) {
     Rings rings = expand_rings(table, ring);
     Result<EncodedPacked> plain = encode_packed(table, rings, profile);
     if (!plain) return plain.error();
@@ -352,6 +394,17 @@ Result<PackedChoice> encode_smallest_packed(const CornerTable& table, const Ring
     Result<EncodedPacked> optimized = encode_packed(table, optimize_rings(table, std::move(rings), optimize), profile);
     if (!optimized) return optimized.error();
     if (optimized->words.size() < out.stream.words.size()) out = {std::move(*optimized), optimize.passes};
+    return out;
+}
+
+}  // namespace
+
+Result<PackedChoice> encode_smallest_packed(const CornerTable& table, const RingOptions& ring,
+                                            const OptimizeOptions& optimize, PackedProfile profile) {
+    const std::optional<Doubles> doubles = find_doubles(table);
+    if (!doubles) return encode_smallest(table, ring, optimize, profile);
+    Result<PackedChoice> out = encode_smallest(doubles->table, ring, optimize, profile);
+    if (out) add_doubles(out->stream, *doubles);
     return out;
 }
 

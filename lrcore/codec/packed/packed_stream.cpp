@@ -28,9 +28,9 @@ std::string packed_fault(lacedring_status status, std::uint64_t where, std::span
         case LACEDRING_STATUS_VERSION:
             return message("version ", where, " is not 2");
         case LACEDRING_STATUS_VERTICES:
-            return message(words[LR_PACKED_WORD_VERTICES], " vertices");
+            return message(words[LR_PACKED_WORD_VERTICES] & ~LR_PACKED_DOUBLES, " vertices");
         case LACEDRING_STATUS_SLOTS:
-            return message(words[LR_PACKED_WORD_TRIANGLES], " triangles");
+            return "more triangles than 32-bit indices can number";
         case LACEDRING_STATUS_SIZE:
             return message(words.size(), " words are not what its triangles take");
         case LACEDRING_STATUS_CHECKSUM:
@@ -41,6 +41,8 @@ std::string packed_fault(lacedring_status status, std::uint64_t where, std::span
             return message("block ", where, " says something impossible");
         case LACEDRING_STATUS_TURNS:
             return "turns of triangles that there are not";
+        case LACEDRING_STATUS_DOUBLES:
+            return message("run ", where, " of doubles says something impossible");
         default:
             return "unknown";
     }
@@ -60,18 +62,24 @@ std::uint32_t PackedView::blocks() const {
     return rounded_up(triangles, LR_PACKED_BLOCK);
 }
 std::size_t PackedView::table_word() const {
-    return LR_PACKED_HEADER_WORDS + std::size_t{rounded_up(triangles, 32)};
+    return LR_PACKED_HEADER_WORDS + std::size_t{rounded_up(own, 32)};
+}
+std::size_t PackedView::doubles_word() const {
+    const std::uint32_t groups = rounded_up(own, LR_PACKED_BLOCK * LR_PACKED_GROUP);
+    return table_word() + (groups == 0 ? 0 : groups - 1);
 }
 std::size_t PackedView::groups_word() const {
-    const std::uint32_t groups = rounded_up(blocks(), LR_PACKED_GROUP);
-    return table_word() + (groups == 0 ? 0 : groups - 1);
+    return doubles_word() + (runs == 0 ? 0 : LR_PACKED_DOUBLES_WORDS + LR_PACKED_RUN_WORDS * std::size_t{runs});
 }
 
 lacedring_packed detail::as_c(const PackedView& view) {
     const std::uint32_t* words = view.words.data();
     return {view.vertices,
             view.triangles,
+            view.own,
             view.vertex_bits,
+            view.runs,
+            words + view.doubles_word() + LR_PACKED_DOUBLES_WORDS,
             words + LR_PACKED_HEADER_WORDS,
             words + view.table_word(),
             reinterpret_cast<const std::uint8_t*>(words + view.groups_word()),
@@ -92,7 +100,7 @@ Result<PackedView> view_packed(std::span<const std::uint32_t> words) {
     std::uint64_t where = 0;
     const lacedring_status status = lacedring_packed_open(words.data(), words.size(), &packed, &where);
     if (status != LACEDRING_STATUS_OK) return bad_packed(status, where, words);
-    return PackedView{words, packed.vertices, packed.triangles, packed.vertex_bits};
+    return PackedView{words, packed.vertices, packed.triangles, packed.own, packed.vertex_bits, packed.runs};
 }
 
 Result<PackedView> validate_packed(std::span<const std::uint32_t> words) {

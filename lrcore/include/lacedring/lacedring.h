@@ -55,9 +55,10 @@ struct lacedring_encode_options {
     int cache;            /* packed: not 0 for an order that suits the vertex cache, in about one bit and a half more */
     int effort;           /* 0 to 9: how long to look for good rings; 6 is the default */
     int no_wart_skipping; /* lean and lr: not 0 for none */
+    int threads; /* run on at most that many, the calling one included; 0 as 1. The same words for any number */
 };
 
-/* packed, small, effort 6, wart skipping. */
+/* packed, small, effort 6, wart skipping, one thread. */
 void lacedring_default_options(struct lacedring_encode_options* options);
 
 /* Buffers that lacedring_encode fills. A null pointer: not wanted, so set all to zero first. The counts are set if the

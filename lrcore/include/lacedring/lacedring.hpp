@@ -45,6 +45,7 @@ struct PackedStatistics {
     std::uint64_t event_bits[8] = {};  ///< with their gaps
     std::uint32_t warts = 0;
     std::uint64_t wart_bits = 0;
+    std::uint32_t doubles = 0;        ///< triangles stored as another one's number
     std::uint32_t parted_blocks = 0;  ///< whose events are too many for one record
     std::uint32_t plain_blocks = 0;   ///< stored as three vertices a triangle
 };
@@ -67,14 +68,16 @@ struct EncodeOptions {
     /// RingOptions::k: of lr_compact the values of which the best is kept, of any other format one or none.
     std::vector<std::uint32_t> periods = {};
     std::uint64_t random_seed = 1;
+    unsigned threads = 1;  ///< run on at most that many, including the calling one; the same words for any
 
-    /// Called after each pass of the optimizer with how many are done; false: stop, the best so far is encoded.
+    /// Called after each pass of the optimizer, by the calling thread, with how many are done; false: stop, the best so
+    /// far is encoded. Fewer passes are made where nothing is left to gain.
     /// lr_compact, which has no such passes, never calls it.
     std::function<bool(std::uint32_t)> progress = {};
 };
 
-/// The optimizer's passes at that effort.
-std::uint32_t passes_at(std::uint32_t effort);
+/// The optimizer's passes for a format at that effort.
+std::uint32_t passes_at(std::uint32_t effort, Format format);
 
 /// How a mesh was encoded.
 struct EncodeReport {
@@ -147,7 +150,8 @@ struct EncodedPacked {
 Result<EncodedPacked> encode_packed(const CornerTable& table, const Rings& rings,
                                     PackedProfile profile = PackedProfile::small);
 
-/// The smaller of two streams: over the rings of expand_rings, and over these optimized. Errors: encode_packed's.
+/// The smaller of two streams: over the rings of expand_rings, and over these optimized; of a mesh with doubled
+/// triangles both are of the mesh without the doubles, which only the stream gets. Errors: encode_packed's.
 struct PackedChoice {
     EncodedPacked stream;
     std::uint32_t passes = 0;  ///< of the optimizer; 0 where its rings were no better

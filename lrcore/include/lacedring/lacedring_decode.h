@@ -56,7 +56,8 @@ enum lacedring_status {
     LACEDRING_STATUS_TRIANGLES,    /* how many triangles there are, not what the header says */
     LACEDRING_STATUS_GROUP,        /* the block whose group begins elsewhere, or has an impossible head */
     LACEDRING_STATUS_BLOCK,        /* the block that says something impossible */
-    LACEDRING_STATUS_TURNS         /* how many triangles have turns, and there are more */
+    LACEDRING_STATUS_TURNS,        /* how many triangles have turns, and there are more */
+    LACEDRING_STATUS_DOUBLES       /* which run of doubles is impossible */
 };
 
 /* A stream in memory, its header read. Holds no copy. Slots are numbered: 2 for each vertex of two-sided rings, 1 for
@@ -98,15 +99,18 @@ void lacedring_lean_triangles_u16(const struct lacedring_lean* lean, uint16_t* i
 /* A packed stream in memory, its header read. Holds no copy. */
 struct lacedring_packed {
     uint32_t vertices, triangles; /* of the mesh */
+    uint32_t own;                 /* the first triangles, each with vertices of its own; the others are their doubles */
     uint32_t vertex_bits;         /* of a vertex number in the stream */
-    const uint32_t* turns;        /* a bit for each triangle */
+    uint32_t runs;                /* of doubles */
+    const uint32_t* doubles;      /* two words a run */
+    const uint32_t* turns;        /* a bit for each of the own triangles */
     const uint32_t* table;        /* where groups begin */
     const uint8_t* groups;
     size_t group_bytes;
 };
 
 /* As for lean streams: open reads the header and checks sizes, constant time; check is all that decoders rely on but
-   the checksum, linear time; validate does all. 9 KB of stack. */
+   the checksum, linear time; validate does all. 12 KB of stack. */
 enum lacedring_status lacedring_packed_open(const uint32_t* words, size_t count, struct lacedring_packed* packed,
                                             uint64_t* where);
 enum lacedring_status lacedring_packed_check(const struct lacedring_packed* packed, uint64_t* where);
@@ -121,8 +125,8 @@ void lacedring_packed_triangles_u16(const struct lacedring_packed* packed, uint1
 void lacedring_packed_blocks_u32(const struct lacedring_packed* packed, uint32_t block, uint32_t end,
                                  uint32_t* indices);
 
-/* Any triangle, on its own, in a few popcounts: at most 8 words of turns, 41 bytes of its group's head and 200 bytes of
-   its record are read. */
+/* Any triangle, on its own, in a few popcounts: at most 8 words of turns, 12 words of its group's head and 200 bytes
+   of its record are read; of a double, about log2(runs) words more. */
 void lacedring_packed_triangle(const struct lacedring_packed* packed, uint32_t triangle, uint32_t out[3]);
 
 #ifdef __cplusplus
@@ -370,9 +374,9 @@ void lacedring_lean_triangles_u16(const struct lacedring_lean* lean, uint16_t* i
 
 /* Packed streams: docs/packed-format.md. */
 
+#define LACEDRING_DOUBLES_ 0x80000000u /* in the word of vertices: there are doubles; in a run: turned round */
 #define LACEDRING_PACKED_GROUP_ 16u
 #define LACEDRING_PACKED_MAX_RECORD_ 160u
-#define LACEDRING_PACKED_PLAIN_ 255u
 #define LACEDRING_PACKED_PART_ 64u
 
 enum {
@@ -410,7 +414,7 @@ LACEDRING_HOT_ uint32_t lacedring_ones_(uint64_t bits) { /* before the lowest ze
 #endif
 }
 
-LACEDRING_SMALL_ uint32_t lacedring_popcount_(uint32_t bits) {
+LACEDRING_HOT_ uint32_t lacedring_popcount_(uint32_t bits) {
     bits -= (bits >> 1) & 0x55555555u;
     bits = (bits & 0x33333333u) + ((bits >> 2) & 0x33333333u);
     return (((bits + (bits >> 4)) & 0x0f0f0f0fu) * 0x01010101u) >> 24;
@@ -469,12 +473,12 @@ LACEDRING_HOT_ uint32_t lacedring_rice_(struct lacedring_bits_* r, uint32_t low)
     return (ones << low) + ((uint32_t)(window >> (ones + 1)) & ((UINT32_C(1) << low) - 1));
 }
 
-/* The blocks of a group in turn. */
+/* A group's head. */
 struct lacedring_group_ {
-    struct lacedring_bits_ head;
-    uint64_t record; /* byte of the groups at which the next block's records begin */
-    uint32_t block, length_bits, entry_bits, gap_bits, wart_bits, split_order, count_order;
-    uint32_t a, b, reversed, linked; /* the entry of the block before; linked: the next one may be relative to it */
+    uint64_t own, entries, kinds, offsets, steps; /* bits of the groups at which these begin */
+    uint64_t records, end;                        /* bytes: behind the head, and behind the records */
+    uint32_t first, blocks;                       /* which it has */
+    uint32_t step, offset_bits, entry_bits, has_kinds, gap_bits, wart_bits, split_order, count_order;
 };
 
 /* A record: what it is for, and its bits. */
@@ -485,15 +489,16 @@ struct lacedring_record_ {
     uint32_t a, b, reversed;
 };
 
+enum { LACEDRING_RECORD_, LACEDRING_PARTED_, LACEDRING_PLAIN_ };
+
 struct lacedring_block_ {
-    struct lacedring_record_ record; /* the first; its bits begin behind its entry */
+    struct lacedring_record_ record; /* the first */
     uint64_t begin;                  /* byte of the groups */
-    uint32_t length, bytes;          /* as the head has it; of all records */
-    uint32_t explicit_entry;
+    uint32_t bytes, kind;            /* of all records */
 };
 
-LACEDRING_SMALL_ uint32_t lacedring_packed_blocks_(const struct lacedring_packed* p) {
-    return p->triangles / LACEDRING_PACKED_BLOCK + (p->triangles % LACEDRING_PACKED_BLOCK != 0);
+LACEDRING_SMALL_ uint32_t lacedring_blocks_of_(uint32_t triangles) {
+    return triangles / LACEDRING_PACKED_BLOCK + (triangles % LACEDRING_PACKED_BLOCK != 0);
 }
 
 static struct lacedring_bits_ lacedring_bits_at_(const struct lacedring_packed* p, uint64_t byte, uint32_t bytes) {
@@ -512,74 +517,83 @@ LACEDRING_SMALL_ void lacedring_take_entry_(const struct lacedring_packed* p, st
     *reversed = lacedring_take_(r, 1);
 }
 
-/* Begins the group that holds `block`. 0: its head is impossible. */
+static uint32_t lacedring_take_at_(const struct lacedring_packed* p, uint64_t bit, uint32_t count) {
+    struct lacedring_bits_ r = lacedring_bits_at_(p, 0, 0);
+    r.at = bit;
+    r.end = bit + count;
+    return count == 0 ? 0 : lacedring_take_(&r, count);
+}
+
+/* Bytes of the group's records before block k of the group. */
+LACEDRING_SMALL_ uint32_t lacedring_offset_(const struct lacedring_packed* p, const struct lacedring_group_* g,
+                                            uint32_t k) {
+    const uint32_t bits = g->offset_bits;
+    if (k == 0) return 0;
+    return k * g->step + lacedring_take_at_(p, g->offsets + (uint64_t)(k - 1) * bits, bits) -
+           (UINT32_C(1) << bits >> 1);
+}
+
+/* The group that holds `block`. 0: its head is impossible. */
 static int lacedring_open_group_(const struct lacedring_packed* p, uint32_t block, struct lacedring_group_* g) {
     const uint32_t group = block / LACEDRING_PACKED_GROUP_;
-    const uint32_t left = lacedring_packed_blocks_(p) - group * LACEDRING_PACKED_GROUP_;
-    const uint32_t blocks = left < LACEDRING_PACKED_GROUP_ ? left : LACEDRING_PACKED_GROUP_;
-    const uint32_t byte = group == 0 ? 0 : p->table[group - 1];
-    uint32_t bits;
-    g->head = lacedring_bits_at_(p, byte, 0x1000);
-    g->length_bits = lacedring_take_(&g->head, 4);
-    g->entry_bits = lacedring_take_(&g->head, 4);
-    g->gap_bits = lacedring_take_(&g->head, 3);
-    g->wart_bits = lacedring_take_(&g->head, 3);
-    g->split_order = lacedring_take_(&g->head, 2);
-    g->count_order = lacedring_take_(&g->head, 2);
-    lacedring_take_entry_(p, &g->head, &g->a, &g->b, &g->reversed);
-    g->linked = 1;
-    g->block = group * LACEDRING_PACKED_GROUP_;
-    bits = (uint32_t)(g->head.at - (uint64_t)8 * byte) + blocks * g->length_bits + (blocks - 1) * g->entry_bits;
-    g->head.end = (uint64_t)8 * byte + bits;
-    g->record = byte + (uint64_t)(bits + 7) / 8;
-    return g->length_bits <= 8 && g->entry_bits <= 8;
+    const uint32_t left = lacedring_blocks_of_(p->own) - group * LACEDRING_PACKED_GROUP_;
+    const uint64_t begin = (uint64_t)32 * (group == 0 ? 0 : p->table[group - 1]);
+    const uint32_t head = lacedring_take_at_(p, begin, 32);
+    uint32_t owns;
+    g->first = group * LACEDRING_PACKED_GROUP_;
+    g->blocks = left < LACEDRING_PACKED_GROUP_ ? left : LACEDRING_PACKED_GROUP_;
+    g->step = head & 0xfff;
+    g->offset_bits = head >> 12 & 31;
+    g->entry_bits = head >> 17 & 15;
+    g->gap_bits = head >> 21 & 7;
+    g->wart_bits = head >> 24 & 7;
+    g->split_order = head >> 27 & 3;
+    g->count_order = head >> 29 & 3;
+    g->has_kinds = head >> 31;
+    g->own = begin + 32;
+    g->entries = g->own + g->blocks - 1;
+    owns = lacedring_take_at_(p, g->own, g->blocks - 1);
+    g->kinds = g->entries + (uint64_t)(1 + lacedring_popcount_(owns)) * (2 * p->vertex_bits + 1);
+    g->offsets = g->kinds + (g->has_kinds ? 2 * g->blocks : 0);
+    g->steps = g->offsets + (uint64_t)g->blocks * g->offset_bits;
+    g->records = (g->steps + (uint64_t)(g->blocks - 1) * g->entry_bits + 7) / 8;
+    g->end = g->records + lacedring_offset_(p, g, g->blocks);
+    return g->offset_bits <= 16 && g->entry_bits <= 12;
 }
 
 /* Bytes of a part, at most. */
 #define LACEDRING_PACKED_MAX_PART_ 200u
 
-static uint32_t lacedring_block_bytes_(const struct lacedring_packed* p, uint32_t length, uint32_t triangles) {
-    if (length <= LACEDRING_PACKED_MAX_RECORD_) return length;
-    if (length < LACEDRING_PACKED_PLAIN_) return 8 * (length - LACEDRING_PACKED_MAX_RECORD_);
-    return (3 * triangles * p->vertex_bits + 7) / 8;
-}
-
-/* The next block of the group. 0: it goes on from a block that says nothing of where. */
-static int lacedring_next_block_(const struct lacedring_packed* p, struct lacedring_group_* g,
-                                 struct lacedring_block_* b) {
-    const uint32_t first = g->block * LACEDRING_PACKED_BLOCK, left = p->triangles - first;
-    const uint32_t later = g->block % LACEDRING_PACKED_GROUP_ != 0;
-    uint32_t entry = 0;
-    int good = 1;
-    b->length = lacedring_take_(&g->head, g->length_bits);
-    if (later) entry = lacedring_take_(&g->head, g->entry_bits);
-    b->begin = g->record;
-    b->record.first = first;
-    b->record.triangles = left < LACEDRING_PACKED_BLOCK ? left : LACEDRING_PACKED_BLOCK;
-    b->record.turns = p->turns + first / 32;
-    b->bytes = lacedring_block_bytes_(p, b->length, b->record.triangles);
-    b->record.bits = lacedring_bits_at_(p, b->begin, b->bytes);
-    b->explicit_entry = later && entry == 0 && b->length != LACEDRING_PACKED_PLAIN_;
-    if (b->length > LACEDRING_PACKED_MAX_RECORD_ && b->length < LACEDRING_PACKED_PLAIN_) { /* the first part */
-        struct lacedring_bits_ parts = b->record.bits;
-        b->record.bits = lacedring_bits_at_(p, b->begin + 4, lacedring_take_(&parts, 8));
-        if (b->record.triangles > LACEDRING_PACKED_PART_) b->record.triangles = LACEDRING_PACKED_PART_;
+static void lacedring_block_of_(const struct lacedring_packed* p, const struct lacedring_group_* g, uint32_t block,
+                                struct lacedring_block_* b) {
+    const uint32_t k = block - g->first, left = p->own - block * LACEDRING_PACKED_BLOCK;
+    const uint32_t offset = lacedring_offset_(p, g, k);
+    const uint32_t own = lacedring_take_at_(p, g->own, k); /* of blocks 1 to k */
+    uint32_t from = k;
+    struct lacedring_bits_ entry = lacedring_bits_at_(p, 0, 0);
+    struct lacedring_record_* r = &b->record;
+    b->kind = LACEDRING_RECORD_;
+    if (g->has_kinds) b->kind = lacedring_take_at_(p, g->kinds + 2 * k, 2);
+    b->begin = g->records + offset;
+    b->bytes = lacedring_offset_(p, g, k + 1) - offset;
+    r->first = block * LACEDRING_PACKED_BLOCK;
+    r->triangles = left < LACEDRING_PACKED_BLOCK ? left : LACEDRING_PACKED_BLOCK;
+    r->turns = p->turns + r->first / 32;
+    r->bits = lacedring_bits_at_(p, b->begin, b->bytes);
+    entry.at = g->entries + (uint64_t)lacedring_popcount_(own) * (2 * p->vertex_bits + 1);
+    entry.end = entry.at + 2 * p->vertex_bits + 1;
+    lacedring_take_entry_(p, &entry, &r->a, &r->b, &r->reversed);
+    while (from > 0 && !(own >> (from - 1) & 1)) --from;
+    if (from < k) {
+        const uint32_t span = r->b - r->a,
+                       step = lacedring_take_at_(p, g->steps + (uint64_t)(k - 1) * g->entry_bits, g->entry_bits);
+        r->a += (k - from) * (LACEDRING_PACKED_BLOCK / 2) + step - (UINT32_C(1) << g->entry_bits >> 1);
+        r->b = r->a + span - (k - from) * LACEDRING_PACKED_BLOCK;
     }
-    if (entry != 0) {
-        const uint32_t span = g->b - g->a;
-        good = g->linked && b->length != LACEDRING_PACKED_PLAIN_;
-        g->a += LACEDRING_PACKED_BLOCK / 2 + entry - (UINT32_C(1) << (g->entry_bits - 1));
-        g->b = g->a + span - LACEDRING_PACKED_BLOCK;
-    } else if (b->explicit_entry) {
-        lacedring_take_entry_(p, &b->record.bits, &g->a, &g->b, &g->reversed);
+    if (b->kind == LACEDRING_PARTED_) { /* the first part */
+        r->bits = lacedring_bits_at_(p, b->begin + 4, lacedring_take_at_(p, 8 * b->begin, 8));
+        if (r->triangles > LACEDRING_PACKED_PART_) r->triangles = LACEDRING_PACKED_PART_;
     }
-    g->linked = b->length != LACEDRING_PACKED_PLAIN_;
-    b->record.a = g->a;
-    b->record.b = g->b;
-    b->record.reversed = g->reversed;
-    g->record += b->bytes;
-    ++g->block;
-    return good;
 }
 
 /* Part `part` of a parted block. */
@@ -587,7 +601,7 @@ static void lacedring_part_(const struct lacedring_packed* p, const struct laced
                             struct lacedring_record_* r) {
     struct lacedring_bits_ lengths = lacedring_bits_at_(p, b->begin, 4);
     uint64_t byte = b->begin + 4;
-    uint32_t i, first = b->record.first + part * LACEDRING_PACKED_PART_, left = p->triangles - first;
+    uint32_t i, first = b->record.first + part * LACEDRING_PACKED_PART_, left = p->own - first;
     *r = b->record;
     if (part == 0) return;
     for (i = 0; i < part; ++i) byte += lacedring_take_(&lengths, 8);
@@ -598,8 +612,8 @@ static void lacedring_part_(const struct lacedring_packed* p, const struct laced
     lacedring_take_entry_(p, &r->bits, &r->a, &r->b, &r->reversed);
 }
 
-static void lacedring_plain_(const struct lacedring_packed* p, const struct lacedring_block_* b, uint32_t i,
-                             uint32_t triangle[3]) {
+LACEDRING_SMALL_ void lacedring_plain_(const struct lacedring_packed* p, const struct lacedring_block_* b, uint32_t i,
+                                       uint32_t triangle[3]) {
     struct lacedring_bits_ bits = lacedring_bits_at_(p, b->begin, b->bytes);
     bits.at += (uint64_t)3 * i * p->vertex_bits;
     triangle[0] = lacedring_take_(&bits, p->vertex_bits);
@@ -1576,108 +1590,135 @@ static int lacedring_expand_record_(const struct lacedring_packed* p, const stru
     return lacedring_expand_(p, g, r, explicit_entry, out, 0);
 }
 
-static int lacedring_expand_block_(const struct lacedring_packed* p, struct lacedring_group_* g,
+static int lacedring_expand_block_(const struct lacedring_packed* p, const struct lacedring_group_* g,
                                    struct lacedring_block_* b, uint32_t* out) {
-    uint32_t i, left = p->triangles - b->record.first;
+    uint32_t i, left = p->own - b->record.first;
     if (left > LACEDRING_PACKED_BLOCK) left = LACEDRING_PACKED_BLOCK;
-    if (b->length == LACEDRING_PACKED_PLAIN_) {
+    if (b->kind == LACEDRING_PLAIN_) {
         for (i = 0; i < left; ++i) lacedring_plain_(p, b, i, out + (size_t)3 * i);
         return 1;
     }
-    if (b->length <= LACEDRING_PACKED_MAX_RECORD_)
-        return lacedring_expand_record_(p, g, &b->record, (int)b->explicit_entry, out);
-    for (i = 0; i < left; i += LACEDRING_PACKED_PART_) {
+    if (b->kind == LACEDRING_RECORD_) return lacedring_expand_record_(p, g, &b->record, 0, out);
+    for (i = 0; i * LACEDRING_PACKED_PART_ < left; ++i) {
         struct lacedring_record_ r;
-        lacedring_part_(p, b, i / LACEDRING_PACKED_PART_, &r);
-        if (!lacedring_expand_record_(p, g, &r, i > 0 || b->explicit_entry, out + (size_t)3 * i)) return 0;
+        lacedring_part_(p, b, i, &r);
+        if (!lacedring_expand_record_(p, g, &r, i > 0, out + (size_t)3 * i * LACEDRING_PACKED_PART_)) return 0;
     }
     return 1;
 }
 
 enum lacedring_status lacedring_packed_open(const uint32_t* words, size_t count, struct lacedring_packed* p,
                                             uint64_t* where) {
-    uint64_t turns, groups;
+    uint64_t turns, groups, left;
     if (count < LACEDRING_PACKED_HEADER_WORDS) return lacedring_at_(where, 0, LACEDRING_STATUS_SHORT);
     if ((words[0] & 0xffffffu) != 0x50524cu) return lacedring_at_(where, 0, LACEDRING_STATUS_MAGIC);
     if (words[0] != 0x3250524cu) /* the first version had a K here */
         return lacedring_at_(where, words[0] >> 24 == 'K' ? 1 : (words[0] >> 24) - '0', LACEDRING_STATUS_VERSION);
-    p->vertices = words[1];
-    p->triangles = words[2];
+    p->vertices = words[1] & ~LACEDRING_DOUBLES_;
+    p->own = p->triangles = words[2];
+    p->runs = 0;
     if (p->vertices > UINT32_C(1) << 29) return lacedring_at_(where, 0, LACEDRING_STATUS_VERTICES);
-    if (p->triangles > UINT32_MAX / 3) return lacedring_at_(where, 0, LACEDRING_STATUS_SLOTS);
+    if (p->own > UINT32_MAX / 3) return lacedring_at_(where, 0, LACEDRING_STATUS_SLOTS);
     for (p->vertex_bits = 1; p->vertex_bits < 31 && p->vertices > UINT32_C(1) << p->vertex_bits;) ++p->vertex_bits;
-    turns = ((uint64_t)p->triangles + 31) / 32;
-    groups = ((uint64_t)lacedring_packed_blocks_(p) + LACEDRING_PACKED_GROUP_ - 1) / LACEDRING_PACKED_GROUP_;
-    if (turns + (groups > 0 ? groups - 1 : 0) > count - LACEDRING_PACKED_HEADER_WORDS)
-        return lacedring_at_(where, turns + groups, LACEDRING_STATUS_SIZE);
+    turns = ((uint64_t)p->own + 31) / 32;
+    groups = ((uint64_t)lacedring_blocks_of_(p->own) + LACEDRING_PACKED_GROUP_ - 1) / LACEDRING_PACKED_GROUP_;
+    groups -= groups > 0; /* in the table */
+    left = count - LACEDRING_PACKED_HEADER_WORDS;
+    if (turns + groups > left) return lacedring_at_(where, turns + groups, LACEDRING_STATUS_SIZE);
+    left -= turns + groups;
     p->turns = words + LACEDRING_PACKED_HEADER_WORDS;
     p->table = p->turns + turns;
-    p->groups = (const uint8_t*)(p->table + (groups > 0 ? groups - 1 : 0));
-    p->group_bytes =
-        4 * (count - LACEDRING_PACKED_HEADER_WORDS - (size_t)turns - (size_t)(groups > 0 ? groups - 1 : 0));
+    p->doubles = p->table + groups;
+    if (words[1] & LACEDRING_DOUBLES_) {
+        if (left < 2 || p->doubles[1] > (left - 2) / 2) return lacedring_at_(where, 0, LACEDRING_STATUS_SIZE);
+        p->runs = p->doubles[1];
+        if (p->runs == 0 || p->doubles[0] > p->own) return lacedring_at_(where, 0, LACEDRING_STATUS_DOUBLES);
+        p->triangles += p->doubles[0];
+        p->doubles += 2;
+        left -= 2 + (uint64_t)2 * p->runs;
+    }
+    if (p->triangles > UINT32_MAX / 3) return lacedring_at_(where, 0, LACEDRING_STATUS_SLOTS);
+    p->groups = (const uint8_t*)(p->doubles + (size_t)2 * p->runs);
+    p->group_bytes = (size_t)(4 * left);
     return LACEDRING_STATUS_OK;
 }
 
-/* What readers do not look at: what fills up bytes and words, turns of plain blocks. */
-static int lacedring_unused_clear_(const struct lacedring_packed* p, const struct lacedring_block_* b) {
-    uint32_t i, left = p->triangles - b->record.first, used = 4;
+/* What readers do not look at: what fills up bytes, turns of plain blocks, fields of a head that say nothing. */
+static int lacedring_unused_clear_(const struct lacedring_packed* p, const struct lacedring_group_* g,
+                                   const struct lacedring_block_* b) {
+    uint32_t i, left = p->own - b->record.first, used = 4;
+    const uint32_t k = b->record.first / LACEDRING_PACKED_BLOCK - g->first, plain = b->kind == LACEDRING_PLAIN_;
+    const uint32_t own = k > 0 && lacedring_take_at_(p, g->own + k - 1, 1);
+    const uint32_t step =
+        k > 0 ? lacedring_take_at_(p, g->steps + (uint64_t)(k - 1) * g->entry_bits, g->entry_bits) : 0;
     const uint8_t* bytes = p->groups + b->begin;
     if (left > LACEDRING_PACKED_BLOCK) left = LACEDRING_PACKED_BLOCK;
-    if (b->length == LACEDRING_PACKED_PLAIN_) {
+    if ((own || plain) && step != 0) return 0;
+    if (plain) {
         const uint32_t bits = 3 * left * p->vertex_bits;
+        if (own || b->bytes != (bits + 7) / 8) return 0;
+        if (k == 0 && (b->record.a | b->record.b | b->record.reversed)) return 0;
         for (i = 0; i < (left + 31) / 32; ++i) {
             if (b->record.turns[i] != 0) return 0;
         }
         return bits % 8 == 0 || bytes[bits / 8] >> bits % 8 == 0xff >> bits % 8;
     }
-    if (b->length <= LACEDRING_PACKED_MAX_RECORD_) return 1;
-    if (b->bytes < 4) return 0;
+    if (b->kind == LACEDRING_RECORD_) return b->bytes <= LACEDRING_PACKED_MAX_RECORD_;
+    if (b->kind != LACEDRING_PARTED_ || b->bytes < 4) return 0;
     for (i = 0; i < 4; ++i) {
         if (bytes[i] > LACEDRING_PACKED_MAX_PART_ || (i * LACEDRING_PACKED_PART_ >= left && bytes[i] != 0)) return 0;
         used += bytes[i];
     }
-    if (used > b->bytes || b->bytes - used > 7) return 0;
-    for (i = used; i < b->bytes; ++i) {
-        if (bytes[i] != 0) return 0;
-    }
-    return 1;
+    return used == b->bytes;
+}
+
+/* The triangle behind a run. */
+static uint32_t lacedring_run_end_(const struct lacedring_packed* p, uint32_t run) {
+    return run + 1 < p->runs ? p->doubles[(size_t)2 * run + 2] : p->triangles;
 }
 
 enum lacedring_status lacedring_packed_check(const struct lacedring_packed* p, uint64_t* where) {
     struct lacedring_group_ g;
     struct lacedring_block_ b;
-    uint32_t indices[3 * LACEDRING_PACKED_BLOCK], block, blocks = lacedring_packed_blocks_(p), i, left;
+    uint32_t indices[3 * LACEDRING_PACKED_BLOCK], block, blocks = lacedring_blocks_of_(p->own), i, left, plain = 0;
     uint64_t end = 0;
+    for (i = 0; i < p->runs; ++i) {
+        const uint32_t *run = p->doubles + (size_t)2 * i, from = run[1] & ~LACEDRING_DOUBLES_;
+        const uint32_t run_end = lacedring_run_end_(p, i);
+        if ((i == 0 && run[0] != p->own) || run[0] >= run_end || from >= p->own || run_end - run[0] > p->own - from)
+            return lacedring_at_(where, i, LACEDRING_STATUS_DOUBLES);
+    }
     for (block = 0; block < blocks; ++block) {
         if (block % LACEDRING_PACKED_GROUP_ == 0) {
-            const uint64_t begin = block == 0 ? 0 : p->table[block / LACEDRING_PACKED_GROUP_ - 1];
-            if (begin != end || !lacedring_open_group_(p, block, &g) || g.record > p->group_bytes)
+            const uint64_t begin = (uint64_t)4 * (block == 0 ? 0 : p->table[block / LACEDRING_PACKED_GROUP_ - 1]);
+            if (begin != end || !lacedring_open_group_(p, block, &g) || g.end > p->group_bytes)
                 return lacedring_at_(where, block, LACEDRING_STATUS_GROUP);
-            i = (uint32_t)(g.head.end % 8);
-            if (i != 0 && p->groups[g.head.end / 8] >> i != 0xff >> i)
+            i = (uint32_t)((g.steps + (uint64_t)(g.blocks - 1) * g.entry_bits) % 8);
+            if (i != 0 && p->groups[g.records - 1] >> i != 0xff >> i)
                 return lacedring_at_(where, block, LACEDRING_STATUS_GROUP);
+            for (end = g.end; end % 4 != 0; ++end) {
+                if (p->groups[end] != 0) return lacedring_at_(where, block, LACEDRING_STATUS_GROUP);
+            }
+            plain = 0;
         }
-        left = p->triangles - block * LACEDRING_PACKED_BLOCK;
+        left = p->own - block * LACEDRING_PACKED_BLOCK;
         if (left > LACEDRING_PACKED_BLOCK) left = LACEDRING_PACKED_BLOCK;
-        if (!lacedring_next_block_(p, &g, &b) || g.record > p->group_bytes || !lacedring_unused_clear_(p, &b))
+        lacedring_block_of_(p, &g, block, &b);
+        if (block == g.first) plain = b.kind == LACEDRING_PLAIN_;
+        if (block > g.first && lacedring_take_at_(p, g.own + block - g.first - 1, 1)) plain = 0;
+        /* What goes on from a group's first block needs it to have an entry. */
+        if (b.begin + b.bytes > p->group_bytes || !lacedring_unused_clear_(p, &g, &b) ||
+            (plain && b.kind != LACEDRING_PLAIN_) || !lacedring_expand_block_(p, &g, &b, indices))
             return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
-        /* A plain block says nothing of where the next one begins, and nothing is said of where it does. */
-        if (b.length == LACEDRING_PACKED_PLAIN_ && block % LACEDRING_PACKED_GROUP_ == 0 && (g.a | g.b | g.reversed))
-            return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
-        if (!lacedring_expand_block_(p, &g, &b, indices)) return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
         for (i = 0; i < 3 * left; i += 3) {
             const uint32_t *t = indices + i, n = p->vertices;
             if (t[0] >= n || t[1] >= n || t[2] >= n || t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
                 return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
         }
-        end = g.record;
     }
-    if (p->triangles % 32 != 0 && p->turns[p->triangles / 32] >> (p->triangles % 32) != 0)
-        return lacedring_at_(where, p->triangles, LACEDRING_STATUS_TURNS);
-    if (end > p->group_bytes || p->group_bytes - end > 3) return lacedring_at_(where, end, LACEDRING_STATUS_SIZE);
-    for (; end < p->group_bytes; ++end) {
-        if (p->groups[end] != 0) return lacedring_at_(where, end, LACEDRING_STATUS_SIZE);
-    }
+    if (p->own % 32 != 0 && p->turns[p->own / 32] >> (p->own % 32) != 0)
+        return lacedring_at_(where, p->own, LACEDRING_STATUS_TURNS);
+    if (end != p->group_bytes) return lacedring_at_(where, end, LACEDRING_STATUS_SIZE);
     return LACEDRING_STATUS_OK;
 }
 
@@ -1692,26 +1733,77 @@ enum lacedring_status lacedring_packed_validate(const uint32_t* words, size_t co
     return lacedring_packed_check(p, where);
 }
 
-void lacedring_packed_blocks_u32(const struct lacedring_packed* p, uint32_t block, uint32_t end, uint32_t* indices) {
+/* Blocks [block, end), but no doubles. */
+LACEDRING_SMALL_ void lacedring_own_blocks_(const struct lacedring_packed* p, uint32_t block, uint32_t end,
+                                            uint32_t* indices) {
     struct lacedring_group_ g;
     struct lacedring_block_ b;
     if (block >= end) return;
     lacedring_open_group_(p, block, &g);
-    while (g.block < block) lacedring_next_block_(p, &g, &b);
     for (; block < end; ++block, indices += (size_t)3 * LACEDRING_PACKED_BLOCK) {
         if (block % LACEDRING_PACKED_GROUP_ == 0) lacedring_open_group_(p, block, &g);
-        lacedring_next_block_(p, &g, &b);
+        lacedring_block_of_(p, &g, block, &b);
         lacedring_expand_block_(p, &g, &b, indices);
     }
 }
 
+/* The run that holds a double. */
+static uint32_t lacedring_run_of_(const struct lacedring_packed* p, uint32_t triangle) {
+    uint32_t low = 0, high = p->runs;
+    while (high - low > 1) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (p->doubles[(size_t)2 * middle] <= triangle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+static void lacedring_double_(const uint32_t* of, uint32_t turned, uint32_t* out) {
+    const uint32_t b = of[1], c = of[2];
+    out[0] = of[0];
+    out[1] = turned ? c : b;
+    out[2] = turned ? b : c;
+}
+
+/* Triangles [t, end), all of them doubles. */
+LACEDRING_SMALL_ void lacedring_double_triangles_(const struct lacedring_packed* p, uint32_t t, uint32_t end,
+                                                  uint32_t* out) {
+    uint32_t block[3 * LACEDRING_PACKED_BLOCK], held = UINT32_MAX, run = lacedring_run_of_(p, t);
+    for (; t < end; ++run) {
+        const uint32_t* r = p->doubles + (size_t)2 * run;
+        const uint32_t run_end = lacedring_run_end_(p, run), stop = run_end < end ? run_end : end;
+        for (; t < stop; ++t, out += 3) {
+            const uint32_t of = (r[1] & ~LACEDRING_DOUBLES_) + (t - r[0]);
+            if (of / LACEDRING_PACKED_BLOCK != held) {
+                held = of / LACEDRING_PACKED_BLOCK;
+                lacedring_own_blocks_(p, held, held + 1, block);
+            }
+            lacedring_double_(block + (size_t)3 * (of % LACEDRING_PACKED_BLOCK), r[1] & LACEDRING_DOUBLES_, out);
+        }
+    }
+}
+
+void lacedring_packed_blocks_u32(const struct lacedring_packed* p, uint32_t block, uint32_t end, uint32_t* indices) {
+    const uint32_t own = lacedring_blocks_of_(p->own);
+    lacedring_own_blocks_(p, block, end < own ? end : own, indices);
+    if (p->own < p->triangles && block < end) {
+        const uint64_t first = (uint64_t)block * LACEDRING_PACKED_BLOCK, last = (uint64_t)end * LACEDRING_PACKED_BLOCK;
+        const uint32_t begin = p->own < first ? (uint32_t)first : p->own;
+        const uint32_t stop = last < p->triangles ? (uint32_t)last : p->triangles;
+        if (begin < stop) lacedring_double_triangles_(p, begin, stop, indices + (size_t)3 * (begin - (size_t)first));
+    }
+}
+
 void lacedring_packed_triangles_u32(const struct lacedring_packed* p, uint32_t* indices) {
-    lacedring_packed_blocks_u32(p, 0, lacedring_packed_blocks_(p), indices);
+    lacedring_packed_blocks_u32(p, 0, lacedring_blocks_of_(p->triangles), indices);
 }
 
 void lacedring_packed_triangles_u16(const struct lacedring_packed* p, uint16_t* indices) {
     uint32_t block[3 * LACEDRING_PACKED_BLOCK], b, i, count;
-    for (b = 0; b < lacedring_packed_blocks_(p); ++b) {
+    for (b = 0; b < lacedring_blocks_of_(p->triangles); ++b) {
         lacedring_packed_blocks_u32(p, b, b + 1, block);
         count = p->triangles - b * LACEDRING_PACKED_BLOCK;
         if (count > LACEDRING_PACKED_BLOCK) count = LACEDRING_PACKED_BLOCK;
@@ -1825,29 +1917,34 @@ static void lacedring_seek_(const struct lacedring_packed* p, const struct laced
 void lacedring_packed_triangle(const struct lacedring_packed* p, uint32_t triangle, uint32_t out[3]) {
     struct lacedring_group_ g;
     struct lacedring_block_ b;
-    const uint32_t i = triangle % LACEDRING_PACKED_BLOCK;
+    uint32_t i, turned = 0;
+    if (triangle >= p->own) {
+        const uint32_t* run = p->doubles + (size_t)2 * lacedring_run_of_(p, triangle);
+        triangle = (run[1] & ~LACEDRING_DOUBLES_) + (triangle - run[0]);
+        turned = run[1] & LACEDRING_DOUBLES_;
+    }
+    i = triangle % LACEDRING_PACKED_BLOCK;
     lacedring_open_group_(p, triangle / LACEDRING_PACKED_BLOCK, &g);
-    do {
-        lacedring_next_block_(p, &g, &b);
-    } while (g.block <= triangle / LACEDRING_PACKED_BLOCK);
-    if (b.length == LACEDRING_PACKED_PLAIN_) {
+    lacedring_block_of_(p, &g, triangle / LACEDRING_PACKED_BLOCK, &b);
+    if (b.kind == LACEDRING_PLAIN_) {
         lacedring_plain_(p, &b, i, out);
-    } else if (b.length <= LACEDRING_PACKED_MAX_RECORD_) {
+    } else if (b.kind == LACEDRING_RECORD_) {
         lacedring_seek_(p, &g, &b.record, i, out);
     } else {
         struct lacedring_record_ r;
         lacedring_part_(p, &b, i / LACEDRING_PACKED_PART_, &r);
         lacedring_seek_(p, &g, &r, i % LACEDRING_PACKED_PART_, out);
     }
+    lacedring_double_(out, turned, out);
 }
 
 #undef LACEDRING_TIP_
 #undef LACEDRING_WART_
 #undef LACEDRING_CLOSE_
 #undef LACEDRING_FLIP_
+#undef LACEDRING_DOUBLES_
 #undef LACEDRING_PACKED_GROUP_
 #undef LACEDRING_PACKED_MAX_RECORD_
-#undef LACEDRING_PACKED_PLAIN_
 #undef LACEDRING_PACKED_PART_
 #undef LACEDRING_HOT_
 #undef LACEDRING_SMALL_

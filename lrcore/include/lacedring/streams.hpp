@@ -92,11 +92,14 @@ struct PackedView {
     std::span<const std::uint32_t> words;  ///< all of it
     std::uint32_t vertices = 0;
     std::uint32_t triangles = 0;
+    std::uint32_t own = 0;  ///< the first triangles; each of the others is the double of one of these
     std::uint32_t vertex_bits = 0;
+    std::uint32_t runs = 0;  ///< of doubles
 
     std::uint32_t blocks() const;
-    std::size_t table_word() const;   ///< where the table of groups begins in `words`
-    std::size_t groups_word() const;  ///< where the groups begin
+    std::size_t table_word() const;    ///< where the table of groups begins in `words`
+    std::size_t doubles_word() const;  ///< where what is said of doubles begins, if anything is
+    std::size_t groups_word() const;   ///< where the groups begin
     std::size_t bytes() const { return words.size_bytes(); }
 };
 
@@ -119,7 +122,7 @@ void decode_packed(const PackedView& view, std::span<std::uint32_t> indices, uns
 /// Expands one block: triangles [256 * block, ...), 3 * 256 entries or what the last block has.
 void decode_packed_block(const PackedView& view, std::uint32_t block, std::span<std::uint32_t> indices);
 
-/// One triangle, in a few popcounts. Reads at most 8 words of turn bits, 41 bytes of its group's head and 200 bytes of
+/// One triangle, in a few popcounts. Reads at most 8 words of turn bits, 12 words of its group's head and 200 bytes of
 /// its record.
 Triangle decode_packed_triangle(const PackedView& view, std::uint32_t triangle);
 
