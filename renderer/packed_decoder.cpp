@@ -17,19 +17,21 @@ Result<PackedDecoder> PackedDecoder::create(Context& context) {
     const std::array<Binding, 2> bindings{{{0}, {1}}};
     LR_ASSIGN(out.layout_,
               Layout::create(context, "packed decode", bindings, VK_SHADER_STAGE_COMPUTE_BIT, sizeof(DecodeConstants)));
-    // Four blocks are read by four invocations: a larger group than a subgroup would have more of them wait.
-    out.group_ = std::clamp(context.info().subgroup_size, 8U, 64U);
+    // Blocks are read by an invocation each: a larger group than a subgroup would have more of them wait.
+    constexpr std::uint32_t kSharedOfEight = 27 << 10;
+    out.group_ = {std::clamp(context.info().subgroup_size, 8U, 64U),
+                  context.limits().maxComputeSharedMemorySize >= kSharedOfEight ? 8U : 4U};
     out.pipelines_.resize(1);
-    LR_ASSIGN(out.pipelines_[0], create_compute(context, "packed decode", out.layout_, spirv_packed_decode_comp,
-                                                std::span(&out.group_, 1)));
+    LR_ASSIGN(out.pipelines_[0],
+              create_compute(context, "packed decode", out.layout_, spirv_packed_decode_comp, out.group_));
     return out;
 }
 
 Result<DecodePlan> PackedDecoder::plan(Descriptors& descriptors, const GpuMesh& mesh, const PackedView& view) const {
     constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    const std::uint64_t most = std::max<std::uint64_t>(
-        1, std::min(mesh.max_range / (12 * LR_PACKED_BLOCK),
-                    std::uint64_t{context_->limits().maxComputeWorkGroupCount[0]} * LR_BLOCKS_PER_GROUP));
+    const std::uint64_t most =
+        std::max<std::uint64_t>(1, std::min(mesh.max_range / (12 * LR_PACKED_BLOCK),
+                                            std::uint64_t{context_->limits().maxComputeWorkGroupCount[0]} * group_[1]));
     DecodePlan plan;
     for (std::uint64_t block = 0, blocks = 0; block < view.blocks(); block += blocks) {
         blocks = std::min(most, view.blocks() - block);
@@ -45,7 +47,7 @@ Result<DecodePlan> PackedDecoder::plan(Descriptors& descriptors, const GpuMesh& 
         dispatch.constants.draw_slots = mesh.draw_slots;
         dispatch.constants.words = static_cast<std::uint32_t>(view.words.size());
         dispatch.constants.stream = mesh.stream.address_words();
-        dispatch.groups = static_cast<std::uint32_t>((blocks + LR_BLOCKS_PER_GROUP - 1) / LR_BLOCKS_PER_GROUP);
+        dispatch.groups = static_cast<std::uint32_t>((blocks + group_[1] - 1) / group_[1]);
         plan.dispatches.push_back(dispatch);
     }
     return plan;

@@ -1,6 +1,8 @@
 #pragma once
 // The compute pass that expands a packed stream into an index buffer and draw commands.
 
+#include <array>
+
 #include "lacedring/streams.hpp"
 #include "renderer/decoder.h"
 
@@ -15,7 +17,7 @@ class PackedDecoder : public Decoder {
     Result<DecodePlan> plan(Descriptors& descriptors, const GpuMesh& mesh, const PackedView& view) const;
 
   private:
-    std::uint32_t group_ = 0;  // invocations of a workgroup
+    std::array<std::uint32_t, 2> group_{};  // invocations and blocks of a workgroup
 };
 
 }  // namespace lacedring::gpu

@@ -4,8 +4,8 @@
 #extension GL_EXT_buffer_reference_uvec2 : require
 // Expands a packed stream into an index buffer, and writes the commands that draw it.
 //
-// A workgroup has LR_BLOCKS_PER_GROUP blocks. One invocation a block reads its events and writes pieces of corridors into
-// shared memory (13.5 KiB); then all of them expand four triangles at a time, whatever piece they are of, in the same few
+// A workgroup has kBlocks blocks, four or eight. One invocation a block reads its events and writes pieces of corridors into
+// shared memory (3.4 KiB a block); then all of them expand four triangles at a time, whatever piece they are of, in the same few
 // steps: a piece and a popcount say (a, b). A workgroup is as large as a subgroup, where it can be: none waits for another at the barrier.
 //
 // What lavapipe wants: it runs through both sides of a branch, and once through a `while` that has nothing to do, so what
@@ -23,7 +23,7 @@ layout(std430, binding = 0) restrict writeonly buffer Indices { uvec4 indices[];
 #define LR_BINDING_COMMANDS 1
 #include "shaders/draw_commands.glsl"
 
-const uint kBlocks = LR_BLOCKS_PER_GROUP;
+layout(constant_id = LR_CONSTANT_BLOCKS) const uint kBlocks = 4u;
 const uint kWords = LR_PACKED_BLOCK_WORDS;
 const uint kQuads = LR_PACKED_BLOCK / LR_TRIANGLES_PER_INVOCATION;
 

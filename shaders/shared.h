@@ -17,9 +17,10 @@ using mat4 = std::array<float, 16>;  // column-major
 #define LR_TRIANGLES_PER_INVOCATION 4u
 #define LR_COMPUTE_GROUP 128u  // as many as every device has
 
+#define LR_CONSTANT_BLOCKS 1  // packed_decode.comp: blocks of a workgroup
+
 // lean_decode.comp, packed_decode.comp: one dispatch expands `slots` slots from `first_slot`, through descriptors that
 // cover only what these need.
-#define LR_BLOCKS_PER_GROUP 4u  // packed
 struct DecodeConstants {
     uint first_slot;  // a multiple of LR_TRIANGLES_PER_INVOCATION; packed: of LR_PACKED_BLOCK
     uint slots;       // slots of this dispatch

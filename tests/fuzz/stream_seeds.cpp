@@ -41,8 +41,10 @@ void write_seeds(std::string name, const Mesh& mesh, std::uint32_t number) {
     if (number % 2 == 0) rings = optimize_rings(table, std::move(rings), {.passes = 2});
     write_stream("lean", name, mesh, as_encoded(*encode_lean(table, rings)));
     for (const PackedProfile profile : {PackedProfile::small, PackedProfile::cache}) {
+        PackedChoice packed =
+            encode_smallest_packed(table, {.k = number % 4}, {.passes = 2 - number % 2 * 2}, profile).value();
         write_stream("packed", name + (profile == PackedProfile::cache ? "-cache" : ""), mesh,
-                     as_encoded(*encode_packed(table, rings, profile)));
+                     as_encoded(std::move(packed.stream)));
     }
     if (mesh.triangle_count() <= 200) {
         write_stream("lr", name, mesh, as_encoded(*encode_lr(table, {.k = number % 4})));

@@ -12,8 +12,9 @@ WORD = 0xFFFFFFFF
 MAGIC, MAGIC_1 = 0x3250524C, 0x4B50524C
 SPLIT, BESIDE, START, FAR, JUMP, TURN, FLIPS = range(7)
 THIRD_VERTEX = (SPLIT, FAR, JUMP)  # the events that give a triangle's third vertex
-PLAIN = 255
+PARTED, PLAIN = 1, 2  # kinds of blocks; those of kind 0 are one record
 HIGH = 1 << 31  # of the header's vertices: there are doubles; of a run's own triangle: turned round
+HEAD_BYTES = 192  # a group's head has at most 32 + 15 + 16 * 59 + 2 * 16 + 16 * 16 + 15 * 12 bits
 
 
 class Bits:
@@ -89,33 +90,48 @@ class Head:
     """A group's head. `data` begins with it; `blocks` are the group's."""
 
     def __init__(self, data, blocks, width):
-        bits = Bits(data[:64])  # at most 18 + 59 + 8 + 15 * 16 bits
+        bits = Bits(data[:HEAD_BYTES])
         self.width = width
-        length_bits, self.entry_bits = bits.take(4), bits.take(4)
-        if length_bits > 8 or self.entry_bits > 8:
-            raise BadFile("a group's head has fields of more than 8 bits")
+        step, offset_bits, self.entry_bits = bits.take(12), bits.take(5), bits.take(4)
+        if offset_bits > 16 or self.entry_bits > 12:
+            raise BadFile("a group's head has fields of too many bits")
         self.gap_bits, self.wart_bits, self.split_order, self.count_order = (bits.take(n) for n in (3, 3, 2, 2))
-        self.entry = bits.entry(width)
-        self.lengths, self.links = [bits.take(length_bits)], [0]
-        for _ in range(blocks - 1):
-            self.lengths.append(bits.take(length_bits))
-            self.links.append(bits.take(self.entry_bits))
+        has_kinds = bits.take(1)
+        self.own = [0] + [bits.take(1) for _ in range(blocks - 1)]
+        self.entries = [bits.entry(width) for _ in range(1 + sum(self.own))]
+        self.kinds = [bits.take(2) if has_kinds else 0 for _ in range(blocks)]
+        offsets = [bits.take(offset_bits) - (1 << offset_bits) // 2 for _ in range(blocks)]
+        self.steps = [0] + [bits.take(self.entry_bits) for _ in range(blocks - 1)]
         fill = bits.left % 8
         if bits.take(fill) != (1 << fill) - 1:
             raise BadFile("a group's head is not filled up with ones")
-        self.size = min(len(data), 64) - bits.left // 8
+        size = min(len(data), HEAD_BYTES) - bits.left // 8
+        # The records of block k are bytes places[k] to places[k + 1] of the group.
+        self.places = [size] + [size + (k + 1) * step + offset for k, offset in enumerate(offsets)]
 
-    def record_bytes(self, k, triangles):
-        length = self.lengths[k]
-        if length == PLAIN:
-            return (3 * triangles * self.width + 7) // 8
-        return length if length <= 160 else 8 * (length - 160)
+    def entry(self, k):
+        """The entry of block k, which is not plain: its own, or from that of the last block before with one."""
+        last = max((j for j in range(k + 1) if self.own[j]), default=0)
+        a, b, is_reversed = self.entries[sum(self.own[:last + 1])]
+        distance = k - last
+        if distance == 0:
+            return a, b, is_reversed
+        to = a + 128 * distance + self.steps[k] - (1 << self.entry_bits) // 2
+        return to & WORD, to + (b - a) - 256 * distance & WORD, is_reversed
 
-    def linked(self, before, k):
-        """The entry of block k, whose entry field is not 0, from that of the block before."""
-        a, b, is_reversed = before
-        to = a + 128 + self.links[k] - (1 << self.entry_bits - 1)
-        return to & WORD, to + (b - a) - 256 & WORD, is_reversed
+    def check_blocks(self):
+        """What may be in the fields of a block of its kind."""
+        if self.kinds[0] == PLAIN and any(self.entries[0]):
+            raise BadFile("a group's head has an entry for a plain block")
+        for k, kind in enumerate(self.kinds):
+            if kind > PLAIN:
+                raise BadFile("a block is of kind 3")
+            if kind == PLAIN and self.own[k]:
+                raise BadFile("a plain block has an entry of its own")
+            if self.steps[k] and (kind == PLAIN or self.own[k]):
+                raise BadFile("a block that is plain or has its own entry has an entry step that is not 0")
+            if kind != PLAIN and self.kinds[0] == PLAIN and not any(self.own[:k + 1]):
+                raise BadFile("a block goes on from a plain one")
 
 
 def read_event(bits, head, triangles):
@@ -123,6 +139,8 @@ def read_event(bits, head, triangles):
     gap, code = bits.rice(head.gap_bits), bits.unary(7)
     if code == SPLIT:
         size = 3 + bits.golomb(head.split_order)
+        if size >= 1 << 30:
+            raise BadFile("SPLIT has a size of 2^30 or more")
         return gap, code, (size, size - 1)
     if code == BESIDE:
         turned, place, folded = bits.take(1), bits.take(2), bits.golomb(1)
@@ -139,6 +157,8 @@ def read_event(bits, head, triangles):
         return gap, code, (across, x, 1 + bits.golomb(2) if across == 3 else 0)
     if code == JUMP:
         size = 2 + bits.golomb(1)
+        if size >= 1 << 30:
+            raise BadFile("JUMP has a size of 2^30 or more")
         return gap, code, (size, 1 + bits.golomb(2) if bits.take(1) else 0)
     if code == TURN:
         return gap, code, ()
@@ -327,55 +347,39 @@ def parts(data):
 
 
 def decode_parted(data, entry, turns, head, out):
-    """Returns the entry of the first record."""
-    end = 4 + sum(data[:4])
-    if max(data[:4]) > 200 or not end <= len(data) < end + 8 or any(data[end:]):
-        raise BadFile("the records of a parted block are too long, or not followed by zeros up to a word")
+    sizes = data[:4]
+    if len(data) != 4 + sum(sizes) or any(size > 200 for size in sizes):
+        raise BadFile("the records of a parted block are too long, or not all that it has")
     for i, part in enumerate(parts(data)):
         some = turns[64 * i:64 * i + 64]
         if some:
-            record = Record(part, entry if i == 0 else None, head, len(some))
-            walk_record(record, some, out)
-            if i == 0:
-                first = record.entry
+            walk_record(Record(part, entry if i == 0 else None, head, len(some)), some, out)
         elif part:
             raise BadFile("a parted block has a record without triangles")
-    return first
 
 
 def decode_group(data, turns, width, out):
-    """Returns how many bytes the group has."""
+    """Returns how many bytes the group has, but those that fill up its last word."""
     head = Head(data, (len(turns) + 255) // 256, width)
-    at = head.size
-    if head.lengths[0] == PLAIN and any(head.entry):
-        raise BadFile("a group's head has an entry for a plain block")
-    before = None  # the entry of the block before, None if that is plain
-    for k, length in enumerate(head.lengths):
+    head.check_blocks()
+    for k, kind in enumerate(head.kinds):
         some = turns[256 * k:256 * k + 256]
-        size = head.record_bytes(k, len(some))
-        block = data[at:at + size]
-        at += size
-        if at > len(data):
-            raise BadFile("a record is behind the end of the packed stream")
-        if head.links[k]:
-            if length == PLAIN or before is None:
-                raise BadFile("a plain block or the one behind it has an entry field that is not 0")
-            entry = head.linked(before, k)
-        else:
-            entry = head.entry if k == 0 else None
-        if length == PLAIN:
+        begin, end = head.places[k:k + 2]
+        if not begin <= end <= len(data):
+            raise BadFile("a block's records end before they begin, or behind the end of the packed stream")
+        block = data[begin:end]
+        if kind == PLAIN:
             bits = Bits(block)
             out += [bits.take(width) for _ in range(3 * len(some))]
-            if any(some) or not bits.only_ones():
-                raise BadFile("a plain block has turns, or is not filled up with ones")
-            before = None
-        elif length <= 160:
-            record = Record(block, entry, head, len(some))
-            walk_record(record, some, out)
-            before = record.entry
+            if any(some) or bits.left >= 8 or not bits.only_ones():
+                raise BadFile("a plain block has turns, or is not filled up with ones to a byte")
+        elif kind == PARTED:
+            decode_parted(block, head.entry(k), some, head, out)
+        elif len(block) > 160:
+            raise BadFile("a record of more than 160 bytes is not in a parted block")
         else:
-            before = decode_parted(block, entry, some, head, out)
-    return at
+            walk_record(Record(block, head.entry(k), head, len(some)), some, out)
+    return head.places[-1]
 
 
 def double(corners, own):
@@ -412,11 +416,14 @@ def decode_packed(words):
     out = []
     at = 0
     for g in range(header.groups):
-        if g and words[header.table + g - 1] != at:
+        if g and 4 * words[header.table + g - 1] != at:
             raise BadFile("the packed stream's groups are not where its table says")
-        at += decode_group(data[at:at + (1 << 18)], turns[4096 * g:4096 * g + 4096], header.width, out)
-    if len(data) != (at + 3) // 4 * 4 or any(data[at:]):
-        raise BadFile("the packed stream's last group is not followed by zeros up to a word")
+        end = at + decode_group(data[at:at + (1 << 18)], turns[4096 * g:4096 * g + 4096], header.width, out)
+        at = (end + 3) // 4 * 4
+        if any(data[end:at]):
+            raise BadFile("a group of the packed stream is not followed by zeros up to a word")
+    if len(data) != at:
+        raise BadFile("the packed stream has words behind its last group")
     if out and max(out) >= header.vertices:
         raise BadFile("a vertex of the packed stream is out of range")
     corners = iter(out)
@@ -530,32 +537,18 @@ def find_record(words, header, t):
     """The record of triangle t, its first triangle, and how many it has. Of a plain block only t's vertices."""
     block = t // 256
     group, k = divmod(block, 16)
-    data = words[header.first_group:].tobytes()
-    start = words[header.table + group - 1] if group else 0
-    head = Head(data[start:start + 64], min(header.blocks - 16 * group, 16), header.width)
-    place = start + head.size
-    own = own_at = 0  # the last block with an entry of its own, and where its record is
-    for j in range(k + 1):
-        if not head.links[j]:
-            own, own_at = j, place
-        if j < k:
-            place += head.record_bytes(j, 256)
-    count = min(header.triangles - 256 * block, 256)
-    record = data[place:place + head.record_bytes(k, count)]
-    if head.lengths[k] == PLAIN:
-        bits = Bits(record)
-        bits.take(3 * header.width * (t - 256 * block))
-        return [bits.take(header.width) for _ in range(3)], None, None
-    entry = head.entry if own == 0 else None
-    if own < k:
-        if entry is None:
-            if head.lengths[own] > 160:
-                own_at += 4
-            entry = Bits(data[own_at:own_at + 8]).entry(header.width)
-        for j in range(own + 1, k + 1):
-            entry = head.linked(entry, j)
+    start = header.first_group + (words[header.table + group - 1] if group else 0)
+    data = words[start:start + (1 << 16)].tobytes()
+    head = Head(data, min(header.blocks - 16 * group, 16), header.width)
+    record = data[head.places[k]:head.places[k + 1]]
     first = 256 * block
-    if head.lengths[k] > 160:
+    if head.kinds[k] == PLAIN:
+        bits = Bits(record)
+        bits.take(3 * header.width * (t - first))
+        return [bits.take(header.width) for _ in range(3)], None, None
+    entry = head.entry(k)
+    count = min(header.triangles - first, 256)
+    if head.kinds[k] == PARTED:
         part = (t - first) // 64
         record = list(parts(record))[part]
         first += 64 * part

@@ -78,33 +78,46 @@ def record(*events, entry=None, warts=()):
                     "".join(rice(gap, WART_BITS) for gap in warts))
 
 
-def parted(*parts):
-    data = bytes(map(len, parts)) + bytes(4 - len(parts)) + b"".join(parts)
-    data += bytes(-len(data) % 8)
-    return 160 + len(data) // 8, data
+PARTED, PLAIN = 1, 2  # kinds of blocks
+
+
+def parted(*parts, own=None, step=0):
+    return PARTED, bytes(map(len, parts)) + bytes(4 - len(parts)) + b"".join(parts), own, step
 
 
 def plain(*corners):
-    return 255, in_bytes("".join(map(vertex, corners)))
+    return PLAIN, in_bytes("".join(map(vertex, corners))), None, 0
 
 
-def packed(turns, entry, *blocks, entry_bits=0, table=None):
-    """Groups of 16 blocks, each a record, or the length in the head, bytes and entry field. `entry`: of each group."""
+def entry_field(entry):
+    return vertex(entry[0]) + vertex(entry[1]) + str(entry[2])
+
+
+def packed(turns, entry, *blocks, step=40, offset_bits=16, entry_bits=0, table=None, kinds=None, doubles=None,
+           change_head=str):
+    """Groups of 16 blocks, each a record, or the kind, bytes, entry of its own or None, and entry step. `entry`: of
+    each group. `doubles`: (D, runs, ...), or None."""
     data, begins = b"", []
     for first in range(0, len(blocks), 16):
-        begins.append(len(data))
-        head = field(8, 4) + field(entry_bits, 4) + field(GAP_BITS, 3) + field(WART_BITS, 3) + field(SPLIT_ORDER, 2)
-        head += field(COUNT_ORDER, 2) + vertex(entry[0]) + vertex(entry[1]) + str(entry[2])
+        begins.append(len(data) // 4)
+        some = [(0, block, None, 0) if isinstance(block, bytes) else block for block in blocks[first:first + 16]]
+        with_kinds = any(kind for kind, *_ in some) if kinds is None else kinds
+        head = field(step, 12) + field(offset_bits, 5) + field(entry_bits, 4) + field(GAP_BITS, 3) + field(WART_BITS, 3)
+        head += field(SPLIT_ORDER, 2) + field(COUNT_ORDER, 2) + str(int(with_kinds))
+        head += "".join(str(int(own is not None)) for _, _, own, _ in some[1:]) + entry_field(entry)
+        head += "".join(entry_field(own) for _, _, own, _ in some[1:] if own is not None)
+        head += "".join(field(kind, 2) for kind, *_ in some) if with_kinds else ""
         records = b""
-        for k, block in enumerate(blocks[first:first + 16]):
-            length, contents, link = (len(block), block, 0) if isinstance(block, bytes) else (*block, 0)[:3]
-            head += field(length, 8) + (field(link, entry_bits) if k else "")
+        for k, (_, contents, _, _) in enumerate(some):
             records += contents
-        data += in_bytes(head) + records
-    data += bytes(-len(data) % 4)
+            head += field(len(records) - (k + 1) * step + (1 << offset_bits) // 2, offset_bits)
+        head += "".join(field(steps, entry_bits) for *_, steps in some[1:])
+        data += in_bytes(change_head(head)) + records
+        data += bytes(-len(data) % 4)
     bits = int("0" + turns[::-1], 2).to_bytes((len(turns) + 31) // 32 * 4, "little")
-    payload = array.array("I", bits).tolist() + (begins[1:] if table is None else table)
-    return with_checksum([0x3250524C, VERTICES, len(turns)], payload + array.array("I", data).tolist())
+    payload = array.array("I", bits).tolist() + (begins[1:] if table is None else table) + list(doubles or ())
+    vertices = VERTICES | (doubles is not None) << 31
+    return with_checksum([0x3250524C, vertices, len(turns)], payload + array.array("I", data).tolist())
 
 
 def unpacked(turns, entry, *blocks, **options):
@@ -131,7 +144,7 @@ class Packed(unittest.TestCase):
                 ([0x3250524C, (1 << 29) + 1, 4], whole[4:], "too many"),
                 ([0x3250524C, VERTICES, 1 << 31], [0], "too many"),
                 ([0x3250524C, VERTICES, 4], [whole[4] | 16, *whole[5:]], "turns behind"),
-                ([0x3250524C, VERTICES, 4], [*whole[4:], 0], "followed by zeros"),
+                ([0x3250524C, VERTICES, 4], [*whole[4:], 0], "words behind"),
                 ([0x3250524C, VERTICES, 4], whole[4:-1], "ends within"), ([0x3250524C, 5, 4], whole[4:], "")):
             with self.assertRaisesRegex(BadFile, why):
                 decode_packed(with_checksum(head, payload))
@@ -182,6 +195,9 @@ class Packed(unittest.TestCase):
         inside = event(0, START, "10" + golomb(20, 2))
         self.assertEqual(unpacked("1110001", (0, 40, 0), record(outer, inner, inside))[4:],
                          [(42, 62, 61), (6, 40, 39), (6, 39, 7)])
+        for size in (1 << 30, (1 << 32) - 5):
+            self.refused("size", "1", (50, 90, 0), record(event(0, SPLIT, golomb(size - 3, SPLIT_ORDER))))
+            self.refused("size", "1", (50, 90, 0), record(event(0, JUMP, golomb(size - 2, 1) + "0")))
         part = event(0, FAR, "11" + vertex(40) + golomb(1, 2))
         self.refused("behind the one around", "1111", (0, 9, 0), record(part, event(0, SPLIT, golomb(0, SPLIT_ORDER))))
         self.refused("fewer triangles", "1100111", (0, 9, 0), record(event(0, JUMP, golomb(1, 1) + "1" + golomb(3, 2))))
@@ -231,36 +247,96 @@ class Packed(unittest.TestCase):
         block = plain(5, 6, 7, 127, 58, 57)
         self.assertEqual(unpacked("00", (0, 0, 0), block), [(5, 6, 7), (127, 58, 57)])
         self.refused("turns", "01", (0, 0, 0), block)
-        self.refused("filled up", "00", (0, 0, 0), (255, block[1][:-1] + bytes([block[1][-1] & 0x7F])))
+        contents = block[1]
+        for wrong in (contents[:-1] + bytes([contents[-1] & 0x7F]), contents + b"\xFF"):
+            self.refused("filled up", "00", (0, 0, 0), (PLAIN, wrong, None, 0))
+        self.refused("ends within", "00", (0, 0, 0), (PLAIN, contents[:-1], None, 0))
         self.refused("entry for a plain", "00", (0, 1, 0), block)
+        self.refused("kind 3", "00", (0, 3, 0), (3, b"", None, 0))
+        self.assertEqual(unpacked("0", (0, 2, 0), b"", kinds=True), [(0, 2, 1)])
         second = record(event(0, FAR, "00" + vertex(50)), entry=(0, 40, 1))
         out = unpacked("0" * 65, (0, 67, 0), parted(b"", second))
         self.assertEqual((len(out), out[0], out[63], out[64]), (65, (0, 67, 66), (0, 4, 3), (0, 50, 40)))
-        for change in ({0: 1}, {1: 201}, {2: 1}, {-1: 1}):
-            length, data = parted(b"", second)
-            data = bytearray(data + bytes(8) if -1 in change else data)
+        for change in ({0: 1}, {1: 201}, {2: 1}, {-1: 1}, {-2: 1}):
+            _, data, *_ = parted(b"", second)
+            data = bytearray(data + bytes(1) if -1 in change else data[:3] if -2 in change else data)
             for at, value in change.items():
                 data[at] = value
-            self.refused("", "0" * 65, (0, 67, 0), (160 + len(data) // 8, bytes(data)))
+            self.refused("", "0" * 65, (0, 67, 0), (PARTED, bytes(data), None, 0))
+        self.refused("parted block are too", "0" * 65, (0, 67, 0), (PARTED, b"", None, 0))
+        events = [record(*[event(0, TURN)] * count) for count in range(130)]
+        exact, longer = (next(data for data in events if len(data) >= size) for size in (160, 161))
+        self.assertEqual((len(exact), len(longer) > 160), (160, True))
+        self.assertEqual(len(unpacked("0", (0, 2, 0), exact)), 1)
+        self.refused("more than 160", "0", (0, 2, 0), longer)
+        self.assertEqual(len(unpacked("0", (0, 2, 0), parted(longer))), 1)
+
+    def test_heads(self):
+        for step, offset_bits in ((0, 16), (4095, 16), (0, 1), (1, 2), (0, 0), (7, 5)):
+            self.assertEqual(unpacked("1010", (0, 5, 0), b"", step=step, offset_bits=offset_bits)[3], (2, 4, 3))
+        other = record(warts=(0,))
+        for step, offset_bits in ((len(other), 0), (len(other), 1), (0, 16), (16, 6)):
+            self.assertEqual(unpacked("11", (0, 6, 0), other, step=step, offset_bits=offset_bits),
+                             [(0, 6, 2), (0, 2, 1)])
+        with self.assertRaisesRegex(BadFile, "too many bits"):
+            unpacked("1010", (0, 5, 0), b"", offset_bits=17)
+        with self.assertRaisesRegex(BadFile, "too many bits"):
+            unpacked("1010", (0, 5, 0), b"", entry_bits=13)
+        unpacked("1010", (0, 5, 0), b"", entry_bits=12)
+        for bits in range(1, 17):  # the head is filled up with ones, and only to a byte
+            with self.subTest(bits=bits), self.assertRaisesRegex(BadFile, "filled up|words behind|followed by"):
+                unpacked("1010", (0, 5, 0), b"", step=0, offset_bits=bits, change_head=lambda head: head + "0")
+
+    def test_doubles(self):
+        stream = ("1010", (0, 5, 0), b"")
+        own = [(0, 5, 1), (1, 5, 4), (1, 4, 2), (2, 4, 3)]
+        high = 1 << 31
+        self.assertEqual(unpacked(*stream, doubles=(1, 1, 4, 2)), own + [own[2]])
+        self.assertEqual(unpacked(*stream, doubles=(4, 1, 4, high)), own + [(a, c, b) for a, b, c in own])
+        self.assertEqual(unpacked(*stream, doubles=(4, 3, 4, 1, 6, 3, 7, 3 | high)),
+                         own + own[1:3] + [own[3], (2, 3, 4)])
+        for doubles in ((0, 1, 4, 0), (1, 0), (5, 2, 4, 0, 8, 0), (1, 1, 4, 4), (2, 1, 4, 3), (1, 1, 5, 0),
+                        (1, 1, 3, 0), (2, 2, 4, 0, 4, 1), (2, 2, 4, 0, 6, 1), (2, 2, 4, 0, 3, 1),
+                        (1, 1, 4, (1 << 31) - 1)):
+            with self.subTest(doubles=doubles):
+                self.refused("double", *stream, doubles=doubles)
+        with self.assertRaises(BadFile):
+            decode_packed(with_checksum([0x3250524C, 1 << 31, 0], [1, 1, 0, 0]))
+        self.assertEqual(unpacked("00", (0, 0, 0), plain(5, 6, 7, 127, 58, 57), doubles=(1, 1, 2, 1 | high))[2:],
+                         [(127, 57, 58)])
 
     def test_links(self):
         turns = "10" * 128
         first = (0, 600, 0)
         then = [(128, 472, 129), (129, 472, 471)]
-        self.assertEqual(unpacked(turns + "10", first, b"", (0, b"", 8), entry_bits=4)[256:], then)
-        self.assertEqual(unpacked(turns + "10", first, b"", (0, b"", 9), entry_bits=4)[256], (129, 473, 130))
-        other = record(entry=(300, 900, 1))
-        for block in ((len(other), other, 0), (*parted(other, *[other] * 3), 0)):
-            out = unpacked(turns * 2 + "10", first, b"", block, (0, b"", 8), entry_bits=4)
+        self.assertEqual(unpacked(turns + "10", first, b"", (0, b"", None, 8), entry_bits=4)[256:], then)
+        self.assertEqual(unpacked(turns + "10", first, b"", (0, b"", None, 9), entry_bits=4)[256], (129, 473, 130))
+        self.assertEqual(unpacked(turns + "10", first, b"", (0, b"", None, 0), entry_bits=0)[256:], then)
+        self.assertEqual(unpacked(turns + "10", first, b"", (0, b"", None, 0), entry_bits=1)[256], (127, 471, 128))
+        own = (300, 900, 1)
+        later = record(entry=own)
+        for block in ((0, b"", own, 0), parted(b"", *[later] * 3, own=own)):
+            out = unpacked(turns * 2 + "10", first, b"", block, (0, b"", None, 8), entry_bits=4)
             self.assertEqual(out[256], (300, 301, 900))
             self.assertEqual(out[512:], [(428, 429, 772), (429, 771, 772)])
+        # From the last block with an entry of its own, two blocks before: over one that goes on, too, or a plain one.
         no_turns = "0" * 256
         corners = plain(*(5, 6, 7) * 256)
-        self.assertEqual(unpacked(no_turns + "10", (0, 0, 0), corners, other)[255:],
+        long = (0, 900, 0)
+        twice = [(257, 645, 258), (258, 645, 644)]
+        for step in (8, 15):
+            out = unpacked(turns * 2 + "10", long, b"", (0, b"", None, step), (0, b"", None, 9), entry_bits=4)
+            self.assertEqual(out[512:], twice)
+        self.assertEqual(unpacked(turns + no_turns + "10", long, b"", corners, (0, b"", None, 9), entry_bits=4)[512:],
+                         twice)
+        self.assertEqual(unpacked(no_turns + "10", (0, 0, 0), corners, (0, b"", own, 0))[255:],
                          [(5, 6, 7), (300, 301, 900), (301, 899, 900)])
-        self.refused("entry field", no_turns + "10", (0, 0, 0), corners, (len(other), other, 8), entry_bits=4)
-        self.refused("entry field", turns + "00", first, b"", (*plain(5, 6, 7, 5, 6, 7), 8), entry_bits=4)
-        blocks = [b""] + [other] * 15 + [b""]
+        self.refused("from a plain", no_turns + "10", (0, 0, 0), corners, (0, b"", None, 8), entry_bits=4)
+        self.refused("from a plain", no_turns * 2 + "10", (0, 0, 0), corners, corners, (0, b"", None, 8), entry_bits=4)
+        self.refused("entry step", no_turns + "10", (0, 0, 0), corners, (0, b"", own, 8), entry_bits=4)
+        self.refused("entry step", turns + "00", first, b"", (*plain(5, 6, 7, 5, 6, 7)[:3], 8), entry_bits=4)
+        self.refused("entry of its own", turns + "00", first, b"", (*plain(5, 6, 7, 5, 6, 7)[:2], own, 0))
+        blocks = [b""] + [(0, b"", own, 0)] * 15 + [b""]
         self.assertEqual(unpacked(turns * 16 + "10", first, *blocks)[4096:], [(0, 600, 1), (1, 600, 599)])
         self.refused("table", turns * 16 + "10", first, *blocks, table=[1])
 
