@@ -12,7 +12,7 @@ namespace lacedring {
 namespace {
 
 constexpr std::uint32_t kCache = 32;
-constexpr std::size_t kPiece = 34;  // triangles of a piece, or a few more: one of its chains and the next fit the cache
+constexpr std::size_t kPiece = 31;  // triangles of a piece, or a few more: one of its chains and the next fit the cache
 constexpr std::uint32_t kWhole = 8;  // what would be left of a corridor, or a part of a T0, of so many is taken along
 constexpr double kStart = 12;        // a piece's start costs as much as so many vertices
 
