@@ -50,7 +50,19 @@ Stream packed_stream(const lacedring::CornerTable& table, const lacedring::Rings
     return {false, std::move(packed->words), std::move(packed->vertex_order), triangles};
 }
 
-/// Changes one tip, or one turn: still a valid stream, of another mesh.
+std::size_t triangles_changed(const Stream& stream, std::span<const std::uint32_t> words) {
+    std::vector<std::uint32_t> before(std::size_t{3} * stream.triangles), after(before.size());
+    lacedring::decode_packed(*lacedring::view_packed(stream.words), before);
+    lacedring::decode_packed(*lacedring::view_packed(words), after);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < before.size(); i += 3) {
+        count += std::equal(&before[i], &before[i] + 3, &after[i]) ? 0 : 1;
+    }
+    return count;
+}
+
+/// Changes one tip, or one turn: still a valid stream, of another mesh. Of some triangles more than one: these are
+/// small.
 void break_stream(Stream& stream, std::uint32_t vertices) {
     for (std::uint32_t at = stream.triangles / 3; at < stream.triangles; ++at) {
         std::vector<std::uint32_t> words = stream.words;
@@ -63,7 +75,8 @@ void break_stream(Stream& stream, std::uint32_t vertices) {
             words[kPackedHeaderWords + at / 32] ^= 1U << at % 32;
             words[kPackedHeaderWords - 1] = lacedring::packed_checksum(words);
         }
-        if (stream.lean ? lacedring::validate_lean(words).has_value() : lacedring::validate_packed(words).has_value()) {
+        if (stream.lean ? lacedring::validate_lean(words).has_value()
+                        : lacedring::validate_packed(words).has_value() && triangles_changed(stream, words) >= 10) {
             stream.words = std::move(words);
             return;
         }

@@ -5,7 +5,7 @@ layout(std430, binding = 0) readonly buffer Stream { uint words[]; };
 #define LR_PACKED_WORD(i) words[i]
 #include "lacedring.glsl"
 uvec3 stream_triangle(uint t) { return lr_packed_triangle(lr_packed_layout(), t); }
-uint stream_triangles() { return lr_packed_layout().triangles; }
+uint stream_triangles() { return lr_packed_triangles(lr_packed_layout()); }
 #else
 #define LR_LEAN_WORD(i) words[i]
 #include "lacedring.glsl"

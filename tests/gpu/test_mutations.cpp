@@ -191,7 +191,8 @@ TEST_CASE_FIXTURE(GpuTest, "one wrong bit of the packed stream is seen") {
         std::uint32_t* head = bad.packed.words.data() + groups;
         std::uint64_t bits = 0;
         std::memcpy(&bits, head, sizeof bits);
-        bits += (1 + (std::uint64_t{1} << view->vertex_bits)) << LR_PACKED_HEAD_BITS;  // both vertices by one
+        // Both vertices by one: behind a word, and a bit for each block of the group but the first.
+        bits += (1 + (std::uint64_t{1} << view->vertex_bits)) << (LR_PACKED_HEAD_BITS + LR_PACKED_GROUP - 1);
         std::memcpy(head, &bits, sizeof bits);
         check_found(*context, bad, gpu::Source::packed);
     }

@@ -93,7 +93,7 @@ class Head:
         bits = Bits(data[:HEAD_BYTES])
         self.width = width
         step, offset_bits, self.entry_bits = bits.take(12), bits.take(5), bits.take(4)
-        if offset_bits > 16 or self.entry_bits > 12:
+        if offset_bits > 16 or self.entry_bits > (12 if blocks > 1 else 0):
             raise BadFile("a group's head has fields of too many bits")
         self.gap_bits, self.wart_bits, self.split_order, self.count_order = (bits.take(n) for n in (3, 3, 2, 2))
         has_kinds = bits.take(1)

@@ -482,7 +482,7 @@ class Encoded(unittest.TestCase):
             data = self.encode(name)
             _, payload, size = damaged(data, 1, 0)
             different, unseen = 0, []  # a few bits may say the same either way
-            for _ in range(150):
+            for _ in range(300):
                 word, bit = generator.randrange(payload, size), generator.randrange(32)
                 try:
                     mesh = lr_reader.read_lr(damaged(data, word, bit)[0])

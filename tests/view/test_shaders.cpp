@@ -138,7 +138,7 @@ TEST_CASE("an interface that changes is refused, and nothing else is") {
          "the workgroup's size is declared otherwise"},
         {"shared.h", "LR_MESH_TRIANGLES 64u", "LR_MESH_TRIANGLES 32u", "surface.mesh",
          "output 0 is declared otherwise"},
-        {"surface.geom", "max_vertices = 6", "max_vertices = 9", "surface.geom",
+        {"surface.geom", "max_vertices = 3 * LR_GEOMETRY_SLOTS", "max_vertices = 9", "surface.geom",
          "what is emitted is declared otherwise"},
         {"surface.frag", "out_triangle = (",
          "out_colour.x = float(double(out_colour.x) * 2.0lf);\n    out_triangle = (", "surface.frag",

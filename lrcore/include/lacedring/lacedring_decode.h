@@ -558,7 +558,7 @@ static int lacedring_open_group_(const struct lacedring_packed* p, uint32_t bloc
     g->steps = g->offsets + (uint64_t)g->blocks * g->offset_bits;
     g->records = (g->steps + (uint64_t)(g->blocks - 1) * g->entry_bits + 7) / 8;
     g->end = g->records + lacedring_offset_(p, g, g->blocks);
-    return g->offset_bits <= 16 && g->entry_bits <= 12;
+    return g->offset_bits <= 16 && g->entry_bits <= 12 && (g->blocks > 1 || g->entry_bits == 0);
 }
 
 /* Bytes of a part, at most. */
