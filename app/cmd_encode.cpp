@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <utility>
 
 #include "app/commands.h"
 #include "app/option_rules.h"
@@ -30,12 +31,23 @@ struct EncodeCommand {
     RingChoice ring;
     bool no_warts = false;
     bool keep_order = false;
+    bool orient = false;
 };
+
+/// Turns the triangles round that the table has the other way. Returns how many.
+std::uint32_t orient(Mesh& mesh, CornerTable& table) {
+    for (const TriangleId t : table.triangles()) {
+        if (!table.flipped(t)) continue;
+        std::swap(mesh.indices[3 * std::size_t{t.value} + 1], mesh.indices[3 * std::size_t{t.value} + 2]);
+    }
+    table.flip.clear();
+    return std::exchange(table.topology.flipped, 0);
+}
 
 /// Returns an Exit.
 int encode_file(const EncodeCommand& options, const std::string& input, const std::filesystem::path& output,
                 RunLog& log) {
-    const Result<Mesh> mesh = load({input, options.input}, log);
+    Result<Mesh> mesh = load({input, options.input}, log);
     if (!mesh) return fail(input, mesh.error());
     constexpr std::string_view kExtensions[] = {".lr"};
     if (const auto good = check_output(output, options.output, log, kExtensions); !good) {
@@ -49,6 +61,7 @@ int encode_file(const EncodeCommand& options, const std::string& input, const st
         return fail(input,
                     Error{ErrorCode::malformed, fmt::format("no triangle is left: all {} are degenerate", degenerate)});
     }
+    const std::uint32_t turned = options.orient ? orient(*mesh, *table) : 0;
     EncodeOptions how = encode_options(options.ring, format_named(options.format), mesh->triangle_count());
     how.profile = options.profile == "cache" ? PackedProfile::cache : PackedProfile::small;
     how.wart_skipping = !options.no_warts;
@@ -61,6 +74,7 @@ int encode_file(const EncodeCommand& options, const std::string& input, const st
         return fail(output_name(output), written.error());
     }
     if (degenerate > 0) log.note(input_name(input), fmt::format("{} degenerate triangles dropped", degenerate));
+    if (turned > 0) log.note(input_name(input), fmt::format("{} triangles turned round by --orient", turned));
     const std::size_t connectivity = 4 * file.words.size();
     log.flush();
     say("{}: {} triangles, {} bytes; connectivity {} bytes, {:.2f} bits per triangle\n", output_name(output), triangles,
@@ -96,6 +110,8 @@ void add_encode(CLI::App& program, Action& action) {
     command->add_flag("--no-warts", options->no_warts, "no wart skipping (lean and lr)");
     command->add_flag("--keep-order", options->keep_order,
                       "store the vertex and triangle permutations, for decode --original-order");
+    command->add_flag("--orient", options->orient,
+                      "turn triangles round so that neighbors agree, instead of keeping each as it is");
     auto rules = std::make_shared<OptionRules>(*command);
     const auto is = [options](std::string_view format) { return options->format == format; };
     rules->only_with({"--profile"}, "--format packed", [is] { return is("packed"); });

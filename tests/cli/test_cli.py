@@ -129,6 +129,27 @@ class RoundTrip(CliTest):
         # Each form with three kinds of mesh, each kind with three forms: the unit tests have all of both.
         in_parallel(check, [(k, *f) for i, k in enumerate(KINDS) for j, f in enumerate(forms) if (i + j) % len(KINDS) < 3])
 
+    def test_orient(self):
+        quads = [(i, i + 1, i + 11, i + 10) for i in range(0, 80) if i % 10 != 9]
+        faces = [f for a, b, c, d in quads for f in ((a, b, c), (a, c, d))]
+        turned = [f if i % 7 != 3 else (f[0], f[2], f[1]) for i, f in enumerate(faces)]
+        points = [(float(i % 10), float(i // 10), 0.0) for i in range(90)]
+        source, lr, out = self.write("turned.ply", write.ply(points, turned)), self.path("turned.lr"), self.path("turned-out.ply")
+        for form in ("lean", "packed", "lr"):
+            with self.subTest(form):
+                said = self.ok("encode", source, "-o", lr, "--format", form, "--force").err
+                self.assertNotIn("turned round", said)
+                self.ok("decode", lr, "-o", out, "--force")
+                self.same_triangles(source, out)
+                as_it_is = os.path.getsize(lr)
+                said = self.ok("encode", source, "-o", lr, "--format", form, "--orient", "--keep-order", "--force").err
+                self.assertIn(f"{len(range(3, len(faces), 7))} triangles turned round by --orient", said)
+                self.ok("decode", lr, "-o", out, "--original-order", "--force")
+                self.assertEqual(self.json("info", out, "--json")["flipped"], 0)
+                self.same_triangles(self.write("straight.ply", write.ply(points, faces)), out)
+                self.ok("encode", source, "-o", lr, "--format", form, "--orient", "--force")
+                self.assertLessEqual(os.path.getsize(lr), as_it_is)
+
     def test_nothing_but_degenerate_triangles(self):
         source = self.write("flat.ply", write.ply(POINTS, [(0, 0, 1), (2, 2, 2)]))
         self.ok("verify", source)

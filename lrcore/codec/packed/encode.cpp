@@ -21,7 +21,7 @@ namespace {
 
 using Edge = PackedEdge;
 
-constexpr std::uint32_t kMostVertices = 1U << 29;  // keeps folded BESIDE steps below 2^30
+constexpr std::uint32_t kMostPackedVertices = 1U << 29;  // keeps folded BESIDE steps below 2^30
 
 /// Widths and orders of one group.
 struct GroupCodes {
@@ -368,9 +368,10 @@ Result<EncodedPacked> write_stream(const CornerTable& table, const Corridors& co
 }  // namespace
 
 Result<EncodedPacked> encode_packed(const CornerTable& table, const Rings& rings, PackedProfile profile) {
-    if (table.vertex_count > kMostVertices) {
-        return Error{ErrorCode::too_large,
-                     detail::message(table.vertex_count, " vertices; a packed stream numbers at most ", kMostVertices)};
+    if (table.vertex_count > kMostPackedVertices) {
+        return Error{
+            ErrorCode::too_large,
+            detail::message(table.vertex_count, " vertices; a packed stream numbers at most ", kMostPackedVertices)};
     }
     Corridors corridors = profile == PackedProfile::small ? walk_corridors(table, rings) : walk_pieces(table, rings);
     Result<EncodedPacked> encoded = write_stream(table, corridors);
