@@ -66,7 +66,6 @@
 #define LR_PACKED_PARTS 4u
 #define LR_PACKED_MAX_PART 200u
 #define LR_PACKED_PART 64u
-#define LR_PACKED_PART_WORDS 2u
 #define LR_PACKED_SPLIT 0u
 #define LR_PACKED_BESIDE 1u
 #define LR_PACKED_START 2u
@@ -268,7 +267,8 @@ uint lr_packed_golomb(inout LrPackedBits r, uint order) {
 
 // `count` bits of the groups, at most 32. No word behind them is read.
 uint lr_packed_bits_at(LrPackedLayout p, uint bit, uint count) {
-    uint shift = bit & 31u, low = LR_PACKED_GROUPS(p.groups + bit / 32u), high = 0u;
+    uint shift = bit & 31u, low = 0u, high = 0u;
+    if (count != 0u) low = LR_PACKED_GROUPS(p.groups + bit / 32u);
     if (shift + count > 32u) high = LR_PACKED_GROUPS(p.groups + bit / 32u + 1u);
     return bitfieldExtract(low >> shift | high << 1 << (31u - shift), 0, int(count));
 }
@@ -291,7 +291,7 @@ struct LrPackedRecord {
     uint begin, triangles;  // its first triangle, of the block; how many it has
     uint a, b;              // its entry
     bool reversed;
-    bool plain, parted;  // is its block?
+    bool plain;             // is its block?
     uint gap_bits, wart_bits, split_order, count_order;
 };
 
@@ -326,10 +326,9 @@ LrPackedRecord lr_packed_record(LrPackedLayout p, uint block, uint i) {
     r.begin = 0u;
     r.triangles = min(p.own - first, LR_PACKED_BLOCK);
     r.plain = kind == LR_PACKED_PLAIN;
-    r.parted = kind == LR_PACKED_PARTED;
     uint entry_bit = entries + uint(bitCount(own)) * entry_size, origin = uint(findMSB(own) + 1);  // its block
     uint skipped = 0u;  // bits of the record, if it begins with an entry
-    if (r.parted) {
+    if (kind == LR_PACKED_PARTED) {
         uint part = i / LR_PACKED_PART;
         uint lengths = lr_packed_bits_at(p, 8u * byte, 32u);
         byte += LR_PACKED_PARTS;
@@ -642,7 +641,7 @@ uint lr_packed_own_four(LrPackedLayout p, uint first) {
         lr_packed_next_event(p, r, e);
         bool third = e.after > e.triangle;
         uint flips = 0u;
-        if (e.code == LR_PACKED_FLIPS) flips = lr_packed_bits_at(p, e.flips + i, 4u);
+        if (e.code == LR_PACKED_FLIPS) flips = lr_packed_bits_at(p, e.flips + i, min(r.triangles - i, 4u));
         for (uint j = 0u; j < 4u; ++j) {
             if (e.triangle > i + j || e.triangle < skip[j]) continue;
             lr_packed_skip(s[j], at[j], e.triangle);

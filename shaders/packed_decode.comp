@@ -5,7 +5,7 @@
 // Expands a packed stream into an index buffer, and writes the commands that draw it.
 //
 // A workgroup has kBlocks blocks, four or eight. One invocation a block reads its events and writes pieces of corridors into
-// shared memory (3.4 KiB a block); then all of them expand four triangles at a time, whatever piece they are of, in the same few
+// shared memory (3.2 KiB a block); then all of them expand four triangles at a time, whatever piece they are of, in the same few
 // steps: a piece and a popcount say (a, b). A workgroup is as large as a subgroup, where it can be: none waits for another at the barrier.
 //
 // What lavapipe wants: it runs through both sides of a branch, and once through a `while` that has nothing to do, so what

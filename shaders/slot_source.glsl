@@ -74,7 +74,7 @@ void read_slot_four(uint slot, uint count) {
     if (packed_stream) {
         uvec4 l = push.stream_layout;
         lr_packed_triangles_of_quad(LrPackedLayout(l.x, l.y, l.z, l.w), slot, count);
-        for (uint i = 0u; i < 4u; ++i) slot_four[i] = rotate ? rotated(lr_packed_quad[i]) : lr_packed_quad[i];
+        for (uint i = 0u; i < count; ++i) slot_four[i] = rotate ? rotated(lr_packed_quad[i]) : lr_packed_quad[i];
     } else {
         slot_pair(slot, slot_four[0], slot_four[1]);
         if (count > 2u) slot_pair(slot + 2u, slot_four[2], slot_four[3]);

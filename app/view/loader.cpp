@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <mutex>
 #include <new>
+#include <thread>
 #include <utility>
 
 #include "app/formats.h"
@@ -300,11 +301,12 @@ Result<void> Loader::Job::finish(Document& document, bool quick) {
         publish(early);
     };
     const auto optimise_options = [&](const RingCost& cost, double from, double to, const char* what) {
-        say(what, from);
+        if (!quick) say(what, from);
         OptimizeOptions options;
         options.cost = cost;
         options.passes = quick ? 0 : settings.passes;
         options.random_seed = settings.random_seed;
+        options.threads = std::max(std::thread::hardware_concurrency(), 2U) - 1;  // one draws
         options.progress = [&, from, to, what](std::uint32_t done) {
             say(what, from + (to - from) * done / settings.passes);
             show();

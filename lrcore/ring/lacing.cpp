@@ -171,7 +171,7 @@ void Lacing::find_marked_t2(TriangleRange range, std::vector<std::uint32_t>& out
         std::uint32_t n = 0;  // no branch on what a triangle is: no processor foretells it
         for (std::uint32_t i = 0; i < count; ++i) {
             found[n] = t + i;
-            n += marked(t + i) & is_t2(t + i) ? 1 : 0;
+            n += std::uint32_t{marked(t + i)} & std::uint32_t{is_t2(t + i)};
         }
         out.insert(out.end(), found.begin(), found.begin() + n);
     };

@@ -97,7 +97,7 @@ class Annealer {
         lacing_.find_marked_t2(range_, ends_);
         // A few at a time, so that what they touch stays in the cache.
         for (std::size_t i = 0; i < ends_.size(); i += kBatch) {
-            batch_.assign(ends_.begin() + i, ends_.begin() + std::min(i + kBatch, ends_.size()));
+            batch_.assign(ends_.data() + i, ends_.data() + std::min(i + kBatch, ends_.size()));
             for (std::uint32_t round = 0; round < rounds_ && !batch_.empty(); ++round) try_batch();
         }
         std::sort(isolated_.begin(), isolated_.end());

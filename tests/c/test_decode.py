@@ -18,7 +18,7 @@ from lean_reader import decode_lean  # noqa: E402
 from mesh_readers import BadFile  # noqa: E402
 from packed_reader import decode_packed  # noqa: E402
 
-LARGEST_OBJECT = 17 * 1024  # bytes, at -Os, symbols included
+LARGEST_OBJECT = 18 * 1024  # bytes, at -Os, symbols included
 PACKED = 0x3250524C  # magic
 FLAGS = ["-std=c99", "-pedantic-errors", "-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-Werror"]
 

@@ -2,7 +2,7 @@
 //
 // A stream is LR_PACKED_HEADER_WORDS header words, and then, all little-endian u32:
 //     turn bits    one bit an own triangle (no double), LR_PACKED_BLOCK_WORDS words a block, the last block's cut short
-//     table        for each group of LR_PACKED_GROUP blocks but the first: the byte at which it begins
+//     table        for each group of LR_PACKED_GROUP blocks but the first: the word at which it begins
 //     doubles      LR_PACKED_DOUBLES_WORDS words and runs of LR_PACKED_RUN_WORDS, if the header says that there are any
 //     groups       a head each, of bits, and then a record for each block, of whole bytes; zeros up to a whole word
 #ifndef LACEDRING_PACKED_FORMAT_H
@@ -49,8 +49,7 @@
 #define LR_PACKED_MAX_RECORD 160u
 #define LR_PACKED_PARTS 4u
 #define LR_PACKED_MAX_PART 200u
-#define LR_PACKED_PART 64u       // triangles of a part
-#define LR_PACKED_PART_WORDS 2u  // their turn bits
+#define LR_PACKED_PART 64u  // triangles of a part
 
 // Event codes: so many ones before the zero. The last code has no zero.
 #define LR_PACKED_SPLIT 0u   // at its triangle: a T0; the polygon's smaller part comes next

@@ -110,7 +110,7 @@ struct lacedring_packed {
 };
 
 /* As for lean streams: open reads the header and checks sizes, constant time; check is all that decoders rely on but
-   the checksum, linear time; validate does all. 12 KB of stack. */
+   the checksum, linear time; validate does all. Checking takes 15 KB of stack, decoding 18. */
 enum lacedring_status lacedring_packed_open(const uint32_t* words, size_t count, struct lacedring_packed* packed,
                                             uint64_t* where);
 enum lacedring_status lacedring_packed_check(const struct lacedring_packed* packed, uint64_t* where);
@@ -429,12 +429,12 @@ struct lacedring_bits_ {
 
 /* At least 57 bits from bit `at` of the groups on, whatever record they are of. */
 LACEDRING_HOT_ uint64_t lacedring_load_(const struct lacedring_bits_* r, uint64_t at) {
-    const size_t byte = (size_t)(at >> 3);
+    const uint64_t byte = at >> 3;
     uint64_t value = 0;
     if (byte + 8 <= r->bytes) {
-        memcpy(&value, r->groups + byte, 8);
+        memcpy(&value, r->groups + (size_t)byte, 8);
     } else if (byte < r->bytes) {
-        memcpy(&value, r->groups + byte, r->bytes - byte);
+        memcpy(&value, r->groups + (size_t)byte, r->bytes - (size_t)byte);
     }
     return value >> (at & 7);
 }
@@ -777,7 +777,7 @@ static uint32_t lacedring_ups_(const uint32_t* turns, uint32_t begin, uint32_t e
 /* Not for Windows, where GCC does not align a stack for such vectors. */
 #if defined(__x86_64__) && !defined(_WIN32) && (defined(__clang__) || __GNUC__ >= 12)
 #define LACEDRING_AVX2_ 1
-#define LACEDRING_WIDE_ __attribute__((target("avx2,bmi,bmi2,popcnt,lzcnt")))
+#define LACEDRING_WIDE_ __attribute__((target("avx2,bmi,bmi2,popcnt")))
 #endif
 #endif
 
@@ -1583,8 +1583,8 @@ static int lacedring_expand_record_(const struct lacedring_packed* p, const stru
                                     struct lacedring_record_* r, int explicit_entry, uint32_t* out) {
 #ifdef LACEDRING_AVX2_
     /* The first two Zens have all of it, but take hundreds of cycles for one of its instructions. */
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2") && !__builtin_cpu_is("znver1") &&
-        !__builtin_cpu_is("znver2"))
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") &&
+        __builtin_cpu_supports("popcnt") && !__builtin_cpu_is("znver1") && !__builtin_cpu_is("znver2"))
         return lacedring_expand_wide_(p, g, r, explicit_entry, out);
 #endif
     return lacedring_expand_(p, g, r, explicit_entry, out, 0);
@@ -1771,17 +1771,22 @@ static void lacedring_double_(const uint32_t* of, uint32_t turned, uint32_t* out
 /* Triangles [t, end), all of them doubles. */
 LACEDRING_SMALL_ void lacedring_double_triangles_(const struct lacedring_packed* p, uint32_t t, uint32_t end,
                                                   uint32_t* out) {
+    enum { kFew = 8 }; /* triangles of a block that are read one by one: then it need not be decoded */
     uint32_t block[3 * LACEDRING_PACKED_BLOCK], held = UINT32_MAX, run = lacedring_run_of_(p, t);
     for (; t < end; ++run) {
         const uint32_t* r = p->doubles + (size_t)2 * run;
         const uint32_t run_end = lacedring_run_end_(p, run), stop = run_end < end ? run_end : end;
         for (; t < stop; ++t, out += 3) {
-            const uint32_t of = (r[1] & ~LACEDRING_DOUBLES_) + (t - r[0]);
-            if (of / LACEDRING_PACKED_BLOCK != held) {
+            const uint32_t of = (r[1] & ~LACEDRING_DOUBLES_) + (t - r[0]), i = of % LACEDRING_PACKED_BLOCK;
+            if (of / LACEDRING_PACKED_BLOCK != held && stop - t >= kFew && LACEDRING_PACKED_BLOCK - i >= kFew) {
                 held = of / LACEDRING_PACKED_BLOCK;
                 lacedring_own_blocks_(p, held, held + 1, block);
             }
-            lacedring_double_(block + (size_t)3 * (of % LACEDRING_PACKED_BLOCK), r[1] & LACEDRING_DOUBLES_, out);
+            if (of / LACEDRING_PACKED_BLOCK == held) {
+                lacedring_double_(block + (size_t)3 * i, r[1] & LACEDRING_DOUBLES_, out);
+            } else {
+                lacedring_packed_triangle(p, t, out);
+            }
         }
     }
 }

@@ -110,7 +110,7 @@ std::uint32_t packed_checksum(std::span<const std::uint32_t> words);
 /// Errors: malformed. Untrusted input: safe.
 Result<PackedView> view_packed(std::span<const std::uint32_t> words);
 
-/// Checks the checksum, the directory and every block: vertices in range, three different ones a triangle.
+/// Checks the checksum, doubles, heads and every block: vertices in range, three different ones a triangle.
 /// Cost: O(T). Untrusted input: safe.
 Result<PackedView> validate_packed(std::span<const std::uint32_t> words);
 
