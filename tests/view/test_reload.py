@@ -126,7 +126,7 @@ class Reload(driver.Scripted):
                       f"set source {('lean', 'packed')[i % 2]}", "frames 4", "key f5", "frames 1"]
         lines += ["set decode off", "set turntable off", self.mended("surface.frag"), "wait settled", "print"]
         states = self.script(*lines)
-        self.assertGreaterEqual(states[-1]["reloads"], 8)
+        self.assertGreaterEqual(states[-1]["reloads"], 4)  # edits that come close together are one
         self.assertEqual((states[-1]["error"], states[-1]["replaced"]), ("", 0))
 
     def test_index_buffers_are_made_anew(self):
