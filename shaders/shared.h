@@ -65,7 +65,7 @@ struct DrawConstants {
 #define LR_CONSTANT_PACKED 2  // of a packed stream
 #define LR_CONSTANT_ROTATE 3  // triangles begin with their smallest original vertex
 
-#define LR_CONSTANT_FOURS 4   // slot_words.comp: four slots at a time
+#define LR_CONSTANT_FOURS 4  // slot_words.comp: four slots at a time
 
 // Floats of a vertex: position, normal, place along the rings.
 #define LR_VERTEX_FLOATS 7u
