@@ -255,7 +255,7 @@ Rings expand_rings(const CornerTable& table, const RingOptions& options, Expansi
         costs[0] = expander.cost(region);
         try_seeds(expander, options, region.size(), seeds, costs);
         best = seeds[static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) - costs.begin())];
-        // What the first one entered is there already.
+        // The triangles that the first seed entered are listed already.
         const bool enter_again = entered != nullptr && best != first;
         if (enter_again) entered->resize(expansion->first.back());
         region.clear();

@@ -33,7 +33,7 @@ class Lacing {
     static constexpr std::int64_t kScale = 16;  ///< of costs, so that temperatures are not coarse beside small numbers
     static constexpr std::uint32_t kNone = UINT32_MAX;
 
-    /// What turn_over changed.
+    /// The states that turn_over changed.
     class Changes {
       public:
         void clear() { size_ = 0; }
@@ -74,9 +74,9 @@ class Lacing {
     bool is_right(std::uint32_t c) const { return (state_[c >> 2] & kRight) != 0; }
 
     std::uint8_t state(std::uint32_t t) const { return state_[t]; }
-    /// How many ring edges a triangle of that state has.
+    /// The number of ring edges of a triangle of that state.
     static std::uint32_t ring_edges(std::uint8_t state) { return kBits[state & kMask]; }
-    /// What a triangle of that state costs; and what it would cost as a T0.
+    /// The cost of a triangle of that state, and its cost as a T0.
     std::int64_t cost(std::uint8_t state) const { return t0_[state & kT0Key]; }
     std::int64_t cost_as_t0(std::uint8_t state) const { return t0_[state & kDeadEnds]; }
     std::int64_t wart_cost() const { return t0_[kDeadEnd]; }
@@ -179,7 +179,7 @@ class Lacing {
     /// A corner of each vertex that is on no ring to begin with, in ascending order.
     std::vector<std::uint32_t> take_isolated() { return std::move(isolated_); }
 
-    /// What the rings make of the triangles, all of it.
+    /// The states of all triangles.
     const std::vector<std::uint8_t>& states() const { return state_; }
     /// The rings of such states, in the order of their first triangles. Frees all but what it needs.
     static Rings rings(Lacing lacing, const std::vector<std::uint8_t>& states);

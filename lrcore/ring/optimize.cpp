@@ -117,7 +117,7 @@ class Annealer {
     /// Up to kFar edges where less than one in kFew triangles would be near.
     static constexpr std::uint32_t kFar = 20, kFew = 32;
 
-    /// What became of a try.
+    /// The result of a try.
     enum class Try : std::uint8_t { done, refused, hopeless };
 
     std::uint64_t random() { return mix(random_ += 0x9e3779b97f4a7c15U); }
@@ -290,20 +290,20 @@ class Annealer {
     std::vector<std::uint32_t> ends_, batch_, moved_;  // triangles that were T2 when noted
 };
 
-/// What a pass over a part came to.
+/// The result of a pass over a part.
 struct Outcome {
     std::int64_t cost = 0;
     std::size_t tried = 0;
     std::vector<std::uint32_t> isolated;
 };
 
-/// How many parts a mesh of that size is annealed in.
+/// The number of parts in which a mesh of that size is annealed.
 std::uint32_t number_of_parts(std::uint32_t triangles) {
     constexpr std::uint32_t kLeast = 16384, kMost = 16;  // triangles of a part; parts
     return std::clamp(triangles / kLeast, 1U, kMost);
 }
 
-/// Where the parts of a pass begin, and the end.
+/// The first triangle of each part of a pass, and the number of triangles.
 std::vector<std::uint32_t> parts_of(std::uint32_t triangles, std::uint32_t pass) {
     const std::uint32_t parts = number_of_parts(triangles);
     if (parts == 1) return {0, triangles};

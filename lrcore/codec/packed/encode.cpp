@@ -158,8 +158,8 @@ class GroupWriter {
         });
     }
 
-    /// Where a record begins: its entry is in the head, or step is what a differs by from what it would be if the group
-    /// went on evenly from the last such entry.
+    /// How the head says a block's entry: in full (own), or as a step. The step is added to the a that the block would
+    /// have if half of all turns since the last entry in full were 1.
     struct Entry {
         bool own = true;
         std::int32_t step = 0;

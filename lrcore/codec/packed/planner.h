@@ -307,7 +307,7 @@ class Planner {
     bool base_ = false, last_base_ = false;  // the flip that its bits are relative to
     PackedRecordPlan* out_ = nullptr;
     std::uint32_t first_ = 0, end_ = 0;
-    // What a reader of the block knows.
+    // The state that a reader of the block has.
     Edge now_{}, begun_{};
     bool reversed_ = false, begun_reversed_ = false, finished_ = false;
     std::vector<Scope> scopes_;
