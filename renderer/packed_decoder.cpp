@@ -17,10 +17,12 @@ Result<PackedDecoder> PackedDecoder::create(Context& context) {
     const std::array<Binding, 2> bindings{{{0}, {1}}};
     LR_ASSIGN(out.layout_,
               Layout::create(context, "packed decode", bindings, VK_SHADER_STAGE_COMPUTE_BIT, sizeof(DecodeConstants)));
-    // Blocks are read by an invocation each: a larger group than a subgroup would have more of them wait.
+    // One invocation reads a block's events: eight blocks fill a subgroup of lavapipe. On a GPU, eight take the shared memory
+    // of other workgroups: the H200 decodes two million triangles in 0.31 ms with eight, in 0.19 with four, two or one.
     constexpr std::uint32_t kSharedOfEight = 27 << 10;
-    out.group_ = {std::clamp(context.info().subgroup_size, 8U, 64U),
-                  context.limits().maxComputeSharedMemorySize >= kSharedOfEight ? 8U : 4U};
+    const std::uint32_t subgroup = context.info().subgroup_size;
+    const bool eight = subgroup <= 8 && context.limits().maxComputeSharedMemorySize >= kSharedOfEight;
+    out.group_ = {std::clamp(subgroup, 8U, 64U), eight ? 8U : 4U};
     out.pipelines_.resize(1);
     LR_ASSIGN(out.pipelines_[0],
               create_compute(context, "packed decode", out.layout_, spirv_packed_decode_comp, out.group_));

@@ -36,23 +36,22 @@ uvec3 rotated(uvec3 t) {
     return t;
 }
 
+LrLeanLayout lean_layout() { return LrLeanLayout(push.stream_layout.x, push.stream_layout.y, push.stream_layout.z); }
+LrPackedLayout packed_layout() {
+    return LrPackedLayout(push.stream_layout.x, push.stream_layout.y, push.stream_layout.z, push.stream_layout.w);
+}
+
 uvec3 slot_triangle(uint slot) {
-    uvec3 t;
-    if (packed_stream) {
-        uvec4 l = push.stream_layout;
-        t = lr_packed_triangle(LrPackedLayout(l.x, l.y, l.z, l.w), slot);
-    } else {
-        t = lr_lean_triangle(LrLeanLayout(push.stream_layout.x, push.stream_layout.y, push.stream_layout.z), slot);
-    }
+    uvec3 t = packed_stream ? lr_packed_triangle(packed_layout(), slot) : lr_lean_triangle(lean_layout(), slot);
     return rotate ? rotated(t) : t;
 }
 
-// The triangles of slots 2i and 2i + 1 of a lean stream. Those of one ring edge need its two words once.
+// The triangles of slots 2i and 2i + 1 of a lean stream, not rotated. Those of one ring edge need its two words once.
 void slot_pair(uint slot, out uvec3 t0, out uvec3 t1) {
-    LrLeanLayout lean = LrLeanLayout(push.stream_layout.x, push.stream_layout.y, push.stream_layout.z);
+    LrLeanLayout lean = lean_layout();
     if (slot >= 2u * lean.rings2) {
-        t0 = slot_triangle(slot);
-        t1 = slot + 1u < push.first_slot + push.slots ? slot_triangle(slot + 1u) : uvec3(0u);
+        t0 = lr_lean_triangle(lean, slot);
+        t1 = slot + 1u < push.first_slot + push.slots ? lr_lean_triangle(lean, slot + 1u) : uvec3(0u);
         return;
     }
     uint v = slot >> 1, left = lr_lean_word(slot), right = lr_lean_word(slot + 1u);
@@ -62,22 +61,22 @@ void slot_pair(uint slot, out uvec3 t0, out uvec3 t1) {
     }
     t0 = lr_lean_ring_triangle(left, v, next, skip, false);
     t1 = lr_lean_ring_triangle(right, v, next, skip, true);
-    if (rotate) {
-        t0 = rotated(t0);
-        t1 = rotated(t1);
-    }
 }
 
 // The triangles of slots 4i to 4i + 3, of which the first `count` are there.
 uvec3 slot_four[4];
 void read_slot_four(uint slot, uint count) {
     if (packed_stream) {
-        uvec4 l = push.stream_layout;
-        lr_packed_triangles_of_quad(LrPackedLayout(l.x, l.y, l.z, l.w), slot, count);
-        for (uint i = 0u; i < count; ++i) slot_four[i] = rotate ? rotated(lr_packed_quad[i]) : lr_packed_quad[i];
+        lr_packed_triangles_of_quad(packed_layout(), slot, count);
+        for (uint i = 0u; i < 4u; ++i) slot_four[i] = lr_packed_quad[i];
     } else {
-        slot_pair(slot, slot_four[0], slot_four[1]);
-        if (count > 2u) slot_pair(slot + 2u, slot_four[2], slot_four[3]);
+        for (uint i = 0u; i < count; i += 2u) slot_pair(slot + i, slot_four[i], slot_four[i + 1u]);
     }
-    for (uint i = count; i < 4u; ++i) slot_four[i] = uvec3(0u);
+    for (uint i = 0u; i < 4u; ++i) {
+        if (i >= count) {
+            slot_four[i] = uvec3(0u);
+        } else if (rotate) {
+            slot_four[i] = rotated(slot_four[i]);
+        }
+    }
 }
