@@ -54,6 +54,8 @@ std::string_view kind_by_signature(std::span<const std::byte> bytes) {
             return "LR tables";
         case magic::kCompactLr:
             return "bit-efficient LR tables";
+        case magic::kVertices:
+            return "a vertex stream";
         case magic::kLrFile:
             return "an .lr file";
         case 0x46546c67:  // "glTF"

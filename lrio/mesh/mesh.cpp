@@ -5,24 +5,6 @@
 
 namespace lacedring {
 
-std::size_t size_of(ComponentType type) {
-    switch (type) {
-        case ComponentType::i8:
-        case ComponentType::u8:
-            return 1;
-        case ComponentType::i16:
-        case ComponentType::u16:
-            return 2;
-        case ComponentType::i32:
-        case ComponentType::u32:
-        case ComponentType::f32:
-            return 4;
-        case ComponentType::f64:
-            return 8;
-    }
-    return 0;
-}
-
 const Attribute* find_attribute(const Mesh& mesh, std::string_view name) {
     for (const Attribute& attribute : mesh.attributes) {
         if (attribute.name == name) return &attribute;

@@ -6,6 +6,7 @@
 
 #define LACEDRING_DECODE_IMPLEMENTATION
 #include "lacedring/lacedring_decode.h"
+#include "lacedring/lacedring_vertices.h"
 #include "lrcore/base/crc32.h"
 #include "lrcore/base/message.h"
 #include "lrcore/base/signature.h"
@@ -71,6 +72,7 @@ std::string why(lacedring_status status, std::uint64_t where, std::span<const st
             return message(where, " triangles, where the header says ", words[LR_LEAN_WORD_TRIANGLES]);
         case LACEDRING_STATUS_GROUP:
         case LACEDRING_STATUS_BLOCK:
+        case LACEDRING_STATUS_HEADER:
         case LACEDRING_STATUS_TURNS:
         case LACEDRING_STATUS_DOUBLES:
             break;  // of packed streams

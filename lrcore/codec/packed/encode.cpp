@@ -9,7 +9,7 @@
 #include "lacedring/lacedring.hpp"
 #include "lacedring/streams.hpp"
 #include "lrcore/base/message.h"
-#include "lrcore/codec/packed/bit_writer.h"
+#include "lrcore/codec/bit_writer.h"
 #include "lrcore/codec/packed/corridors.h"
 #include "lrcore/codec/packed/doubles.h"
 #include "lrcore/codec/packed/packed_c.h"

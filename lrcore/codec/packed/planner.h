@@ -6,7 +6,7 @@
 #include <array>
 #include <optional>
 
-#include "lrcore/codec/packed/bit_writer.h"
+#include "lrcore/codec/bit_writer.h"
 #include "lrcore/codec/packed/corridors.h"
 #include "lrcore/codec/packed/packed_format.h"
 #include "lrcore/codec/packed/record_plan.h"

@@ -57,7 +57,8 @@ enum lacedring_status {
     LACEDRING_STATUS_GROUP,        /* the block whose group begins elsewhere, or has an impossible head */
     LACEDRING_STATUS_BLOCK,        /* the block that says something impossible */
     LACEDRING_STATUS_TURNS,        /* how many triangles have turns, and there are more */
-    LACEDRING_STATUS_DOUBLES       /* which run of doubles is impossible */
+    LACEDRING_STATUS_DOUBLES,      /* which run of doubles is impossible */
+    LACEDRING_STATUS_HEADER        /* the word of the header that says something impossible */
 };
 
 /* A stream in memory, its header read. Holds no copy. Slots are numbered: 2 for each vertex of two-sided rings, 1 for
@@ -1951,8 +1952,6 @@ void lacedring_packed_triangle(const struct lacedring_packed* p, uint32_t triang
 #undef LACEDRING_PACKED_GROUP_
 #undef LACEDRING_PACKED_MAX_RECORD_
 #undef LACEDRING_PACKED_PART_
-#undef LACEDRING_HOT_
-#undef LACEDRING_SMALL_
 #undef LACEDRING_PACKED_MAX_PART_
 #undef LACEDRING_VECTORS_
 #undef LACEDRING_AVX2_

@@ -9,13 +9,9 @@
 #include <vector>
 
 #include "lacedring/topology.hpp"
+#include "lacedring/vertices.hpp"
 
 namespace lacedring {
-
-enum class ComponentType : std::uint8_t { i8 = 0, u8 = 1, i16 = 2, u16 = 3, i32 = 4, u32 = 5, f32 = 6, f64 = 7 };
-
-/// Bytes of one component.
-std::size_t size_of(ComponentType type);
 
 /// One value per vertex. `data` holds vertex_count * components values, little-endian, tightly packed.
 struct Attribute {
