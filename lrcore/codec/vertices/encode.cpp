@@ -390,7 +390,7 @@ class BlockEncoder {
 std::vector<Component> find_components(const VertexIntegers& of, std::uint32_t vertices) {
     const std::uint32_t n = of.components;
     std::vector<Component> out(n);
-    const bool is_signed = of.mapping == VertexMapping::lattice || of.mapping == VertexMapping::octahedral;
+    const bool is_signed = of.mapping != VertexMapping::floats && of.mapping != VertexMapping::doubles;
     const std::uint32_t flip = is_signed ? 0x80000000U : 0;
     for (std::uint32_t c = 0; c < n && vertices > 0; ++c) {
         std::uint32_t low = UINT32_MAX, high = 0;
@@ -432,17 +432,13 @@ struct Group {
     std::array<std::uint32_t, kGroupBlocks> begins{};  // bit of each block
 };
 
-}  // namespace
-
-Result<EncodedVertices> encode_vertices(const VertexValues& values, const VertexOptions& options) {
-    Result<VertexIntegers> integers = to_integers(values, options);
-    if (!integers) return integers.error();
+Result<EncodedVertices> encode_integers(const VertexIntegers& integers, const VertexValues& values, unsigned threads) {
     const auto vertices = static_cast<std::uint32_t>(values.data.size() / values.stride());
-    const std::vector<Component> components = find_components(*integers, vertices);
-    const BlockEncoder encoder(*integers, components);
+    const std::vector<Component> components = find_components(integers, vertices);
+    const BlockEncoder encoder(integers, components);
     const std::uint32_t blocks = (vertices + kVertexBlock - 1) / kVertexBlock;
     std::vector<Group> groups((blocks + kGroupBlocks - 1) / kGroupBlocks);
-    detail::in_parallel(options.threads, static_cast<std::uint32_t>(groups.size()), [&](std::uint32_t g) {
+    detail::in_parallel(threads, static_cast<std::uint32_t>(groups.size()), [&](std::uint32_t g) {
         Group& group = groups[g];
         BitWriter bits;
         for (std::uint32_t block = g * kGroupBlocks; block < std::min(blocks, (g + 1) * kGroupBlocks); ++block) {
@@ -461,26 +457,29 @@ Result<EncodedVertices> encode_vertices(const VertexValues& values, const Vertex
         farthest = std::max(farthest, *std::max_element(group.begins.begin(), group.begins.end()));
     const auto field = static_cast<std::uint32_t>(std::bit_width(farthest));
     const auto largest_error = [&] {  // as a float that is no less
-        auto error = static_cast<float>(integers->largest_error);
-        if (static_cast<double>(error) < integers->largest_error)
+        auto error = static_cast<float>(integers.largest_error);
+        if (static_cast<double>(error) < integers.largest_error)
             error = std::bit_cast<float>(std::bit_cast<std::uint32_t>(error) + 1);
         return error;
     }();
     EncodedVertices out;
-    out.largest_error = integers->largest_error;
-    const auto type = integers->mapping == VertexMapping::lattice ? ComponentType::f32 : values.type;
-    out.words = {magic::kVertices,
-                 vertices,
-                 integers->components | static_cast<std::uint32_t>(integers->mapping) << 5 |
-                     static_cast<std::uint32_t>(type) << 8 | static_cast<std::uint32_t>(values.normalized) << 12 |
-                     integers->bits << 13 | field << 18,
-                 0,
-                 std::bit_cast<std::uint32_t>(integers->step),
-                 std::bit_cast<std::uint32_t>(largest_error)};
+    out.largest_error = integers.largest_error;
+    const auto type = integers.mapping == VertexMapping::lattice ? ComponentType::f32 : values.type;
+    out.words = {
+        magic::kVertices,
+        vertices,
+        integers.components | static_cast<std::uint32_t>(integers.mapping) << 5 |
+            static_cast<std::uint32_t>(type) << 8 | static_cast<std::uint32_t>(values.normalized) << 12 |
+            integers.bits << 13 | field << 18,
+        0,
+        integers.mapping == VertexMapping::decimals ? integers.digits : std::bit_cast<std::uint32_t>(integers.step),
+        std::bit_cast<std::uint32_t>(largest_error),
+        static_cast<std::uint32_t>(integers.exceptions.size() / 2)};
     for (const Component& component : components) {
         out.words.push_back(component.low);
         out.words.push_back(component.first_bits | component.width << 6 | component.predictor << 11);
     }
+    out.words.insert(out.words.end(), integers.exceptions.begin(), integers.exceptions.end());
     std::uint64_t words = 0;
     for (std::size_t g = 0; g < groups.size(); ++g) {
         if (words > UINT32_MAX) return Error{ErrorCode::too_large, "more than 16 GiB of vertices"};
@@ -500,6 +499,19 @@ Result<EncodedVertices> encode_vertices(const VertexValues& values, const Vertex
     const std::uint32_t header = crc32(std::as_bytes(std::span(out.words).first(3)));
     out.words[3] = crc32(std::as_bytes(std::span(out.words).subspan(4)), header);
     return out;
+}
+
+}  // namespace
+
+Result<EncodedVertices> encode_vertices(const VertexValues& values, const VertexOptions& options) {
+    Result<VertexIntegers> integers = to_integers(values, options);
+    if (!integers) return integers.error();
+    Result<EncodedVertices> out = encode_integers(*integers, values, options.threads);
+    if (!out || integers->mapping != VertexMapping::floats) return out;
+    const std::optional<VertexIntegers> decimals = to_decimals(values);
+    if (!decimals) return out;
+    Result<EncodedVertices> other = encode_integers(*decimals, values, options.threads);
+    return other && other->words.size() < out->words.size() ? other : out;
 }
 
 }  // namespace lacedring

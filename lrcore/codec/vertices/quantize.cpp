@@ -184,7 +184,60 @@ Result<VertexIntegers> to_exact(const VertexValues& values) {
     return out;
 }
 
+constexpr double kPowers[] = {1, 10, 100, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
+
+/// The integer whose decimal the float is, if it is one.
+std::optional<std::int32_t> decimal(float value, double power) {
+    const double nearest = std::nearbyint(static_cast<double>(value) * power);
+    if (!(std::abs(nearest) <= 0x7fffffff)) return {};
+    const auto integer = static_cast<std::int32_t>(nearest);
+    const auto back = static_cast<float>(integer / power);  // of -0 it is 0, which differs
+    if (std::bit_cast<std::uint32_t>(back) != std::bit_cast<std::uint32_t>(value)) return {};
+    return integer;
+}
+
 }  // namespace
+
+std::optional<VertexIntegers> to_decimals(const VertexValues& values) {
+    const std::size_t size = values.data.size() / 4, step = 1 + size / 65536;
+    if (values.type != ComponentType::f32 || size == 0 || size > UINT32_MAX) return {};
+    double least = INFINITY;
+    std::uint32_t digits = 0;
+    for (std::uint32_t d = 0; d < std::size(kPowers); ++d) {
+        std::size_t exceptions = 0, looked_at = 0;
+        for (std::size_t i = 0; i < size; i += step, ++looked_at) {
+            if (!decimal(value_at<float>(values, i), kPowers[d])) ++exceptions;
+        }
+        // A digit takes 3.32 bits a value, an exception two words.
+        const double bits = 3.32 * d + 64 * static_cast<double>(exceptions) / static_cast<double>(looked_at);
+        if (4 * exceptions > looked_at || bits >= least) continue;
+        least = bits;
+        digits = d;
+    }
+    if (!std::isfinite(least)) return {};
+    VertexIntegers out;
+    out.mapping = VertexMapping::decimals;
+    out.components = values.components;
+    out.digits = digits;
+    out.values.resize(size);
+    for (std::size_t i = 0; i < size; ++i) {
+        const auto value = value_at<float>(values, i);
+        if (const auto found = decimal(value, kPowers[digits])) {
+            out.values[i] = static_cast<std::uint32_t>(*found);
+            continue;
+        }
+        // Any integer does for an exception: the nearest one, if it is small enough, else that of the vertex before.
+        const double nearest = std::nearbyint(static_cast<double>(value) * kPowers[digits]);
+        if (std::abs(nearest) <= 0x7fffffff) {
+            out.values[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(nearest));
+        } else if (i >= values.components) {
+            out.values[i] = out.values[i - values.components];
+        }
+        out.exceptions.push_back(static_cast<std::uint32_t>(i));
+        out.exceptions.push_back(value_at<std::uint32_t>(values, i));
+    }
+    return out;
+}
 
 Result<VertexIntegers> to_integers(const VertexValues& values, const VertexOptions& options) {
     if (values.type > ComponentType::f64 || values.components == 0 || values.data.size() % values.stride() != 0 ||

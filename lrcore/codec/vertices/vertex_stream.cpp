@@ -67,6 +67,8 @@ Result<VertexView> view_vertices(std::span<const std::uint32_t> words) {
     view.components = static_cast<std::uint8_t>(lacedring_vertices_values(&stream));
     view.integers = static_cast<std::uint8_t>(stream.components);
     view.bits = static_cast<std::uint8_t>(stream.bits);
+    view.digits = static_cast<std::uint8_t>(stream.digits);
+    view.exceptions = stream.exception_count;
     view.step = stream.step;
     view.largest_error = stream.largest_error;
     return view;

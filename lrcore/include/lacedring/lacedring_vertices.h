@@ -19,7 +19,7 @@
 extern "C" {
 #endif
 
-#define LACEDRING_VERTICES_HEADER_WORDS 6
+#define LACEDRING_VERTICES_HEADER_WORDS 7
 #define LACEDRING_VERTICES_BLOCK 128u
 #define LACEDRING_VERTICES_MAX_COMPONENTS 16u /* integers a vertex */
 
@@ -27,15 +27,17 @@ extern "C" {
 enum lacedring_mapping {
     LACEDRING_MAPPING_INTEGERS,   /* themselves: of 8, 16 or 32 bits, signed or not */
     LACEDRING_MAPPING_LATTICE,    /* integer * step, which is exact: a float */
-    LACEDRING_MAPPING_OCTAHEDRAL, /* a unit vector by two integers; with a third one, 0 or 1, a tangent with w = 1 or -1
+    LACEDRING_MAPPING_OCTAHEDRAL, /* a unit vector by two integers; a third one is 0 or 1 for a tangent's w of 1 or -1
                                    */
     LACEDRING_MAPPING_FLOATS,     /* the bits of a float, in the order of the numbers */
-    LACEDRING_MAPPING_DOUBLES /* the bits of a double, the higher half in the order of the numbers, then the lower */
+    LACEDRING_MAPPING_DECIMALS,   /* the float nearest to integer / 10^digits; exceptions are listed */
+    LACEDRING_MAPPING_DOUBLES     /* the bits of a double: the higher half as of a float, then the lower half */
 };
 
 /* A stream in memory, its header read. Holds no copy. */
 struct lacedring_vertices {
     const uint32_t* parameters; /* two words a component */
+    const uint32_t* exceptions; /* two words each: which value of the attribute, and the bits of its float */
     const uint32_t* table;      /* where groups of 16 blocks and their blocks begin */
     const uint32_t* data;
     size_t data_words; /* two of padding among them */
@@ -45,6 +47,8 @@ struct lacedring_vertices {
     uint32_t type;       /* of the attribute's values: 0 i8, 1 u8, 2 i16, 3 u16, 4 i32, 5 u32, 6 f32, 7 f64 */
     uint32_t normalized; /* integers that stand for 0 to 1, or -1 to 1 */
     uint32_t bits;       /* octahedral: of each of the two integers */
+    uint32_t digits;     /* of decimals: behind the point */
+    uint32_t exception_count;
     uint32_t field_bits; /* of the table's fields */
     float step;          /* of the lattice */
     float largest_error; /* of any value of any vertex; 0: none */
@@ -62,12 +66,10 @@ enum lacedring_status lacedring_vertices_check(const struct lacedring_vertices* 
 enum lacedring_status lacedring_vertices_validate(const uint32_t* words, size_t count,
                                                   struct lacedring_vertices* stream, uint64_t* where);
 
-/* Blocks [block, end): integers of vertices [128 * block, 128 * end) or what the last block has, `components` for each.
- */
+/* Blocks [block, end): the integers of vertices [128 * block, 128 * end), or of those that the last block has. */
 void lacedring_vertices_blocks(const struct lacedring_vertices* stream, uint32_t block, uint32_t end, uint32_t* out);
 
-/* All values of the attribute, tightly packed: lacedring_vertices_values * (bytes of its type) a vertex. Linear time.
- */
+/* All values of the attribute, tightly packed: lacedring_vertices_values of its type a vertex. Linear time. */
 void lacedring_vertices_decode(const struct lacedring_vertices* stream, void* out);
 
 /* Values of the attribute a vertex: 3 of a normal, whose components are 2. */
@@ -115,7 +117,7 @@ static float lacedring_as_float_(uint32_t bits) {
 
 enum lacedring_status lacedring_vertices_open(const uint32_t* words, size_t count, struct lacedring_vertices* s,
                                               uint64_t* where) {
-    static const uint8_t mappings[8] = {1, 1, 1, 1, 1, 1, 2 | 4 | 8, 16}; /* that each type has */
+    static const uint8_t mappings[8] = {1, 1, 1, 1, 1, 1, 2 | 4 | 8 | 16, 32}; /* that each type has */
     uint32_t layout, step;
     uint64_t size;
     if (count < LACEDRING_VERTICES_HEADER_WORDS) return lacedring_at_(where, 0, LACEDRING_STATUS_SHORT);
@@ -129,7 +131,9 @@ enum lacedring_status lacedring_vertices_open(const uint32_t* words, size_t coun
     s->normalized = layout >> 12 & 1;
     s->bits = layout >> 13 & 31;
     s->field_bits = layout >> 18 & 31;
-    s->step = lacedring_as_float_(step);
+    s->step = s->mapping == LACEDRING_MAPPING_LATTICE ? lacedring_as_float_(step) : 0.0f;
+    s->digits = s->mapping == LACEDRING_MAPPING_DECIMALS ? step : 0;
+    s->exception_count = words[6];
     s->largest_error = lacedring_as_float_(words[5]);
     if (layout >> 23 != 0 || s->components == 0 || s->components > LACEDRING_VERTICES_MAX_COMPONENTS || s->type > 7 ||
         (mappings[s->type] >> s->mapping & 1) == 0 || (s->normalized && s->type > 5))
@@ -141,14 +145,20 @@ enum lacedring_status lacedring_vertices_open(const uint32_t* words, size_t coun
     if (s->mapping == LACEDRING_MAPPING_DOUBLES && s->components % 2 != 0)
         return lacedring_at_(where, 2, LACEDRING_STATUS_HEADER);
     /* A step is a normal number with 24 bits to spare above, so that no product is more than a float holds. */
-    if (s->mapping == LACEDRING_MAPPING_LATTICE ? step < 0x00800000u || step >= 0x73800000u : step != 0)
+    if (s->mapping == LACEDRING_MAPPING_LATTICE    ? step < 0x00800000u || step >= 0x73800000u
+        : s->mapping == LACEDRING_MAPPING_DECIMALS ? step > 9
+                                                   : step != 0)
         return lacedring_at_(where, 4, LACEDRING_STATUS_HEADER);
     if (words[5] >= 0x7f800000u) return lacedring_at_(where, 5, LACEDRING_STATUS_HEADER);
+    if (s->mapping != LACEDRING_MAPPING_DECIMALS && s->exception_count != 0)
+        return lacedring_at_(where, 6, LACEDRING_STATUS_HEADER);
+    size = LACEDRING_VERTICES_HEADER_WORDS + 2 * s->components + (uint64_t)2 * s->exception_count;
+    if (size > count) return lacedring_at_(where, size, LACEDRING_STATUS_SIZE);
     s->parameters = words + LACEDRING_VERTICES_HEADER_WORDS;
-    s->table = s->parameters + 2 * s->components;
-    size = LACEDRING_VERTICES_HEADER_WORDS + 2 * s->components +
-           (uint64_t)lacedring_vertex_group_(s) *
-               ((lacedring_vertex_blocks_(s) + LACEDRING_VERTICES_GROUP_ - 1) / LACEDRING_VERTICES_GROUP_);
+    s->exceptions = s->parameters + 2 * s->components;
+    s->table = words + (size_t)size;
+    size += (uint64_t)lacedring_vertex_group_(s) *
+            ((lacedring_vertex_blocks_(s) + LACEDRING_VERTICES_GROUP_ - 1) / LACEDRING_VERTICES_GROUP_);
     if (size + 2 > count) return lacedring_at_(where, size, LACEDRING_STATUS_SIZE);
     s->data = words + (size_t)size;
     s->data_words = count - (size_t)size;
@@ -392,6 +402,11 @@ enum lacedring_status lacedring_vertices_check(const struct lacedring_vertices* 
         if (said >> 16 != 0 || (said & 63) > 32)
             return lacedring_at_(where, LACEDRING_VERTICES_HEADER_WORDS + 2 * c + 1, LACEDRING_STATUS_HEADER);
     }
+    for (i = 0; i < s->exception_count; ++i) { /* in order, and of the attribute */
+        const uint32_t value = s->exceptions[(size_t)2 * i];
+        if (value >= (uint64_t)s->vertices * s->components || (i > 0 && value <= s->exceptions[(size_t)2 * i - 2]))
+            return lacedring_at_(where, 6, LACEDRING_STATUS_HEADER);
+    }
     for (block = 0; block < blocks; ++block) {
         const uint32_t left = s->vertices - block * LACEDRING_VERTICES_BLOCK;
         const uint32_t count = left < LACEDRING_VERTICES_BLOCK ? left : LACEDRING_VERTICES_BLOCK;
@@ -450,9 +465,30 @@ void lacedring_octahedral(int32_t x, int32_t y, uint32_t bits, float out[3]) {
     out[2] = (float)(z / length);
 }
 
-/* Writes the values of `count` vertices whose integers are given. */
-static uint8_t* lacedring_vertex_values_(const struct lacedring_vertices* s, const uint32_t* integers, uint32_t count,
-                                         uint8_t* out) {
+/* Writes decimals: `count` values from value `first` of the attribute on. */
+static void lacedring_decimals_(const struct lacedring_vertices* s, const uint32_t* integers, uint64_t first,
+                                uint32_t count, uint8_t* out) {
+    static const double powers[10] = {1, 10, 100, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
+    uint32_t i, from = 0, to = s->exception_count;
+    for (i = 0; i < count; ++i) {
+        const float value = (float)((int32_t)integers[i] / powers[s->digits]);
+        memcpy(out + (size_t)4 * i, &value, 4);
+    }
+    while (from < to) { /* the first exception that is not before */
+        const uint32_t middle = from + (to - from) / 2;
+        if (s->exceptions[(size_t)2 * middle] < first) {
+            from = middle + 1;
+        } else {
+            to = middle;
+        }
+    }
+    for (; from < s->exception_count && s->exceptions[(size_t)2 * from] - first < count; ++from)
+        memcpy(out + 4 * (size_t)(s->exceptions[(size_t)2 * from] - first), s->exceptions + (size_t)2 * from + 1, 4);
+}
+
+/* Writes the values of `count` vertices, from vertex `first` on, whose integers are given. */
+static uint8_t* lacedring_vertex_values_(const struct lacedring_vertices* s, const uint32_t* integers, uint32_t first,
+                                         uint32_t count, uint8_t* out) {
     const uint32_t n = s->components;
     uint32_t i, c;
     if (s->mapping == LACEDRING_MAPPING_INTEGERS) {
@@ -468,6 +504,9 @@ static uint8_t* lacedring_vertex_values_(const struct lacedring_vertices* s, con
             const uint32_t value = integers[i] ^ (integers[i] & 0x80000000u ? 0x80000000u : UINT32_MAX);
             memcpy(out, &value, 4);
         }
+    } else if (s->mapping == LACEDRING_MAPPING_DECIMALS) {
+        lacedring_decimals_(s, integers, (uint64_t)first * n, count * n, out);
+        out += (size_t)4 * count * n;
     } else if (s->mapping == LACEDRING_MAPPING_DOUBLES) {
         for (i = 0; i < count * n; i += 2, out += 8) {
             const uint32_t high = integers[i] ^ (integers[i] & 0x80000000u ? 0x80000000u : UINT32_MAX);
@@ -490,11 +529,11 @@ void lacedring_vertices_decode(const struct lacedring_vertices* s, void* out) {
     uint32_t block, integers[LACEDRING_VERTICES_BLOCK * LACEDRING_VERTICES_MAX_COMPONENTS];
     uint8_t* to = (uint8_t*)out;
     for (block = 0; block < lacedring_vertex_blocks_(s); ++block) {
-        const uint32_t left = s->vertices - block * LACEDRING_VERTICES_BLOCK;
+        const uint32_t first = block * LACEDRING_VERTICES_BLOCK, left = s->vertices - first;
         uint64_t at = lacedring_vertex_begin_(s, block);
         lacedring_vertex_any_block_(s, &d, block, &at, integers);
-        to = lacedring_vertex_values_(s, integers, left < LACEDRING_VERTICES_BLOCK ? left : LACEDRING_VERTICES_BLOCK,
-                                      to);
+        to = lacedring_vertex_values_(s, integers, first,
+                                      left < LACEDRING_VERTICES_BLOCK ? left : LACEDRING_VERTICES_BLOCK, to);
     }
 }
 

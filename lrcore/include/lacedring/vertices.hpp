@@ -31,6 +31,7 @@ enum class VertexMapping : std::uint8_t {
     lattice,     ///< points of a lattice through the origin: integer * step, exact as a float
     octahedral,  ///< unit vectors by two integers; tangents by those and the sign of their w
     floats,      ///< the bits of floats
+    decimals,    ///< floats that were decimal text: integer / 10^digits, and exceptions
     doubles,     ///< the bits of doubles
 };
 
@@ -74,10 +75,12 @@ struct VertexView {
     VertexMapping mapping = VertexMapping::integers;
     ComponentType type = ComponentType::f32;
     bool normalized = false;
-    std::uint8_t components = 0;  ///< values of the attribute a vertex
-    std::uint8_t integers = 0;    ///< of the stream a vertex: one less if octahedral, twice as many of doubles
-    std::uint8_t bits = 0;        ///< octahedral: of each integer
-    float step = 0;               ///< of a lattice
+    std::uint8_t components = 0;   ///< values of the attribute a vertex
+    std::uint8_t integers = 0;     ///< of the stream a vertex: one less if octahedral, twice as many of doubles
+    std::uint8_t bits = 0;         ///< octahedral: of each integer
+    std::uint8_t digits = 0;       ///< decimals: behind the point
+    std::uint32_t exceptions = 0;  ///< decimals: floats that are stored as they are
+    float step = 0;                ///< of a lattice
     float largest_error = 0;
 
     std::uint32_t blocks() const { return vertices / kVertexBlock + (vertices % kVertexBlock == 0 ? 0 : 1); }
