@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <utility>
 
 #include "app/commands.h"
 #include "app/option_rules.h"
 #include "app/output.h"
+#include "app/print.h"
 #include "lacedring/lacedring.hpp"
 #include "lacedring/lr_file.hpp"
 
@@ -16,23 +18,38 @@ namespace lacedring::app {
 namespace {
 
 Format format_named(std::string_view name) {
-    for (const Format format : {Format::packed, Format::lr, Format::lr_compact}) {
+    for (const Format format : {Format::lean, Format::lr, Format::lr_compact}) {
         if (name == name_of(format)) return format;
     }
-    return Format::lean;
+    return Format::packed;
 }
 
 struct EncodeCommand {
     std::vector<std::string> inputs;
     InputOptions input;
     OutputOptions output;
-    std::string format = "lean";
+    std::string format = "packed";
     std::string profile = "small";
     RingChoice ring;
     bool no_warts = false;
     bool keep_order = false;
     bool orient = false;
+    AttributeBits bits;
+
+    bool quantizes() const {
+        return std::max({bits.positions, bits.normals, bits.texcoords, bits.colors, bits.weights}) > 0;
+    }
 };
+
+/// "POSITION 4.8e-06": the largest error of each attribute that has one; "" if all is lossless.
+std::string errors_of(const std::vector<CompressedAttribute>& attributes) {
+    std::string out;
+    for (const CompressedAttribute& attribute : attributes) {
+        if (attribute.largest_error == 0) continue;
+        out += fmt::format("{}{} {:.3g}", out.empty() ? "" : ", ", printable(attribute.name), attribute.largest_error);
+    }
+    return out;
+}
 
 /// Turns the triangles round that the table has the other way. Returns how many.
 std::uint32_t orient(Mesh& mesh, CornerTable& table) {
@@ -67,7 +84,14 @@ int encode_file(const EncodeCommand& options, const std::string& input, const st
     how.wart_skipping = !options.no_warts;
     Result<Encoded> encoded = encode(std::move(*table), how);
     if (!encoded) return fail(input, encoded.error());
-    const LrFile file = make_lr_file(*mesh, std::move(*encoded), options.keep_order);
+    LrFile file = make_lr_file(*mesh, std::move(*encoded), options.keep_order);
+    std::vector<CompressedAttribute> attributes;
+    // LR tables are read in place by programs that want positions there, too.
+    if (file.format == Format::lean || file.format == Format::packed || options.quantizes()) {
+        Result<std::vector<CompressedAttribute>> compressed = compress_attributes(file, options.bits);
+        if (!compressed) return fail(input, compressed.error());
+        attributes = std::move(*compressed);
+    }
     const std::vector<std::byte> bytes = serialize_lr(file);
     const std::span<const std::byte> parts[] = {bytes};
     if (const Result<void> written = write_output(output, parts); !written) {
@@ -75,10 +99,22 @@ int encode_file(const EncodeCommand& options, const std::string& input, const st
     }
     if (degenerate > 0) log.note(input_name(input), fmt::format("{} degenerate triangles dropped", degenerate));
     if (turned > 0) log.note(input_name(input), fmt::format("{} triangles turned round by --orient", turned));
+    for (const CompressedAttribute& attribute : attributes) {
+        if (attribute.exact.empty()) continue;
+        log.note(input_name(input), fmt::format("{} stays lossless: {}", printable(attribute.name), attribute.exact));
+    }
     const std::size_t connectivity = 4 * file.words.size();
+    const auto bits = [](std::size_t size, std::size_t of) {
+        return 8 * static_cast<double>(size) / static_cast<double>(of);
+    };
+    const std::string errors = errors_of(attributes);
     log.flush();
-    say("{}: {} triangles, {} bytes; connectivity {} bytes, {:.2f} bits per triangle\n", output_name(output), triangles,
-        bytes.size(), connectivity, 8 * static_cast<double>(connectivity) / static_cast<double>(triangles));
+    say("{}: {} triangles, {} bytes: {:.2f} bits per triangle, {:.2f} per vertex; connectivity {} bytes, {:.2f} bits "
+        "per "
+        "triangle; {}\n",
+        output_name(output), triangles, bytes.size(), bits(bytes.size(), triangles),
+        bits(bytes.size(), file.vertex_count), connectivity, bits(connectivity, triangles),
+        errors.empty() ? "lossless" : "largest error: " + errors);
     return done;
 }
 
@@ -107,6 +143,14 @@ void add_encode(CLI::App& program, Action& action) {
     command->add_option("--effort", options->ring.effort, "how long to look for good rings: 0 to 9")
         ->check(CLI::Range(0, 9))
         ->capture_default_str();
+    const auto add_bits = [&](const char* name, std::uint32_t& bits, int least, int most, const char* what) {
+        command->add_option(name, bits, what)->check(CLI::Range(least, most))->type_name("BITS")->default_str("");
+    };
+    add_bits("--positions", options->bits.positions, 1, 22, "quantize positions: bits along the largest extent");
+    add_bits("--normals", options->bits.normals, 2, 16, "of normals and tangents: of each of two octahedral integers");
+    add_bits("--texcoords", options->bits.texcoords, 1, 22, "of texture coordinates");
+    add_bits("--colors", options->bits.colors, 1, 22, "of colors that are floats");
+    add_bits("--weights", options->bits.weights, 1, 22, "of weights that are floats");
     command->add_flag("--no-warts", options->no_warts, "no wart skipping (lean and lr)");
     command->add_flag("--keep-order", options->keep_order,
                       "store the vertex and triangle permutations, for decode --original-order");

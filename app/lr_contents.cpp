@@ -12,10 +12,14 @@ bool has_section(const LrContents& lr, std::string_view kind) {
     return std::ranges::any_of(lr.sections, [kind](const LrSection& section) { return section.kind == kind; });
 }
 
+bool is_attribute(const LrSection& section) {
+    return section.kind == "attribute" || section.kind == "vertices";
+}
+
 /// The kind of the section that holds the triangles.
 std::string connectivity(const LrContents& lr) {
     for (const LrSection& section : lr.sections) {
-        if (section.kind != "attribute" && !section.kind.ends_with("_order")) return section.kind;
+        if (!is_attribute(section) && !section.kind.ends_with("_order")) return section.kind;
     }
     return "";
 }
@@ -32,10 +36,14 @@ nlohmann::ordered_json to_json(const LrContents& lr) {
     nlohmann::ordered_json sections = nlohmann::ordered_json::array();
     for (const LrSection& section : lr.sections) {
         nlohmann::ordered_json entry = {{"kind", section.kind}, {"bytes", section.bytes}};
-        if (section.kind == "attribute") {
+        if (is_attribute(section)) {
             entry["name"] = section.name;
             entry["type"] = type_name(section.type);
             entry["components"] = section.components;
+        }
+        if (section.kind == "vertices") {
+            entry["mapping"] = section.mapping;
+            entry["max_error"] = section.largest_error;
         }
         sections.push_back(std::move(entry));
     }
@@ -52,11 +60,17 @@ void print_contents(const LrContents& lr) {
           has_section(lr, "vertex_order") && has_section(lr, "corner_order") ? "the input's order is kept"
                                                                              : "the input's order is not kept");
     for (const LrSection& section : lr.sections) {
-        const bool attribute = section.kind == "attribute";
-        const std::string what = attribute ? fmt::format("{} ({} x {})", printable(section.name), section.components,
-                                                         type_name(section.type))
-                                           : section.kind;
-        print("    {:<30}{:>12} bytes\n", what, section.bytes);
+        std::string what = section.kind, how;
+        if (is_attribute(section)) {
+            what = fmt::format("{} ({} x {})", printable(section.name), section.components, type_name(section.type));
+        }
+        if (section.kind == "vertices") {
+            how = fmt::format(", {:.2f} bits a vertex, {}", 8 * static_cast<double>(section.bytes) / lr.vertices,
+                              section.mapping);
+            how +=
+                section.largest_error > 0 ? fmt::format(", largest error {:.3g}", section.largest_error) : ", lossless";
+        }
+        print("    {:<30}{:>12} bytes{}\n", what, section.bytes, how);
     }
 }
 

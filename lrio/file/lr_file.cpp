@@ -19,17 +19,21 @@ namespace {
 static_assert(std::endian::native == std::endian::little, ".lr files are little-endian");
 
 constexpr std::uint32_t kMagic = 0x4c46524c;  // "LRFL"
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 
-enum Kind : std::uint32_t {
+enum Kind : std::uint16_t {
     kLean = 1,
     kAttribute = 2,
     kVertexOrder = 3,
     kCornerOrder = 4,
     kLr = 5,
     kLrCompact = 6,
-    kPacked = 7
+    kPacked = 7,
+    kVertices = 8
 };
+constexpr const char* kKindNames[] = {"",   "lean",       "attribute", "vertex_order", "corner_order",
+                                      "lr", "lr_compact", "packed",    "vertices"};
+constexpr const char* kMappingNames[] = {"integers", "lattice", "octahedral", "floats", "decimals", "doubles"};
 
 struct FileHeader {
     std::uint32_t magic, version, sections, vertices, input_triangles, reserved;
@@ -40,10 +44,12 @@ static_assert(sizeof(FileHeader) == 32);
 static_assert(kMagic == magic::kLrFile);
 
 struct Section {
-    std::uint32_t kind;
-    std::uint32_t crc;  // of the contents
+    std::uint16_t kind;
+    std::uint16_t coding;  // of the contents; 0: as they lie in memory
+    std::uint32_t crc;     // of the contents
     std::uint64_t offset, size;
-    std::uint32_t layout;       // attributes: type | components << 8 | normalized << 16 | v_up << 17
+    std::uint32_t layout;  // attributes, but for what a stream says itself: type | components << 8 | normalized << 16 |
+                           // v_up << 17
     std::uint32_t name_length;  // attributes: the contents begin with the name, padded with zeros to 8 bytes
 };
 static_assert(sizeof(Section) == 32);
@@ -140,12 +146,25 @@ Result<FileHeader> visit_sections(std::span<const std::byte> bytes, Visit visit)
             if (bytes[end] != std::byte{0}) return malformed(fmt::format("padding before section {}", i));
         }
         end = section.offset + section.size;
+        if (section.coding != 0) return malformed(fmt::format("section {}: unknown coding {}", i, section.coding));
         if (std::string why = visit(header, section, bytes.subspan(section.offset, section.size)); !why.empty()) {
             return malformed(fmt::format("section {}: {}", i, why));
         }
     }
     if (end != bytes.size()) return malformed("bytes behind the last section");
     return header;
+}
+
+/// Takes the name off the contents' begin; empty if that is sound.
+std::string view_name(const Section& section, std::span<const std::byte>& contents, AttributeView& out) {
+    const std::uint64_t name = align8(section.name_length);
+    if (name > contents.size()) return "attribute of the wrong size";
+    for (std::size_t i = section.name_length; i < name; ++i) {
+        if (contents[i] != std::byte{0}) return "attribute name not padded with zeros";
+    }
+    out.name = {reinterpret_cast<const char*>(contents.data()), section.name_length};
+    contents = contents.subspan(name);
+    return {};
 }
 
 /// Fills `out`; empty if the section is an attribute of so many vertices, else what is wrong.
@@ -159,17 +178,40 @@ std::string view_attribute(const Section& section, std::span<const std::byte> co
         return "unknown attribute layout";
     }
     out.type = static_cast<ComponentType>(type);
-    const std::uint64_t name = align8(section.name_length);
-    if (name > contents.size() ||
-        contents.size() - name != std::uint64_t{vertices} * size_of(out.type) * out.components) {
+    if (std::string why = view_name(section, contents, out); !why.empty()) return why;
+    if (contents.size() != std::uint64_t{vertices} * size_of(out.type) * out.components) {
         return "attribute of the wrong size";
     }
-    for (std::size_t i = section.name_length; i < name; ++i) {
-        if (contents[i] != std::byte{0}) return "attribute name not padded with zeros";
-    }
-    out.name = {reinterpret_cast<const char*>(contents.data()), section.name_length};
-    out.data = contents.subspan(name);
+    out.data = contents;
     return {};
+}
+
+/// The same of an attribute that is a vertex stream. Reads no more of it than its header; `contents` may lie anywhere.
+std::string view_stream_of(const Section& section, std::span<const std::byte> contents, std::uint32_t vertices,
+                           AttributeView& out) {
+    if ((section.layout & ~(1U << 17)) != 0) return "unknown attribute layout";
+    if (std::string why = view_name(section, contents, out); !why.empty()) return why;
+    if (contents.size() % 4 != 0) return "no whole number of words";
+    out.v_up = section.layout != 0;
+    out.words = {reinterpret_cast<const std::uint32_t*>(contents.data()), contents.size() / 4};
+    const Result<VertexView> view = view_vertices(out.words);
+    if (!view) return view.error().message;
+    if (view->vertices != vertices) return "a vertex stream of another number of vertices";
+    out.type = view->type;
+    out.components = view->components;
+    out.normalized = view->normalized;
+    return {};
+}
+
+/// The attribute with its values. Of a stream, which is valid, they are decoded.
+Attribute decode_attribute(const LrAttribute& attribute) {
+    Attribute out = attribute;
+    if (attribute.words.empty()) return out;
+    if (const Result<VertexView> view = view_vertices(attribute.words)) {
+        out.data.resize(view->decoded_bytes());
+        decode_vertices(*view, out.data);
+    }
+    return out;
 }
 
 class Reader {
@@ -203,6 +245,8 @@ class Reader {
                 return read_words(contents, file_.corner_order);
             case kAttribute:
                 return read_attribute(section, contents);
+            case kVertices:
+                return read_stream(section, contents);
             default:
                 return fmt::format("unknown kind {}", section.kind);
         }
@@ -219,12 +263,27 @@ class Reader {
     std::string read_attribute(const Section& section, std::span<const std::byte> contents) {
         AttributeView view;
         if (std::string why = view_attribute(section, contents, file_.vertex_count, view); !why.empty()) return why;
-        file_.attributes.push_back({std::string(view.name),
-                                    view.type,
-                                    view.components,
-                                    view.normalized,
-                                    {view.data.begin(), view.data.end()},
-                                    view.v_up});
+        file_.attributes.push_back({{std::string(view.name),
+                                     view.type,
+                                     view.components,
+                                     view.normalized,
+                                     {view.data.begin(), view.data.end()},
+                                     view.v_up},
+                                    {}});
+        return {};
+    }
+
+    std::string read_stream(const Section& section, std::span<const std::byte> contents) {
+        // A copy, since the bytes may begin anywhere.
+        std::vector<std::uint32_t> words((contents.size() + 3) / 4);
+        if (!words.empty()) std::memcpy(words.data(), contents.data(), contents.size());
+        AttributeView view;
+        const auto copy = std::as_bytes(std::span(words)).first(contents.size());
+        if (std::string why = view_stream_of(section, copy, file_.vertex_count, view); !why.empty()) return why;
+        if (const Result<VertexView> valid = validate_vertices(view.words); !valid) return valid.error().message;
+        file_.attributes.push_back(
+            {{std::string(view.name), view.type, view.components, view.normalized, {}, view.v_up},
+             {view.words.begin(), view.words.end()}});
         return {};
     }
 
@@ -238,7 +297,7 @@ class Reader {
             (file_.attributes[0].type != ComponentType::f32 && file_.attributes[0].type != ComponentType::f64)) {
             return "the first attribute is not POSITION";
         }
-        if (!finite(file_.attributes[0])) return "a position is not finite as a float";
+        if (!finite(decode_attribute(file_.attributes[0]))) return "a position is not finite as a float";
         if (!file_.vertex_order.empty()) {
             if (file_.vertex_order.size() != file_.vertex_count) return "the vertex order has another size";
             std::vector<std::uint32_t> order = file_.vertex_order;
@@ -295,6 +354,28 @@ class Reader {
 
 namespace {
 
+/// Fills what a vertex stream's header says, which may lie anywhere; empty if it is sound.
+std::string list_stream(const Section& section, std::span<const std::byte> contents, LrSection& listed) {
+    std::vector<std::uint32_t> words((contents.size() + 3) / 4);
+    if (!words.empty()) std::memcpy(words.data(), contents.data(), contents.size());
+    AttributeView view;
+    if (std::string why = view_name(section, contents, view); !why.empty()) return why;
+    listed.name = view.name;
+    const Result<VertexView> stream = view_vertices(std::span(words).subspan(align8(section.name_length) / 4));
+    if (!stream) return stream.error().message;
+    listed.type = stream->type;
+    listed.components = stream->components;
+    listed.mapping = kMappingNames[static_cast<std::size_t>(stream->mapping)];
+    listed.largest_error = stream->largest_error;
+    return {};
+}
+
+std::vector<Attribute> decode_attributes(const LrFile& file) {
+    std::vector<Attribute> out;
+    for (const LrAttribute& attribute : file.attributes) out.push_back(decode_attribute(attribute));
+    return out;
+}
+
 /// The input's corner that each decoded triangle begins with. `triangles` are those of the input, in decoded order.
 std::vector<std::uint32_t> find_corners(const Mesh& mesh, const LrFile& file, std::span<const std::uint32_t> triangles,
                                         std::span<const std::uint32_t> vertex_order) {
@@ -320,7 +401,9 @@ LrFile make_lr_file(const Mesh& mesh, Encoded encoded, bool keep_order) {
     file.input_triangles = static_cast<std::uint32_t>(mesh.triangle_count());
     file.format = encoded.format;
     file.words = std::move(encoded.words);
-    file.attributes = permute_attributes(mesh.attributes, encoded.vertex_order);
+    for (Attribute& attribute : permute_attributes(mesh.attributes, encoded.vertex_order)) {
+        file.attributes.push_back({std::move(attribute), {}});
+    }
     if (keep_order) {
         file.corner_order = find_corners(mesh, file, encoded.triangle_order, encoded.vertex_order);
         file.vertex_order = std::move(encoded.vertex_order);
@@ -328,20 +411,83 @@ LrFile make_lr_file(const Mesh& mesh, Encoded encoded, bool keep_order) {
     return file;
 }
 
+namespace {
+
+/// The bits for an attribute of that name.
+std::uint32_t bits_for(std::string_view name, const AttributeBits& bits) {
+    if (name == "POSITION") return bits.positions;
+    if (name == "NORMAL" || name == "TANGENT") return bits.normals;
+    if (name.starts_with("TEXCOORD_")) return bits.texcoords;
+    if (name.starts_with("COLOR_")) return bits.colors;
+    if (name.starts_with("WEIGHTS_")) return bits.weights;
+    return 0;
+}
+
+}  // namespace
+
+Result<std::vector<CompressedAttribute>> compress_attributes(LrFile& file, const AttributeBits& bits) {
+    const std::uint32_t lattices[] = {bits.positions, bits.texcoords, bits.colors, bits.weights};
+    if (*std::max_element(std::begin(lattices), std::end(lattices)) > 22 || bits.normals == 1 || bits.normals > 16) {
+        return Error{ErrorCode::invalid_argument, "1 to 22 bits a component, and 2 to 16 of normals"};
+    }
+    std::vector<CompressedAttribute> out;
+    for (LrAttribute& attribute : file.attributes) {
+        if (!attribute.words.empty()) continue;
+        CompressedAttribute report{attribute.name, attribute.data.size(), attribute.data.size(), 0, {}};
+        const VertexValues values{attribute.type, attribute.components, attribute.normalized, attribute.data};
+        VertexOptions options;
+        options.threads = bits.threads;
+        const bool direction = attribute.name == "NORMAL" || attribute.name == "TANGENT";
+        const float step = attribute.name == "POSITION" ? bits.position_step : 0;
+        const std::uint32_t wanted = bits_for(attribute.name, bits);
+        const bool floats = attribute.type == ComponentType::f32 || attribute.type == ComponentType::f64;
+        Result<EncodedVertices> encoded = Error{ErrorCode::invalid_argument, "its values are integers"};
+        if ((wanted > 0 || step > 0) && floats) {
+            options.mapping = direction ? VertexMapping::octahedral : VertexMapping::lattice;
+            options.bits = wanted;
+            options.step = step;
+            encoded = encode_vertices(values, options);
+        }
+        if (!encoded && encoded.error().code == ErrorCode::invalid_argument) {
+            if (wanted > 0 || step > 0) report.exact = encoded.error().message;
+            options.mapping = VertexMapping::floats;
+            encoded = encode_vertices(values, options);
+        }
+        if (encoded) {
+            report.largest_error = encoded->largest_error;
+            report.bytes = 4 * encoded->words.size();
+            attribute.words = std::move(encoded->words);
+            attribute.data = {};
+            if (const Result<VertexView> view = view_vertices(attribute.words)) {
+                attribute.type = view->type;
+                if (wanted > 0 && view->mapping == VertexMapping::decimals) report.exact = "that is smaller";
+            }
+        } else if (encoded.error().code != ErrorCode::invalid_argument) {
+            return encoded.error();
+        }
+        out.push_back(std::move(report));
+    }
+    return out;
+}
+
 std::vector<std::byte> serialize_lr(const LrFile& file) {
     std::vector<Section> sections;
     std::vector<std::vector<std::byte>> names;  // beside sections; empty but for attributes
     std::vector<std::span<const std::byte>> contents;
-    const auto add = [&](std::uint32_t kind, std::span<const std::byte> data) {
-        sections.push_back({kind, 0, 0, 0, 0, 0});
+    const auto add = [&](Kind kind, std::span<const std::byte> data) {
+        sections.push_back({kind, 0, 0, 0, 0, 0, 0});
         names.emplace_back();
         contents.push_back(data);
     };
     add(kind_of(file.format), std::as_bytes(std::span(file.words)));
-    for (const Attribute& attribute : file.attributes) {
-        add(kAttribute, attribute.data);
-        sections.back().layout = static_cast<std::uint32_t>(attribute.type) | std::uint32_t{attribute.components} << 8 |
-                                 (attribute.normalized ? 1U << 16 : 0U) | (attribute.v_up ? 1U << 17 : 0U);
+    for (const LrAttribute& attribute : file.attributes) {
+        const bool stream = !attribute.words.empty();
+        add(stream ? kVertices : kAttribute, stream ? std::as_bytes(std::span(attribute.words)) : attribute.data);
+        sections.back().layout = attribute.v_up ? 1U << 17 : 0U;
+        if (!stream) {
+            sections.back().layout |= static_cast<std::uint32_t>(attribute.type) |
+                                      std::uint32_t{attribute.components} << 8 | (attribute.normalized ? 1U << 16 : 0U);
+        }
         sections.back().name_length = static_cast<std::uint32_t>(attribute.name.size());
         names.back().resize(align8(attribute.name.size()));
         std::memcpy(names.back().data(), attribute.name.data(), attribute.name.size());
@@ -405,13 +551,12 @@ Result<LrContents> list_lr(std::span<const std::byte> bytes) {
     LrContents out;
     const Result<FileHeader> header = visit_sections(
         bytes, [&](const FileHeader&, const Section& section, std::span<const std::byte> contents) -> std::string {
-            constexpr const char* kNames[] = {"",   "lean",       "attribute", "vertex_order", "corner_order",
-                                              "lr", "lr_compact", "packed"};
-            if (section.kind == 0 || section.kind >= std::size(kNames))
+            if (section.kind == 0 || section.kind >= std::size(kKindNames))
                 return fmt::format("unknown kind {}", section.kind);
             LrSection& listed = out.sections.emplace_back();
-            listed.kind = kNames[section.kind];
+            listed.kind = kKindNames[section.kind];
             listed.bytes = section.size;
+            if (section.kind == kVertices) return list_stream(section, contents, listed);
             if (section.kind != kAttribute) return {};
             if (section.name_length > contents.size()) return "attribute of the wrong size";
             listed.name.assign(reinterpret_cast<const char*>(contents.data()), section.name_length);
@@ -444,6 +589,10 @@ Positions LrFileView::positions() const {
 
 Result<LrFileView> view_lr_file(std::span<const std::byte> bytes) {
     LrFileView out;
+    if (reinterpret_cast<std::uintptr_t>(bytes.data()) % 8 != 0) {  // words are read where they lie
+        if (std::string why = not_an_lr_file(bytes); !why.empty()) return Error{ErrorCode::malformed, std::move(why)};
+        return Error{ErrorCode::invalid_argument, "the file does not begin at a multiple of eight bytes"};
+    }
     const auto view_words = [](std::span<const std::byte> contents, std::span<const std::uint32_t>& words) {
         if (words.data() != nullptr) return "occurs twice";
         if (contents.size() % 4 != 0) return "no whole number of words";
@@ -465,14 +614,13 @@ Result<LrFileView> view_lr_file(std::span<const std::byte> bytes) {
                     return view_words(contents, out.corner_order);
                 case kAttribute:
                     return view_attribute(section, contents, h.vertices, out.attributes.emplace_back());
+                case kVertices:
+                    return view_stream_of(section, contents, h.vertices, out.attributes.emplace_back());
                 default:
                     return fmt::format("unknown kind {}", section.kind);
             }
         });
     if (!header) return header.error();
-    if (reinterpret_cast<std::uintptr_t>(bytes.data()) % 8 != 0) {
-        return Error{ErrorCode::invalid_argument, "the file does not begin at a multiple of eight bytes"};
-    }
     if (out.words.data() == nullptr) return malformed("no connectivity");
     out.vertex_count = header->vertices;
     out.input_triangles = header->input_triangles;
@@ -489,7 +637,7 @@ Result<Mesh> decode_lr(const LrFile& file) {
     mesh.indices = std::move(decoded->indices);
     if (decoded->copy.empty()) {
         mesh.vertex_count = file.vertex_count;
-        mesh.attributes = file.attributes;
+        mesh.attributes = decode_attributes(file);
         return mesh;
     }
     // The vertices that are no copies close ranks. No triangle names a copy.
@@ -497,7 +645,7 @@ Result<Mesh> decode_lr(const LrFile& file) {
     std::iota(kept.begin(), kept.end(), 0U);
     remove_copies(*decoded, kept);
     mesh.vertex_count = static_cast<std::uint32_t>(kept.size());
-    mesh.attributes = permute_attributes(file.attributes, kept);
+    mesh.attributes = permute_attributes(decode_attributes(file), kept);
     std::vector<std::uint32_t> number(file.vertex_count, 0);
     for (std::uint32_t i = 0; i < kept.size(); ++i) number[kept[i]] = i;
     for (std::uint32_t& v : mesh.indices) v = number[v];

@@ -507,7 +507,8 @@ Result<EncodedVertices> encode_vertices(const VertexValues& values, const Vertex
     Result<VertexIntegers> integers = to_integers(values, options);
     if (!integers) return integers.error();
     Result<EncodedVertices> out = encode_integers(*integers, values, options.threads);
-    if (!out || integers->mapping != VertexMapping::floats) return out;
+    // What is lossless and smaller is better than what was asked for, but on a lattice shared with other meshes.
+    if (!out || options.step != 0) return out;
     const std::optional<VertexIntegers> decimals = to_decimals(values);
     if (!decimals) return out;
     Result<EncodedVertices> other = encode_integers(*decimals, values, options.threads);

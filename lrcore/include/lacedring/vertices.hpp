@@ -47,7 +47,8 @@ struct VertexValues {
 
 struct VertexOptions {
     /// lattice and octahedral take floats (a lattice also doubles) and lose something; any other mapping is lossless
-    /// and what suits the type, whichever is named.
+    /// and what suits the type, whichever is named. Floats that are smaller as decimals, which are lossless, become
+    /// those.
     VertexMapping mapping = VertexMapping::floats;
     /// lattice: of the integers along the largest extent, 1 to 22; octahedral: of each integer, 2 to 16.
     std::uint32_t bits = 14;

@@ -1,6 +1,7 @@
 #pragma once
-// The .lr file: a mesh's connectivity as a lean or packed stream or as LR tables, the vertex attributes in ring order
-// and, on request, the way back to the input's order. docs/lr-file.md has the format to the byte.
+// The .lr file: a mesh's connectivity as a lean or packed stream or as LR tables, the vertex attributes in ring order,
+// as vertex streams or as they lie in memory, and, on request, the way back to the input's order. docs/lr-file.md has
+// the format to the byte.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,21 +17,50 @@
 
 namespace lacedring {
 
+/// An attribute of a file: its values, or a vertex stream of them.
+struct LrAttribute : Attribute {       ///< data is empty where there is a stream; the rest is what it decodes to
+    std::vector<std::uint32_t> words;  ///< a vertex stream (vertices.hpp), or empty
+};
+
 struct LrFile {
     std::uint32_t vertex_count = 0;  ///< of the connectivity: with LR tables, copies of non-manifold vertices included
     std::uint32_t input_triangles = 0;  ///< of the mesh it was made from, degenerate ones included
     Format format = Format::lean;
     std::vector<std::uint32_t> words;         ///< the connectivity stream, its header included
-    std::vector<Attribute> attributes;        ///< in ring order, one value for each of vertex_count
+    std::vector<LrAttribute> attributes;      ///< in ring order, one value for each of vertex_count
     std::vector<std::uint32_t> vertex_order;  ///< vertex_order[new] = old; empty unless kept
     /// corner_order[i] = 3 * triangle + place: the corner of the input's index list that the i-th triangle decoded
     /// begins with; empty unless kept.
     std::vector<std::uint32_t> corner_order;
 };
 
-/// The file of a mesh and of what encode() made of it; `encoded` is taken over. The way back to the input's order is
-/// kept only with `keep_order`: 4 bytes a vertex and 4 a triangle. Cost: O(T).
+/// The file of a mesh and of what encode() made of it; `encoded` is taken over. Attributes are as they lie in memory.
+/// The way back to the input's order is kept only with `keep_order`: 4 bytes a vertex and 4 a triangle. Cost: O(T).
 LrFile make_lr_file(const Mesh& mesh, Encoded encoded, bool keep_order);
+
+/// How attributes are compressed. 0 bits: lossless.
+struct AttributeBits {
+    std::uint32_t positions = 0;  ///< 1 to 22, of POSITION: along the largest extent, as all but normals
+    std::uint32_t normals = 0;    ///< 2 to 16, of NORMAL and TANGENT: of each of two octahedral integers
+    std::uint32_t texcoords = 0;  ///< 1 to 22, of TEXCOORD_n
+    std::uint32_t colors = 0;     ///< 1 to 22, of COLOR_n
+    std::uint32_t weights = 0;    ///< 1 to 22, of WEIGHTS_n
+    float position_step = 0;      ///< VertexOptions::step of POSITION, instead of bits
+    unsigned threads = 1;
+};
+
+/// What became of an attribute.
+struct CompressedAttribute {
+    std::string name;
+    std::uint64_t bytes_before = 0, bytes = 0;  ///< of its values, and of the stream
+    double largest_error = 0;
+    std::string exact;  ///< why it is lossless although bits were given, or empty
+};
+
+/// Makes vertex streams of the attributes. Those that cannot be quantized as `bits` says (integers; values that are not
+/// finite) are lossless; those of more than 16 values stay as they are. Cost: encode_vertices'. Errors:
+/// invalid_argument (bits), too_large.
+Result<std::vector<CompressedAttribute>> compress_attributes(LrFile& file, const AttributeBits& bits = {});
 
 /// The file's bytes. Cost: O(file).
 std::vector<std::byte> serialize_lr(const LrFile& file);
@@ -47,11 +77,14 @@ bool is_lr(std::span<const std::byte> bytes);
 
 /// The sections of a file, in their order.
 struct LrSection {
-    std::string kind;  ///< "lean", "packed", "lr", "lr_compact", "attribute", "vertex_order" or "corner_order"
+    std::string kind;  ///< "lean", "packed", "lr", "lr_compact", "attribute", "vertices" (an attribute as a vertex
+                       ///< stream), "vertex_order" or "corner_order"
     std::string name;  ///< of an attribute
     ComponentType type = ComponentType::f32;
     std::uint8_t components = 0;
     std::uint64_t bytes = 0;  ///< of its contents
+    std::string mapping;  ///< of a vertex stream: "integers", "lattice", "octahedral", "floats", "decimals", "doubles"
+    float largest_error = 0;  ///< of a vertex stream
 };
 struct LrContents {
     std::uint32_t version = 0;
@@ -69,7 +102,8 @@ struct AttributeView {
     ComponentType type = ComponentType::f32;
     std::uint8_t components = 0;
     bool normalized = false, v_up = false;
-    std::span<const std::byte> data;  ///< as Attribute::data
+    std::span<const std::byte> data;       ///< as Attribute::data; empty where there is a stream
+    std::span<const std::uint32_t> words;  ///< a vertex stream, whose header alone was checked; or empty
 };
 
 /// What a file holds, where it lies in the file's bytes. Holds no copy.
@@ -83,7 +117,7 @@ struct LrFileView {
     /// Checks the words, and that they have as many vertices as each attribute. Errors: malformed. Cost: O(T).
     /// Untrusted input: safe.
     Result<StreamView> validate() const;
-    /// The positions, for reading; none if the file has none.
+    /// The positions, for reading; none if the file has none, or as a vertex stream.
     Positions positions() const;
 };
 
