@@ -111,7 +111,7 @@ void nearest_octahedral(const double v[3], std::uint32_t bits, std::int32_t out[
         y = std::copysign(1 - std::abs(x), y);
         x = folded;
     }
-    double best = -INFINITY;
+    double least = INFINITY;
     for (int i = 0; i < 4; ++i) {
         const auto corner = [&](double at, int up) {
             return std::clamp(static_cast<std::int32_t>(std::floor(at * most)) + up, -most, most);
@@ -119,10 +119,14 @@ void nearest_octahedral(const double v[3], std::uint32_t bits, std::int32_t out[
         const std::int32_t a = corner(x, i & 1), b = corner(y, i >> 1);
         float unit[3];
         lacedring_octahedral(a, b, bits, unit);
-        const double along = v[0] * static_cast<double>(unit[0]) + v[1] * static_cast<double>(unit[1]) +
-                             v[2] * static_cast<double>(unit[2]);
-        if (along <= best) continue;
-        best = along;
+        double sine = 0;  // squared: the cosine of a small angle is 1 whatever the angle
+        for (int c = 0; c < 3; ++c) {
+            const int d = (c + 1) % 3;
+            const double across = v[c] * static_cast<double>(unit[d]) - v[d] * static_cast<double>(unit[c]);
+            sine += across * across;
+        }
+        if (sine >= least) continue;
+        least = sine;
         out[0] = a;
         out[1] = b;
     }

@@ -48,6 +48,7 @@ struct lacedring_vertices {
     uint32_t normalized; /* integers that stand for 0 to 1, or -1 to 1 */
     uint32_t bits;       /* octahedral: of each of the two integers */
     uint32_t digits;     /* of decimals: behind the point */
+    uint32_t most;       /* lattice, octahedral: what is above every integer and its negative */
     uint32_t exception_count;
     uint32_t field_bits; /* of the table's fields */
     float step;          /* of the lattice */
@@ -149,7 +150,13 @@ enum lacedring_status lacedring_vertices_open(const uint32_t* words, size_t coun
         : s->mapping == LACEDRING_MAPPING_DECIMALS ? step > 9
                                                    : step != 0)
         return lacedring_at_(where, 4, LACEDRING_STATUS_HEADER);
-    if (words[5] >= 0x7f800000u) return lacedring_at_(where, 5, LACEDRING_STATUS_HEADER);
+    if (s->mapping == LACEDRING_MAPPING_LATTICE || s->mapping == LACEDRING_MAPPING_OCTAHEDRAL ? words[5] >= 0x7f800000u
+                                                                                              : words[5] != 0)
+        return lacedring_at_(where, 5, LACEDRING_STATUS_HEADER);
+    s->most = s->mapping == LACEDRING_MAPPING_OCTAHEDRAL ? 1u << (s->bits - 1) : 0;
+    if (s->mapping == LACEDRING_MAPPING_LATTICE) { /* a float has 24 bits for the step and the integer */
+        for (s->most = 1, size = step & 0x007fffffu; s->most < 1u << 23 && !(size & 1); s->most *= 2) size >>= 1;
+    }
     if (s->mapping != LACEDRING_MAPPING_DECIMALS && s->exception_count != 0)
         return lacedring_at_(where, 6, LACEDRING_STATUS_HEADER);
     size = LACEDRING_VERTICES_HEADER_WORDS + 2 * s->components + (uint64_t)2 * s->exception_count;
@@ -255,7 +262,7 @@ LACEDRING_HOT_ uint32_t lacedring_vertex_run_(const struct lacedring_data_* d, c
                 seen = 0;
             }
             next = lacedring_zeros_(zeros | UINT64_C(1) << 57);
-            bad |= next - seen > LACEDRING_VERTICES_MOST_;
+            bad |= next - seen > LACEDRING_VERTICES_MOST_ || (uint64_t)(next - seen) << bits >> 32 != 0;
             code = (next - seen) << bits | ((uint32_t)low & ((UINT32_C(1) << bits) - 1));
             zeros &= zeros - 1;
             seen = next + 1;
@@ -372,11 +379,9 @@ void lacedring_vertices_blocks(const struct lacedring_vertices* s, uint32_t bloc
 /* Is an integer one that its mapping and type have? */
 static int lacedring_vertex_fits_(const struct lacedring_vertices* s, uint32_t c, uint32_t value) {
     const int32_t i = (int32_t)value;
-    if (s->mapping == LACEDRING_MAPPING_LATTICE) return i >= -(1 << 24) && i <= 1 << 24;
-    if (s->mapping == LACEDRING_MAPPING_OCTAHEDRAL) {
-        const int32_t most = (1 << (s->bits - 1)) - 1;
-        return c == 2 ? value <= 1 : i >= -most && i <= most;
-    }
+    if (s->mapping == LACEDRING_MAPPING_LATTICE) return (uint32_t)(i < 0 ? 0u - value : value) < s->most;
+    if (s->mapping == LACEDRING_MAPPING_OCTAHEDRAL)
+        return c == 2 ? value <= 1 : (uint32_t)(i < 0 ? 0u - value : value) < s->most;
     if (s->mapping != LACEDRING_MAPPING_INTEGERS) return 1;
     switch (s->type) {
         case 0:
