@@ -87,7 +87,7 @@ class Inputs(CliTest):
         out = shell(f"$L encode '{ply}' -o - | $L decode - -o - --output-format ply | $L verify - && "
                     f"$L encode '{ply}' -o - | $L info -")
         self.assertEqual(out.returncode, DONE, out.stderr)
-        self.assertIn("version 2", out.stdout)
+        self.assertIn("version 3", out.stdout)
         out = shell("$L generate torus --triangles 300 -o - --output-format glb | $L stats --json -")
         self.assertEqual(json.loads(out.stdout)["meshes"][0]["components"], 1)
         out = shell("yes | head -c 3000000 | $L info - --max-memory 1")
@@ -332,7 +332,7 @@ class Notes(CliTest):
                 lr = self.path("x.lr")
                 self.ok("encode", mesh, "-o", lr, "--format", form, *(["--keep-order"] if keep else []))
                 told = self.json("info", "--json", lr)["lr"]
-                self.assertEqual((told["format"], told["version"], told["bytes"]), (kind, 2, os.path.getsize(lr)))
+                self.assertEqual((told["format"], told["version"], told["bytes"]), (kind, 3, os.path.getsize(lr)))
                 self.assertEqual((told["vertex_order"], told["corner_order"]), (keep, keep))
                 kinds = [section["kind"] for section in told["sections"]]
                 self.assertEqual(kinds, [kind, "attribute"] + (["vertex_order", "corner_order"] if keep else []))

@@ -92,6 +92,64 @@ TEST_CASE("attributes of every type travel bit for bit") {
     CHECK_FALSE(decode_lr_original_order(make(mesh, false)));
 }
 
+TEST_CASE("compressed attributes come back, bit for bit where nothing was quantized") {
+    for (const Format format : kFormats) {
+        CAPTURE(static_cast<int>(format));
+        Mesh mesh = with_attributes();
+        Attribute normal{"NORMAL", ComponentType::f32, 3, false, {}};
+        for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
+            const float values[3] = {0.6F, v % 2 == 0 ? 0.8F : -0.8F, 0};
+            const auto bytes = std::as_bytes(std::span(values));
+            normal.data.insert(normal.data.end(), bytes.begin(), bytes.end());
+        }
+        mesh.attributes.push_back(std::move(normal));
+        LrFile file = make(mesh, true, format);
+        const std::size_t raw = serialize_lr(file).size();
+        SUBCASE("lossless") {
+            REQUIRE(compress_attributes(file));
+        }
+        SUBCASE("quantized") {
+            const auto report = compress_attributes(file, {.positions = 12, .normals = 8, .colors = 4});
+            REQUIRE_MESSAGE(report, report.error().message);
+            REQUIRE(report->size() == 4);
+            CHECK((*report)[0].largest_error > 0);
+            CHECK((*report)[1].exact == "its values are integers");
+            CHECK((*report)[2].exact.empty());
+            CHECK((*report)[3].largest_error < 0.02);
+        }
+        const std::vector<std::byte> bytes = serialize_lr(file);
+        CHECK(bytes.size() < raw + 300);  // headers weigh more than what so small a mesh saves
+        const Result<LrFile> read = parse_lr(bytes);
+        REQUIRE_MESSAGE(read, read.error().message);
+        CHECK(serialize_lr(*read) == bytes);
+        const Result<LrContents> listed = list_lr(bytes);
+        REQUIRE(listed);
+        CHECK(std::ranges::count(listed->sections, "vertices", &LrSection::kind) == 4);
+        const Result<LrFileView> view = view_lr_file(bytes);
+        REQUIRE(view);
+        CHECK(view->positions().size() == 0);
+        const Result<Mesh> back = decode_lr_original_order(*read);
+        REQUIRE(back);
+        CHECK(back->indices == indices_of_kept(mesh));
+        REQUIRE(back->attributes.size() == 4);
+        for (std::size_t a = 0; a < 4; ++a) {
+            CHECK(back->attributes[a].name == mesh.attributes[a].name);
+            CHECK(back->attributes[a].type == mesh.attributes[a].type);
+            CHECK(back->attributes[a].normalized == mesh.attributes[a].normalized);
+            CHECK(back->attributes[a].v_up == mesh.attributes[a].v_up);
+            CHECK(view->attributes[a].type == mesh.attributes[a].type);
+            const Result<VertexView> stream = view_vertices(view->attributes[a].words);
+            REQUIRE(stream);
+            if (stream->largest_error == 0) CHECK(back->attributes[a].data == mesh.attributes[a].data);
+        }
+        for (std::size_t i = 0; i < bytes.size(); ++i) {
+            std::vector<std::byte> bad = bytes;
+            bad[i] ^= static_cast<std::byte>(1U << (i % 8));
+            CHECK_FALSE(parse_lr(bad));
+        }
+    }
+}
+
 TEST_CASE("a view of a file in memory has what the parsed file has, in place") {
     for (const Format format : kFormats) {
         const LrFile file = make(with_attributes(), true, format);
