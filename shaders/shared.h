@@ -18,6 +18,7 @@ using mat4 = std::array<float, 16>;  // column-major
 #define LR_COMPUTE_GROUP 128u  // as many as every device has
 
 #define LR_CONSTANT_BLOCKS 1  // packed_decode.comp: blocks of a workgroup
+#define LR_CONSTANT_COMPONENTS 0  // vertex_decode.comp: integers of a vertex
 
 // lean_decode.comp, packed_decode.comp: one dispatch expands `slots` slots from `first_slot`, through descriptors that
 // cover only what these need.
