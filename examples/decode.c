@@ -1,15 +1,15 @@
-/* Prints the mesh of an .lr file (docs/lr-file.md) with a lean stream as OBJ. */
+/* Prints the mesh of an .lr file (docs/lr-file.md) as OBJ: what lacedring encode MESH -o FILE.lr writes. */
 #define LACEDRING_DECODE_IMPLEMENTATION
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "lacedring_decode.h"
+#include "lacedring_vertices.h"
 
 static uint32_t* file_words; /* the whole file; sections begin at multiples of eight bytes */
 static size_t file_count;
 
-/* The words of section i of one kind: 1 is a lean stream, 2 an attribute. */
+/* The words of section i of one kind: 7 is a packed stream, 8 an attribute as a vertex stream. */
 static const uint32_t* section(uint32_t i, uint32_t kind, size_t* count) {
     const uint32_t* s = file_words + 8 + (size_t)8 * i; /* kind, CRC-32, offset, size, layout, length of the name */
     if (file_count < 16 + (size_t)8 * i || s[0] != kind) return NULL;
@@ -20,10 +20,11 @@ static const uint32_t* section(uint32_t i, uint32_t kind, size_t* count) {
 
 int main(int argc, char** argv) {
     FILE* file = argc == 2 ? fopen(argv[1], "rb") : NULL;
-    struct lacedring_lean lean;
-    const uint32_t *words, *positions;
-    uint32_t *indices, i, xyz[3];
-    float p[3];
+    struct lacedring_packed packed;
+    struct lacedring_vertices positions;
+    const uint32_t* words;
+    uint32_t *indices, i;
+    float* p;
     size_t size = 0, count, t;
     if (file == NULL) return fputs("decode FILE.lr\n", stderr), 1;
     while (!feof(file) && !ferror(file)) {
@@ -34,25 +35,28 @@ int main(int argc, char** argv) {
     fclose(file);
     file_count = size / 4;
 
-    words = section(0, 1, &count);
-    if (words == NULL || lacedring_lean_validate(words, count, &lean, NULL) != LACEDRING_STATUS_OK) {
-        return fputs("no valid lean stream\n", stderr), 1;
+    words = section(0, 7, &count);
+    if (words == NULL || lacedring_packed_validate(words, count, &packed, NULL) != LACEDRING_STATUS_OK) {
+        return fputs("no valid packed stream\n", stderr), 1;
     }
-    positions = section(1, 2, &count); /* the name POSITION takes eight bytes */
-    if (positions == NULL || memcmp(positions, "POSITION", 8) != 0 || count != 2 + (size_t)3 * lean.vertices) {
-        return fputs("no positions of 32-bit floats\n", stderr), 1;
+    words = section(1, 8, &count); /* the name POSITION takes eight bytes */
+    if (words == NULL || count < 2 || memcmp(words, "POSITION", 8) != 0 ||
+        lacedring_vertices_validate(words + 2, count - 2, &positions, NULL) != LACEDRING_STATUS_OK ||
+        positions.vertices != packed.vertices || positions.type != 6 || lacedring_vertices_values(&positions) != 3) {
+        return fputs("no valid positions of 32-bit floats\n", stderr), 1;
     }
-    indices = malloc(12 * (size_t)lean.triangles + 1);
-    if (indices == NULL) return 1;
-    lacedring_lean_triangles_u32(&lean, indices);
-    for (i = 0; i < lean.vertices; ++i) {
-        memcpy(xyz, positions + 2 + (size_t)3 * i, sizeof xyz);
-        memcpy(p, xyz, sizeof p);
-        printf("v %.9g %.9g %.9g\n", p[0], p[1], p[2]);
+    indices = malloc(12 * (size_t)packed.triangles + 1);
+    p = malloc(12 * (size_t)positions.vertices + 1);
+    if (indices == NULL || p == NULL) return 1;
+    lacedring_packed_triangles_u32(&packed, indices);
+    lacedring_vertices_decode(&positions, p);
+    for (i = 0; i < positions.vertices; ++i) {
+        printf("v %.9g %.9g %.9g\n", p[3 * (size_t)i], p[3 * (size_t)i + 1], p[3 * (size_t)i + 2]);
     }
-    for (t = 0; t < lean.triangles; ++t) {
+    for (t = 0; t < packed.triangles; ++t) {
         printf("f %u %u %u\n", indices[3 * t] + 1, indices[3 * t + 1] + 1, indices[3 * t + 2] + 1);
     }
+    free(p);
     free(indices);
     free(file_words);
     return 0;

@@ -146,6 +146,10 @@ Result<FileHeader> visit_sections(std::span<const std::byte> bytes, Visit visit)
             if (bytes[end] != std::byte{0}) return malformed(fmt::format("padding before section {}", i));
         }
         end = section.offset + section.size;
+        const bool named = section.kind == kAttribute || section.kind == kVertices;
+        if (!named && (section.layout != 0 || section.name_length != 0)) {
+            return malformed(fmt::format("section {}: it has no layout and no name", i));
+        }
         if (section.coding != 0) return malformed(fmt::format("section {}: unknown coding {}", i, section.coding));
         if (std::string why = visit(header, section, bytes.subspan(section.offset, section.size)); !why.empty()) {
             return malformed(fmt::format("section {}: {}", i, why));

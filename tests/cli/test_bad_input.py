@@ -109,28 +109,32 @@ class Damage(CliTest):
             if code == DONE:
                 self.ok("verify", target)
 
-    def make_lr(self):
+    def make_lr(self, form):
         source = self.generate("soup", 300, 2)
-        lr = self.path("good.lr")
-        self.ok("encode", source, "-o", lr)
+        lr = self.path(f"good-{form}.lr")
+        self.ok("encode", source, "-o", lr, "--format", form)
         with open(lr, "rb") as file:
             return lr, file.read()
 
     def test_lr_truncated_and_flipped(self):
-        lr, data = self.make_lr()
-        clean = self.path("clean.ply")
+        for form in ("lean", "packed", "lr"):  # the last has its attributes as they lie in memory
+            self.truncate_and_flip(form)
+
+    def truncate_and_flip(self, form):
+        lr, data = self.make_lr(form)
+        clean = self.path(f"clean-{form}.ply")
         self.ok("decode", lr, "-o", clean)
         with open(clean, "rb") as file:
             expected = file.read()
-        jobs = [("a.lr", data[:at], f"cut at {at}", False) for at in self.places(len(data), CUTS)]
-        jobs += [("a.lr", data + bytes(extra), f"with {extra} bytes more", False) for extra in (1, 4, 32)]
+        jobs = [("a.lr", data[:at], f"{form} cut at {at}", False) for at in self.places(len(data), CUTS)]
+        jobs += [("a.lr", data + bytes(extra), f"{form} with {extra} bytes more", False) for extra in (1, 4, 32)]
         in_parallel(lambda job: self.try_file(*job), jobs)
         jobs = []
         for i in range(2 * FLIPS):
             damaged = bytearray(data)
             at = self.random.randrange(len(data)) if i >= 64 else i  # the header byte by byte
             damaged[at] ^= 1 << self.random.randrange(8)
-            jobs.append(("a.lr", bytes(damaged), f"byte {at} changed, {i}", True))
+            jobs.append(("a.lr", bytes(damaged), f"{form} byte {at} changed, {i}", True))
         for (code, target), job in zip(in_parallel(lambda job: self.try_file(*job), jobs), jobs):
             if code == DONE:  # a byte between sections, which means nothing
                 with open(target, "rb") as file:
@@ -138,16 +142,22 @@ class Damage(CliTest):
 
     def test_lr_forged(self):
         """Wrong numbers under right checksums: refused, or decoded as the format's rules have it."""
-        _, data = self.make_lr()
+        _, data = self.make_lr("lean")
         jobs = []
-        for word in range(2, 7):  # the counts of the stream's header
-            for change in (1, -1, 1000, 1 << 29, 1 << 31):
-                jobs.append(("a.lr", forge(data, lambda w: change_word(w, word, change)), f"count {word} {change:+}", False))
+        for change in (1, -1, 1000, 1 << 29, 1 << 31):
+            for word in range(2, 7):  # the counts of the stream's header
+                jobs.append(("a.lr", forge(data, LEAN, lambda w: change_word(w, word, change)),
+                             f"count {word} {change:+}", False))
+            for word in (1, 6):  # vertices and exceptions of the vertex stream
+                jobs.append(("a.lr", forge(data, VERTICES, lambda w: change_word(w, word, change)),
+                             f"vertex stream's count {word} {change:+}", False))
         for i in range(FLIPS):
             at = self.random.randrange(1 << 30)
             bit = self.random.choice((0, 1, 3, 5, 10, 20, 28, 29, 30, 31))
-            jobs.append(("a.lr", forge(data, lambda w: change_word(w, 8 + at % (len(w) - 8), 1 << bit)),
+            jobs.append(("a.lr", forge(data, LEAN, lambda w: change_word(w, 8 + at % (len(w) - 8), 1 << bit)),
                          f"payload word {at} plus bit {bit}, {i}", True))
+            jobs.append(("a.lr", forge(data, VERTICES, lambda w: change_word(w, 7 + at % (len(w) - 7), 1 << bit)),
+                         f"vertex stream's word {at} plus bit {bit}, {i}", True))
         for (code, target), job in zip(in_parallel(lambda job: self.try_file(*job), jobs), jobs):
             if code == DONE:
                 numbers = {}
@@ -157,9 +167,12 @@ class Damage(CliTest):
                 self.assertEqual(ours[0], theirs[0], f"{job[2]} (LACEDRING_TEST_SEED={SEED})")
         section_table = 32
         for offset, value in ((8, 2 ** 32 - 1), (8, 2 ** 27), (12, 0), (12, 2 ** 32 - 1), (section_table + 8, 2 ** 63),
-                              (section_table + 16, 2 ** 64 - 1), (section_table + 16, 4), (section_table, 99)):
+                              (section_table + 16, 2 ** 64 - 1), (section_table + 16, 4), (section_table, 99),
+                              (section_table + 2, 1), (section_table + 34, 1), (section_table + 24, 1 << 17),
+                              (section_table + 28, 1), (section_table + 56, 0x306), (section_table + 56, 1 << 16),
+                              (section_table + 56, 1 << 18), (section_table + 60, 2 ** 32 - 1)):
             damaged = bytearray(data)
-            size = 8 if offset in (section_table + 8, section_table + 16) else 4
+            size = {2: 2, 8: 8, 16: 8}.get((offset - section_table) % 32, 4) if offset >= section_table else 4
             damaged[offset:offset + size] = value.to_bytes(size, "little")
             self.try_file("a.lr", seal(damaged), f"field {offset} {value}", False)
 
@@ -168,18 +181,27 @@ def change_word(words, at, change):
     words[at] = (words[at] + change) % (1 << 32)
 
 
-def forge(data, edit):
-    """The .lr file with the words of its lean stream edited and every checksum made right again."""
+LEAN, VERTICES = 1, 8  # kinds of sections
+
+
+def forge(data, wanted, edit):
+    """The .lr file with the words of its one stream of kind `wanted` edited and every checksum made right again."""
     data = bytearray(data)
+    at = {LEAN: 7, VERTICES: 3}[wanted]  # of the stream's checksum
+    found = 0
     for i in range(struct.unpack_from("<I", data, 8)[0]):
-        kind, _, offset, size = struct.unpack_from("<IIQQ", data, 32 + 32 * i)
-        if kind != 1:
+        kind, _, _, offset, size, _, name_length = struct.unpack_from("<HHIQQII", data, 32 + 32 * i)
+        if kind != wanted:
             continue
-        words = list(struct.unpack_from(f"<{size // 4}I", data, offset))
+        found += 1
+        begin = offset + (name_length + 7) // 8 * 8
+        words = list(struct.unpack_from(f"<{(offset + size - begin) // 4}I", data, begin))
         edit(words)
-        words[7] = zlib.crc32(struct.pack(f"<{len(words) - 8}I", *words[8:]), zlib.crc32(struct.pack("<7I", *words[:7])))
-        struct.pack_into(f"<{len(words)}I", data, offset, *words)
+        behind = struct.pack(f"<{len(words) - at - 1}I", *words[at + 1:])
+        words[at] = zlib.crc32(behind, zlib.crc32(struct.pack(f"<{at}I", *words[:at])))
+        struct.pack_into(f"<{len(words)}I", data, begin, *words)
         struct.pack_into("<I", data, 32 + 32 * i + 4, zlib.crc32(data[offset:offset + size]))
+    assert found == 1, "not one stream of that kind"
     return seal(data)
 
 

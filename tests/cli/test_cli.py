@@ -95,6 +95,7 @@ class RoundTrip(CliTest):
         def check(item):
             kind, triangles, seed = item
             source = self.generate(kind, triangles, seed)
+            self.round_trip(source, "--format", "lean")
             lr = self.round_trip(source)
             verdict = self.json("verify", source, "--json")
             self.assertEqual(verdict["file"], source)
@@ -105,7 +106,7 @@ class RoundTrip(CliTest):
                 self.assertIs(entry["ok"], True, f"{name}: {entry}")
             self.assertIn("why", entry)
             again = self.path(f"{kind}-{triangles}-{seed}-again.lr")
-            self.ok("encode", source, "-o", again, "--format", "lean", "--seeds", "0", "--optimize", "auto")
+            self.ok("encode", source, "-o", again, "--format", "packed", "--seeds", "0", "--optimize", "auto")
             with open(lr, "rb") as a, open(again, "rb") as b:
                 self.assertEqual(a.read(), b.read(), f"{kind}: encoding twice gives two files")
 

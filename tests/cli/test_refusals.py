@@ -264,13 +264,14 @@ class Usage(CliTest):
 
     def test_options_without_effect(self):
         mesh, lr = self.generate("blob", 300), self.path("x.lr")
-        for options in (["--profile", "cache"], ["--profile", "small", "--format", "lr"], ["--k", "5"], ["--k", "5", "--format", "lr"],
-                        ["--k", "5", "--format", "packed"], ["--no-warts", "--format", "packed"],
+        for options in (["--profile", "cache", "--format", "lean"], ["--profile", "small", "--format", "lr"], ["--k", "5"], ["--k", "5", "--format", "lr"],
+                        ["--k", "5", "--format", "lean"], ["--no-warts"], ["--no-warts", "--format", "packed"],
                         ["--no-warts", "--format", "lr-compact"], ["--optimize", "3", "--format", "lr-compact"],
                         ["--k", "5", "--format", "lr-compact", "--ring", "expander"],
                         ["--random-seed", "7", "--seeds", "1", "--optimize", "0"]):
             self.fails("encode", mesh, "-o", lr, *options, mentions=[options[0]], codes=(WRONG_USAGE,))
-        for options in (["--profile", "cache", "--format", "packed"], ["--k", "5", "--ring", "hybrid"], ["--no-warts"],
+        for options in (["--profile", "cache"], ["--profile", "cache", "--format", "packed"], ["--k", "5", "--ring", "hybrid"],
+                        ["--k", "5", "--ring", "hybrid", "--format", "lean"], ["--no-warts", "--format", "lean"],
                         ["--k", "5", "--format", "lr-compact"], ["--no-warts", "--format", "lr"], ["--random-seed", "7"]):
             self.ok("encode", mesh, "-o", lr, *options)
         for options in (["--paper", "--optimize", "3"], ["--table", "periods", "--ring", "hybrid"],
@@ -317,7 +318,9 @@ class Notes(CliTest):
         lr = self.path("m.lr")
         outcome = self.ok("encode", mesh, "-o", lr, "--format", "packed")
         self.assertIn("2 degenerate triangles dropped", outcome.err)
-        self.assertRegex(outcome.err, rf"2 triangles, {os.path.getsize(lr)} bytes; connectivity (\d+) bytes, ")
+        size = os.path.getsize(lr)
+        self.assertRegex(outcome.err, rf"2 triangles, {size} bytes: {8 * size / 2:.2f} bits per triangle, {8 * size / 4:.2f} per "
+                                      r"vertex; connectivity (\d+) bytes, .*; lossless\n")
         words = outcome.err.split()
         connectivity = int(words[words.index("connectivity") + 1])
         self.assertIn(f"{8 * connectivity / 2:.2f} bits per triangle", outcome.err)
@@ -335,12 +338,34 @@ class Notes(CliTest):
                 self.assertEqual((told["format"], told["version"], told["bytes"]), (kind, 3, os.path.getsize(lr)))
                 self.assertEqual((told["vertex_order"], told["corner_order"]), (keep, keep))
                 kinds = [section["kind"] for section in told["sections"]]
-                self.assertEqual(kinds, [kind, "attribute"] + (["vertex_order", "corner_order"] if keep else []))
+                attribute = "vertices" if form in ("lean", "packed") else "attribute"
+                self.assertEqual(kinds, [kind, attribute] + (["vertex_order", "corner_order"] if keep else []))
                 self.assertEqual(told["sections"][1]["name"], "POSITION")
                 text = self.ok("info", lr).out
                 self.assertIn("the input's order is kept" if keep else "the input's order is not kept", text)
         self.assertEqual(self.json("stats", "--json", "--optimize", "0", lr)["meshes"][0]["lr"]["format"], "lr_compact")
         self.assertNotIn("lr", self.json("info", "--json", mesh))
+
+    def test_quantizing(self):
+        mesh, lr, back = self.generate("blob", 3000), self.path("x.lr"), self.path("x.ply")
+        sizes = []
+        for options in ([], ["--positions", "14"], ["--positions", "10", "--format", "lr"]):
+            outcome = self.ok("encode", mesh, "-o", lr, "--force", *options)
+            sizes.append(os.path.getsize(lr))
+            section = self.json("info", "--json", lr)["lr"]["sections"][1]
+            self.assertEqual((section["kind"], section["name"]), ("vertices", "POSITION"))
+            self.assertEqual("lossless" in outcome.err, not options)
+            if options:
+                self.assertIn(f"largest error: POSITION {section['max_error']:.3g}", outcome.err)
+            self.ok("decode", lr, "-o", back, "--force")
+        self.assertLess(sizes[1], sizes[0])
+        self.assertIn("largest error", self.ok("info", lr).out)
+        # What has no effect is said.
+        texts = self.write("t.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0.5\nf 1 2 3\n")
+        outcome = self.ok("encode", texts, "-o", lr, "--force", "--positions", "20")
+        self.assertIn("POSITION stays lossless: that is smaller", outcome.err)
+        for options in (["--positions", "0"], ["--positions", "23"], ["--normals", "1"], ["--normals", "17"], ["--weights", "x"]):
+            self.fails("encode", mesh, "-o", lr, *options, mentions=[options[0]], codes=(WRONG_USAGE,))
 
     def test_original_order_to_the_corner(self):
         """--original-order gives back the input's index list, each triangle beginning with its own first corner."""

@@ -31,6 +31,8 @@ struct Options {
     Weld welding() const { return static_cast<Weld>(byte[0] % 3); }
     bool wart_skipping() const { return (byte[0] & 0x80) == 0; }
     bool keep_order() const { return (byte[0] & 0x60) != 0; }
+    /// In half of the cases, the file of one format has vertex streams: encoding them is slow.
+    bool compressed(Format format) const { return byte[4] % 8 == static_cast<std::uint32_t>(format); }
     bool one_per_shell() const { return (byte[0] & 0x10) != 0; }
     /// Zero runs everything; an input that leaves steps out runs faster.
     bool wants(std::uint32_t step) const { return (byte[8] >> step & 1) == 0; }
@@ -76,10 +78,10 @@ std::vector<Triangle> sorted(std::vector<Triangle> triangles) {
 }
 
 /// Numbers the values that vertices have in all attributes, or in the first ones, the same for several meshes.
-class VertexValues {
+class ValueNumbers {
   public:
     /// With `welding`, -0 is 0 in POSITION.
-    explicit VertexValues(std::size_t attributes = SIZE_MAX, bool welding = false)
+    explicit ValueNumbers(std::size_t attributes = SIZE_MAX, bool welding = false)
         : attributes_(attributes), welding_(welding) {}
 
     std::uint32_t operator()(const Mesh& mesh, std::uint32_t v) {
@@ -107,14 +109,6 @@ class VertexValues {
     std::unordered_map<std::string, std::uint32_t> numbers_;
 };
 
-bool same_attributes(const Mesh& a, const Mesh& b) {
-    return std::equal(a.attributes.begin(), a.attributes.end(), b.attributes.begin(), b.attributes.end(),
-                      [](const Attribute& x, const Attribute& y) {
-                          return x.name == y.name && x.type == y.type && x.components == y.components &&
-                                 x.normalized == y.normalized && x.data == y.data && x.v_up == y.v_up;
-                      });
-}
-
 Mesh welded(const Mesh& mesh, Weld mode) {
     Mesh out = weld(mesh, mode);
     REQUIRE(out.indices.size() == mesh.indices.size() && out.attributes.size() == mesh.attributes.size());
@@ -123,7 +117,7 @@ Mesh welded(const Mesh& mesh, Weld mode) {
         return out;
     }
     const std::size_t keys = mode == Weld::position ? 1 : SIZE_MAX;
-    VertexValues values(keys, true), distinct(keys, true);
+    ValueNumbers values(keys, true), distinct(keys, true);
     for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
         REQUIRE(out.indices[i] < out.vertex_count);
         REQUIRE(values(out, out.indices[i]) == values(mesh, mesh.indices[i]));
@@ -144,7 +138,7 @@ void check_table(const Mesh& mesh, const CornerTable& table) {
 }
 
 /// A stream of `mesh` as the encoder gave it: valid, decoded to the same triangles, and so is the file made of it.
-void check_stream(const Mesh& mesh, Encoded encoded, bool keep_order) {
+void check_stream(const Mesh& mesh, Encoded encoded, const Options& options) {
     const std::optional<Words> indices = use_stream(encoded.format, encoded.words);
     REQUIRE(indices);
     for (const std::uint32_t v : encoded.vertex_order) REQUIRE(v < mesh.vertex_count);
@@ -158,16 +152,20 @@ void check_stream(const Mesh& mesh, Encoded encoded, bool keep_order) {
         REQUIRE(got[i] == rotated({t[0], t[1], t[2]}));
     }
 
-    const std::vector<std::byte> bytes = serialize_lr(make_lr_file(mesh, std::move(encoded), keep_order));
+    const bool compressed = options.compressed(encoded.format);
+    LrFile made = make_lr_file(mesh, std::move(encoded), options.keep_order());
+    const Mesh before = decode_lr(made).value();
+    REQUIRE(!compressed || compress_attributes(made));
+    const std::vector<std::byte> bytes = serialize_lr(made);
     const Result<LrFile> file = parse_lr(bytes);
     REQUIRE(file);
     REQUIRE(serialize_lr(*file) == bytes);
     const Mesh decoded = decode_lr(*file).value();
-    REQUIRE(decoded.vertex_count == mesh.vertex_count);
-    VertexValues values;
+    REQUIRE(decoded.vertex_count == mesh.vertex_count && same_attributes(decoded, before));
+    ValueNumbers values;
     REQUIRE(values.triangles(mesh) == values.triangles(decoded));
     const Result<Mesh> original = decode_lr_original_order(*file);
-    if (!keep_order) return;
+    if (!options.keep_order()) return;
     REQUIRE(original);
     REQUIRE(original->vertex_count == mesh.vertex_count && same_attributes(*original, mesh));
     std::vector<std::uint32_t> kept;  // the input's index list, but for degenerate triangles
@@ -187,14 +185,14 @@ void check_lean(const Mesh& mesh, const CornerTable& table, const Options& optio
     REQUIRE(check_rings(table, rings).empty());
     Result<EncodedLean> lean = encode_lean(table, rings, {.wart_skipping = options.wart_skipping()});
     REQUIRE(lean);
-    check_stream(mesh, as_encoded(std::move(*lean)), options.keep_order());
+    check_stream(mesh, as_encoded(std::move(*lean)), options);
 }
 
 void check_packed(const Mesh& mesh, const CornerTable& table, const Options& options, PackedProfile profile) {
     Result<PackedChoice> packed =
         encode_smallest_packed(table, options.ring(table), options.optimize(kPackedRingCost), profile);
     REQUIRE(packed);
-    check_stream(mesh, as_encoded(std::move(packed->stream)), options.keep_order());
+    check_stream(mesh, as_encoded(std::move(packed->stream)), options);
 }
 
 void check_lr(const Mesh& mesh, const CornerTable& table, const Options& options, Format kind) {
@@ -205,7 +203,7 @@ void check_lr(const Mesh& mesh, const CornerTable& table, const Options& options
                                ? encode_lr(table, ring, options.optimize(kLrRingCost), options.wart_skipping())
                                : encode_compact_lr(table, ring, std::span(periods).first(options.byte[1] == 0 ? 1 : 2));
     REQUIRE(lr);
-    check_stream(mesh, as_encoded(std::move(*lr)), options.keep_order());
+    check_stream(mesh, as_encoded(std::move(*lr)), options);
 }
 
 /// The triangles that a structure holds, by its operators.

@@ -16,7 +16,8 @@ struct Header {
     std::uint32_t magic, version, sections, vertices, input_triangles, reserved, table_crc, header_crc;
 };
 struct Entry {
-    std::uint32_t kind, crc;
+    std::uint16_t kind, coding;
+    std::uint32_t crc;
     std::uint64_t offset, size;
     std::uint32_t layout, name_length;
 };
@@ -24,23 +25,37 @@ struct Section {
     Entry entry;
     Bytes contents;
 };
-constexpr std::uint32_t kAttribute = 2, kVertexOrder = 3, kCornerOrder = 4;
+constexpr std::uint32_t kAttribute = 2, kVertexOrder = 3, kCornerOrder = 4, kVertices = 8;
 
 /// Of a section's kind; the kinds above, and unknown ones, are taken for lean.
 Format format_of(std::uint32_t kind) {
     return kind == 5 ? Format::lr : kind == 6 ? Format::lr_compact : kind == 7 ? Format::packed : Format::lean;
 }
 
+/// Byte by byte, a vertex stream included.
+template <class Other>
+bool same_attribute(const Other& a, const LrAttribute& b) {
+    return a.name == b.name && a.type == b.type && a.components == b.components && a.normalized == b.normalized &&
+           a.v_up == b.v_up && std::ranges::equal(a.data, b.data) && std::ranges::equal(a.words, b.words);
+}
+
 bool run(std::span<const std::byte> bytes) {
     // The view that a memory-mapped file is used by needs an aligned address: operator new's is.
     const Result<LrFileView> in_place = view_lr_file(bytes);
     const Result<LrFile> file = parse_lr(bytes);
+    const Result<LrContents> listed = list_lr(bytes);
     if (!in_place) check_message(in_place.error());
+    if (!listed) check_message(listed.error());
     if (!file) {
         check_message(file.error());
         return false;
     }
-    REQUIRE(in_place && in_place->format == file->format && std::ranges::equal(in_place->words, file->words));
+    REQUIRE(listed && in_place && in_place->format == file->format);
+    REQUIRE(std::ranges::equal(in_place->words, file->words));
+    REQUIRE(std::ranges::equal(in_place->attributes, file->attributes, same_attribute<AttributeView>));
+    for (const LrAttribute& attribute : file->attributes) {
+        REQUIRE(attribute.words.empty() || use_vertex_stream(attribute.words));
+    }
     const std::optional<Words> indices = use_stream(file->format, file->words);
     REQUIRE(indices);
     REQUIRE(indices->size() / 3 <= file->input_triangles);
@@ -57,7 +72,11 @@ bool run(std::span<const std::byte> bytes) {
     }
     const Result<LrFile> again = parse_lr(serialize_lr(*file));
     REQUIRE(again && again->words == file->words && again->vertex_order == file->vertex_order &&
-            again->corner_order == file->corner_order && again->attributes.size() == file->attributes.size());
+            again->corner_order == file->corner_order);
+    REQUIRE(std::ranges::equal(again->attributes, file->attributes, same_attribute<LrAttribute>));
+    LrFile compressed = *file;
+    REQUIRE(compress_attributes(compressed));
+    REQUIRE(same_attributes(decode_lr(compressed).value(), mesh));
     return true;
 }
 
@@ -97,9 +116,10 @@ Bytes put_together(Header header, std::vector<Section>& sections) {
     return out;
 }
 
-void mutate_number(std::uint32_t& number, Random& random) {
-    number =
-        random_below(random, 2) == 0 ? number + random_below(random, 5) - 2 : number ^ 1U << random_below(random, 32);
+template <class T>
+void mutate_number(T& number, Random& random) {
+    number = static_cast<T>(random_below(random, 2) == 0 ? number + random_below(random, 5) - 2
+                                                         : number ^ 1U << random_below(random, 8 * sizeof(T)));
 }
 
 void mutate_section(Section& section, std::size_t room, Random& random) {
@@ -125,11 +145,20 @@ void mutate_section(Section& section, std::size_t room, Random& random) {
             mutate_bytes(contents, most);
             return;
         default: {
-            Words words(contents.size() / 4);
-            if (!words.empty()) std::memcpy(words.data(), contents.data(), 4 * words.size());
-            mutate_stream(format_of(section.entry.kind), words, most / 4, random);
+            const bool vertices = section.entry.kind == kVertices;
+            const std::size_t name = vertices ? (std::size_t{section.entry.name_length} + 7) / 8 * 8 : 0;
+            if (name > contents.size() || (vertices && random_below(random, 16) == 0)) {
+                return mutate_bytes(contents, most);
+            }
+            Words words = words_of(std::span(contents).subspan(name));
+            if (vertices) {
+                mutate_vertex_stream(words, (most - name) / 4, random);
+            } else {
+                mutate_stream(format_of(section.entry.kind), words, most / 4, random);
+            }
             const auto bytes = std::as_bytes(std::span(words));
-            contents.assign(bytes.begin(), bytes.end());
+            contents.resize(name);
+            contents.insert(contents.end(), bytes.begin(), bytes.end());
         }
     }
 }
@@ -153,7 +182,7 @@ void mutate(Bytes& bytes, std::size_t max_size, Random& random) {
             mutate_number(section.entry.name_length, random);
             break;
         case 3:
-            mutate_number(section.entry.kind, random);
+            mutate_number(random_below(random, 4) == 0 ? section.entry.coding : section.entry.kind, random);
             break;
         case 4:
             std::swap(section, sections[random_below(random, sections.size())]);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -10,6 +11,7 @@
 #include "lacedring/lacedring.hpp"
 #include "lacedring/lr_file.hpp"
 #include "lacedring/ring.hpp"
+#include "lacedring/vertices.hpp"
 #include "lrlab/generate/generate.h"
 #include "tests/support/meshes.h"
 
@@ -30,8 +32,11 @@ void write(const char* target, const std::string& name, std::span<const std::byt
 void write_stream(const char* target, const std::string& name, const Mesh& mesh, const Encoded& encoded) {
     write(target, name, encoded.bytes());
     if (mesh.triangle_count() > 60) return;
-    write("lr_file", std::string(target) + "-" + name,
-          serialize_lr(make_lr_file(mesh, encoded, mesh.triangle_count() % 2 == 0)));
+    LrFile file = make_lr_file(mesh, encoded, mesh.triangle_count() % 2 == 0);
+    write("lr_file", std::string(target) + "-" + name, serialize_lr(file));
+    const AttributeBits bits{.positions = mesh.vertex_count % 3 * 5, .normals = 8};  // 0: lossless
+    all_written = compress_attributes(file, bits).has_value() && all_written;
+    write("lr_file", std::string(target) + "-" + name + "-vertices", serialize_lr(file));
 }
 
 void write_seeds(std::string name, const Mesh& mesh, std::uint32_t number) {
@@ -63,6 +68,55 @@ void write_seeds(std::string name, const Mesh& mesh, std::uint32_t number) {
     }
 }
 
+/// Vertex streams of several sizes; value(vertex, component) are the values.
+template <class T, class Value>
+void write_vertices(const char* name, ComponentType type, std::uint8_t components, const VertexOptions& options,
+                    Value value) {
+    for (const std::uint32_t vertices : {0U, 1U, 5U, 128U, 129U, 2100U}) {
+        std::vector<T> values;
+        for (std::uint32_t v = 0; v < vertices; ++v) {
+            for (std::uint32_t c = 0; c < components; ++c) values.push_back(static_cast<T>(value(v, c)));
+        }
+        const bool normalized = type == ComponentType::u8;
+        const Result<EncodedVertices> encoded =
+            encode_vertices({type, components, normalized, std::as_bytes(std::span(values))}, options);
+        all_written = encoded.has_value() && all_written;
+        if (encoded) {
+            write("vertices", std::string(name) + "-" + std::to_string(vertices),
+                  std::as_bytes(std::span(encoded->words)));
+        }
+    }
+}
+
+/// Of every mapping.
+void write_vertex_seeds() {
+    const auto wave = [](std::uint32_t v, std::uint32_t c) { return std::sin(v * (0.05 + 0.02 * c)); };
+    const auto noise = [](std::uint32_t v, std::uint32_t c) { return (2 * v + c + 1) * 2654435761U; };
+    const auto tangent = [&](std::uint32_t v, std::uint32_t c) {
+        return c == 3 ? (v % 100 < 50 ? 1 : -1) : c == 2 ? std::sin(v * 0.3) : wave(v, c);
+    };
+    const auto decimal = [&](std::uint32_t v, std::uint32_t c) {
+        return v % 40 == 3 ? wave(v, c) : std::round(wave(v, c) * 1000) / 1000;
+    };
+    write_vertices<std::uint8_t>("u8", ComponentType::u8, 4, {},
+                                 [&](auto v, auto c) { return 120 + 100 * wave(v, c); });
+    write_vertices<std::int16_t>("i16", ComponentType::i16, 2, {}, [&](auto v, auto c) { return 3000 * wave(v, c); });
+    write_vertices<std::uint32_t>("u32", ComponentType::u32, 1, {}, [](auto v, auto) { return v / 3; });
+    write_vertices<std::uint32_t>("u32-noise", ComponentType::u32, 1, {}, noise);
+    // Any integer is in the range of these.
+    write_vertices<std::int32_t>("i32", ComponentType::i32, 3, {},
+                                 [&](auto v, auto c) { return (v % 64 < 2 ? 0x7fffffff : 1e6) * wave(60 * v, c); });
+    write_vertices<double>("doubles-noise", ComponentType::f64, 1, {}, wave);
+    write_vertices<float>("lattice", ComponentType::f32, 3, {.mapping = VertexMapping::lattice, .bits = 9}, wave);
+    const VertexOptions octahedral{.mapping = VertexMapping::octahedral, .bits = 7};
+    write_vertices<float>("normals", ComponentType::f32, 3, octahedral, tangent);
+    write_vertices<float>("tangents", ComponentType::f32, 4, octahedral, tangent);
+    write_vertices<float>("floats", ComponentType::f32, 1, {}, wave);
+    write_vertices<float>("decimals", ComponentType::f32, 2, {}, decimal);
+    write_vertices<double>("doubles", ComponentType::f64, 1, {},
+                           [&](auto v, auto c) { return std::round(wave(v, c) * 4096) / 4096; });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -77,6 +131,7 @@ int main(int argc, char** argv) {
         write_seeds(std::string(kind) + "-600", generate(kind, 600).value(), number++);
         write_seeds(std::string(kind) + "-4600", generate(kind, 4600).value(), number++);
     }
+    write_vertex_seeds();
     if (!all_written) std::fprintf(stderr, "%s: cannot be written\n", argv[1]);
     return all_written ? 0 : 1;
 }

@@ -1,12 +1,14 @@
 #include "tests/fuzz/streams.h"
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cstring>
 #include <memory>
 
+#include "lacedring/lacedring_vertices.h"
 #include "lacedring/streams.hpp"
 #include "lrcore/base/crc32.h"
+#include "lrcore/base/signature.h"
 #include "lrcore/codec/lean/lean_format.h"
 #include "lrcore/codec/packed/packed_c.h"
 #include "lrcore/codec/packed/packed_format.h"
@@ -113,6 +115,105 @@ void mend(Format kind, Words& words) {
     }
 }
 
+/// The table of a vertex stream, from the blocks; vertices that the data does not hold are left out.
+void mend_blocks(Words& words) {
+    const std::uint32_t vertices = words[1], n = words[2] & 31, field = words[2] >> 18 & 31;
+    const auto group_words = [](std::uint32_t width) { return 1 + (15 * width + 31) / 32; };
+    const std::uint64_t groups = (vertices + std::uint64_t{16} * kVertexBlock - 1) / (16 * kVertexBlock);
+    const std::uint64_t table = LACEDRING_VERTICES_HEADER_WORDS + 2 * n + std::uint64_t{2} * words[6];
+    const std::uint64_t data = table + groups * group_words(field);
+    if (n == 0 || n > LACEDRING_VERTICES_MAX_COMPONENTS || data + 2 > words.size()) return;
+    const std::uint64_t bits = 32 * (words.size() - 2 - data);
+    std::uint64_t at = 0;
+    const auto take = [&](std::uint32_t count) {
+        std::uint32_t value = 0;
+        for (std::uint32_t k = 0; k < count; ++k, ++at) {
+            if (at < bits) value |= (words[data + at / 32] >> at % 32 & 1) << k;
+        }
+        return value;
+    };
+    const auto align = [&] {
+        if (at % 32 != 0) words[data + at / 32] &= (1U << at % 32) - 1;
+        at = (at + 31) / 32 * 32;
+    };
+    const auto skip_block = [&](std::uint32_t count) {
+        std::uint32_t width[LACEDRING_VERTICES_MAX_COMPONENTS];
+        for (std::uint32_t c = 0; c < n; ++c) take(take(1) * 5);
+        const std::uint32_t length = 4U << take(2);
+        for (std::uint32_t c = 0; c < n; ++c) {
+            const std::uint32_t parameters = words[LACEDRING_VERTICES_HEADER_WORDS + 2 * c + 1];
+            take(std::min(parameters & 63, 32U));
+            width[c] = parameters >> 6 & 31;
+        }
+        for (std::uint32_t i = 0; i + 1 < count; i += length) {
+            const std::uint32_t here = std::min(length, count - 1 - i);
+            if (n == 3 && i % 16 == 0 && take(1) != 0) take(take(1) * 8);
+            std::uint32_t low_bits = 0, coded = 0;
+            for (std::uint32_t c = 0; c < n; ++c) {
+                std::uint32_t ones = 0;
+                while (ones < 4 && take(1) != 0) ++ones;
+                if (ones == 1) continue;
+                width[c] = (ones == 4 ? take(5) : width[c] + (ones == 2 ? 1 : 0) - (ones == 3 ? 1 : 0)) & 31;
+                low_bits += width[c];
+                ++coded;
+            }
+            at += std::uint64_t{here} * low_bits;
+            for (std::uint32_t k = 0; k < here * coded && at < bits; ++k) {
+                while (take(1) == 0 && at < bits) continue;
+            }
+        }
+    };
+    Words begins;
+    std::uint32_t first = 0, farthest = 0;
+    for (std::uint64_t group = 0; first < vertices; first += std::min(vertices - first, kVertexBlock)) {
+        const std::uint64_t end = at;
+        if (begins.size() % 16 == 0) {
+            align();
+            group = at;
+        }
+        const std::uint64_t begin = at;
+        skip_block(std::min(vertices - first, kVertexBlock));
+        if (at > bits) {
+            at = end;
+            break;
+        }
+        begins.push_back(static_cast<std::uint32_t>(begins.size() % 16 == 0 ? group / 32 : begin - group));
+        if (begins.size() % 16 != 1) farthest = std::max(farthest, begins.back());
+    }
+    align();
+    const std::uint32_t width = std::max(field, static_cast<std::uint32_t>(std::bit_width(farthest)));
+    Words out(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(table));
+    out[1] = first;
+    out[2] = (out[2] & ~(31U << 18)) | width << 18;
+    for (std::size_t block = 0; block < begins.size(); ++block) {
+        if (block % 16 == 0) {
+            out.push_back(begins[block]);
+            out.resize(out.size() + group_words(width) - 1);
+            continue;
+        }
+        const std::size_t group = out.size() - group_words(width) + 1, bit = (block % 16 - 1) * width;
+        for (std::size_t k = 0; k < width; ++k)
+            out[group + (bit + k) / 32] |= (begins[block] >> k & 1) << (bit + k) % 32;
+    }
+    const auto from = words.begin() + static_cast<std::ptrdiff_t>(data);
+    out.insert(out.end(), from, from + static_cast<std::ptrdiff_t>(at / 32));
+    out.resize(out.size() + 2);
+    words = std::move(out);
+}
+
+/// Blocks and padding, mostly, and the checksum (docs/vertex-format.md).
+void mend_vertices(Words& words, Random& random) {
+    constexpr std::size_t checksum = 3;
+    if (words.size() < LACEDRING_VERTICES_HEADER_WORDS + 2) return;
+    words[0] = magic::kVertices;
+    if (random_below(random, 16) != 0) {
+        mend_blocks(words);
+        std::fill(words.end() - 2, words.end(), 0U);
+    }
+    const auto bytes = std::as_bytes(std::span(words));
+    words[checksum] = crc32(bytes.subspan(4 * (checksum + 1)), crc32(bytes.first(4 * checksum)));
+}
+
 void mutate_words(Words& words, Random& random) {
     const auto any = [&] { return random_below(random, words.size()); };
     const auto place = [&](std::size_t i) { return words.begin() + static_cast<std::ptrdiff_t>(i); };
@@ -149,21 +250,51 @@ void mutate_words(Words& words, Random& random) {
     }
 }
 
-template <Format kind>
-bool run(std::span<const std::byte> bytes) {
+/// Mutates bytes or whole words.
+void mutate_unmended(Words& words, std::size_t max_words, Random& random) {
+    if (words.empty() || random_below(random, 2) == 0) {
+        const auto from = std::as_bytes(std::span(words));
+        Bytes bytes(from.begin(), from.end());
+        mutate_bytes(bytes, 4 * max_words);
+        words = words_of(bytes);
+    } else {
+        mutate_words(words, random);
+        words.resize(std::min(words.size(), max_words));
+    }
+}
+
+template <class Use>
+bool run_words(std::span<const std::byte> bytes, Use use) {
     const std::size_t size = bytes.size() / 4;
     const auto words = std::make_unique<std::uint32_t[]>(size);
     if (size > 0) std::memcpy(words.get(), bytes.data(), 4 * size);
-    return use_stream(kind, {words.get(), size}).has_value();
+    return use(std::span<const std::uint32_t>(words.get(), size));
+}
+
+template <Format kind>
+bool run(std::span<const std::byte> bytes) {
+    return run_words(bytes, [](auto words) { return use_stream(kind, words).has_value(); });
+}
+
+bool run_vertices(std::span<const std::byte> bytes) {
+    return run_words(bytes, use_vertex_stream);
+}
+
+template <class Mutate>
+void mutate_as_words(Bytes& bytes, std::size_t max_size, Mutate mutate_stream) {
+    Words words = words_of(bytes);
+    mutate_stream(words, max_size / 4);
+    const auto out = std::as_bytes(std::span(words));
+    bytes.assign(out.begin(), out.end());
 }
 
 template <Format kind>
 void mutate(Bytes& bytes, std::size_t max_size, Random& random) {
-    Words words(bytes.size() / 4);
-    if (!words.empty()) std::memcpy(words.data(), bytes.data(), 4 * words.size());
-    mutate_stream(kind, words, max_size / 4, random);
-    const auto out = std::as_bytes(std::span(words));
-    bytes.assign(out.begin(), out.end());
+    mutate_as_words(bytes, max_size, [&](Words& words, std::size_t max) { mutate_stream(kind, words, max, random); });
+}
+
+void mutate_vertices(Bytes& bytes, std::size_t max_size, Random& random) {
+    mutate_as_words(bytes, max_size, [&](Words& words, std::size_t max) { mutate_vertex_stream(words, max, random); });
 }
 
 template <class Stream, class Use>
@@ -190,22 +321,38 @@ std::optional<Words> use_stream(Format kind, std::span<const std::uint32_t> word
 }
 
 void mutate_stream(Format kind, Words& words, std::size_t max_words, Random& random) {
-    if (words.empty() || random_below(random, 2) == 0) {
-        Bytes bytes(4 * words.size());
-        if (!words.empty()) std::memcpy(bytes.data(), words.data(), bytes.size());
-        mutate_bytes(bytes, 4 * max_words);
-        words.resize(bytes.size() / 4);
-        if (!words.empty()) std::memcpy(words.data(), bytes.data(), 4 * words.size());
-    } else {
-        mutate_words(words, random);
-        words.resize(std::min(words.size(), max_words));
-    }
+    mutate_unmended(words, max_words, random);
     if (random_below(random, 16) != 0) mend(kind, words);  // else the checks of the header are tested
+}
+
+bool use_vertex_stream(std::span<const std::uint32_t> words) {
+    const Result<VertexView> view = validate_vertices(words);
+    lacedring_vertices stream;
+    const bool valid = lacedring_vertices_validate(words.data(), words.size(), &stream, nullptr) == LACEDRING_STATUS_OK;
+    REQUIRE(view.has_value() == valid);
+    if (view) {
+        use_vertices(*view);
+    } else {
+        check_message(view.error());
+    }
+    return valid;
+}
+
+void mutate_vertex_stream(Words& words, std::size_t max_words, Random& random) {
+    mutate_unmended(words, max_words, random);
+    if (random_below(random, 16) != 0) mend_vertices(words, random);
+}
+
+Words words_of(std::span<const std::byte> bytes) {
+    Words words(bytes.size() / 4);
+    if (!words.empty()) std::memcpy(words.data(), bytes.data(), 4 * words.size());
+    return words;
 }
 
 extern const Target lean_target{"lean", run<Format::lean>, mutate<Format::lean>};
 extern const Target packed_target{"packed", run<Format::packed>, mutate<Format::packed>};
 extern const Target lr_target{"lr", run<Format::lr>, mutate<Format::lr>};
 extern const Target lr_compact_target{"lr_compact", run<Format::lr_compact>, mutate<Format::lr_compact>};
+extern const Target vertices_target{"vertices", run_vertices, mutate_vertices};
 
 }  // namespace lacedring::fuzz

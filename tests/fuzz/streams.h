@@ -16,7 +16,14 @@ using Words = std::vector<std::uint32_t>;
 /// Validates the words and uses the stream (use.h). Its triangles, or nothing if it is refused.
 std::optional<Words> use_stream(Format kind, std::span<const std::uint32_t> words);
 
+/// Validates the words and uses the vertex stream. False if it is refused.
+bool use_vertex_stream(std::span<const std::uint32_t> words);
+
 /// Mutates bytes or whole words, then makes sizes and checksum in the header fit again, mostly.
 void mutate_stream(Format kind, Words& words, std::size_t max_words, Random& random);
+void mutate_vertex_stream(Words& words, std::size_t max_words, Random& random);
+
+/// The whole words of `bytes`.
+Words words_of(std::span<const std::byte> bytes);
 
 }  // namespace lacedring::fuzz

@@ -179,17 +179,20 @@ void check_mesh(const Mesh& mesh) {
     REQUIRE(normals_f32(mesh).size() == std::size_t{3} * mesh.vertex_count);
 }
 
+bool same_attributes(const Mesh& a, const Mesh& b) {
+    return std::equal(a.attributes.begin(), a.attributes.end(), b.attributes.begin(), b.attributes.end(),
+                      [](const Attribute& x, const Attribute& y) {
+                          return x.name == y.name && x.type == y.type && x.components == y.components &&
+                                 x.normalized == y.normalized && x.data == y.data && x.v_up == y.v_up;
+                      });
+}
+
 void check_writers(const Mesh& mesh) {
     if (mesh.triangle_count() > 2000 || mesh.vertex_count > 5000) return;
     const Result<Mesh> ply = write_and_read(mesh, MeshFormat::ply);
     REQUIRE(ply);
     REQUIRE(ply->vertex_count == mesh.vertex_count && ply->indices == mesh.indices);
-    REQUIRE(ply->attributes.size() == mesh.attributes.size());
-    for (std::size_t i = 0; i < mesh.attributes.size(); ++i) {
-        const Attribute &a = mesh.attributes[i], &b = ply->attributes[i];
-        REQUIRE(a.name == b.name && a.type == b.type && a.components == b.components && a.normalized == b.normalized);
-        REQUIRE(a.data == b.data && a.v_up == b.v_up);
-    }
+    REQUIRE(same_attributes(*ply, mesh));
     const std::vector<float> positions = positions_f32(mesh);
     const bool finite = all_finite<float>(std::as_bytes(std::span(positions)));  // rounding may overflow
     const Result<Mesh> glb = write_and_read(mesh, MeshFormat::gltf);
@@ -256,6 +259,38 @@ std::vector<std::uint32_t> use_lr(const LrStreamView<LrView>& stream) {
 std::vector<std::uint32_t> use_lr(const LrStreamView<CompactLrView>& stream) {
     REQUIRE(count_long_tips(stream.view) <= 2 * std::uint64_t{stream.view.ring_vertices});
     return use_tables(stream);
+}
+
+void use_vertices(const VertexView& view) {
+    constexpr std::size_t kMostDecoded = 64 << 20, kMostEncoded = 1 << 16;  // encoding is slow
+    const std::size_t size = view.decoded_bytes();
+    if (size > kMostDecoded) return;
+    const auto decoded = std::make_unique<std::byte[]>(size);
+    const std::span<std::byte> values(decoded.get(), size);
+    decode_vertices(view, values);
+    const bool lossless = view.mapping != VertexMapping::lattice && view.mapping != VertexMapping::octahedral;
+    REQUIRE(lossless || all_finite<float>(values));
+    const auto decode_block = [&](std::uint32_t block) {
+        ExactWords out(std::size_t{view.integers} * std::min(view.vertices - block * kVertexBlock, kVertexBlock));
+        decode_vertex_block(view, block, out.span());
+        return out;
+    };
+    std::vector<ExactWords> blocks;
+    for (std::uint32_t block = 0; block < view.blocks(); ++block) blocks.push_back(decode_block(block));
+    for (std::uint32_t block = view.blocks(); block-- > 0;) {
+        REQUIRE(std::ranges::equal(decode_block(block).span(), blocks[block].span()));
+    }
+    if (size > kMostEncoded) return;
+    const Result<EncodedVertices> encoded = encode_vertices({view.type, view.components, view.normalized, values});
+    REQUIRE(encoded && encoded->largest_error == 0);
+    const ExactWords words(encoded->words.size());
+    std::ranges::copy(encoded->words, words.data.get());
+    const Result<VertexView> again = validate_vertices(words.span());
+    REQUIRE(again && again->vertices == view.vertices && again->largest_error == 0);
+    REQUIRE(again->type == view.type && again->components == view.components && again->normalized == view.normalized);
+    const auto decoded_again = std::make_unique<std::byte[]>(size);
+    decode_vertices(*again, {decoded_again.get(), size});
+    REQUIRE(std::ranges::equal(values, std::span(decoded_again.get(), size)));
 }
 
 }  // namespace lacedring::fuzz

@@ -9,6 +9,7 @@
 #include "lacedring/mesh.hpp"
 #include "lacedring/operators.hpp"
 #include "lacedring/streams.hpp"
+#include "lacedring/vertices.hpp"
 #include "tests/fuzz/targets.h"
 
 namespace lacedring::fuzz {
@@ -19,6 +20,9 @@ void check_message(const Error& error);
 /// Checks the invariant of Mesh (mesh.hpp).
 void check_mesh(const Mesh& mesh);
 
+/// Do both have the same attributes, byte by byte?
+bool same_attributes(const Mesh& a, const Mesh& b);
+
 /// Writes a small mesh in memory in each format, reads it back and compares; does nothing with a large one.
 void check_writers(const Mesh& mesh);
 
@@ -28,6 +32,10 @@ std::vector<std::uint32_t> use_lean(const LeanView& view);
 std::vector<std::uint32_t> use_packed(const PackedView& view);
 std::vector<std::uint32_t> use_lr(const LrStreamView<LrView>& stream);
 std::vector<std::uint32_t> use_lr(const LrStreamView<CompactLrView>& stream);
+
+/// Decodes a valid vertex stream as a whole and by blocks, and encodes the values again, losslessly. Does nothing with
+/// one of more than 64 MiB: a few bytes may hold many equal vertices.
+void use_vertices(const VertexView& view);
 
 /// Calls every operator of a structure (Operators or one of its rivals) on every corner and vertex.
 template <class Operators>

@@ -18,13 +18,20 @@ using namespace lacedring::test;
 namespace {
 
 struct VertexDecode : GpuTest {
-    std::vector<std::uint32_t> decoded(const VertexView& view, std::size_t size) {
+    VertexDecode() {
         const std::array<gpu::Binding, 2> bindings{{{0}, {1}}};
-        const auto layout = gpu::Layout::create(*context, "vertices", bindings, VK_SHADER_STAGE_COMPUTE_BIT, 4);
-        REQUIRE(layout);
-        const auto pipeline = gpu::create_compute(*context, "vertices", *layout, spirv_vertex_decode_comp,
-                                                  std::array<std::uint32_t, 1>{view.integers});
-        REQUIRE(pipeline);
+        auto made = gpu::Layout::create(*context, "vertices", bindings, VK_SHADER_STAGE_COMPUTE_BIT, 4);
+        REQUIRE(made);
+        layout = std::move(*made);
+        for (std::uint32_t n = 1; n <= pipelines.size(); ++n) {
+            auto pipeline = gpu::create_compute(*context, "vertices", layout, spirv_vertex_decode_comp,
+                                                std::array<std::uint32_t, 1>{n});
+            REQUIRE(pipeline);
+            pipelines[n - 1] = std::move(*pipeline);
+        }
+    }
+
+    std::vector<std::uint32_t> decoded(const VertexView& view, std::size_t size) {
         constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
         constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
         std::vector<std::uint32_t> out(size);
@@ -35,14 +42,14 @@ struct VertexDecode : GpuTest {
         REQUIRE((stream && values && commands && transfer));
         REQUIRE(transfer->upload(*stream, view.words));
         gpu::Descriptors descriptors(*context);
-        const auto set = descriptors.allocate(*layout);
+        const auto set = descriptors.allocate(layout);
         REQUIRE(set);
         descriptors.write(*set, 0, kStorage, {&*stream});
         descriptors.write(*set, 1, kStorage, {&*values});
         const auto buffer = commands->begin();
         REQUIRE(buffer);
-        vkCmdBindPipeline(*buffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->get());
-        vkCmdBindDescriptorSets(*buffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout->pipeline(), 0, 1, &*set, 0, nullptr);
+        vkCmdBindPipeline(*buffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines[view.integers - 1U].get());
+        vkCmdBindDescriptorSets(*buffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout.pipeline(), 0, 1, &*set, 0, nullptr);
         vkCmdDispatch(*buffer, (view.blocks() + 31) / 32, 1, 1);
         gpu::decode_barrier(*buffer);
         REQUIRE(commands->run());
@@ -88,6 +95,9 @@ struct VertexDecode : GpuTest {
             }
         }
     }
+
+    gpu::Layout layout;
+    std::array<gpu::PipelineHandle, 4> pipelines;  // by components
 };
 
 }  // namespace

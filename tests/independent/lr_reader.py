@@ -1,16 +1,20 @@
 """The .lr file, read by its document (docs/lr-file.md) alone. The streams in it have a reader each."""
 
 import array
+import math
 import struct
 import zlib
 
 from lean_reader import decode_lean
 from lr_corners import check_corners
 from lr_tables_reader import Tables, decode_tables
-from mesh_readers import BadFile, Mesh, split_keys
+from mesh_readers import TYPES, Attribute, BadFile, Mesh, split_keys
 from packed_reader import decode_packed
+from vertex_reader import read_vertices
 
-ATTRIBUTE, VERTEX_ORDER, CORNER_ORDER = 2, 3, 4
+ATTRIBUTE, VERTEX_ORDER, CORNER_ORDER, VERTEX_STREAM = 2, 3, 4, 8
+NORMALIZED, V_UP = 1 << 16, 1 << 17  # bits of an attribute's layout
+LAYOUT_BITS = {ATTRIBUTE: 0x3FFFF, VERTEX_STREAM: V_UP}  # that may be set
 
 
 def tables_in(words, compact):
@@ -28,23 +32,56 @@ DECODERS = {1: lambda words: (*decode_lean(words), {}), 5: lambda words: tables_
 def sections(data):
     """(kind, contents, layout, length of the name) of each section."""
     magic, version, count, _, _, zero, table_crc, header_crc = struct.unpack_from("<8I", data)
-    if magic != 0x4C46524C or version != 2 or zero != 0:
-        raise BadFile("not an .lr file of version 2")
+    if magic != 0x4C46524C or version != 3 or zero != 0:
+        raise BadFile("not an .lr file of version 3")
     if zlib.crc32(data[:28]) != header_crc or zlib.crc32(data[32:32 + 32 * count]) != table_crc:
         raise BadFile("the .lr file's header is damaged")
     end = 32 + 32 * count
     out = []
     for i in range(count):
-        kind, crc, offset, size, layout, name_length = struct.unpack_from("<IIQQII", data, 32 + 32 * i)
+        kind, coding, crc, offset, size, layout, name_length = struct.unpack_from("<HHIQQII", data, 32 + 32 * i)
         contents = data[offset:offset + size]
         if len(contents) != size or zlib.crc32(contents) != crc:
             raise BadFile(f"section {i} of the .lr file is damaged")
         if offset != end + -end % 8 or any(data[end:offset]):
             raise BadFile(f"section {i} of the .lr file is not where it should be")
+        if kind not in DECODERS and kind not in (*LAYOUT_BITS, VERTEX_ORDER, CORNER_ORDER) or coding != 0:
+            raise BadFile(f"section {i} of the .lr file has an unknown kind or coding")
+        if layout & ~LAYOUT_BITS.get(kind, 0) or name_length and kind not in LAYOUT_BITS:
+            raise BadFile(f"section {i} of the .lr file has bits set that should be 0")
         end = offset + size
         out.append((kind, contents, layout, name_length))
     if end != len(data):
         raise BadFile("something lies behind the last section of the .lr file")
+    return out
+
+
+def attribute(vertices, kind, contents, layout, name_length):
+    begin = (name_length + 7) // 8 * 8
+    if len(contents) < begin or any(contents[name_length:begin]):
+        raise BadFile("the name of an attribute is not followed by zeros")
+    name, values = contents[:name_length].decode("latin-1"), contents[begin:]
+    if kind == VERTEX_STREAM:
+        stream = read_vertices(values)
+        if stream.vertices != vertices:
+            raise BadFile("a vertex stream of the .lr file has another number of vertices")
+        return Attribute(name, stream.type, stream.components, stream.normalized, layout & V_UP != 0, stream.values)
+    kind, components = layout & 255, layout >> 8 & 255
+    if kind >= len(TYPES) or components == 0:
+        raise BadFile("an attribute has no values, or an unknown type")
+    if len(values) != vertices * components * struct.calcsize("<" + TYPES[kind]):
+        raise BadFile("an attribute has not one entry for each vertex")
+    return Attribute(name, kind, components, layout & NORMALIZED != 0, layout & V_UP != 0, values)
+
+
+def attributes(data, parts):
+    """The attributes in the file's order. `parts`: its sections."""
+    vertices, = struct.unpack_from("<I", data, 12)
+    out = [attribute(vertices, *part) for part in parts if part[0] in LAYOUT_BITS]
+    if not out or (out[0].name, out[0].components, out[0].normalized) != ("POSITION", 3, False) or out[0].type < 6:
+        raise BadFile("the first attribute of the .lr file is not POSITION")
+    if not all(map(math.isfinite, array.array(TYPES[out[0].type], out[0].values))):
+        raise BadFile("a position is not finite")
     return out
 
 
@@ -59,25 +96,21 @@ def order(parts, kind):
 def read_lr(data):
     parts = sections(data)
     vertices, triangles = struct.unpack_from("<II", data, 12)
-    if any(kind not in DECODERS and kind not in (ATTRIBUTE, VERTEX_ORDER, CORNER_ORDER) for kind, *_ in parts):
-        raise BadFile("the .lr file has a section of unknown kind")
     streams = [(kind, contents) for kind, contents, _, _ in parts if kind in DECODERS]
-    attributes = [part[1:] for part in parts if part[0] == ATTRIBUTE]
-    if len(streams) != 1 or not attributes:
-        raise BadFile("the .lr file has not one stream, or no attribute")
-    contents, layout, name_length = attributes[0]
-    if contents[:name_length] != b"POSITION":
-        raise BadFile("the first attribute of the .lr file is not POSITION")
-    positions = split_keys(contents[(name_length + 7) // 8 * 8:], {0x306: 12, 0x307: 24}[layout])
+    if len(streams) != 1:
+        raise BadFile("the .lr file has not one connectivity section")
+    all_attributes = attributes(data, parts)
+    positions = split_keys(all_attributes[0].values, {6: 12, 7: 24}[all_attributes[0].type])
     kind, contents = streams[0]
     numbered, indices, copies = DECODERS[kind](array.array("I", contents))
     if 3 * triangles < len(indices):
         raise BadFile("the .lr file has more triangles than it was made from")
-    if numbered != vertices or len(positions) != vertices:
-        raise BadFile("the .lr file's parts differ in the number of vertices")
+    if numbered != vertices:
+        raise BadFile("the .lr file's connectivity has another number of vertices")
     if any(positions[copy] != positions[original] for copy, original in copies.items()):
         raise BadFile("a copy is not where its original is")
     mesh = Mesh(positions, [copies.get(v, v) for v in indices])
+    mesh.attributes, mesh.copies = all_attributes, copies
     mesh.vertex_order, mesh.corner_order = (order(parts, kind) for kind in (VERTEX_ORDER, CORNER_ORDER))
     if mesh.vertex_order is not None:
         kept = sorted(v for i, v in enumerate(mesh.vertex_order) if i not in copies)

@@ -9,6 +9,7 @@ import array
 import re
 import struct
 import sys
+from dataclasses import dataclass
 from fractions import Fraction
 
 from polygons import cut
@@ -25,6 +26,21 @@ class Mesh:
         self.positions = positions
         self.indices = indices
         self.vertex_order = self.corner_order = None  # of an .lr file that keeps them
+        # Of an .lr file: with an entry for each vertex, copies included; and the original of each copy.
+        self.attributes, self.copies = None, {}
+
+
+TYPES = "bBhHiIfd"  # struct's format characters of an attribute's types, which have the numbers 0 to 7
+
+
+@dataclass
+class Attribute:
+    name: str
+    type: int
+    components: int
+    normalized: bool
+    v_up: bool
+    values: bytes  # tightly packed, little-endian
 
 
 def split_keys(buffer, size=12):
@@ -432,3 +448,26 @@ def read_ply_elements(elements, source, is_text):
             raise BadFile("a PLY index is out of range")
         add_polygon(corners, positions, indices)
     return Mesh(positions, indices)
+
+
+def ply_attributes(data):
+    """The attributes of a binary PLY file that `lacedring decode` wrote: its comments tell what each consists of."""
+    elements, order, at = ply_header(data)
+    vertex = elements[0]
+    if vertex.name != "vertex" or order != "<" or any(count_type is not None for _, _, count_type in vertex.properties):
+        raise BadFile("not a PLY file of lacedring's")
+    kinds = "".join(kind for _, kind, _ in vertex.properties)
+    row = struct.calcsize("<" + kinds)
+    rows = data[at:at + row * vertex.count]
+    out = []
+    for components, flags, name in re.findall(rb"^comment lacedring attribute (\d+) (\d+) (.*)$", data[:at], re.M):
+        kind, kinds = kinds[:int(components)], kinds[int(components):]
+        if len(kind) != int(components) or len(set(kind)) != 1 or int(flags) > 3:
+            raise BadFile("the PLY file's comments do not fit its properties")
+        begin = row - struct.calcsize("<" + kind + kinds)
+        values = b"".join(rows[i:i + struct.calcsize("<" + kind)] for i in range(begin, len(rows), row))
+        out.append(Attribute(name.decode("latin-1"), TYPES.index(kind[0]), len(kind), int(flags) % 2 == 1,
+                             int(flags) > 1, values))
+    if kinds:
+        raise BadFile("the PLY file has a property that no comment tells of")
+    return out

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """The readers of the packed stream and the LR tables, by hand-made streams; and what `lacedring encode` writes, whole
-and with one bit changed.
+and with one bit changed, vertex streams included.
 
-    test_streams.py [LACEDRING]
+    test_streams.py [LACEDRING]      LACEDRING_MESHES: a folder of meshes whose vertex streams are read, too
 """
 
 import array
+import math
 import os
 import random
 import struct
@@ -20,8 +21,9 @@ import check_decode
 import lr_reader
 from lr_corners import check_corners
 from lr_tables_reader import Tables, decode_tables
-from mesh_readers import BadFile
+from mesh_readers import TYPES, BadFile, ply_attributes, unpack
 from packed_reader import decode_packed, read_triangle
+from vertex_reader import LATTICE, OCTAHEDRAL, Vertices
 
 LACEDRING = None
 FORMATS = ("lean", "packed", "lr", "lr-compact")
@@ -393,27 +395,39 @@ class LrTables(unittest.TestCase):
 # --- What the encoder writes ---
 
 
+def section(data, i=0):
+    """Where the contents of section i of an .lr file begin and end."""
+    _, _, _, offset, size, _, _ = struct.unpack_from("<HHIQQII", data, 32 + 32 * i)
+    return offset, offset + size
+
+
 def stream_of(data):
-    """The stream of an .lr file, which is its first section, and where it begins."""
-    _, _, offset, size, _, _ = struct.unpack_from("<IIQQII", data, 32)
-    return array.array("I", bytes(data[offset:offset + size])), offset
+    """The connectivity stream of an .lr file, which is its first section."""
+    begin, end = section(data)
+    return array.array("I", bytes(data[begin:end]))
+
+
+def sealed(data, i):
+    """An .lr file whose section i has changed, with the file's checksums right again."""
+    begin, end = section(data, i)
+    struct.pack_into("<I", data, 36 + 32 * i, zlib.crc32(data[begin:end]))
+    struct.pack_into("<I", data, 24, zlib.crc32(data[32:32 + 32 * struct.unpack_from("<I", data, 8)[0]]))
+    struct.pack_into("<I", data, 28, zlib.crc32(data[:28]))
+    return bytes(data)
 
 
 def damaged(data, word, bit):
-    """An .lr file with one bit of its stream changed and every checksum right again."""
+    """An .lr file with one bit of its first stream changed and every checksum right again."""
     data = bytearray(data)
-    stream, offset = stream_of(data)
+    stream, (begin, end) = stream_of(data), section(data)
     stream[word] ^= 1 << bit
     at = {0x5443: 9, 0x4243: 9, 0x3250: 3}.get(stream[0] >> 16, 7)
     stream[at] = zlib.crc32(stream[at + 1:].tobytes(), zlib.crc32(stream[:at].tobytes()))
-    data[offset:offset + 4 * len(stream)] = stream.tobytes()
-    struct.pack_into("<I", data, 36, zlib.crc32(stream.tobytes()))
-    struct.pack_into("<I", data, 24, zlib.crc32(data[32:32 + 32 * struct.unpack_from("<I", data, 8)[0]]))
-    struct.pack_into("<I", data, 28, zlib.crc32(data[:28]))
-    return bytes(data), at + 1, len(stream)
+    data[begin:end] = stream.tobytes()
+    return sealed(data, 0), at + 1, len(stream)
 
 
-class Encoded(unittest.TestCase):
+class WithProgram(unittest.TestCase):
     def setUp(self):
         if LACEDRING is None:
             self.skipTest("no lacedring given")
@@ -430,11 +444,16 @@ class Encoded(unittest.TestCase):
     def generate(self, kind, triangles):
         self.run_lacedring("generate", kind, "-o", self.path("m.ply"), "--triangles", str(triangles))
 
-    def encode(self, name, *options):
-        self.run_lacedring("encode", self.path("m.ply"), "-o", self.path("m.lr"), "--format", name, *options)
-        with open(self.path("m.lr"), "rb") as file:
+    def read(self, name):
+        with open(self.path(name), "rb") as file:
             return file.read()
 
+    def encode(self, name, *options, mesh=None):
+        self.run_lacedring("encode", mesh or self.path("m.ply"), "-o", self.path("m.lr"), "--format", name, *options)
+        return self.read("m.lr")
+
+
+class Encoded(WithProgram):
     def wanted(self, numbers, weld=False):
         return check_decode.multiset(check_decode.read(self.path("m.ply")), numbers, weld)[0]
 
@@ -456,7 +475,7 @@ class Encoded(unittest.TestCase):
 
     def same_alone(self, data, count):
         """Reads each triangle of a packed stream, or `count` of them, by itself."""
-        words, _ = stream_of(data)
+        words = stream_of(data)
         _, flat = decode_packed(words)
         triangles = range(len(flat) // 3)
         if len(triangles) > count:
@@ -494,6 +513,184 @@ class Encoded(unittest.TestCase):
                     different += 1
             self.assertLess(len(unseen), 5, (name, unseen))
             self.assertGreater(different, 0, name)
+
+
+BITS = ("--positions", "14", "--normals", "9", "--texcoords", "12", "--colors", "8", "--weights", "10")
+QUANTIZED = ("POSITION", "NORMAL", "TANGENT", "TEXCOORD_0", "COLOR_1", "WEIGHTS_0")
+
+
+def attributes_of(points, kind, generator):
+    """Attributes of every type and mapping: (name, type, flags of the PLY comment, the values of each vertex)."""
+    def numbers(low, high, count):
+        return [[generator.randint(low, high) for _ in range(count)] for _ in points]
+
+    waves = [[math.sin(i / 9 + k) / 2 + 0.5 for k in range(4)] for i in range(len(points))]
+    unit = [[x / (math.hypot(*p) or 1) for x in p] for p in points]
+    bits = numbers(0, (1 << 32) - 1, 2) if kind == "soup" else [[0x7FC00001, i << 31] for i in range(2)] * len(points)
+    return [("POSITION", "d" if kind == "torus" else "f", 0, points), ("NORMAL", "f", 0, unit),
+            ("TANGENT", "f", 0, [(*n, generator.choice((1.0, -1.0))) for n in unit]),
+            ("TEXCOORD_0", "f", 2, [w[:2] for w in waves]), ("COLOR_0", "B", 1, numbers(0, 255, 4)),
+            ("COLOR_1", "f", 0, [w[1:] for w in waves]), ("WEIGHTS_0", "f", 0, waves),
+            ("JOINTS_0", "H", 0, numbers(7, 60, 4)), ("i8", "b", 1, numbers(-128, 127, 1)),
+            ("i16", "h", 0, numbers(-300, -200, 3)), ("i32", "i", 0, numbers(-1 << 31, (1 << 31) - 1, 3)),
+            ("u32", "I", 0, numbers(0, (1 << 32) - 1, 2)), ("f64", "d", 0, [[x / 3 for x in p] for p in points]),
+            ("decimals", "f", 0, [[round(p[0], 2), i if i % 50 else 1 / 3] for i, p in enumerate(points)]),
+            ("a name", "f", 0, [struct.unpack("<2f", struct.pack("<2I", *b)) for b in bits[:len(points)]]),
+            ("16 bytes", "B", 0, numbers(0, 3, 16)), ("17 bytes", "B", 0, numbers(0, 3, 17)),
+            ("9 doubles", "d", 0, [[float(x) for x in v] for v in numbers(0, 3, 9)])]
+
+
+class VertexStreams(WithProgram):
+    def make(self, kind, triangles):
+        """Writes a generated mesh with more attributes; returns them."""
+        self.generate(kind, triangles)
+        mesh = check_decode.read(self.path("m.ply"))
+        columns = attributes_of([unpack(p) for p in mesh.positions], kind, random.Random(1))
+        head, rows = "ply\nformat binary_little_endian 1.0\n", [b""] * len(mesh.positions)
+        properties = []
+        for name, code, flags, values in columns:
+            head += f"comment lacedring attribute {len(values[0])} {flags} {name}\n"
+            properties += [{"f": "float", "d": "double", "b": "char", "B": "uchar", "h": "short", "H": "ushort",
+                            "i": "int", "I": "uint"}[code]] * len(values[0])
+            rows = [row + struct.pack(f"<{len(v)}{code}", *v) for row, v in zip(rows, values)]
+        names = ["x", "y", "z", *(f"p{i}" for i in range(3, len(properties)))]
+        head += f"element vertex {len(rows)}\n" + "".join(f"property {p} {n}\n" for p, n in zip(properties, names))
+        head += f"element face {len(mesh.indices) // 3}\nproperty list uchar int vertex_indices\nend_header\n"
+        corners = iter(mesh.indices)
+        with open(self.path("m.ply"), "wb") as file:
+            file.write(head.encode() + b"".join(rows))
+            file.write(b"".join(struct.pack("<B3i", 3, *t) for t in zip(corners, corners, corners)))
+        return ply_attributes(self.read("m.ply"))
+
+    def streams(self, data):
+        """The vertex streams of an .lr file, without their contents, by attribute."""
+        out = {}
+        for kind, contents, _, length in lr_reader.sections(data):
+            if kind == lr_reader.VERTEX_STREAM:
+                words = contents[(length + 7) // 8 * 8:]
+                out[contents[:length].decode()] = Vertices(struct.unpack(f"<{len(words) // 4}I", words))
+        return out
+
+    def check_values(self, attribute, wanted, order, stream):
+        """Compares a decoded attribute, whose entry i is the wanted one's entry order[i]."""
+        given, codes = wanted.values, TYPES[wanted.type]
+        size = wanted.components * struct.calcsize(codes)
+        given = b"".join(given[size * v:size * v + size] for v in order)
+        self.assertEqual((attribute.name, attribute.components, attribute.normalized, attribute.v_up),
+                         (wanted.name, wanted.components, wanted.normalized, wanted.v_up))
+        if stream is None or stream.mapping not in (LATTICE, OCTAHEDRAL):
+            self.assertEqual((attribute.type, attribute.values), (wanted.type, given), wanted.name)
+            return
+        error = max(map(lambda a, b: abs(a - b), array.array("f", attribute.values), array.array(codes, given)))
+        self.assertLessEqual(error, stream.largest_error, wanted.name)
+        self.assertGreaterEqual(error, 0.999999 * stream.largest_error, wanted.name)
+
+    def check(self, data, wanted):
+        """Compares the attributes of an .lr file that keeps the order with those given, and with the program's."""
+        mesh, streams = lr_reader.read_lr(data), self.streams(data)
+        for attribute, given in zip(mesh.attributes, wanted, strict=True):
+            self.check_values(attribute, given, mesh.vertex_order, streams.get(attribute.name))
+        self.check_decoded(mesh.attributes, mesh.copies)
+        return streams
+
+    def check_decoded(self, attributes, copies=()):
+        self.run_lacedring("decode", self.path("m.lr"), "-o", self.path("out.ply"))
+        for attribute, decoded in zip(attributes, ply_attributes(self.read("out.ply")), strict=True):
+            size = attribute.components * struct.calcsize(TYPES[attribute.type])
+            attribute.values = b"".join(attribute.values[size * v:size * v + size]
+                                        for v in range(len(attribute.values) // size) if v not in copies)
+            self.assertEqual(attribute, decoded)
+
+    def test_every_kind(self):
+        mappings = set()
+        for i, kind in enumerate(KINDS):
+            wanted = self.make(kind, 600 if i % 2 else 4500)  # the latter have more than 16 blocks
+            long = {"17 bytes", "9 doubles"}
+            names = {attribute.name for attribute in wanted} - long
+            for name in FORMATS if kind == "soup" else (FORMATS[i % 2], FORMATS[2 + i // 2 % 2]):
+                for bits in ((), BITS):
+                    with self.subTest(kind=kind, format=name, bits=bits):
+                        streams = self.check(self.encode(name, "--keep-order", *bits), wanted)
+                        self.assertEqual(set(streams), names if bits or name in ("lean", "packed") else set())
+                        lossy = {n for n, s in streams.items() if s.mapping in (LATTICE, OCTAHEDRAL)}
+                        self.assertEqual(lossy, set(QUANTIZED) if bits else set())
+                        mappings |= {stream.mapping for stream in streams.values()}
+        self.assertEqual(mappings, set(range(6)))
+
+    def same_attribute(self, data, i):
+        """Reads an .lr file here and by the program. Both refuse it, or both find the same in section i, which is
+        returned. The other attributes but POSITION, which is section 1, are taken as read."""
+        with open(self.path("m.lr"), "wb") as file:
+            file.write(data)
+        result = subprocess.run([LACEDRING, "decode", self.path("m.lr"), "-o", self.path("out.ply")],
+                                capture_output=True, text=True)
+        try:
+            parts = lr_reader.sections(data)
+            attribute = lr_reader.attributes(data, parts[1:2] + parts[i:i + 1] * (i > 1))[-1]
+        except BadFile as error:
+            self.assertNotIn("checksum", str(error))
+            self.assertEqual(result.returncode, 3, f"the program accepts it, but: {error}")
+            return None
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(attribute, ply_attributes(self.read("out.ply"))[i - 1])
+        return attribute
+
+    def change(self, data, i, name, word, bit):
+        """An .lr file with one bit of the vertex stream in section i changed and every checksum right again."""
+        data = bytearray(data)
+        begin, end = section(data, i)
+        begin += (len(name) + 7) // 8 * 8
+        stream = array.array("I", bytes(data[begin:end]))
+        stream[word] ^= 1 << bit
+        stream[3] = zlib.crc32(stream[4:].tobytes(), zlib.crc32(stream[:3].tobytes()))
+        data[begin:end] = stream.tobytes()
+        return sealed(data, i)
+
+    def test_changed_bits(self):
+        generator = random.Random(1)
+        cases = (("sphere", 300, 20, ()), ("torus", 300, 20, BITS), ("blob", 4500, 2, BITS))
+        for kind, triangles, count, options in cases:
+            self.make(kind, triangles)
+            data = self.encode("packed", *options)
+            streams = self.streams(data)
+            different = 0
+            for i, (code, contents, _, length) in enumerate(lr_reader.sections(data)):
+                name = contents[:length].decode()
+                if code != lr_reader.VERTEX_STREAM:
+                    continue
+                unchanged = self.same_attribute(data, i)
+                size = (len(contents) - (length + 7) // 8 * 8) // 4
+                for which in range(count):  # the first half in the header and the components
+                    word = generator.choice((1, 2, 4, 5, 6, *range(7, 7 + 2 * streams[name].n)))
+                    word, bit = word if which < count // 2 else generator.randrange(7, size), generator.randrange(32)
+                    with self.subTest(kind=kind, options=options, name=name, word=word, bit=bit):
+                        attribute = self.same_attribute(self.change(data, i, name, word, bit), i)
+                        different += attribute not in (None, unchanged)
+            self.assertGreater(different, 0)
+
+    def test_real_meshes(self):
+        folder = os.environ.get("LACEDRING_MESHES")
+        if not folder:
+            self.skipTest("LACEDRING_MESHES is not set")
+        for name in sorted(os.listdir(folder)):
+            if not name.endswith((".obj", ".ply", ".off", ".stl", ".gltf", ".glb")):
+                continue
+            mesh = os.path.join(folder, name)
+            # Tables with attributes as they lie in memory tell what the input's bytes are, and in what order.
+            data = self.encode("lr", "--keep-order", "--effort", "0", mesh=mesh)
+            parts = lr_reader.sections(data)
+            wanted, numbers = lr_reader.attributes(data, parts), lr_reader.order(parts, lr_reader.VERTEX_ORDER)
+            place = dict(zip(numbers, range(len(numbers))))
+            self.assertEqual(self.streams(data), {})
+            for bits in ((), BITS):
+                with self.subTest(name=name, bits=bits):
+                    data = self.encode("packed", "--keep-order", "--effort", "0", *bits, mesh=mesh)
+                    parts, streams = lr_reader.sections(data), self.streams(data)
+                    attributes = lr_reader.attributes(data, parts)
+                    order = [place[v] for v in lr_reader.order(parts, lr_reader.VERTEX_ORDER)]
+                    for attribute, given in zip(attributes, wanted, strict=True):
+                        self.check_values(attribute, given, order, streams[given.name])
+                    self.check_decoded(attributes)
 
 
 if __name__ == "__main__":

@@ -3,32 +3,16 @@
 import math
 import struct
 import zlib
-from dataclasses import dataclass
 
-from mesh_readers import BadFile
+from mesh_readers import TYPES, BadFile
 
 WORD = 0xFFFFFFFF
 MAGIC = 0x3156524C
 BLOCK, GROUP = 128, 16  # vertices per block, blocks per group
 INTEGERS, LATTICE, OCTAHEDRAL, FLOATS, DECIMALS, DOUBLES = range(6)
-TYPES = {INTEGERS: range(6), DOUBLES: (7,)}  # of a mapping; of the others: 6
-CODES = "bBhHiIfd"  # struct's format character of each type
+ALLOWED = {INTEGERS: range(6), DOUBLES: (7,)}  # types of a mapping; of the others: 6
 SCALES = {LATTICE: range(0x00800000, 0x73800000), DECIMALS: range(10)}  # header word 4; for other mappings: 0
 INFINITY = 0x7F800000  # bits of a float
-
-
-@dataclass
-class Vertices:
-    """A decoded stream. `step` is a lattice's, `digits` are those of decimals; otherwise they are 0."""
-    vertices: int
-    mapping: int
-    type: int
-    normalized: bool
-    step: float
-    digits: int
-    largest_error: float
-    integers: list  # for each vertex, a tuple of n unsigned 32-bit integers
-    values: bytes  # the attribute, tightly packed, little-endian
 
 
 def require(condition, message):
@@ -78,22 +62,27 @@ def float_bits(integer):
     return integer ^ (0x80000000 if integer >> 31 else WORD)
 
 
-class Header:
-    """The header and the parts before the data. `table` and `data`: the words at which these parts begin."""
+class Vertices:
+    """A stream's parts before the data. read_vertices adds `integers`, for each vertex a tuple of n unsigned 32-bit
+    integers, and `values`, the attribute's bytes. `table` and `data` are the words at which these parts begin.
+    """
 
     def __init__(self, words):
         require(len(words) >= 7 and words[0] == MAGIC, "too short, or wrong magic")
         self.vertices, layout, _, self.scale, error, exceptions = words[1:7]
         self.n, self.mapping, self.type = layout & 31, layout >> 5 & 7, layout >> 8 & 15
-        self.normalized, self.octahedral_bits, self.width = bool(layout >> 12 & 1), layout >> 13 & 31, layout >> 18 & 31
+        self.normalized, octahedral_bits, self.width = bool(layout >> 12 & 1), layout >> 13 & 31, layout >> 18 & 31
         require(1 <= self.n <= 16 and layout >> 23 == 0, "invalid number of integers, or unused bits are set")
-        require(self.mapping <= DOUBLES and self.type in TYPES.get(self.mapping, (6,)), "invalid mapping or type")
+        require(self.mapping <= DOUBLES and self.type in ALLOWED.get(self.mapping, (6,)), "invalid mapping or type")
         require(not self.normalized or self.mapping == INTEGERS, "floats are normalized")
-        octahedral = self.n in (2, 3) and 2 <= self.octahedral_bits <= 16
-        require(octahedral if self.mapping == OCTAHEDRAL else self.octahedral_bits == 0, "invalid octahedral layout")
+        octahedral = self.mapping == OCTAHEDRAL
+        require(2 <= octahedral_bits <= 16 and self.n in (2, 3) if octahedral else octahedral_bits == 0,
+                "invalid octahedral layout")
+        self.largest = (1 << octahedral_bits - 1) - 1 if octahedral else 0  # the document's M
         require(self.mapping != DOUBLES or self.n % 2 == 0, "doubles with an odd number of integers")
+        self.components = {OCTAHEDRAL: self.n + 1, DOUBLES: self.n // 2}.get(self.mapping, self.n)  # of the attribute
         require(self.scale in SCALES.get(self.mapping, (0,)), "step or digits out of range")
-        require(error < INFINITY, "the largest error is negative or not finite")
+        require(error < (INFINITY if self.mapping in (LATTICE, OCTAHEDRAL) else 1), "invalid largest error")
         require(exceptions == 0 or self.mapping == DECIMALS, "exceptions without decimals")
         self.largest_error = as_float(error)
         self.blocks = (self.vertices + BLOCK - 1) // BLOCK
@@ -104,9 +93,9 @@ class Header:
         self.data = self.table + self.groups * self.group_words
         require(len(words) >= self.data + 2, "shorter than the header says")
         require(all(bits >> 16 == 0 and bits & 63 <= 32 for bits in words[8:listed:2]), "invalid component")
-        # Of each component: low, F, first width, usual predictor.
-        self.components = [(words[i], words[i + 1] & 63, words[i + 1] >> 6 & 31, words[i + 1] >> 11)
-                           for i in range(7, listed, 2)]
+        # Of each component of a block: low, F, first width, usual predictor.
+        self.columns = [(words[i], words[i + 1] & 63, words[i + 1] >> 6 & 31, words[i + 1] >> 11)
+                        for i in range(7, listed, 2)]
         places = words[listed:self.table:2]
         require(all(a < b for a, b in zip(places, places[1:])), "exceptions do not increase")
         require(not places or places[-1] < self.n * self.vertices, "an exception is out of range")
@@ -146,23 +135,24 @@ def read_residuals(bits, count, widths, coded):
     lows = [[bits.take(widths[c]) for c in coded] for _ in range(count)]
     for vertex, low in zip(residuals, lows):
         for i, c in enumerate(coded):
-            code = (bits.zeros() << widths[c]) + low[i] & WORD
+            code = (bits.zeros() << widths[c]) + low[i]
+            require(code <= WORD, "a code has more than 32 bits")
             vertex[c] = -(code + 1 >> 1) if code & 1 else code >> 1
     return residuals
 
 
-def read_block(bits, components, count):
+def read_block(bits, columns, count):
     """Returns the integers of a block of `count` vertices."""
-    predictors = [bits.take(5) if bits.take(1) else usual for _, _, _, usual in components]
+    predictors = [bits.take(5) if bits.take(1) else usual for _, _, _, usual in columns]
     weights = [((p & 7) - 2, (p >> 3) - 2) for p in predictors]
     run = 4 << bits.take(2)
-    vertex = [low + bits.take(first_bits) & WORD for low, first_bits, _, _ in components]
+    vertex = [low + bits.take(first_bits) & WORD for low, first_bits, _, _ in columns]
     out = [tuple(vertex)]
-    widths = [width for _, _, width, _ in components]
-    d1, d2 = [0] * len(components), [0] * len(components)
+    widths = [width for _, _, width, _ in columns]
+    d1, d2 = [0] * len(columns), [0] * len(columns)
     plane, given = None, (0, 0, 0)
     for first in range(0, count - 1, run):
-        if len(components) == 3 and first % 16 == 0:
+        if len(columns) == 3 and first % 16 == 0:
             plane = read_plane(bits, given)
             given = plane or given
         codes = [read_width(bits, width) for width in widths]
@@ -193,12 +183,12 @@ def read_integers(data, words, header):
                 place = begin + (fields & (1 << header.width) - 1)
                 require(bits.place == place, f"block {block} does not begin where the table says")
                 fields >>= header.width
-            out += read_block(bits, header.components, min(BLOCK, header.vertices - block * BLOCK))
+            out += read_block(bits, header.columns, min(BLOCK, header.vertices - block * BLOCK))
             require(bits.place <= end, f"block {block} is not complete")
         require(fields == 0, f"bits after the last field of group {group} are set")
         require(bits.take(-bits.place % 32) == 0, f"bits after the last block of group {group} are set")
     require(bits.place == end and not any(words[-2:]), "the last group is not followed by two words 0 and the end")
-    for (low, first_bits, _, _), column in zip(header.components, zip(*out)):
+    for (low, first_bits, _, _), column in zip(header.columns, zip(*out)):
         require(all((x - low & WORD) >> first_bits == 0 for x in column), "an integer is out of its component's range")
     return out
 
@@ -208,12 +198,11 @@ def require_range(values, low, high):
 
 
 def octahedral_values(vertex, largest):
-    """The values of an octahedral vertex; `largest` is M."""
     x, y = signed(vertex[0]), signed(vertex[1])
     require_range((x, y), -largest, largest)
     require_range(vertex[2:], 0, 1)
     z = largest - abs(x) - abs(y)
-    if z < 0:
+    if z < 0:  # then neither x nor y is 0
         x, y = (largest - abs(y)) * (-1 if x < 0 else 1), (largest - abs(x)) * (-1 if y < 0 else 1)
     length = math.sqrt(x * x + y * y + z * z)
     return [x / length, y / length, z / length] + [-1.0 if third else 1.0 for third in vertex[2:]]
@@ -222,18 +211,19 @@ def octahedral_values(vertex, largest):
 def map_values(header, integers):
     """Returns the attribute's bytes; raises BadFile if an integer is invalid for the mapping or type."""
     flat = [i for vertex in integers for i in vertex]
-    code = CODES[header.type]
+    code = TYPES[header.type]
     if header.mapping == INTEGERS:
         is_signed, bits = code.islower(), 8 * struct.calcsize("<" + code)
         values = [signed(i) for i in flat] if is_signed else flat
         require_range(values, *((-1 << bits - 1, (1 << bits - 1) - 1) if is_signed else (0, (1 << bits) - 1)))
     elif header.mapping == LATTICE:
-        values, step = [signed(i) for i in flat], as_float(header.scale)
-        require_range(values, -1 << 24, 1 << 24)
+        fraction = header.scale & 0x7FFFFF | 0x800000  # ends in as many zeros as the fraction, in 23 if that is 0
+        limit, step = fraction & -fraction, as_float(header.scale)  # so products have at most 24 bits
+        values = [signed(i) for i in flat]
+        require_range(values, 1 - limit, limit - 1)
         values = [i * step for i in values]
     elif header.mapping == OCTAHEDRAL:
-        largest = (1 << header.octahedral_bits - 1) - 1
-        values = [x for vertex in integers for x in octahedral_values(vertex, largest)]
+        values = [x for vertex in integers for x in octahedral_values(vertex, header.largest)]
     elif header.mapping == FLOATS:
         code, values = "I", [float_bits(i) for i in flat]
     elif header.mapping == DECIMALS:
@@ -246,15 +236,12 @@ def map_values(header, integers):
     return struct.pack(f"<{len(values)}{code}", *values)
 
 
-def read_vertices(stream):
-    """Decodes and validates a whole stream, given as bytes or as a sequence of words."""
-    data = bytes(stream) if isinstance(stream, (bytes, bytearray)) else struct.pack(f"<{len(stream)}I", *stream)
+def read_vertices(data):
+    """Decodes and validates a whole stream, given as bytes."""
     require(len(data) % 4 == 0, "not a whole number of words")
     words = struct.unpack(f"<{len(data) // 4}I", data)
-    header = Header(words)
+    out = Vertices(words)
     require(zlib.crc32(data[16:], zlib.crc32(data[:12])) == words[3], "wrong checksum")
-    integers = read_integers(data, words, header)
-    step = as_float(header.scale) if header.mapping == LATTICE else 0.0
-    return Vertices(header.vertices, header.mapping, header.type, header.normalized, step,
-                    header.scale if header.mapping == DECIMALS else 0, header.largest_error, integers,
-                    map_values(header, integers))
+    out.integers = read_integers(data, words, out)
+    out.values = map_values(out, out.integers)
+    return out

@@ -56,7 +56,7 @@ float lattice_step(double step, double largest) {
     step = std::max({step, std::ldexp(largest, -static_cast<int>(kLatticeBits)), 0x1p-126});
     int exponent = 0;
     const auto width = [&] { return std::bit_width(static_cast<std::uint32_t>(std::ceil(largest / step)) + 1); };
-    const int bits = 24 - width();  // of the step: the product of both has 24
+    const int bits = 24 - static_cast<int>(width());  // of the step: the product of both has 24
     const double fraction = std::ceil(std::ldexp(std::frexp(step, &exponent), bits));
     step = std::ldexp(fraction, exponent - bits);
     return step < 0x1p104 ? static_cast<float>(step) : 0.0F;

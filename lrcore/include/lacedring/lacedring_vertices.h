@@ -313,6 +313,7 @@ LACEDRING_HOT_ uint32_t lacedring_vertex_block_(const struct lacedring_vertices*
         out[c] = path[c].value;
     }
     run.axis = 3;
+    run.slope[0] = run.slope[1] = 0;
     for (i = 1; i < count; i += length) {
         const uint32_t here = count - i < length ? count - i : length;
         if (n == 3 && ((i - 1) & 15) == 0) {

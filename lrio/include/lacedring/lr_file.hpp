@@ -58,7 +58,8 @@ struct CompressedAttribute {
 };
 
 /// Makes vertex streams of the attributes. Those that cannot be quantized as `bits` says (integers; values that are not
-/// finite) are lossless; those of more than 16 values stay as they are. Cost: encode_vertices'. Errors:
+/// finite) are lossless; those of more than 16 integers a vertex, or of floats that call themselves
+/// normalized, stay as they are. Cost: encode_vertices'. Errors:
 /// invalid_argument (bits), too_large.
 Result<std::vector<CompressedAttribute>> compress_attributes(LrFile& file, const AttributeBits& bits = {});
 
