@@ -88,7 +88,9 @@ int encode_file(const EncodeCommand& options, const std::string& input, const st
     std::vector<CompressedAttribute> attributes;
     // LR tables are read in place by programs that want positions there, too.
     if (file.format == Format::lean || file.format == Format::packed || options.quantizes()) {
-        Result<std::vector<CompressedAttribute>> compressed = compress_attributes(file, options.bits);
+        AttributeBits bits = options.bits;
+        bits.threads = how.threads;
+        Result<std::vector<CompressedAttribute>> compressed = compress_attributes(file, bits);
         if (!compressed) return fail(input, compressed.error());
         attributes = std::move(*compressed);
     }
