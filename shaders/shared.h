@@ -17,7 +17,7 @@ using mat4 = std::array<float, 16>;  // column-major
 #define LR_TRIANGLES_PER_INVOCATION 4u
 #define LR_COMPUTE_GROUP 128u  // as many as every device has
 
-#define LR_CONSTANT_BLOCKS 1  // packed_decode.comp: blocks of a workgroup
+#define LR_CONSTANT_BLOCKS 1      // packed_decode.comp: blocks of a workgroup
 #define LR_CONSTANT_COMPONENTS 0  // vertex_decode.comp: integers of a vertex
 
 // lean_decode.comp, packed_decode.comp: one dispatch expands `slots` slots from `first_slot`, through descriptors that

@@ -415,65 +415,6 @@ LrFile make_lr_file(const Mesh& mesh, Encoded encoded, bool keep_order) {
     return file;
 }
 
-namespace {
-
-/// The bits for an attribute of that name.
-std::uint32_t bits_for(std::string_view name, const AttributeBits& bits) {
-    if (name == "POSITION") return bits.positions;
-    if (name == "NORMAL" || name == "TANGENT") return bits.normals;
-    if (name.starts_with("TEXCOORD_")) return bits.texcoords;
-    if (name.starts_with("COLOR_")) return bits.colors;
-    if (name.starts_with("WEIGHTS_")) return bits.weights;
-    return 0;
-}
-
-}  // namespace
-
-Result<std::vector<CompressedAttribute>> compress_attributes(LrFile& file, const AttributeBits& bits) {
-    const std::uint32_t lattices[] = {bits.positions, bits.texcoords, bits.colors, bits.weights};
-    if (*std::max_element(std::begin(lattices), std::end(lattices)) > 22 || bits.normals == 1 || bits.normals > 16) {
-        return Error{ErrorCode::invalid_argument, "1 to 22 bits a component, and 2 to 16 of normals"};
-    }
-    std::vector<CompressedAttribute> out;
-    for (LrAttribute& attribute : file.attributes) {
-        if (!attribute.words.empty()) continue;
-        CompressedAttribute report{attribute.name, attribute.data.size(), attribute.data.size(), 0, {}};
-        const VertexValues values{attribute.type, attribute.components, attribute.normalized, attribute.data};
-        VertexOptions options;
-        options.threads = bits.threads;
-        const bool direction = attribute.name == "NORMAL" || attribute.name == "TANGENT";
-        const float step = attribute.name == "POSITION" ? bits.position_step : 0;
-        const std::uint32_t wanted = bits_for(attribute.name, bits);
-        const bool floats = attribute.type == ComponentType::f32 || attribute.type == ComponentType::f64;
-        Result<EncodedVertices> encoded = Error{ErrorCode::invalid_argument, "its values are integers"};
-        if ((wanted > 0 || step > 0) && floats) {
-            options.mapping = direction ? VertexMapping::octahedral : VertexMapping::lattice;
-            options.bits = wanted;
-            options.step = step;
-            encoded = encode_vertices(values, options);
-        }
-        if (!encoded && encoded.error().code == ErrorCode::invalid_argument) {
-            if (wanted > 0 || step > 0) report.exact = encoded.error().message;
-            options.mapping = VertexMapping::floats;
-            encoded = encode_vertices(values, options);
-        }
-        if (encoded) {
-            report.largest_error = encoded->largest_error;
-            report.bytes = 4 * encoded->words.size();
-            attribute.words = std::move(encoded->words);
-            attribute.data = {};
-            if (const Result<VertexView> view = view_vertices(attribute.words)) {
-                attribute.type = view->type;
-                if (wanted > 0 && view->mapping == VertexMapping::decimals) report.exact = "that is smaller";
-            }
-        } else if (encoded.error().code != ErrorCode::invalid_argument) {
-            return encoded.error();
-        }
-        out.push_back(std::move(report));
-    }
-    return out;
-}
-
 std::vector<std::byte> serialize_lr(const LrFile& file) {
     std::vector<Section> sections;
     std::vector<std::vector<std::byte>> names;  // beside sections; empty but for attributes

@@ -360,7 +360,7 @@ class Notes(CliTest):
             self.ok("decode", lr, "-o", back, "--force")
         self.assertLess(sizes[1], sizes[0])
         self.assertIn("largest error", self.ok("info", lr).out)
-        # What has no effect is said.
+        # Bits that have no effect are said so.
         texts = self.write("t.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0.5\nf 1 2 3\n")
         outcome = self.ok("encode", texts, "-o", lr, "--force", "--positions", "20")
         self.assertIn("POSITION stays lossless: that is smaller", outcome.err)

@@ -63,7 +63,7 @@ struct Plane {
     bool operator==(const Plane&) const = default;
 };
 
-/// What a component's widths cost, and which they are.
+/// The widths of a component's low bits in a block, and the bits of all its codes.
 struct Widths {
     std::uint32_t bits = 0;
     std::array<std::uint8_t, kVertexBlock / 4>
@@ -155,7 +155,7 @@ class WidthSearch {
     std::array<bool, kVertexBlock / 4> zero_{};
 };
 
-/// How a block is coded.
+/// The choices by which a block is coded.
 struct BlockPlan {
     std::uint64_t bits = std::numeric_limits<std::uint64_t>::max();
     std::uint32_t size = 0;  // runs of 4 << size vertices
@@ -401,7 +401,7 @@ std::vector<Component> find_components(const VertexIntegers& of, std::uint32_t v
         out[c].low = low ^ flip;
         out[c].first_bits = static_cast<std::uint32_t>(std::bit_width(high - low));
     }
-    // What most blocks have, of some hundred that lie evenly.
+    // The usual predictor and first width: those of most blocks, by some hundred samples.
     const std::uint32_t blocks = (vertices + kVertexBlock - 1) / kVertexBlock, step = std::max(1U, blocks / 128);
     const BlockEncoder encoder(of, out);
     std::vector<std::array<std::uint32_t, 32>> predictors(n), widths(n);
@@ -507,7 +507,7 @@ Result<EncodedVertices> encode_vertices(const VertexValues& values, const Vertex
     Result<VertexIntegers> integers = to_integers(values, options);
     if (!integers) return integers.error();
     Result<EncodedVertices> out = encode_integers(*integers, values, options.threads);
-    // What is lossless and smaller is better than what was asked for, but on a lattice shared with other meshes.
+    // Smaller and lossless beats what was asked for, unless the lattice is shared with other meshes.
     if (!out || options.step != 0) return out;
     const std::optional<VertexIntegers> decimals = to_decimals(values);
     if (!decimals) return out;

@@ -230,8 +230,8 @@ struct lacedring_path_ {
     int32_t alpha, beta;
 };
 
-LACEDRING_HOT_ uint32_t lacedring_quarter_(uint32_t x) { /* x / 4, rounded down, as of a signed number */
-    return (x + 2) >> 2 | (((x + 2) & 0x80000000u) ? 0xc0000000u : 0);
+LACEDRING_HOT_ uint32_t lacedring_quarter_(uint32_t x) { /* x + 2, signed, divided by 4 and rounded down */
+    return ((x + 2) >> 2 ^ 0x20000000u) - 0x20000000u;
 }
 
 /* Decodes `count` vertices; `at` is where their bits begin, and then where they end. Returns what is above the most
@@ -316,37 +316,38 @@ LACEDRING_HOT_ uint32_t lacedring_vertex_block_(const struct lacedring_vertices*
     run.slope[0] = run.slope[1] = 0;
     for (i = 1; i < count; i += length) {
         const uint32_t here = count - i < length ? count - i : length;
+        uint64_t window = lacedring_data_at_(d, *at); /* of 57 bits or more; the plane takes 10, a width 9 */
+        uint32_t used = 0;
         if (n == 3 && ((i - 1) & 15) == 0) {
-            run.axis = 3;
-            if (lacedring_data_take_(d, at, 1)) {
-                if (lacedring_data_take_(d, at, 1)) {
-                    plane_axis = lacedring_data_take_(d, at, 2);
-                    plane[0] = (int32_t)lacedring_data_take_(d, at, 3) - 4;
-                    plane[1] = (int32_t)lacedring_data_take_(d, at, 3) - 4;
-                    bad |= plane_axis == 3;
-                }
-                run.axis = plane_axis;
-                run.slope[0] = plane[0];
-                run.slope[1] = plane[1];
+            used = window & 1 ? window & 2 ? 10 : 2 : 1;
+            if (used == 10) {
+                plane_axis = (uint32_t)(window >> 2) & 3;
+                plane[0] = (int32_t)(window >> 4 & 7) - 4;
+                plane[1] = (int32_t)(window >> 7 & 7) - 4;
+                bad |= plane_axis == 3;
             }
+            run.axis = used == 1 ? 3 : plane_axis;
+            run.slope[0] = plane[0];
+            run.slope[1] = plane[1];
         }
         run.zero = 0;
         for (c = 0; c < n; ++c) {
-            if (lacedring_data_take_(d, at, 1)) {
-                if (!lacedring_data_take_(d, at, 1)) {
-                    run.zero |= UINT32_C(1) << c;
-                } else if (!lacedring_data_take_(d, at, 1)) {
-                    bad |= bits[c] == 31;
-                    bits[c] = (bits[c] + 1) & 31;
-                } else if (!lacedring_data_take_(d, at, 1)) {
-                    bad |= bits[c] == 0;
-                    bits[c] = (bits[c] - 1) & 31;
-                } else {
-                    bits[c] = lacedring_data_take_(d, at, 5);
-                }
+            uint64_t code;
+            uint32_t ones;
+            if (used > 57 - 9) {
+                *at += used;
+                window = lacedring_data_at_(d, *at);
+                used = 0;
             }
-            run.low_bits[c] = run.zero >> c & 1 ? 0 : bits[c];
+            code = window >> used;
+            ones = lacedring_zeros_(~code | 16); /* 0: as before, 1: none, 2: one more, 3: one less, 4: given */
+            used += ones < 4 ? ones + 1 : 9;
+            bad |= (ones == 2 && bits[c] == 31) || (ones == 3 && bits[c] == 0);
+            bits[c] = ones == 4 ? (uint32_t)(code >> 4) & 31 : (bits[c] + (ones == 2) - (ones == 3)) & 31;
+            run.zero |= (uint32_t)(ones == 1) << c;
+            run.low_bits[c] = ones == 1 ? 0 : bits[c];
         }
+        *at += used;
         bad |= lacedring_vertex_run_(d, &run, path, n, here, at, out + (size_t)i * n);
     }
     return bad;

@@ -25,7 +25,7 @@ constexpr std::size_t size_of(ComponentType type) {
 /// Vertices of a block.
 constexpr std::uint32_t kVertexBlock = 128;
 
-/// What the integers of a stream stand for.
+/// The meaning of a stream's integers.
 enum class VertexMapping : std::uint8_t {
     integers,    ///< themselves
     lattice,     ///< points of a lattice through the origin: integer * step, exact as a float

@@ -38,7 +38,7 @@ struct LrFile {
 /// The way back to the input's order is kept only with `keep_order`: 4 bytes a vertex and 4 a triangle. Cost: O(T).
 LrFile make_lr_file(const Mesh& mesh, Encoded encoded, bool keep_order);
 
-/// How attributes are compressed. 0 bits: lossless.
+/// The bits to which attributes are quantized; 0: lossless.
 struct AttributeBits {
     std::uint32_t positions = 0;  ///< 1 to 22, of POSITION: along the largest extent, as all but normals
     std::uint32_t normals = 0;    ///< 2 to 16, of NORMAL and TANGENT: of each of two octahedral integers
@@ -49,7 +49,7 @@ struct AttributeBits {
     unsigned threads = 1;
 };
 
-/// What became of an attribute.
+/// The result of compressing an attribute.
 struct CompressedAttribute {
     std::string name;
     std::uint64_t bytes_before = 0, bytes = 0;  ///< of its values, and of the stream
