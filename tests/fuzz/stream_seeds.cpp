@@ -88,7 +88,7 @@ void write_vertices(const char* name, ComponentType type, std::uint8_t component
     }
 }
 
-/// Of every mapping.
+/// Writes vertex streams of every mapping.
 void write_vertex_seeds() {
     const auto wave = [](std::uint32_t v, std::uint32_t c) { return std::sin(v * (0.05 + 0.02 * c)); };
     const auto noise = [](std::uint32_t v, std::uint32_t c) { return (2 * v + c + 1) * 2654435761U; };

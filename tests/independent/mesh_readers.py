@@ -26,7 +26,7 @@ class Mesh:
         self.positions = positions
         self.indices = indices
         self.vertex_order = self.corner_order = None  # of an .lr file that keeps them
-        # Of an .lr file: with an entry for each vertex, copies included; and the original of each copy.
+        # Only .lr files have attributes, an entry for each vertex, and copies, a dict to their originals.
         self.attributes, self.copies = None, {}
 
 

@@ -93,7 +93,7 @@ class Vertices:
         self.data = self.table + self.groups * self.group_words
         require(len(words) >= self.data + 2, "shorter than the header says")
         require(all(bits >> 16 == 0 and bits & 63 <= 32 for bits in words[8:listed:2]), "invalid component")
-        # Of each component of a block: low, F, first width, usual predictor.
+        # A tuple for each component: low, F, first width, usual predictor.
         self.columns = [(words[i], words[i + 1] & 63, words[i + 1] >> 6 & 31, words[i + 1] >> 11)
                         for i in range(7, listed, 2)]
         places = words[listed:self.table:2]

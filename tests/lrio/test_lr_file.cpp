@@ -93,8 +93,11 @@ TEST_CASE("attributes of every type travel bit for bit") {
 }
 
 TEST_CASE("compressed attributes come back, bit for bit where nothing was quantized") {
-    for (const Format format : kFormats) {
+    for (std::size_t f = 0; f < 2 * std::size(kFormats); ++f) {
+        const Format format = kFormats[f / 2];
+        const bool quantized = f % 2 != 0;
         CAPTURE(static_cast<int>(format));
+        CAPTURE(quantized);
         Mesh mesh = with_attributes();
         Attribute normal{"NORMAL", ComponentType::f32, 3, false, {}};
         for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
@@ -105,10 +108,9 @@ TEST_CASE("compressed attributes come back, bit for bit where nothing was quanti
         mesh.attributes.push_back(std::move(normal));
         LrFile file = make(mesh, true, format);
         const std::size_t raw = serialize_lr(file).size();
-        SUBCASE("lossless") {
+        if (!quantized) {
             REQUIRE(compress_attributes(file));
-        }
-        SUBCASE("quantized") {
+        } else {
             const auto report = compress_attributes(file, {.positions = 12, .normals = 8, .colors = 4});
             REQUIRE_MESSAGE(report, report.error().message);
             REQUIRE(report->size() == 4);

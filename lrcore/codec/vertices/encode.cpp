@@ -405,7 +405,6 @@ std::vector<Component> find_components(const VertexIntegers& of, std::uint32_t v
     const std::uint32_t blocks = (vertices + kVertexBlock - 1) / kVertexBlock, step = std::max(1U, blocks / 128);
     const BlockEncoder encoder(of, out);
     std::vector<std::array<std::uint32_t, 32>> predictors(n), widths(n);
-    std::vector<Component> usual = out;
     const auto most = [](const std::array<std::uint32_t, 32>& counts) {
         return static_cast<std::uint32_t>(std::max_element(counts.begin(), counts.end()) - counts.begin());
     };
@@ -420,10 +419,10 @@ std::vector<Component> find_components(const VertexIntegers& of, std::uint32_t v
         }
     }
     for (std::uint32_t c = 0; c < n && vertices > 0; ++c) {
-        usual[c].predictor = most(predictors[c]);
-        usual[c].width = most(widths[c]);
+        out[c].predictor = most(predictors[c]);
+        out[c].width = most(widths[c]);
     }
-    return usual;
+    return out;
 }
 
 /// The blocks of a group of the table.

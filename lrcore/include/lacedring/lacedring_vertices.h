@@ -105,6 +105,12 @@ LACEDRING_SMALL_ uint32_t lacedring_vertex_blocks_(const struct lacedring_vertic
     return s->vertices / LACEDRING_VERTICES_BLOCK + (s->vertices % LACEDRING_VERTICES_BLOCK != 0);
 }
 
+/* Vertices of a block. */
+LACEDRING_SMALL_ uint32_t lacedring_vertex_count_(const struct lacedring_vertices* s, uint32_t block) {
+    const uint32_t left = s->vertices - block * LACEDRING_VERTICES_BLOCK;
+    return left < LACEDRING_VERTICES_BLOCK ? left : LACEDRING_VERTICES_BLOCK;
+}
+
 /* Words of a group of the table: where it begins, then a field for each block but the first. */
 LACEDRING_SMALL_ uint32_t lacedring_vertex_group_(const struct lacedring_vertices* s) {
     return 1 + (15 * s->field_bits + 31) / 32;
@@ -355,8 +361,7 @@ LACEDRING_HOT_ uint32_t lacedring_vertex_block_(const struct lacedring_vertices*
 
 static uint32_t lacedring_vertex_any_block_(const struct lacedring_vertices* s, const struct lacedring_data_* d,
                                             uint32_t block, uint64_t* at, uint32_t* out) {
-    const uint32_t first = block * LACEDRING_VERTICES_BLOCK, left = s->vertices - first;
-    const uint32_t count = left < LACEDRING_VERTICES_BLOCK ? left : LACEDRING_VERTICES_BLOCK;
+    const uint32_t count = lacedring_vertex_count_(s, block);
     if (s->components == 3) return lacedring_vertex_block_(s, d, 3, count, at, out);
     if (s->components == 2) return lacedring_vertex_block_(s, d, 2, count, at, out);
     return lacedring_vertex_block_(s, d, s->components, count, at, out);
@@ -415,8 +420,7 @@ enum lacedring_status lacedring_vertices_check(const struct lacedring_vertices* 
             return lacedring_at_(where, 6, LACEDRING_STATUS_HEADER);
     }
     for (block = 0; block < blocks; ++block) {
-        const uint32_t left = s->vertices - block * LACEDRING_VERTICES_BLOCK;
-        const uint32_t count = left < LACEDRING_VERTICES_BLOCK ? left : LACEDRING_VERTICES_BLOCK;
+        const uint32_t count = lacedring_vertex_count_(s, block);
         uint64_t at = lacedring_vertex_begin_(s, block);
         if (block % LACEDRING_VERTICES_GROUP_ == 0) { /* at the next word, behind zeros */
             const uint32_t* group = s->table + (size_t)(block / LACEDRING_VERTICES_GROUP_) * group_words;
@@ -536,11 +540,10 @@ void lacedring_vertices_decode(const struct lacedring_vertices* s, void* out) {
     uint32_t block, integers[LACEDRING_VERTICES_BLOCK * LACEDRING_VERTICES_MAX_COMPONENTS];
     uint8_t* to = (uint8_t*)out;
     for (block = 0; block < lacedring_vertex_blocks_(s); ++block) {
-        const uint32_t first = block * LACEDRING_VERTICES_BLOCK, left = s->vertices - first;
         uint64_t at = lacedring_vertex_begin_(s, block);
         lacedring_vertex_any_block_(s, &d, block, &at, integers);
-        to = lacedring_vertex_values_(s, integers, first,
-                                      left < LACEDRING_VERTICES_BLOCK ? left : LACEDRING_VERTICES_BLOCK, to);
+        to = lacedring_vertex_values_(s, integers, block * LACEDRING_VERTICES_BLOCK, lacedring_vertex_count_(s, block),
+                                      to);
     }
 }
 
