@@ -779,6 +779,11 @@ static uint32_t lacedring_ups_(const uint32_t* turns, uint32_t begin, uint32_t e
 #if defined(__x86_64__) && !defined(_WIN32) && (defined(__clang__) || __GNUC__ >= 12)
 #define LACEDRING_AVX2_ 1
 #define LACEDRING_WIDE_ __attribute__((target("avx2,bmi,bmi2,popcnt")))
+/* The first two Zens have all of it, but take hundreds of cycles for one of its instructions. */
+LACEDRING_SMALL_ int lacedring_is_wide_(void) {
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") &&
+           __builtin_cpu_supports("popcnt") && !__builtin_cpu_is("znver1") && !__builtin_cpu_is("znver2");
+}
 #endif
 #endif
 
@@ -1583,10 +1588,7 @@ LACEDRING_WIDE_ static int lacedring_expand_wide_(const struct lacedring_packed*
 static int lacedring_expand_record_(const struct lacedring_packed* p, const struct lacedring_group_* g,
                                     struct lacedring_record_* r, int explicit_entry, uint32_t* out) {
 #ifdef LACEDRING_AVX2_
-    /* The first two Zens have all of it, but take hundreds of cycles for one of its instructions. */
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") &&
-        __builtin_cpu_supports("popcnt") && !__builtin_cpu_is("znver1") && !__builtin_cpu_is("znver2"))
-        return lacedring_expand_wide_(p, g, r, explicit_entry, out);
+    if (lacedring_is_wide_()) return lacedring_expand_wide_(p, g, r, explicit_entry, out);
 #endif
     return lacedring_expand_(p, g, r, explicit_entry, out, 0);
 }
@@ -1954,8 +1956,6 @@ void lacedring_packed_triangle(const struct lacedring_packed* p, uint32_t triang
 #undef LACEDRING_PACKED_PART_
 #undef LACEDRING_PACKED_MAX_PART_
 #undef LACEDRING_VECTORS_
-#undef LACEDRING_AVX2_
-#undef LACEDRING_WIDE_
 #undef LACEDRING_WORDS_
 #undef LACEDRING_PIECES_
 #undef LACEDRING_AHEAD_

@@ -88,6 +88,9 @@ void lacedring_octahedral(int32_t x, int32_t y, uint32_t bits, float out[3]);
 #define LACEDRING_VERTICES_IMPLEMENTED
 
 #include <math.h>
+#ifdef LACEDRING_AVX2_
+#include <immintrin.h>
+#endif
 
 #ifdef __cplusplus
 extern "C" {
@@ -95,6 +98,11 @@ extern "C" {
 
 #define LACEDRING_VERTICES_GROUP_ 16u /* blocks */
 #define LACEDRING_VERTICES_MOST_ 24u  /* zeros of a unary number */
+
+static const double lacedring_powers_[10] = {1, 10, 100, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
+
+/* What blocks are decoded for. */
+enum lacedring_purpose_ { LACEDRING_TO_CHECK_, LACEDRING_TO_INTEGERS_, LACEDRING_TO_VALUES_ };
 
 uint32_t lacedring_vertices_values(const struct lacedring_vertices* stream) {
     if (stream->mapping == LACEDRING_MAPPING_OCTAHEDRAL) return stream->components + 1;
@@ -359,13 +367,368 @@ LACEDRING_HOT_ uint32_t lacedring_vertex_block_(const struct lacedring_vertices*
     return bad;
 }
 
-static uint32_t lacedring_vertex_any_block_(const struct lacedring_vertices* s, const struct lacedring_data_* d,
-                                            uint32_t block, uint64_t* at, uint32_t* out) {
-    const uint32_t count = lacedring_vertex_count_(s, block);
-    if (s->components == 3) return lacedring_vertex_block_(s, d, 3, count, at, out);
-    if (s->components == 2) return lacedring_vertex_block_(s, d, 2, count, at, out);
-    return lacedring_vertex_block_(s, d, s->components, count, at, out);
+#ifdef LACEDRING_AVX2_
+/* Eight blocks at once, one in each lane of vectors. Runs begin at vertices 1 + 4 k in every block, so that lanes whose
+   runs have other lengths meet at each fourth vertex. */
+#define LACEDRING_LANE_COMPONENTS_ 4 /* of more, one block after the other */
+typedef __m256i lacedring_lanes_;
+
+/* Bits that lanes read. They are numbered from `bytes` on. */
+struct lacedring_lane_data_ {
+    const int* bytes;
+    lacedring_lanes_ last; /* byte at which a load may begin: none reads behind the data */
+};
+
+LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_all_(uint32_t value) {
+    return _mm256_set1_epi32((int)value);
 }
+LACEDRING_WIDE_ LACEDRING_HOT_ int lacedring_lane_any_(lacedring_lanes_ mask) {
+    return _mm256_movemask_ps(_mm256_castsi256_ps(mask));
+}
+LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_is_(lacedring_lanes_ a, uint32_t value) {
+    return _mm256_cmpeq_epi32(a, lacedring_lane_all_(value));
+}
+LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_add_(lacedring_lanes_ a, uint32_t value) {
+    return _mm256_add_epi32(a, lacedring_lane_all_(value));
+}
+LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_and_(lacedring_lanes_ a, uint32_t value) {
+    return _mm256_and_si256(a, lacedring_lane_all_(value));
+}
+
+/* At least 25 bits from bit `at` on, zeros behind them. */
+LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_load_(const struct lacedring_lane_data_* d,
+                                                                     lacedring_lanes_ at) {
+    const lacedring_lanes_ byte = _mm256_min_epu32(_mm256_srli_epi32(at, 3), d->last);
+    return _mm256_srlv_epi32(_mm256_i32gather_epi32(d->bytes, byte, 1), lacedring_lane_and_(at, 7));
+}
+
+/* 32 bits. */
+LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_word_(const struct lacedring_lane_data_* d,
+                                                                     lacedring_lanes_ at) {
+    const lacedring_lanes_ high = lacedring_lane_load_(d, lacedring_lane_add_(at, 16));
+    return _mm256_blend_epi16(lacedring_lane_load_(d, at), _mm256_slli_epi32(high, 16), 0xaa);
+}
+
+/* Where unary numbers are read: bits not read yet, up to the 31st, and 126 + how many were. That is the exponent of a
+   float whose highest bit is the one before. */
+struct lacedring_lane_unary_ {
+    lacedring_lanes_ at, bits, seen;
+};
+
+LACEDRING_WIDE_ LACEDRING_HOT_ void lacedring_lane_reload_(const struct lacedring_lane_data_* d,
+                                                           struct lacedring_lane_unary_* u) {
+    u->at = _mm256_add_epi32(u->at, lacedring_lane_add_(u->seen, 0u - 126));
+    u->bits = lacedring_lane_and_(lacedring_lane_load_(d, u->at), 0x7fffffff);
+    u->seen = lacedring_lane_all_(126);
+}
+
+/* The runs in which lanes are; masks are all ones or 0. */
+struct lacedring_lane_runs_ {
+    lacedring_lanes_ width[LACEDRING_LANE_COMPONENTS_];
+    lacedring_lanes_ present[LACEDRING_LANE_COMPONENTS_]; /* mask: residuals are not all 0 */
+    lacedring_lanes_ low_bits[LACEDRING_LANE_COMPONENTS_];
+    lacedring_lanes_ low_mask[LACEDRING_LANE_COMPONENTS_];
+    lacedring_lanes_ low_from[LACEDRING_LANE_COMPONENTS_]; /* in a vertex's low bits */
+    lacedring_lanes_ row;                                  /* low bits of a vertex */
+    lacedring_lanes_ low_at;
+    lacedring_lanes_ fours;      /* of vertices, up to the end */
+    lacedring_lanes_ plane;      /* the last one: 2 bits axis, 3 and 3 bits slopes */
+    lacedring_lanes_ on_axis[3]; /* mask: the plane gives this component */
+    lacedring_lanes_ slope[3];   /* of the others */
+    int all_present, planes;     /* is no component without residuals; has a lane a plane */
+    int long_rows, long_low;     /* are a vertex's low bits, or a component's, more than a load has */
+};
+
+/* Lanes at the end of their run begin the next, whose first vertex is `first`. Returns a mask of lanes with a fault. */
+LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_run_(const struct lacedring_lane_data_* d, uint32_t n,
+                                                                    uint32_t first, lacedring_lanes_ length,
+                                                                    struct lacedring_lane_runs_* run,
+                                                                    struct lacedring_lane_unary_* unary) {
+    /* Of a code's three lowest bits: its bits but for a given width's, the change of the width, and "none". */
+    const lacedring_lanes_ code_bits = _mm256_setr_epi32(1, 2, 1, 3, 1, 2, 1, 4);
+    const lacedring_lanes_ code_change = _mm256_setr_epi32(0, 0, 0, 1, 0, 0, 0, -1);
+    const lacedring_lanes_ code_present = _mm256_setr_epi32(-1, 0, -1, -1, -1, 0, -1, -1);
+    const lacedring_lanes_ begins = lacedring_lane_is_(run->fours, 0);
+    lacedring_lanes_ at, codes, bits, row = _mm256_setzero_si256(), bad = row;
+    uint32_t c;
+    lacedring_lane_reload_(d, unary); /* codes follow on the unary numbers of the run before */
+    at = unary->at;
+    codes = unary->bits;
+    if (n == 3 && (first & 15) == 1) {
+        const lacedring_lanes_ some = lacedring_lane_is_(lacedring_lane_and_(codes, 1), 1);
+        const lacedring_lanes_ given = lacedring_lane_is_(lacedring_lane_and_(codes, 3), 3);
+        lacedring_lanes_ axis, a, b;
+        run->plane = _mm256_blendv_epi8(run->plane, _mm256_srli_epi32(codes, 2), _mm256_and_si256(begins, given));
+        axis = lacedring_lane_and_(run->plane, 3);
+        a = lacedring_lane_add_(lacedring_lane_and_(_mm256_srli_epi32(run->plane, 2), 7), 0u - 4);
+        b = lacedring_lane_add_(lacedring_lane_and_(_mm256_srli_epi32(run->plane, 5), 7), 0u - 4);
+        run->planes = 0;
+        for (c = 0; c < 3; ++c) { /* u of the axis before, v of the axis behind, or the axis */
+            const lacedring_lanes_ u = lacedring_lane_is_(axis, (c + 2) % 3), v = lacedring_lane_is_(axis, (c + 1) % 3);
+            run->slope[c] = _mm256_or_si256(_mm256_and_si256(u, a), _mm256_and_si256(v, b));
+            run->on_axis[c] =
+                _mm256_blendv_epi8(run->on_axis[c], _mm256_and_si256(some, lacedring_lane_is_(axis, c)), begins);
+            run->planes |= lacedring_lane_any_(run->on_axis[c]);
+        }
+        bad = lacedring_lane_is_(axis, 3);
+        bits = _mm256_sub_epi32(lacedring_lane_all_(1), _mm256_add_epi32(some, _mm256_slli_epi32(given, 3)));
+        bits = _mm256_and_si256(bits, begins); /* 1, 2 or 10 */
+        at = _mm256_add_epi32(at, bits);
+        codes = _mm256_srlv_epi32(codes, bits);
+    }
+    run->long_low = 0;
+    run->all_present = 255;
+    for (c = 0; c < n; ++c) {
+        lacedring_lanes_ change, width, given;
+        if (c % 2 != 0) codes = lacedring_lane_load_(d, at); /* a plane takes 10 bits, a width 9 */
+        given = lacedring_lane_is_(lacedring_lane_and_(codes, 15), 15);
+        change = _mm256_andnot_si256(given, _mm256_permutevar8x32_epi32(code_change, codes));
+        width = _mm256_add_epi32(_mm256_blendv_epi8(run->width[c], _mm256_srli_epi32(codes, 4), given), change);
+        width = _mm256_blendv_epi8(width, lacedring_lane_and_(width, 31), given);
+        width = _mm256_blendv_epi8(run->width[c], width, begins);
+        bad = _mm256_or_si256(bad, lacedring_lane_and_(width, ~31u));
+        run->width[c] = lacedring_lane_and_(width, 31);
+        run->present[c] = _mm256_blendv_epi8(run->present[c], _mm256_permutevar8x32_epi32(code_present, codes), begins);
+        bits = _mm256_add_epi32(_mm256_permutevar8x32_epi32(code_bits, codes), lacedring_lane_and_(given, 5));
+        bits = _mm256_and_si256(bits, begins);
+        at = _mm256_add_epi32(at, bits);
+        codes = _mm256_srlv_epi32(codes, bits);
+        run->all_present &= lacedring_lane_any_(run->present[c]);
+        run->low_bits[c] = _mm256_and_si256(run->width[c], run->present[c]);
+        run->low_mask[c] = lacedring_lane_add_(_mm256_sllv_epi32(lacedring_lane_all_(1), run->low_bits[c]), UINT32_MAX);
+        run->low_from[c] = row;
+        run->long_low |= lacedring_lane_any_(_mm256_cmpgt_epi32(run->low_bits[c], lacedring_lane_all_(25)));
+        row = _mm256_add_epi32(row, run->low_bits[c]);
+    }
+    run->row = row;
+    run->all_present = run->all_present == 255;
+    run->long_rows = lacedring_lane_any_(_mm256_cmpgt_epi32(row, lacedring_lane_all_(25)));
+    run->low_at = _mm256_blendv_epi8(run->low_at, at, begins);
+    run->fours = _mm256_blendv_epi8(run->fours, _mm256_srli_epi32(length, 2), begins);
+    length = _mm256_min_epu32(length, lacedring_lane_all_(LACEDRING_VERTICES_BLOCK - first));
+    at = _mm256_add_epi32(at, _mm256_mullo_epi32(row, length));
+    unary->at = _mm256_blendv_epi8(unary->at, at, begins);
+    return bad;
+}
+
+/* The next residual of component c; `all`: no lane's is in a run of zeros. Where `checked`, returns not 0 in lanes
+   whose code is none. */
+LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_residual_(
+    const struct lacedring_lane_data_* d, const struct lacedring_lane_runs_* run, uint32_t c, int all, int checked,
+    lacedring_lanes_ low, struct lacedring_lane_unary_* unary, lacedring_lanes_* residual) {
+    const lacedring_lanes_ one = lacedring_lane_all_(1), bits = run->low_bits[c];
+    const lacedring_lanes_ present = all ? lacedring_lane_all_(UINT32_MAX) : run->present[c];
+    lacedring_lanes_ rest, zeros, code, bad = _mm256_setzero_si256();
+    if (lacedring_lane_any_(_mm256_and_si256(lacedring_lane_is_(unary->bits, 0), present)))
+        lacedring_lane_reload_(d, unary);
+    rest = lacedring_lane_add_(unary->bits, UINT32_MAX);
+    code = _mm256_andnot_si256(rest, unary->bits); /* the lowest one: a power of two, whose float is exact */
+    code = _mm256_srli_epi32(_mm256_castps_si256(_mm256_cvtepi32_ps(code)), 23);
+    zeros = _mm256_sub_epi32(_mm256_sub_epi32(code, unary->seen), one);
+    unary->seen = _mm256_blendv_epi8(unary->seen, code, present);
+    rest = _mm256_and_si256(rest, unary->bits);
+    unary->bits = _mm256_blendv_epi8(unary->bits, rest, present);
+    if (run->long_low) {
+        code = lacedring_lane_word_(d, _mm256_add_epi32(run->low_at, run->low_from[c]));
+    } else if (run->long_rows) {
+        code = lacedring_lane_load_(d, _mm256_add_epi32(run->low_at, run->low_from[c]));
+    } else {
+        code = _mm256_srlv_epi32(low, run->low_from[c]);
+    }
+    code = _mm256_and_si256(code, run->low_mask[c]);
+    code = _mm256_or_si256(code, _mm256_sllv_epi32(zeros, bits));
+    if (checked) {
+        bad = _mm256_srlv_epi32(zeros, _mm256_sub_epi32(lacedring_lane_all_(32), bits));
+        bad = _mm256_or_si256(bad, _mm256_cmpgt_epi32(zeros, lacedring_lane_all_(LACEDRING_VERTICES_MOST_)));
+        bad = _mm256_and_si256(_mm256_or_si256(bad, _mm256_srai_epi32(zeros, 31)), present);
+    }
+    code = _mm256_xor_si256(_mm256_srli_epi32(code, 1),
+                            _mm256_sub_epi32(_mm256_setzero_si256(), _mm256_and_si256(code, one)));
+    *residual = _mm256_and_si256(code, present);
+    return bad;
+}
+
+/* A component's integer and its last two differences. */
+struct lacedring_lane_path_ {
+    lacedring_lanes_ value, d1, d2, alpha, beta;
+};
+
+LACEDRING_WIDE_ LACEDRING_HOT_ void lacedring_lane_step_(struct lacedring_lane_path_* p, lacedring_lanes_ residual,
+                                                         lacedring_lanes_* out) {
+    lacedring_lanes_ step = _mm256_add_epi32(_mm256_mullo_epi32(p->alpha, p->d1),
+                                             lacedring_lane_add_(_mm256_mullo_epi32(p->beta, p->d2), 2));
+    step = _mm256_add_epi32(_mm256_srai_epi32(step, 2), residual);
+    p->d2 = p->d1;
+    p->d1 = step;
+    p->value = _mm256_add_epi32(p->value, step);
+    *out = p->value;
+}
+
+/* Eight whole blocks that begin at bits `at`; then those are where they end. Integer k of lane j goes to lane j of
+   out[k]. Returns not 0 in lanes with a fault. */
+LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_blocks_(const struct lacedring_vertices* s,
+                                                                       const struct lacedring_lane_data_* d, uint32_t n,
+                                                                       int checked, lacedring_lanes_* at,
+                                                                       lacedring_lanes_* out) {
+    struct lacedring_lane_path_ path[LACEDRING_LANE_COMPONENTS_];
+    lacedring_lanes_ residual[LACEDRING_LANE_COMPONENTS_];
+    lacedring_lanes_ bad = _mm256_setzero_si256(), low = bad, length;
+    struct lacedring_lane_runs_ run;
+    struct lacedring_lane_unary_ unary;
+    /* The next eight blocks are about as long as these. */
+    const char* ahead = (const char*)d->bytes + ((uint32_t)_mm256_extract_epi32(*at, 7) / 7);
+    const uint32_t lines = (uint32_t)_mm256_extract_epi32(*at, 7) / (7 * 64 * 32) + 1; /* each four vertices */
+    uint32_t c, i;
+    memset(&run, 0, sizeof run);
+    memset(residual, 0, sizeof residual);
+    for (c = 0; c < n; ++c) {
+        const uint32_t said = s->parameters[2 * c + 1];
+        const lacedring_lanes_ code = lacedring_lane_load_(d, *at);
+        const lacedring_lanes_ own = lacedring_lane_is_(lacedring_lane_and_(code, 1), 1);
+        const lacedring_lanes_ predictor = _mm256_blendv_epi8(lacedring_lane_all_(said >> 11 & 31),
+                                                              lacedring_lane_and_(_mm256_srli_epi32(code, 1), 31), own);
+        path[c].alpha = lacedring_lane_add_(lacedring_lane_and_(predictor, 7), 0u - 2);
+        path[c].beta = lacedring_lane_add_(_mm256_srli_epi32(predictor, 3), 0u - 2);
+        *at = _mm256_add_epi32(*at, lacedring_lane_add_(lacedring_lane_and_(own, 5), 1));
+        run.width[c] = lacedring_lane_all_(said >> 6 & 31);
+        path[c].d1 = path[c].d2 = _mm256_setzero_si256();
+    }
+    length = _mm256_sllv_epi32(lacedring_lane_all_(4), lacedring_lane_and_(lacedring_lane_load_(d, *at), 3));
+    *at = lacedring_lane_add_(*at, 2);
+    for (c = 0; c < n; ++c) {
+        const uint32_t bits = s->parameters[2 * c + 1] & 63;
+        const uint32_t mask = (uint32_t)((UINT64_C(1) << bits) - 1);
+        path[c].value =
+            lacedring_lane_add_(lacedring_lane_and_(lacedring_lane_word_(d, *at), mask), s->parameters[2 * c]);
+        *at = lacedring_lane_add_(*at, bits);
+        out[c] = path[c].value;
+    }
+    unary.at = *at;
+    unary.seen = lacedring_lane_all_(126);
+    unary.bits = _mm256_setzero_si256();
+    run.plane = lacedring_lane_all_(4 << 2 | 4 << 5);
+    for (i = 1; i < LACEDRING_VERTICES_BLOCK; ++i) {
+        if (i % 4 == 1) {
+            if (lacedring_lane_any_(lacedring_lane_is_(run.fours, 0)))
+                bad = _mm256_or_si256(bad, lacedring_lane_run_(d, n, i, length, &run, &unary));
+            run.fours = lacedring_lane_add_(run.fours, UINT32_MAX);
+            for (c = 0; c < lines; ++c, ahead += 64) __builtin_prefetch(ahead);
+        }
+        if (i % 2 == 1) lacedring_lane_reload_(d, &unary); /* often enough that others are rare */
+        if (!run.long_rows) low = lacedring_lane_load_(d, run.low_at);
+#define LACEDRING_RESIDUAL_(c, all) \
+    bad = _mm256_or_si256(bad, lacedring_lane_residual_(d, &run, c, all, checked, low, &unary, residual + c))
+        if (run.all_present) {
+            LACEDRING_RESIDUAL_(0, 1);
+            if (n > 1) LACEDRING_RESIDUAL_(1, 1);
+            if (n > 2) LACEDRING_RESIDUAL_(2, 1);
+            if (n > 3) LACEDRING_RESIDUAL_(3, 1);
+        } else {
+            LACEDRING_RESIDUAL_(0, 0);
+            if (n > 1) LACEDRING_RESIDUAL_(1, 0);
+            if (n > 2) LACEDRING_RESIDUAL_(2, 0);
+            if (n > 3) LACEDRING_RESIDUAL_(3, 0);
+        }
+#undef LACEDRING_RESIDUAL_
+        run.low_at = _mm256_add_epi32(run.low_at, run.row);
+        if (n == 3 && run.planes) {
+            lacedring_lanes_ more = _mm256_add_epi32(_mm256_mullo_epi32(run.slope[0], residual[0]),
+                                                     _mm256_mullo_epi32(run.slope[1], residual[1]));
+            more = _mm256_add_epi32(more, _mm256_mullo_epi32(run.slope[2], residual[2]));
+            more = _mm256_srai_epi32(lacedring_lane_add_(more, 2), 2);
+            residual[0] = _mm256_add_epi32(residual[0], _mm256_and_si256(more, run.on_axis[0]));
+            residual[1] = _mm256_add_epi32(residual[1], _mm256_and_si256(more, run.on_axis[1]));
+            residual[2] = _mm256_add_epi32(residual[2], _mm256_and_si256(more, run.on_axis[2]));
+        }
+        out += n;
+        lacedring_lane_step_(path, residual[0], out);
+        if (n > 1) lacedring_lane_step_(path + 1, residual[1], out + 1);
+        if (n > 2) lacedring_lane_step_(path + 2, residual[2], out + 2);
+        if (n > 3) lacedring_lane_step_(path + 3, residual[3], out + 3);
+    }
+    *at = _mm256_add_epi32(unary.at, lacedring_lane_add_(unary.seen, 0u - 126));
+    return bad;
+}
+
+/* Eight rows of lanes, to eight integers of each lane, `stride` apart. */
+LACEDRING_WIDE_ LACEDRING_HOT_ void lacedring_lane_turn_(const lacedring_lanes_ in[8], uint32_t* out, size_t stride) {
+    lacedring_lanes_ two[8], four[8];
+    uint32_t k;
+    for (k = 0; k < 8; k += 2) {
+        two[k] = _mm256_unpacklo_epi32(in[k], in[k + 1]);
+        two[k + 1] = _mm256_unpackhi_epi32(in[k], in[k + 1]);
+    }
+    for (k = 0; k < 8; k += 4) {
+        four[k] = _mm256_unpacklo_epi64(two[k], two[k + 2]);
+        four[k + 1] = _mm256_unpackhi_epi64(two[k], two[k + 2]);
+        four[k + 2] = _mm256_unpacklo_epi64(two[k + 1], two[k + 3]);
+        four[k + 3] = _mm256_unpackhi_epi64(two[k + 1], two[k + 3]);
+    }
+    for (k = 0; k < 4; ++k) {
+        const lacedring_lanes_ low = _mm256_permute2x128_si256(four[k], four[k + 4], 0x20);
+        const lacedring_lanes_ high = _mm256_permute2x128_si256(four[k], four[k + 4], 0x31);
+        _mm256_storeu_si256((lacedring_lanes_*)(void*)(out + k * stride), low);
+        _mm256_storeu_si256((lacedring_lanes_*)(void*)(out + (k + 4) * stride), high);
+    }
+}
+
+/* Floats of integers of a lattice, of floats or of decimals, without exceptions; else the integers. */
+LACEDRING_WIDE_ LACEDRING_HOT_ void lacedring_lane_values_(const struct lacedring_vertices* s,
+                                                           lacedring_lanes_ rows[8]) {
+    uint32_t k;
+    if (s->mapping == LACEDRING_MAPPING_LATTICE) {
+        const __m256 step = _mm256_set1_ps(s->step);
+        for (k = 0; k < 8; ++k) rows[k] = _mm256_castps_si256(_mm256_mul_ps(_mm256_cvtepi32_ps(rows[k]), step));
+    } else if (s->mapping == LACEDRING_MAPPING_FLOATS) {
+        for (k = 0; k < 8; ++k) { /* inverted: all bits where the highest is 0, else that one */
+            const lacedring_lanes_ lower = _mm256_cmpgt_epi32(rows[k], lacedring_lane_all_(UINT32_MAX));
+            rows[k] = _mm256_xor_si256(rows[k], _mm256_or_si256(lower, lacedring_lane_all_(0x80000000u)));
+        }
+    } else if (s->mapping == LACEDRING_MAPPING_DECIMALS) {
+        const __m256d power = _mm256_set1_pd(lacedring_powers_[s->digits]);
+        for (k = 0; k < 8; ++k) {
+            const __m256d low = _mm256_cvtepi32_pd(_mm256_castsi256_si128(rows[k]));
+            const __m256d high = _mm256_cvtepi32_pd(_mm256_extracti128_si256(rows[k], 1));
+            rows[k] = _mm256_castps_si256(_mm256_set_m128(_mm256_cvtpd_ps(_mm256_div_pd(high, power)),
+                                                          _mm256_cvtpd_ps(_mm256_div_pd(low, power))));
+        }
+    }
+}
+
+/* Eight whole blocks, whose bits lie within half a gigabyte. */
+LACEDRING_WIDE_ LACEDRING_HOT_ uint32_t lacedring_lane_eight_(const struct lacedring_vertices* s,
+                                                              const struct lacedring_data_* d,
+                                                              enum lacedring_purpose_ purpose, uint64_t at[8],
+                                                              uint32_t* out) {
+    const uint64_t base = at[0] / 8, last = (d->last + 32) / 8 - base; /* 64 bits may be read from the last on */
+    const size_t stride = (size_t)LACEDRING_VERTICES_BLOCK * s->components;
+    struct lacedring_lane_data_ data;
+    lacedring_lanes_ lanes, bad, rows[LACEDRING_VERTICES_BLOCK * LACEDRING_LANE_COMPONENTS_];
+    uint32_t k, bits[8];
+    data.bytes = (const int*)(const void*)(d->bytes + (size_t)base);
+    data.last = lacedring_lane_all_(last < INT32_MAX ? (uint32_t)last : INT32_MAX);
+    for (k = 0; k < 8; ++k) bits[k] = (uint32_t)(at[k] - 8 * base);
+    lanes = _mm256_loadu_si256((const lacedring_lanes_*)(const void*)bits);
+    bad = s->components == 3
+              ? lacedring_lane_blocks_(s, &data, 3, purpose == LACEDRING_TO_CHECK_, &lanes, rows)
+              : lacedring_lane_blocks_(s, &data, s->components, purpose == LACEDRING_TO_CHECK_, &lanes, rows);
+    _mm256_storeu_si256((lacedring_lanes_*)(void*)bits, lanes);
+    for (k = 0; k < 8; ++k) at[k] = 8 * base + bits[k];
+    for (k = 0; k < stride; k += 8) {
+        if (purpose == LACEDRING_TO_VALUES_) lacedring_lane_values_(s, rows + k);
+        lacedring_lane_turn_(rows + k, out + k, stride);
+    }
+    return lacedring_lane_any_(lacedring_lane_is_(bad, 0)) != 255;
+}
+LACEDRING_WIDE_ static uint32_t lacedring_vertex_eight_(const struct lacedring_vertices* s,
+                                                        const struct lacedring_data_* d,
+                                                        enum lacedring_purpose_ purpose, uint64_t at[8],
+                                                        uint32_t* out) {
+    if (purpose == LACEDRING_TO_CHECK_) return lacedring_lane_eight_(s, d, LACEDRING_TO_CHECK_, at, out);
+    if (purpose == LACEDRING_TO_VALUES_) return lacedring_lane_eight_(s, d, LACEDRING_TO_VALUES_, at, out);
+    return lacedring_lane_eight_(s, d, LACEDRING_TO_INTEGERS_, at, out);
+}
+#endif
 
 static struct lacedring_data_ lacedring_data_of_(const struct lacedring_vertices* s) {
     struct lacedring_data_ d;
@@ -374,41 +737,75 @@ static struct lacedring_data_ lacedring_data_of_(const struct lacedring_vertices
     return d;
 }
 
+/* The integers of block `block`, or of eight blocks from there where those are decoded at once, and `end` is not among
+   them. Returns how many blocks, and where each ends; `*bad` becomes not 0 if one has a fault. */
+static uint32_t lacedring_vertex_some_(const struct lacedring_vertices* s, const struct lacedring_data_* d,
+                                       uint32_t block, uint32_t end, enum lacedring_purpose_ purpose, uint64_t ends[8],
+                                       uint32_t* bad, uint32_t* out) {
+    const uint32_t n = s->components, count = lacedring_vertex_count_(s, block);
+    ends[0] = lacedring_vertex_begin_(s, block);
+#ifdef LACEDRING_AVX2_
+    if (n <= LACEDRING_LANE_COMPONENTS_ && end - block >= 8 && lacedring_vertex_count_(s, block + 7) == 128 &&
+        ends[0] <= d->last && lacedring_is_wide_()) {
+        uint32_t k, near_by = 1;
+        for (k = 1; k < 8; ++k) {
+            ends[k] = lacedring_vertex_begin_(s, block + k);
+            near_by &= ends[k] - ends[0] < UINT32_C(1) << 30;
+        }
+        if (near_by) {
+            *bad = lacedring_vertex_eight_(s, d, purpose, ends, out);
+            return 8;
+        }
+    }
+#else
+    (void)end;
+    (void)purpose;
+#endif
+    *bad = n == 3   ? lacedring_vertex_block_(s, d, 3, count, ends, out)
+           : n == 2 ? lacedring_vertex_block_(s, d, 2, count, ends, out)
+                    : lacedring_vertex_block_(s, d, n, count, ends, out);
+    return 1;
+}
+
+#define LACEDRING_SOME_VALUES_                                                            \
+    (LACEDRING_VERTICES_BLOCK * 32) /* integers of 16 components, or of 4 in eight blocks \
+                                     */
+
 void lacedring_vertices_blocks(const struct lacedring_vertices* s, uint32_t block, uint32_t end, uint32_t* out) {
     const struct lacedring_data_ d = lacedring_data_of_(s);
-    for (; block < end; ++block) {
-        uint64_t at = lacedring_vertex_begin_(s, block);
-        lacedring_vertex_any_block_(s, &d, block, &at, out);
-        out += (size_t)LACEDRING_VERTICES_BLOCK * s->components;
+    while (block < end) {
+        uint64_t ends[8];
+        uint32_t bad;
+        const uint32_t some = lacedring_vertex_some_(s, &d, block, end, LACEDRING_TO_INTEGERS_, ends, &bad, out);
+        out += (size_t)some * LACEDRING_VERTICES_BLOCK * s->components;
+        block += some;
     }
 }
 
-/* Is an integer one that its mapping and type have? */
-static int lacedring_vertex_fits_(const struct lacedring_vertices* s, uint32_t c, uint32_t value) {
-    const int32_t i = (int32_t)value;
-    if (s->mapping == LACEDRING_MAPPING_LATTICE) return (uint32_t)(i < 0 ? 0u - value : value) < s->most;
-    if (s->mapping == LACEDRING_MAPPING_OCTAHEDRAL)
-        return c == 2 ? value <= 1 : (uint32_t)(i < 0 ? 0u - value : value) < s->most;
-    if (s->mapping != LACEDRING_MAPPING_INTEGERS) return 1;
-    switch (s->type) {
-        case 0:
-            return i >= -128 && i <= 127;
-        case 1:
-            return value <= 255;
-        case 2:
-            return i >= -32768 && i <= 32767;
-        case 3:
-            return value <= 65535;
-        default:
-            return 1;
+/* Integers of component c are those of its mapping and type if they plus *more are *most or less. */
+static void lacedring_vertex_range_(const struct lacedring_vertices* s, uint32_t c, uint32_t* more, uint32_t* most) {
+    *more = 0;
+    *most = UINT32_MAX;
+    if (s->most != 0) { /* lattice, octahedral: below s->most, and above its negative */
+        *more = s->most - 1;
+        *most = 2 * *more;
+        if (s->mapping == LACEDRING_MAPPING_OCTAHEDRAL && c == 2) {
+            *more = 0;
+            *most = 1;
+        }
+    } else if (s->mapping == LACEDRING_MAPPING_INTEGERS && s->type < 4) {
+        *most = s->type < 2 ? 255 : 65535;
+        if (s->type % 2 == 0) *more = *most / 2 + 1;
     }
 }
 
 enum lacedring_status lacedring_vertices_check(const struct lacedring_vertices* s, uint64_t* where) {
     const struct lacedring_data_ d = lacedring_data_of_(s);
     const uint32_t blocks = lacedring_vertex_blocks_(s), group_words = lacedring_vertex_group_(s);
-    uint32_t block, c, i, values[LACEDRING_VERTICES_BLOCK * LACEDRING_VERTICES_MAX_COMPONENTS];
-    uint64_t end = 0;
+    uint32_t block, c, i, some = 0, k = 0, bad = 0, alone = 0, values[LACEDRING_SOME_VALUES_];
+    uint32_t mask[LACEDRING_VERTICES_MAX_COMPONENTS];
+    uint32_t more[LACEDRING_VERTICES_MAX_COMPONENTS], most[LACEDRING_VERTICES_MAX_COMPONENTS];
+    uint64_t end = 0, ends[8];
     for (c = 0; c < s->components; ++c) {
         const uint32_t said = s->parameters[2 * c + 1];
         if (said >> 16 != 0 || (said & 63) > 32)
@@ -419,9 +816,24 @@ enum lacedring_status lacedring_vertices_check(const struct lacedring_vertices* 
         if (value >= (uint64_t)s->vertices * s->components || (i > 0 && value <= s->exceptions[(size_t)2 * i - 2]))
             return lacedring_at_(where, 6, LACEDRING_STATUS_HEADER);
     }
-    for (block = 0; block < blocks; ++block) {
+    for (c = 0; c < s->components; ++c) {
+        const uint32_t bits = s->parameters[2 * c + 1] & 63;
+        lacedring_vertex_range_(s, c, more + c, most + c);
+        mask[c] = (uint32_t)((UINT64_C(1) << bits) - 1);
+    }
+    for (block = 0; block < blocks; ++block, ++k) {
         const uint32_t count = lacedring_vertex_count_(s, block);
-        uint64_t at = lacedring_vertex_begin_(s, block);
+        const uint32_t* value;
+        uint32_t wrong = 0;
+        uint64_t at;
+        if (k == some) {
+            k = 0;
+            some = lacedring_vertex_some_(s, &d, block, alone ? block + 1 : blocks, LACEDRING_TO_CHECK_, ends, &bad,
+                                          values);
+            alone = some > 1 && bad;
+            if (alone) some = lacedring_vertex_some_(s, &d, block, block + 1, LACEDRING_TO_CHECK_, ends, &bad, values);
+        }
+        at = lacedring_vertex_begin_(s, block);
         if (block % LACEDRING_VERTICES_GROUP_ == 0) { /* at the next word, behind zeros */
             const uint32_t* group = s->table + (size_t)(block / LACEDRING_VERTICES_GROUP_) * group_words;
             const uint32_t fields = blocks - block < LACEDRING_VERTICES_GROUP_ ? blocks - block - 1 : 15;
@@ -434,17 +846,16 @@ enum lacedring_status lacedring_vertices_check(const struct lacedring_vertices* 
             }
             if (at != end) return lacedring_at_(where, block, LACEDRING_STATUS_GROUP);
         }
-        if (at != end || end > d.last) return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
-        if (lacedring_vertex_any_block_(s, &d, block, &at, values) != 0 || at > d.last)
+        if (at != end || end > d.last || bad || ends[k] > d.last)
             return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
+        value = values + (size_t)k * LACEDRING_VERTICES_BLOCK * s->components;
         for (i = 0; i < count; ++i) {
-            for (c = 0; c < s->components; ++c) {
-                const uint32_t value = values[i * s->components + c], bits = s->parameters[2 * c + 1] & 63;
-                if ((bits < 32 && (value - s->parameters[2 * c]) >> bits != 0) || !lacedring_vertex_fits_(s, c, value))
-                    return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
-            }
+            for (c = 0; c < s->components; ++c, ++value)
+                wrong |= (uint32_t)(((*value - s->parameters[2 * c]) & ~mask[c]) != 0) |
+                         (uint32_t)(*value + more[c] > most[c]);
         }
-        end = at;
+        if (wrong) return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
+        end = ends[k];
     }
     if (end % 32 != 0 && lacedring_data_take_(&d, &end, (uint32_t)(32 - end % 32)) != 0)
         return lacedring_at_(where, blocks - 1, LACEDRING_STATUS_BLOCK);
@@ -476,15 +887,15 @@ void lacedring_octahedral(int32_t x, int32_t y, uint32_t bits, float out[3]) {
     out[2] = (float)(z / length);
 }
 
-/* Writes decimals: `count` values from value `first` of the attribute on. */
-static void lacedring_decimals_(const struct lacedring_vertices* s, const uint32_t* integers, uint64_t first,
-                                uint32_t count, uint8_t* out) {
-    static const double powers[10] = {1, 10, 100, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
-    uint32_t i, from = 0, to = s->exception_count;
-    for (i = 0; i < count; ++i) {
-        const float value = (float)((int32_t)integers[i] / powers[s->digits]);
-        memcpy(out + (size_t)4 * i, &value, 4);
-    }
+/* Are values made where eight blocks are decoded at once? */
+static int lacedring_in_lanes_(const struct lacedring_vertices* s) {
+    return s->mapping == LACEDRING_MAPPING_LATTICE || s->mapping == LACEDRING_MAPPING_FLOATS ||
+           s->mapping == LACEDRING_MAPPING_DECIMALS;
+}
+
+/* Writes those of `count` values, from value `first` of the attribute on, that are exceptions. */
+static void lacedring_exceptions_(const struct lacedring_vertices* s, uint64_t first, uint32_t count, uint8_t* out) {
+    uint32_t from = 0, to = s->exception_count;
     while (from < to) { /* the first exception that is not before */
         const uint32_t middle = from + (to - from) / 2;
         if (s->exceptions[(size_t)2 * middle] < first) {
@@ -506,8 +917,9 @@ static uint8_t* lacedring_vertex_values_(const struct lacedring_vertices* s, con
         const uint32_t size = s->type < 2 ? 1 : s->type < 4 ? 2 : 4;
         for (i = 0; i < count * n; ++i, out += size) memcpy(out, integers + i, size); /* little-endian */
     } else if (s->mapping == LACEDRING_MAPPING_LATTICE) {
+        const float step = s->step;
         for (i = 0; i < count * n; ++i, out += 4) {
-            const float value = (float)(int32_t)integers[i] * s->step;
+            const float value = (float)(int32_t)integers[i] * step;
             memcpy(out, &value, 4);
         }
     } else if (s->mapping == LACEDRING_MAPPING_FLOATS) {
@@ -516,8 +928,13 @@ static uint8_t* lacedring_vertex_values_(const struct lacedring_vertices* s, con
             memcpy(out, &value, 4);
         }
     } else if (s->mapping == LACEDRING_MAPPING_DECIMALS) {
-        lacedring_decimals_(s, integers, (uint64_t)first * n, count * n, out);
-        out += (size_t)4 * count * n;
+        const double power = lacedring_powers_[s->digits];
+        uint8_t* begin = out;
+        for (i = 0; i < count * n; ++i, out += 4) {
+            const float value = (float)((int32_t)integers[i] / power);
+            memcpy(out, &value, 4);
+        }
+        lacedring_exceptions_(s, (uint64_t)first * n, count * n, begin);
     } else if (s->mapping == LACEDRING_MAPPING_DOUBLES) {
         for (i = 0; i < count * n; i += 2, out += 8) {
             const uint32_t high = integers[i] ^ (integers[i] & 0x80000000u ? 0x80000000u : UINT32_MAX);
@@ -537,18 +954,37 @@ static uint8_t* lacedring_vertex_values_(const struct lacedring_vertices* s, con
 
 void lacedring_vertices_decode(const struct lacedring_vertices* s, void* out) {
     const struct lacedring_data_ d = lacedring_data_of_(s);
-    uint32_t block, integers[LACEDRING_VERTICES_BLOCK * LACEDRING_VERTICES_MAX_COMPONENTS];
+    const uint32_t blocks = lacedring_vertex_blocks_(s), whole = s->vertices / LACEDRING_VERTICES_BLOCK;
+    const int lanes = lacedring_in_lanes_(s); /* values take the place of integers */
+    uint32_t block = 0, some = 0, bad, integers[LACEDRING_SOME_VALUES_];
+    uint64_t ends[8];
     uint8_t* to = (uint8_t*)out;
-    for (block = 0; block < lacedring_vertex_blocks_(s); ++block) {
-        uint64_t at = lacedring_vertex_begin_(s, block);
-        lacedring_vertex_any_block_(s, &d, block, &at, integers);
-        to = lacedring_vertex_values_(s, integers, block * LACEDRING_VERTICES_BLOCK, lacedring_vertex_count_(s, block),
-                                      to);
+    while (block < blocks) {
+        uint32_t first, count, *at = integers;
+        if (lanes && (uintptr_t)out % 4 == 0) {
+            if (some == 8 && block < whole && whole - block < 8) block = whole - 8; /* some of them again */
+            at = (uint32_t*)out + (size_t)block * LACEDRING_VERTICES_BLOCK * s->components;
+            to = (uint8_t*)at;
+        }
+        some = lacedring_vertex_some_(s, &d, block, blocks, LACEDRING_TO_VALUES_, ends, &bad, at);
+        first = block * LACEDRING_VERTICES_BLOCK;
+        count = some * LACEDRING_VERTICES_BLOCK;
+        if (count > s->vertices - first) count = s->vertices - first;
+        if (some > 1 && lanes) {
+            if (at == integers) memcpy(to, integers, (size_t)4 * count * s->components);
+            lacedring_exceptions_(s, (uint64_t)first * s->components, count * s->components, to);
+            to += (size_t)4 * count * s->components;
+        } else {
+            to = lacedring_vertex_values_(s, at, first, count, to);
+        }
+        block += some;
     }
 }
 
 #undef LACEDRING_VERTICES_GROUP_
 #undef LACEDRING_VERTICES_MOST_
+#undef LACEDRING_SOME_VALUES_
+#undef LACEDRING_LANE_COMPONENTS_
 #ifdef __cplusplus
 }
 #endif
