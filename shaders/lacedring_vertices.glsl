@@ -4,12 +4,15 @@
 //     #define LR_VERTEX_WORD(i) words[i]       // a uint of the stream
 //     #define LR_VERTEX_COMPONENTS 3u          // integers a vertex: a number, or a specialization constant
 //     #define LR_VERTEX_PUT(i) ...             // called for vertex i of the stream, whose integers are lr_vertex_value[c]
+//     #define LR_VERTEX_MAPPING 1u             // optional: the stream's mapping, a number or a specialization constant
 //     #include "lacedring_vertices.glsl"
 //
 //     lr_vertex_block(lr_vertex_layout(), block, 128u);
 //
 // A stream must be valid (lacedring::validate_vertices); on any other, every loop still ends. lr_vertex_float gives the float of an
-// integer, to the bit what the CPU's decoder gives. Without 64-bit integers and doubles.
+// integer, to the bit what the CPU's decoder gives. Without 64-bit integers and doubles. Where the mapping is known when
+// a pipeline is made, the others cost nothing: on a device that runs both sides of each branch, decimals alone take four
+// times as long as all the rest.
 #ifndef LACEDRING_VERTICES_GLSL
 #define LACEDRING_VERTICES_GLSL
 
@@ -32,13 +35,17 @@ struct LrVertexLayout {
     uint data;   // first word of it
 };
 
+#ifndef LR_VERTEX_MAPPING
+#define LR_VERTEX_MAPPING (LR_VERTEX_WORD(2u) >> 5 & 7u)
+#endif
+
 uint lr_vertex_exceptions() { return LR_VERTEX_HEADER_WORDS + 2u * LR_VERTEX_COMPONENTS; }
 
 LrVertexLayout lr_vertex_layout() {
     LrVertexLayout p;
     p.vertices = LR_VERTEX_WORD(1u);
     uint layout_word = LR_VERTEX_WORD(2u);
-    p.mapping = layout_word >> 5 & 7u;
+    p.mapping = LR_VERTEX_MAPPING;
     p.bits = layout_word >> 13 & 31u;
     p.field_bits = layout_word >> 18 & 31u;
     p.unit = LR_VERTEX_WORD(4u);
