@@ -36,7 +36,7 @@ struct LrVertexLayout {
 };
 
 #ifndef LR_VERTEX_MAPPING
-#define LR_VERTEX_MAPPING (LR_VERTEX_WORD(2u) >> 5 & 7u)
+#define LR_VERTEX_MAPPING (p.mapping)
 #endif
 
 uint lr_vertex_exceptions() { return LR_VERTEX_HEADER_WORDS + 2u * LR_VERTEX_COMPONENTS; }
@@ -45,7 +45,7 @@ LrVertexLayout lr_vertex_layout() {
     LrVertexLayout p;
     p.vertices = LR_VERTEX_WORD(1u);
     uint layout_word = LR_VERTEX_WORD(2u);
-    p.mapping = LR_VERTEX_MAPPING;
+    p.mapping = layout_word >> 5 & 7u;
     p.bits = layout_word >> 13 & 31u;
     p.field_bits = layout_word >> 18 & 31u;
     p.unit = LR_VERTEX_WORD(4u);
@@ -212,8 +212,8 @@ uint lr_vertex_decimal(uint value, uint digits) {
 // The bits of value `at` of the attribute (LR_VERTEX_COMPONENTS * vertex + component), whose integer is given: of a lattice, of
 // floats or of decimals.
 uint lr_vertex_float(LrVertexLayout p, uint at, uint value) {
-    if (p.mapping == LR_MAPPING_LATTICE) return floatBitsToUint(float(int(value)) * uintBitsToFloat(p.unit));
-    if (p.mapping == LR_MAPPING_DECIMALS) {
+    if (LR_VERTEX_MAPPING == LR_MAPPING_LATTICE) return floatBitsToUint(float(int(value)) * uintBitsToFloat(p.unit));
+    if (LR_VERTEX_MAPPING == LR_MAPPING_DECIMALS) {
         uint low = 0u, high = p.exceptions;  // the first one that is not before
         for (uint k = 0u; k < 32u; ++k) {
             if (low >= high) break;
