@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/formats.h"
@@ -135,16 +136,19 @@ void print_medians(std::span<const TotalTable> tables) {
         });
         line += fmt::format("{}{} {:.2f}", line.empty() ? "" : ", ", name, bits);
     }
-    const auto ratio = [&](auto size) {
-        return median_of(tables, [&](const TotalTable& table) -> std::optional<double> {
+    const auto compare = [&](auto size) {
+        std::size_t smaller = 0;
+        const double ratio = median_of(tables, [&](const TotalTable& table) -> std::optional<double> {
             const TotalEntry *packed = table.find("packed"), *meshopt = table.find("meshopt");
             if (packed == nullptr || meshopt == nullptr || !size(*packed) || !size(*meshopt)) return {};
+            smaller += *size(*packed) < *size(*meshopt) ? 1 : 0;
             return static_cast<double>(*size(*meshopt)) / static_cast<double>(*size(*packed));
         });
+        return fmt::format("{:.2f} (packed is smaller on {})", ratio, smaller);
     };
-    print("median of {} meshes, bits/vertex: {}; meshopt over packed {:.2f}, both after brotli {:.2f}\n", tables.size(),
-          line, ratio([](const TotalEntry& e) { return std::optional(e.bytes); }),
-          ratio([](const TotalEntry& e) { return e.brotli; }));
+    print("median of {} meshes, bits/vertex: {}; meshopt over packed {}, both after brotli {}\n", tables.size(), line,
+          compare([](const TotalEntry& e) { return std::optional(e.bytes); }),
+          compare([](const TotalEntry& e) { return e.brotli; }));
 }
 
 }  // namespace lacedring::app
