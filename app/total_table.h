@@ -1,10 +1,12 @@
 #pragma once
 // stats --table total: whole meshes, connectivity and attributes, beside others at the same quantization.
 
+#include <cstddef>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 

@@ -1,6 +1,8 @@
 #pragma once
 // A mesh as an .lr file in memory, and the options for its attributes. Shared by encode and stats --table total.
 
+#include <cstddef>
+#include <initializer_list>
 #include <string>
 #include <vector>
 

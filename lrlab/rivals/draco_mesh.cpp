@@ -12,6 +12,8 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <span>
+#include <string_view>
 
 #include "lrcore/codec/vertices/quantize.h"
 #endif

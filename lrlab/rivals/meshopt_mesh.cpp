@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <span>
+#include <utility>
 
 #include "lrcore/codec/vertices/quantize.h"
 #include "lrlab/rivals/codecs.h"
