@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/formats.h"
@@ -36,14 +35,15 @@ void add_rival(TotalTable& table, const Mesh& mesh, const char* name, const Resu
         entry.errors.emplace_back(mesh.attributes[i].name, rival->largest_errors[i]);
 }
 
-/// Median of a figure over the tables that have it; NaN where none has.
+/// Median of a figure over the tables that have it; none where none has.
 template <class Figure>
-double median_of(std::span<const TotalTable> tables, Figure figure) {
+std::optional<double> median_of(std::span<const TotalTable> tables, Figure figure) {
     std::vector<double> values;
     for (const TotalTable& table : tables) {
         if (const std::optional<double> value = figure(table)) values.push_back(*value);
     }
-    return values.empty() ? std::nan("") : median(std::move(values));
+    if (values.empty()) return {};
+    return median(std::move(values));
 }
 
 std::string text_of(std::optional<std::size_t> bytes) {
@@ -129,26 +129,26 @@ void print_total(const std::string& path, const TotalTable& table) {
 void print_medians(std::span<const TotalTable> tables) {
     std::string line;
     for (const char* name : {"raw", "packed", "packed_cache", "meshopt", "draco"}) {
-        const double bits = median_of(tables, [&](const TotalTable& table) -> std::optional<double> {
+        const std::optional<double> bits = median_of(tables, [&](const TotalTable& table) -> std::optional<double> {
             const TotalEntry* entry = table.find(name);
             if (entry == nullptr) return {};
             return bits_per(entry->bytes, table.vertices);
         });
-        line += fmt::format("{}{} {:.2f}", line.empty() ? "" : ", ", name, bits);
+        if (bits) line += fmt::format("{}{} {:.2f}", line.empty() ? "" : ", ", name, *bits);
     }
-    const auto compare = [&](auto size) {
+    const auto add_ratio = [&](const char* what, auto size) {
         std::size_t smaller = 0;
-        const double ratio = median_of(tables, [&](const TotalTable& table) -> std::optional<double> {
+        const std::optional<double> ratio = median_of(tables, [&](const TotalTable& table) -> std::optional<double> {
             const TotalEntry *packed = table.find("packed"), *meshopt = table.find("meshopt");
             if (packed == nullptr || meshopt == nullptr || !size(*packed) || !size(*meshopt)) return {};
             smaller += *size(*packed) < *size(*meshopt) ? 1 : 0;
             return static_cast<double>(*size(*meshopt)) / static_cast<double>(*size(*packed));
         });
-        return fmt::format("{:.2f} (packed is smaller on {})", ratio, smaller);
+        if (ratio) line += fmt::format("; {} {:.2f} (packed is smaller on {})", what, *ratio, smaller);
     };
-    print("median of {} meshes, bits/vertex: {}; meshopt over packed {}, both after brotli {}\n", tables.size(), line,
-          compare([](const TotalEntry& e) { return std::optional(e.bytes); }),
-          compare([](const TotalEntry& e) { return e.brotli; }));
+    add_ratio("meshopt over packed", [](const TotalEntry& entry) { return std::optional(entry.bytes); });
+    add_ratio("both after brotli", [](const TotalEntry& entry) { return entry.brotli; });
+    print("median of {} meshes, bits/vertex: {}\n", tables.size(), line);
 }
 
 }  // namespace lacedring::app
