@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -11,6 +10,7 @@
 #include "app/option_rules.h"
 #include "app/output.h"
 #include "app/print.h"
+#include "app/whole_file.h"
 #include "lacedring/lacedring.hpp"
 #include "lacedring/lr_file.hpp"
 
@@ -35,10 +35,6 @@ struct EncodeCommand {
     bool keep_order = false;
     bool orient = false;
     AttributeBits bits;
-
-    bool quantizes() const {
-        return std::max({bits.positions, bits.normals, bits.texcoords, bits.colors, bits.weights}) > 0;
-    }
 };
 
 /// "POSITION 4.8e-06": the largest error of each attribute that has one; "" if all is lossless.
@@ -74,48 +70,30 @@ int encode_file(const EncodeCommand& options, const std::string& input, const st
     if (!table) return fail(input, table.error());
     const std::uint32_t degenerate = table->topology.degenerate;
     const std::size_t triangles = mesh->triangle_count() - degenerate;
-    if (triangles == 0) {
-        return fail(input,
-                    Error{ErrorCode::malformed, fmt::format("no triangle is left: all {} are degenerate", degenerate)});
-    }
     const std::uint32_t turned = options.orient ? orient(*mesh, *table) : 0;
     EncodeOptions how = encode_options(options.ring, format_named(options.format), mesh->triangle_count());
     how.profile = options.profile == "cache" ? PackedProfile::cache : PackedProfile::small;
     how.wart_skipping = !options.no_warts;
-    Result<Encoded> encoded = encode(std::move(*table), how);
-    if (!encoded) return fail(input, encoded.error());
-    LrFile file = make_lr_file(*mesh, std::move(*encoded), options.keep_order);
-    std::vector<CompressedAttribute> attributes;
-    // LR tables are read in place by programs that want positions there, too.
-    if (file.format == Format::lean || file.format == Format::packed || options.quantizes()) {
-        AttributeBits bits = options.bits;
-        bits.threads = how.threads;
-        Result<std::vector<CompressedAttribute>> compressed = compress_attributes(file, bits);
-        if (!compressed) return fail(input, compressed.error());
-        attributes = std::move(*compressed);
-    }
-    const std::vector<std::byte> bytes = serialize_lr(file);
-    const std::span<const std::byte> parts[] = {bytes};
+    const Result<WholeFile> whole = make_file(*mesh, std::move(*table), how, options.bits, options.keep_order);
+    if (!whole) return fail(input, whole.error());
+    const std::span<const std::byte> parts[] = {whole->bytes};
     if (const Result<void> written = write_output(output, parts); !written) {
         return fail(output_name(output), written.error());
     }
     if (degenerate > 0) log.note(input_name(input), fmt::format("{} degenerate triangles dropped", degenerate));
     if (turned > 0) log.note(input_name(input), fmt::format("{} triangles turned round by --orient", turned));
-    for (const CompressedAttribute& attribute : attributes) {
-        if (attribute.exact.empty()) continue;
-        log.note(input_name(input), fmt::format("{} stays lossless: {}", printable(attribute.name), attribute.exact));
-    }
-    const std::size_t connectivity = 4 * file.words.size();
+    note_lossless(log, input, whole->attributes);
+    const std::size_t connectivity = 4 * whole->file.words.size();
     const auto bits = [](std::size_t size, std::size_t of) {
         return 8 * static_cast<double>(size) / static_cast<double>(of);
     };
-    const std::string errors = errors_of(attributes);
+    const std::string errors = errors_of(whole->attributes);
     log.flush();
     say("{}: {} triangles, {} bytes: {:.2f} bits per triangle, {:.2f} per vertex; connectivity {} bytes, {:.2f} bits "
         "per "
         "triangle; {}\n",
-        output_name(output), triangles, bytes.size(), bits(bytes.size(), triangles),
-        bits(bytes.size(), file.vertex_count), connectivity, bits(connectivity, triangles),
+        output_name(output), triangles, whole->bytes.size(), bits(whole->bytes.size(), triangles),
+        bits(whole->bytes.size(), whole->file.vertex_count), connectivity, bits(connectivity, triangles),
         errors.empty() ? "lossless" : "largest error: " + errors);
     return done;
 }
@@ -145,14 +123,7 @@ void add_encode(CLI::App& program, Action& action) {
     command->add_option("--effort", options->ring.effort, "how long to look for good rings: 0 to 9")
         ->check(CLI::Range(0, 9))
         ->capture_default_str();
-    const auto add_bits = [&](const char* name, std::uint32_t& bits, int least, int most, const char* what) {
-        command->add_option(name, bits, what)->check(CLI::Range(least, most))->type_name("BITS")->default_str("");
-    };
-    add_bits("--positions", options->bits.positions, 1, 22, "quantize positions: bits along the largest extent");
-    add_bits("--normals", options->bits.normals, 2, 16, "of normals and tangents: of each of two octahedral integers");
-    add_bits("--texcoords", options->bits.texcoords, 1, 22, "of texture coordinates");
-    add_bits("--colors", options->bits.colors, 1, 22, "of colors that are floats");
-    add_bits("--weights", options->bits.weights, 1, 22, "of weights that are floats");
+    add_attribute_bits(*command, options->bits);
     command->add_flag("--no-warts", options->no_warts, "no wart skipping (lean and lr)");
     command->add_flag("--keep-order", options->keep_order,
                       "store the vertex and triangle permutations, for decode --original-order");

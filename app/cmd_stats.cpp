@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -10,6 +11,8 @@
 #include "app/lr_contents.h"
 #include "app/option_rules.h"
 #include "app/paper_tables.h"
+#include "app/total_table.h"
+#include "app/whole_file.h"
 #include "lrcore/codec/packed/packed_format.h"
 #include "lrlab/rivals/strips.h"
 
@@ -23,6 +26,8 @@ struct StatsOptions {
     InputOptions input;
     RingChoice ring;
     bool paper = false;
+    AttributeBits bits;
+    std::vector<std::string> attributes;  ///< the only ones that --table total counts; empty: all
     std::string table = "sizes";
     bool json = false;
 };
@@ -144,6 +149,29 @@ int add_sizes(const StatsOptions& options, const std::string& path, const Loaded
     return done;
 }
 
+/// Whole meshes, as text or into the mesh's JSON. Returns an Exit.
+int add_total(const StatsOptions& options, const std::string& path, Mesh mesh, Json* json,
+              std::vector<TotalTable>& tables, RunLog& log) {
+    const std::vector<std::string>& wanted = options.attributes;
+    std::erase_if(mesh.attributes, [&](const Attribute& attribute) {
+        return !wanted.empty() && std::find(wanted.begin(), wanted.end(), attribute.name) == wanted.end();
+    });
+    Result<TotalTable> table = make_total(path, mesh, options.ring, options.bits, log);
+    if (!table) return fail(path, table.error());
+    if (!table->invalid.empty()) {
+        say("lacedring: {}: {}\n", path, table->invalid);
+        return check_failed;
+    }
+    if (json != nullptr) {
+        (*json)["total"] = to_json(*table);
+        for (const auto& [name, reason] : table->absent) (*json)["absent"][name] = reason;
+    } else {
+        print_total(path, *table);
+    }
+    tables.push_back(std::move(*table));
+    return done;
+}
+
 /// What more rings show, as text or into the mesh's JSON. Returns an Exit.
 int add_ring_figures(const StatsOptions& options, const std::string& path, const Mesh& mesh, Json* json,
                      std::vector<SeedRow>& rows) {
@@ -171,29 +199,40 @@ int run_stats(const StatsOptions& options, RunLog& log) {
     Json meshes = Json::array();
     std::vector<MeshRow> mesh_rows;
     std::vector<SeedRow> seed_rows;
-    const bool rings = makes_rings(options);
+    std::vector<TotalTable> totals;
+    const bool rings = makes_rings(options), total = options.table == "total";
     const int exit = for_each_input(options.paths, log, [&](std::size_t i) {
         const std::string& path = options.paths[i];
-        const Result<LoadedMesh> loaded = load_file({path, options.input}, log);
+        Result<LoadedMesh> loaded = load_file({path, options.input}, log);
         if (!loaded) return fail(path, loaded.error());
-        const Mesh& mesh = loaded->mesh;
+        Mesh& mesh = loaded->mesh;
         Json json;
-        if (options.json || !rings) {
+        if (options.json || !(rings || total)) {
             if (const int code = add_sizes(options, path, *loaded, json, mesh_rows); code != done) return code;
         }
         if (rings) {
             const int code = add_ring_figures(options, path, mesh, options.json ? &json : nullptr, seed_rows);
             if (code != done) return code;
         }
+        if (total) {
+            const int code = add_total(options, path, std::move(mesh), options.json ? &json : nullptr, totals, log);
+            if (code != done) return code;
+        }
         if (options.json) meshes.push_back(std::move(json));
         return int{done};
     });
     if (options.json) {
-        if (exit == done || !meshes.empty()) print_json(Json{{"schema", 1}, {"meshes", std::move(meshes)}});
+        Json document{{"schema", 1}};
+        if (total) document["versions"] = total_versions();
+        const bool some = !meshes.empty();
+        document["meshes"] = std::move(meshes);
+        if (exit == done || some) print_json(document);
     } else if (!mesh_rows.empty()) {
         print(size_table(options.table), mesh_rows);
     } else if (!seed_rows.empty()) {
         print(seed_rows);
+    } else if (totals.size() > 1) {
+        print_medians(totals);
     }
     return exit;
 }
@@ -209,14 +248,28 @@ void add_stats(CLI::App& program, Action& action) {
     command->add_flag(
         "--paper", options->paper,
         "the paper's procedures alone: no optimiser, ring-expander, and for lr_compact the hybrid with the best k");
-    command->add_option("--table", options->table, "what is printed; the others than sizes as Markdown")
-        ->check(CLI::IsMember({"sizes", "packed", "table1", "lean", "storage", "offsets", "periods", "seeds"}))
+    add_attribute_bits(*command, options->bits);
+    command->add_option("--attributes", options->attributes, "count these alone: POSITION,NORMAL,...")
+        ->expected(1)
+        ->delimiter(',')
+        ->type_name("A,B,...");
+    command->add_option("--table", options->table, "what is printed; the others than sizes and total as Markdown")
+        ->check(CLI::IsMember({"sizes", "total", "packed", "table1", "lean", "storage", "offsets", "periods", "seeds"}))
         ->capture_default_str();
     command->add_flag("--json", options->json, "one JSON document on standard output");
     auto rules = std::make_shared<OptionRules>(*command);
     rules->never_with({"--optimize"}, "--paper");
     const auto makes_sizes = [options] { return options->json || !makes_rings(*options); };
-    rules->only_with({"--paper", "--ring", "--k", "--optimize"}, "--json, or a table of sizes", makes_sizes);
+    const auto total = [options] { return options->table == "total"; };
+    rules->only_with({"--ring", "--k", "--optimize"}, "--json, or a table of sizes", makes_sizes);
+    rules->only_with({"--paper"}, "--json, or a table of sizes, total excepted",
+                     [options, makes_sizes, total] { return options->json || (makes_sizes() && !total()); });
+    rules->only_with(kAttributeBits, "--table total", total);
+    rules->only_with({"--attributes"}, "--table total", total);
+    rules->forbid("--attributes must name POSITION", [options] {
+        const std::vector<std::string>& named = options->attributes;
+        return !named.empty() && std::find(named.begin(), named.end(), "POSITION") == named.end();
+    });
     rules->only_with({"--seeds"}, "--json, or another --table than seeds",
                      [options, makes_sizes] { return makes_sizes() || options->table != "seeds"; });
     command->callback([options, rules, &action] {

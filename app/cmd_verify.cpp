@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
 #include "app/formats.h"
+#include "lrlab/rivals/whole_mesh.h"
 
 namespace lacedring::app {
 namespace {
@@ -19,26 +18,6 @@ struct VerifyOptions {
     RingChoice ring;
     bool json = false;
 };
-
-using Triangle = std::array<std::uint32_t, 3>;
-
-/// The triangles, each rotated so that its smallest vertex leads, sorted; those with a repeated vertex left out.
-std::vector<Triangle> oriented_triangles(const std::vector<std::uint32_t>& indices,
-                                         const std::vector<std::uint32_t>& order) {
-    std::vector<Triangle> out;
-    out.reserve(indices.size() / 3);
-    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-        Triangle t{indices[i], indices[i + 1], indices[i + 2]};
-        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
-        if (!order.empty()) {
-            for (std::uint32_t& v : t) v = order[v];
-        }
-        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-        out.push_back(t);
-    }
-    std::sort(out.begin(), out.end());
-    return out;
-}
 
 /// Empty, or what of the mesh's vertices `order` loses. Copies of non-manifold vertices may come on top.
 std::string check_order(const MeasuredFormat& format, std::uint32_t vertices) {
@@ -58,14 +37,14 @@ int run_verify(const VerifyOptions& options, RunLog& log) {
     if (!mesh) return fail(options.input.path, mesh.error());
     const Result<FormatSet> set = make_formats(*mesh, options.ring);
     if (!set) return fail(options.input.path, set.error());
-    const std::vector<Triangle> expected = oriented_triangles(mesh->indices, {});
+    const auto expected = oriented_triangles(mesh->indices, {});
     nlohmann::ordered_json formats = nlohmann::ordered_json::object();
     bool all = true;
     for (const MeasuredFormat& format : set->formats) {
         std::string why = format.invalid;
         if (why.empty() && !format.order.empty()) why = check_order(format, mesh->vertex_count);
         if (why.empty()) {
-            const std::vector<Triangle> got = oriented_triangles(format.indices, format.order);
+            const auto got = oriented_triangles(format.indices, format.order);
             if (got.size() != expected.size()) {
                 why = fmt::format("{} triangles instead of {}", got.size(), expected.size());
             } else if (got != expected) {

@@ -6,6 +6,7 @@
 
 #include "lacedring/topology.hpp"
 #include "lrlab/rivals/codecs.h"
+#include "lrlab/rivals/compressors.h"
 #include "lrlab/rivals/corner_table_c.h"
 #include "lrlab/rivals/squad.h"
 #include "lrlab/rivals/strips.h"

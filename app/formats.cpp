@@ -8,20 +8,10 @@
 #include "lacedring/lacedring.hpp"
 #include "lacedring/streams.hpp"
 #include "lrlab/paper/offsets.h"
-#include "lrlab/rivals/codecs.h"
+#include "lrlab/rivals/compressors.h"
 
 namespace lacedring::app {
 namespace {
-
-std::vector<std::uint32_t> without_degenerate(const std::vector<std::uint32_t>& indices) {
-    std::vector<std::uint32_t> out;
-    out.reserve(indices.size());
-    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-        const std::uint32_t a = indices[i], b = indices[i + 1], c = indices[i + 2];
-        if (a != b && b != c && c != a) out.insert(out.end(), {a, b, c});
-    }
-    return out;
-}
 
 void set_ring(MeasuredFormat& format, std::uint32_t k, std::uint32_t passes) {
     format.ring = passes != 0 ? "optimized" : k != 0 ? "hybrid" : "expander";
@@ -98,6 +88,16 @@ MeasuredFormat packed_format(const char* name, Encoded stream) {
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> without_degenerate(const std::vector<std::uint32_t>& indices) {
+    std::vector<std::uint32_t> out;
+    out.reserve(indices.size());
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+        const std::uint32_t a = indices[i], b = indices[i + 1], c = indices[i + 2];
+        if (a != b && b != c && c != a) out.insert(out.end(), {a, b, c});
+    }
+    return out;
+}
 
 Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool paper, const FormatProgress& progress) {
     const auto stop = [&](double share, const char* what) { return progress && !progress(share, what); };

@@ -52,6 +52,9 @@ struct FormatSet {
     double triangles() const { return std::max(1.0, static_cast<double>(report.triangles)); }
 };
 
+/// The index list without degenerate triangles.
+std::vector<std::uint32_t> without_degenerate(const std::vector<std::uint32_t>& indices);
+
 /// Told what is made next, and which share of the work is done. false: stop, what there is so far is the result.
 using FormatProgress = std::function<bool(double share, const std::string& what)>;
 

@@ -20,6 +20,20 @@ std::uint32_t bits_for(std::string_view name, const AttributeBits& bits) {
 
 }  // namespace
 
+VertexOptions vertex_options(const Attribute& attribute, const AttributeBits& bits) {
+    VertexOptions options;
+    options.threads = bits.threads;
+    const std::uint32_t wanted = bits_for(attribute.name, bits);
+    const float step = attribute.name == "POSITION" ? bits.position_step : 0;
+    const bool floats = attribute.type == ComponentType::f32 || attribute.type == ComponentType::f64;
+    if (!floats || (wanted == 0 && !(step > 0))) return options;
+    const bool direction = attribute.name == "NORMAL" || attribute.name == "TANGENT";
+    options.mapping = direction ? VertexMapping::octahedral : VertexMapping::lattice;
+    options.bits = wanted;
+    options.step = step;
+    return options;
+}
+
 Result<std::vector<CompressedAttribute>> compress_attributes(LrFile& file, const AttributeBits& bits) {
     const std::uint32_t lattices[] = {bits.positions, bits.texcoords, bits.colors, bits.weights};
     if (*std::max_element(std::begin(lattices), std::end(lattices)) > 22 || bits.normals == 1 || bits.normals > 16) {
@@ -30,21 +44,14 @@ Result<std::vector<CompressedAttribute>> compress_attributes(LrFile& file, const
         if (!attribute.words.empty()) continue;
         CompressedAttribute report{attribute.name, attribute.data.size(), attribute.data.size(), 0, {}};
         const VertexValues values{attribute.type, attribute.components, attribute.normalized, attribute.data};
-        VertexOptions options;
-        options.threads = bits.threads;
-        const bool direction = attribute.name == "NORMAL" || attribute.name == "TANGENT";
-        const float step = attribute.name == "POSITION" ? bits.position_step : 0;
-        const std::uint32_t wanted = bits_for(attribute.name, bits);
-        const bool floats = attribute.type == ComponentType::f32 || attribute.type == ComponentType::f64;
-        Result<EncodedVertices> encoded = Error{ErrorCode::invalid_argument, "its values are integers"};
-        if ((wanted > 0 || step > 0) && floats) {
-            options.mapping = direction ? VertexMapping::octahedral : VertexMapping::lattice;
-            options.bits = wanted;
-            options.step = step;
-            encoded = encode_vertices(values, options);
-        }
-        if (!encoded && encoded.error().code == ErrorCode::invalid_argument) {
-            if (wanted > 0 || step > 0) report.exact = encoded.error().message;
+        VertexOptions options = vertex_options(attribute, bits);
+        const bool wanted =
+            bits_for(attribute.name, bits) > 0 || (attribute.name == "POSITION" && bits.position_step > 0);
+        const bool exact = options.mapping == VertexMapping::floats;
+        if (wanted && exact) report.exact = "its values are integers";
+        Result<EncodedVertices> encoded = encode_vertices(values, options);
+        if (!exact && !encoded && encoded.error().code == ErrorCode::invalid_argument) {
+            report.exact = encoded.error().message;
             options.mapping = VertexMapping::floats;
             encoded = encode_vertices(values, options);
         }
@@ -55,7 +62,7 @@ Result<std::vector<CompressedAttribute>> compress_attributes(LrFile& file, const
             attribute.data = {};
             if (const Result<VertexView> view = view_vertices(attribute.words)) {
                 attribute.type = view->type;
-                if (wanted > 0 && view->mapping == VertexMapping::decimals) report.exact = "that is smaller";
+                if (wanted && view->mapping == VertexMapping::decimals) report.exact = "that is smaller";
             }
         } else if (encoded.error().code != ErrorCode::invalid_argument) {
             return encoded.error();

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <meshoptimizer.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +13,9 @@ namespace lacedring {
 namespace {
 
 CodedIndices encode(std::vector<std::uint32_t> ordered, std::uint32_t vertex_count) {
+    // gltfpack's; the library's default is 0 for readers older than 2020.
+    static const bool newest = (meshopt_encodeIndexVersion(1), true);
+    (void)newest;
     CodedIndices out;
     std::vector<std::uint32_t> number(vertex_count);
     const std::size_t used =
@@ -57,15 +59,27 @@ bool decode_meshopt_indices(std::span<const std::uint8_t> bytes, std::span<std::
     return meshopt_decodeIndexBuffer(indices.data(), indices.size(), bytes.data(), bytes.size()) == 0;
 }
 
-Result<CodedIndices> encode_meshopt_indices(std::span<const std::uint32_t> indices, std::uint32_t vertex_count) {
-    if (indices.empty()) return encode({}, vertex_count);
+Result<std::array<CodedIndices, 2>> encode_meshopt_orders(std::span<const std::uint32_t> indices,
+                                                          std::uint32_t vertex_count) {
+    std::array<CodedIndices, 2> out;
+    if (indices.empty()) {
+        for (CodedIndices& coded : out) coded = encode({}, vertex_count);
+        return out;
+    }
     Result<std::vector<std::uint32_t>> best = best_cache_order(indices, vertex_count);
     if (!best) return best.error();
-    CodedIndices cache = encode(std::move(*best), vertex_count);
+    out[0] = encode(std::move(*best), vertex_count);
     std::vector<std::uint32_t> ordered(indices.size());
     meshopt_optimizeVertexCacheStrip(ordered.data(), indices.data(), indices.size(), vertex_count);
-    CodedIndices strip = encode(std::move(ordered), vertex_count);
-    return strip.bytes.size() < cache.bytes.size() ? strip : cache;
+    out[1] = encode(std::move(ordered), vertex_count);
+    return out;
+}
+
+Result<CodedIndices> encode_meshopt_indices(std::span<const std::uint32_t> indices, std::uint32_t vertex_count) {
+    Result<std::array<CodedIndices, 2>> orders = encode_meshopt_orders(indices, vertex_count);
+    if (!orders) return orders.error();
+    auto& [cache, strip] = *orders;
+    return std::move(strip.bytes.size() < cache.bytes.size() ? strip : cache);
 }
 
 Result<Meshlets> make_meshlets(std::span<const std::uint32_t> indices, std::span<const float> positions) {
@@ -101,14 +115,6 @@ Result<Meshlets> make_meshlets(std::span<const std::uint32_t> indices, std::span
                                                          out.indices.size() / 3, indices.size() / 3)};
     }
     return out;
-}
-
-std::size_t deflated_size(std::span<const std::byte> bytes) {
-    uLongf size = compressBound(static_cast<uLong>(bytes.size()));
-    std::vector<Bytef> out(size);
-    const int done = compress2(out.data(), &size, reinterpret_cast<const Bytef*>(bytes.data()),
-                               static_cast<uLong>(bytes.size()), Z_BEST_COMPRESSION);
-    return done == Z_OK ? size : bytes.size();
 }
 
 }  // namespace lacedring

@@ -1,6 +1,7 @@
 #pragma once
-// meshoptimizer's compressed index formats, and deflate.
+// meshoptimizer's compressed index formats.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -17,9 +18,13 @@ struct CodedIndices {
     std::vector<std::uint32_t> order;
 };
 
-/// meshopt_encodeIndexBuffer, in the better of meshopt_optimizeVertexCache's order and that for strips, vertices in the
-/// order in which they are used. Decoding starts at the first triangle. `indices` has no degenerate triangles.
+/// meshopt_encodeIndexBuffer, version 1, of meshopt_optimizeVertexCache's order, then of that for strips, vertices in
+/// the order in which they are used. Decoding starts at the first triangle. `indices` has no degenerate triangles.
 /// Errors: those of check_valences.
+Result<std::array<CodedIndices, 2>> encode_meshopt_orders(std::span<const std::uint32_t> indices,
+                                                          std::uint32_t vertex_count);
+
+/// The smaller of the two. Errors: those of check_valences.
 Result<CodedIndices> encode_meshopt_indices(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);
 
 /// meshopt_decodeIndexBuffer. False if `bytes` are no such stream of so many indices.
@@ -37,8 +42,5 @@ struct Meshlets {
     std::vector<std::uint32_t> indices;  ///< as they come out, in the mesh's numbers
 };
 Result<Meshlets> make_meshlets(std::span<const std::uint32_t> indices, std::span<const float> positions);
-
-/// Bytes that zlib's deflate makes of `bytes`, at its best.
-std::size_t deflated_size(std::span<const std::byte> bytes);
 
 }  // namespace lacedring

@@ -49,6 +49,10 @@ struct AttributeBits {
     unsigned threads = 1;
 };
 
+/// How compress_attributes codes an attribute first: a lattice or octahedral where bits are given and the values are
+/// floats, else lossless. What cannot be coded so is lossless as well.
+VertexOptions vertex_options(const Attribute& attribute, const AttributeBits& bits);
+
 /// The result of compressing an attribute.
 struct CompressedAttribute {
     std::string name;
