@@ -44,8 +44,7 @@ Result<GpuFigures> measure_gpu(const Mesh& mesh, const gpu::ContextOptions& opti
         figures.cost.push_back({way.connectivity_bytes, way.bytes_read, way.vertex_invocations});
         if (way.decode.empty()) continue;
         figures.decode.push_back(candidate(way.name, way.decode));
-        const std::uint64_t stream =
-            4 * (way.source == gpu::Source::lean ? model->lean.words : model->packed.words).size();
+        const std::uint64_t stream = gpu::connectivity_bytes(*model, way.source);
         figures.draw.push_back(candidate(way.name + "_decode_every_frame", way.decode_and_draw));
         figures.cost.push_back({way.connectivity_bytes + stream, way.bytes_read + stream, way.vertex_invocations});
     }

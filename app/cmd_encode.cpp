@@ -145,14 +145,12 @@ void add_encode(CLI::App& program, Action& action) {
     command->add_option("--effort", options->ring.effort, "how long to look for good rings: 0 to 9")
         ->check(CLI::Range(0, 9))
         ->capture_default_str();
-    const auto add_bits = [&](const char* name, std::uint32_t& bits, int least, int most, const char* what) {
-        command->add_option(name, bits, what)->check(CLI::Range(least, most))->type_name("BITS")->default_str("");
-    };
-    add_bits("--positions", options->bits.positions, 1, 22, "quantize positions: bits along the largest extent");
-    add_bits("--normals", options->bits.normals, 2, 16, "of normals and tangents: of each of two octahedral integers");
-    add_bits("--texcoords", options->bits.texcoords, 1, 22, "of texture coordinates");
-    add_bits("--colors", options->bits.colors, 1, 22, "of colors that are floats");
-    add_bits("--weights", options->bits.weights, 1, 22, "of weights that are floats");
+    add_position_bits(*command, options->bits.positions);
+    add_bits(*command, "--normals", options->bits.normals, 2, 16,
+             "of normals and tangents: of each of two octahedral integers");
+    add_bits(*command, "--texcoords", options->bits.texcoords, 1, 22, "of texture coordinates");
+    add_bits(*command, "--colors", options->bits.colors, 1, 22, "of colors that are floats");
+    add_bits(*command, "--weights", options->bits.weights, 1, 22, "of weights that are floats");
     command->add_flag("--no-warts", options->no_warts, "no wart skipping (lean and lr)");
     command->add_flag("--keep-order", options->keep_order,
                       "store the vertex and triangle permutations, for decode --original-order");
