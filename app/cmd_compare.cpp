@@ -140,6 +140,7 @@ int run_compare(const CompareOptions& options, RunLog& log) {
     if (options.compares("packed_vertices")) model_options.vertices = position_options(options.positions);
     const Result<gpu::Model> model = gpu::make_model(*mesh, model_options);
     if (!model) return fail(options.input.path, model.error());
+    if (!model->exact.empty()) log.note(input_name(options.input.path), "POSITION stays lossless: " + model->exact);
     const Result<std::unique_ptr<gpu::Context>> context = gpu::Context::create(options.context);
     if (!context) return fail(options.input.path, context.error());
     std::vector<Compared> all;

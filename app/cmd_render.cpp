@@ -61,6 +61,7 @@ int render(const RenderOptions& options, const std::string& input, const std::fi
     if (source == gpu::Source::packed_vertices) model_options.vertices = position_options(options.positions);
     const Result<gpu::Model> model = gpu::make_model(*mesh, model_options);
     if (!model) return fail(input, model.error());
+    if (!model->exact.empty()) log.note(input_name(input), "POSITION stays lossless: " + model->exact);
     if (!context) {
         Result<ContextPointer> made = gpu::Context::create(options.context);
         if (!made) return fail(input, made.error());

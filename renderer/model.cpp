@@ -80,8 +80,13 @@ Result<void> encode_positions(Model& model, const Mesh& mesh, const VertexOption
     ordered.reserve(positions.size());
     for (const std::uint32_t v : order)
         ordered.insert(ordered.end(), &positions[3 * std::size_t{v}], &positions[3 * std::size_t{v}] + 3);
-    LR_ASSIGN(model.vertices,
-              encode_vertices({ComponentType::f32, 3, false, std::as_bytes(std::span(ordered))}, options));
+    const VertexValues values{ComponentType::f32, 3, false, std::as_bytes(std::span(ordered))};
+    Result<EncodedVertices> encoded = encode_vertices(values, options);
+    if (!encoded && encoded.error().code == ErrorCode::invalid_argument) {
+        model.exact = encoded.error().message;
+        encoded = encode_vertices(values, {.threads = options.threads});
+    }
+    LR_ASSIGN(model.vertices, std::move(encoded));
     if (model.vertices.largest_error == 0) return {};
     LR_ASSIGN(const VertexView view, view_vertices(model.vertices.words));
     decode_vertices(view, std::as_writable_bytes(std::span(ordered)));
@@ -99,6 +104,7 @@ Result<void> encode_positions(Model& model, const Mesh& mesh, const VertexOption
     surface.lean = std::move(model.lean);
     surface.packed = std::move(model.packed);
     surface.vertices = std::move(model.vertices);
+    surface.exact = std::move(model.exact);
     model = std::move(surface);
     return {};
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "lacedring/base.hpp"
@@ -25,6 +26,7 @@ struct Model {
     EncodedLean lean;
     EncodedPacked packed;                   ///< empty unless asked for
     EncodedVertices vertices;               ///< likewise: the mesh's positions, in the packed stream's vertex order
+    std::string exact;                      ///< why they are lossless although a lattice was asked for, or empty
     std::array<double, 3> centre{};         ///< of the unit sphere, in the mesh's coordinates: floats
     double radius = 1;                      ///< likewise
     std::array<float, 4> unit{0, 0, 0, 1};  ///< centre and 1 / radius: DrawConstants::unit
@@ -38,8 +40,8 @@ struct ModelOptions {
     RingOptions ring{};
     LeanOptions lean{};
     bool packed = false;  ///< the packed stream too
-    /// And a vertex stream of the positions: lossless, or on a lattice. The model's positions, and normals where the
-    /// mesh has none, are then of what it decodes to. With `packed` only.
+    /// And a vertex stream of the positions: lossless, or on a lattice where that can be. The model's positions, and
+    /// normals where the mesh has none, are then of what it decodes to. With `packed` only.
     std::optional<VertexOptions> vertices = {};
     OptimizeOptions optimize = {.passes = 0};  ///< of the rings; the cost is each stream's own
 };
@@ -49,7 +51,7 @@ struct ModelOptions {
 Result<Model> make_surface(const Mesh& mesh);
 
 /// Normalises, and encodes the streams (corner table, ring, streams). Cost: O(V + T).
-/// Errors: unsupported (no triangles, extent zero or past f32), build_corner_table's and encode_vertices'.
+/// Errors: unsupported (no triangles, extent zero or past f32), build_corner_table's too_large.
 Result<Model> make_model(const Mesh& mesh, const ModelOptions& options = {});
 
 }  // namespace lacedring::gpu

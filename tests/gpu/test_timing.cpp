@@ -44,3 +44,23 @@ TEST_CASE_FIXTURE(GpuTest, "device times are measured, once a repetition") {
     CHECK(times->index_bytes >= 12 * mesh.triangle_count());
     CHECK(times->device_bytes > times->index_bytes);
 }
+
+TEST_CASE_FIXTURE(GpuTest, "decoding of vertices is measured, alone and with the triangles") {
+    const Mesh mesh = generated("blob", 1000);
+    const auto model = gpu::make_model(mesh, {.packed = true, .vertices = VertexOptions{}});
+    REQUIRE(model);
+    gpu::TimingOptions options;
+    options.repeats = 2;
+    options.width = options.height = 32;
+    const auto times = gpu::measure_device(*context, *model, options);
+    REQUIRE_MESSAGE(times, times.error().message);
+    CHECK(times->vertices.size() == 2);
+    std::size_t ways = 0;
+    for (const gpu::Way& way : times->ways) {
+        if (way.source != gpu::Source::packed_vertices) continue;
+        ++ways;
+        CHECK(way.draw.size() == 2);
+        CHECK(way.decode.size() == (way.path == gpu::Path::compute ? 2 : 0));
+    }
+    CHECK(ways == (context->info().max_mesh_groups != 0 ? 4 : 3));
+}
