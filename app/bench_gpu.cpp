@@ -18,10 +18,12 @@ Candidate candidate(std::string name, const gpu::Times& times) {
 
 }  // namespace
 
-Result<GpuFigures> measure_gpu(const Mesh& mesh, const gpu::ContextOptions& options, int rounds) {
+Result<GpuFigures> measure_gpu(const Mesh& mesh, const VertexOptions& vertices, const gpu::ContextOptions& options,
+                               int rounds) {
     OptimizeOptions optimize;
     optimize.progress = progress_bar("optimising the ring", optimize.passes);
-    const Result<gpu::Model> model = gpu::make_model(mesh, {.packed = true, .optimize = std::move(optimize)});
+    const Result<gpu::Model> model =
+        gpu::make_model(mesh, {.packed = true, .vertices = vertices, .optimize = std::move(optimize)});
     if (!model) return model.error();
     const Result<std::unique_ptr<gpu::Context>> context = gpu::Context::create(options);
     if (!context) return context.error();
@@ -44,11 +46,12 @@ Result<GpuFigures> measure_gpu(const Mesh& mesh, const gpu::ContextOptions& opti
         figures.cost.push_back({way.connectivity_bytes, way.bytes_read, way.vertex_invocations});
         if (way.decode.empty()) continue;
         figures.decode.push_back(candidate(way.name, way.decode));
-        const std::uint64_t stream =
-            4 * (way.source == gpu::Source::lean ? model->lean.words : model->packed.words).size();
+        const std::uint64_t stream = gpu::connectivity_bytes(*model, way.source);
         figures.draw.push_back(candidate(way.name + "_decode_every_frame", way.decode_and_draw));
         figures.cost.push_back({way.connectivity_bytes + stream, way.bytes_read + stream, way.vertex_invocations});
     }
+    figures.decode.push_back(candidate("vertices", times->vertices));
+    figures.decode.back().vertices = true;
     figures.decode.push_back(candidate("copy", times->copy));
     figures.device_bytes = times->device_bytes;
     figures.absent = times->absent;

@@ -7,6 +7,7 @@
 #include "app/measure.h"
 #include "lacedring/base.hpp"
 #include "lacedring/mesh.hpp"
+#include "lacedring/vertices.hpp"
 #include "renderer/context.h"
 
 namespace lacedring::app {
@@ -20,7 +21,7 @@ struct DrawCost {
 
 struct GpuFigures {
     std::string device;
-    std::vector<Candidate> decode;  ///< "lean", "packed", "copy": wall and GPU seconds
+    std::vector<Candidate> decode;  ///< the streams' names, "vertices", "copy": wall and GPU seconds
     std::vector<Candidate> draw;    ///< gpu::Way's names, and "lean_decode_every_frame", "packed_decode_every_frame"
     std::vector<DrawCost> cost;     ///< of each of `draw`
     std::uint64_t device_bytes = 0;
@@ -29,6 +30,7 @@ struct GpuFigures {
 };
 
 /// With the streams that the program recommends, optimised. Errors: kNoDevice, and those of the renderer.
-Result<GpuFigures> measure_gpu(const Mesh& mesh, const gpu::ContextOptions& options, int rounds);
+Result<GpuFigures> measure_gpu(const Mesh& mesh, const VertexOptions& vertices, const gpu::ContextOptions& options,
+                               int rounds);
 
 }  // namespace lacedring::app

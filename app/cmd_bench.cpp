@@ -11,6 +11,7 @@
 
 #include "app/bench_operators.h"
 #include "app/bench_resident.h"
+#include "app/bench_vertices.h"
 #include "app/commands.h"
 #include "app/measure.h"
 #include "app/option_rules.h"
@@ -39,6 +40,7 @@ struct BenchOptions {
     InputOptions input;
     int rounds = 5;
     std::uint32_t seeds = 1;
+    std::uint32_t positions = kBenchPositions;  ///< bits
     bool no_gpu = false;
     bool operators = false;
     bool resident = false;
@@ -60,6 +62,11 @@ struct Section {
         const auto found = std::ranges::find(candidates, candidate, &Candidate::name);
         return found == candidates.end() ? 0 : found->median();
     }
+    /// {"a_over_b": seconds of a over seconds of b}; null where either is missing.
+    Json ratio(const std::string& a, const std::string& b) const {
+        const double over = median(a), under = median(b);
+        return {{a + "_over_" + b, over > 0 && under > 0 ? Json(over / under) : Json(nullptr)}};
+    }
 };
 
 void measure(Section& section, int rounds) {
@@ -67,13 +74,19 @@ void measure(Section& section, int rounds) {
     run_interleaved(section.candidates, rounds, [&] { bar.step(); });
 }
 
-Json to_json(const Section& section, double triangles) {
+/// Of a mesh, to tell rates by.
+struct Counts {
+    double triangles = 0, vertices = 0;
+};
+
+Json to_json(const Section& section, const Counts& counts) {
     Json out = Json::object();
     for (const Candidate& c : section.candidates) {
         out[c.name] = {{"seconds", c.median()},
-                       {"mtri_per_s", triangles / c.median() / 1e6},
+                       {"mtri_per_s", counts.triangles / c.median() / 1e6},
                        {"seconds_min", *std::min_element(c.seconds.begin(), c.seconds.end())},
                        {"seconds_max", *std::max_element(c.seconds.begin(), c.seconds.end())}};
+        if (c.vertices) out[c.name]["mvert_per_s"] = counts.vertices / c.median() / 1e6;
         if (!c.gpu_seconds.empty()) out[c.name]["gpu_seconds"] = median(c.gpu_seconds);
     }
     return out;
@@ -90,7 +103,7 @@ void add_costs(Json& draw, const GpuFigures& figures) {
 }
 
 void print_draw(const GpuFigures& figures, double triangles) {
-    print("  draw (wall){:>27}{:>22}{:>10}{:>9}{:>10}{:>10}{:>9}\n", "ms", "min to max", "GPU ms", "plain", "resident",
+    print("  draw (wall){:>39}{:>22}{:>10}{:>9}{:>10}{:>10}{:>9}\n", "ms", "min to max", "GPU ms", "plain", "resident",
           "read", "VS runs");
     const double plain = figures.draw[0].median();
     for (std::size_t i = 0; i < figures.draw.size(); ++i) {
@@ -98,7 +111,7 @@ void print_draw(const GpuFigures& figures, double triangles) {
         const DrawCost& cost = figures.cost[i];
         const auto [low, high] = std::minmax_element(c.seconds.begin(), c.seconds.end());
         const auto a_triangle = [&](std::uint64_t n) { return static_cast<double>(n) / triangles; };
-        print("    {:<25}{:>9.2f}{:>22}{:>10}{:>8.2f}x{:>10.3f}{:>10.2f}{:>9}\n", c.name, c.median() * 1e3,
+        print("    {:<37}{:>9.2f}{:>22}{:>10}{:>8.2f}x{:>10.3f}{:>10.2f}{:>9}\n", c.name, c.median() * 1e3,
               fmt::format("{:.2f} to {:.2f}", *low * 1e3, *high * 1e3),
               c.gpu_seconds.empty() ? "-" : fmt::format("{:.2f}", median(c.gpu_seconds) * 1e3), c.median() / plain,
               a_triangle(cost.connectivity_bytes), a_triangle(cost.bytes_read),
@@ -123,6 +136,7 @@ int bench(const BenchOptions& options, const std::string& path, Json& meshes, [[
     const Result<CornerTable> table = build();
     if (!table) return fail(path, table.error());
     const auto triangles = static_cast<double>(mesh->triangle_count());
+    const Counts counts{triangles, static_cast<double>(mesh->vertex_count)};
     const RingOptions ring_choice{options.seeds, 1};
     const Rings rings = expand_rings(*table, ring_choice);
     const Result<EncodedLean> lean = encode_lean(*table, rings);
@@ -199,6 +213,13 @@ int bench(const BenchOptions& options, const std::string& path, Json& meshes, [[
     } else {
         absent["meshopt_index_codec"] = codec.error().message;
     }
+    const VertexOptions positions = position_options(options.positions);
+    Result<VertexBench> vertices =
+        vertex_candidates(*mesh, positions, small->vertex_order,
+                          codec ? std::span<const std::uint32_t>(codec->order) : std::span<const std::uint32_t>());
+    if (!vertices) return failed(path, vertices.error());
+    for (const auto& [name, reason] : vertices->absent) absent[name] = reason;
+    std::ranges::move(vertices->candidates, std::back_inserter(decode.candidates));
     measure(decode, options.rounds * 3);
 
     std::vector<OperatorFigures> operators;
@@ -231,11 +252,11 @@ int bench(const BenchOptions& options, const std::string& path, Json& meshes, [[
     Result<GpuFigures> gpu = Error{gpu::kNoDevice, ""};
     if (options.no_gpu) {
         gpu_skipped = "--no-gpu";
-    } else if (gpu = measure_gpu(*mesh, options.context, options.rounds); gpu) {
+    } else if (gpu = measure_gpu(*mesh, positions, options.context, options.rounds); gpu) {
         gpu_skipped.clear();
         device = gpu->device;
         decode_gpu.candidates = gpu->decode;
-        draw = to_json({"", gpu->draw}, triangles);
+        draw = to_json({"", gpu->draw}, counts);
         add_costs(draw, *gpu);
         peak["gpu"] = gpu->device_bytes;
         for (const auto& [name, reason] : gpu->absent) absent[name] = reason;
@@ -256,14 +277,19 @@ int bench(const BenchOptions& options, const std::string& path, Json& meshes, [[
         add_peak("packed", whole_packed);
         if (orders) add_peak("strips", strips);
     }
-    const double ratio = construct.median("strips") / construct.median("lean");
+    const Json construct_ratio = construct.ratio("strips", "lean"),
+               decode_cpu_ratio = decode.ratio("meshopt_vertex_codec", "vertices"),
+               decode_gpu_ratio = decode_gpu.ratio("packed_vertices", "packed");
     if (options.json) {
         meshes.push_back({{"file", path},
                           {"triangles", mesh->triangle_count()},
-                          {"construct", to_json(construct, triangles)},
-                          {"construct_ratio", {{"strips_over_lean", orders ? Json(ratio) : Json(nullptr)}}},
-                          {"decode_cpu", to_json(decode, triangles)},
-                          {"decode_gpu", to_json(decode_gpu, triangles)},
+                          {"construct", to_json(construct, counts)},
+                          {"construct_ratio", construct_ratio},
+                          {"position_bits", options.positions},
+                          {"decode_cpu", to_json(decode, counts)},
+                          {"decode_cpu_ratio", decode_cpu_ratio},
+                          {"decode_gpu", to_json(decode_gpu, counts)},
+                          {"decode_gpu_ratio", decode_gpu_ratio},
                           {"draw", draw},
                           {"device", device},
                           {"gpu_skipped", gpu_skipped},
@@ -278,7 +304,9 @@ int bench(const BenchOptions& options, const std::string& path, Json& meshes, [[
         if (section.candidates.empty()) continue;
         print("  {}\n", section.name);
         for (const Candidate& c : section.candidates) {
-            print("    {:<24}{:>11.3f} ms{:>10.1f} Mtri/s\n", c.name, c.median() * 1e3, triangles / c.median() / 1e6);
+            const double million = 1e6 * c.median();
+            print("    {:<24}{:>11.3f} ms{:>10.1f} {}\n", c.name, c.median() * 1e3,
+                  (c.vertices ? counts.vertices : triangles) / million, c.vertices ? "Mvert/s" : "Mtri/s");
         }
     }
 #ifdef LACEDRING_GPU
@@ -295,7 +323,13 @@ int bench(const BenchOptions& options, const std::string& path, Json& meshes, [[
         print("\n");
     }
     if (resident) print_resident(*resident);
-    if (orders) print("  lean is built {:.2f} times as fast as strips\n", ratio);
+    const auto print_ratio = [](const Json& ratio, std::string_view before, std::string_view after) {
+        if (ratio.front().is_number()) print("  {} {:.2f} {}\n", before, ratio.front().get<double>(), after);
+    };
+    print_ratio(construct_ratio, "lean is built", "times as fast as strips");
+    print_ratio(decode_cpu_ratio, fmt::format("positions of {} bits decode", options.positions),
+                "times as fast as by meshoptimizer's vertex codec");
+    print_ratio(decode_gpu_ratio, "on the device, indices and positions take", "times as long as indices alone");
     for (const auto& [name, reason] : absent.items()) {
         print("  {} absent: {}\n", name, reason.get<std::string>());
     }
@@ -330,6 +364,8 @@ void add_bench(CLI::App& program, Action& action) {
     command->add_option("--seeds", options->seeds, "seed corners per component")
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();
+    add_bits(*command, "--positions", options->positions, 1, kMostBenchPositions,
+             "bits along the largest extent of the positions that are decoded");
     command->add_flag("--operators", options->operators,
                       "also time the corner operators on LR and on what it is compared with");
     CLI::Option* resident = command->add_flag("--resident", options->resident,

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -14,6 +15,7 @@
 
 #include "app/commands.h"
 #include "app/gpu_options.h"
+#include "app/option_rules.h"
 #include "app/output.h"
 #include "app/progress.h"
 #include "renderer/compare.h"
@@ -25,10 +27,13 @@ namespace {
 struct CompareOptions {
     MeshInput input;
     OutputOptions diff;
-    std::set<std::string> paths;  ///< empty: all
+    std::set<std::string> sources, paths;  ///< empty: all
+    std::uint32_t positions = 0;           ///< bits
     PictureSize size;
     gpu::ContextOptions context;
     bool json = false;
+
+    bool compares(const std::string& source) const { return sources.empty() || sources.contains(source); }
 };
 
 struct Compared {
@@ -60,19 +65,21 @@ nlohmann::ordered_json to_json(const CompareOptions& options, const gpu::DeviceI
     out["results"] = nlohmann::ordered_json::array();
     for (const Compared& compared : all) {
         const gpu::Comparison& c = compared.comparison;
-        out["results"].push_back({{"source", compared.source},
-                                  {"path", compared.path},
-                                  {"pixels_different", c.pixels_different},
-                                  {"max_channel_difference", c.max_channel_difference},
-                                  {"triangle_ids_different", c.triangle_ids_different},
-                                  {"indices_equal_cpu", c.indices_equal_cpu},
-                                  {"raw_pixels_different", c.raw_pixels_different},
-                                  {"raw_max_channel_difference", c.raw_max_channel_difference},
-                                  {"raw_pixels_beyond_one", c.raw_pixels_beyond_one},
-                                  {"covered_pixels", c.covered_pixels},
-                                  {"distinct_ids", c.distinct_ids},
-                                  {"blank", c.blank},
-                                  {"validation_messages", messages}});
+        nlohmann::ordered_json result = {{"source", compared.source},
+                                         {"path", compared.path},
+                                         {"pixels_different", c.pixels_different},
+                                         {"max_channel_difference", c.max_channel_difference},
+                                         {"triangle_ids_different", c.triangle_ids_different},
+                                         {"indices_equal_cpu", c.indices_equal_cpu}};
+        if (c.vertices_equal_cpu) result["vertices_equal_cpu"] = *c.vertices_equal_cpu;
+        result.update({{"raw_pixels_different", c.raw_pixels_different},
+                       {"raw_max_channel_difference", c.raw_max_channel_difference},
+                       {"raw_pixels_beyond_one", c.raw_pixels_beyond_one},
+                       {"covered_pixels", c.covered_pixels},
+                       {"distinct_ids", c.distinct_ids},
+                       {"blank", c.blank},
+                       {"validation_messages", messages}});
+        out["results"].push_back(std::move(result));
     }
     out["blank"] = is_blank(all);
     out["skipped"] = nlohmann::ordered_json::array();
@@ -85,18 +92,22 @@ void print_table(const CompareOptions& options, const gpu::DeviceInfo& info, std
                  std::size_t messages) {
     print("{}: plain against streams, {} views of {}x{} on {}\n", options.input.path, all[0].comparison.views,
           options.size.width, options.size.height, info.name);
+    const auto width = [](const Compared& compared) { return std::strlen(compared.source) > 9 ? 17 : 10; };
     print("  {:<40}", "");
-    for (const Compared& compared : all) print("{:>10}", compared.source);
+    for (const Compared& compared : all) print("{:>{}}", compared.source, width(compared));
     print("\n  {:<40}", "");
-    for (const Compared& compared : all) print("{:>10}", compared.path);
+    for (const Compared& compared : all) print("{:>{}}", compared.path, width(compared));
     const auto row = [&](const char* what, const auto& value) {
         print("\n  {:<40}", what);
-        for (const Compared& compared : all) print("{:>10}", value(compared.comparison));
+        for (const Compared& compared : all) print("{:>{}}", value(compared.comparison), width(compared));
     };
     row("pixels that differ", [](const gpu::Comparison& c) { return c.pixels_different; });
     row("largest difference, of 255", [](const gpu::Comparison& c) { return c.max_channel_difference; });
     row("triangle numbers that differ", [](const gpu::Comparison& c) { return c.triangle_ids_different; });
     row("indices as the CPU decodes", [](const gpu::Comparison& c) { return c.indices_equal_cpu ? "yes" : "NO"; });
+    row("vertices as the CPU decodes", [](const gpu::Comparison& c) {
+        return !c.vertices_equal_cpu ? "-" : *c.vertices_equal_cpu ? "yes" : "NO";
+    });
     row("raw pixels that differ", [](const gpu::Comparison& c) { return c.raw_pixels_different; });
     row("  in % of those covered", [](const gpu::Comparison& c) {
         return fmt::format("{:.4f}", 100 * static_cast<double>(c.raw_pixels_different) /
@@ -125,8 +136,11 @@ int run_compare(const CompareOptions& options, RunLog& log) {
     if (const auto good = check_output(options.diff.path, options.diff, log, kExtensions); !good) {
         return fail(options.diff.path, good.error());
     }
-    const Result<gpu::Model> model = gpu::make_model(*mesh, {.packed = true});
+    gpu::ModelOptions model_options{.packed = true};
+    if (options.compares("packed_vertices")) model_options.vertices = position_options(options.positions);
+    const Result<gpu::Model> model = gpu::make_model(*mesh, model_options);
     if (!model) return fail(options.input.path, model.error());
+    if (!model->exact.empty()) log.note(input_name(options.input.path), "POSITION stays lossless: " + model->exact);
     const Result<std::unique_ptr<gpu::Context>> context = gpu::Context::create(options.context);
     if (!context) return fail(options.input.path, context.error());
     std::vector<Compared> all;
@@ -140,8 +154,10 @@ int run_compare(const CompareOptions& options, RunLog& log) {
             skipped.push_back({path_name, "--path"});
             continue;
         }
-        all.push_back({"lean", path_name, {gpu::Source::lean, path}, {}});
-        all.push_back({"packed", path_name, {gpu::Source::packed, path}, {}});
+        for (const auto& [source_name, source] : gpu::kSources) {
+            if (source == gpu::Source::plain || !options.compares(source_name)) continue;
+            all.push_back({source_name, path_name, {source, path}, {}});
+        }
     }
     if (all.empty()) return fail(options.input.path, Error{gpu::kNoDevice, skipped.back().reason});
     gpu::CompareOptions compare_options;
@@ -201,12 +217,24 @@ void add_compare(CLI::App& program, Action& action) {
     command
         ->add_option("--path", options->paths, "compute, pull, geometry or mesh, with commas; all of them unless told")
         ->delimiter(',')
-        ->check(CLI::IsMember(std::set<std::string>{"compute", "pull", "geometry", "mesh"}));
+        ->check(CLI::IsMember(gpu::path_names()));
+    command
+        ->add_option("--source", options->sources,
+                     "lean, packed or packed_vertices, with commas; all of them unless told")
+        ->delimiter(',')
+        ->check(CLI::IsMember(std::set<std::string>{"lean", "packed", "packed_vertices"}));
+    add_position_bits(*command, options->positions);
     command->add_option("--diff", options->diff.path, "write a picture of the differences, even if there are none")
         ->type_name("FILE.png");
     add_device_options(*command, options->context);
     command->add_flag("--json", options->json, "one JSON document on standard output");
-    command->callback([options, &action] { action = [options](RunLog& log) { return run_compare(*options, log); }; });
+    auto rules = std::make_shared<OptionRules>(*command);
+    rules->only_with({"--positions"}, "--source packed_vertices",
+                     [options] { return options->compares("packed_vertices"); });
+    command->callback([options, rules, &action] {
+        rules->check();
+        action = [options](RunLog& log) { return run_compare(*options, log); };
+    });
 }
 
 }  // namespace lacedring::app

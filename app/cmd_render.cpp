@@ -25,6 +25,7 @@ struct RenderOptions {
     std::string source = "lean";
     std::string path = "compute";
     std::string view = "smooth";
+    std::uint32_t positions = 0;  ///< bits
     RingChoice ring;
     bool no_warts = false;
     PictureSize size;
@@ -51,12 +52,16 @@ int render(const RenderOptions& options, const std::string& input, const std::fi
     // Pictures show the ring as the paper makes it, unless the optimiser is asked for.
     OptimizeOptions optimize = optimize_options(options.ring, kLeanRingCost);
     if (options.ring.optimize == "auto") optimize.passes = 0;
-    const gpu::ModelOptions model_options{ring_options(options.ring, mesh->triangle_count()),
-                                          {.wart_skipping = !options.no_warts},
-                                          options.source == "packed",
-                                          std::move(optimize)};
+    const gpu::Source source = gpu::source_named(options.source).value_or(gpu::Source::lean);
+    gpu::ModelOptions model_options{ring_options(options.ring, mesh->triangle_count()),
+                                    {.wart_skipping = !options.no_warts},
+                                    gpu::is_packed(source),
+                                    {},
+                                    std::move(optimize)};
+    if (source == gpu::Source::packed_vertices) model_options.vertices = position_options(options.positions);
     const Result<gpu::Model> model = gpu::make_model(*mesh, model_options);
     if (!model) return fail(input, model.error());
+    if (!model->exact.empty()) log.note(input_name(input), "POSITION stays lossless: " + model->exact);
     if (!context) {
         Result<ContextPointer> made = gpu::Context::create(options.context);
         if (!made) return fail(input, made.error());
@@ -79,7 +84,6 @@ int render(const RenderOptions& options, const std::string& input, const std::fi
     Result<gpu::Picture> drawn = [&]() -> Result<gpu::Picture> {
         Result<gpu::Renderer> renderer = gpu::Renderer::create(*context, renderer_options);
         if (!renderer) return renderer.error();
-        const gpu::Source source = gpu::source_named(options.source).value_or(gpu::Source::lean);
         const gpu::Path path = gpu::path_named(options.path).value_or(gpu::Path::compute);
         device_bytes = context->arena().used() + renderer->device_bytes(*model, source, path);
         if (device_bytes > kWorthSaying) {
@@ -147,10 +151,11 @@ void add_render(CLI::App& program, Action& action) {
     add_output(*command, options->output, "the PNG file; FOLDER/ for several, - for standard output");
     add_input_options(*command, options->input, 150);
     command->add_option("--source", options->source, "what the triangles come from")
-        ->check(CLI::IsMember({"plain", "lean", "packed"}))
+        ->check(CLI::IsMember(gpu::source_names()))
         ->capture_default_str();
+    add_position_bits(*command, options->positions);
     command->add_option("--path", options->path, "how the device expands the source")
-        ->check(CLI::IsMember({"compute", "pull", "geometry", "mesh"}))
+        ->check(CLI::IsMember(gpu::path_names()))
         ->capture_default_str();
     command->add_option("--view", options->view, "what is shown")
         ->check(CLI::IsMember({"smooth", "flat", "class", "ring", "wire", "offsets", "silhouette"}))
@@ -178,9 +183,11 @@ void add_render(CLI::App& program, Action& action) {
                   [options] { return options->json && (options->inputs.size() != 1 || options->output.path == "-"); });
     rules->forbid("--source plain goes with --path compute only",
                   [options] { return options->source == "plain" && options->path != "compute"; });
+    rules->only_with({"--positions"}, "--source packed_vertices",
+                     [options] { return options->source == "packed_vertices"; });
     rules->only_with({"--crease"}, "--view silhouette", [options] { return options->view == "silhouette"; });
     rules->only_with({"--ring", "--k", "--seeds", "--random-seed", "--optimize"},
-                     "--source lean or packed, or --view class, ring or offsets",
+                     "--source lean, packed or packed_vertices, or --view class, ring or offsets",
                      [options, shows_ring] { return options->source != "plain" || shows_ring(); });
     rules->only_with({"--no-warts"}, "--source lean, or --view class, ring or offsets",
                      [options, shows_ring] { return options->source == "lean" || shows_ring(); });

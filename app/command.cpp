@@ -118,6 +118,24 @@ EncodeOptions encode_options(const RingChoice& choice, Format format, std::size_
     return options;
 }
 
+void add_bits(CLI::App& command, const char* name, std::uint32_t& bits, std::uint32_t least, std::uint32_t most,
+              const char* what) {
+    command.add_option(name, bits, what)->check(CLI::Range(least, most))->type_name("BITS")->default_str("");
+}
+
+void add_position_bits(CLI::App& command, std::uint32_t& bits) {
+    add_bits(command, "--positions", bits, 1, 22, "quantize positions: bits along the largest extent");
+}
+
+VertexOptions position_options(std::uint32_t bits) {
+    VertexOptions options;
+    options.threads = std::max(std::thread::hardware_concurrency(), 1U);
+    if (bits == 0) return options;
+    options.mapping = VertexMapping::lattice;
+    options.bits = bits;
+    return options;
+}
+
 int for_each_input(const std::vector<std::string>& inputs, RunLog& log, const std::function<int(std::size_t)>& work) {
     int exit = done;
     for (std::size_t i = 0; i < inputs.size(); ++i) {

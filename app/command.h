@@ -12,6 +12,7 @@
 #include "lacedring/base.hpp"
 #include "lacedring/lacedring.hpp"
 #include "lacedring/ring.hpp"
+#include "lacedring/vertices.hpp"
 
 namespace CLI {
 class App;
@@ -49,6 +50,13 @@ EncodeOptions encode_options(const RingChoice& choice, Format format, std::size_
 /// How rings are to be optimised for a format whose ring costs what `cost` says. Not at all where --ring or --k says
 /// which ring it is to be, unless --optimize does.
 OptimizeOptions optimize_options(const RingChoice& choice, const RingCost& cost);
+
+/// An option of bits to which an attribute is quantized; 0 unless given.
+void add_bits(CLI::App& command, const char* name, std::uint32_t& bits, std::uint32_t least, std::uint32_t most,
+              const char* what);
+void add_position_bits(CLI::App& command, std::uint32_t& bits);
+/// Lossless for 0 bits. On all hardware threads.
+VertexOptions position_options(std::uint32_t bits);
 
 /// Calls work(i), which returns an Exit, for each input, and says each one's notes behind it. One bad input does not
 /// keep the others from their results. Returns the first exit code that is not done.

@@ -26,6 +26,7 @@ struct Candidate {
     std::function<void()> work;
     std::vector<double> seconds;      ///< wall, one entry a round
     std::vector<double> gpu_seconds;  ///< by the device's timestamps, where there are any
+    bool vertices = false;            ///< works on vertices: rates are of these, too
     double median() const;
 };
 

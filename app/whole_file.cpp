@@ -12,25 +12,11 @@
 namespace lacedring::app {
 
 void add_attribute_bits(CLI::App& command, AttributeBits& bits) {
-    struct Row {
-        std::uint32_t* bits;
-        int least, most;
-        const char* what;
-    };
-    const Row rows[] = {
-        {&bits.positions, 1, 22, "quantize positions: bits along the largest extent"},
-        {&bits.normals, 2, 16, "of normals and tangents: of each of two octahedral integers"},
-        {&bits.texcoords, 1, 22, "of texture coordinates"},
-        {&bits.colors, 1, 22, "of colors that are floats"},
-        {&bits.weights, 1, 22, "of weights that are floats"},
-    };
-    const char* const* name = kAttributeBits.begin();
-    for (const Row& row : rows) {
-        command.add_option(*name++, *row.bits, row.what)
-            ->check(CLI::Range(row.least, row.most))
-            ->type_name("BITS")
-            ->default_str("");
-    }
+    add_position_bits(command, bits.positions);
+    add_bits(command, "--normals", bits.normals, 2, 16, "of normals and tangents: of each of two octahedral integers");
+    add_bits(command, "--texcoords", bits.texcoords, 1, 22, "of texture coordinates");
+    add_bits(command, "--colors", bits.colors, 1, 22, "of colors that are floats");
+    add_bits(command, "--weights", bits.weights, 1, 22, "of weights that are floats");
 }
 
 bool quantizes(const AttributeBits& bits) {

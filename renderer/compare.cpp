@@ -4,6 +4,7 @@
 #include <array>
 
 #include "lacedring/streams.hpp"
+#include "lacedring/vertices.hpp"
 #include "renderer/renderer.h"
 #include "renderer/try.h"
 
@@ -83,6 +84,14 @@ Result<bool> indices_equal_cpu(Renderer& renderer, Drawable& drawable, const Mod
     return device == host;
 }
 
+Result<bool> vertices_equal_cpu(Renderer& renderer, Drawable& drawable, const Model& model) {
+    LR_ASSIGN(const std::vector<std::uint32_t> device, renderer.read_positions(drawable));
+    LR_ASSIGN(const VertexView view, view_vertices(model.vertices.words));
+    std::vector<std::uint32_t> host(device.size());
+    decode_vertices(view, std::as_writable_bytes(std::span(host)));
+    return device == host;
+}
+
 /// The mesh's own pictures, from all sides.
 struct Reference {
     std::array<Camera, kViews> cameras;
@@ -151,6 +160,9 @@ Result<Comparison> compare_one(Renderer& renderer, const Model& model, const Ref
         counter.count();
     }
     LR_ASSIGN(out.indices_equal_cpu, indices_equal_cpu(renderer, stream, model));
+    if (subject.source == Source::packed_vertices) {
+        LR_ASSIGN(out.vertices_equal_cpu, vertices_equal_cpu(renderer, stream, model));
+    }
 
     out.picture.width = kColumns * width;
     out.picture.height = kViews / kColumns * height;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,7 +39,9 @@ struct Comparison {
     std::uint64_t pixels_different = 0;
     std::uint32_t max_channel_difference = 0;  ///< of 255
     std::uint64_t triangle_ids_different = 0;  ///< pixels that show another triangle, or its other side
-    bool indices_equal_cpu = false;          ///< what the device decodes (Renderer::read_indices) is what the CPU does
+    bool indices_equal_cpu = false;  ///< what the device decodes (Renderer::read_indices) is what the CPU does
+    /// Source::packed_vertices: the positions that the device decodes (Renderer::read_positions), bit for bit
+    std::optional<bool> vertices_equal_cpu;
     std::uint64_t raw_pixels_different = 0;  ///< without rotating triangles and without breaking ties
     std::uint32_t raw_max_channel_difference = 0;
     std::uint64_t raw_pixels_beyond_one = 0;  ///< of these, by more than 1/255: another triangle was nearer, or first
@@ -56,7 +59,7 @@ struct Comparison {
     /// Nothing differs. `blank` is another matter.
     bool same() const {
         return pixels_different <= tolerated && max_channel_difference <= (tolerated == 0 ? 0U : 1U) &&
-               triangle_ids_different == 0 && indices_equal_cpu;
+               triangle_ids_different == 0 && indices_equal_cpu && vertices_equal_cpu.value_or(true);
     }
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the compute passes that expand streams have in common.
+// What the compute passes over a mesh have in common: those that expand streams, and the one that turns triangles.
 
 #include <vector>
 
@@ -9,21 +9,32 @@
 
 namespace lacedring::gpu {
 
-/// The dispatches that expand one mesh. Its descriptor sets live as long as the Descriptors that they came from.
-struct DecodePlan {
+/// The dispatches of one pass over one mesh. Their descriptor sets live as long as the Descriptors that they came from.
+template <class Constants>
+struct PassPlan {
     struct Dispatch {
         VkDescriptorSet set = VK_NULL_HANDLE;
-        DecodeConstants constants{};
+        Constants constants{};
         std::uint32_t groups = 0;
         std::uint32_t pipeline = 0;
     };
     std::vector<Dispatch> dispatches;
 };
 
-class Decoder {
+template <class Constants>
+class ComputePass {
   public:
-    /// Records the dispatches, without barriers: they write mesh.indices and mesh.commands in the compute stage.
-    void record(VkCommandBuffer commands, const DecodePlan& plan) const;
+    /// Records the dispatches, without barriers: they write in the compute stage.
+    void record(VkCommandBuffer commands, const PassPlan<Constants>& plan) const {
+        for (const auto& dispatch : plan.dispatches) {
+            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_[dispatch.pipeline].get());
+            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.pipeline(), 0, 1, &dispatch.set,
+                                    0, nullptr);
+            vkCmdPushConstants(commands, layout_.pipeline(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(Constants),
+                               &dispatch.constants);
+            vkCmdDispatch(commands, dispatch.groups, 1, 1);
+        }
+    }
 
   protected:
     Context* context_ = nullptr;
@@ -31,7 +42,11 @@ class Decoder {
     std::vector<PipelineHandle> pipelines_;
 };
 
-/// What a decoder's writes are for: indices, commands, the rotating pass, reading back.
+/// Expands a stream: writes mesh.indices and mesh.commands.
+using Decoder = ComputePass<DecodeConstants>;
+using DecodePlan = PassPlan<DecodeConstants>;
+
+/// What a decoder's writes are for: indices, commands, vertices, the rotating pass, reading back.
 void decode_barrier(VkCommandBuffer commands);
 
 /// No device wants more of a descriptor's offset.

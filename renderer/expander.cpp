@@ -10,33 +10,28 @@ Result<Expander> Expander::create(Context& context) {
     out.context_ = &context;
     LR_ASSIGN(out.lean_, LeanDecoder::create(context));
     LR_ASSIGN(out.packed_, PackedDecoder::create(context));
+    LR_ASSIGN(out.vertices_, VertexDecoder::create(context));
     LR_ASSIGN(out.rotator_, Rotator::create(context));
     return out;
 }
 
 Result<Drawable> Expander::upload(Transfer& transfer, const Model& model, Source source,
                                   const UploadOptions& options) const {
-    const bool compute = options.path == Path::compute;
     Drawable out;
     out.descriptors = Descriptors(*context_);
+    LR_ASSIGN(out.mesh, upload_mesh(*context_, transfer, model, source, options));
+    if (options.path != Path::compute) return out;
     if (source == Source::lean) {
-        LR_ASSIGN(out.mesh, upload_lean(*context_, transfer, model, options));
-        if (compute) {
-            LR_ASSIGN(const LeanView view, view_lean(model.lean.words));
-            LR_ASSIGN(out.decode, lean_.plan(out.descriptors, out.mesh, view));
-        }
-    } else if (source == Source::packed) {
-        LR_ASSIGN(out.mesh, upload_packed(*context_, transfer, model, options));
-        if (compute) {
-            LR_ASSIGN(const PackedView view, view_packed(model.packed.words));
-            LR_ASSIGN(out.decode, packed_.plan(out.descriptors, out.mesh, view));
-        }
-    } else {
-        LR_ASSIGN(out.mesh, upload_plain(*context_, transfer, model, options));
+        LR_ASSIGN(const LeanView view, view_lean(model.lean.words));
+        LR_ASSIGN(out.decode, lean_.plan(out.descriptors, out.mesh, view));
+    } else if (is_packed(source)) {
+        LR_ASSIGN(const PackedView view, view_packed(model.packed.words));
+        LR_ASSIGN(out.decode, packed_.plan(out.descriptors, out.mesh, view));
     }
-    if (compute) {
-        LR_ASSIGN(out.rotate, rotator_.plan(out.descriptors, out.mesh));
+    if (source == Source::packed_vertices) {
+        LR_ASSIGN(out.vertices, vertices_.plan(out.descriptors, out.mesh));
     }
+    LR_ASSIGN(out.rotate, rotator_.plan(out.descriptors, out.mesh));
     return out;
 }
 
@@ -44,9 +39,15 @@ void Expander::decode(VkCommandBuffer commands, Drawable& drawable, bool barrier
     if (drawable.mesh.decoded || drawable.mesh.path != Path::compute) return;
     const Decoder& decoder = drawable.mesh.source == Source::lean ? static_cast<const Decoder&>(lean_) : packed_;
     decoder.record(commands, drawable.decode);
+    vertices_.record(commands, drawable.vertices);
     if (barrier) decode_barrier(commands);
     drawable.mesh.decoded = true;
     drawable.mesh.rotated = false;
+}
+
+void Expander::decode_vertices(VkCommandBuffer commands, const Drawable& drawable) const {
+    vertices_.record(commands, drawable.vertices);
+    decode_barrier(commands);
 }
 
 void Expander::rotate(VkCommandBuffer commands, Drawable& drawable) const {

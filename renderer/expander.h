@@ -8,6 +8,7 @@
 #include "renderer/packed_decoder.h"
 #include "renderer/rotator.h"
 #include "renderer/surface.h"
+#include "renderer/vertex_decoder.h"
 
 namespace lacedring::gpu {
 
@@ -15,8 +16,9 @@ namespace lacedring::gpu {
 struct Drawable {
     GpuMesh mesh;
     Descriptors descriptors;
-    DecodePlan decode;  ///< empty for Source::plain, and where no path but compute is taken
-    RotatePlan rotate;  ///< likewise for the other paths
+    DecodePlan decode;    ///< empty for Source::plain, and where no path but compute is taken
+    VertexPlan vertices;  ///< Source::packed_vertices by compute
+    RotatePlan rotate;    ///< likewise for the other paths
     DrawPlan draw;
     std::optional<Adjacency> adjacency;  ///< View::silhouette
 };
@@ -28,8 +30,10 @@ class Expander {
     /// Uploads a source of the model and plans the passes over its index buffer; Drawable::draw is left to who draws.
     Result<Drawable> upload(Transfer& transfer, const Model& model, Source source, const UploadOptions& options) const;
 
-    /// Records the decoding of a stream, if that has not been done, and what makes it visible (`barrier`).
+    /// Records the decoding of its streams, if that has not been done, and what makes it visible (`barrier`).
     void decode(VkCommandBuffer commands, Drawable& drawable, bool barrier = true) const;
+    /// Records the decoding of the vertex stream alone, done or not, and what makes it visible.
+    void decode_vertices(VkCommandBuffer commands, const Drawable& drawable) const;
     /// Records the turning of its triangles, if that has not been done, and what makes it visible.
     void rotate(VkCommandBuffer commands, Drawable& drawable) const;
 
@@ -37,6 +41,7 @@ class Expander {
     Context* context_ = nullptr;
     LeanDecoder lean_;
     PackedDecoder packed_;
+    VertexDecoder vertices_;
     Rotator rotator_;
 };
 

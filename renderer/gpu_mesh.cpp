@@ -5,6 +5,7 @@
 
 #include "lacedring/lacedring.hpp"
 #include "lacedring/streams.hpp"
+#include "lacedring/vertices.hpp"
 #include "renderer/context.h"
 #include "renderer/device_error.h"
 #include "renderer/triangle_class.h"
@@ -27,6 +28,12 @@ std::uint64_t padded_slots(std::uint32_t slots) {
 std::uint64_t slots_of(const Model& model, Source source) {
     if (source == Source::plain) return model.triangle_count();
     return source == Source::lean ? model.lean.slot_triangle.size() : model.packed.triangle_order.size();
+}
+
+/// Bytes of a vertex in GpuMesh::vertices.
+constexpr std::size_t vertex_stride(Source source, Path path) {
+    const bool pulled = source == Source::packed_vertices && path != Path::compute;
+    return sizeof(Vertex) - (pulled ? sizeof(Vertex::position) : 0);
 }
 
 constexpr std::uint64_t kStreamTail = 64;  // the lean decoder loads a few words past the ones that it needs
@@ -61,29 +68,35 @@ Result<GpuMesh> prepare(Context& context, const Model& model, Source source, con
             static_cast<std::uint32_t>(std::min<std::uint64_t>(mesh.draw_slots, most / kSlotStep * kSlotStep));
     }
     mesh.draws = (mesh.slots + mesh.draw_slots - 1) / mesh.draw_slots;
-    LR_ASSIGN(mesh.vertices, Buffer::create(context, "vertices", sizeof(Vertex) * std::uint64_t{mesh.vertex_count},
-                                            VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | kAddress));
+    LR_ASSIGN(mesh.vertices,
+              Buffer::create(context, "vertices", vertex_stride(source, mesh.path) * std::uint64_t{mesh.vertex_count},
+                             VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | kAddress));
     if (mesh.path != Path::compute) return mesh;
     LR_ASSIGN(mesh.indices, Buffer::create(context, "indices", 12 * padded_slots(mesh.slots),
                                            VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT));
     return mesh;
 }
 
-/// `original(i)` is the mesh's vertex at place i, `ring(i)` its place on the rings.
+/// `original(i)` is the mesh's vertex at place i, `ring(i)` its place on the rings. Positions are left out where they
+/// are decoded.
 template <class Original, class Ring>
 Result<void> upload_vertices(Transfer& transfer, const GpuMesh& mesh, std::span<const float> positions,
                              std::span<const float> normals, const Original& original, const Ring& ring) {
-    return transfer.upload(mesh.vertices, 0, sizeof(Vertex) * std::size_t{mesh.vertex_count}, sizeof(Vertex),
+    const std::size_t stride = vertex_stride(mesh.source, mesh.path);
+    const bool decoded = mesh.source == Source::packed_vertices;
+    return transfer.upload(mesh.vertices, 0, stride * mesh.vertex_count, stride,
                            [&](std::byte* to, std::size_t from, std::size_t size) {
-                               const std::size_t first = from / sizeof(Vertex);
-                               for (std::size_t i = 0; i < size / sizeof(Vertex); ++i) {
+                               const std::size_t first = from / stride;
+                               for (std::size_t i = 0; i < size / stride; ++i) {
                                    const auto place = static_cast<std::uint32_t>(first + i);
                                    const std::size_t v = original(place);
-                                   Vertex vertex;
-                                   std::memcpy(vertex.position, &positions[3 * v], sizeof(vertex.position));
+                                   Vertex vertex{};
+                                   if (!decoded)
+                                       std::memcpy(vertex.position, &positions[3 * v], sizeof(vertex.position));
                                    std::memcpy(vertex.normal, &normals[3 * v], sizeof(vertex.normal));
                                    vertex.ring = ring(place);
-                                   std::memcpy(to + i * sizeof(Vertex), &vertex, sizeof(Vertex));
+                                   const auto* bytes = reinterpret_cast<const std::byte*>(&vertex);
+                                   std::memcpy(to + i * stride, bytes + sizeof(Vertex) - stride, stride);
                                }
                            });
 }
@@ -153,14 +166,55 @@ Result<void> upload_rest(Context& context, Transfer& transfer, GpuMesh& mesh, co
 
 /// A stream, its vertex order and the mesh's triangle of each slot.
 struct Stream {
-    Source source;
     std::span<const std::uint32_t> words, vertex_order, slot_triangle;
     std::array<std::uint32_t, 4> layout;
 };
 
-Result<GpuMesh> upload_stream(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options,
-                              const Stream& stream) {
-    LR_ASSIGN(GpuMesh mesh, prepare(context, model, stream.source, options));
+Result<Stream> lean_stream(const Model& model) {
+    const EncodedLean& stream = model.lean;
+    LR_ASSIGN(const LeanView view, view_lean(stream.words));
+    if (view.vertices != model.vertex_count() || stream.vertex_order.size() != view.vertices ||
+        stream.slot_triangle.size() != view.slots()) {
+        return Error{ErrorCode::invalid_argument, "the lean stream is not of this mesh"};
+    }
+    return Stream{
+        stream.words, stream.vertex_order, stream.slot_triangle, {view.rings2, view.rings1, view.verbatim, 0}};
+}
+
+Result<Stream> packed_stream(const Model& model) {
+    const EncodedPacked& stream = model.packed;
+    if (stream.words.empty()) return Error{ErrorCode::invalid_argument, "the model was made without a packed stream"};
+    LR_ASSIGN(const PackedView view, view_packed(stream.words));
+    if (view.vertices != model.vertex_count() || stream.vertex_order.size() != view.vertices ||
+        stream.triangle_order.size() != view.triangles) {
+        return Error{ErrorCode::invalid_argument, "the packed stream is not of this mesh"};
+    }
+    return Stream{stream.words,
+                  stream.vertex_order,
+                  stream.triangle_order,
+                  {view.own, static_cast<std::uint32_t>(view.table_word()),
+                   static_cast<std::uint32_t>(view.groups_word()), view.vertex_bits}};
+}
+
+Result<void> upload_vertex_stream(Context& context, Transfer& transfer, GpuMesh& mesh, const Model& model) {
+    const std::span<const std::uint32_t> words = model.vertices.words;
+    if (words.empty()) return Error{ErrorCode::invalid_argument, "the model was made without a vertex stream"};
+    LR_ASSIGN(const VertexView view, view_vertices(words));
+    if (view.vertices != model.vertex_count() || view.integers != 3 || view.type != ComponentType::f32 ||
+        view.mapping == VertexMapping::octahedral) {
+        return Error{ErrorCode::invalid_argument, "the vertex stream is not of this mesh's positions"};
+    }
+    mesh.unit = model.unit;
+    LR_ASSIGN(mesh.vertex_stream, Buffer::create(context, "vertex stream", words.size_bytes(),
+                                                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | kAddress));
+    return transfer.upload(mesh.vertex_stream, words);
+}
+
+Result<GpuMesh> upload_stream(Context& context, Transfer& transfer, const Model& model, Source source,
+                              const UploadOptions& options) {
+    LR_ASSIGN(const Stream stream, source == Source::lean ? lean_stream(model) : packed_stream(model));
+    LR_ASSIGN(GpuMesh mesh, prepare(context, model, source, options));
+    if (source == Source::packed_vertices) LR_TRY(upload_vertex_stream(context, transfer, mesh, model));
     mesh.stream_layout = stream.layout;
     constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     LR_ASSIGN(mesh.stream,
@@ -184,44 +238,6 @@ Result<GpuMesh> upload_stream(Context& context, Transfer& transfer, const Model&
     return mesh;
 }
 
-}  // namespace
-
-std::optional<Path> path_named(std::string_view name) {
-    for (const NamedPath& named : kPaths) {
-        if (named.name == name) return named.path;
-    }
-    return std::nullopt;
-}
-
-std::optional<Source> source_named(std::string_view name) {
-    if (name == "plain") return Source::plain;
-    if (name == "lean") return Source::lean;
-    if (name == "packed") return Source::packed;
-    return std::nullopt;
-}
-
-MeshBytes mesh_bytes(const Model& model, Source source, const UploadOptions& options) {
-    constexpr std::uint64_t kWord = sizeof(std::uint32_t);
-    const std::uint64_t slots = slots_of(model, source);
-    MeshBytes out;
-    const auto add = [&](std::uint64_t bytes) {
-        out.all += bytes;
-        out.largest = std::max(out.largest, bytes);
-    };
-    add(sizeof(Vertex) * std::uint64_t{model.vertex_count()});
-    if (options.path == Path::compute) add(3 * kWord * padded_slots(static_cast<std::uint32_t>(slots)));
-    if (source != Source::plain) {
-        add(kWord * (source == Source::lean ? model.lean.words : model.packed.words).size() + kStreamTail);
-        add(kWord * slots);
-        add(kWord * model.vertex_count());
-        if (options.path == Path::compute) add(sizeof(VkDrawIndexedIndirectCommand) * (slots / kSlotStep + 1));
-    }
-    if (options.ring) add((slots + 3) / 4 * 4);
-    if (options.lines == UploadOptions::Lines::ring) add(2 * kWord * model.vertex_count());
-    if (options.lines == UploadOptions::Lines::edges) add(6 * kWord * model.triangle_count());
-    return out;
-}
-
 Result<GpuMesh> upload_plain(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options) {
     if (options.path != Path::compute)
         return Error{ErrorCode::invalid_argument, "the pull, geometry and mesh paths draw streams, not an index list"};
@@ -239,36 +255,71 @@ Result<GpuMesh> upload_plain(Context& context, Transfer& transfer, const Model& 
     return mesh;
 }
 
-Result<GpuMesh> upload_lean(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options) {
-    const EncodedLean& stream = model.lean;
-    LR_ASSIGN(const LeanView view, view_lean(stream.words));
-    if (view.vertices != model.vertex_count() || stream.vertex_order.size() != view.vertices ||
-        stream.slot_triangle.size() != view.slots()) {
-        return Error{ErrorCode::invalid_argument, "the lean stream is not of this mesh"};
+}  // namespace
+
+std::optional<Path> path_named(std::string_view name) {
+    for (const NamedPath& named : kPaths) {
+        if (named.name == name) return named.path;
     }
-    return upload_stream(context, transfer, model, options,
-                         {Source::lean,
-                          stream.words,
-                          stream.vertex_order,
-                          stream.slot_triangle,
-                          {view.rings2, view.rings1, view.verbatim}});
+    return std::nullopt;
 }
 
-Result<GpuMesh> upload_packed(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options) {
-    const EncodedPacked& stream = model.packed;
-    if (stream.words.empty()) return Error{ErrorCode::invalid_argument, "the model was made without a packed stream"};
-    LR_ASSIGN(const PackedView view, view_packed(stream.words));
-    if (view.vertices != model.vertex_count() || stream.vertex_order.size() != view.vertices ||
-        stream.triangle_order.size() != view.triangles) {
-        return Error{ErrorCode::invalid_argument, "the packed stream is not of this mesh"};
+std::optional<Source> source_named(std::string_view name) {
+    for (const NamedSource& named : kSources) {
+        if (named.name == name) return named.source;
     }
-    return upload_stream(context, transfer, model, options,
-                         {Source::packed,
-                          stream.words,
-                          stream.vertex_order,
-                          stream.triangle_order,
-                          {view.own, static_cast<std::uint32_t>(view.table_word()),
-                           static_cast<std::uint32_t>(view.groups_word()), view.vertex_bits}});
+    return std::nullopt;
+}
+
+std::vector<std::string> path_names() {
+    std::vector<std::string> out;
+    for (const NamedPath& named : kPaths) out.emplace_back(named.name);
+    return out;
+}
+
+std::vector<std::string> source_names() {
+    std::vector<std::string> out;
+    for (const NamedSource& named : kSources) out.emplace_back(named.name);
+    return out;
+}
+
+bool has_source(const Model& model, Source source) {
+    if (source == Source::packed_vertices && model.vertices.words.empty()) return false;
+    return !is_packed(source) || !model.packed.words.empty();
+}
+
+std::uint64_t connectivity_bytes(const Model& model, Source source) {
+    if (source == Source::plain) return 0;
+    return sizeof(std::uint32_t) * (is_packed(source) ? model.packed.words : model.lean.words).size();
+}
+
+MeshBytes mesh_bytes(const Model& model, Source source, const UploadOptions& options) {
+    constexpr std::uint64_t kWord = sizeof(std::uint32_t);
+    const std::uint64_t slots = slots_of(model, source);
+    MeshBytes out;
+    const auto add = [&](std::uint64_t bytes) {
+        out.all += bytes;
+        out.largest = std::max(out.largest, bytes);
+    };
+    add(vertex_stride(source, options.path) * std::uint64_t{model.vertex_count()});
+    if (options.path == Path::compute) add(3 * kWord * padded_slots(static_cast<std::uint32_t>(slots)));
+    if (source != Source::plain) {
+        add(connectivity_bytes(model, source) + kStreamTail);
+        if (source == Source::packed_vertices) add(kWord * model.vertices.words.size());
+        add(kWord * slots);
+        add(kWord * model.vertex_count());
+        if (options.path == Path::compute) add(sizeof(VkDrawIndexedIndirectCommand) * (slots / kSlotStep + 1));
+    }
+    if (options.ring) add((slots + 3) / 4 * 4);
+    if (options.lines == UploadOptions::Lines::ring) add(2 * kWord * model.vertex_count());
+    if (options.lines == UploadOptions::Lines::edges) add(6 * kWord * model.triangle_count());
+    return out;
+}
+
+Result<GpuMesh> upload_mesh(Context& context, Transfer& transfer, const Model& model, Source source,
+                            const UploadOptions& options) {
+    return source == Source::plain ? upload_plain(context, transfer, model, options)
+                                   : upload_stream(context, transfer, model, source, options);
 }
 
 }  // namespace lacedring::gpu

@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "renderer/buffer.h"
 #include "renderer/model.h"
@@ -15,14 +17,19 @@ namespace lacedring::gpu {
 
 /// Of a stream the device makes the index buffer and the draw commands.
 enum class Source {
-    plain,   ///< the mesh's own index list and vertex order
-    lean,    ///< the lean stream, with its vertex order
-    packed,  ///< the packed stream, with its vertex order
+    plain,            ///< the mesh's own index list and vertex order
+    lean,             ///< the lean stream, with its vertex order
+    packed,           ///< the packed stream, with its vertex order
+    packed_vertices,  ///< likewise, and positions from a vertex stream
 };
+/// Whether triangles come from the packed stream.
+constexpr bool is_packed(Source source) {
+    return source == Source::packed || source == Source::packed_vertices;
+}
 
 /// How triangles come from a stream into a picture. Source::plain is always drawn by Path::compute.
 enum class Path {
-    compute,   ///< a compute shader expands the stream to an index buffer, which is drawn
+    compute,   ///< compute shaders expand the streams to an index buffer and vertices, which are drawn
     pull,      ///< the vertex shader decodes the triangle of its vertex; no index buffer, no vertex buffer bound
     geometry,  ///< a geometry shader decodes four slots a point
     mesh,      ///< a mesh shader decodes 64 slots a workgroup (VK_EXT_mesh_shader)
@@ -33,11 +40,25 @@ struct NamedPath {
     const char* name;
     Path path;
 };
-std::optional<Path> path_named(std::string_view name);
-/// "plain", "lean", "packed"
-std::optional<Source> source_named(std::string_view name);
 constexpr std::array<NamedPath, 4> kPaths{
     {{"compute", Path::compute}, {"pull", Path::pull}, {"geometry", Path::geometry}, {"mesh", Path::mesh}}};
+std::optional<Path> path_named(std::string_view name);
+struct NamedSource {
+    const char* name;
+    Source source;
+};
+constexpr std::array<NamedSource, 4> kSources{{{"plain", Source::plain},
+                                               {"lean", Source::lean},
+                                               {"packed", Source::packed},
+                                               {"packed_vertices", Source::packed_vertices}}};
+std::optional<Source> source_named(std::string_view name);
+std::vector<std::string> path_names();
+std::vector<std::string> source_names();
+
+/// Is this source there in the model?
+bool has_source(const Model& model, Source source);
+/// Bytes of its stream of triangles; 0 of Source::plain.
+std::uint64_t connectivity_bytes(const Model& model, Source source);
 
 struct UploadOptions {
     Path path = Path::compute;
@@ -62,14 +83,16 @@ struct GpuMesh {
     std::uint32_t draws = 0;       ///< draw commands
     std::uint64_t max_range = 0;   ///< bytes a descriptor covers
 
-    Buffer vertices;  ///< Vertex
+    Buffer vertices;  ///< Vertex; without positions where pulls_positions()
     Buffer indices;   ///< u32, 3 a slot, padded to whole invocations; of a stream: written by the device. Path::compute
     // Of a stream only:
     Buffer stream;
     std::array<std::uint32_t, 4> stream_layout{};  ///< DrawConstants::stream_layout
-    Buffer commands;       ///< VkDrawIndexedIndirectCommand, written by the device. Path::compute
-    Buffer slot_triangle;  ///< the mesh's triangle of each slot
-    Buffer vertex_order;   ///< the mesh's vertex of each vertex
+    Buffer commands;                        ///< VkDrawIndexedIndirectCommand, written by the device. Path::compute
+    Buffer slot_triangle;                   ///< the mesh's triangle of each slot
+    Buffer vertex_order;                    ///< the mesh's vertex of each vertex
+    Buffer vertex_stream;                   ///< of the positions. Source::packed_vertices
+    std::array<float, 4> unit{0, 0, 0, 1};  ///< DrawConstants::unit
     // Only if asked for:
     Buffer classes;  ///< LR_CLASS_*, or bits of offsets, one byte a slot
     Buffer lines;    ///< u32, 2 a line
@@ -77,6 +100,9 @@ struct GpuMesh {
 
     bool decoded = false;  ///< the index buffer holds the triangles
     bool rotated = false;  ///< and each begins with its smallest original vertex
+
+    /// Shaders decode each vertex when they want it; no buffer has the positions.
+    bool pulls_positions() const { return source == Source::packed_vertices && path != Path::compute; }
 };
 
 /// Device memory that a source of the model takes with these options, before alignment: all that an upload allocates.
@@ -86,7 +112,8 @@ struct MeshBytes {
 };
 MeshBytes mesh_bytes(const Model& model, Source source, const UploadOptions& options);
 
-/// What the vertex shaders read.
+/// What the vertex shaders read. The position of Source::packed_vertices is in the mesh's coordinates, and written by
+/// the device.
 struct Vertex {
     float position[3];
     float normal[3];
@@ -94,12 +121,10 @@ struct Vertex {
 };
 
 /// Errors: kNoDevice (Path::mesh where the device has none, indices past the device's, more memory than is left, which
-/// is found out before any is allocated), too_large (more than 2^32 indices), invalid_argument (max_range), unsupported
-/// (only degenerate triangles), and Vulkan's.
-Result<GpuMesh> upload_plain(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options);
-/// The model's stream must be valid, as encode_lean makes it.
-Result<GpuMesh> upload_lean(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options);
-/// Likewise. invalid_argument, too, where the model was made without one.
-Result<GpuMesh> upload_packed(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options);
+/// is found out before any is allocated), too_large (more than 2^32 indices), invalid_argument (max_range, no such
+/// stream in the model, Source::plain by another path than compute), unsupported (only degenerate triangles), and
+/// Vulkan's. The model's streams must be valid.
+Result<GpuMesh> upload_mesh(Context& context, Transfer& transfer, const Model& model, Source source,
+                            const UploadOptions& options);
 
 }  // namespace lacedring::gpu

@@ -7,6 +7,7 @@
 #include "lacedring/lacedring.hpp"
 #include "lacedring/ring.hpp"
 #include "lacedring/topology.hpp"
+#include "lacedring/vertices.hpp"
 #include "renderer/try.h"
 
 namespace lacedring::gpu {
@@ -37,7 +38,7 @@ Result<void> normalise(Model& model) {
             high[i] = std::max(high[i], p[i]);
         }
     }
-    for (std::size_t i = 0; i < 3; ++i) model.centre[i] = 0.5 * (low[i] + high[i]);
+    for (std::size_t i = 0; i < 3; ++i) model.centre[i] = static_cast<float>(0.5 * (low[i] + high[i]));
     double squared = 0;
     for (const std::uint32_t v : model.indices) {
         const Point d = minus(point(model.positions, v), model.centre);
@@ -47,9 +48,16 @@ Result<void> normalise(Model& model) {
     if (!std::isfinite(model.radius) || model.radius <= 0) {
         return Error{ErrorCode::unsupported, "all triangles lie in one point, or past what 32-bit floats hold"};
     }
+    // A device may take denormal floats for 0.
+    const float scale = std::clamp(static_cast<float>(1 / model.radius), 0x1p-126F, 0x1p126F);
+    model.radius = 1 / static_cast<double>(scale);
+    for (std::size_t i = 0; i < 3; ++i) model.unit[i] = static_cast<float>(model.centre[i]);
+    model.unit[3] = scale;
     for (std::size_t i = 0; i < model.positions.size(); ++i) {
-        const double scaled = (static_cast<double>(model.positions[i]) - model.centre[i % 3]) / model.radius;
-        model.positions[i] = static_cast<float>(std::clamp(scaled, -1e6, 1e6));
+        // In doubles, as no compiler can fuse these: of one sum or product of floats, rounding twice is rounding once.
+        const auto moved = static_cast<float>(static_cast<double>(model.positions[i]) - model.centre[i % 3]);
+        const auto scaled = static_cast<float>(static_cast<double>(moved) * static_cast<double>(scale));
+        model.positions[i] = std::clamp(scaled, -1e6F, 1e6F);
     }
     return {};
 }
@@ -62,6 +70,43 @@ double mean_edge(const Model& model) {
         length += std::sqrt(dot(e, e));
     }
     return length / static_cast<double>(model.indices.size());
+}
+
+/// Encodes the positions as floats, as all that is drawn are, in the packed stream's order. What is lost is lost for
+/// the whole model.
+Result<void> encode_positions(Model& model, const Mesh& mesh, const VertexOptions& options) {
+    const std::vector<std::uint32_t>& order = model.packed.vertex_order;
+    std::vector<float> positions = positions_f32(mesh), ordered;
+    ordered.reserve(positions.size());
+    for (const std::uint32_t v : order)
+        ordered.insert(ordered.end(), &positions[3 * std::size_t{v}], &positions[3 * std::size_t{v}] + 3);
+    const VertexValues values{ComponentType::f32, 3, false, std::as_bytes(std::span(ordered))};
+    Result<EncodedVertices> encoded = encode_vertices(values, options);
+    if (!encoded && encoded.error().code == ErrorCode::invalid_argument) {
+        model.exact = encoded.error().message;
+        encoded = encode_vertices(values, {.threads = options.threads});
+    }
+    LR_ASSIGN(model.vertices, std::move(encoded));
+    if (model.vertices.largest_error == 0) return {};
+    LR_ASSIGN(const VertexView view, view_vertices(model.vertices.words));
+    decode_vertices(view, std::as_writable_bytes(std::span(ordered)));
+    for (std::size_t i = 0; i < order.size(); ++i)
+        std::copy_n(&ordered[3 * i], 3, &positions[3 * std::size_t{order[i]}]);
+    Mesh decoded = mesh;
+    Attribute attribute{"POSITION", ComponentType::f32, 3, false, {}};
+    const auto bytes = std::as_bytes(std::span(positions));
+    attribute.data.assign(bytes.begin(), bytes.end());
+    for (Attribute& a : decoded.attributes) {
+        if (a.name == attribute.name) a = std::move(attribute);
+    }
+    LR_ASSIGN(Model surface, make_surface(decoded));
+    surface.indices = model.indices;
+    surface.lean = std::move(model.lean);
+    surface.packed = std::move(model.packed);
+    surface.vertices = std::move(model.vertices);
+    surface.exact = std::move(model.exact);
+    model = std::move(surface);
+    return {};
 }
 
 }  // namespace
@@ -88,6 +133,7 @@ Result<Model> make_model(const Mesh& mesh, const ModelOptions& options) {
         optimize.cost = kPackedRingCost;
         LR_ASSIGN(PackedChoice packed, encode_smallest_packed(table, options.ring, optimize));
         model.packed = std::move(packed.stream);
+        if (options.vertices) LR_TRY(encode_positions(model, mesh, *options.vertices));
     }
     return model;
 }

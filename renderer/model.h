@@ -3,27 +3,34 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "lacedring/base.hpp"
 #include "lacedring/lacedring.hpp"
 #include "lacedring/mesh.hpp"
 #include "lacedring/ring.hpp"
+#include "lacedring/vertices.hpp"
 
 namespace lacedring::gpu {
 
 /// Positions are moved and scaled so that the used vertices fill the unit sphere: f32 depth and derivatives then mean
-/// the same for every mesh, and all sources draw exactly the same numbers.
+/// the same for every mesh, and all sources draw exactly the same numbers. One subtraction and one product of floats
+/// do it, which a shader repeats to the bit (unit_position of shaders/draw_push.glsl).
 struct Model {
     std::span<const std::uint32_t> indices;  ///< of the mesh, which must outlive the model; 3 a triangle
     std::vector<float> positions;            ///< 3 a vertex, in the mesh's own vertex order
     std::vector<float> normals;              ///< 3 a vertex, unit
     EncodedLean lean;
-    EncodedPacked packed;            ///< empty unless asked for
-    std::array<double, 3> centre{};  ///< of the unit sphere, in the mesh's coordinates
-    double radius = 1;               ///< likewise
-    double mean_edge = 0;            ///< mean length of the triangles' edges, of the unit sphere
+    EncodedPacked packed;                   ///< empty unless asked for
+    EncodedVertices vertices;               ///< likewise: the mesh's positions, in the packed stream's vertex order
+    std::string exact;                      ///< why they are lossless although a lattice was asked for, or empty
+    std::array<double, 3> centre{};         ///< of the unit sphere, in the mesh's coordinates: floats
+    double radius = 1;                      ///< likewise
+    std::array<float, 4> unit{0, 0, 0, 1};  ///< centre and 1 / radius: DrawConstants::unit
+    double mean_edge = 0;                   ///< mean length of the triangles' edges, of the unit sphere
 
     std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(positions.size() / 3); }
     std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(indices.size() / 3); }
@@ -32,7 +39,10 @@ struct Model {
 struct ModelOptions {
     RingOptions ring{};
     LeanOptions lean{};
-    bool packed = false;                       ///< the packed stream too
+    bool packed = false;  ///< the packed stream too
+    /// And a vertex stream of the positions: lossless, or on a lattice where that can be. The model's positions, and
+    /// normals where the mesh has none, are then of what it decodes to. With `packed` only.
+    std::optional<VertexOptions> vertices = {};
     OptimizeOptions optimize = {.passes = 0};  ///< of the rings; the cost is each stream's own
 };
 
@@ -41,7 +51,7 @@ struct ModelOptions {
 Result<Model> make_surface(const Mesh& mesh);
 
 /// Normalises, and encodes the streams (corner table, ring, streams). Cost: O(V + T).
-/// Errors: unsupported (no triangles, extent zero or past f32), and build_corner_table's.
+/// Errors: unsupported (no triangles, extent zero or past f32), build_corner_table's too_large.
 Result<Model> make_model(const Mesh& mesh, const ModelOptions& options = {});
 
 }  // namespace lacedring::gpu

@@ -10,6 +10,7 @@
 #include "renderer/context.h"
 #include "renderer/try.h"
 #include "spirv/line_frag.h"
+#include "spirv/line_pull_vert.h"
 #include "spirv/line_vert.h"
 
 namespace lacedring::gpu {
@@ -27,12 +28,6 @@ Result<Painter> Painter::create(Context& context, View view, std::uint32_t sampl
                                            {2, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kFragment},
                                            {3, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, kFragment}}};
     LR_ASSIGN(out.layout_, Layout::create(context, "draw", bindings, stages, sizeof(DrawConstants)));
-    if (upload_options(view).lines != UploadOptions::Lines::none) {
-        GraphicsInfo lines = line_pipeline("lines", spirv_line_vert, spirv_line_frag);
-        lines.vertex_binding = {0, sizeof(Vertex), VK_VERTEX_INPUT_RATE_VERTEX};
-        lines.vertex_attributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Vertex, position)}};
-        LR_ASSIGN(out.lines_, create_graphics(context, out.layout_, lines));
-    }
     LR_ASSIGN(out.frame_, Buffer::create(context, "frame", sizeof(FrameConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
                                          Memory::upload));
     LR_ASSIGN(out.nothing_, Buffer::create(context, "nothing", 16, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT));
@@ -42,7 +37,20 @@ Result<Painter> Painter::create(Context& context, View view, std::uint32_t sampl
 Result<Painter> Painter::again() const {
     LR_ASSIGN(Painter out, create(*context_, view_, samples_, outlined_));
     for (const auto& [key, surface] : surfaces_) LR_TRY(out.make_surface(key.first, key.second));
+    for (const auto& [pulled, lines] : lines_) LR_TRY(out.make_lines(pulled));
     return out;
+}
+
+Result<void> Painter::make_lines(bool pulled) {
+    if (upload_options(view_).lines == UploadOptions::Lines::none || lines_.contains(pulled)) return {};
+    GraphicsInfo lines = line_pipeline("lines", pulled ? spirv_line_pull_vert : spirv_line_vert, spirv_line_frag);
+    if (!pulled) {
+        lines.vertex_binding = {0, sizeof(Vertex), VK_VERTEX_INPUT_RATE_VERTEX};
+        lines.vertex_attributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Vertex, position)}};
+    }
+    LR_ASSIGN(PipelineHandle pipeline, create_graphics(*context_, layout_, lines));
+    lines_.emplace(pulled, std::move(pipeline));
+    return {};
 }
 
 Result<void> Painter::make_surface(Source source, Path path) {
@@ -54,6 +62,7 @@ Result<void> Painter::make_surface(Source source, Path path) {
 
 Result<DrawPlan> Painter::plan(Descriptors& descriptors, const GpuMesh& mesh, const Target& target) {
     LR_TRY(make_surface(mesh.source, mesh.path));
+    LR_TRY(make_lines(mesh.pulls_positions()));
     DrawPlan plan;
     for (std::uint32_t draw = 0; draw < mesh.draws; ++draw) {
         const std::uint64_t first = std::uint64_t{draw} * mesh.draw_slots;
@@ -96,11 +105,13 @@ void Painter::draw_lines(VkCommandBuffer commands, const GpuMesh& mesh, const Dr
     if (mesh.line_indices == 0) return;
     const VkBuffer vertices = mesh.vertices.handle();
     const VkDeviceSize zero = 0;
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, lines_.get());
+    const DrawConstants constants = draw_constants(mesh, 0, mesh.slots);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, lines_.at(mesh.pulls_positions()).get());
+    vkCmdPushConstants(commands, layout_.pipeline(), surface_stages(*context_), 0, sizeof(constants), &constants);
     vkCmdSetLineWidth(commands, line_width_);
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.pipeline(), 0, 1, &plan.sets[0], 0,
                             nullptr);
-    vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &zero);
+    if (!mesh.pulls_positions()) vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &zero);
     vkCmdBindIndexBuffer(commands, mesh.lines.handle(), 0, VK_INDEX_TYPE_UINT32);
     vkCmdDrawIndexed(commands, mesh.line_indices, 1, 0, 0, 0);
 }
@@ -121,7 +132,7 @@ void Painter::record(VkCommandBuffer commands, const GpuMesh& mesh, const DrawPl
     target.begin(commands, surface);
     triangles.draw(commands, ties == Ties::by_number ? Surface::resolve : Surface::single, mesh, plan);
     Target::end(commands);
-    if (lines_) {
+    if (!lines_.empty()) {
         Target::between(commands);
         target.begin(commands, {.colour = true});
         draw_lines(commands, mesh, plan);

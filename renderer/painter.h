@@ -40,6 +40,7 @@ class Painter {
 
   private:
     Result<void> make_surface(Source source, Path path);
+    Result<void> make_lines(bool pulled);
     void draw_lines(VkCommandBuffer commands, const GpuMesh& mesh, const DrawPlan& plan) const;
 
     Context* context_ = nullptr;
@@ -49,7 +50,7 @@ class Painter {
     float line_width_ = 1;
     Layout layout_;
     std::map<std::pair<Source, Path>, Surface> surfaces_;
-    PipelineHandle lines_;
+    std::map<bool, PipelineHandle> lines_;  // of positions in a buffer; pulled from a vertex stream
     Buffer frame_;
     Buffer nothing_;  // bound where a mesh has no such buffer
 };

@@ -1,6 +1,7 @@
 #include "renderer/renderer.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "renderer/device_error.h"
 #include "renderer/try.h"
@@ -89,6 +90,23 @@ Result<std::vector<std::uint32_t>> Renderer::read_indices(Drawable& drawable) {
     LR_TRY(commands_->run());
     std::vector<std::uint32_t> out(std::size_t{3} * drawable.mesh.slots);
     LR_TRY(transfer_->read(drawable.mesh.indices, 0, std::as_writable_bytes(std::span(out))));
+    return out;
+}
+
+Result<std::vector<std::uint32_t>> Renderer::read_positions(Drawable& drawable) {
+    const GpuMesh& mesh = drawable.mesh;
+    if (mesh.source != Source::packed_vertices || mesh.path != Path::compute) {
+        return slots_.positions(*commands_, *transfer_, mesh);
+    }
+    LR_ASSIGN(const VkCommandBuffer commands, commands_->begin());
+    decode(commands, drawable);
+    LR_TRY(commands_->run());
+    std::vector<Vertex> vertices(mesh.vertex_count);
+    LR_TRY(transfer_->read(mesh.vertices, 0, std::as_writable_bytes(std::span(vertices))));
+    std::vector<std::uint32_t> out(std::size_t{3} * mesh.vertex_count);
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+        std::memcpy(&out[3 * v], vertices[v].position, sizeof(vertices[v].position));
+    }
     return out;
 }
 

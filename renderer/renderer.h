@@ -32,6 +32,10 @@ class Renderer {
 
     /// Records the decoding of a stream and what makes it visible, if that has not been done.
     void decode(VkCommandBuffer commands, Drawable& drawable) const;
+    /// Records the decoding of the vertex stream alone.
+    void decode_vertices(VkCommandBuffer commands, const Drawable& drawable) const {
+        expander_.decode_vertices(commands, drawable);
+    }
 
     /// One picture. `exact`: triangles rotated to begin with their smallest vertex, and ties broken by number, so that
     /// all sources give the same bits; a drawable stays rotated after it. Otherwise as the index buffer is.
@@ -40,6 +44,10 @@ class Renderer {
     /// 3 * slots indices as the device decodes them: of Path::compute what is in the index buffer, decoded first if
     /// need be; of the others what their shaders get, slot by slot.
     Result<std::vector<std::uint32_t>> read_indices(Drawable& drawable);
+
+    /// Source::packed_vertices: the bits of 3 floats a vertex, in the mesh's coordinates, as the device decodes them.
+    /// Of Path::compute what is in the vertex buffer; of the others what their shaders get, vertex by vertex.
+    Result<std::vector<std::uint32_t>> read_positions(Drawable& drawable);
 
     /// Words of its stream that decoding every slot by itself loads: what a picture by Path::geometry or mesh reads,
     /// and a third of what one by Path::pull does.

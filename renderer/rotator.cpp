@@ -14,7 +14,8 @@ Result<Rotator> Rotator::create(Context& context) {
     const Binding indices{0};
     LR_ASSIGN(out.layout_, Layout::create(context, "rotate", std::span(&indices, 1), VK_SHADER_STAGE_COMPUTE_BIT,
                                           sizeof(RotateConstants)));
-    LR_ASSIGN(out.pipeline_, create_compute(context, "rotate", out.layout_, spirv_rotate_comp));
+    out.pipelines_.resize(1);
+    LR_ASSIGN(out.pipelines_[0], create_compute(context, "rotate", out.layout_, spirv_rotate_comp));
     return out;
 }
 
@@ -36,17 +37,6 @@ Result<RotatePlan> Rotator::plan(Descriptors& descriptors, const GpuMesh& mesh) 
         plan.dispatches.push_back(dispatch);
     }
     return plan;
-}
-
-void Rotator::record(VkCommandBuffer commands, const RotatePlan& plan) const {
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
-    for (const RotatePlan::Dispatch& dispatch : plan.dispatches) {
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.pipeline(), 0, 1, &dispatch.set, 0,
-                                nullptr);
-        vkCmdPushConstants(commands, layout_.pipeline(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(RotateConstants),
-                           &dispatch.constants);
-        vkCmdDispatch(commands, dispatch.groups, 1, 1);
-    }
 }
 
 }  // namespace lacedring::gpu

@@ -24,19 +24,27 @@ class SlotReader {
     /// first needed. Device memory: up to 16 MiB while it runs.
     Result<std::vector<std::uint32_t>> read(Commands& commands, Transfer& transfer, const GpuMesh& mesh);
 
+    /// 3 words a vertex: the bits of the positions that shaders decode by themselves from the vertex stream.
+    Result<std::vector<std::uint32_t>> positions(Commands& commands, Transfer& transfer, const GpuMesh& mesh);
+
     /// Words of the stream that it takes to decode every slot once, as the mesh's path does: each by itself, or four at
     /// a time.
     Result<WordsRead> words_read(Commands& commands, Transfer& transfer, const GpuMesh& mesh);
 
   private:
-    enum class Task { indices, words, words_by_fours };
-    /// Dispatches a task over all slots in parts; `done(first, slots, buffer)` reads what each part has written.
+    enum class Task { indices, words, words_by_fours, positions };
+    /// Dispatches a task over all slots, or vertices, in parts; `done(first, count, buffer)` reads what each part has
+    /// written.
     template <class Done>
     Result<void> run(Commands& commands, const GpuMesh& mesh, Task task, const Done& done);
 
     Context* context_ = nullptr;
     Layout layout_;
-    std::array<PipelineHandle, 6> pipelines_;  // lean, packed; of each task
+    /// Three words of each slot or vertex.
+    Result<std::vector<std::uint32_t>> read_threes(Commands& commands, Transfer& transfer, const GpuMesh& mesh,
+                                                   Task task);
+
+    std::array<PipelineHandle, 8> pipelines_;  // lean, packed; of each task
 };
 
 }  // namespace lacedring::gpu

@@ -62,7 +62,8 @@ Result<Surface> Surface::create(Context& context, const Layout& layout, View vie
         // Exact pictures are of triangles that begin with their smallest vertex; the index buffers of Path::compute are
         // turned so by the rotating pass.
         info.constants = {static_cast<std::uint32_t>(view), pass == resolve ? VK_TRUE : VK_FALSE,
-                          source == Source::packed ? VK_TRUE : VK_FALSE, pass != single ? VK_TRUE : VK_FALSE};
+                          is_packed(source) ? VK_TRUE : VK_FALSE, pass != single ? VK_TRUE : VK_FALSE,
+                          source == Source::packed_vertices ? VK_TRUE : VK_FALSE};
         if (pass == claim || pass == resolve) {
             info.depth_compare = VK_COMPARE_OP_EQUAL;
             info.depth_write = false;
@@ -134,7 +135,9 @@ DrawConstants draw_constants(const GpuMesh& mesh, std::uint32_t first, std::uint
     constants.stream = mesh.stream.address_words();
     constants.vertices = mesh.vertices.address_words();
     constants.vertex_order = mesh.vertex_order.address_words();
+    constants.vertex_stream = mesh.vertex_stream.address_words();
     constants.stream_layout = mesh.stream_layout;
+    constants.unit = mesh.unit;
     return constants;
 }
 

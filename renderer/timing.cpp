@@ -67,6 +67,9 @@ struct BestOrder {
     }
 };
 
+/// Triangles of the largest mesh that is drawn with each vertex decoded by itself: seconds a picture on lavapipe.
+constexpr std::uint32_t kMostPulled = 100000;
+
 /// A way, and what it is drawn from.
 struct Uploaded {
     Way way;
@@ -101,27 +104,33 @@ Result<DeviceTimes> measure_device(Context& context, const Model& model, const T
     renderer_options.height = options.height;
     LR_ASSIGN(Renderer renderer, Renderer::create(context, renderer_options));
     std::list<Uploaded> all;  // their places are kept
-    const auto add = [&](std::string name, const Model& of, Source source, Path path,
-                         std::size_t stream_bytes) -> Result<void> {
+    const auto add = [&](std::string name, const Model& of, Source source, Path path) -> Result<void> {
         LR_ASSIGN(Drawable drawable, renderer.upload(of, source, path));
         all.emplace_back(std::move(name), std::move(drawable));
-        return count_bytes(renderer, all.back(), stream_bytes);
+        return count_bytes(renderer, all.back(), connectivity_bytes(of, source));
     };
-    LR_TRY(add("plain", model, Source::plain, Path::compute, 0));
+    LR_TRY(add("plain", model, Source::plain, Path::compute));
     DeviceTimes out;
     std::optional<BestOrder> best;  // must outlive the upload
     if (Result<std::vector<std::uint32_t>> order = best_cache_order(model.indices, model.vertex_count())) {
         best.emplace(model, std::move(*order));
-        LR_TRY(add("plain_best_order", best->model, Source::plain, Path::compute, 0));
+        LR_TRY(add("plain_best_order", best->model, Source::plain, Path::compute));
     } else {
         out.absent.emplace_back("plain_best_order", order.error().message);
     }
     for (const auto& [path_name, path] : kPaths) {
         if (path == Path::mesh && context.info().max_mesh_groups == 0) continue;
         const std::string suffix = path == Path::compute ? "" : std::string("_") + path_name;
-        LR_TRY(add("lean" + suffix, model, Source::lean, path, model.lean.words.size() * sizeof(std::uint32_t)));
-        if (model.packed.words.empty()) continue;
-        LR_TRY(add("packed" + suffix, model, Source::packed, path, model.packed.words.size() * sizeof(std::uint32_t)));
+        for (const auto& [name, source] : kSources) {
+            if (source == Source::plain || !has_source(model, source)) continue;
+            if (source == Source::packed_vertices && path != Path::compute && model.triangle_count() > kMostPulled) {
+                out.absent.emplace_back(name + suffix, "more than " + std::to_string(kMostPulled) +
+                                                           " triangles, half a block of vertices to decode for each "
+                                                           "corner");
+                continue;
+            }
+            LR_TRY(add(name + suffix, model, source, path));
+        }
     }
     LR_ASSIGN(const Camera camera, make_camera(model, {}, options.width, options.height));
     renderer.painter().set_frame(model, camera, renderer.target());
@@ -146,6 +155,10 @@ Result<DeviceTimes> measure_device(Context& context, const Model& model, const T
                              }});
         }
         works.push_back({&way.draw, [&](VkCommandBuffer buffer) { draw(buffer, drawable); }});
+        if (drawable.mesh.source == Source::packed_vertices && way.path == Path::compute) {
+            works.push_back(
+                {&out.vertices, [&](VkCommandBuffer buffer) { renderer.decode_vertices(buffer, drawable); }});
+        }
         if (way.name == "lean") {
             lean_indices = &drawable.mesh.indices;
             out.index_bytes = std::uint64_t{12} * drawable.mesh.slots;

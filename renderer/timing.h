@@ -32,7 +32,8 @@ struct Way {
     Source source = Source::plain;
     Path path = Path::compute;
     Times draw;             ///< of Path::compute: decoded before
-    Times decode;           ///< to index buffer and draw commands. Path::compute of a stream only, as is the next
+    Times decode;           ///< to index buffer and draw commands, and vertices. Path::compute of a stream only, as is
+                            ///< the next
     Times decode_and_draw;  ///< both, each time
     std::uint64_t connectivity_bytes =
         0;                         ///< that must stay on the device to draw again: index buffer, or stream, or both
@@ -43,6 +44,7 @@ struct Way {
 
 struct DeviceTimes {
     std::vector<Way> ways;
+    Times vertices;                  ///< decoding of Source::packed_vertices' vertex stream alone
     Times copy;                      ///< vkCmdCopyBuffer of lean's index buffer. Trust its wall time only on lavapipe
     std::uint64_t index_bytes = 0;   ///< of lean's index buffer
     std::uint64_t device_bytes = 0;  ///< device memory held at most

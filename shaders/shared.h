@@ -19,6 +19,7 @@ using mat4 = std::array<float, 16>;  // column-major
 
 #define LR_CONSTANT_BLOCKS 1      // packed_decode.comp: blocks of a workgroup
 #define LR_CONSTANT_COMPONENTS 0  // vertex_decode.comp: integers of a vertex
+#define LR_CONSTANT_INTEGERS 1    // vertex_decode.comp: writes them, not the values they stand for
 
 // lean_decode.comp, packed_decode.comp: one dispatch expands `slots` slots from `first_slot`, through descriptors that
 // cover only what these need.
@@ -31,6 +32,16 @@ struct DecodeConstants {
     uint words;       // packed: of the stream
     uvec2 stream;     // packed: its address
 };
+
+// vertex_decode.comp: one dispatch decodes `blocks` blocks from `first_block`. Its descriptor begins at their first vertex.
+struct VertexConstants {
+    uint first_block;
+    uint blocks;
+    uint stride;  // words from one vertex to the next
+    uint unused;
+    uvec2 stream;  // its address
+};
+#define LR_VERTEX_GROUP_SIZE 32u  // invocations, a block each
 
 // rotate.comp: the window of the index buffer is the descriptor's.
 struct RotateConstants {
@@ -58,17 +69,21 @@ struct DrawConstants {
     uvec2 stream;
     uvec2 vertices;
     uvec2 vertex_order;
-    uvec2 unused2;
+    uvec2 vertex_stream;
     uvec4 stream_layout;  // lean: LrLeanLayout; packed: LrPackedLayout
+    // Positions are (x - unit.xyz) * unit.w in the unit sphere.
+    vec4 unit;
 };
 
 // Specialization constants of the shaders that decode by themselves (0 and 1 are surface.frag's).
 #define LR_CONSTANT_PACKED 2  // of a packed stream
 #define LR_CONSTANT_ROTATE 3  // triangles begin with their smallest original vertex
+#define LR_CONSTANT_VERTEX_STREAM 4  // positions are decoded from a vertex stream
 
-#define LR_CONSTANT_FOURS 4  // slot_words.comp: four slots at a time
+#define LR_CONSTANT_FOURS 5  // slot_words.comp: four slots at a time
 
-// Floats of a vertex: position, normal, place along the rings.
+// Floats of a vertex: position (none where a shader decodes it from a vertex stream), normal, place along the rings.
+#define LR_POSITION_FLOATS 3u
 #define LR_VERTEX_FLOATS 7u
 // Slots of a point that surface.geom gets.
 #define LR_GEOMETRY_SLOTS 4u

@@ -1,13 +1,6 @@
-// The triangles of a stream, for the stages that decode by themselves. Through addresses, not descriptors: one piece of
-// code whatever the size, and nothing is written.
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_buffer_reference_uvec2 : require
-#include "shaders/shared.h"
+// The triangles of a stream, for the stages that decode by themselves.
+#include "shaders/draw_push.glsl"
 
-layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Words { uint at[]; };
-layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Floats { float at[]; };
-
-layout(push_constant) uniform Push { DrawConstants push; };
 layout(constant_id = LR_CONSTANT_PACKED) const bool packed_stream = false;
 layout(constant_id = LR_CONSTANT_ROTATE) const bool rotate = false;
 

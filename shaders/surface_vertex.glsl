@@ -1,6 +1,6 @@
 // A vertex of the surface, in every stage that makes vertices: passes compare depths for equality, so all of them compute
 // it with the same words.
-#include "shaders/shared.h"
+#include "shaders/draw_push.glsl"
 
 layout(binding = 0) uniform Frame { FrameConstants frame; };
 layout(constant_id = 0) const uint view = LR_VIEW_SMOOTH;  // what no view needs is not fetched for it
@@ -22,10 +22,10 @@ vec3 ring_colour(float t) {
     return mix(stops[i], stops[i + 1], x - float(i));
 }
 
-// ring: place along the rings in [0, 1], or negative: on no ring
+// position: in the coordinates of the source; ring: place along the rings in [0, 1], or negative: on no ring
 SurfaceVertex surface_vertex(vec3 position, vec3 normal, float ring) {
     SurfaceVertex v;
-    precise vec4 from_eye = frame.view_from_world * vec4(position, 1.0);
+    precise vec4 from_eye = frame.view_from_world * vec4(unit_position(position), 1.0);
     precise vec4 clip = frame.clip_from_view * from_eye;
     v.clip = clip;
     v.position = from_eye.xyz;

@@ -201,7 +201,7 @@ Result<bool> Script::set(const Line& line, Viewer& viewer) {
     }
     if (name == "source") {
         const auto source = gpu::source_named(value);
-        if (!source) return wrong("no such source: " + value);
+        if (!source || *source == gpu::Source::packed_vertices) return wrong("no such source: " + value);
         state.shown.source = *source;
         return true;
     }

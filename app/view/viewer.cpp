@@ -60,7 +60,7 @@ std::string Viewer::title() const {
 Shown Viewer::shown(bool moving, const gpu::Model* model) const {
     Shown out = state_.shown;
     out.exact = !moving || out.mode != Mode::single;
-    if (model != nullptr && out.source == gpu::Source::packed && model->packed.words.empty()) {
+    if (model != nullptr && !gpu::has_source(*model, out.source)) {
         out.source = gpu::Source::lean;  // it is being made
     }
     return out;

@@ -59,6 +59,18 @@ bool decode_meshopt_indices(std::span<const std::uint8_t> bytes, std::span<std::
     return meshopt_decodeIndexBuffer(indices.data(), indices.size(), bytes.data(), bytes.size()) == 0;
 }
 
+std::vector<std::uint8_t> encode_meshopt_vertices(std::span<const std::uint16_t> values) {
+    constexpr std::size_t kSize = 4 * sizeof(std::uint16_t);
+    std::vector<std::uint8_t> out(meshopt_encodeVertexBufferBound(values.size() / 4, kSize));
+    out.resize(meshopt_encodeVertexBuffer(out.data(), out.size(), values.data(), values.size() / 4, kSize));
+    return out;
+}
+
+bool decode_meshopt_vertices(std::span<const std::uint8_t> bytes, std::span<std::uint16_t> values) {
+    return meshopt_decodeVertexBuffer(values.data(), values.size() / 4, 4 * sizeof(std::uint16_t), bytes.data(),
+                                      bytes.size()) == 0;
+}
+
 Result<std::array<CodedIndices, 2>> encode_meshopt_orders(std::span<const std::uint32_t> indices,
                                                           std::uint32_t vertex_count) {
     std::array<CodedIndices, 2> out;

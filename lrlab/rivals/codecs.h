@@ -1,5 +1,5 @@
 #pragma once
-// meshoptimizer's compressed index formats.
+// meshoptimizer's compressed index and vertex formats.
 
 #include <array>
 #include <cstddef>
@@ -29,6 +29,12 @@ Result<CodedIndices> encode_meshopt_indices(std::span<const std::uint32_t> indic
 
 /// meshopt_decodeIndexBuffer. False if `bytes` are no such stream of so many indices.
 bool decode_meshopt_indices(std::span<const std::uint8_t> bytes, std::span<std::uint32_t> indices);
+
+/// meshopt_encodeVertexBuffer, of 4 integers a vertex: `values` has as many.
+std::vector<std::uint8_t> encode_meshopt_vertices(std::span<const std::uint16_t> values);
+
+/// meshopt_decodeVertexBuffer. False if `bytes` are no such stream of so many values.
+bool decode_meshopt_vertices(std::span<const std::uint8_t> bytes, std::span<std::uint16_t> values);
 
 /// The triangles in the order that meshopt_optimizeVertexCache thinks best. Errors: those of check_valences.
 Result<std::vector<std::uint32_t>> best_cache_order(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);

@@ -313,7 +313,14 @@ class Json(CliTest):
                                                   "lr", "lr_compact", "squad", "optimize", "packed_encode",
                                                   "packed_cache_encode", "packed"})
         self.assertEqual(set(mesh["decode_cpu"]), {"lean", "copy", "packed", "packed_2_threads", "packed_cache",
-                                                   "meshopt_index_codec"})
+                                                   "meshopt_index_codec", "vertices", "meshopt_vertex_codec"})
+        for name in ("vertices", "meshopt_vertex_codec"):
+            self.assertGreater(mesh["decode_cpu"][name]["mvert_per_s"], 0, name)
+        self.assertGreater(mesh["decode_cpu_ratio"]["meshopt_vertex_codec_over_vertices"], 0)
+        self.assertEqual(mesh["position_bits"], 14)
+        if mesh["decode_gpu"]:
+            self.assertGreater(mesh["decode_gpu"]["vertices"]["mvert_per_s"], 0)
+            self.assertGreater(mesh["decode_gpu_ratio"]["packed_vertices_over_packed"], 0)
 
 
 class Pictures(CliTest):
@@ -359,12 +366,13 @@ class Pictures(CliTest):
         self.assertEqual(document["size"], [320, 240])
         self.assertGreaterEqual(document["views"], 6)
         self.assertIsInstance(document["skipped"], list)
-        self.assertTrue(any(r["source"] == "lean" for r in document["results"]))
+        self.assertEqual({r["source"] for r in document["results"]}, {"lean", "packed", "packed_vertices"})
         for result in document["results"]:
             self.assertTrue(result["source"] and result["path"])
             for key in ("pixels_different", "max_channel_difference", "triangle_ids_different"):
                 self.assertEqual(result[key], 0, key)
             self.assertIs(result["indices_equal_cpu"], True)
+            self.assertIs(result.get("vertices_equal_cpu"), True if result["source"] == "packed_vertices" else None)
             self.assertGreater(result["covered_pixels"], 0)
             for key in ("raw_pixels_different", "raw_max_channel_difference"):
                 self.assertIsInstance(result[key], NUMBER)

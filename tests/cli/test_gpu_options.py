@@ -68,6 +68,13 @@ class GpuOptions(CliTest):
                 self.usage(*render, "--source", "plain", "--view", view, *option, says=option[0] + " applies only with --source lean")
         for choice in (("--source", "plain"), ("--source", "packed"), ("--source", "plain", "--view", "wire")):
             self.usage(*render, *choice, "--no-warts", says="--no-warts applies only with --source lean")
+        for source in ("plain", "lean", "packed"):
+            self.usage(*render, "--source", source, "--positions", "12", says="--positions applies only with --source packed_vertices")
+        self.usage("compare", mesh, "--source", "lean,packed", "--positions", "12",
+                   says="--positions applies only with --source packed_vertices")
+        for bits in ("0", "23"):
+            self.usage(*render, "--source", "packed_vertices", "--positions", bits, says="--positions")
+        self.usage("bench", mesh, "--positions", "17", says="--positions")
         self.usage(*render, "--k", "5", says="--k applies only with --ring hybrid")
         self.usage(*render, "--ring", "expander", "--k", "5", says="--k applies only with --ring hybrid")
         self.usage(*render, "--random-seed", "5", "--seeds", "1", says="--random-seed applies only with several --seeds")
@@ -80,6 +87,7 @@ class GpuOptions(CliTest):
                           ("--source", "plain", "--view", "offsets", "--", "--no-warts"),
                           ("--source", "plain", "--view", "ring", "--", "--no-warts"),
                           ("--source", "packed", "--view", "ring", "--", "--ring", "hybrid"),
+                          ("--source", "packed_vertices", "--", "--positions", "6"),
                           ("--source", "plain", "--view", "class", "--", "--optimize", "4"),
                           ("--view", "ring", "--ring", "hybrid", "--", "--k", "3"),
                           ("--view", "class", "--seeds", "1", "--optimize", "2", "--", "--random-seed", "9"),
@@ -137,6 +145,26 @@ class GpuOptions(CliTest):
         said = self.ok("report", self.generate("torus", 200), "-o", self.path("x.html"), "--device-memory", "1").out
         self.assertIn("no pictures: ", said)
 
+    def test_packed_vertices(self):
+        """The picture of a quantized source is that of the file that encode writes, whatever draws it."""
+        mesh = self.generate("parts", 900)
+        same = ("--size", "80x60", "--samples", "1", "--json")
+        self.ok("encode", mesh, "-o", self.path("x.lr"), "--positions", "9", "--keep-order")
+        self.ok("decode", self.path("x.lr"), "-o", self.path("y.ply"), "--original-order")
+        renders = [(self.path("y.ply"), "--source", "plain"), (mesh, "--source", "packed_vertices", "--positions", "9"),
+                   (mesh, "--source", "packed_vertices", "--positions", "9", "--path", "pull")]
+        pictures = []
+        for number, (file, *options) in enumerate(renders):
+            self.json("render", file, "-o", self.path(f"{number}.png"), *options, *same)
+            with open(self.path(f"{number}.png"), "rb") as picture:
+                pictures.append(picture.read())
+        self.assertEqual(pictures[1], pictures[2])
+        self.assertEqual(pictures[0], pictures[1])
+        document = self.json("compare", mesh, "--source", "packed_vertices", "--path", "compute", "--positions", "9", "--size", "80x60",
+                             "--json")
+        self.assertEqual([(r["source"], r["pixels_different"], r["vertices_equal_cpu"]) for r in document["results"]],
+                         [("packed_vertices", 0, True)])
+
     def test_nothing_to_be_seen(self):
         triangle = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
         far = [(i * 1e-6, j * 1e-6, 0) for i in range(50) for j in range(50)] + [(1, 0, 0), (1, 1e-7, 0), (0, 1e-7, 0)]
@@ -172,7 +200,7 @@ class GpuOptions(CliTest):
         self.ok("bench", self.generate("torus", 200), "--rounds", "1", "--validation")
 
     def test_progress_is_for_terminals(self):
-        mesh = self.generate("blob", 8000)
+        mesh = self.generate("blob", 2000)
         for arguments in (("compare", mesh, "--size", "160x120"), ("bench", mesh, "--rounds", "1", "--operators")):
             code, out, said = on_a_terminal(*arguments)
             self.assertEqual(code, DONE, said)

@@ -100,7 +100,7 @@ TEST_CASE_FIXTURE(GpuTest, "bytes survive the way to the device and back, in pie
 
 TEST_CASE("a mesh takes the device memory that was said, and none where there is too little") {
     const Mesh mesh = generated("blob", 200000);
-    const gpu::Model model = model_of(mesh);
+    const gpu::Model model = gpu::make_model(mesh, {.packed = true, .vertices = VertexOptions{}}).value();
     auto context = gpu::Context::create({{}, true});
     REQUIRE(context);
     gpu::RendererOptions options;
@@ -109,7 +109,8 @@ TEST_CASE("a mesh takes the device memory that was said, and none where there is
         options.view = view;
         auto renderer = gpu::Renderer::create(**context, options);
         REQUIRE(renderer);
-        for (const gpu::Source source : {gpu::Source::plain, gpu::Source::lean, gpu::Source::packed}) {
+        for (const auto& [name, source] : gpu::kSources) {
+            CAPTURE(std::string(name));
             for (const gpu::Path path : {gpu::Path::compute, gpu::Path::pull}) {
                 if (source == gpu::Source::plain && path != gpu::Path::compute) continue;
                 const std::uint64_t said = renderer->device_bytes(model, source, path);

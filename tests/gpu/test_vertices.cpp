@@ -1,4 +1,5 @@
-// shaders/lacedring_vertices.glsl: the integers and floats of a vertex stream are the CPU's, bit for bit.
+// shaders/vertex_decode.comp, with shaders/lacedring_vertices.glsl: the integers and floats of a vertex stream are the
+// CPU's, bit for bit.
 
 #include <array>
 #include <bit>
@@ -19,22 +20,24 @@ namespace {
 
 struct VertexDecode : GpuTest {
     VertexDecode() {
-        const std::array<gpu::Binding, 2> bindings{{{0}, {1}}};
-        auto made = gpu::Layout::create(*context, "vertices", bindings, VK_SHADER_STAGE_COMPUTE_BIT, 4);
+        const gpu::Binding binding{0};
+        auto made = gpu::Layout::create(*context, "vertices", std::span(&binding, 1), VK_SHADER_STAGE_COMPUTE_BIT,
+                                        sizeof(gpu::VertexConstants));
         REQUIRE(made);
         layout = std::move(*made);
-        for (std::uint32_t n = 1; n <= pipelines.size(); ++n) {
+        for (std::uint32_t i = 0; i < pipelines.size(); ++i) {
             auto pipeline = gpu::create_compute(*context, "vertices", layout, spirv_vertex_decode_comp,
-                                                std::array<std::uint32_t, 1>{n});
+                                                std::array<std::uint32_t, 2>{i / 2 + 1, i % 2});
             REQUIRE(pipeline);
-            pipelines[n - 1] = std::move(*pipeline);
+            pipelines[i] = std::move(*pipeline);
         }
     }
 
-    std::vector<std::uint32_t> decoded(const VertexView& view, std::size_t size) {
-        constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-        constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-        std::vector<std::uint32_t> out(size);
+    /// `stride` words a vertex: integers, or what they stand for.
+    std::vector<std::uint32_t> decoded(const VertexView& view, bool integers, std::uint32_t stride) {
+        constexpr VkBufferUsageFlags kUsage =
+            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+        std::vector<std::uint32_t> out(std::size_t{stride} * view.vertices);
         const auto stream = gpu::Buffer::create(*context, "stream", view.words.size_bytes(), kUsage);
         const auto values = gpu::Buffer::create(*context, "values", 4 * out.size(), kUsage);
         auto commands = gpu::Commands::create(*context);
@@ -44,13 +47,15 @@ struct VertexDecode : GpuTest {
         gpu::Descriptors descriptors(*context);
         const auto set = descriptors.allocate(layout);
         REQUIRE(set);
-        descriptors.write(*set, 0, kStorage, {&*stream});
-        descriptors.write(*set, 1, kStorage, {&*values});
+        descriptors.write(*set, 0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, {&*values});
         const auto buffer = commands->begin();
         REQUIRE(buffer);
-        vkCmdBindPipeline(*buffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines[view.integers - 1U].get());
+        const gpu::VertexConstants constants{0, view.blocks(), stride, 0, stream->address_words()};
+        const gpu::PipelineHandle& pipeline = pipelines[2 * (view.integers - 1U) + (integers ? 1 : 0)];
+        vkCmdBindPipeline(*buffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
         vkCmdBindDescriptorSets(*buffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout.pipeline(), 0, 1, &*set, 0, nullptr);
-        vkCmdDispatch(*buffer, (view.blocks() + 31) / 32, 1, 1);
+        vkCmdPushConstants(*buffer, layout.pipeline(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants), &constants);
+        vkCmdDispatch(*buffer, (view.blocks() + LR_VERTEX_GROUP_SIZE - 1) / LR_VERTEX_GROUP_SIZE, 1, 1);
         gpu::decode_barrier(*buffer);
         REQUIRE(commands->run());
         REQUIRE(transfer->read(*values, 0, std::as_writable_bytes(std::span(out))));
@@ -63,30 +68,25 @@ struct VertexDecode : GpuTest {
         const Result<VertexView> view = validate_vertices(encoded->words);
         REQUIRE(view);
         CAPTURE(static_cast<int>(view->mapping));
-        const std::size_t integers = std::size_t{view->integers} * view->vertices;
-        const bool octahedral = view->mapping == VertexMapping::octahedral;
-        const std::vector<std::uint32_t> got =
-            decoded(*view, integers + (octahedral ? std::size_t{3} * view->vertices : integers));
-        std::vector<std::uint32_t> want(integers);
+        std::vector<std::uint32_t> want(std::size_t{view->integers} * view->vertices);
         for (std::uint32_t block = 0; block < view->blocks(); ++block) {
             decode_vertex_block(*view, block,
                                 std::span(want).subspan(std::size_t{block} * kVertexBlock * view->integers));
         }
-        const std::vector<std::uint32_t> first(got.begin(), got.begin() + static_cast<std::ptrdiff_t>(integers));
-        CHECK(first == want);
+        CHECK(decoded(*view, true, view->integers) == want);
         std::vector<std::byte> bytes(view->decoded_bytes());
         decode_vertices(*view, bytes);
         std::vector<std::uint32_t> floats(bytes.size() / 4);
         std::memcpy(floats.data(), bytes.data(), bytes.size());
-        if (!octahedral) {
-            const std::vector<std::uint32_t> second(got.begin() + static_cast<std::ptrdiff_t>(integers), got.end());
-            CHECK(second == floats);
+        if (view->mapping != VertexMapping::octahedral) {
+            CHECK(decoded(*view, false, view->integers) == floats);
             return;
         }
+        const std::vector<std::uint32_t> got = decoded(*view, false, 3);
         for (std::size_t v = 0; v < view->vertices; ++v) {  // divided by its length, it is the CPU's vector
             double length = 0;
             const auto at = [&](std::size_t c) {
-                return static_cast<double>(static_cast<std::int32_t>(got[integers + 3 * v + c]));
+                return static_cast<double>(static_cast<std::int32_t>(got[3 * v + c]));
             };
             for (std::size_t c = 0; c < 3; ++c) length += at(c) * at(c);
             for (std::size_t c = 0; c < 3; ++c) {
@@ -97,7 +97,7 @@ struct VertexDecode : GpuTest {
     }
 
     gpu::Layout layout;
-    std::array<gpu::PipelineHandle, 4> pipelines;  // by components
+    std::array<gpu::PipelineHandle, 8> pipelines;  // by components; values, integers
 };
 
 }  // namespace

@@ -1,0 +1,48 @@
+#include "renderer/vertex_decoder.h"
+
+#include <algorithm>
+
+#include "lacedring/vertices.hpp"
+#include "renderer/context.h"
+#include "renderer/try.h"
+#include "spirv/vertex_decode_comp.h"
+
+namespace lacedring::gpu {
+
+Result<VertexDecoder> VertexDecoder::create(Context& context) {
+    VertexDecoder out;
+    out.context_ = &context;
+    const Binding vertices{0};
+    LR_ASSIGN(out.layout_, Layout::create(context, "vertex decode", std::span(&vertices, 1),
+                                          VK_SHADER_STAGE_COMPUTE_BIT, sizeof(VertexConstants)));
+    out.pipelines_.resize(1);
+    LR_ASSIGN(out.pipelines_[0], create_compute(context, "vertex decode", out.layout_, spirv_vertex_decode_comp));
+    return out;
+}
+
+Result<VertexPlan> VertexDecoder::plan(Descriptors& descriptors, const GpuMesh& mesh) const {
+    constexpr std::uint64_t kBlockBytes = sizeof(Vertex) * std::uint64_t{kVertexBlock};
+    static_assert(kBlockBytes % kDescriptorAlignment == 0);
+    const std::uint64_t by_groups =
+        std::uint64_t{context_->limits().maxComputeWorkGroupCount[0]} * LR_VERTEX_GROUP_SIZE;
+    const std::uint64_t step = std::min(mesh.max_range / kBlockBytes, by_groups);
+    const std::uint64_t all = (std::uint64_t{mesh.vertex_count} + kVertexBlock - 1) / kVertexBlock;
+    VertexPlan plan;
+    for (std::uint64_t first = 0; first < all; first += step) {
+        const std::uint64_t blocks = std::min(step, all - first);
+        const VkDeviceSize bytes = std::min(blocks * kBlockBytes, mesh.vertices.size() - first * kBlockBytes);
+        VertexPlan::Dispatch dispatch;
+        LR_ASSIGN(dispatch.set, descriptors.allocate(layout_));
+        descriptors.write(dispatch.set, 0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                          {&mesh.vertices, first * kBlockBytes, bytes});
+        dispatch.constants.first_block = static_cast<std::uint32_t>(first);
+        dispatch.constants.blocks = static_cast<std::uint32_t>(blocks);
+        dispatch.constants.stride = LR_VERTEX_FLOATS;
+        dispatch.constants.stream = mesh.vertex_stream.address_words();
+        dispatch.groups = static_cast<std::uint32_t>((blocks + LR_VERTEX_GROUP_SIZE - 1) / LR_VERTEX_GROUP_SIZE);
+        plan.dispatches.push_back(dispatch);
+    }
+    return plan;
+}
+
+}  // namespace lacedring::gpu

@@ -1,0 +1,20 @@
+#pragma once
+// The compute pass that decodes a vertex stream of positions into a vertex buffer.
+
+#include "renderer/decoder.h"
+
+namespace lacedring::gpu {
+
+using VertexPlan = PassPlan<VertexConstants>;
+
+/// Writes the positions of mesh.vertices.
+class VertexDecoder : public ComputePass<VertexConstants> {
+  public:
+    static Result<VertexDecoder> create(Context& context);
+
+    /// Splits the vertex buffer so that no descriptor covers more than mesh.max_range bytes. The stream is read through
+    /// its address.
+    Result<VertexPlan> plan(Descriptors& descriptors, const GpuMesh& mesh) const;
+};
+
+}  // namespace lacedring::gpu
