@@ -1,6 +1,7 @@
 #include "renderer/expander.h"
 
 #include "lacedring/streams.hpp"
+#include "lacedring/vertices.hpp"
 #include "renderer/try.h"
 
 namespace lacedring::gpu {
@@ -29,7 +30,8 @@ Result<Drawable> Expander::upload(Transfer& transfer, const Model& model, Source
         LR_ASSIGN(out.decode, packed_.plan(out.descriptors, out.mesh, view));
     }
     if (source == Source::packed_vertices) {
-        LR_ASSIGN(out.vertices, vertices_.plan(out.descriptors, out.mesh));
+        LR_ASSIGN(const VertexView view, view_vertices(model.vertices.words));
+        LR_ASSIGN(out.vertices, vertices_.plan(out.descriptors, out.mesh, view));
     }
     LR_ASSIGN(out.rotate, rotator_.plan(out.descriptors, out.mesh));
     return out;

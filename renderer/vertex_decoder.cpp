@@ -1,13 +1,19 @@
 #include "renderer/vertex_decoder.h"
 
 #include <algorithm>
+#include <array>
 
-#include "lacedring/vertices.hpp"
 #include "renderer/context.h"
 #include "renderer/try.h"
 #include "spirv/vertex_decode_comp.h"
 
 namespace lacedring::gpu {
+namespace {
+
+/// Of positions. Each has a pipeline, in which nothing is left of the others.
+constexpr std::array kMappings{VertexMapping::lattice, VertexMapping::floats, VertexMapping::decimals};
+
+}  // namespace
 
 Result<VertexDecoder> VertexDecoder::create(Context& context) {
     VertexDecoder out;
@@ -15,18 +21,22 @@ Result<VertexDecoder> VertexDecoder::create(Context& context) {
     const Binding vertices{0};
     LR_ASSIGN(out.layout_, Layout::create(context, "vertex decode", std::span(&vertices, 1),
                                           VK_SHADER_STAGE_COMPUTE_BIT, sizeof(VertexConstants)));
-    out.pipelines_.resize(1);
-    LR_ASSIGN(out.pipelines_[0], create_compute(context, "vertex decode", out.layout_, spirv_vertex_decode_comp));
+    for (const VertexMapping mapping : kMappings) {
+        const std::array<std::uint32_t, 3> constants{3, 0, static_cast<std::uint32_t>(mapping)};
+        LR_ASSIGN(out.pipelines_.emplace_back(),
+                  create_compute(context, "vertex decode", out.layout_, spirv_vertex_decode_comp, constants));
+    }
     return out;
 }
 
-Result<VertexPlan> VertexDecoder::plan(Descriptors& descriptors, const GpuMesh& mesh) const {
+Result<VertexPlan> VertexDecoder::plan(Descriptors& descriptors, const GpuMesh& mesh, const VertexView& view) const {
     constexpr std::uint64_t kBlockBytes = sizeof(Vertex) * std::uint64_t{kVertexBlock};
     static_assert(kBlockBytes % kDescriptorAlignment == 0);
     const std::uint64_t by_groups =
         std::uint64_t{context_->limits().maxComputeWorkGroupCount[0]} * LR_VERTEX_GROUP_SIZE;
     const std::uint64_t step = std::min(mesh.max_range / kBlockBytes, by_groups);
     const std::uint64_t all = (std::uint64_t{mesh.vertex_count} + kVertexBlock - 1) / kVertexBlock;
+    const auto pipeline = std::find(kMappings.begin(), kMappings.end(), view.mapping) - kMappings.begin();
     VertexPlan plan;
     for (std::uint64_t first = 0; first < all; first += step) {
         const std::uint64_t blocks = std::min(step, all - first);
@@ -35,6 +45,7 @@ Result<VertexPlan> VertexDecoder::plan(Descriptors& descriptors, const GpuMesh& 
         LR_ASSIGN(dispatch.set, descriptors.allocate(layout_));
         descriptors.write(dispatch.set, 0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                           {&mesh.vertices, first * kBlockBytes, bytes});
+        dispatch.pipeline = static_cast<std::uint32_t>(pipeline);
         dispatch.constants.first_block = static_cast<std::uint32_t>(first);
         dispatch.constants.blocks = static_cast<std::uint32_t>(blocks);
         dispatch.constants.stride = LR_VERTEX_FLOATS;

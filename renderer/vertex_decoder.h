@@ -1,6 +1,7 @@
 #pragma once
 // The compute pass that decodes a vertex stream of positions into a vertex buffer.
 
+#include "lacedring/vertices.hpp"
 #include "renderer/decoder.h"
 
 namespace lacedring::gpu {
@@ -14,7 +15,7 @@ class VertexDecoder : public ComputePass<VertexConstants> {
 
     /// Splits the vertex buffer so that no descriptor covers more than mesh.max_range bytes. The stream is read through
     /// its address.
-    Result<VertexPlan> plan(Descriptors& descriptors, const GpuMesh& mesh) const;
+    Result<VertexPlan> plan(Descriptors& descriptors, const GpuMesh& mesh, const VertexView& view) const;
 };
 
 }  // namespace lacedring::gpu

@@ -20,6 +20,7 @@ using mat4 = std::array<float, 16>;  // column-major
 #define LR_CONSTANT_BLOCKS 1      // packed_decode.comp: blocks of a workgroup
 #define LR_CONSTANT_COMPONENTS 0  // vertex_decode.comp: integers of a vertex
 #define LR_CONSTANT_INTEGERS 1    // vertex_decode.comp: writes them, not the values they stand for
+#define LR_CONSTANT_MAPPING 2     // vertex_decode.comp: what they stand for
 
 // lean_decode.comp, packed_decode.comp: one dispatch expands `slots` slots from `first_slot`, through descriptors that
 // cover only what these need.

@@ -14,6 +14,8 @@ layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Wor
 
 layout(constant_id = LR_CONSTANT_COMPONENTS) const uint LR_VERTEX_COMPONENTS = 3u;
 layout(constant_id = LR_CONSTANT_INTEGERS) const bool integers = false;
+layout(constant_id = LR_CONSTANT_MAPPING) const uint mapping = 1u;
+#define LR_VERTEX_MAPPING mapping
 
 void put(uint vertex);
 #define LR_VERTEX_WORD(i) Words(push.stream).at[i]
@@ -24,7 +26,7 @@ LrVertexLayout p;
 
 void put(uint vertex) {
     uint at = (vertex - push.first_block * LR_VERTEX_BLOCK) * push.stride;
-    if (!integers && p.mapping == LR_MAPPING_OCTAHEDRAL) {
+    if (!integers && LR_VERTEX_MAPPING == LR_MAPPING_OCTAHEDRAL) {
         ivec3 direction = lr_vertex_direction(p, lr_vertex_value[0], LR_VERTEX_COMPONENTS > 1u ? lr_vertex_value[1] : 0u);
         for (uint c = 0u; c < 3u; ++c) values[at + c] = uint(direction[c]);
         return;

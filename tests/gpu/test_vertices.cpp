@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <map>
 #include <random>
 
 #include "lacedring/vertices.hpp"
@@ -25,12 +26,18 @@ struct VertexDecode : GpuTest {
                                         sizeof(gpu::VertexConstants));
         REQUIRE(made);
         layout = std::move(*made);
-        for (std::uint32_t i = 0; i < pipelines.size(); ++i) {
-            auto pipeline = gpu::create_compute(*context, "vertices", layout, spirv_vertex_decode_comp,
-                                                std::array<std::uint32_t, 2>{i / 2 + 1, i % 2});
-            REQUIRE(pipeline);
-            pipelines[i] = std::move(*pipeline);
+    }
+
+    VkPipeline pipeline_of(const VertexView& view, bool integers) {
+        const std::array<std::uint32_t, 3> constants{view.integers, integers ? 1U : 0U,
+                                                     integers ? 0U : static_cast<std::uint32_t>(view.mapping)};
+        gpu::PipelineHandle& pipeline = pipelines[constants];
+        if (!pipeline) {
+            auto made = gpu::create_compute(*context, "vertices", layout, spirv_vertex_decode_comp, constants);
+            REQUIRE(made);
+            pipeline = std::move(*made);
         }
+        return pipeline.get();
     }
 
     /// `stride` words a vertex: integers, or what they stand for.
@@ -51,8 +58,7 @@ struct VertexDecode : GpuTest {
         const auto buffer = commands->begin();
         REQUIRE(buffer);
         const gpu::VertexConstants constants{0, view.blocks(), stride, 0, stream->address_words()};
-        const gpu::PipelineHandle& pipeline = pipelines[2 * (view.integers - 1U) + (integers ? 1 : 0)];
-        vkCmdBindPipeline(*buffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
+        vkCmdBindPipeline(*buffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_of(view, integers));
         vkCmdBindDescriptorSets(*buffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout.pipeline(), 0, 1, &*set, 0, nullptr);
         vkCmdPushConstants(*buffer, layout.pipeline(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants), &constants);
         vkCmdDispatch(*buffer, (view.blocks() + LR_VERTEX_GROUP_SIZE - 1) / LR_VERTEX_GROUP_SIZE, 1, 1);
@@ -97,7 +103,7 @@ struct VertexDecode : GpuTest {
     }
 
     gpu::Layout layout;
-    std::array<gpu::PipelineHandle, 8> pipelines;  // by components; values, integers
+    std::map<std::array<std::uint32_t, 3>, gpu::PipelineHandle> pipelines;  // by specialization constants
 };
 
 }  // namespace
