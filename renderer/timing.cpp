@@ -125,8 +125,7 @@ Result<DeviceTimes> measure_device(Context& context, const Model& model, const T
             if (source == Source::plain || !has_source(model, source)) continue;
             if (source == Source::packed_vertices && path != Path::compute && model.triangle_count() > kMostPulled) {
                 out.absent.emplace_back(name + suffix, "more than " + std::to_string(kMostPulled) +
-                                                           " triangles, half a block of vertices to decode for each "
-                                                           "corner");
+                                                           " triangles; each corner decodes half a block of vertices");
                 continue;
             }
             LR_TRY(add(name + suffix, model, source, path));

@@ -34,7 +34,8 @@ struct DecodeConstants {
     uvec2 stream;     // packed: its address
 };
 
-// vertex_decode.comp: one dispatch decodes `blocks` blocks from `first_block`. Its descriptor begins at their first vertex.
+// vertex_decode.comp: one dispatch decodes `blocks` blocks from `first_block`. Its descriptor begins at their first
+// vertex.
 struct VertexConstants {
     uint first_block;
     uint blocks;
@@ -77,8 +78,8 @@ struct DrawConstants {
 };
 
 // Specialization constants of the shaders that decode by themselves (0 and 1 are surface.frag's).
-#define LR_CONSTANT_PACKED 2  // of a packed stream
-#define LR_CONSTANT_ROTATE 3  // triangles begin with their smallest original vertex
+#define LR_CONSTANT_PACKED 2         // of a packed stream
+#define LR_CONSTANT_ROTATE 3         // triangles begin with their smallest original vertex
 #define LR_CONSTANT_VERTEX_STREAM 4  // positions are decoded from a vertex stream
 
 #define LR_CONSTANT_FOURS 5  // slot_words.comp: four slots at a time
