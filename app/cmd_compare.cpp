@@ -156,6 +156,12 @@ int run_compare(const CompareOptions& options, RunLog& log) {
         }
         for (const auto& [source_name, source] : gpu::kSources) {
             if (source == gpu::Source::plain || !options.compares(source_name)) continue;
+            if (options.sources.empty() && options.paths.empty() &&
+                gpu::is_slow(source, path, model->triangle_count())) {
+                skipped.push_back({path_name, fmt::format("{} of more than {} triangles: --source {} compares it",
+                                                          source_name, gpu::kMostPulled, source_name)});
+                continue;
+            }
             all.push_back({source_name, path_name, {source, path}, {}});
         }
     }

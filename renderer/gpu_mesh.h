@@ -35,6 +35,13 @@ enum class Path {
     mesh,      ///< a mesh shader decodes 64 slots a workgroup (VK_EXT_mesh_shader)
 };
 
+/// Where Source::packed_vertices is drawn without compute shaders, each corner decodes half a block of vertices. Of
+/// more triangles than this it is drawn so only where that is asked for: a picture takes seconds on lavapipe.
+constexpr std::uint32_t kMostPulled = 20000;
+constexpr bool is_slow(Source source, Path path, std::uint32_t triangles) {
+    return source == Source::packed_vertices && path != Path::compute && triangles > kMostPulled;
+}
+
 /// By their names on the command line.
 struct NamedPath {
     const char* name;

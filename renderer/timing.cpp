@@ -67,9 +67,6 @@ struct BestOrder {
     }
 };
 
-/// Triangles of the largest mesh that is drawn with each vertex decoded by itself: seconds a picture on lavapipe.
-constexpr std::uint32_t kMostPulled = 100000;
-
 /// A way, and what it is drawn from.
 struct Uploaded {
     Way way;
@@ -123,7 +120,7 @@ Result<DeviceTimes> measure_device(Context& context, const Model& model, const T
         const std::string suffix = path == Path::compute ? "" : std::string("_") + path_name;
         for (const auto& [name, source] : kSources) {
             if (source == Source::plain || !has_source(model, source)) continue;
-            if (source == Source::packed_vertices && path != Path::compute && model.triangle_count() > kMostPulled) {
+            if (is_slow(source, path, model.triangle_count())) {
                 out.absent.emplace_back(name + suffix, "more than " + std::to_string(kMostPulled) +
                                                            " triangles; each corner decodes half a block of vertices");
                 continue;

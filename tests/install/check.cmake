@@ -66,7 +66,7 @@ expect("${encode_prints}")
 
 # add_subdirectory, where no package can be found.
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/subdirectory -B ${WORK}/subdirectory -DLACEDRING=${SOURCE}
-    -DCMAKE_UNITY_BUILD=ON ${no_packages})
+    -DCMAKE_UNITY_BUILD=ON -DCMAKE_BUILD_TYPE=Debug ${no_packages})
 run(${CMAKE_COMMAND} --build ${WORK}/subdirectory)
 run(${WORK}/subdirectory/encode)
 expect("${encode_prints}")

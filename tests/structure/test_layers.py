@@ -48,7 +48,7 @@ def folder_of(name):
 
 def check_core(name, header, quoted):
     if name.endswith(("/lacedring_decode.h", "/lacedring_vertices.h")):
-        return None if header in ("stddef.h", "stdint.h", "string.h", "math.h", "lacedring_decode.h") else "C without a library"
+        return None if header in ("stddef.h", "stdint.h", "string.h", "math.h", "immintrin.h", "lacedring_decode.h") else "C without a library"
     if name.endswith("/lacedring.h"):
         return None if header in ("stddef.h", "stdint.h", "string.h") or header.endswith("lacedring_decode.h") else "C without a library"
     if not quoted:
