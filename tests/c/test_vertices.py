@@ -23,7 +23,7 @@ from vertex_reader import read_vertices  # noqa: E402
 MAGIC = b"LRV1"
 ROWS, COLUMNS = 51, 45  # 2295 vertices: 17 whole blocks, and a part of one
 MANY = 150  # mutations of each stream
-READ = 4  # of those that are accepted, and of those that are not, read in Python
+READ = 2  # of those that are accepted, and of those that are not, read in Python
 FLAGS = ["-std=c99", "-pedantic-errors", "-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-Werror", "-g"]
 VARIANTS = {"lanes": ["-O2"], "plain": ["-O2", "-DLACEDRING_PLAIN"],
             "sanitized": ["-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]}
