@@ -21,7 +21,7 @@ std::vector<float> ordered_positions(const Mesh& mesh, std::span<const std::uint
     return out;
 }
 
-/// What a candidate decodes, and into where. Candidates are copied; this is not.
+/// The input and output of a candidate. Candidates are copied; this is shared.
 struct Coded {
     EncodedVertices stream;
     std::vector<float> floats;

@@ -75,7 +75,7 @@ void measure(Section& section, int rounds) {
     run_interleaved(section.candidates, rounds, [&] { bar.step(); });
 }
 
-/// Of a mesh, to tell rates by.
+/// The sizes of a mesh, for rates per second.
 struct Counts {
     double triangles = 0, vertices = 0;
 };

@@ -17,7 +17,7 @@ constexpr std::initializer_list<const char*> kAttributeBits = {"--positions", "-
                                                                "--weights"};
 void add_attribute_bits(CLI::App& command, AttributeBits& bits);
 
-/// Whether any of the options was given.
+/// True if any of the options was given.
 bool quantizes(const AttributeBits& bits);
 
 struct WholeFile {

@@ -1,5 +1,5 @@
 #pragma once
-// What the compute passes over a mesh have in common: those that expand streams, and the one that turns triangles.
+// The common part of the compute passes over a mesh: the ones that expand streams, and the one that rotates triangles.
 
 #include <vector>
 
@@ -46,7 +46,7 @@ class ComputePass {
 using Decoder = ComputePass<DecodeConstants>;
 using DecodePlan = PassPlan<DecodeConstants>;
 
-/// What a decoder's writes are for: indices, commands, vertices, the rotating pass, reading back.
+/// Makes a decoder's writes visible to index and vertex input, indirect commands, the rotating pass and copies.
 void decode_barrier(VkCommandBuffer commands);
 
 /// No device wants more of a descriptor's offset.

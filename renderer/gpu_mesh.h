@@ -22,7 +22,7 @@ enum class Source {
     packed,           ///< the packed stream, with its vertex order
     packed_vertices,  ///< likewise, and positions from a vertex stream
 };
-/// Whether triangles come from the packed stream.
+/// True if triangles come from the packed stream.
 constexpr bool is_packed(Source source) {
     return source == Source::packed || source == Source::packed_vertices;
 }
@@ -35,8 +35,8 @@ enum class Path {
     mesh,      ///< a mesh shader decodes 64 slots a workgroup (VK_EXT_mesh_shader)
 };
 
-/// Where Source::packed_vertices is drawn without compute shaders, each corner decodes half a block of vertices. Of
-/// more triangles than this it is drawn so only where that is asked for: a picture takes seconds on lavapipe.
+/// Without compute shaders, a draw of Source::packed_vertices decodes half a block of vertices for each corner. A
+/// larger mesh than this is drawn so only on request: a picture takes seconds on lavapipe.
 constexpr std::uint32_t kMostPulled = 20000;
 constexpr bool is_slow(Source source, Path path, std::uint32_t triangles) {
     return source == Source::packed_vertices && path != Path::compute && triangles > kMostPulled;
@@ -119,8 +119,8 @@ struct MeshBytes {
 };
 MeshBytes mesh_bytes(const Model& model, Source source, const UploadOptions& options);
 
-/// What the vertex shaders read. The position of Source::packed_vertices is in the mesh's coordinates, and written by
-/// the device.
+/// A vertex as the vertex shaders read it. The position of Source::packed_vertices is in the mesh's coordinates, and
+/// written by the device.
 struct Vertex {
     float position[3];
     float normal[3];

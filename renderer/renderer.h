@@ -46,7 +46,8 @@ class Renderer {
     Result<std::vector<std::uint32_t>> read_indices(Drawable& drawable);
 
     /// Source::packed_vertices: the bits of 3 floats a vertex, in the mesh's coordinates, as the device decodes them.
-    /// Of Path::compute what is in the vertex buffer; of the others what their shaders get, vertex by vertex.
+    /// The positions in the vertex buffer (Path::compute), or those that the shaders of other paths decode, vertex by
+    /// vertex.
     Result<std::vector<std::uint32_t>> read_positions(Drawable& drawable);
 
     /// Words of its stream that decoding every slot by itself loads: what a picture by Path::geometry or mesh reads,

@@ -10,7 +10,7 @@
 namespace lacedring::gpu {
 namespace {
 
-/// Of positions. Each has a pipeline, in which nothing is left of the others.
+/// The mappings that positions have. Each has a pipeline of its own, compiled without the others.
 constexpr std::array kMappings{VertexMapping::lattice, VertexMapping::floats, VertexMapping::decimals};
 
 }  // namespace

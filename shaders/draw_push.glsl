@@ -1,5 +1,5 @@
-// What a draw is told, in every stage, and what its addresses point to. Through addresses, not descriptors: one piece of
-// code whatever the size, and nothing is written.
+// The push constants of a draw, the same in every stage, and the buffers behind their addresses. Addresses and not
+// descriptors, since no descriptor covers more than maxStorageBufferRange bytes; nothing is written through them.
 #ifndef LACEDRING_DRAW_PUSH_GLSL
 #define LACEDRING_DRAW_PUSH_GLSL
 #extension GL_EXT_buffer_reference : require

@@ -49,8 +49,8 @@ struct AttributeBits {
     unsigned threads = 1;
 };
 
-/// How compress_attributes codes an attribute first: a lattice or octahedral where bits are given and the values are
-/// floats, else lossless. What cannot be coded so is lossless as well.
+/// The options by which compress_attributes tries to code an attribute: a lattice or octahedral if bits are given and
+/// the values are floats, else lossless. An attribute that cannot be coded so becomes lossless.
 VertexOptions vertex_options(const Attribute& attribute, const AttributeBits& bits);
 
 /// The result of compressing an attribute.
