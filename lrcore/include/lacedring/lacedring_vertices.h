@@ -441,7 +441,8 @@ struct lacedring_lane_runs_ {
 
 /* Lanes at the end of their run begin the next, whose first vertex is `first`. Returns a mask of lanes with a fault. */
 LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_run_(const struct lacedring_lane_data_* d, uint32_t n,
-                                                                    uint32_t first, lacedring_lanes_ length,
+                                                                    uint32_t first, int checked,
+                                                                    lacedring_lanes_ length,
                                                                     struct lacedring_lane_runs_* run,
                                                                     struct lacedring_lane_unary_* unary) {
     /* Of a code's three lowest bits: its bits but for a given width's, the change of the width, and "none". */
@@ -480,13 +481,14 @@ LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_run_(const struct
     run->all_present = 255;
     for (c = 0; c < n; ++c) {
         lacedring_lanes_ change, width, given;
-        if (c % 2 != 0) codes = lacedring_lane_load_(d, at); /* a plane takes 10 bits, a width 9 */
         given = lacedring_lane_is_(lacedring_lane_and_(codes, 15), 15);
+        /* A load has enough for a plane of 10 bits, codes of 4, and 9 bits at first. */
+        if (c > 0 && lacedring_lane_any_(_mm256_and_si256(given, begins))) codes = lacedring_lane_load_(d, at);
         change = _mm256_andnot_si256(given, _mm256_permutevar8x32_epi32(code_change, codes));
         width = _mm256_add_epi32(_mm256_blendv_epi8(run->width[c], _mm256_srli_epi32(codes, 4), given), change);
         width = _mm256_blendv_epi8(width, lacedring_lane_and_(width, 31), given);
         width = _mm256_blendv_epi8(run->width[c], width, begins);
-        bad = _mm256_or_si256(bad, lacedring_lane_and_(width, ~31u));
+        if (checked) bad = _mm256_or_si256(bad, lacedring_lane_and_(width, ~31u));
         run->width[c] = lacedring_lane_and_(width, 31);
         run->present[c] = _mm256_blendv_epi8(run->present[c], _mm256_permutevar8x32_epi32(code_present, codes), begins);
         bits = _mm256_add_epi32(_mm256_permutevar8x32_epi32(code_bits, codes), lacedring_lane_and_(given, 5));
@@ -610,7 +612,7 @@ LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_blocks_(const str
     for (i = 1; i < LACEDRING_VERTICES_BLOCK; ++i) {
         if (i % 4 == 1) {
             if (lacedring_lane_any_(lacedring_lane_is_(run.fours, 0)))
-                bad = _mm256_or_si256(bad, lacedring_lane_run_(d, n, i, length, &run, &unary));
+                bad = _mm256_or_si256(bad, lacedring_lane_run_(d, n, i, checked, length, &run, &unary));
             run.fours = lacedring_lane_add_(run.fours, UINT32_MAX);
             for (c = 0; c < lines; ++c, ahead += 64) __builtin_prefetch(ahead);
         }
