@@ -200,8 +200,8 @@ class GpuOptions(CliTest):
         self.ok("bench", self.generate("torus", 200), "--rounds", "1", "--validation")
 
     def test_progress_is_for_terminals(self):
-        mesh = self.generate("blob", 500)
-        for arguments in (("compare", mesh, "--size", "160x120", "--path", "compute"), ("bench", mesh, "--rounds", "1", "--operators")):
+        mesh = self.generate("blob", 2000)
+        for arguments in (("compare", mesh, "--size", "640x480", "--source", "lean,packed"), ("bench", self.generate("torus", 200), "--rounds", "1", "--operators")):
             code, out, said = on_a_terminal(*arguments)
             self.assertEqual(code, DONE, said)
             self.assertIn("[", said, arguments)
