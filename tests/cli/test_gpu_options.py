@@ -201,7 +201,7 @@ class GpuOptions(CliTest):
 
     def test_progress_is_for_terminals(self):
         mesh = self.generate("blob", 2000)
-        for arguments in (("compare", mesh, "--size", "640x480", "--source", "lean,packed"), ("bench", self.generate("torus", 200), "--rounds", "1", "--operators")):
+        for arguments in (("compare", mesh, "--size", "160x120", "--source", "lean,packed"), ("bench", mesh, "--rounds", "1", "--operators")):
             code, out, said = on_a_terminal(*arguments)
             self.assertEqual(code, DONE, said)
             self.assertIn("[", said, arguments)
