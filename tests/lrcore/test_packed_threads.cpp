@@ -15,12 +15,7 @@
 #include "lacedring/lacedring.hpp"
 #include "lacedring/streams.hpp"
 #include "lrlab/generate/generate.h"
-
-#ifdef LACEDRING_SANITIZE
-constexpr bool kSanitized = true;  // RLIMIT_AS does not work with its shadow memory
-#else
-constexpr bool kSanitized = false;
-#endif
+#include "tests/support/meshes.h"
 
 namespace {
 std::atomic<int> allowed = INT_MAX, made = 0;  // threads that may be created; threads created
@@ -122,7 +117,8 @@ TEST_CASE("decode_packed on two threads starts none for a small stream") {
     CHECK(made == 0);
 }
 
-TEST_CASE("decode_packed where no stack of a thread fits the address space" * doctest::skip(kSanitized)) {
+// With sanitizers not: their shadow memory needs the address space.
+TEST_CASE("decode_packed where no stack of a thread fits the address space" * doctest::skip(test::kSanitized)) {
     REQUIRE(decodes(1));
     const pid_t child = fork();
     REQUIRE(child >= 0);
