@@ -95,14 +95,14 @@ size_t lacedring_seams_scratch(const struct lacedring_seams* seams);
 enum lacedring_status lacedring_seams_check(const struct lacedring_seams* seams, const uint32_t* triangles,
                                             uint32_t* scratch, uint64_t* where);
 
-/* Does the checksum match? `seams` was opened. */
+/* Checks the checksum. `seams` was opened. */
 enum lacedring_status lacedring_seams_checksum(const struct lacedring_seams* seams);
 
 /* home[v] >> 1 is the first of the home copies of vertex v, which end before home[v + 1] >> 1; home[v] & 1: the fan on
    the vertex's left ends in the copy in which it began. seams->vertices + 1 entries. Linear time. */
 void lacedring_seams_homes(const struct lacedring_seams* seams, uint32_t* home);
 
-/* The copy of each corner, three a triangle. `home` becomes that of lacedring_seams_homes. Linear time, 20 KB of stack.
+/* The copy of each corner, three a triangle. Fills `home` as lacedring_seams_homes does. Linear time, 20 KB of stack.
  */
 void lacedring_seams_decode(const struct lacedring_seams* seams, const uint32_t* triangles, uint32_t* home,
                             uint32_t* copies);
@@ -121,10 +121,31 @@ static inline uint32_t lacedring_seam_corner(const uint32_t triangle[3], uint32_
 
 /* The parent of triangle i of a block: the last one, of those not too far before, that has two of its vertices. Returns
    how far before it is, or 0, and which corners of triangle i these are. */
-uint32_t lacedring_seam_parent(const uint32_t* triangles, uint32_t i, uint32_t pair[2]);
+static inline uint32_t lacedring_seam_parent(const uint32_t* triangles, uint32_t i, uint32_t pair[2]) {
+    const uint32_t* t = triangles + (size_t)3 * i;
+    uint32_t back;
+    for (back = 1; back <= LACEDRING_SEAMS_BACK && back <= i; ++back) {
+        const uint32_t* other = t - (size_t)3 * back;
+        const uint32_t a = lacedring_seam_corner(other, t[0]) < 3, b = lacedring_seam_corner(other, t[1]) < 3;
+        const uint32_t c = lacedring_seam_corner(other, t[2]) < 3;
+        if (a + b + c < 2) continue;
+        pair[0] = a ? 0 : 1;
+        pair[1] = a && b ? 1 : 2;
+        return back;
+    }
+    return 0;
+}
 
 /* On which side of the ring a triangle lies: 0 left, 1 right, 2 if it has no ring edge. */
-uint32_t lacedring_seam_side(const uint32_t triangle[3]);
+static inline uint32_t lacedring_seam_side(const uint32_t triangle[3]) {
+    uint32_t j;
+    for (j = 0; j < 3; ++j) {
+        const uint32_t a = triangle[j], b = triangle[j < 2 ? j + 1 : 0];
+        if (b == a + 1) return 0;
+        if (a == b + 1) return 1;
+    }
+    return 2;
+}
 
 #ifdef __cplusplus
 }
@@ -141,31 +162,6 @@ extern "C" {
 #define LACEDRING_SEAM_MOST_ (1u << 24) /* of runs, and of ones of a unary number */
 #define LACEDRING_SEAM_CORNERS_ (3 * LACEDRING_SEAMS_BLOCK)
 
-uint32_t lacedring_seam_parent(const uint32_t* triangles, uint32_t i, uint32_t pair[2]) {
-    const uint32_t* t = triangles + (size_t)3 * i;
-    uint32_t back;
-    for (back = 1; back <= LACEDRING_SEAMS_BACK && back <= i; ++back) {
-        const uint32_t* other = t - (size_t)3 * back;
-        const uint32_t a = lacedring_seam_corner(other, t[0]) < 3, b = lacedring_seam_corner(other, t[1]) < 3;
-        const uint32_t c = lacedring_seam_corner(other, t[2]) < 3;
-        if (a + b + c < 2) continue;
-        pair[0] = a ? 0 : 1;
-        pair[1] = a && b ? 1 : 2;
-        return back;
-    }
-    return 0;
-}
-
-uint32_t lacedring_seam_side(const uint32_t triangle[3]) {
-    uint32_t j;
-    for (j = 0; j < 3; ++j) {
-        const uint32_t a = triangle[j], b = triangle[j < 2 ? j + 1 : 0];
-        if (b == a + 1) return 0;
-        if (a == b + 1) return 1;
-    }
-    return 2;
-}
-
 /* 32 bits of the section from bit `at` on; behind it are zeros. */
 LACEDRING_SMALL_ uint32_t lacedring_seam_window_(const struct lacedring_seams* s, uint64_t at) {
     const uint64_t word = at / 32;
@@ -178,7 +174,7 @@ LACEDRING_SMALL_ uint32_t lacedring_seam_field_(const struct lacedring_seams* s,
     return (uint32_t)(lacedring_seam_window_(s, at) & ((UINT64_C(1) << bits) - 1));
 }
 
-/* A reader of a block's bits. */
+/* Reads a block's bits. */
 struct lacedring_seam_reader_ {
     const struct lacedring_seams* seams;
     uint64_t at, end;
@@ -186,7 +182,7 @@ struct lacedring_seam_reader_ {
     int32_t run[8]; /* of each run class: likely values still to come; -1: the run is not read yet */
 };
 
-/* Of triangles: kind 1. Where the block's bits are, and how many copies the blocks before it make. */
+/* Opens a vertex block (kind 0) or a triangle block (kind 1). Returns how many copies the blocks before it make. */
 static uint32_t lacedring_seam_open_(const struct lacedring_seams* s, uint32_t kind, uint32_t block,
                                      struct lacedring_seam_reader_* r) {
     const uint32_t length = s->length_bits[kind], count = s->count_bits[kind], group = block / LACEDRING_SEAMS_GROUP;
@@ -362,8 +358,8 @@ void lacedring_seams_homes(const struct lacedring_seams* s, uint32_t* home) {
         lacedring_seam_vertex_block_(s, block, home + (size_t)block * LACEDRING_SEAMS_BLOCK);
 }
 
-/* What decodes a block of triangles. Of each of its corners: the homes of its vertex as in lacedring_seams_homes; the
-   vertex's steps, its positions being 0 to that; the state, a position or a private copy. */
+/* Decodes a block of triangles. Each corner has its vertex's entry of lacedring_seams_homes, the vertex's steps (its
+   last position), and a state: a position or a private copy. */
 struct lacedring_seam_walk_ {
     struct lacedring_seam_reader_ r;
     const uint32_t* triangles;
@@ -383,7 +379,7 @@ LACEDRING_SMALL_ uint32_t lacedring_seam_copy_(const struct lacedring_seam_walk_
     return (w->home[k] & 1) != 0 && state == w->steps[k] ? 0 : state;
 }
 
-/* What to ask about a corner: whether it has the copy at a position, and whether it has a new private one. */
+/* Asks whether a corner has the copy at a position, and whether it has a new private one. */
 struct lacedring_seam_question_ {
     uint32_t at, at_context; /* LACEDRING_SEAM_NONE: not asked */
     uint32_t new_context;
@@ -432,12 +428,20 @@ static uint32_t lacedring_seam_choose_(struct lacedring_seam_walk_* w, uint32_t 
 
 /* An end of the edge that a triangle shares with its parent. */
 struct lacedring_seam_end_ {
-    uint32_t corner;  /* of the triangle, in the block */
-    uint32_t state;   /* in the parent */
-    uint32_t far;     /* the position where the fan ends */
-    uint32_t type;    /* left: 0 one position, 1 at the end, 2 on its way, 3 too late; right: 0, 1 at the end, 2 not */
-    uint32_t is_last; /* no triangle of the fan follows at once */
+    uint32_t corner; /* of the triangle, in the block */
+    uint32_t state;  /* in the parent */
+    uint32_t far;    /* the position where the fan ends */
+    uint32_t type;   /* left: 0 one position, 1 at the end, 2 on its way, 3 too late; right: 0, 1 at the end, 2 not */
 };
+
+/* Counts the triangles from the corner's on that have its vertex, up to 3. Those behind the block count as such. */
+static uint32_t lacedring_seam_length_(const struct lacedring_seam_walk_* w, uint32_t corner) {
+    const uint32_t vertex = w->triangles[corner];
+    uint32_t i = corner / 3 + 1, length = 1;
+    for (; length < 3 && (i >= w->count || lacedring_seam_corner(w->triangles + (size_t)3 * i, vertex) < 3); ++i)
+        ++length;
+    return length;
+}
 
 static struct lacedring_seam_end_ lacedring_seam_end_of_(const struct lacedring_seam_walk_* w, uint32_t i,
                                                          uint32_t back, uint32_t j, uint32_t other) {
@@ -447,17 +451,14 @@ static struct lacedring_seam_end_ lacedring_seam_end_of_(const struct lacedring_
     const uint32_t steps = w->steps[k], side = w->side[i];
     const uint32_t precedes = p[in_parent > 0 ? in_parent - 1 : 2] == t[other];
     struct lacedring_seam_end_ e;
-    uint32_t more = 1;
-    while (more < 3 && (i + more >= w->count || lacedring_seam_corner(t + (size_t)3 * more, vertex) < 3)) ++more;
     e.corner = k;
     e.state = w->state[3 * (i - back) + in_parent];
     e.far = (side == 0) == precedes ? 0 : steps;
-    e.is_last = more == 1;
     if (side == 0) {
         const uint32_t left = e.state >= LACEDRING_SEAMS_PRIVATE ? 0
                               : e.far > e.state                  ? e.far - e.state
                                                                  : e.state - e.far;
-        e.type = left == 0 ? steps > 0 : left < more ? 2 : 3;
+        e.type = left == 0 ? steps > 0 : left < lacedring_seam_length_(w, k) ? 2 : 3;
     } else {
         const uint32_t there = lacedring_seam_copy_(w, k, e.state) == lacedring_seam_copy_(w, k, e.far);
         e.type = !there ? 2 : steps > 0;
@@ -478,13 +479,13 @@ static uint32_t lacedring_seam_change_(struct lacedring_seam_walk_* w, uint32_t 
         q.at_context = LACEDRING_SEAM_NONE;
         q.new_context = LACEDRING_SEAM_LEAVE;
     } else {
-        q.at_context = e->is_last ? LACEDRING_SEAM_LAST_R : LACEDRING_SEAM_NEXT_R;
+        q.at_context = lacedring_seam_length_(w, e->corner) == 1 ? LACEDRING_SEAM_LAST_R : LACEDRING_SEAM_NEXT_R;
         q.new_context = LACEDRING_SEAM_NEW_R;
     }
     return lacedring_seam_choose_(w, e->corner, e->state, q);
 }
 
-/* The edge to the parent. */
+/* Reads both ends of the edge to the parent: is it a seam, and which ends change? */
 static void lacedring_seam_spoke_(struct lacedring_seam_walk_* w, uint32_t i, uint32_t back, const uint32_t pair[2]) {
     const uint32_t side = w->side[i];
     struct lacedring_seam_end_ a = lacedring_seam_end_of_(w, i, back, pair[0], pair[1]);
@@ -501,11 +502,11 @@ static void lacedring_seam_spoke_(struct lacedring_seam_walk_* w, uint32_t i, ui
                   : b.type < 3                 ? LACEDRING_SEAM_LEFT0
                                                : LACEDRING_SEAM_LEFT1;
     } else {
-        context = a.type == 1 || b.type == 1 ? LACEDRING_SEAM_RIGHT0
-                  : a.type == 2              ? LACEDRING_SEAM_RIGHT4
-                  : b.type == 0              ? LACEDRING_SEAM_RIGHT1
-                  : a.is_last                ? LACEDRING_SEAM_RIGHT2
-                                             : LACEDRING_SEAM_RIGHT3;
+        context = a.type == 1 || b.type == 1                 ? LACEDRING_SEAM_RIGHT0
+                  : a.type == 2                              ? LACEDRING_SEAM_RIGHT4
+                  : b.type == 0                              ? LACEDRING_SEAM_RIGHT1
+                  : lacedring_seam_length_(w, a.corner) == 1 ? LACEDRING_SEAM_RIGHT2
+                                                             : LACEDRING_SEAM_RIGHT3;
     }
     if (lacedring_seam_flag_(&w->r, context)) {
         const uint32_t lone = context == LACEDRING_SEAM_LONE; /* usually b alone changes, else both do */
@@ -523,7 +524,7 @@ static void lacedring_seam_spoke_(struct lacedring_seam_walk_* w, uint32_t i, ui
     w->state[b.corner] = b_changes ? lacedring_seam_change_(w, side, &b) : b.state;
 }
 
-/* A corner of triangle i that its parent does not have; those in `pair` are known, if there is a parent. */
+/* Reads a corner of triangle i that is not in its parent. With a parent, the two others are known. */
 static void lacedring_seam_start_(struct lacedring_seam_walk_* w, uint32_t i, uint32_t j, uint32_t has_parent) {
     const uint32_t* t = w->triangles + (size_t)3 * i;
     const uint32_t k = 3 * i + j, steps = w->steps[k];
