@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""test_seams.py WRITE_SEAMS: seam sections of small meshes, and mutations of them: the reader that was written from
-docs/seams-format.md accepts those that the library accepts, and has the same copies."""
+"""test_seams.py WRITE_SEAMS C_SEAMS: seam sections of small meshes, and mutations of them: the reader that was written from
+docs/seams-format.md, and lacedring_seams.h in C, accept those that the library accepts, and have the same copies."""
 
 import array
 import subprocess
@@ -11,7 +11,11 @@ from seams_reader import read_seams
 
 
 def main():
-    words = array.array("I", subprocess.run(sys.argv[1:2], check=True, capture_output=True).stdout)
+    written = subprocess.run(sys.argv[1:2], check=True, capture_output=True).stdout
+    done = subprocess.run(sys.argv[2:3], input=written, capture_output=True)
+    if done.returncode != 0:
+        sys.exit(f"C: exit {done.returncode}: {(done.stdout + done.stderr).decode()[-2000:]}")
+    words = array.array("I", written)
     at = sections = accepted = 0
 
     def take(count):

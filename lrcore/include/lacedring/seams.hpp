@@ -28,8 +28,8 @@ struct EncodedSeams {
 /// Encodes the copies of a surface's corners. `triangles` has three vertices each, below `vertices`, in the order and
 /// with the numbers of the connectivity stream; `copies` has a number for each of their corners, any numbers: equal
 /// where corners share a copy, which only corners of one vertex do. Cost: O(T log T) time, about one microsecond a
-/// triangle; 60 bytes a triangle. Errors: invalid_argument (sizes, a vertex out of range or twice in a triangle, a copy
-/// of two vertices), too_large (2^30 copies, 4 GiB).
+/// triangle and up to half a second for the codes; 60 bytes a triangle. Errors: invalid_argument (sizes, a vertex out
+/// of range or twice in a triangle, a copy of two vertices), too_large (2^30 copies, 4 GiB).
 Result<EncodedSeams> encode_seams(std::span<const std::uint32_t> triangles, std::uint32_t vertices,
                                   std::span<const std::uint32_t> copies);
 
