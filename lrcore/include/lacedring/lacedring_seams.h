@@ -178,8 +178,9 @@ LACEDRING_SMALL_ uint32_t lacedring_seam_field_(const struct lacedring_seams* s,
 struct lacedring_seam_reader_ {
     const struct lacedring_seams* seams;
     uint64_t at, end;
-    uint32_t bad;   /* not 0: a code is impossible, or reaches beyond the block */
-    int32_t run[8]; /* of each run class: likely values still to come; -1: the run is not read yet */
+    uint32_t copies; /* that the directory says the block makes */
+    uint32_t bad;    /* not 0: a code is impossible, or reaches beyond the block */
+    int32_t run[8];  /* of each run class: likely values still to come; -1: the run is not read yet */
 };
 
 /* Opens a vertex block (kind 0) or a triangle block (kind 1). Returns how many copies the blocks before it make. */
@@ -197,6 +198,7 @@ static uint32_t lacedring_seam_open_(const struct lacedring_seams* s, uint32_t k
     r->seams = s;
     r->at = s->blocks[kind] + begin;
     r->end = r->at + lacedring_seam_field_(s, at, length);
+    r->copies = lacedring_seam_field_(s, at + length, count);
     r->bad = 0;
     for (i = 0; i < 8; ++i) r->run[i] = -1;
     return before;
@@ -229,7 +231,7 @@ static uint32_t lacedring_seam_unary_(struct lacedring_seam_reader_* r) {
     return ones;
 }
 
-/* Exponential Golomb code. */
+/* An exponential Golomb code. */
 static uint32_t lacedring_seam_golomb_(struct lacedring_seam_reader_* r, uint32_t order) {
     const uint32_t width = lacedring_seam_unary_(r) + order;
     if (width > 31) {
@@ -302,13 +304,7 @@ enum lacedring_status lacedring_seams_open(const uint32_t* words, size_t count, 
         const uint32_t blocks = lacedring_seam_block_count_(kind ? triangles : vertices);
         s->blocks[kind] = at;
         if (blocks == 0) continue;
-        copies = lacedring_seam_open_(s, kind, blocks - 1, &r); /* the last block's directory entry has the sums */
-        copies += lacedring_seam_field_(
-            s,
-            s->directory[kind] + (uint64_t)(blocks - 1) * (s->length_bits[kind] + s->count_bits[kind]) +
-                (uint64_t)64 * ((blocks - 1) / LACEDRING_SEAMS_GROUP) + s->length_bits[kind],
-            s->count_bits[kind]);
-        copies += kind ? s->homes : vertices;
+        copies = (kind ? s->homes : vertices) + (uint64_t)lacedring_seam_open_(s, kind, blocks - 1, &r) + r.copies;
         if (kind == 0 && copies != s->homes) return lacedring_at_(where, 2, LACEDRING_STATUS_HEADER);
         if (copies > LACEDRING_SEAMS_MAX_COPIES || copies - s->homes > (uint64_t)3 * triangles)
             return lacedring_at_(where, 0, LACEDRING_STATUS_SIZE);
