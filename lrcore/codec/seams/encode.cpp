@@ -665,7 +665,7 @@ std::vector<std::uint32_t> write_section(std::uint32_t homes, const Answers& ver
     return words;
 }
 
-Error invalid(std::string message) {
+Error invalid_seams(std::string message) {
     return {ErrorCode::invalid_argument, "seams: " + std::move(message)};
 }
 
@@ -676,26 +676,26 @@ Result<EncodedSeams> encode_seams(std::span<const std::uint32_t> triangles, std:
     using detail::message;
     const Error too_large{ErrorCode::too_large, "seams: more than 2^30 copies, or 4 GiB"};
     if (triangles.size() % 3 != 0 || copies.size() != triangles.size()) {
-        return invalid(message(triangles.size(), " corners, ", copies.size(), " copies"));
+        return invalid_seams(message(triangles.size(), " corners, ", copies.size(), " copies"));
     }
     if (triangles.size() > UINT32_MAX || vertices > LACEDRING_SEAMS_MAX_COPIES) return too_large;
     for (std::size_t i = 0; i < triangles.size(); i += 3) {
         const std::uint32_t a = triangles[i], b = triangles[i + 1], c = triangles[i + 2];
         if (std::max({a, b, c}) >= vertices || a == b || b == c || c == a) {
-            return invalid(message("triangle ", i / 3, " has a vertex out of range, or one twice"));
+            return invalid_seams(message("triangle ", i / 3, " has a vertex out of range, or one twice"));
         }
     }
     // The caller's numbers, and for each corner which of them it has.
     std::vector<std::uint32_t> numbers(copies.begin(), copies.end());
     std::ranges::sort(numbers);
-    numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
     std::vector<std::uint32_t> own(copies.size()), owner(numbers.size(), kNone);
     for (std::size_t c = 0; c < copies.size(); ++c) {
         own[c] = static_cast<std::uint32_t>(std::ranges::lower_bound(numbers, copies[c]) - numbers.begin());
         std::uint32_t& of = owner[own[c]];
         if (of == kNone) of = triangles[c];
         if (of != triangles[c]) {
-            return invalid(message("copy ", copies[c], " is of vertices ", of, " and ", triangles[c]));
+            return invalid_seams(message("copy ", copies[c], " is of vertices ", of, " and ", triangles[c]));
         }
     }
     if (numbers.size() + vertices > LACEDRING_SEAMS_MAX_COPIES) return too_large;

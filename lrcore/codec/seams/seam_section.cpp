@@ -16,7 +16,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "sections are little-endian words");
 static_assert(kSeamBlock == LACEDRING_SEAMS_BLOCK);
 
-constexpr std::size_t kChecksumWord = 1;
+constexpr std::size_t kSeamChecksum = 1;
 
 /// Describes the fault in English.
 std::string seam_fault(lacedring_status status, std::uint64_t where, std::span<const std::uint32_t> words) {
@@ -73,7 +73,7 @@ Result<SeamView> validate_seams(std::span<const std::uint32_t> words, std::span<
     }
     const Result<SeamView> view = view_seams(words, static_cast<std::uint32_t>(triangles.size() / 3), vertices);
     if (!view) return view;
-    if (words[kChecksumWord] != crc32(std::as_bytes(words.subspan(kChecksumWord + 1)))) {
+    if (words[kSeamChecksum] != crc32(std::as_bytes(words.subspan(kSeamChecksum + 1)))) {
         return bad_seams(LACEDRING_STATUS_CHECKSUM, 0, words);
     }
     const lacedring_seams seams = as_c(*view);
