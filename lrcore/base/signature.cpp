@@ -56,6 +56,8 @@ std::string_view kind_by_signature(std::span<const std::byte> bytes) {
             return "bit-efficient LR tables";
         case magic::kVertices:
             return "a vertex stream";
+        case magic::kSeams:
+            return "a seam section";
         case magic::kLrFile:
             return "an .lr file";
         case 0x46546c67:  // "glTF"

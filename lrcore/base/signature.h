@@ -17,6 +17,7 @@ constexpr std::uint32_t kPacked1 = 0x4b50524c;    // "LRPK", the first version
 constexpr std::uint32_t kLr = 0x5443524c;         // "LRCT"
 constexpr std::uint32_t kCompactLr = 0x4243524c;  // "LRCB"
 constexpr std::uint32_t kVertices = 0x3156524c;   // "LRV1"
+constexpr std::uint32_t kSeams = 0x3153524c;      // "LRS1"
 constexpr std::uint32_t kLrFile = 0x4c46524c;     // "LRFL"
 }  // namespace magic
 

@@ -11,6 +11,7 @@
 #include "lacedring/lacedring.hpp"
 #include "lacedring/lr_file.hpp"
 #include "lacedring/ring.hpp"
+#include "lacedring/seams.hpp"
 #include "lacedring/vertices.hpp"
 #include "lrlab/generate/generate.h"
 #include "tests/support/meshes.h"
@@ -39,6 +40,22 @@ void write_stream(const char* target, const std::string& name, const Mesh& mesh,
     write("lr_file", std::string(target) + "-" + name + "-vertices", serialize_lr(file));
 }
 
+/// The section of a mesh that is cut into charts: those triangles apart that are so many apart.
+void write_seams(const std::string& name, const Encoded& encoded, std::uint32_t vertices, std::uint32_t chart) {
+    const Result<PackedView> view = view_packed(encoded.words);
+    std::vector<std::uint32_t> words{vertices, view->triangles}, triangles(std::size_t{3} * view->triangles), copies;
+    decode_packed(*view, triangles);
+    for (std::size_t c = 0; c < triangles.size(); ++c) {
+        copies.push_back(static_cast<std::uint32_t>(triangles[c] + vertices * (c / 3 / chart % 4)));
+    }
+    const Result<EncodedSeams> seams = encode_seams(triangles, vertices, copies);
+    all_written = seams.has_value() && all_written;
+    if (!seams) return;
+    words.insert(words.end(), triangles.begin(), triangles.end());
+    words.insert(words.end(), seams->words.begin(), seams->words.end());
+    write("seams", name, std::as_bytes(std::span(words)));
+}
+
 void write_seeds(std::string name, const Mesh& mesh, std::uint32_t number) {
     std::replace(name.begin(), name.end(), ' ', '-');
     const CornerTable table = build_corner_table(mesh.indices, mesh.vertex_count).value();
@@ -48,8 +65,9 @@ void write_seeds(std::string name, const Mesh& mesh, std::uint32_t number) {
     for (const PackedProfile profile : {PackedProfile::small, PackedProfile::cache}) {
         PackedChoice packed =
             encode_smallest_packed(table, {.k = number % 4}, {.passes = 2 - number % 2 * 2}, profile).value();
-        write_stream("packed", name + (profile == PackedProfile::cache ? "-cache" : ""), mesh,
-                     as_encoded(std::move(packed.stream)));
+        const Encoded encoded = as_encoded(std::move(packed.stream));
+        write_stream("packed", name + (profile == PackedProfile::cache ? "-cache" : ""), mesh, encoded);
+        if (profile == PackedProfile::small) write_seams(name, encoded, mesh.vertex_count, 1 + number % 20);
     }
     if (mesh.triangle_count() <= 200) {
         write_stream("lr", name, mesh, as_encoded(*encode_lr(table, {.k = number % 4})));

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <memory>
 
+#include "lacedring/lacedring_seams.h"
 #include "lacedring/lacedring_vertices.h"
 #include "lacedring/streams.hpp"
 #include "lrcore/base/crc32.h"
@@ -214,6 +215,20 @@ void mend_vertices(Words& words, Random& random) {
     words[checksum] = crc32(bytes.subspan(4 * (checksum + 1)), crc32(bytes.first(4 * checksum)));
 }
 
+/// As many triangles as there are words for, vertices in range, and the checksum (docs/seams-format.md).
+void mend_seams(Words& words) {
+    constexpr std::size_t head = 2, most_vertices = 4096;
+    if (words.size() < head + LACEDRING_SEAMS_HEADER_WORDS) return;
+    words[0] %= most_vertices;
+    const std::size_t space = words.size() - head - LACEDRING_SEAMS_HEADER_WORDS;
+    words[1] = static_cast<std::uint32_t>(std::min<std::size_t>(words[1], space / 3));
+    const std::size_t corners = std::size_t{3} * words[1];
+    for (std::size_t c = 0; c < corners && words[0] > 0; ++c) words[head + c] %= words[0];
+    const std::span<std::uint32_t> section = std::span(words).subspan(head + corners);
+    section[0] = magic::kSeams;
+    section[1] = crc32(std::as_bytes(section.subspan(2)));
+}
+
 void mutate_words(Words& words, Random& random) {
     const auto any = [&] { return random_below(random, words.size()); };
     const auto place = [&](std::size_t i) { return words.begin() + static_cast<std::ptrdiff_t>(i); };
@@ -280,6 +295,10 @@ bool run_vertices(std::span<const std::byte> bytes) {
     return run_words(bytes, use_vertex_stream);
 }
 
+bool run_seams(std::span<const std::byte> bytes) {
+    return run_words(bytes, use_seam_section);
+}
+
 template <class Mutate>
 void mutate_as_words(Bytes& bytes, std::size_t max_size, Mutate mutate_stream) {
     Words words = words_of(bytes);
@@ -295,6 +314,10 @@ void mutate(Bytes& bytes, std::size_t max_size, Random& random) {
 
 void mutate_vertices(Bytes& bytes, std::size_t max_size, Random& random) {
     mutate_as_words(bytes, max_size, [&](Words& words, std::size_t max) { mutate_vertex_stream(words, max, random); });
+}
+
+void mutate_seams(Bytes& bytes, std::size_t max_size, Random& random) {
+    mutate_as_words(bytes, max_size, [&](Words& words, std::size_t max) { mutate_seam_section(words, max, random); });
 }
 
 template <class Stream, class Use>
@@ -343,6 +366,27 @@ void mutate_vertex_stream(Words& words, std::size_t max_words, Random& random) {
     if (random_below(random, 16) != 0) mend_vertices(words, random);
 }
 
+bool use_seam_section(std::span<const std::uint32_t> words) {
+    if (words.size() < 2 || words[1] > (words.size() - 2) / 3) return false;
+    const std::size_t corners = std::size_t{3} * words[1];
+    const auto section = words.subspan(2 + corners);
+    const auto triangles = std::make_unique<std::uint32_t[]>(corners);
+    std::ranges::copy(words.subspan(2, corners), triangles.get());
+    const std::span<const std::uint32_t> exact(triangles.get(), corners);
+    const Result<SeamView> view = validate_seams(section, exact, words[0]);
+    if (view) {
+        use_seams(*view, exact);
+    } else {
+        check_message(view.error());
+    }
+    return view.has_value();
+}
+
+void mutate_seam_section(Words& words, std::size_t max_words, Random& random) {
+    mutate_unmended(words, max_words, random);
+    if (random_below(random, 16) != 0) mend_seams(words);
+}
+
 Words words_of(std::span<const std::byte> bytes) {
     Words words(bytes.size() / 4);
     if (!words.empty()) std::memcpy(words.data(), bytes.data(), 4 * words.size());
@@ -354,5 +398,6 @@ extern const Target packed_target{"packed", run<Format::packed>, mutate<Format::
 extern const Target lr_target{"lr", run<Format::lr>, mutate<Format::lr>};
 extern const Target lr_compact_target{"lr_compact", run<Format::lr_compact>, mutate<Format::lr_compact>};
 extern const Target vertices_target{"vertices", run_vertices, mutate_vertices};
+extern const Target seams_target{"seams", run_seams, mutate_seams};
 
 }  // namespace lacedring::fuzz

@@ -19,9 +19,14 @@ std::optional<Words> use_stream(Format kind, std::span<const std::uint32_t> word
 /// Validates the words and uses the vertex stream. False if it is refused.
 bool use_vertex_stream(std::span<const std::uint32_t> words);
 
+/// Validates and uses a seam section. The words are: how many vertices, how many triangles, these, the section. False
+/// if it is refused.
+bool use_seam_section(std::span<const std::uint32_t> words);
+
 /// Mutates bytes or whole words, then makes sizes and checksum in the header fit again, mostly.
 void mutate_stream(Format kind, Words& words, std::size_t max_words, Random& random);
 void mutate_vertex_stream(Words& words, std::size_t max_words, Random& random);
+void mutate_seam_section(Words& words, std::size_t max_words, Random& random);
 
 /// The whole words of `bytes`.
 Words words_of(std::span<const std::byte> bytes);

@@ -293,4 +293,33 @@ void use_vertices(const VertexView& view) {
     REQUIRE(std::ranges::equal(values, std::span(decoded_again.get(), size)));
 }
 
+void use_seams(const SeamView& view, std::span<const std::uint32_t> triangles) {
+    if (view.vertices > 1U << 16) return;
+    const ExactWords copies(triangles.size()), first(std::size_t{view.vertices} + 1);
+    decode_seams(view, triangles, copies.span());
+    first_copies(view, first.span());
+    REQUIRE(first.span().front() == 0 && first.span().back() == view.homes);
+    REQUIRE(std::ranges::adjacent_find(first.span(), std::greater_equal()) == first.span().end());
+    for (std::size_t c = 0; c < triangles.size(); ++c) {
+        const std::uint32_t v = triangles[c], copy = copies.span()[c];
+        REQUIRE(copy < view.copies);
+        REQUIRE(copy >= view.homes || (first.span()[v] <= copy && copy < first.span()[v + 1]));
+    }
+    for (std::uint32_t block = view.blocks(); block-- > 0;) {
+        const std::size_t begin = std::size_t{3} * kSeamBlock * block;
+        const ExactWords alone(std::min<std::size_t>(triangles.size() - begin, 3 * kSeamBlock));
+        decode_seam_block(view, block, triangles.subspan(begin, alone.size), alone.span());
+        REQUIRE(std::ranges::equal(alone.span(), copies.span().subspan(begin, alone.size)));
+    }
+    const Result<EncodedSeams> encoded = encode_seams(triangles, view.vertices, copies.span());
+    REQUIRE(encoded);
+    const Result<SeamView> again = validate_seams(encoded->words, triangles, view.vertices);
+    REQUIRE(again && again->copies == encoded->copy_order.size());
+    const ExactWords decoded(triangles.size());
+    decode_seams(*again, triangles, decoded.span());
+    for (std::size_t c = 0; c < triangles.size(); ++c) {
+        REQUIRE(encoded->copy_order[decoded.span()[c]] == copies.span()[c]);
+    }
+}
+
 }  // namespace lacedring::fuzz

@@ -8,6 +8,7 @@
 #include "lacedring/base.hpp"
 #include "lacedring/mesh.hpp"
 #include "lacedring/operators.hpp"
+#include "lacedring/seams.hpp"
 #include "lacedring/streams.hpp"
 #include "lacedring/vertices.hpp"
 #include "tests/fuzz/targets.h"
@@ -36,6 +37,10 @@ std::vector<std::uint32_t> use_lr(const LrStreamView<CompactLrView>& stream);
 /// Decodes a valid vertex stream as a whole and by blocks, and encodes the values again, losslessly. Does nothing with
 /// one of more than 64 MiB: a few bytes may hold many equal vertices.
 void use_vertices(const VertexView& view);
+
+/// Decodes a section that is valid for the triangles as a whole and by blocks, and encodes the copies again. Does
+/// nothing with more than 2^16 vertices: a few bytes may hold many.
+void use_seams(const SeamView& view, std::span<const std::uint32_t> triangles);
 
 /// Calls every operator of a structure (Operators or one of its rivals) on every corner and vertex.
 template <class Operators>

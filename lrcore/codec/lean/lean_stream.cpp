@@ -6,6 +6,7 @@
 
 #define LACEDRING_DECODE_IMPLEMENTATION
 #include "lacedring/lacedring_decode.h"
+#include "lacedring/lacedring_seams.h"
 #include "lacedring/lacedring_vertices.h"
 #include "lrcore/base/crc32.h"
 #include "lrcore/base/message.h"
@@ -76,6 +77,9 @@ std::string why(lacedring_status status, std::uint64_t where, std::span<const st
         case LACEDRING_STATUS_TURNS:
         case LACEDRING_STATUS_DOUBLES:
             break;  // of packed streams
+        case LACEDRING_STATUS_VERTEX_BLOCK:
+        case LACEDRING_STATUS_TRIANGLE:
+            break;  // of seam sections
     }
     return "unknown";
 }

@@ -58,7 +58,9 @@ enum lacedring_status {
     LACEDRING_STATUS_BLOCK,        /* the block that says something impossible */
     LACEDRING_STATUS_TURNS,        /* how many triangles have turns, and there are more */
     LACEDRING_STATUS_DOUBLES,      /* which run of doubles is impossible */
-    LACEDRING_STATUS_HEADER        /* the word of the header that says something impossible */
+    LACEDRING_STATUS_HEADER,       /* the word of the header that says something impossible */
+    LACEDRING_STATUS_VERTEX_BLOCK, /* the block of vertices that says something impossible */
+    LACEDRING_STATUS_TRIANGLE      /* the triangle that has a vertex out of range, or one twice */
 };
 
 /* A stream in memory, its header read. Holds no copy. Slots are numbered: 2 for each vertex of two-sided rings, 1 for

@@ -1,0 +1,110 @@
+// The seam section's decoder and checks are lacedring_seams.h's, in C; here are C++'s types and messages.
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+
+#include "lacedring/lacedring_seams.h"
+#include "lacedring/seams.hpp"
+#include "lrcore/base/crc32.h"
+#include "lrcore/base/message.h"
+#include "lrcore/base/signature.h"
+
+namespace lacedring {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "sections are little-endian words");
+static_assert(kSeamBlock == LACEDRING_SEAMS_BLOCK);
+
+constexpr std::size_t kSeamChecksum = 1;
+
+/// Describes the fault in English.
+std::string seam_fault(lacedring_status status, std::uint64_t where, std::span<const std::uint32_t> words) {
+    using detail::message;
+    switch (status) {
+        case LACEDRING_STATUS_SHORT:
+            return "shorter than its header";
+        case LACEDRING_STATUS_MAGIC:
+            return wrong_magic(words, "a seam section");
+        case LACEDRING_STATUS_HEADER:
+            return message("word ", where, " of the header says something impossible for this mesh");
+        case LACEDRING_STATUS_SIZE:
+            return message(words.size(), " words are not what its blocks take");
+        case LACEDRING_STATUS_CHECKSUM:
+            return "checksum does not match";
+        case LACEDRING_STATUS_VERTEX_BLOCK:
+            return message("vertex block ", where, " says something impossible");
+        case LACEDRING_STATUS_BLOCK:
+            return message("block ", where, " says something impossible");
+        case LACEDRING_STATUS_TRIANGLE:
+            return message("triangle ", where, " has a vertex out of range, or one twice");
+        default:
+            return "unknown";
+    }
+}
+
+Error bad_seams(lacedring_status status, std::uint64_t where, std::span<const std::uint32_t> words) {
+    return {ErrorCode::malformed, "seam section: " + seam_fault(status, where, words)};
+}
+
+lacedring_seams as_c(const SeamView& view) {
+    lacedring_seams out{};
+    [[maybe_unused]] const lacedring_status status =
+        lacedring_seams_open(view.words.data(), view.words.size(), view.vertices, view.triangles, &out, nullptr);
+    assert(status == LACEDRING_STATUS_OK);
+    return out;
+}
+
+}  // namespace
+
+Result<SeamView> view_seams(std::span<const std::uint32_t> words, std::uint32_t triangles, std::uint32_t vertices) {
+    lacedring_seams seams;
+    std::uint64_t where = 0;
+    const lacedring_status status =
+        lacedring_seams_open(words.data(), words.size(), vertices, triangles, &seams, &where);
+    if (status != LACEDRING_STATUS_OK) return bad_seams(status, where, words);
+    return SeamView{words, vertices, triangles, seams.homes, seams.copies};
+}
+
+Result<SeamView> validate_seams(std::span<const std::uint32_t> words, std::span<const std::uint32_t> triangles,
+                                std::uint32_t vertices) {
+    if (triangles.size() % 3 != 0 || triangles.size() / 3 > UINT32_MAX / 3) {
+        return Error{ErrorCode::malformed, "seam section: triangles of an impossible number of corners"};
+    }
+    const Result<SeamView> view = view_seams(words, static_cast<std::uint32_t>(triangles.size() / 3), vertices);
+    if (!view) return view;
+    if (words[kSeamChecksum] != crc32(std::as_bytes(words.subspan(kSeamChecksum + 1)))) {
+        return bad_seams(LACEDRING_STATUS_CHECKSUM, 0, words);
+    }
+    const lacedring_seams seams = as_c(*view);
+    std::vector<std::uint32_t> scratch(lacedring_seams_scratch(&seams));
+    std::uint64_t where = 0;
+    const lacedring_status status = lacedring_seams_check(&seams, triangles.data(), scratch.data(), &where);
+    if (status != LACEDRING_STATUS_OK) return bad_seams(status, where, words);
+    return view;
+}
+
+void decode_seams(const SeamView& view, std::span<const std::uint32_t> triangles, std::span<std::uint32_t> copies) {
+    assert(triangles.size() == std::size_t{3} * view.triangles && copies.size() == triangles.size());
+    const lacedring_seams seams = as_c(view);
+    std::vector<std::uint32_t> home(std::size_t{view.vertices} + 1);
+    lacedring_seams_decode(&seams, triangles.data(), home.data(), copies.data());
+}
+
+void decode_seam_block(const SeamView& view, std::uint32_t block, std::span<const std::uint32_t> triangles,
+                       std::span<std::uint32_t> copies) {
+    assert(block < view.blocks());
+    assert(triangles.size() == std::size_t{3} * std::min(view.triangles - block * kSeamBlock, kSeamBlock));
+    assert(copies.size() == triangles.size());
+    const lacedring_seams seams = as_c(view);
+    lacedring_seams_block(&seams, block, triangles.data(), copies.data());
+}
+
+void first_copies(const SeamView& view, std::span<std::uint32_t> first) {
+    assert(first.size() == std::size_t{view.vertices} + 1);
+    const lacedring_seams seams = as_c(view);
+    lacedring_seams_homes(&seams, first.data());
+    for (std::uint32_t& copy : first) copy >>= 1;
+}
+
+}  // namespace lacedring

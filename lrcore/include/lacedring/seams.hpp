@@ -1,0 +1,67 @@
+#pragma once
+// Seam sections: which copy of its vertex each corner has. A mesh with seams is stored as its surface, a connectivity
+// stream whose vertices have different positions, and a section that tells its corners apart: normals and texture
+// coordinates belong to the copies. docs/seams-format.md has the format to the bit.
+//
+// Each vertex has home copies, those that its triangles on the left of the ring have, numbered vertex by vertex. Any
+// other copy is numbered behind these, by the block of 512 triangles that meets it first. A block decodes alone, from
+// its triangles and the blocks of its vertices.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lacedring/base.hpp"
+
+namespace lacedring {
+
+/// Triangles of a block.
+constexpr std::uint32_t kSeamBlock = 512;
+
+struct EncodedSeams {
+    std::vector<std::uint32_t> words;  ///< the whole section
+    /// copy_order[new] = old: bring attributes into this order. UINT32_MAX at the copy of a vertex without corners.
+    std::vector<std::uint32_t> copy_order;
+};
+
+/// Encodes the copies of a surface's corners. `triangles` has three vertices each, below `vertices`, in the order and
+/// with the numbers of the connectivity stream; `copies` has a number for each of their corners, any numbers: equal
+/// where corners share a copy, which only corners of one vertex do. Cost: O(T log T) time, about one microsecond a
+/// triangle and up to half a second for the codes; 60 bytes a triangle. Errors: invalid_argument (sizes, a vertex out
+/// of range or twice in a triangle, a copy of two vertices), too_large (2^30 copies, 4 GiB).
+Result<EncodedSeams> encode_seams(std::span<const std::uint32_t> triangles, std::uint32_t vertices,
+                                  std::span<const std::uint32_t> copies);
+
+/// A seam section somewhere in memory, its header read. Holds no copy.
+struct SeamView {
+    std::span<const std::uint32_t> words;
+    std::uint32_t vertices = 0, triangles = 0;
+    std::uint32_t homes = 0;   ///< home copies: the first ones, in the order of their vertices
+    std::uint32_t copies = 0;  ///< of all vertices
+
+    std::uint32_t blocks() const { return triangles / kSeamBlock + (triangles % kSeamBlock == 0 ? 0 : 1); }
+};
+
+/// Reads the header and checks sizes only: of the section of a mesh with so many triangles and vertices. Errors:
+/// malformed. Untrusted input: safe.
+Result<SeamView> view_seams(std::span<const std::uint32_t> words, std::uint32_t triangles, std::uint32_t vertices);
+
+/// Checks everything that decoders rely on, the checksum included, for these triangles, three vertices each. Cost: O(T)
+/// time; 4 bytes a vertex and 4 a copy that is no home. Errors: malformed. Untrusted input, triangles included: safe.
+Result<SeamView> validate_seams(std::span<const std::uint32_t> words, std::span<const std::uint32_t> triangles,
+                                std::uint32_t vertices);
+
+/// The copy of each corner of the triangles that the section was validated for. Cost: O(T) time, 4 bytes a vertex.
+void decode_seams(const SeamView& view, std::span<const std::uint32_t> triangles, std::span<std::uint32_t> copies);
+
+/// The same of one block; `triangles` are the block's alone: [512 * block, ...), 3 * 512 entries or what the last block
+/// has. Reads the directories' groups, the block and the blocks of its vertices: no allocation.
+void decode_seam_block(const SeamView& view, std::uint32_t block, std::span<const std::uint32_t> triangles,
+                       std::span<std::uint32_t> copies);
+
+/// The home copies of vertex v are first[v] to first[v + 1] - 1: view.vertices + 1 entries. At least one a vertex: its
+/// position is that of copy first[v].
+void first_copies(const SeamView& view, std::span<std::uint32_t> first);
+
+}  // namespace lacedring

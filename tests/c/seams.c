@@ -1,0 +1,48 @@
+/* Decodes what tests/independent/write_seams.cpp writes, with lacedring_seams.h alone: exit 1 where it differs. */
+#define LACEDRING_DECODE_IMPLEMENTATION
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "lacedring_seams.h"
+
+static uint32_t* take(size_t count) {
+    uint32_t* words = malloc(4 * count + 4);
+    if (words == NULL || fread(words, 4, count, stdin) != count) exit(2);
+    return words;
+}
+
+int main(void) {
+    uint32_t head[3], section = 0;
+    for (; fread(head, 4, 3, stdin) == 3; ++section) {
+        const size_t corners = (size_t)3 * head[1];
+        uint32_t *triangles = take(corners), *words = take(head[2]), *sound = take(1);
+        struct lacedring_seams seams;
+        enum lacedring_status status = lacedring_seams_open(words, head[2], head[0], head[1], &seams, NULL);
+        if (status == LACEDRING_STATUS_OK) status = lacedring_seams_checksum(&seams);
+        if (status == LACEDRING_STATUS_OK) {
+            uint32_t* scratch = malloc(4 * lacedring_seams_scratch(&seams));
+            if (scratch == NULL) return 2;
+            status = lacedring_seams_check(&seams, triangles, scratch, NULL);
+            if (status == LACEDRING_STATUS_OK && *sound) {
+                uint32_t *copies = malloc(4 * corners + 4), *wanted = take(corners);
+                if (copies == NULL) return 2;
+                lacedring_seams_decode(&seams, triangles, scratch, copies);
+                if (memcmp(copies, wanted, 4 * corners) != 0) {
+                    printf("section %u: other copies\n", (unsigned)section);
+                    return 1;
+                }
+                free(copies);
+                free(wanted);
+            }
+            free(scratch);
+        }
+        if ((status == LACEDRING_STATUS_OK) != (*sound != 0)) {
+            printf("section %u: status %d\n", (unsigned)section, (int)status);
+            return 1;
+        }
+        free(triangles);
+        free(words);
+        free(sound);
+    }
+    return section > 0 ? 0 : 1;
+}

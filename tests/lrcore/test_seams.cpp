@@ -1,0 +1,295 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <memory>
+#include <numeric>
+
+#include "lacedring/lacedring.hpp"
+#include "lacedring/lacedring_seams.h"
+#include "lacedring/seams.hpp"
+#include "lrcore/base/crc32.h"
+#include "lrlab/generate/generate.h"
+#include "tests/support/capture.h"
+#include "tests/support/meshes.h"
+#include "tests/support/shapes.h"
+
+using namespace lacedring;
+using test::random_below;
+
+namespace {
+
+using Words = std::vector<std::uint32_t>;
+
+/// A surface and the copies of its corners.
+struct Cut {
+    Words triangles, copies;
+    std::uint32_t vertices = 0;
+};
+
+/// Numbers the copies: corners of a vertex in charts of one number share one.
+Cut cut_by_chart(Words triangles, std::uint32_t vertices,
+                 const std::function<std::uint32_t(std::uint32_t corner)>& chart_of) {
+    Cut out{std::move(triangles), {}, vertices};
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> numbers;
+    for (std::uint32_t c = 0; c < out.triangles.size(); ++c) {
+        const std::pair key(out.triangles[c], chart_of(c));
+        out.copies.push_back(numbers.emplace(key, static_cast<std::uint32_t>(7 * numbers.size() + 3)).first->second);
+    }
+    return out;
+}
+
+/// Ways to cut: no seams, stripes of triangles, random triangles, each triangle alone, random copies.
+constexpr std::uint32_t kCuts = 5;
+Cut cut(const Words& triangles, std::uint32_t vertices, std::uint32_t how, std::uint64_t seed) {
+    Words charts(triangles.size());
+    std::uint64_t state = seed;
+    for (std::uint32_t c = 0; c < charts.size(); ++c) {
+        const std::uint32_t i = c / 3;
+        if (how == 1) charts[c] = i / 37 % 5;
+        if (how == 2) charts[c] = c % 3 == 0 ? random_below(state, 4) / 3 : charts[c - 1];
+        if (how == 3) charts[c] = i;
+        if (how == 4) charts[c] = random_below(state, 1 + random_below(state, 5));
+    }
+    return cut_by_chart(triangles, vertices, [&](std::uint32_t c) { return charts[c]; });
+}
+
+/// The triangles in the order and numbers of a packed stream.
+Cut in_stream_order(const Mesh& mesh, std::uint32_t how, std::uint64_t seed) {
+    const Result<Encoded> encoded = encode(mesh.indices, mesh.vertex_count, {.effort = 0});
+    REQUIRE_MESSAGE(encoded, encoded.error().message);
+    const Result<PackedView> view = validate_packed(encoded->words);
+    Words triangles(std::size_t{3} * view->triangles);
+    decode_packed(*view, triangles);
+    return cut(triangles, view->vertices, how, seed);
+}
+
+Words without_degenerate(const Words& triangles) {
+    Words out;
+    for (std::size_t i = 0; i < triangles.size(); i += 3) {
+        const std::uint32_t a = triangles[i], b = triangles[i + 1], c = triangles[i + 2];
+        if (a != b && b != c && c != a) out.insert(out.end(), {a, b, c});
+    }
+    return out;
+}
+
+EncodedSeams encoded(const Cut& mesh) {
+    Result<EncodedSeams> out = encode_seams(mesh.triangles, mesh.vertices, mesh.copies);
+    REQUIRE_MESSAGE(out, out.error().message);
+    return std::move(*out);
+}
+
+std::span<const std::uint32_t> block_of(std::span<const std::uint32_t> corners, std::uint32_t block) {
+    const std::size_t first = std::size_t{3} * kSeamBlock * block;
+    return corners.subspan(first, std::min<std::size_t>(corners.size() - first, 3 * kSeamBlock));
+}
+
+/// Validates and decodes in buffers of exactly the sizes; blocks give the same copies in any order.
+Words decoded(const Words& words, const Cut& mesh) {
+    const auto exact = std::make_unique<std::uint32_t[]>(words.size());
+    std::ranges::copy(words, exact.get());
+    const std::span<const std::uint32_t> section(exact.get(), words.size());
+    const Result<SeamView> view = validate_seams(section, mesh.triangles, mesh.vertices);
+    REQUIRE_MESSAGE(view, view.error().message);
+    Words out(mesh.triangles.size());
+    decode_seams(*view, mesh.triangles, out);
+    for (std::uint32_t b = view->blocks(); b-- > 0;) {
+        Words alone(block_of(out, b).size());
+        decode_seam_block(*view, b, block_of(mesh.triangles, b), alone);
+        REQUIRE(std::ranges::equal(alone, block_of(out, b)));
+    }
+    return out;
+}
+
+/// Every corner gets its copy back; copies are numbered without gaps, homes by vertex.
+void check(const Cut& mesh) {
+    const EncodedSeams seams = encoded(mesh);
+    const Words corners = decoded(seams.words, mesh);
+    const Result<SeamView> view =
+        view_seams(seams.words, static_cast<std::uint32_t>(corners.size() / 3), mesh.vertices);
+    REQUIRE(view);
+    REQUIRE(view->copies == seams.copy_order.size());
+    Words first(std::size_t{mesh.vertices} + 1);
+    first_copies(*view, first);
+    REQUIRE(first.front() == 0);
+    REQUIRE(first.back() == view->homes);
+    REQUIRE(std::ranges::adjacent_find(first, std::greater_equal()) == first.end());
+    std::vector<bool> used(view->copies), has_corners(mesh.vertices);
+    bool right = true;
+    for (std::size_t c = 0; c < corners.size() && right; ++c) {
+        const std::uint32_t v = mesh.triangles[c], copy = corners[c];
+        right = copy < view->copies && seams.copy_order[copy] == mesh.copies[c] &&
+                (copy >= view->homes || (first[v] <= copy && copy < first[v + 1]));
+        if (right) used[copy] = has_corners[v] = true;
+    }
+    REQUIRE(right);
+    for (std::uint32_t v = 0; v < mesh.vertices; ++v) {
+        if (has_corners[v]) continue;
+        right &= first[v + 1] == first[v] + 1 && seams.copy_order[first[v]] == UINT32_MAX;
+        used[first[v]] = true;
+    }
+    REQUIRE(right);
+    REQUIRE(std::ranges::find(used, false) == used.end());
+    Words order = seams.copy_order;
+    std::erase(order, UINT32_MAX);
+    std::ranges::sort(order);
+    REQUIRE(std::ranges::adjacent_find(order) == order.end());
+}
+
+void mend(Words& words) {
+    words[1] = crc32(std::as_bytes(std::span(words).subspan(2)));
+}
+
+Cut blob(std::uint32_t triangles, std::uint32_t how) {
+    return in_stream_order(generate("blob", triangles).value(), how, 5);
+}
+
+}  // namespace
+
+TEST_CASE("seams of every small mesh, cut in every way, come back") {
+    std::uint64_t seed = 1;
+    for (const test::NamedMesh& named : test::named_meshes()) {
+        if (named.mesh.triangle_count() > 1000) continue;
+        CAPTURE(named.name);
+        for (std::uint32_t how = 0; how < kCuts; ++how) {
+            CAPTURE(how);
+            check(in_stream_order(named.mesh, how, ++seed));
+        }
+    }
+}
+
+TEST_CASE("seams of triangles in no order of a ring come back") {
+    for (std::uint32_t n = 0; n < 30; ++n) {
+        CAPTURE(n);
+        const Mesh soup = test::random_soup(3 + 17 * n, 40 * n, n + 1),
+                   glued = test::random_gluing(40 + 9 * n, 30 * n, n);
+        check(cut(without_degenerate(soup.indices), soup.vertex_count, n % kCuts, n));
+        check(cut(without_degenerate(glued.indices), glued.vertex_count, (n + 1) % kCuts, n));
+    }
+}
+
+TEST_CASE("seams of flipped, doubled and pinched surfaces come back") {
+    const test::Shape grid = test::grid(20, 20, true, false, false);
+    for (const test::Shape& shape :
+         {test::turn_some(grid, 3), test::double_some(grid, 2, false), test::double_some(grid, 5, true),
+          test::pinch(grid, 3, 300), test::fan(700, true), test::shuffle(grid, 3)}) {
+        const Mesh mesh = test::make_mesh(shape.triangles, shape.vertices);
+        for (std::uint32_t how = 0; how < kCuts; ++how) {
+            check(in_stream_order(mesh, how, how));
+            check(cut(mesh.indices, mesh.vertex_count, how, how));
+        }
+    }
+}
+
+TEST_CASE("seams of every size around a block and a group of blocks come back") {
+    for (const std::uint32_t around : {0U, 512U, 1024U, 16384U}) {
+        for (std::uint32_t k = 0; k < 5; ++k) {
+            const std::uint32_t triangles = around + k - (around > 0 ? 2 : 0);
+            CAPTURE(triangles);
+            const test::Shape strip = test::strip(triangles);
+            const Mesh mesh = test::make_mesh(strip.triangles, strip.vertices);
+            check(cut(mesh.indices, strip.vertices, 2, k));
+            check(cut(mesh.indices, strip.vertices + 700, 3, k));  // vertices without corners
+        }
+    }
+    check(cut({}, 513, 0, 0));
+    check(cut({}, 0, 0, 0));
+}
+
+TEST_CASE("a section without seams is little more than its header") {
+    const Cut mesh = blob(20000, 0);
+    CHECK(encoded(mesh).words.size() < 8 + 30);
+}
+
+TEST_CASE("charts cost about as much as their borders") {
+    const Cut stripes = blob(20000, 1);
+    const double bits = 32.0 * static_cast<double>(encoded(stripes).words.size()) / 20000;
+    CHECK(bits < 0.5);
+}
+
+TEST_CASE("what cannot be encoded is refused") {
+    const Words two{0, 1, 2, 2, 1, 3};
+    const auto code = [](const Words& triangles, std::uint32_t vertices, const Words& copies) {
+        const Result<EncodedSeams> out = encode_seams(triangles, vertices, copies);
+        REQUIRE(!out);
+        CHECK(!out.error().message.empty());
+        return out.error().code;
+    };
+    CHECK(encode_seams(two, 4, Words{5, 6, 7, 7, 8, 9}));
+    CHECK(encode_seams(two, 4, Words{0, UINT32_MAX, 7, 7, 8, 9}));
+    CHECK(code(two, 4, {5, 6, 7, 7, 8, 5}) == ErrorCode::invalid_argument);  // a copy of two vertices
+    CHECK(code(two, 3, {5, 6, 7, 7, 8, 9}) == ErrorCode::invalid_argument);
+    CHECK(code(two, 4, {5, 6, 7}) == ErrorCode::invalid_argument);
+    CHECK(code({0, 1}, 4, {5, 6}) == ErrorCode::invalid_argument);
+    CHECK(code({0, 1, 1}, 4, {5, 6, 6}) == ErrorCode::invalid_argument);
+    CHECK(code(two, UINT32_MAX, {5, 6, 7, 7, 8, 9}) == ErrorCode::too_large);
+}
+
+TEST_CASE("sections of other meshes, cut short or changed are refused") {
+    for (const std::uint32_t how : {1U, 4U}) {
+        const Cut mesh = blob(1500, how);
+        const Words words = encoded(mesh).words;
+        for (std::size_t size = 0; size < words.size(); ++size) {
+            CHECK(!validate_seams(std::span(words).first(size), mesh.triangles, mesh.vertices));
+        }
+        for (std::size_t bit = 0; bit < 32 * words.size(); ++bit) {
+            Words changed = words;
+            changed[bit / 32] ^= 1U << bit % 32;
+            const Result<SeamView> view = validate_seams(changed, mesh.triangles, mesh.vertices);
+            REQUIRE(!view);
+            REQUIRE(!view.error().message.empty());
+        }
+        Words longer = words;
+        longer.push_back(0);
+        mend(longer);
+        CHECK(!validate_seams(longer, mesh.triangles, mesh.vertices));
+        CHECK(!validate_seams(words, std::span(mesh.triangles).first(1500), mesh.vertices));
+        CHECK(!validate_seams(words, mesh.triangles, mesh.vertices - 1));
+        CHECK(!validate_seams(words, mesh.triangles, mesh.vertices + 1));
+        CHECK(!validate_seams(words, mesh.triangles, UINT32_MAX));
+        CHECK(!validate_seams(words, std::span(mesh.triangles).first(mesh.triangles.size() - 1), mesh.vertices));
+        Words other = mesh.triangles;
+        other[100] = mesh.vertices;
+        CHECK(!validate_seams(words, other, mesh.vertices));
+        other[100] = other[99];
+        CHECK(!validate_seams(words, other, mesh.vertices));
+    }
+}
+
+TEST_CASE("what is accepted decodes to copies of the corner's vertex, whatever was changed") {
+    std::uint64_t state = 9;
+    std::uint32_t accepted = 0;
+    for (const std::uint32_t how : {0U, 1U, 2U, 4U}) {
+        const Cut mesh = blob(1500, how);
+        const Words words = encoded(mesh).words;
+        for (std::uint32_t n = 0; n < 200; ++n) {
+            Words changed = words;
+            for (std::uint32_t k = 0; k <= n % 3; ++k) {
+                std::uint32_t& word = changed[random_below(state, static_cast<std::uint32_t>(changed.size()))];
+                word = n % 5 == 0 ? random_below(state, UINT32_MAX) : word ^ 1U << random_below(state, 32);
+            }
+            mend(changed);
+            const Result<SeamView> view = validate_seams(changed, mesh.triangles, mesh.vertices);
+            if (!view) continue;
+            ++accepted;
+            const Cut again{mesh.triangles, decoded(changed, mesh), mesh.vertices};
+            REQUIRE(*std::ranges::max_element(again.copies) < view->copies);
+            check(again);  // no copy is of two vertices
+        }
+    }
+    CHECK(accepted > 20);
+}
+
+TEST_CASE("golden bytes: a seam section is written as it was") {
+    std::uint32_t sum = 0;
+    for (std::uint32_t how = 0; how < kCuts; ++how) {
+        const test::Shape grid = test::turn_some(test::grid(60, 30, true, false, false), 50);
+        const Mesh mesh = test::make_mesh(grid.triangles, grid.vertices);
+        const EncodedSeams seams = encoded(cut(mesh.indices, mesh.vertex_count, how, 3));
+        sum = crc32(std::as_bytes(std::span(seams.words)), sum);
+        sum = crc32(std::as_bytes(std::span(seams.copy_order)), sum);
+    }
+    CHECK(sum == 0x1bc16740U);
+}
