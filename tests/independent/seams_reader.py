@@ -138,6 +138,7 @@ def read_steps(seams):
             first += c + 1 - wrap
             before = c
         require(codes.at == codes.end, "a vertex block has bits behind its codes")
+    require(first == seams.vertices + seams.vertex_blocks.before[-1], "a vertex block makes other copies than it says")
     require(first == seams.homes, "other homes than the header says")
     return steps, wraps, firsts
 
