@@ -481,9 +481,8 @@ LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_run_(const struct
     run->all_present = 255;
     for (c = 0; c < n; ++c) {
         lacedring_lanes_ change, width, given;
+        if (c % 2 != 0) codes = lacedring_lane_load_(d, at); /* a plane takes 10 bits, a width 9 */
         given = lacedring_lane_is_(lacedring_lane_and_(codes, 15), 15);
-        /* A load has enough for a plane of 10 bits, codes of 4, and 9 bits at first. */
-        if (c > 0 && lacedring_lane_any_(_mm256_and_si256(given, begins))) codes = lacedring_lane_load_(d, at);
         change = _mm256_andnot_si256(given, _mm256_permutevar8x32_epi32(code_change, codes));
         width = _mm256_add_epi32(_mm256_blendv_epi8(run->width[c], _mm256_srli_epi32(codes, 4), given), change);
         width = _mm256_blendv_epi8(width, lacedring_lane_and_(width, 31), given);
