@@ -155,6 +155,27 @@ TEST_CASE("vertex streams give back any values of any type") {
     }
 }
 
+TEST_CASE("vertex streams of noise whose size and plane change from run to run") {
+    std::mt19937 random(5);
+    const auto below = [&](std::uint32_t n) { return static_cast<std::int32_t>(random() % n); };
+    std::vector<std::int32_t> values;
+    std::int32_t at[3] = {0, 0, 0}, bits[3] = {1, 1, 1}, slopes[2] = {0, 0};
+    std::size_t axis = 0;
+    for (std::uint32_t v = 0; v < 60 * kVertexBlock; ++v) {
+        if (v % 16 == 1) {
+            for (std::int32_t& b : bits) b = 1 + below(12);
+            for (std::int32_t& s : slopes) s = below(8) - 4;
+            axis = static_cast<std::size_t>(below(3));
+        }
+        std::int32_t step[3];
+        for (std::size_t c = 0; c < 3; ++c) step[c] = below(2U << bits[c]) - (1 << bits[c]);
+        step[axis] = (slopes[0] * step[(axis + 1) % 3] + slopes[1] * step[(axis + 2) % 3]) / 4;
+        for (std::size_t c = 0; c < 3; ++c) values.push_back(at[c] += step[c]);
+    }
+    const Bytes data = bytes_of(values);
+    CHECK(decoded(encoded({ComponentType::i32, 3, false, data})) == data);
+}
+
 TEST_CASE("vertex streams keep the bits of floats that are no numbers, not normal, or zero with a sign") {
     Walk walk(7);
     std::vector<float> values;
