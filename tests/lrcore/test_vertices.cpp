@@ -160,16 +160,16 @@ TEST_CASE("vertex streams of noise whose size and plane change from run to run")
     const auto below = [&](std::uint32_t n) { return static_cast<std::int32_t>(random() % n); };
     std::vector<std::int32_t> values;
     std::int32_t at[3] = {0, 0, 0}, bits[3] = {1, 1, 1}, slopes[2] = {0, 0};
-    std::size_t axis = 0;
     for (std::uint32_t v = 0; v < 60 * kVertexBlock; ++v) {
         if (v % 16 == 1) {
-            for (std::int32_t& b : bits) b = 1 + below(12);
+            // All codes are long: one width is given, the others are one less, and so is a plane.
+            bits[0] = 1 + (bits[0] + 4) % 10;
+            for (std::size_t c = 1; c < 3; ++c) bits[c] = bits[c] > 4 ? bits[c] - 1 : 14;
             for (std::int32_t& s : slopes) s = below(8) - 4;
-            axis = static_cast<std::size_t>(below(3));
         }
         std::int32_t step[3];
         for (std::size_t c = 0; c < 3; ++c) step[c] = below(2U << bits[c]) - (1 << bits[c]);
-        step[axis] = (slopes[0] * step[(axis + 1) % 3] + slopes[1] * step[(axis + 2) % 3]) / 4;
+        step[0] += (slopes[0] * step[1] + slopes[1] * step[2]) / 4;
         for (std::size_t c = 0; c < 3; ++c) values.push_back(at[c] += step[c]);
     }
     const Bytes data = bytes_of(values);
