@@ -1,7 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What stream_position gives, vertex by vertex: the check that the stages which decode vertices by themselves decode what the
-// CPU does.
+// Writes stream_position of each vertex, to compare with the CPU: the stages that decode vertices by themselves call it.
 #include "shaders/vertex_source.glsl"
 
 layout(local_size_x = LR_COMPUTE_GROUP) in;

@@ -178,7 +178,7 @@ struct Cut {
     }
 };
 
-/// What the device makes of the mesh's positions once they are encoded, in the mesh's order; and the lattice's step.
+/// The positions that the device decodes from the encoded mesh, in the mesh's order, and the lattice's step.
 std::pair<std::vector<float>, float> decoded_by_device(gpu::Renderer& renderer, const Mesh& mesh,
                                                        const VertexOptions& options) {
     const gpu::Model model = model_with(mesh, options);

@@ -394,7 +394,7 @@ class CornerEncoder {
     Answers out_;
 };
 
-/// Of each context, the likely value and the class of its runs.
+/// The likely value of each context, and the class of its runs.
 struct Table {
     std::array<std::uint8_t, kContexts> likely{}, run_class{};
 };
