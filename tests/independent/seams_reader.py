@@ -150,6 +150,10 @@ class Walk:
         self.codes, self.triangles, self.steps, self.wraps, self.made = codes, triangles, steps, wraps, made
         self.states, self.sides = [], []  # of each triangle: the state of each vertex; its side
         for i, triangle in enumerate(triangles):
+            if not triangle:
+                self.sides.append(None)
+                self.states.append({})
+                continue
             parent, pair = self.parent(i)
             self.sides.append(self.side(triangle, parent))
             self.states.append({})
@@ -270,7 +274,7 @@ class Walk:
 
 
 def read_seams(data, triangles, vertices):
-    """The copy of each corner, a tuple for each triangle."""
+    """The copy of each corner, a tuple for each triangle. Empty slots are empty tuples."""
     seams = Seams(data, vertices, len(triangles))
     steps, wraps, firsts = read_steps(seams)
     out, owners, made = [], {}, 0

@@ -9,6 +9,8 @@ import sys
 from mesh_readers import BadFile
 from seams_reader import read_seams
 
+EMPTY = (0xFFFFFFFF,) * 3  # a slot without a triangle
+
 
 def main():
     written = subprocess.run(sys.argv[1:2], check=True, capture_output=True).stdout
@@ -28,10 +30,12 @@ def main():
         corners = take(3 * count)
         section = take(size).tobytes()
         triangles = [tuple(corners[i:i + 3]) for i in range(0, 3 * count, 3)]
+        triangles = [() if triangle == EMPTY else triangle for triangle in triangles]
         sound = take(1)[0]
         wanted = take(3 * count) if sound else None
         try:
-            copies = array.array("I", [copy for triangle in read_seams(section, triangles, vertices) for copy in triangle])
+            read = read_seams(section, triangles, vertices)
+            copies = array.array("I", [copy for triangle in read for copy in triangle or EMPTY])
         except BadFile as error:
             copies, why = None, error
         if copies != wanted:

@@ -43,6 +43,7 @@ int main() {
         for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
             const std::uint32_t* t = &mesh.indices[i];
             if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles.insert(triangles.end(), t, t + 3);
+            if (test::random_below(state, 20) == 0) triangles.insert(triangles.end(), 3, UINT32_MAX);
         }
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> numbers;
         std::uint32_t chart = 0;

@@ -120,6 +120,10 @@ void check(const Cut& mesh) {
     bool right = true;
     for (std::size_t c = 0; c < corners.size() && right; ++c) {
         const std::uint32_t v = mesh.triangles[c], copy = corners[c];
+        if (v == UINT32_MAX) {
+            right = copy == UINT32_MAX;
+            continue;
+        }
         right = copy < view->copies && seams.copy_order[copy] == mesh.copies[c] &&
                 (copy >= view->homes || (first[v] <= copy && copy < first[v + 1]));
         if (right) used[copy] = has_corners[v] = true;
@@ -181,6 +185,30 @@ TEST_CASE("seams of flipped, doubled and pinched surfaces come back") {
             check(cut(mesh.indices, mesh.vertex_count, how, how));
         }
     }
+}
+
+TEST_CASE("seams of all formats' slots come back, those without a triangle left out") {
+    std::uint64_t seed = 1;
+    for (const test::NamedMesh& named : test::named_meshes()) {
+        if (named.mesh.triangle_count() > 1000) continue;
+        CAPTURE(named.name);
+        for (const Format format : {Format::lean, Format::packed, Format::lr, Format::lr_compact}) {
+            CAPTURE(name_of(format));
+            const Result<Encoded> encoded =
+                encode(named.mesh.indices, named.mesh.vertex_count, {.format = format, .effort = 0});
+            if (!encoded) continue;
+            const Result<StreamView> view = validate(encoded->words);
+            REQUIRE_MESSAGE(view, view.error().message);
+            const Words slots = slot_triangles(*view);
+            Words triangles = slots;
+            std::erase(triangles, UINT32_MAX);
+            CHECK(triangles == decode(*view));
+            for (std::uint32_t how = 0; how < kCuts; ++how) check(cut(slots, view->vertices(), how, ++seed));
+        }
+    }
+    Words none(3000, UINT32_MAX);
+    check(cut(none, 0, 0, 0));
+    check(cut(none, 10, 0, 0));
 }
 
 TEST_CASE("seams of every size around a block and a group of blocks come back") {

@@ -56,7 +56,7 @@ std::vector<std::uint8_t> find_sides(Triangles triangles) {
         const std::uint32_t in_block = i % kSeamBlock, side = lacedring_seam_side(&triangles[std::size_t{3} * i]);
         std::uint32_t pair[2];
         out[i] = static_cast<std::uint8_t>(side);
-        if (side < 2) continue;
+        if (side < 2 || lacedring_seam_is_empty(&triangles[std::size_t{3} * i])) continue;
         const std::uint32_t back = lacedring_seam_parent(&triangles[std::size_t{3} * (i - in_block)], in_block, pair);
         out[i] = back > 0 ? out[i - back] : 0;
     }
@@ -136,9 +136,13 @@ class HomeFinder {
 Homes find_homes(Triangles triangles, std::uint32_t vertices, std::span<const std::uint32_t> copies,
                  std::uint32_t copy_count) {
     std::vector<std::uint32_t> begin(std::size_t{vertices} + 2), corners(triangles.size());
-    for (const std::uint32_t v : triangles) ++begin[v + 2];
+    for (const std::uint32_t v : triangles) {
+        if (v != kNone) ++begin[v + 2];
+    }
     for (std::size_t v = 2; v < begin.size(); ++v) begin[v] += begin[v - 1];
-    for (std::uint32_t c = 0; c < triangles.size(); ++c) corners[begin[triangles[c] + 1]++] = c;
+    for (std::uint32_t c = 0; c < triangles.size(); ++c) {
+        if (triangles[c] != kNone) corners[begin[triangles[c] + 1]++] = c;
+    }
     const std::vector<std::uint8_t> sides = find_sides(triangles);
     HomeFinder finder(triangles, copies, sides);
     Homes out;
@@ -373,6 +377,7 @@ class CornerEncoder {
     }
 
     void encode(std::uint32_t i) {
+        if (lacedring_seam_is_empty(&triangles_[std::size_t{3} * i])) return;
         std::uint32_t pair[2] = {3, 3};
         const std::uint32_t back = lacedring_seam_parent(&triangles_[std::size_t{3} * first_], i - first_, pair);
         const std::uint32_t side = lacedring_seam_side(&triangles_[std::size_t{3} * i]);
@@ -681,16 +686,22 @@ Result<EncodedSeams> encode_seams(std::span<const std::uint32_t> triangles, std:
     if (triangles.size() > UINT32_MAX || vertices > LACEDRING_SEAMS_MAX_COPIES) return too_large;
     for (std::size_t i = 0; i < triangles.size(); i += 3) {
         const std::uint32_t a = triangles[i], b = triangles[i + 1], c = triangles[i + 2];
+        if ((a & b & c) == kNone) continue;
         if (std::max({a, b, c}) >= vertices || a == b || b == c || c == a) {
             return invalid_seams(message("triangle ", i / 3, " has a vertex out of range, or one twice"));
         }
     }
     // The caller's numbers, and for each corner which of them it has.
-    std::vector<std::uint32_t> numbers(copies.begin(), copies.end());
+    std::vector<std::uint32_t> numbers;
+    numbers.reserve(copies.size());
+    for (std::size_t c = 0; c < copies.size(); ++c) {
+        if (triangles[c] != kNone) numbers.push_back(copies[c]);
+    }
     std::ranges::sort(numbers);
     numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
     std::vector<std::uint32_t> own(copies.size()), owner(numbers.size(), kNone);
     for (std::size_t c = 0; c < copies.size(); ++c) {
+        if (triangles[c] == kNone) continue;
         own[c] = static_cast<std::uint32_t>(std::ranges::lower_bound(numbers, copies[c]) - numbers.begin());
         std::uint32_t& of = owner[own[c]];
         if (of == kNone) of = triangles[c];

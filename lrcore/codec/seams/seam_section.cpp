@@ -100,6 +100,20 @@ void decode_seam_block(const SeamView& view, std::uint32_t block, std::span<cons
     lacedring_seams_block(&seams, block, triangles.data(), copies.data());
 }
 
+std::vector<std::uint32_t> slot_triangles(const StreamView& stream) {
+    std::vector<std::uint32_t> out(std::size_t{3} * stream.slots(), UINT32_MAX);
+    if (const PackedView* packed = stream.get<PackedView>()) {
+        decode_packed(*packed, out);
+        return out;
+    }
+    for (std::uint32_t slot = 0; slot < stream.slots(); ++slot) {
+        if (const std::optional<Triangle> t = decode_triangle(stream, slot)) {
+            std::ranges::copy(t->v, out.begin() + std::ptrdiff_t{3} * slot);
+        }
+    }
+    return out;
+}
+
 void first_copies(const SeamView& view, std::span<std::uint32_t> first) {
     assert(first.size() == std::size_t{view.vertices} + 1);
     const lacedring_seams seams = as_c(view);

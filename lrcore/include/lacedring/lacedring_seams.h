@@ -4,8 +4,10 @@
    LACEDRING_DECODE_IMPLEMENTATION, defined in one .c or .cpp file before it is included, adds the functions there. A
    program that links lacedring::core has them already.
 
-   A section belongs to a mesh: `triangles` are its triangles, three vertices each, in the order and with the vertex
-   numbers of its connectivity stream.
+   A section belongs to a mesh: `triangles` are the slots of its connectivity stream, three vertices each, in their
+   order and with its vertex numbers; a slot that has no triangle is UINT32_MAX three times. All slots of packed streams
+   have one; those of lean streams and LR tables that have none are the degenerate ones and second numbers of one
+   triangle.
 
        struct lacedring_seams seams;
        if (lacedring_seams_open(words, count, vertex_count, triangle_count, &seams, NULL) != LACEDRING_STATUS_OK) ...
@@ -102,7 +104,8 @@ enum lacedring_status lacedring_seams_checksum(const struct lacedring_seams* sea
    the vertex's left ends in the copy in which it began. seams->vertices + 1 entries. Linear time. */
 void lacedring_seams_homes(const struct lacedring_seams* seams, uint32_t* home);
 
-/* The copy of each corner, three a triangle. Fills `home` as lacedring_seams_homes does. Linear time, 20 KB of stack.
+/* The copy of each corner, three a triangle; UINT32_MAX where there is none. Fills `home` as lacedring_seams_homes
+ * does. Linear time, 20 KB of stack.
  */
 void lacedring_seams_decode(const struct lacedring_seams* seams, const uint32_t* triangles, uint32_t* home,
                             uint32_t* copies);
@@ -119,8 +122,13 @@ static inline uint32_t lacedring_seam_corner(const uint32_t triangle[3], uint32_
     return triangle[0] == vertex ? 0u : triangle[1] == vertex ? 1u : triangle[2] == vertex ? 2u : 3u;
 }
 
-/* The parent of triangle i of a block: the last one, of those not too far before, that has two of its vertices. Returns
-   how far before it is, or 0, and which corners of triangle i these are. */
+/* Has the slot no triangle? */
+static inline int lacedring_seam_is_empty(const uint32_t triangle[3]) {
+    return triangle[0] == UINT32_MAX;
+}
+
+/* The parent of triangle i of a block, which is not empty: the last one, of those not too far before, that has two of
+   its vertices. Returns how far before it is, or 0, and which corners of triangle i these are. */
 static inline uint32_t lacedring_seam_parent(const uint32_t* triangles, uint32_t i, uint32_t pair[2]) {
     const uint32_t* t = triangles + (size_t)3 * i;
     uint32_t back;
@@ -556,9 +564,10 @@ static void lacedring_seam_start_(struct lacedring_seam_walk_* w, uint32_t i, ui
 static void lacedring_seam_triangles_(struct lacedring_seam_walk_* w) {
     uint32_t i, j;
     for (i = 0; i < w->count; ++i) {
-        uint32_t pair[2] = {3, 3};
-        const uint32_t back = lacedring_seam_parent(w->triangles, i, pair);
-        const uint32_t side = lacedring_seam_side(w->triangles + (size_t)3 * i);
+        uint32_t pair[2] = {3, 3}, back, side;
+        if (lacedring_seam_is_empty(w->triangles + (size_t)3 * i)) continue;
+        back = lacedring_seam_parent(w->triangles, i, pair);
+        side = lacedring_seam_side(w->triangles + (size_t)3 * i);
         w->side[i] = (uint8_t)(side < 2 ? side : back > 0 ? w->side[i - back] : 0);
         if (back > 0) lacedring_seam_spoke_(w, i, back, pair);
         for (j = 0; j < 3; ++j) {
@@ -582,6 +591,10 @@ static void lacedring_seam_walk_end_(const struct lacedring_seams* s, struct lac
     lacedring_seam_triangles_(w);
     for (k = 0; k < 3 * w->count; ++k) {
         const uint32_t state = w->state[k];
+        if (w->triangles[k] == UINT32_MAX) {
+            copies[k] = UINT32_MAX;
+            continue;
+        }
         copies[k] = state >= LACEDRING_SEAMS_PRIVATE ? s->homes + (state - LACEDRING_SEAMS_PRIVATE)
                                                      : (w->home[k] >> 1) + lacedring_seam_copy_(w, k, state);
     }
@@ -589,7 +602,9 @@ static void lacedring_seam_walk_end_(const struct lacedring_seams* s, struct lac
 
 static void lacedring_seam_gather_(struct lacedring_seam_walk_* w, const uint32_t* home) {
     uint32_t k;
-    for (k = 0; k < 3 * w->count; ++k) lacedring_seam_set_home_(w, k, home + w->triangles[k]);
+    for (k = 0; k < 3 * w->count; ++k) {
+        if (w->triangles[k] != UINT32_MAX) lacedring_seam_set_home_(w, k, home + w->triangles[k]);
+    }
 }
 
 void lacedring_seams_decode(const struct lacedring_seams* s, const uint32_t* triangles, uint32_t* home,
@@ -614,7 +629,7 @@ void lacedring_seams_block(const struct lacedring_seams* s, uint32_t block, cons
     lacedring_seam_walk_begin_(s, block, triangles, &w);
     for (k = 0; k < 3 * w.count; ++k) {
         const uint32_t wanted = triangles[k] / LACEDRING_SEAMS_BLOCK;
-        if (is_set[k]) continue;
+        if (is_set[k] || triangles[k] == UINT32_MAX) continue;
         lacedring_seam_vertex_block_(s, wanted, home);
         for (n = k; n < 3 * w.count; ++n) {
             if (triangles[n] / LACEDRING_SEAMS_BLOCK != wanted) continue;
@@ -634,6 +649,7 @@ enum lacedring_status lacedring_seams_check(const struct lacedring_seams* s, con
     struct lacedring_seam_walk_ w;
     for (i = 0; i < s->triangles; ++i) {
         const uint32_t* t = triangles + (size_t)(3 * i);
+        if ((t[0] & t[1] & t[2]) == UINT32_MAX) continue;
         if (t[0] >= s->vertices || t[1] >= s->vertices || t[2] >= s->vertices || t[0] == t[1] || t[1] == t[2] ||
             t[2] == t[0])
             return lacedring_at_(where, i, LACEDRING_STATUS_TRIANGLE);
@@ -663,7 +679,7 @@ enum lacedring_status lacedring_seams_check(const struct lacedring_seams* s, con
         for (k = (uint32_t)made; k < w.made; ++k) owner[k] = UINT32_MAX;
         for (k = 0; k < 3 * w.count; ++k) { /* no private copy is of two vertices */
             uint32_t* of;
-            if (copies[k] < s->homes) continue;
+            if (copies[k] < s->homes || copies[k] == UINT32_MAX) continue;
             of = owner + (copies[k] - s->homes);
             if (*of == UINT32_MAX) *of = w.triangles[k];
             if (*of != w.triangles[k]) return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "lacedring/base.hpp"
+#include "lacedring/streams.hpp"
 
 namespace lacedring {
 
@@ -25,11 +26,12 @@ struct EncodedSeams {
     std::vector<std::uint32_t> copy_order;
 };
 
-/// Encodes the copies of a surface's corners. `triangles` has three vertices each, below `vertices`, in the order and
-/// with the numbers of the connectivity stream; `copies` has a number for each of their corners, any numbers: equal
-/// where corners share a copy, which only corners of one vertex do. Cost: O(T log T) time, about one microsecond a
-/// triangle and up to half a second for the codes; 60 bytes a triangle. Errors: invalid_argument (sizes, a vertex out
-/// of range or twice in a triangle, a copy of two vertices), too_large (2^30 copies, 4 GiB).
+/// Encodes the copies of a surface's corners. `triangles` are the slots of the connectivity stream, in its order and
+/// with its numbers (slot_triangles): three vertices each, below `vertices`, or UINT32_MAX three times where a slot has
+/// no triangle. `copies` has a number for each of their corners, any numbers: equal where corners share a copy, which
+/// only corners of one vertex do. Cost: O(T log T) time, about one microsecond a triangle and up to half a second for
+/// the codes; 60 bytes a triangle. Errors: invalid_argument (sizes, a vertex out of range or twice in a triangle, a
+/// copy of two vertices), too_large (2^30 copies, 4 GiB).
 Result<EncodedSeams> encode_seams(std::span<const std::uint32_t> triangles, std::uint32_t vertices,
                                   std::span<const std::uint32_t> copies);
 
@@ -52,13 +54,18 @@ Result<SeamView> view_seams(std::span<const std::uint32_t> words, std::uint32_t 
 Result<SeamView> validate_seams(std::span<const std::uint32_t> words, std::span<const std::uint32_t> triangles,
                                 std::uint32_t vertices);
 
-/// The copy of each corner of the triangles that the section was validated for. Cost: O(T) time, 4 bytes a vertex.
+/// The copy of each corner of the triangles that the section was validated for; UINT32_MAX where a slot has none. Cost:
+/// O(T) time, 4 bytes a vertex.
 void decode_seams(const SeamView& view, std::span<const std::uint32_t> triangles, std::span<std::uint32_t> copies);
 
 /// The same of one block; `triangles` are the block's alone: [512 * block, ...), 3 * 512 entries or what the last block
 /// has. Reads the directories' groups, the block and the blocks of its vertices: no allocation.
 void decode_seam_block(const SeamView& view, std::uint32_t block, std::span<const std::uint32_t> triangles,
                        std::span<std::uint32_t> copies);
+
+/// Three vertices of each slot of a valid stream, UINT32_MAX where it has no triangle: what a seam section goes with.
+/// Cost: O(T).
+std::vector<std::uint32_t> slot_triangles(const StreamView& stream);
 
 /// The home copies of vertex v are first[v] to first[v + 1] - 1: view.vertices + 1 entries. At least one a vertex: its
 /// position is that of copy first[v].
