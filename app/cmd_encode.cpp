@@ -60,21 +60,23 @@ std::uint32_t orient(Mesh& mesh, CornerTable& table) {
 /// Returns an Exit.
 int encode_file(const EncodeCommand& options, const std::string& input, const std::filesystem::path& output,
                 RunLog& log) {
-    Result<Mesh> mesh = load({input, options.input}, log);
-    if (!mesh) return fail(input, mesh.error());
+    Result<LoadedMesh> loaded = load_file({input, options.input}, log);
+    if (!loaded) return fail(input, loaded.error());
+    Mesh& mesh = loaded->mesh;
     constexpr std::string_view kExtensions[] = {".lr"};
     if (const auto good = check_output(output, options.output, log, kExtensions); !good) {
         return fail(output_name(output), good.error());
     }
-    Result<CornerTable> table = build_corner_table(mesh->indices, mesh->vertex_count);
+    Result<CornerTable> table = surface_table(*loaded);
     if (!table) return fail(input, table.error());
     const std::uint32_t degenerate = table->topology.degenerate;
-    const std::size_t triangles = mesh->triangle_count() - degenerate;
-    const std::uint32_t turned = options.orient ? orient(*mesh, *table) : 0;
-    EncodeOptions how = encode_options(options.ring, format_named(options.format), mesh->triangle_count());
+    const std::size_t triangles = mesh.triangle_count() - degenerate;
+    const std::uint32_t turned = options.orient ? orient(mesh, *table) : 0;
+    EncodeOptions how = encode_options(options.ring, format_named(options.format), mesh.triangle_count());
     how.profile = options.profile == "cache" ? PackedProfile::cache : PackedProfile::small;
     how.wart_skipping = !options.no_warts;
-    const Result<WholeFile> whole = make_file(*mesh, std::move(*table), how, options.bits, options.keep_order);
+    const Result<WholeFile> whole =
+        make_file(mesh, loaded->surface, std::move(*table), how, options.bits, options.keep_order);
     if (!whole) return fail(input, whole.error());
     const std::span<const std::byte> parts[] = {whole->bytes};
     if (const Result<void> written = write_output(output, parts); !written) {
@@ -83,17 +85,18 @@ int encode_file(const EncodeCommand& options, const std::string& input, const st
     if (degenerate > 0) log.note(input_name(input), fmt::format("{} degenerate triangles dropped", degenerate));
     if (turned > 0) log.note(input_name(input), fmt::format("{} triangles turned round by --orient", turned));
     note_lossless(log, input, whole->attributes);
-    const std::size_t connectivity = 4 * whole->file.words.size();
+    const LrFile& file = whole->file;
+    const std::size_t seams = 4 * file.seams.size(), connectivity = 4 * file.words.size() + seams;
     const auto bits = [](std::size_t size, std::size_t of) {
         return 8 * static_cast<double>(size) / static_cast<double>(of);
     };
     const std::string errors = errors_of(whole->attributes);
     log.flush();
     say("{}: {} triangles, {} bytes: {:.2f} bits per triangle, {:.2f} per vertex; connectivity {} bytes, {:.2f} bits "
-        "per "
-        "triangle; {}\n",
+        "per triangle{}; {}\n",
         output_name(output), triangles, whole->bytes.size(), bits(whole->bytes.size(), triangles),
-        bits(whole->bytes.size(), whole->file.vertex_count), connectivity, bits(connectivity, triangles),
+        bits(whole->bytes.size(), file.vertex_count), connectivity, bits(connectivity, triangles),
+        seams == 0 ? "" : fmt::format(", {:.2f} of them for seams", bits(seams, triangles)),
         errors.empty() ? "lossless" : "largest error: " + errors);
     return done;
 }
@@ -118,7 +121,8 @@ void add_encode(CLI::App& program, Action& action) {
     command->add_option("--profile", options->profile, "of packed: the fewest bits, or an order for the vertex cache")
         ->check(CLI::IsMember({"small", "cache"}))
         ->capture_default_str();
-    add_input_options(*command, options->input, 85);
+    options->input.seams = Seams::surface;
+    add_input_options(*command, options->input, 130);
     add_ring_options(*command, options->ring);
     command->add_option("--effort", options->ring.effort, "how long to look for good rings: 0 to 9")
         ->check(CLI::Range(0, 9))
@@ -145,6 +149,7 @@ void add_encode(CLI::App& program, Action& action) {
     });
     command->callback([options, rules, &action] {
         rules->check();
+        if (options->keep_order) options->input.seams = Seams::kept;
         action = [options](RunLog& log) { return run_encode(*options, log); };
     });
 }

@@ -48,11 +48,14 @@ int run_info(const InfoOptions& options, RunLog& log) {
     const Result<LoadedMesh> loaded = load_file(options.input, log);
     if (!loaded) return fail(options.input.path, loaded.error());
     const Mesh* mesh = &loaded->mesh;
-    const Result<CornerTable> table = build_corner_table(mesh->indices, mesh->vertex_count);
+    const std::uint32_t vertices = loaded->surface.has_seams() ? loaded->surface.vertex_count : mesh->vertex_count;
+    const Mesh surface = surface_mesh(*mesh, loaded->surface);
+    const Result<CornerTable> table = build_corner_table(surface.indices, surface.vertex_count);
     if (!table) return fail(options.input.path, table.error());
     const TopologyReport r = report_topology(*table);
     const Topology& t = table->topology;
-    const Positions positions = positions_of(*mesh);
+    const Positions positions = positions_of(surface);
+    const std::size_t seams = seam_edges(*table, *mesh).size();
     const std::vector<ClosedShell> closed = closed_shells(*table, positions);
     const SmeshCheck smesh = positions.empty() ? check_smesh(*table, r) : check_smesh(*table, r, closed);
     const Solid solid = sum(closed);
@@ -65,8 +68,10 @@ int run_info(const InfoOptions& options, RunLog& log) {
         nlohmann::ordered_json out = {{"schema", 1},
                                       {"file", input_name(options.input.path)},
                                       {"triangles", mesh->triangle_count()},
-                                      {"vertices", mesh->vertex_count},
-                                      {"unused_vertices", mesh->vertex_count - r.used_vertices},
+                                      {"vertices", vertices},
+                                      {"copies", mesh->vertex_count},
+                                      {"seam_edges", seams},
+                                      {"unused_vertices", vertices - r.used_vertices},
                                       {"components", r.components},
                                       {"shells", r.shells},
                                       {"border_edges", t.border_edges},
@@ -99,8 +104,9 @@ int run_info(const InfoOptions& options, RunLog& log) {
     if (loaded->lr) print_contents(*loaded->lr);
     line("triangles", fmt::format("{}{}", mesh->triangle_count(),
                                   t.degenerate > 0 ? fmt::format(", {} of them degenerate", t.degenerate) : ""));
-    const std::uint32_t unused = mesh->vertex_count - r.used_vertices;
-    line("vertices", fmt::format("{}{}", mesh->vertex_count, unused > 0 ? fmt::format(", {} unused", unused) : ""));
+    const std::uint32_t unused = vertices - r.used_vertices;
+    line("vertices", fmt::format("{}{}", vertices, unused > 0 ? fmt::format(", {} unused", unused) : ""));
+    if (seams > 0) line("seams", fmt::format("{} edges; {} vertex copies", seams, mesh->vertex_count));
     line("components", fmt::format("{}{}", r.components,
                                    r.shells != r.components ? fmt::format(", {} pieces of surface", r.shells) : ""));
     line("borders",
@@ -130,7 +136,8 @@ void add_info(CLI::App& program, Action& action) {
     auto options = std::make_shared<InfoOptions>();
     CLI::App* command = program.add_subcommand("info", "topology report; of an .lr file its sections, too");
     command->add_option("MESH", options->input.path, "mesh file")->required();
-    add_input_options(*command, options->input.options, 50);
+    options->input.options.seams = Seams::surface;
+    add_input_options(*command, options->input.options, 80);
     command->add_flag("--json", options->json, "one JSON document on standard output");
     command->callback([options, &action] { action = [options](RunLog& log) { return run_info(*options, log); }; });
 }

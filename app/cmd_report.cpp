@@ -98,7 +98,7 @@ int run_report(const ReportOptions& options, RunLog& log) {
             page.left_out.emplace_back(path, why);
             return code;
         };
-        const Result<Mesh> mesh = load({path, options.input}, log);
+        const Result<LoadedMesh> mesh = load_file({path, options.input}, log);
         if (!mesh) return leave_out(mesh.error().message, fail(path, mesh.error()));
         std::string invalid;
         Result<MeshReport> report = measure_mesh(path, *mesh, options.ring, invalid);
@@ -111,7 +111,7 @@ int run_report(const ReportOptions& options, RunLog& log) {
 #ifdef LACEDRING_GPU
         if (context != nullptr) {
             const Result<void> drawn =
-                draw_pictures(*context, options.size, options.camera, *mesh, options.ring, *report);
+                draw_pictures(*context, options.size, options.camera, mesh->mesh, options.ring, *report);
             if (!drawn) return leave_out(drawn.error().message, fail(path, drawn.error()));
         }
 #endif
@@ -150,6 +150,7 @@ void add_report(CLI::App& program, Action& action) {
     CLI::App* command = program.add_subcommand("report", "figures, charts and pictures of meshes as one HTML page");
     command->add_option("MESH", options->paths, "mesh files")->required();
     add_output(*command, options->output, "the HTML file; - for standard output");
+    options->input.seams = Seams::surface;
     add_input_options(*command, options->input, 350);
     add_ring_options(*command, options->ring);
     command->add_flag("--no-gpu", options->no_gpu, "no pictures");

@@ -35,7 +35,9 @@ struct StatsOptions {
 Json sizes_to_json(const std::string& path, const Mesh& mesh, const FormatSet& set) {
     Json out = {{"file", input_name(path)},
                 {"triangles", mesh.triangle_count()},
-                {"vertices", mesh.vertex_count},
+                {"vertices", set.vertices},
+                {"copies", mesh.vertex_count},
+                {"seam_edges", set.seam_edges},
                 {"components", set.report.components},
                 {"border_edges", set.topology.border_edges},
                 {"border_loops", set.report.border_loops},
@@ -60,6 +62,7 @@ Json sizes_to_json(const std::string& path, const Mesh& mesh, const FormatSet& s
                       {"references_per_triangle", static_cast<double>(format.references) / triangles},
                       {"acmr_fifo32", cache.acmr},
                       {"atvr_fifo32", cache.atvr}};
+        if (format.seam_bytes != 0) entry["seam_bytes"] = format.seam_bytes;
         if (format.deflated != 0) entry["bytes_deflated"] = format.deflated;
         if (format.ring != nullptr) {
             entry["ring"] = format.ring;
@@ -93,8 +96,10 @@ Json sizes_to_json(const std::string& path, const Mesh& mesh, const FormatSet& s
 void print_sizes(const std::string& path, const Mesh& mesh, const FormatSet& set, const std::optional<LrContents>& lr) {
     const double triangles = set.triangles();
     const auto share = [&](std::uint32_t count) { return 100.0 * count / triangles; };
-    print("{}: {} triangles, {} vertices, {} component{}, {} border edges", path, mesh.triangle_count(),
-          mesh.vertex_count, set.report.components, set.report.components == 1 ? "" : "s", set.topology.border_edges);
+    print("{}: {} triangles, {}, {} component{}, {} border edges", path, mesh.triangle_count(),
+          vertices_text(set.vertices, mesh.vertex_count), set.report.components, set.report.components == 1 ? "" : "s",
+          set.topology.border_edges);
+    if (set.seam_edges > 0) print(", {} seam edges", set.seam_edges);
     if (set.topology.nonmanifold_edges > 0) print(", {} non-manifold edges", set.topology.nonmanifold_edges);
     if (set.topology.degenerate > 0) print(", {} degenerate triangles dropped", set.topology.degenerate);
     print("\n");
@@ -118,6 +123,16 @@ void print_sizes(const std::string& path, const Mesh& mesh, const FormatSet& set
               set.best_order->acmr, set.best_order->atvr);
     }
     for (const auto& [name, reason] : set.absent) print("  {:<20}absent: {}\n", name, reason);
+    if (set.seam_edges > 0) {
+        const auto seam_bits = [&](const MeasuredFormat& format) {
+            return format.seam_bytes == 0
+                       ? ""
+                       : fmt::format(" {} {:.2f}", format.name, 8 * static_cast<double>(format.seam_bytes) / triangles);
+        };
+        std::string line;
+        for (const MeasuredFormat& format : set.formats) line += seam_bits(format);
+        print("  of these bits for seams:{}; winged_edge, corner_table and squad have none\n", line);
+    }
     print("\n");
 }
 
@@ -130,7 +145,7 @@ bool makes_rings(const StatsOptions& options) {
 int add_sizes(const StatsOptions& options, const std::string& path, const LoadedMesh& loaded, Json& json,
               std::vector<MeshRow>& rows) {
     const Mesh& mesh = loaded.mesh;
-    const Result<FormatSet> set = make_formats(mesh, options.ring, options.paper);
+    const Result<FormatSet> set = make_formats(mesh, loaded.surface, options.ring, options.paper);
     if (!set) return fail(path, set.error());
     for (const MeasuredFormat& format : set->formats) {
         if (format.invalid.empty()) continue;
@@ -150,13 +165,17 @@ int add_sizes(const StatsOptions& options, const std::string& path, const Loaded
 }
 
 /// Whole meshes, as text or into the mesh's JSON. Returns an Exit.
-int add_total(const StatsOptions& options, const std::string& path, Mesh mesh, Json* json,
+int add_total(const StatsOptions& options, const std::string& path, LoadedMesh loaded, Json* json,
               std::vector<TotalTable>& tables, RunLog& log) {
+    Mesh& mesh = loaded.mesh;
     const std::vector<std::string>& wanted = options.attributes;
     std::erase_if(mesh.attributes, [&](const Attribute& attribute) {
         return !wanted.empty() && std::find(wanted.begin(), wanted.end(), attribute.name) == wanted.end();
     });
-    Result<TotalTable> table = make_total(path, mesh, options.ring, options.bits, log);
+    if (!wanted.empty() && loaded.surface.has_seams()) {  // copies that differ in nothing any more are one
+        mesh = merge_copies(mesh, loaded.surface);
+    }
+    Result<TotalTable> table = make_total(path, mesh, loaded.surface, options.ring, options.bits, log);
     if (!table) return fail(path, table.error());
     if (!table->invalid.empty()) {
         say("lacedring: {}: {}\n", path, table->invalid);
@@ -205,17 +224,17 @@ int run_stats(const StatsOptions& options, RunLog& log) {
         const std::string& path = options.paths[i];
         Result<LoadedMesh> loaded = load_file({path, options.input}, log);
         if (!loaded) return fail(path, loaded.error());
-        Mesh& mesh = loaded->mesh;
         Json json;
         if (options.json || !(rings || total)) {
             if (const int code = add_sizes(options, path, *loaded, json, mesh_rows); code != done) return code;
         }
         if (rings) {
-            const int code = add_ring_figures(options, path, mesh, options.json ? &json : nullptr, seed_rows);
+            const int code = add_ring_figures(options, path, surface_mesh(loaded->mesh, loaded->surface),
+                                              options.json ? &json : nullptr, seed_rows);
             if (code != done) return code;
         }
         if (total) {
-            const int code = add_total(options, path, std::move(mesh), options.json ? &json : nullptr, totals, log);
+            const int code = add_total(options, path, std::move(*loaded), options.json ? &json : nullptr, totals, log);
             if (code != done) return code;
         }
         if (options.json) meshes.push_back(std::move(json));
@@ -243,6 +262,7 @@ void add_stats(CLI::App& program, Action& action) {
     auto options = std::make_shared<StatsOptions>();
     CLI::App* command = program.add_subcommand("stats", "size of every format, side by side");
     command->add_option("MESH", options->paths, "mesh files")->required();
+    options->input.seams = Seams::surface;
     add_input_options(*command, options->input, 350);
     add_ring_options(*command, options->ring);
     command->add_flag(

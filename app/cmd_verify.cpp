@@ -33,16 +33,21 @@ std::string check_order(const MeasuredFormat& format, std::uint32_t vertices) {
 }
 
 int run_verify(const VerifyOptions& options, RunLog& log) {
-    const Result<Mesh> mesh = load(options.input, log);
-    if (!mesh) return fail(options.input.path, mesh.error());
-    const Result<FormatSet> set = make_formats(*mesh, options.ring);
+    const Result<LoadedMesh> loaded = load_file(options.input, log);
+    if (!loaded) return fail(options.input.path, loaded.error());
+    const Mesh& mesh = loaded->mesh;
+    const Result<FormatSet> set = make_formats(mesh, loaded->surface, options.ring);
     if (!set) return fail(options.input.path, set.error());
-    const auto expected = oriented_triangles(mesh->indices, {});
+    const auto of_mesh = oriented_triangles(mesh.indices, {});
+    const auto of_surface = oriented_triangles(surface_mesh(mesh, loaded->surface).indices, {});
     nlohmann::ordered_json formats = nlohmann::ordered_json::object();
     bool all = true;
     for (const MeasuredFormat& format : set->formats) {
         std::string why = format.invalid;
-        if (why.empty() && !format.order.empty()) why = check_order(format, mesh->vertex_count);
+        const auto& expected = format.of_surface ? of_surface : of_mesh;
+        if (why.empty() && !format.order.empty()) {
+            why = check_order(format, format.of_surface ? set->vertices : mesh.vertex_count);
+        }
         if (why.empty()) {
             const auto got = oriented_triangles(format.indices, format.order);
             if (got.size() != expected.size()) {
@@ -74,6 +79,7 @@ void add_verify(CLI::App& program, Action& action) {
     auto options = std::make_shared<VerifyOptions>();
     CLI::App* command = program.add_subcommand("verify", "check that every format round-trips");
     command->add_option("MESH|IN.lr", options->input.path, "mesh file or .lr file")->required();
+    options->input.options.seams = Seams::surface;
     add_input_options(*command, options->input.options, 350);
     add_ring_options(*command, options->ring);
     command->add_flag("--json", options->json, "one JSON document on standard output");

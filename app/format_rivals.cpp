@@ -118,15 +118,16 @@ void add_codecs(FormatSet& set, const Mesh& mesh, const std::vector<std::uint32_
     }
 }
 
-void add_structures(FormatSet& set, CornerTable table, std::uint32_t mesh_vertices) {
+void add_structures(FormatSet& set, CornerTable table, std::uint32_t vertices) {
     const std::vector<VertexId> originals = split_fans(table);
     std::vector<std::uint32_t> order(table.vertex_count);
-    const auto original = [&](std::uint32_t v) { return v < mesh_vertices ? v : originals[v - mesh_vertices].value; };
+    const auto original = [&](std::uint32_t v) { return v < vertices ? v : originals[v - vertices].value; };
     for (std::uint32_t v = 0; v < order.size(); ++v) order[v] = original(v);
     std::vector<bool> flipped(table.triangle_count());
     for (std::uint32_t t = 0; t < flipped.size(); ++t) flipped[t] = table.flipped(TriangleId{t});
     const auto add = [&](MeasuredFormat format) {
         format.copies = originals.size();
+        format.of_surface = true;
         set.formats.push_back(std::move(format));
     };
     {

@@ -15,7 +15,7 @@ void add_strips(FormatSet& set, const Mesh& mesh, const std::vector<std::uint32_
 /// Adds meshoptimizer's index codec and meshlets, and sets FormatSet::best_order.
 void add_codecs(FormatSet& set, const Mesh& mesh, const std::vector<std::uint32_t>& triangles);
 
-/// Adds the structures with corner operators: winged edge, corner table, SQuad. `table` is that of the mesh.
-void add_structures(FormatSet& set, CornerTable table, std::uint32_t mesh_vertices);
+/// Adds the structures with corner operators: winged edge, corner table, SQuad. `table` is that of the surface.
+void add_structures(FormatSet& set, CornerTable table, std::uint32_t vertices);
 
 }  // namespace lacedring::app

@@ -19,77 +19,111 @@ void set_ring(MeasuredFormat& format, std::uint32_t k, std::uint32_t passes) {
     format.passes = passes;
 }
 
+/// What our formats are made of: a mesh, its surface, and this as a mesh of its own.
+struct Subject {
+    const Mesh& mesh;
+    const Surface& surface;
+    const Mesh& shape;
+};
+
+/// Fills `format.indices` and `format.order`, and adds the seams, validated and decoded. `view` is of encoded.words.
+void add_indices(MeasuredFormat& format, const Subject& subject, Encoded encoded, const StreamView& view) {
+    if (!subject.surface.has_seams()) {
+        format.indices = decode(view);
+        format.order = std::move(encoded.vertex_order);
+        return;
+    }
+    Result<EncodedSeams> seams = encode_seams(encoded, subject.mesh.indices, subject.surface.vertex_of);
+    if (!seams) {
+        format.invalid = seams.error().message;
+        return;
+    }
+    const std::vector<std::uint32_t> slots = slot_triangles(view);
+    const Result<SeamView> valid = validate_seams(seams->words, slots, view.vertices());
+    if (!valid) {
+        format.invalid = valid.error().message;
+        return;
+    }
+    format.indices.resize(slots.size());
+    decode_seams(*valid, slots, format.indices);
+    std::erase(format.indices, UINT32_MAX);
+    format.order = std::move(seams->copy_order);
+    format.seam_bytes = 4 * seams->words.size();
+    format.bytes += format.seam_bytes;
+}
+
 /// The lean stream, decoded twice: as a whole, and slot by slot.
-MeasuredFormat lean_format(const char* name, std::uint32_t k, std::uint32_t passes, EncodedLean stream) {
+MeasuredFormat lean_format(const char* name, std::uint32_t k, std::uint32_t passes, const Subject& subject,
+                           EncodedLean stream) {
     MeasuredFormat format;
     format.name = name;
     set_ring(format, k, passes);
-    const Result<LeanView> view = validate_lean(stream.words);
-    if (!view) {
-        format.invalid = view.error().message;
+    const Encoded encoded = as_encoded(std::move(stream));
+    const Result<StreamView> any = validate(encoded.words);
+    if (!any) {
+        format.invalid = any.error().message;
         return format;
     }
-    format.bytes = view->bytes();
-    format.references = view->references();
-    format.indices.resize(std::size_t{3} * view->slots());
-    decode_lean(*view, format.indices);
-    for (std::uint32_t slot = 0; slot < view->slots(); ++slot) {
-        const Triangle triangle = decode_lean_slot(*view, slot);
-        for (std::size_t j = 0; j < 3; ++j) {
-            if (triangle.v[j] != format.indices[std::size_t{3} * slot + j]) {
-                format.invalid = fmt::format("slot {} decoded on its own differs", slot);
-            }
+    const LeanView& view = *any->get<LeanView>();
+    format.bytes = view.bytes();
+    format.references = view.references();
+    std::vector<std::uint32_t> indices(std::size_t{3} * view.slots());
+    decode_lean(view, indices);
+    for (std::uint32_t slot = 0; slot < view.slots(); ++slot) {
+        const Triangle triangle = decode_lean_slot(view, slot);
+        if (!std::equal(triangle.v, triangle.v + 3, indices.begin() + std::ptrdiff_t{3} * slot)) {
+            format.invalid = fmt::format("slot {} decoded on its own differs", slot);
         }
     }
-    format.order = std::move(stream.vertex_order);
+    add_indices(format, subject, encoded, *any);
     return format;
 }
 
 /// LR tables, as the words that a file holds, validated and decoded.
-MeasuredFormat lr_format(const char* name, Encoded encoded) {
+MeasuredFormat lr_format(const char* name, const Subject& subject, Encoded encoded) {
     MeasuredFormat format;
     format.name = name;
     set_ring(format, encoded.report.k, encoded.report.passes);
     format.bytes = encoded.bytes().size();
     format.references = encoded.words.size() - kLrHeaderWords;
+    format.copies = encoded.report.copies;
     const Result<StreamView> view = validate(encoded.words);
     if (!view) {
         format.invalid = view.error().message;
         return format;
     }
-    format.indices = decode(*view);
-    format.order = std::move(encoded.vertex_order);
-    format.copies = encoded.report.copies;
+    add_indices(format, subject, std::move(encoded), *view);
     return format;
 }
 
 /// The packed stream, decoded twice: as a whole, and some triangles of each block alone.
-MeasuredFormat packed_format(const char* name, Encoded stream) {
+MeasuredFormat packed_format(const char* name, const Subject& subject, Encoded encoded) {
     MeasuredFormat format;
     format.name = name;
-    set_ring(format, stream.report.k, stream.report.passes);
-    format.bytes = stream.bytes().size();
-    format.deflated = deflated_size(stream.bytes());
-    const Result<PackedView> view = validate_packed(stream.words);
-    if (!view) {
-        format.invalid = view.error().message;
+    set_ring(format, encoded.report.k, encoded.report.passes);
+    format.bytes = encoded.bytes().size();
+    format.deflated = deflated_size(encoded.bytes());
+    const Result<StreamView> any = validate(encoded.words);
+    if (!any) {
+        format.invalid = any.error().message;
         return format;
     }
-    format.indices.resize(std::size_t{3} * view->triangles);
-    decode_packed(*view, format.indices);
-    for (std::uint32_t t = 0; t < view->triangles; t += 37) {
-        const Triangle triangle = decode_packed_triangle(*view, t);
-        if (!std::equal(triangle.v, triangle.v + 3, format.indices.begin() + std::ptrdiff_t{3} * t)) {
+    const PackedView& view = *any->get<PackedView>();
+    std::vector<std::uint32_t> indices(std::size_t{3} * view.triangles);
+    decode_packed(view, indices);
+    for (std::uint32_t t = 0; t < view.triangles; t += 37) {
+        const Triangle triangle = decode_packed_triangle(view, t);
+        if (!std::equal(triangle.v, triangle.v + 3, indices.begin() + std::ptrdiff_t{3} * t)) {
             format.invalid = fmt::format("triangle {} decoded on its own differs", t);
         }
     }
-    format.order = std::move(stream.vertex_order);
+    add_indices(format, subject, encoded, *any);
     return format;
 }
 
 }  // namespace
 
-std::vector<std::uint32_t> without_degenerate(const std::vector<std::uint32_t>& indices) {
+std::vector<std::uint32_t> without_degenerate(std::span<const std::uint32_t> indices) {
     std::vector<std::uint32_t> out;
     out.reserve(indices.size());
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
@@ -99,11 +133,16 @@ std::vector<std::uint32_t> without_degenerate(const std::vector<std::uint32_t>& 
     return out;
 }
 
-Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool paper, const FormatProgress& progress) {
+Result<FormatSet> make_formats(const Mesh& mesh, const Surface& surface, const RingChoice& choice, bool paper,
+                               const FormatProgress& progress) {
     const auto stop = [&](double share, const char* what) { return progress && !progress(share, what); };
-    Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
+    const Mesh joined = surface.has_seams() ? surface_mesh(mesh, surface) : Mesh{};
+    const Subject subject{mesh, surface, surface.has_seams() ? joined : mesh};
+    Result<CornerTable> table = build_corner_table(subject.shape.indices, subject.shape.vertex_count);
     if (!table) return table.error();
     FormatSet set;
+    set.vertices = subject.shape.vertex_count;
+    set.seam_edges = static_cast<std::uint32_t>(seam_edges(*table, mesh).size());
     set.topology = table->topology;
     set.report = report_topology(*table);
     set.ring = ring_options(choice, mesh.triangle_count());
@@ -137,7 +176,7 @@ Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool 
         const char* const name = warts ? "lean" : "lean_no_warts";
         if (Result<EncodedLean> lean = encode_lean(*table, rings, {.wart_skipping = warts})) {
             if (warts) set.lean = lean->statistics;
-            set.formats.push_back(lean_format(name, set.ring.k, optimize.passes, std::move(*lean)));
+            set.formats.push_back(lean_format(name, set.ring.k, optimize.passes, subject, std::move(*lean)));
         } else {
             set.absent.emplace_back(name, lean.error().message);
         }
@@ -145,7 +184,7 @@ Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool 
     if (stop(0.25, "lr")) return set;
     if (Result<Encoded> lr = encode(*table, how(Format::lr, 0.25, "lr"))) {
         set.lr = std::get<LrStatistics>(lr->report.statistics);
-        set.formats.push_back(lr_format("lr", std::move(*lr)));
+        set.formats.push_back(lr_format("lr", subject, std::move(*lr)));
     } else {
         set.absent.emplace_back("lr", lr.error().message);
     }
@@ -157,7 +196,7 @@ Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool 
         set.lr_compact = std::get<LrStatistics>(compact->report.statistics);
         const auto stream = view_compact_lr(compact->words);
         if (stream) set.lr_compact_long = count_long_tips(stream->view);
-        set.formats.push_back(lr_format("lr_compact", std::move(*compact)));
+        set.formats.push_back(lr_format("lr_compact", subject, std::move(*compact)));
     } else {
         set.absent.emplace_back("lr_compact", compact.error().message);
     }
@@ -166,16 +205,16 @@ Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool 
     Result<Encoded> small = encode(*table, for_packed);
     if (!small) return small.error();
     set.packed = std::get<PackedStatistics>(small->report.statistics);
-    set.formats.push_back(packed_format("packed", std::move(*small)));
+    set.formats.push_back(packed_format("packed", subject, std::move(*small)));
     if (stop(0.7, "packed_cache")) return set;
     for_packed.profile = PackedProfile::cache;
     Result<Encoded> cache = encode(*table, for_packed);
     if (!cache) return cache.error();
-    set.formats.push_back(packed_format("packed_cache", std::move(*cache)));
+    set.formats.push_back(packed_format("packed_cache", subject, std::move(*cache)));
     if (stop(0.85, "meshoptimizer's formats")) return set;
     add_codecs(set, mesh, triangles);
     if (stop(0.93, "winged edge, corner table, SQuad")) return set;
-    add_structures(set, std::move(*table), mesh.vertex_count);
+    add_structures(set, std::move(*table), set.vertices);
     return set;
 }
 

@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "app/command.h"
 #include "lacedring/lacedring.hpp"
 #include "lacedring/streams.hpp"
+#include "lacedring/surface.hpp"
 #include "lacedring/topology.hpp"
 #include "lrlab/rivals/strips.h"
 
@@ -28,6 +30,8 @@ struct MeasuredFormat {
     std::uint32_t k = 0;         ///< of the hybrid
     std::uint32_t passes = 0;    ///< of the optimiser
     std::size_t copies = 0;      ///< of non-manifold vertices: entries of `order` beyond the mesh's vertices
+    std::size_t seam_bytes = 0;  ///< those of `bytes` that are the seam section's
+    bool of_surface = false;     ///< `indices` and `order` are of the surface: it has no copies for seams
     std::size_t deflated = 0;    ///< bytes after zlib, of a format that is for transmission; else 0
     std::string invalid = {};    ///< what the format's own validation found wrong; empty if nothing
 
@@ -36,6 +40,8 @@ struct MeasuredFormat {
 };
 
 struct FormatSet {
+    std::uint32_t vertices = 0;    ///< of the surface
+    std::uint32_t seam_edges = 0;  ///< of the surface
     TopologyReport report;
     Topology topology;
     LeanStatistics lean;
@@ -53,14 +59,16 @@ struct FormatSet {
 };
 
 /// The index list without degenerate triangles.
-std::vector<std::uint32_t> without_degenerate(const std::vector<std::uint32_t>& indices);
+std::vector<std::uint32_t> without_degenerate(std::span<const std::uint32_t> indices);
 
 /// Told what is made next, and which share of the work is done. false: stop, what there is so far is the result.
 using FormatProgress = std::function<bool(double share, const std::string& what)>;
 
-/// Makes every format of the mesh and decodes it again. Errors: those of build_corner_table.
-/// `paper`: the paper's procedures alone. `progress`, if given, takes the place of the bar on a terminal.
-Result<FormatSet> make_formats(const Mesh& mesh, const RingChoice& choice, bool paper = false,
+/// Makes every format of the mesh and decodes it again. Ours have the surface's connectivity and a seam section; index
+/// lists, strips and codecs are those of the mesh; structures with operators have the surface alone. Errors: those of
+/// build_corner_table. `paper`: the paper's procedures alone. `progress`, if given, takes the place of the bar on a
+/// terminal.
+Result<FormatSet> make_formats(const Mesh& mesh, const Surface& surface, const RingChoice& choice, bool paper = false,
                                const FormatProgress& progress = {});
 
 }  // namespace lacedring::app

@@ -11,6 +11,7 @@
 #include "lacedring/base.hpp"
 #include "lacedring/lr_file.hpp"
 #include "lacedring/mesh.hpp"
+#include "lacedring/surface.hpp"
 
 namespace CLI {
 class App;
@@ -18,7 +19,8 @@ class App;
 
 namespace lacedring::app {
 
-/// Adds --weld, --input-format, --allow-outside and --max-memory. `triangle_bytes`: InputOptions.
+/// Adds --weld, --no-weld, --weld-tolerance, --input-format, --allow-outside and --max-memory. `triangle_bytes`:
+/// InputOptions.
 void add_input_options(CLI::App& command, InputOptions& options, std::uint32_t triangle_bytes);
 
 /// --max-memory alone.
@@ -30,11 +32,16 @@ std::string input_name(const std::string& path);
 /// The whole file, or standard input. Errors: those of read_file.
 Result<std::vector<std::byte>> read_input(const std::string& path, const InputOptions& options, RunLog& log);
 
-/// A mesh, and of an .lr file what it consists of.
+/// A mesh, and of an .lr file what it consists of. Where the command takes seams (InputOptions), the surface is that of
+/// the mesh; else each vertex is its own.
 struct LoadedMesh {
     Mesh mesh;
+    Surface surface;
     std::optional<LrContents> lr;
 };
+
+/// The corner table of the surface. Errors: build_corner_table's.
+Result<CornerTable> surface_table(const LoadedMesh& loaded);
 
 /// Reads and welds. An .lr file is validated and decoded. `log` is told what is not kept.
 Result<LoadedMesh> load_file(const MeshInput& input, RunLog& log);

@@ -19,7 +19,7 @@ bool is_attribute(const LrSection& section) {
 /// The kind of the section that holds the triangles.
 std::string connectivity(const LrContents& lr) {
     for (const LrSection& section : lr.sections) {
-        if (!is_attribute(section) && !section.kind.ends_with("_order")) return section.kind;
+        if (!is_attribute(section) && section.kind != "seams" && !section.kind.ends_with("_order")) return section.kind;
     }
     return "";
 }
@@ -40,6 +40,7 @@ nlohmann::ordered_json to_json(const LrContents& lr) {
             entry["name"] = section.name;
             entry["type"] = type_name(section.type);
             entry["components"] = section.components;
+            if (lr.copies > 0) entry["per_copy"] = section.per_copy;
         }
         if (section.kind == "vertices") {
             entry["mapping"] = section.mapping;
@@ -50,6 +51,8 @@ nlohmann::ordered_json to_json(const LrContents& lr) {
     return {{"version", lr.version},
             {"format", connectivity(lr)},
             {"bytes", lr.bytes},
+            {"vertices", lr.vertices},
+            {"copies", lr.copies > 0 ? lr.copies : lr.vertices},
             {"vertex_order", has_section(lr, "vertex_order")},
             {"corner_order", has_section(lr, "corner_order")},
             {"sections", sections}};
@@ -65,8 +68,9 @@ void print_contents(const LrContents& lr) {
             what = fmt::format("{} ({} x {})", printable(section.name), section.components, type_name(section.type));
         }
         if (section.kind == "vertices") {
-            how = fmt::format(", {:.2f} bits a vertex, {}", 8 * static_cast<double>(section.bytes) / lr.vertices,
-                              section.mapping);
+            how = fmt::format(", {:.2f} bits a {}, {}",
+                              8 * static_cast<double>(section.bytes) / (section.per_copy ? lr.copies : lr.vertices),
+                              section.per_copy ? "copy" : "vertex", section.mapping);
             how +=
                 section.largest_error > 0 ? fmt::format(", largest error {:.3g}", section.largest_error) : ", lossless";
         }

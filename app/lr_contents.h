@@ -10,7 +10,8 @@ namespace lacedring::app {
 
 const char* type_name(ComponentType type);
 
-/// {"version","format","bytes","vertex_order","corner_order","sections":[{"kind","bytes","name","type","components"}]}
+/// {"version","format","bytes","vertices","copies","vertex_order","corner_order",
+/// "sections":[{"kind","bytes","name","type","components","per_copy"}]}
 nlohmann::ordered_json to_json(const LrContents& lr);
 
 /// Lines of text, indented.

@@ -37,4 +37,10 @@ inline std::string printable(std::string text, char instead = '?') {
     return text;
 }
 
+/// "12 vertices", or with seams "12 vertices, 15 copies".
+inline std::string vertices_text(std::size_t vertices, std::size_t copies) {
+    return copies == vertices ? fmt::format("{} vertices", vertices)
+                              : fmt::format("{} vertices, {} copies", vertices, copies);
+}
+
 }  // namespace lacedring::app

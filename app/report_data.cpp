@@ -23,14 +23,17 @@ const FormatFigures* MeshReport::find(std::string_view name) const {
     return found == formats.end() ? nullptr : &*found;
 }
 
-Result<MeshReport> measure_mesh(const std::string& path, const Mesh& mesh, const RingChoice& choice,
+Result<MeshReport> measure_mesh(const std::string& path, const LoadedMesh& loaded, const RingChoice& choice,
                                 std::string& invalid) {
+    const Mesh& mesh = loaded.mesh;
+    const Mesh surface = surface_mesh(mesh, loaded.surface);
     MeshReport out;
     out.path = path;
     out.triangles = mesh.triangle_count();
-    out.vertices = mesh.vertex_count;
+    out.vertices = surface.vertex_count;
+    out.copies = mesh.vertex_count;
     {
-        Result<FormatSet> set = make_formats(mesh, choice);
+        Result<FormatSet> set = make_formats(mesh, loaded.surface, choice);
         if (!set) return set.error();
         const double triangles = set->triangles();
         const auto base = static_cast<double>(set->formats.front().bytes);
@@ -54,7 +57,7 @@ Result<MeshReport> measure_mesh(const std::string& path, const Mesh& mesh, const
         out.absent = std::move(set->absent);
     }
     if (!invalid.empty()) return out;
-    if (auto periods = figures_by_period(mesh, compact_ring_options(choice), kFigure8Periods)) {
+    if (auto periods = figures_by_period(surface, compact_ring_options(choice), kFigure8Periods)) {
         out.periods = std::move(*periods);
     } else {
         out.no_periods = periods.error().message;

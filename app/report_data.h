@@ -8,6 +8,7 @@
 
 #include "app/format_notes.h"
 #include "app/formats.h"
+#include "app/input.h"
 #include "app/paper_tables.h"
 #include "lacedring/lacedring.hpp"
 
@@ -33,7 +34,7 @@ struct ReportPicture {
 struct MeshReport {
     std::string path;
     std::size_t triangles = 0;
-    std::uint32_t vertices = 0;
+    std::uint32_t vertices = 0, copies = 0;  ///< of the surface, and of the mesh
     TopologyReport report;
     Topology topology;
     LeanStatistics lean;
@@ -50,7 +51,7 @@ struct MeshReport {
 
 /// Everything but the pictures. `invalid` is what a format's own validation found wrong, if anything: then it is a bug,
 /// and there is no report. Errors: those of make_formats.
-Result<MeshReport> measure_mesh(const std::string& path, const Mesh& mesh, const RingChoice& choice,
+Result<MeshReport> measure_mesh(const std::string& path, const LoadedMesh& loaded, const RingChoice& choice,
                                 std::string& invalid);
 
 }  // namespace lacedring::app

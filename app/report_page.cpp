@@ -34,6 +34,7 @@ std::string topology(const MeshReport& mesh) {
     std::string out = "<ul class=\"facts topology\" aria-label=\"Topology\">";
     out += fact(counted(mesh.triangles, "triangle", "triangles"));
     out += fact(counted(mesh.vertices, "vertex", "vertices"));
+    if (mesh.copies > mesh.vertices) out += fact(counted(mesh.copies, "vertex copy", "vertex copies"));
     out += fact(counted(r.components, "component", "components"));
     out += fact(t.border_edges == 0 ? "no border"
                                     : counted(t.border_edges, "border edge", "border edges") + " in " +

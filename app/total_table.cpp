@@ -57,9 +57,10 @@ const TotalEntry* TotalTable::find(std::string_view name) const {
     return found == entries.end() ? nullptr : &*found;
 }
 
-Result<TotalTable> make_total(const std::string& path, const Mesh& mesh, const RingChoice& ring,
+Result<TotalTable> make_total(const std::string& path, const Mesh& mesh, const Surface& surface, const RingChoice& ring,
                               const AttributeBits& bits, RunLog& log) {
-    const Result<CornerTable> corners = build_corner_table(mesh.indices, mesh.vertex_count);
+    const Mesh joined = surface_mesh(mesh, surface);
+    const Result<CornerTable> corners = build_corner_table(joined.indices, joined.vertex_count);
     if (!corners) return corners.error();
     TotalTable table;
     table.triangles = mesh.triangle_count() - corners->topology.degenerate;
@@ -69,10 +70,11 @@ Result<TotalTable> make_total(const std::string& path, const Mesh& mesh, const R
         const bool small = profile == PackedProfile::small;
         EncodeOptions options = encode_options(ring, Format::packed, mesh.triangle_count());
         options.profile = profile;
-        const Result<WholeFile> file = make_file(mesh, *corners, options, bits);
+        const Result<WholeFile> file = make_file(mesh, surface, *corners, options, bits);
         if (!file) return file.error();
         if (const Result<LrFile> parsed = parse_lr(file->bytes); !parsed) table.invalid = parsed.error().message;
         table.vertices = file->file.vertex_count;
+        table.copies = mesh.vertex_count;
         if (small) note_lossless(log, path, file->attributes);
         TotalEntry& entry = table.entries.emplace_back(entry_of(small ? "packed" : "packed_cache", file->bytes, true));
         for (const CompressedAttribute& a : file->attributes) entry.errors.emplace_back(a.name, a.largest_error);
@@ -109,7 +111,7 @@ Json total_versions() {
 }
 
 void print_total(const std::string& path, const TotalTable& table) {
-    print("{}: {} triangles, {} vertices\n\n", path, table.triangles, table.vertices);
+    print("{}: {} triangles, {}\n\n", path, table.triangles, vertices_text(table.vertices, table.copies));
     print("  {:<14}{:>11}{:>10}{:>13}{:>11}{:>11}{:>15}{:>20}\n", "format", "bytes", "bits/tri", "bits/vertex", "zstd",
           "brotli", "random access", "error of positions");
     for (const TotalEntry& entry : table.entries) {
@@ -122,7 +124,7 @@ void print_total(const std::string& path, const TotalTable& table) {
     }
     for (const auto& [name, reason] : table.absent) print("  {:<14}absent: {}\n", name, reason);
     const std::string draco = draco_version();
-    print("  raw has {} indices; meshoptimizer {}{}\n\n", table.vertices <= 65536 ? "u16" : "u32", meshopt_version(),
+    print("  raw has {} indices; meshoptimizer {}{}\n\n", table.copies <= 65536 ? "u16" : "u32", meshopt_version(),
           draco.empty() ? "" : "; Draco " + draco);
 }
 

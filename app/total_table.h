@@ -26,7 +26,7 @@ struct TotalEntry {
 };
 
 struct TotalTable {
-    std::size_t triangles = 0, vertices = 0;  ///< that the packed file has
+    std::size_t triangles = 0, vertices = 0, copies = 0;  ///< that the packed file has
     std::vector<TotalEntry> entries;
     std::vector<std::pair<std::string, std::string>> absent;  ///< name, reason
     std::string invalid;  ///< a format that decoded to another mesh, and in what; empty if none
@@ -35,7 +35,7 @@ struct TotalTable {
 };
 
 /// Makes every format of NAME in docs/command-line.md. Errors: those of build_corner_table and make_file.
-Result<TotalTable> make_total(const std::string& path, const Mesh& mesh, const RingChoice& ring,
+Result<TotalTable> make_total(const std::string& path, const Mesh& mesh, const Surface& surface, const RingChoice& ring,
                               const AttributeBits& bits, RunLog& log);
 
 nlohmann::ordered_json to_json(const TotalTable& table);

@@ -23,7 +23,7 @@ bool quantizes(const AttributeBits& bits) {
     return std::max({bits.positions, bits.normals, bits.texcoords, bits.colors, bits.weights}) > 0;
 }
 
-Result<WholeFile> make_file(const Mesh& mesh, CornerTable table, const EncodeOptions& options,
+Result<WholeFile> make_file(const Mesh& mesh, const Surface& surface, CornerTable table, const EncodeOptions& options,
                             const AttributeBits& bits, bool keep_order) {
     if (mesh.triangle_count() == table.topology.degenerate) {
         return Error{ErrorCode::malformed,
@@ -31,7 +31,9 @@ Result<WholeFile> make_file(const Mesh& mesh, CornerTable table, const EncodeOpt
     }
     Result<Encoded> encoded = encode(std::move(table), options);
     if (!encoded) return encoded.error();
-    WholeFile out{make_lr_file(mesh, std::move(*encoded), keep_order), {}, {}};
+    Result<LrFile> file = make_lr_file(mesh, surface, std::move(*encoded), keep_order);
+    if (!file) return file.error();
+    WholeFile out{std::move(*file), {}, {}};
     // LR tables are read in place by programs that want positions there, too.
     const bool streams = out.file.format == Format::lean || out.file.format == Format::packed;
     if (streams || quantizes(bits)) {

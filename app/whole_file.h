@@ -25,8 +25,9 @@ struct WholeFile {
     std::vector<CompressedAttribute> attributes;  ///< empty where they stay as they lie in memory
     std::vector<std::byte> bytes;
 };
-/// `table` is that of the mesh. Errors: malformed (no triangle is left), those of encode and compress_attributes.
-Result<WholeFile> make_file(const Mesh& mesh, CornerTable table, const EncodeOptions& options,
+/// `table` is that of the surface. Errors: malformed (no triangle is left), those of encode, make_lr_file and
+/// compress_attributes.
+Result<WholeFile> make_file(const Mesh& mesh, const Surface& surface, CornerTable table, const EncodeOptions& options,
                             const AttributeBits& bits, bool keep_order = false);
 
 /// Notes which attributes stay lossless although bits were given, and why.

@@ -358,7 +358,7 @@ void Loader::Job::measure_formats(const Document& document) {
     }
     app::RingChoice choice;
     Result<app::FormatSet> formats =
-        app::make_formats(*document.mesh, choice, false, [&](double share, const std::string& what) {
+        app::make_formats(*document.mesh, {document.mesh->vertex_count, {}}, choice, false, [&](double share, const std::string& what) {
             say("measuring " + what, share, true);
             return !stopped();
         });

@@ -85,11 +85,6 @@ Result<Mesh> checked(Mesh mesh) {
 
 namespace {
 
-std::string_view without_byte_order_mark(std::string_view text) {
-    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-    return text;
-}
-
 std::string lower_extension(const std::filesystem::path& path) {
     std::string extension = path.extension().string();
     for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -115,7 +110,7 @@ MeshFormat recognise(std::string_view raw, std::string_view text, const std::fil
 
 Result<Mesh> read_bytes(std::span<const std::byte> bytes, Reading& reading) {
     const std::string_view raw(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    const std::string_view text = without_byte_order_mark(raw);
+    const std::string_view text = detail::without_byte_order_mark(raw);
     if (raw.empty()) return malformed("is empty");
     MeshFormat format = reading.options.format;
     if (format == MeshFormat::any) format = recognise(raw, text, reading.name);

@@ -32,10 +32,6 @@ bool has_binary_length(std::string_view bytes) {
     return bytes.size() >= header_bytes && bytes.size() == header_bytes + triangle_bytes * claimed_triangles(bytes);
 }
 
-std::string_view without_byte_order_mark(std::string_view bytes) {
-    return bytes.starts_with("\xEF\xBB\xBF") ? bytes.substr(3) : bytes;
-}
-
 bool is_ascii(std::string_view bytes) {
     // Binary files may begin with "solid" too, but their headers and floats hold bytes that text has not.
     if (has_binary_length(bytes)) return false;

@@ -28,6 +28,11 @@ inline std::size_t msvc_tail(std::string_view before, std::string_view from_hash
     return 0;
 }
 
+/// Text may begin with a byte order mark of UTF-8.
+inline std::string_view without_byte_order_mark(std::string_view text) {
+    return text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
+}
+
 class TextScanner {
   public:
     /// With `comments`, '#' starts one that ends with the line, also right behind a word. With `continuation`, a line

@@ -197,10 +197,11 @@ class RoundTrip(CliTest):
         # Three vertices a triangle, as an exporter without shared vertices writes them.
         points = [POINTS[v] for t in TRIANGLES for v in t]
         source = self.write("a.ply", write.ply(points, [(i, i + 1, i + 2) for i in range(0, len(points), 3)]))
-        self.assertEqual(self.json("info", source, "--json")["components"], 4)
-        for option in ("--weld", "--weld=position"):
-            self.assertEqual(self.json("info", source, option, "--json")["components"], 1)
-            lr = self.round_trip(source, option)
+        self.assertEqual(self.json("info", source, "--no-weld", "--json")["components"], 4)
+        self.round_trip(source, "--no-weld")
+        for options in ((), ("--weld",), ("--weld=position",)):
+            self.assertEqual(self.json("info", source, *options, "--json")["components"], 1)
+            lr = self.round_trip(source, *options)
             self.assertEqual(self.json("info", lr, "--json")["vertices"], 5)
             self.same_triangles(source, lr)
 

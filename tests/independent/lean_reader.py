@@ -9,6 +9,12 @@ TIP_MASK, WART, CLOSE, FLIP = 0x1FFFFFFF, 0x80000000, 0x40000000, 0x20000000
 
 def decode_lean(words):
     """Vertices, and the triangles that are not degenerate, flat. `words`: the whole stream, header included."""
+    vertices, slots = decode_lean_slots(words)
+    return vertices, [v for slot in slots for v in slot]
+
+
+def decode_lean_slots(words):
+    """Vertices, and the triangle of each slot, or () where it has none."""
     if len(words) < 8 or words[0] != 0x4E4C524C or words[1] != 1:
         raise BadFile("not a lean stream of version 1")
     vertices, rings2, rings1, verbatim, triangles, checksum = words[2:8]
@@ -41,6 +47,7 @@ def decode_lean(words):
     out = []
     for i in range(ring_slots):
         w = payload[i]
+        out.append(())
         if w & CLOSE:
             continue
         v = i >> 1 if i < 2 * rings2 else i - rings2
@@ -56,13 +63,13 @@ def decode_lean(words):
         start, third = (v, b) if left else (b, v)
         if w & FLIP:
             start, third = third, start
-        out += (start, tip, third)
+        out[i] = (start, tip, third)
     for i in range(ring_slots, len(payload), 3):
         if len(set(payload[i:i + 3])) != 3:
             raise BadFile("a verbatim triangle is degenerate")
-    out += payload[ring_slots:]
-    if len(out) != 3 * triangles:
-        raise BadFile(f"the lean stream has {len(out) // 3} triangles, its header says {triangles}")
-    if out and max(out) >= vertices:
+        out.append(tuple(payload[i:i + 3]))
+    if sum(map(bool, out)) != triangles:
+        raise BadFile(f"the lean stream has {sum(map(bool, out))} triangles, its header says {triangles}")
+    if max(map(max, filter(None, out)), default=-1) >= vertices:
         raise BadFile("a vertex of the lean stream is out of range")
     return vertices, out

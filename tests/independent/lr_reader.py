@@ -5,35 +5,48 @@ import math
 import struct
 import zlib
 
-from lean_reader import decode_lean
+from lean_reader import decode_lean_slots
 from lr_corners import check_corners
 from lr_tables_reader import Tables, decode_tables
 from mesh_readers import TYPES, Attribute, BadFile, Mesh, split_keys
 from packed_reader import decode_packed
+from seams_reader import read_seams
 from vertex_reader import read_vertices
 
-ATTRIBUTE, VERTEX_ORDER, CORNER_ORDER, VERTEX_STREAM = 2, 3, 4, 8
-NORMALIZED, V_UP = 1 << 16, 1 << 17  # bits of an attribute's layout
-LAYOUT_BITS = {ATTRIBUTE: 0x3FFFF, VERTEX_STREAM: V_UP}  # that may be set
+ATTRIBUTE, VERTEX_ORDER, CORNER_ORDER, VERTEX_STREAM, SEAMS = 2, 3, 4, 8, 9
+NORMALIZED, V_UP, PER_COPY = 1 << 16, 1 << 17, 1 << 18  # bits of an attribute's layout
+LAYOUT_BITS = {ATTRIBUTE: 0x7FFFF, VERTEX_STREAM: V_UP | PER_COPY}  # that may be set
 
 
 def tables_in(words, compact):
     tables = Tables(words, compact)
-    out = decode_tables(tables)
+    vertices, _, extra = decode_tables(tables)
     check_corners(tables)
-    return out
+    slots = [()] * (2 * tables.ring + tables.t0)
+    for number, (a, b, c), flipped in tables.triangles():
+        slots[number] = tuple(extra.get(v, v) for v in ((c, b, a) if flipped else (a, b, c)))
+    return vertices, slots, extra
 
 
-# Each takes all words of a stream and returns its vertices, its triangles, flat, and a dict from copies to originals.
-DECODERS = {1: lambda words: (*decode_lean(words), {}), 5: lambda words: tables_in(words, False),
-            6: lambda words: tables_in(words, True), 7: lambda words: (*decode_packed(words), {})}
+def packed_in(words):
+    vertices, flat = decode_packed(words)
+    corners = iter(flat)
+    return vertices, list(zip(corners, corners, corners)), {}
+
+
+# Each takes all words of a stream and returns its vertices, the triangle of each slot, () where there is none, and a dict
+# from the extra vertices of LR tables to their originals, which triangles name.
+DECODERS = {1: lambda words: (*decode_lean_slots(words), {}), 5: lambda words: tables_in(words, False),
+            6: lambda words: tables_in(words, True), 7: packed_in}
 
 
 def sections(data):
     """(kind, contents, layout, length of the name) of each section."""
-    magic, version, count, _, _, zero, table_crc, header_crc = struct.unpack_from("<8I", data)
-    if magic != 0x4C46524C or version != 3 or zero != 0:
-        raise BadFile("not an .lr file of version 3")
+    magic, version, count, vertices, _, copies, table_crc, header_crc = struct.unpack_from("<8I", data)
+    if magic != 0x4C46524C or version != 4:
+        raise BadFile("not an .lr file of version 4")
+    if 0 < copies < vertices:
+        raise BadFile("the .lr file has fewer copies than vertices")
     if zlib.crc32(data[:28]) != header_crc or zlib.crc32(data[32:32 + 32 * count]) != table_crc:
         raise BadFile("the .lr file's header is damaged")
     end = 32 + 32 * count
@@ -45,7 +58,7 @@ def sections(data):
             raise BadFile(f"section {i} of the .lr file is damaged")
         if offset != end + -end % 8 or any(data[end:offset]):
             raise BadFile(f"section {i} of the .lr file is not where it should be")
-        if kind not in DECODERS and kind not in (*LAYOUT_BITS, VERTEX_ORDER, CORNER_ORDER) or coding != 0:
+        if kind not in DECODERS and kind not in (*LAYOUT_BITS, VERTEX_ORDER, CORNER_ORDER, SEAMS) or coding != 0:
             raise BadFile(f"section {i} of the .lr file has an unknown kind or coding")
         if layout & ~LAYOUT_BITS.get(kind, 0) or name_length and kind not in LAYOUT_BITS:
             raise BadFile(f"section {i} of the .lr file has bits set that should be 0")
@@ -56,7 +69,11 @@ def sections(data):
     return out
 
 
-def attribute(vertices, kind, contents, layout, name_length):
+def attribute(vertices, copies, kind, contents, layout, name_length):
+    if layout & PER_COPY:
+        if copies == 0:
+            raise BadFile("an attribute of copies where there are none")
+        vertices = copies
     begin = (name_length + 7) // 8 * 8
     if len(contents) < begin or any(contents[name_length:begin]):
         raise BadFile("the name of an attribute is not followed by zeros")
@@ -75,14 +92,17 @@ def attribute(vertices, kind, contents, layout, name_length):
 
 
 def attributes(data, parts):
-    """The attributes in the file's order. `parts`: its sections."""
-    vertices, = struct.unpack_from("<I", data, 12)
-    out = [attribute(vertices, *part) for part in parts if part[0] in LAYOUT_BITS]
+    """The attributes in the file's order, and of each whether it has a value for each copy. `parts`: its sections."""
+    vertices, _, copies = struct.unpack_from("<3I", data, 12)
+    out = [attribute(vertices, copies, *part) for part in parts if part[0] in LAYOUT_BITS]
+    per_copy = [layout & PER_COPY != 0 for kind, _, layout, _ in parts if kind in LAYOUT_BITS]
     if not out or (out[0].name, out[0].components, out[0].normalized) != ("POSITION", 3, False) or out[0].type < 6:
         raise BadFile("the first attribute of the .lr file is not POSITION")
     if not all(map(math.isfinite, array.array(TYPES[out[0].type], out[0].values))):
         raise BadFile("a position is not finite")
-    return out
+    if per_copy[0]:
+        raise BadFile("copies have positions")
+    return out, per_copy
 
 
 def order(parts, kind):
@@ -93,31 +113,59 @@ def order(parts, kind):
     return found[0] if found else None
 
 
+def copies_of(data, parts, slots, vertices):
+    """The copies of the slots' corners, and the vertex of each copy. Without seams both are of the vertices."""
+    sections_of_seams = [contents for kind, contents, _, _ in parts if kind == SEAMS and contents]
+    copies, = struct.unpack_from("<I", data, 20)
+    if len(sections_of_seams) != (copies > 0):
+        raise BadFile("the .lr file has seams without copies, or copies without seams")
+    if not sections_of_seams:
+        return slots, range(vertices)
+    slots, vertex_of = read_seams(sections_of_seams[0], slots, vertices)
+    if len(vertex_of) != copies:
+        raise BadFile("seams and file have different numbers of copies")
+    return slots, vertex_of
+
+
 def read_lr(data):
+    """The mesh over the copies, extra ones included. `copies` maps these to their originals' first ones."""
     parts = sections(data)
     vertices, triangles = struct.unpack_from("<II", data, 12)
     streams = [(kind, contents) for kind, contents, _, _ in parts if kind in DECODERS]
     if len(streams) != 1:
         raise BadFile("the .lr file has not one connectivity section")
-    all_attributes = attributes(data, parts)
-    positions = split_keys(all_attributes[0].values, {6: 12, 7: 24}[all_attributes[0].type])
+    all_attributes, per_copy = attributes(data, parts)
     kind, contents = streams[0]
-    numbered, indices, copies = DECODERS[kind](array.array("I", contents))
-    if 3 * triangles < len(indices):
-        raise BadFile("the .lr file has more triangles than it was made from")
+    numbered, slots, extra = DECODERS[kind](array.array("I", contents))
     if numbered != vertices:
         raise BadFile("the .lr file's connectivity has another number of vertices")
+    slots, vertex_of = copies_of(data, parts, slots, vertices)
+    for attribute, own in zip(all_attributes, per_copy):
+        if not own:
+            size = attribute.components * struct.calcsize("<" + TYPES[attribute.type])
+            attribute.values = b"".join(attribute.values[size * v:size * v + size] for v in vertex_of)
+    positions = split_keys(all_attributes[0].values, {6: 12, 7: 24}[all_attributes[0].type])
+    first = {}
+    for copy, v in enumerate(vertex_of):
+        first.setdefault(v, copy)
+    copies = {copy: first[extra[v]] for copy, v in enumerate(vertex_of) if v in extra}
+    indices = [v for slot in slots for v in slot]
+    if 3 * triangles < len(indices):
+        raise BadFile("the .lr file has more triangles than it was made from")
     if any(positions[copy] != positions[original] for copy, original in copies.items()):
-        raise BadFile("a copy is not where its original is")
-    mesh = Mesh(positions, [copies.get(v, v) for v in indices])
+        raise BadFile("an extra vertex is not where its original is")
+    mesh = Mesh(positions, indices)
     mesh.attributes, mesh.copies = all_attributes, copies
     mesh.vertex_order, mesh.corner_order = (order(parts, kind) for kind in (VERTEX_ORDER, CORNER_ORDER))
     if mesh.vertex_order is not None:
         kept = sorted(v for i, v in enumerate(mesh.vertex_order) if i not in copies)
-        if len(mesh.vertex_order) != vertices or kept != list(range(len(kept))):
+        if len(mesh.vertex_order) != len(vertex_of) or kept != list(range(len(kept))):
             raise BadFile("the vertex order is no permutation")
-        if any(mesh.vertex_order[copy] != mesh.vertex_order[original] for copy, original in copies.items()):
-            raise BadFile("a copy has not its original's number")
+        numbers = [set() for _ in range(vertices)]
+        for copy, v in enumerate(vertex_of):
+            numbers[v].add(mesh.vertex_order[copy])
+        if any(not numbers[v] <= numbers[original] for v, original in extra.items()):
+            raise BadFile("an extra vertex has not its original's number")
     if mesh.corner_order is not None:
         used = set(corner // 3 for corner in mesh.corner_order)
         if len(used) != len(mesh.corner_order) or 3 * len(used) != len(indices) or any(t >= triangles for t in used):

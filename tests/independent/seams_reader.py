@@ -97,7 +97,7 @@ class Seams:
         require(words[0] == MAGIC and words[1] == zlib.crc32(data[8:]), "wrong magic or checksum")
         self.homes, self.vertices = words[2], vertices
         widths = data[12:16]
-        require(vertices <= self.homes < 1 << 30, "impossible homes")
+        require(vertices <= self.homes <= vertices + 3 * triangles and self.homes < 1 << 30, "impossible homes")
         require(widths[0] <= 20 and widths[1] <= 17 and widths[2] <= 20 and widths[3] <= 11, "impossible widths")
         self.number, size = int.from_bytes(data, "little"), 8 * len(data)
         entries = [words[4 + i // 8] >> 4 * (i % 8) & 15 for i in range(32)]
@@ -274,7 +274,7 @@ class Walk:
 
 
 def read_seams(data, triangles, vertices):
-    """The copy of each corner, a tuple for each triangle. Empty slots are empty tuples."""
+    """The copy of each corner, a tuple for each triangle, and the vertex of each copy. Empty slots are empty tuples."""
     seams = Seams(data, vertices, len(triangles))
     steps, wraps, firsts = read_steps(seams)
     out, owners, made = [], {}, 0
@@ -290,4 +290,5 @@ def read_seams(data, triangles, vertices):
             out.append(tuple(seams.homes + states[w] if isinstance(states[w], Private) else firsts[w] + walk.copy(w, states[w])
                              for w in triangle))
     require(made == seams.blocks.before[-1], "a block makes other copies than it says")
-    return out
+    vertex_of = [v for v in range(vertices) for _ in range(steps[v] + 1 - wraps[v])]
+    return out, vertex_of + [owners.get(p, None) for p in range(made)]

@@ -34,7 +34,7 @@ def main():
         sound = take(1)[0]
         wanted = take(3 * count) if sound else None
         try:
-            read = read_seams(section, triangles, vertices)
+            read, _ = read_seams(section, triangles, vertices)
             copies = array.array("I", [copy for triangle in read for copy in triangle or EMPTY])
         except BadFile as error:
             copies, why = None, error

@@ -627,7 +627,7 @@ class VertexStreams(WithProgram):
                                 capture_output=True, text=True)
         try:
             parts = lr_reader.sections(data)
-            attribute = lr_reader.attributes(data, parts[1:2] + parts[i:i + 1] * (i > 1))[-1]
+            attribute = lr_reader.attributes(data, parts[1:2] + parts[i:i + 1] * (i > 1))[0][-1]
         except BadFile as error:
             self.assertNotIn("checksum", str(error))
             self.assertEqual(result.returncode, 3, f"the program accepts it, but: {error}")
@@ -679,19 +679,18 @@ class VertexStreams(WithProgram):
             mesh = os.path.join(folder, name)
             # Tables with attributes as they lie in memory tell what the input's bytes are, and in what order.
             data = self.encode("lr", "--keep-order", "--effort", "0", mesh=mesh)
-            parts = lr_reader.sections(data)
-            wanted, numbers = lr_reader.attributes(data, parts), lr_reader.order(parts, lr_reader.VERTEX_ORDER)
+            wanted = lr_reader.read_lr(data)
+            numbers = wanted.vertex_order
             place = dict(zip(numbers, range(len(numbers))))
             self.assertEqual(self.streams(data), {})
             for bits in ((), BITS):
                 with self.subTest(name=name, bits=bits):
                     data = self.encode("packed", "--keep-order", "--effort", "0", *bits, mesh=mesh)
-                    parts, streams = lr_reader.sections(data), self.streams(data)
-                    attributes = lr_reader.attributes(data, parts)
-                    order = [place[v] for v in lr_reader.order(parts, lr_reader.VERTEX_ORDER)]
-                    for attribute, given in zip(attributes, wanted, strict=True):
+                    mesh, streams = lr_reader.read_lr(data), self.streams(data)
+                    order = [place[v] for v in mesh.vertex_order]
+                    for attribute, given in zip(mesh.attributes, wanted.attributes, strict=True):
                         self.check_values(attribute, given, order, streams[given.name])
-                    self.check_decoded(attributes)
+                    self.check_decoded(mesh.attributes)
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@
 #include <bit>
 #include <limits>
 
+#include "lacedring/lacedring.hpp"
 #include "lacedring/lacedring_seams.h"
 #include "lacedring/seams.hpp"
 #include "lrcore/base/bits.h"
@@ -719,6 +720,44 @@ Result<EncodedSeams> encode_seams(std::span<const std::uint32_t> triangles, std:
     out.copy_order.reserve(numbers.size());
     for (const std::uint32_t copy : homes.copy) out.copy_order.push_back(copy == kNone ? kNone : numbers[copy]);
     for (const std::uint32_t copy : corners.order()) out.copy_order.push_back(numbers[copy]);
+    return out;
+}
+
+Result<EncodedSeams> encode_seams(const Encoded& surface, std::span<const std::uint32_t> indices,
+                                  std::span<const std::uint32_t> vertex_of) {
+    using detail::message;
+    const Result<StreamView> view = view_stream(surface.words);
+    if (!view) return view.error();
+    std::vector<std::uint32_t> first(surface.vertex_order.size(), kNone);  // the mesh's vertex, of the surface's
+    for (std::uint32_t v = 0; v < vertex_of.size(); ++v) {
+        if (vertex_of[v] >= first.size()) return invalid_seams(message("surface vertex ", vertex_of[v]));
+        if (first[vertex_of[v]] == kNone) first[vertex_of[v]] = v;
+    }
+    const std::vector<std::uint32_t> slots = slot_triangles(*view);
+    std::vector<std::uint32_t> copies(slots.size(), kNone);
+    std::size_t triangle = 0;
+    for (std::size_t i = 0; i < slots.size(); i += 3) {
+        if (slots[i] == kNone) continue;
+        const std::size_t t = triangle < surface.triangle_order.size() ? surface.triangle_order[triangle++] : kNone;
+        if (t >= indices.size() / 3) return invalid_seams("a triangle that the mesh lacks");
+        const std::uint32_t* corners = &indices[3 * t];
+        const std::uint32_t begin = surface.vertex_order[slots[i]];
+        std::uint32_t place = 0;
+        while (place < 3 && (corners[place] >= vertex_of.size() || vertex_of[corners[place]] != begin)) ++place;
+        if (place == 3) return invalid_seams(message("triangle ", t, " of the mesh has other vertices"));
+        for (std::uint32_t j = 0; j < 3; ++j) copies[i + j] = corners[(place + j) % 3];
+    }
+    Result<EncodedSeams> out = encode_seams(slots, view->vertices(), copies);
+    if (!out) return out;
+    if (std::ranges::find(out->copy_order, kNone) == out->copy_order.end()) return out;
+    const Result<SeamView> seams = view_seams(out->words, view->slots(), view->vertices());
+    if (!seams) return seams.error();
+    std::vector<std::uint32_t> homes(std::size_t{view->vertices()} + 1);
+    first_copies(*seams, homes);
+    for (std::uint32_t v = 0; v < view->vertices(); ++v) {
+        std::uint32_t& copy = out->copy_order[homes[v]];
+        if (copy == kNone) copy = first[surface.vertex_order[v]];
+    }
     return out;
 }
 

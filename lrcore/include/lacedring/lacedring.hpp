@@ -17,8 +17,10 @@
 #include "lacedring/base.hpp"
 #include "lacedring/operators.hpp"
 #include "lacedring/ring.hpp"
+#include "lacedring/seams.hpp"
 #include "lacedring/streams.hpp"
 #include "lacedring/topology.hpp"
+#include "lacedring/vertices.hpp"
 
 namespace lacedring {
 
@@ -112,6 +114,13 @@ Result<Encoded> encode(std::span<const std::uint32_t> indices, std::uint32_t ver
 /// The same from a corner table that is there already. LR tables copy one that is not given up with std::move.
 Result<Encoded> encode(const CornerTable& table, const EncodeOptions& options = {});
 Result<Encoded> encode(CornerTable&& table, const EncodeOptions& options = {});
+
+/// The seam section of a surface that encode() made a stream of. `indices` are those of the mesh with seams, and
+/// vertex_of[v] the surface's vertex of each of the mesh's vertices: encode() got vertex_of[indices[i]] for each i.
+/// copy_order[new] is the mesh's vertex of each copy; of a vertex without corners the first of the mesh's that has it.
+/// Cost and errors: encode_seams' (seams.hpp).
+Result<EncodedSeams> encode_seams(const Encoded& surface, std::span<const std::uint32_t> indices,
+                                  std::span<const std::uint32_t> vertex_of);
 
 // The steps. Rings are as expand_rings and optimize_rings make them: the triangles on each ring's left are a tree.
 

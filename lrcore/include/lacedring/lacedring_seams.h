@@ -294,7 +294,7 @@ enum lacedring_status lacedring_seams_open(const uint32_t* words, size_t count, 
     s->vertices = vertices;
     s->triangles = triangles;
     s->homes = words[2];
-    if (s->homes < vertices || (vertices == 0 && s->homes > 0) || s->homes > LACEDRING_SEAMS_MAX_COPIES)
+    if (s->homes < vertices || s->homes - vertices > (uint64_t)3 * triangles || s->homes > LACEDRING_SEAMS_MAX_COPIES)
         return lacedring_at_(where, 2, LACEDRING_STATUS_HEADER);
     for (kind = 0; kind < 2; ++kind) {
         const uint32_t blocks = lacedring_seam_block_count_(kind ? triangles : vertices);

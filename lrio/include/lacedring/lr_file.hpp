@@ -1,7 +1,7 @@
 #pragma once
-// The .lr file: a mesh's connectivity as a lean or packed stream or as LR tables, the vertex attributes in ring order,
-// as vertex streams or as they lie in memory, and, on request, the way back to the input's order. docs/lr-file.md has
-// the format to the byte.
+// The .lr file: the connectivity of a mesh's surface as a lean or packed stream or as LR tables, its seams, the
+// attributes of its vertices and their copies in ring order, as vertex streams or as they lie in memory, and, on
+// request, the way back to the input's order. docs/lr-file.md has the format to the byte.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,21 +14,27 @@
 #include "lacedring/base.hpp"
 #include "lacedring/lacedring.hpp"
 #include "lacedring/mesh.hpp"
+#include "lacedring/surface.hpp"
 
 namespace lacedring {
 
 /// An attribute of a file: its values, or a vertex stream of them.
 struct LrAttribute : Attribute {       ///< data is empty where there is a stream; the rest is what it decodes to
     std::vector<std::uint32_t> words;  ///< a vertex stream (vertices.hpp), or empty
+    bool per_copy = false;             ///< one value for each of copy_count, not of vertex_count
 };
 
+/// "Copies" are vertex copies, which differ in attributes. LR tables have an extra vertex for each further fan of a
+/// non-manifold vertex, which counts as a vertex and has a copy.
 struct LrFile {
-    std::uint32_t vertex_count = 0;  ///< of the connectivity: with LR tables, copies of non-manifold vertices included
+    std::uint32_t vertex_count = 0;     ///< of the connectivity: of the surface, and extra ones
+    std::uint32_t copy_count = 0;       ///< 0: there are no seams, and vertices are what triangles name
     std::uint32_t input_triangles = 0;  ///< of the mesh it was made from, degenerate ones included
     Format format = Format::lean;
     std::vector<std::uint32_t> words;         ///< the connectivity stream, its header included
-    std::vector<LrAttribute> attributes;      ///< in ring order, one value for each of vertex_count
-    std::vector<std::uint32_t> vertex_order;  ///< vertex_order[new] = old; empty unless kept
+    std::vector<std::uint32_t> seams;         ///< the seam section (seams.hpp), or empty
+    std::vector<LrAttribute> attributes;      ///< in ring order; the first one, POSITION, never per copy
+    std::vector<std::uint32_t> vertex_order;  ///< vertex_order[new] = old, of copies where there are; empty unless kept
     /// corner_order[i] = 3 * triangle + place: the corner of the input's index list that the i-th triangle decoded
     /// begins with; empty unless kept.
     std::vector<std::uint32_t> corner_order;
@@ -37,6 +43,10 @@ struct LrFile {
 /// The file of a mesh and of what encode() made of it; `encoded` is taken over. Attributes are as they lie in memory.
 /// The way back to the input's order is kept only with `keep_order`: 4 bytes a vertex and 4 a triangle. Cost: O(T).
 LrFile make_lr_file(const Mesh& mesh, Encoded encoded, bool keep_order);
+
+/// The same of a mesh with seams; encode() was given the surface's triangles (surface_mesh). An attribute on which all
+/// copies of each vertex agree has a value a vertex. Cost and errors: encode_seams'.
+Result<LrFile> make_lr_file(const Mesh& mesh, const Surface& surface, Encoded encoded, bool keep_order);
 
 /// The bits to which attributes are quantized; 0: lossless.
 struct AttributeBits {
@@ -83,17 +93,19 @@ bool is_lr(std::span<const std::byte> bytes);
 /// The sections of a file, in their order.
 struct LrSection {
     std::string kind;  ///< "lean", "packed", "lr", "lr_compact", "attribute", "vertices" (an attribute as a vertex
-                       ///< stream), "vertex_order" or "corner_order"
+                       ///< stream), "seams", "vertex_order" or "corner_order"
     std::string name;  ///< of an attribute
     ComponentType type = ComponentType::f32;
     std::uint8_t components = 0;
+    bool per_copy = false;    ///< of an attribute
     std::uint64_t bytes = 0;  ///< of its contents
     std::string mapping;  ///< of a vertex stream: "integers", "lattice", "octahedral", "floats", "decimals", "doubles"
     float largest_error = 0;  ///< of a vertex stream
 };
 struct LrContents {
     std::uint32_t version = 0;
-    std::uint32_t vertices = 0;         ///< copies included
+    std::uint32_t vertices = 0;         ///< LrFile::vertex_count
+    std::uint32_t copies = 0;           ///< LrFile::copy_count
     std::uint32_t input_triangles = 0;  ///< degenerate ones included
     std::uint64_t bytes = 0;            ///< of the whole file
     std::vector<LrSection> sections;
@@ -106,21 +118,21 @@ struct AttributeView {
     std::string_view name;
     ComponentType type = ComponentType::f32;
     std::uint8_t components = 0;
-    bool normalized = false, v_up = false;
+    bool normalized = false, v_up = false, per_copy = false;
     std::span<const std::byte> data;       ///< as Attribute::data; empty where there is a stream
     std::span<const std::uint32_t> words;  ///< a vertex stream, whose header alone was checked; or empty
 };
 
 /// What a file holds, where it lies in the file's bytes. Holds no copy.
 struct LrFileView {
-    std::uint32_t vertex_count = 0, input_triangles = 0;  ///< as LrFile's
+    std::uint32_t vertex_count = 0, copy_count = 0, input_triangles = 0;  ///< as LrFile's
     Format format = Format::lean;
-    std::span<const std::uint32_t> words;
+    std::span<const std::uint32_t> words, seams;
     std::vector<AttributeView> attributes;
     std::span<const std::uint32_t> vertex_order, corner_order;  ///< empty unless kept
 
-    /// Checks the words, and that they have as many vertices as each attribute. Errors: malformed. Cost: O(T).
-    /// Untrusted input: safe.
+    /// Checks the words and the seams, and that they have as many vertices and copies as the attributes. Errors:
+    /// malformed. Cost: O(T); 12 bytes a triangle where there are seams. Untrusted input: safe.
     Result<StreamView> validate() const;
     /// The positions, for reading; none if the file has none, or as a vertex stream.
     Positions positions() const;
@@ -132,9 +144,10 @@ struct LrFileView {
 /// Cost: O(1) in the size of the mesh.
 Result<LrFileView> view_lr_file(std::span<const std::byte> bytes);
 
-/// Decodes to a mesh in stream order, copies of non-manifold vertices left out again. `file` is valid (parse_lr checked
-/// it, or make_lr_file made it). Errors: malformed (its words are no stream).
-Result<Mesh> decode_lr(const LrFile& file);
+/// Decodes to a mesh in stream order, extra vertices left out again: over the copies, as a GPU draws it. `surface`,
+/// which may be null, gets the way to the surface's vertices. `file` is valid (parse_lr checked it, or make_lr_file
+/// made it). Errors: malformed (its words are no stream).
+Result<Mesh> decode_lr(const LrFile& file, Surface* surface = nullptr);
 
 /// Decodes to the input's index list: its order of vertices and of triangles, each beginning with its first corner.
 /// Degenerate triangles are missing. Errors: invalid_argument if the order was not kept.

@@ -1,0 +1,165 @@
+// From an .lr file in memory to its mesh.
+
+#include <algorithm>
+#include <numeric>
+
+#include "lrio/file/lr_layout.h"
+
+namespace lacedring {
+namespace detail {
+namespace {
+
+/// The copies of the slots' corners, and the vertex of each copy.
+Result<void> decode_copies(const LrFile& file, const StreamView& stream, bool untrusted, DecodedLr& out) {
+    const std::vector<std::uint32_t> slots = slot_triangles(stream);
+    const Result<SeamView> seams = untrusted ? validate_seams(file.seams, slots, stream.vertices())
+                                             : view_seams(file.seams, stream.slots(), stream.vertices());
+    if (!seams) return seams.error();
+    if (seams->copies != file.copy_count) return malformed_lr("seams and file have different numbers of copies");
+    std::vector<std::uint32_t> copies(slots.size());
+    decode_seams(*seams, slots, copies);
+    out.vertex_of.resize(seams->copies);
+    std::vector<std::uint32_t> homes(std::size_t{stream.vertices()} + 1);
+    first_copies(*seams, homes);
+    for (std::uint32_t v = 0; v < stream.vertices(); ++v) {
+        std::fill(out.vertex_of.begin() + homes[v], out.vertex_of.begin() + homes[v + 1], v);
+    }
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+        if (slots[i] != UINT32_MAX) out.vertex_of[copies[i]] = slots[i];
+    }
+    std::erase(copies, UINT32_MAX);
+    out.indices = std::move(copies);
+    return {};
+}
+
+}  // namespace
+
+void DecodedLr::remove_extra(std::vector<std::uint32_t>& values) const {
+    if (extra.empty()) return;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (!is_extra(i)) values[kept++] = values[i];
+    }
+    values.resize(kept);
+}
+
+Result<DecodedLr> decode_connectivity(const LrFile& file, bool untrusted) {
+    const Result<StreamView> view = untrusted ? validate(file.words) : view_stream(file.words);
+    if (!view) return view.error();
+    if (view->format() != file.format) return malformed_lr("the stream is of another format than its section");
+    if (view->vertices() != file.vertex_count) {
+        return malformed_lr("connectivity and file have different vertex counts");
+    }
+    DecodedLr out;
+    out.vertices = view->vertices();
+    if (file.seams.empty()) {
+        out.indices = decode(*view);
+    } else if (const Result<void> decoded = decode_copies(file, *view, untrusted, out); !decoded) {
+        return decoded.error();
+    }
+    const auto mark_extra = [&](const auto* stream) {
+        if (stream == nullptr || stream->copies.empty()) return;
+        out.extra.assign(stream->view.used_vertices(), false);
+        for (std::size_t i = 0; i < stream->copies.size(); i += 2) out.extra[stream->copies[i]] = true;
+        if (file.seams.empty()) return;
+        std::vector<bool> copies(out.vertex_of.size());
+        for (std::size_t i = 0; i < copies.size(); ++i) copies[i] = out.is_extra(out.vertex_of[i]);
+        out.extra = std::move(copies);
+    };
+    mark_extra(view->get<LrStreamView<LrView>>());
+    mark_extra(view->get<LrStreamView<CompactLrView>>());
+    return out;
+}
+
+Attribute decode_attribute(const LrAttribute& attribute) {
+    Attribute out = attribute;
+    if (attribute.words.empty()) return out;
+    if (const Result<VertexView> view = view_vertices(attribute.words)) {
+        out.data.resize(view->decoded_bytes());
+        decode_vertices(*view, out.data);
+    }
+    return out;
+}
+
+namespace {
+
+/// Mesh and surface in stream order.
+Result<Mesh> decode_mesh(const LrFile& file, DecodedLr& decoded, Surface* surface) {
+    // The mesh's vertices: those of the connectivity, or their copies, but for extra ones. No triangle names these.
+    std::vector<std::uint32_t> kept(decoded.vertex_of.empty() ? decoded.vertices : decoded.vertex_of.size());
+    std::iota(kept.begin(), kept.end(), 0U);
+    const std::size_t all = kept.size();
+    decoded.remove_extra(kept);
+    Mesh mesh;
+    mesh.vertex_count = static_cast<std::uint32_t>(kept.size());
+    std::vector<std::uint32_t> of_vertex = kept;  // the place of each in an attribute of vertices
+    for (std::uint32_t& i : of_vertex) i = decoded.vertex_of.empty() ? i : decoded.vertex_of[i];
+    const bool as_it_is = decoded.vertex_of.empty() && kept.size() == all;
+    for (const LrAttribute& attribute : file.attributes) {
+        Attribute values = decode_attribute(attribute);
+        if (!as_it_is) values = std::move(permute_attributes({&values, 1}, attribute.per_copy ? kept : of_vertex)[0]);
+        mesh.attributes.push_back(std::move(values));
+    }
+    if (kept.size() < all) {
+        std::vector<std::uint32_t> number(all, 0);
+        for (std::uint32_t i = 0; i < kept.size(); ++i) number[kept[i]] = i;
+        for (std::uint32_t& v : decoded.indices) v = number[v];
+    }
+    mesh.indices = std::move(decoded.indices);
+    if (surface == nullptr) return mesh;
+    *surface = {mesh.vertex_count, {}};
+    if (decoded.vertex_of.empty()) return mesh;
+    std::vector<std::uint32_t> number(decoded.vertices, UINT32_MAX);
+    surface->vertex_count = 0;
+    for (const std::uint32_t v : of_vertex) {
+        if (number[v] == UINT32_MAX) number[v] = surface->vertex_count++;
+        surface->vertex_of.push_back(number[v]);
+    }
+    return mesh;
+}
+
+}  // namespace
+}  // namespace detail
+
+Result<Mesh> decode_lr(const LrFile& file, Surface* surface) {
+    Result<detail::DecodedLr> decoded = detail::decode_connectivity(file, false);
+    if (!decoded) return decoded.error();
+    return detail::decode_mesh(file, *decoded, surface);
+}
+
+Result<Mesh> decode_lr_original_order(const LrFile& file) {
+    Result<detail::DecodedLr> decoded = detail::decode_connectivity(file, false);
+    if (!decoded) return decoded.error();
+    const std::size_t triangles = decoded->indices.size() / 3;
+    const std::size_t vertices = decoded->vertex_of.empty() ? decoded->vertices : decoded->vertex_of.size();
+    if (file.vertex_order.size() != vertices || file.corner_order.size() != triangles) {
+        return Error{ErrorCode::invalid_argument,
+                     "the file does not keep the input's order (encode --keep-order does)"};
+    }
+    std::vector<std::uint32_t> vertex_order = file.vertex_order;
+    decoded->remove_extra(vertex_order);
+    Result<Mesh> stream = detail::decode_mesh(file, *decoded, nullptr);
+    if (!stream) return stream;
+    // Where each new vertex was, inverted: permute_attributes wants the new number of each old vertex.
+    std::vector<std::uint32_t> number(vertex_order.size());
+    for (std::uint32_t i = 0; i < number.size(); ++i) number[vertex_order[i]] = i;
+    Mesh mesh;
+    mesh.vertex_count = stream->vertex_count;
+    mesh.attributes = permute_attributes(stream->attributes, number);
+    std::vector<std::uint32_t> by_input(file.corner_order.size());
+    std::iota(by_input.begin(), by_input.end(), 0U);
+    std::sort(by_input.begin(), by_input.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return file.corner_order[a] < file.corner_order[b]; });
+    mesh.indices.resize(stream->indices.size());
+    std::uint32_t* out = mesh.indices.data();
+    for (const std::uint32_t i : by_input) {
+        const std::uint32_t first = file.corner_order[i] % 3;
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            out[(first + k) % 3] = vertex_order[stream->indices[std::size_t{3} * i + k]];
+        }
+        out += 3;
+    }
+    return mesh;
+}
+
+}  // namespace lacedring

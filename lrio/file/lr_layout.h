@@ -1,0 +1,151 @@
+#pragma once
+// The layout of .lr files: header, section table, and where contents lie. Internal to lrio/file; docs/lr-file.md has
+// it.
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "lacedring/lr_file.hpp"
+#include "lrcore/base/crc32.h"
+#include "lrcore/base/signature.h"
+
+namespace lacedring::detail {
+
+constexpr std::uint32_t kLrVersion = 4;
+
+enum Kind : std::uint16_t {
+    kLean = 1,
+    kAttribute = 2,
+    kVertexOrder = 3,
+    kCornerOrder = 4,
+    kLr = 5,
+    kLrCompact = 6,
+    kPacked = 7,
+    kVertices = 8,
+    kSeams = 9
+};
+constexpr const char* kKindNames[] = {"",   "lean",       "attribute", "vertex_order", "corner_order",
+                                      "lr", "lr_compact", "packed",    "vertices",     "seams"};
+
+struct FileHeader {
+    std::uint32_t magic, version, sections, vertices, input_triangles, copies;
+    std::uint32_t table_crc;   // of the section table
+    std::uint32_t header_crc;  // of the seven words before
+
+    /// Values of an attribute.
+    std::uint32_t values(bool per_copy) const { return per_copy ? copies : vertices; }
+};
+static_assert(sizeof(FileHeader) == 32);
+
+// Bits of Section::layout: of attributes, but for what a stream says itself.
+constexpr std::uint32_t kNormalized = 1U << 16, kVUp = 1U << 17, kPerCopy = 1U << 18;
+
+struct Section {
+    std::uint16_t kind;
+    std::uint16_t coding;  // of the contents; 0: as they lie in memory
+    std::uint32_t crc;     // of the contents
+    std::uint64_t offset, size;
+    std::uint32_t layout;       // type | components << 8 | the bits above
+    std::uint32_t name_length;  // attributes: the contents begin with the name, padded with zeros to 8 bytes
+};
+static_assert(sizeof(Section) == 32);
+
+constexpr std::size_t align8(std::size_t size) {
+    return (size + 7) / 8 * 8;
+}
+
+/// The section kind of a format's words.
+constexpr Kind kKinds[] = {kLean, kPacked, kLr, kLrCompact};
+
+inline Kind kind_of(Format format) {
+    return kKinds[static_cast<std::size_t>(format)];
+}
+/// Of a kind in kKinds.
+Format format_of(std::uint32_t kind);
+
+Error malformed_lr(std::string message);
+
+/// Empty if the bytes begin as an .lr file, else an error message that names their kind if it is known.
+std::string not_an_lr_file(std::span<const std::byte> bytes);
+
+/// Takes the name off the contents' begin; empty if that is sound.
+std::string view_name(const Section& section, std::span<const std::byte>& contents, AttributeView& out);
+
+/// Fills `out`; empty if the section is an attribute of the file's vertices or copies, else what is wrong.
+std::string view_attribute(const FileHeader& header, const Section& section, std::span<const std::byte> contents,
+                           AttributeView& out);
+
+/// The same of an attribute that is a vertex stream. Reads no more of it than its header; `contents` may lie anywhere.
+std::string view_stream_of(const FileHeader& header, const Section& section, std::span<const std::byte> contents,
+                           AttributeView& out);
+
+/// Checks header and section table and calls visit(header, section, contents) for each section; what visit returns, if
+/// not empty, is an error. The contents' checksums are visit's to look at.
+template <class Visit>
+Result<FileHeader> visit_sections(std::span<const std::byte> bytes, Visit visit) {
+    FileHeader header;
+    if (std::string why = not_an_lr_file(bytes); !why.empty()) return Error{ErrorCode::malformed, std::move(why)};
+    if (bytes.size() < sizeof header) return malformed_lr("shorter than its header");
+    std::memcpy(&header, bytes.data(), sizeof header);
+    if (header.version != kLrVersion) {
+        return malformed_lr(fmt::format("version {} is not {}", header.version, kLrVersion));
+    }
+    if (header.header_crc != crc32(bytes.first(28)) || (header.copies != 0 && header.copies < header.vertices)) {
+        return malformed_lr("damaged header");
+    }
+    const std::uint64_t table = std::uint64_t{header.sections} * sizeof(Section);
+    if (table > bytes.size() - sizeof header) return malformed_lr("shorter than its section table");
+    const auto table_bytes = bytes.subspan(sizeof header, table);
+    if (header.table_crc != crc32(table_bytes)) return malformed_lr("damaged section table");
+    std::size_t end = sizeof header + table;
+    for (std::uint32_t i = 0; i < header.sections; ++i) {
+        Section section;
+        std::memcpy(&section, table_bytes.data() + std::size_t{i} * sizeof section, sizeof section);
+        if (section.offset != align8(end) || section.offset > bytes.size() ||
+            section.size > bytes.size() - section.offset) {
+            return malformed_lr(fmt::format("section {} lies outside the file", i));
+        }
+        for (; end < section.offset; ++end) {
+            if (bytes[end] != std::byte{0}) return malformed_lr(fmt::format("padding before section {}", i));
+        }
+        end = section.offset + section.size;
+        const bool named = section.kind == kAttribute || section.kind == kVertices;
+        if (!named && (section.layout != 0 || section.name_length != 0)) {
+            return malformed_lr(fmt::format("section {}: it has no layout and no name", i));
+        }
+        if (section.coding != 0) return malformed_lr(fmt::format("section {}: unknown coding {}", i, section.coding));
+        if (std::string why = visit(header, section, bytes.subspan(section.offset, section.size)); !why.empty()) {
+            return malformed_lr(fmt::format("section {}: {}", i, why));
+        }
+    }
+    if (end != bytes.size()) return malformed_lr("bytes behind the last section");
+    return header;
+}
+
+/// The triangles that a file's connectivity holds, empty slots left out, and what its numbers stand for.
+struct DecodedLr {
+    std::uint32_t vertices = 0;
+    std::vector<std::uint32_t> indices;  ///< of copies where the file has seams
+    /// The vertex of each copy, where the file has seams.
+    std::vector<std::uint32_t> vertex_of;
+    /// Vertices that LR tables have more than the mesh (copies where the file has seams). Empty if there is none.
+    std::vector<bool> extra;
+
+    bool is_extra(std::size_t i) const { return i < extra.size() && extra[i]; }
+    /// Leaves out of `values`, one for each vertex or copy, those of extra ones.
+    void remove_extra(std::vector<std::uint32_t>& values) const;
+};
+
+/// Decodes the connectivity and the seams. Errors: malformed; of files that are valid none, if `untrusted` is false.
+Result<DecodedLr> decode_connectivity(const LrFile& file, bool untrusted);
+
+/// The attribute with its values. Of a stream, which is valid, they are decoded.
+Attribute decode_attribute(const LrAttribute& attribute);
+
+}  // namespace lacedring::detail

@@ -1,0 +1,141 @@
+// Makes .lr files and writes them.
+
+#include <algorithm>
+
+#include "lacedring/file.hpp"
+#include "lrio/file/lr_layout.h"
+
+namespace lacedring {
+namespace {
+
+using namespace detail;  // lr_layout.h's
+
+/// The input's corner that each decoded triangle begins with. `triangles` are those of the input, in decoded order.
+std::vector<std::uint32_t> find_corners(const Mesh& mesh, const LrFile& file, std::span<const std::uint32_t> triangles,
+                                        std::span<const std::uint32_t> vertex_order) {
+    const Result<DecodedLr> decoded = decode_connectivity(file, false);
+    std::vector<std::uint32_t> out;
+    if (!decoded) return out;
+    out.reserve(decoded->indices.size() / 3);
+    for (const std::uint32_t t : triangles) {
+        const std::uint32_t* now = decoded->indices.data() + 3 * out.size();
+        const std::uint32_t* before = mesh.indices.data() + std::size_t{3} * t;
+        std::uint32_t place = 0;  // its three vertices differ, so that one of them is it
+        while (place < 2 && before[place] != vertex_order[now[0]]) ++place;
+        out.push_back(3 * t + place);
+    }
+    return out;
+}
+
+/// Have all of the mesh's vertices the value of the first one at their surface vertex?
+bool agrees_on_surface(const Attribute& attribute, const Surface& surface, std::span<const std::uint32_t> first) {
+    const std::size_t stride = attribute.stride();
+    for (std::size_t v = 0; v < surface.vertex_of.size(); ++v) {
+        const std::byte* other = attribute.data.data() + first[surface.vertex_of[v]] * stride;
+        if (std::memcmp(attribute.data.data() + v * stride, other, stride) != 0) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+Result<LrFile> make_lr_file(const Mesh& mesh, const Surface& surface, Encoded encoded, bool keep_order) {
+    if (!surface.has_seams()) return make_lr_file(mesh, std::move(encoded), keep_order);
+    Result<EncodedSeams> seams = encode_seams(encoded, mesh.indices, surface.vertex_of);
+    if (!seams) return seams.error();
+    LrFile file;
+    file.vertex_count = static_cast<std::uint32_t>(encoded.vertex_order.size());
+    file.copy_count = static_cast<std::uint32_t>(seams->copy_order.size());
+    file.input_triangles = static_cast<std::uint32_t>(mesh.triangle_count());
+    file.format = encoded.format;
+    file.words = std::move(encoded.words);
+    file.seams = std::move(seams->words);
+    const std::vector<std::uint32_t> first = first_vertices(surface);
+    std::vector<std::uint32_t> vertices = encoded.vertex_order;
+    for (std::uint32_t& v : vertices) v = first[v];
+    for (const Attribute& attribute : mesh.attributes) {
+        const bool per_copy = attribute.name != "POSITION" && !agrees_on_surface(attribute, surface, first);
+        std::vector<Attribute> values = permute_attributes({&attribute, 1}, per_copy ? seams->copy_order : vertices);
+        file.attributes.push_back({std::move(values[0]), {}, per_copy});
+    }
+    if (keep_order) {
+        file.corner_order = find_corners(mesh, file, encoded.triangle_order, seams->copy_order);
+        file.vertex_order = std::move(seams->copy_order);
+    }
+    return file;
+}
+
+LrFile make_lr_file(const Mesh& mesh, Encoded encoded, bool keep_order) {
+    LrFile file;
+    file.vertex_count = static_cast<std::uint32_t>(encoded.vertex_order.size());
+    file.input_triangles = static_cast<std::uint32_t>(mesh.triangle_count());
+    file.format = encoded.format;
+    file.words = std::move(encoded.words);
+    for (Attribute& attribute : permute_attributes(mesh.attributes, encoded.vertex_order)) {
+        file.attributes.push_back({std::move(attribute), {}});
+    }
+    if (keep_order) {
+        file.corner_order = find_corners(mesh, file, encoded.triangle_order, encoded.vertex_order);
+        file.vertex_order = std::move(encoded.vertex_order);
+    }
+    return file;
+}
+
+std::vector<std::byte> serialize_lr(const LrFile& file) {
+    std::vector<Section> sections;
+    std::vector<std::vector<std::byte>> names;  // beside sections; empty but for attributes
+    std::vector<std::span<const std::byte>> contents;
+    const auto add = [&](Kind kind, std::span<const std::byte> data) {
+        sections.push_back({kind, 0, 0, 0, 0, 0, 0});
+        names.emplace_back();
+        contents.push_back(data);
+    };
+    add(kind_of(file.format), std::as_bytes(std::span(file.words)));
+    if (!file.seams.empty()) add(kSeams, std::as_bytes(std::span(file.seams)));
+    for (const LrAttribute& attribute : file.attributes) {
+        const bool stream = !attribute.words.empty();
+        add(stream ? kVertices : kAttribute, stream ? std::as_bytes(std::span(attribute.words)) : attribute.data);
+        sections.back().layout = (attribute.v_up ? kVUp : 0U) | (attribute.per_copy ? kPerCopy : 0U);
+        if (!stream) {
+            sections.back().layout |= static_cast<std::uint32_t>(attribute.type) |
+                                      std::uint32_t{attribute.components} << 8 |
+                                      (attribute.normalized ? kNormalized : 0U);
+        }
+        sections.back().name_length = static_cast<std::uint32_t>(attribute.name.size());
+        names.back().resize(align8(attribute.name.size()));
+        std::memcpy(names.back().data(), attribute.name.data(), attribute.name.size());
+    }
+    if (!file.vertex_order.empty()) add(kVertexOrder, std::as_bytes(std::span(file.vertex_order)));
+    if (!file.corner_order.empty()) add(kCornerOrder, std::as_bytes(std::span(file.corner_order)));
+
+    std::size_t end = sizeof(FileHeader) + sections.size() * sizeof(Section);
+    for (std::size_t i = 0; i < sections.size(); ++i) {
+        sections[i].offset = align8(end);
+        sections[i].size = names[i].size() + contents[i].size();
+        sections[i].crc = crc32(contents[i], crc32(names[i]));
+        end = sections[i].offset + sections[i].size;
+    }
+    FileHeader header{
+        magic::kLrFile,       kLrVersion,      static_cast<std::uint32_t>(sections.size()), file.vertex_count,
+        file.input_triangles, file.copy_count, crc32(std::as_bytes(std::span(sections))),   0};
+    header.header_crc = crc32(std::as_bytes(std::span(&header, 1)).first(28));
+    std::vector<std::byte> out(end);
+    const auto put = [&](std::size_t offset, std::span<const std::byte> data) {
+        if (!data.empty()) std::memcpy(out.data() + offset, data.data(), data.size());
+    };
+    put(0, std::as_bytes(std::span(&header, 1)));
+    put(sizeof header, std::as_bytes(std::span(sections)));
+    for (std::size_t i = 0; i < sections.size(); ++i) {
+        put(sections[i].offset, names[i]);
+        put(sections[i].offset + names[i].size(), contents[i]);
+    }
+    return out;
+}
+
+Result<void> write_lr(const LrFile& file, const std::filesystem::path& path) {
+    const std::vector<std::byte> bytes = serialize_lr(file);
+    const std::span<const std::byte> parts[] = {bytes};
+    return write_file(path, parts);
+}
+
+}  // namespace lacedring

@@ -1,0 +1,170 @@
+// Reads .lr files and checks all that is in them.
+
+#include <algorithm>
+#include <cmath>
+
+#include "lacedring/file.hpp"
+#include "lrcore/base/bits.h"
+#include "lrio/file/lr_layout.h"
+
+namespace lacedring {
+namespace {
+
+using namespace detail;  // lr_layout.h's
+
+class Reader {
+  public:
+    Result<LrFile> read(std::span<const std::byte> bytes) {
+        const Result<FileHeader> header = visit_sections(
+            bytes,
+            [this](const FileHeader& h, const Section& section, std::span<const std::byte> contents) -> std::string {
+                file_.vertex_count = h.vertices;
+                file_.input_triangles = h.input_triangles;
+                file_.copy_count = h.copies;
+                if (section.crc != crc32(contents)) return "is damaged";
+                return read_section(h, section, contents);
+            });
+        if (!header) return header.error();
+        if (std::string why = check(); !why.empty()) return malformed_lr(std::move(why));
+        return std::move(file_);
+    }
+
+  private:
+    std::string read_section(const FileHeader& header, const Section& section, std::span<const std::byte> contents) {
+        switch (section.kind) {
+            case kLean:
+            case kLr:
+            case kLrCompact:
+            case kPacked:
+                file_.format = format_of(section.kind);
+                return read_words(contents, file_.words);
+            case kVertexOrder:
+                return read_words(contents, file_.vertex_order);
+            case kCornerOrder:
+                return read_words(contents, file_.corner_order);
+            case kSeams:
+                return read_words(contents, file_.seams);
+            case kAttribute:
+                return read_attribute(header, section, contents);
+            case kVertices:
+                return read_stream(header, section, contents);
+            default:
+                return fmt::format("unknown kind {}", section.kind);
+        }
+    }
+
+    static std::string read_words(std::span<const std::byte> contents, std::vector<std::uint32_t>& words) {
+        if (!words.empty()) return "occurs twice";
+        if (contents.size() % 4 != 0) return "no whole number of words";
+        words.resize(contents.size() / 4);
+        if (!words.empty()) std::memcpy(words.data(), contents.data(), contents.size());
+        return {};
+    }
+
+    std::string read_attribute(const FileHeader& header, const Section& section, std::span<const std::byte> contents) {
+        AttributeView view;
+        if (std::string why = view_attribute(header, section, contents, view); !why.empty()) return why;
+        file_.attributes.push_back({{std::string(view.name),
+                                     view.type,
+                                     view.components,
+                                     view.normalized,
+                                     {view.data.begin(), view.data.end()},
+                                     view.v_up},
+                                    {},
+                                    view.per_copy});
+        return {};
+    }
+
+    std::string read_stream(const FileHeader& header, const Section& section, std::span<const std::byte> contents) {
+        // A copy, since the bytes may begin anywhere.
+        std::vector<std::uint32_t> words((contents.size() + 3) / 4);
+        if (!words.empty()) std::memcpy(words.data(), contents.data(), contents.size());
+        AttributeView view;
+        const auto copy = std::as_bytes(std::span(words)).first(contents.size());
+        if (std::string why = view_stream_of(header, section, copy, view); !why.empty()) return why;
+        if (const Result<VertexView> valid = validate_vertices(view.words); !valid) return valid.error().message;
+        file_.attributes.push_back(
+            {{std::string(view.name), view.type, view.components, view.normalized, {}, view.v_up},
+             {view.words.begin(), view.words.end()},
+             view.per_copy});
+        return {};
+    }
+
+    std::string check() const {
+        if (file_.seams.empty() != (file_.copy_count == 0)) return "seams without copies, or copies without seams";
+        if (file_.attributes.empty() || file_.attributes[0].name != "POSITION" || file_.attributes[0].components != 3 ||
+            (file_.attributes[0].type != ComponentType::f32 && file_.attributes[0].type != ComponentType::f64) ||
+            file_.attributes[0].per_copy) {
+            return "the first attribute is not POSITION";
+        }
+        const Result<DecodedLr> decoded = decode_connectivity(file_, true);
+        if (!decoded) return decoded.error().message;
+        const std::size_t triangles = decoded->indices.size() / 3;
+        if (triangles > file_.input_triangles) return "more triangles than the input had";
+        if (!finite(decode_attribute(file_.attributes[0]))) return "a position is not finite as a float";
+        if (!file_.vertex_order.empty()) {
+            if (file_.vertex_order.size() != std::max(file_.vertex_count, file_.copy_count))
+                return "the vertex order has another size";
+            std::vector<std::uint32_t> order = file_.vertex_order;
+            decoded->remove_extra(order);
+            const auto kept = static_cast<std::uint32_t>(order.size());
+            if (!permutation_into(order, kept, kept)) return "the vertex order is no permutation";
+        }
+        if (!file_.corner_order.empty()) {
+            std::vector<std::uint32_t> order = file_.corner_order;
+            for (std::uint32_t& corner : order) corner /= 3;
+            if (!permutation_into(order, triangles, file_.input_triangles)) return "the corner order is no permutation";
+        }
+        return {};
+    }
+
+    /// As floats: what draws or exports a mesh has no other.
+    static bool finite(const Attribute& attribute) {
+        const std::size_t size = size_of(attribute.type);
+        for (std::size_t i = 0; i < attribute.data.size(); i += size) {
+            double value = 0;
+            if (attribute.type == ComponentType::f64) {
+                std::memcpy(&value, attribute.data.data() + i, sizeof value);
+            } else {
+                float single = 0;
+                std::memcpy(&single, attribute.data.data() + i, sizeof single);
+                value = static_cast<double>(single);
+            }
+            if (!std::isfinite(static_cast<float>(value))) return false;
+        }
+        return true;
+    }
+
+    /// `size` distinct numbers below `range`?
+    static bool permutation_into(std::span<const std::uint32_t> order, std::size_t size, std::uint32_t range) {
+        if (order.size() != size || size > range) return false;
+        if (range / 64 > size) {  // mostly degenerate input, or a hostile count: no flag for each
+            std::vector<std::uint32_t> sorted(order.begin(), order.end());
+            std::sort(sorted.begin(), sorted.end());
+            return sorted.empty() ||
+                   (sorted.back() < range && std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end());
+        }
+        BitVector seen(range);
+        for (const std::uint32_t i : order) {
+            if (i >= range || seen.test(i)) return false;
+            seen.set(i);
+        }
+        return true;
+    }
+
+    LrFile file_;
+};
+
+}  // namespace
+
+Result<LrFile> parse_lr(std::span<const std::byte> bytes) {
+    return Reader().read(bytes);
+}
+
+Result<LrFile> read_lr(const std::filesystem::path& path) {
+    Result<std::vector<std::byte>> bytes = read_file(path);
+    if (!bytes) return bytes.error();
+    return parse_lr(*bytes);
+}
+
+}  // namespace lacedring

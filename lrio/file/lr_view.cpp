@@ -1,0 +1,133 @@
+// .lr files where they lie, in a mapping above all: what they consist of, without a copy.
+
+#include <algorithm>
+
+#include "lrio/file/lr_layout.h"
+
+namespace lacedring {
+namespace {
+
+using namespace detail;  // lr_layout.h's
+
+constexpr const char* kMappingNames[] = {"integers", "lattice", "octahedral", "floats", "decimals", "doubles"};
+
+/// Fills what a vertex stream's header says, which may lie anywhere; empty if it is sound.
+std::string list_stream(const Section& section, std::span<const std::byte> contents, LrSection& listed) {
+    std::vector<std::uint32_t> words((contents.size() + 3) / 4);
+    if (!words.empty()) std::memcpy(words.data(), contents.data(), contents.size());
+    AttributeView view;
+    if (std::string why = view_name(section, contents, view); !why.empty()) return why;
+    listed.name = view.name;
+    const Result<VertexView> stream = view_vertices(std::span(words).subspan(align8(section.name_length) / 4));
+    if (!stream) return stream.error().message;
+    listed.type = stream->type;
+    listed.components = stream->components;
+    listed.mapping = kMappingNames[static_cast<std::size_t>(stream->mapping)];
+    listed.largest_error = stream->largest_error;
+    return {};
+}
+
+}  // namespace
+
+bool is_lr(std::span<const std::byte> bytes) {
+    std::uint32_t number = 0;
+    if (bytes.size() < sizeof number) return false;
+    std::memcpy(&number, bytes.data(), sizeof number);
+    return number == magic::kLrFile;
+}
+
+Result<LrContents> list_lr(std::span<const std::byte> bytes) {
+    LrContents out;
+    const Result<FileHeader> header = visit_sections(
+        bytes, [&](const FileHeader&, const Section& section, std::span<const std::byte> contents) -> std::string {
+            if (section.kind == 0 || section.kind >= std::size(kKindNames))
+                return fmt::format("unknown kind {}", section.kind);
+            LrSection& listed = out.sections.emplace_back();
+            listed.kind = kKindNames[section.kind];
+            listed.bytes = section.size;
+            listed.per_copy = (section.layout & kPerCopy) != 0;
+            if (section.kind == kVertices) return list_stream(section, contents, listed);
+            if (section.kind != kAttribute) return {};
+            if (section.name_length > contents.size()) return "attribute of the wrong size";
+            listed.name.assign(reinterpret_cast<const char*>(contents.data()), section.name_length);
+            listed.type = static_cast<ComponentType>(std::min(section.layout & 0xffU, 7U));
+            listed.components = static_cast<std::uint8_t>(section.layout >> 8 & 0xff);
+            return {};
+        });
+    if (!header) return header.error();
+    out.version = header->version;
+    out.vertices = header->vertices;
+    out.copies = header->copies;
+    out.input_triangles = header->input_triangles;
+    out.bytes = bytes.size();
+    return out;
+}
+
+Result<StreamView> LrFileView::validate() const {
+    Result<StreamView> view = lacedring::validate(words);
+    if (!view) return view;
+    if (view->format() != format) return malformed_lr("the stream is of another format than its section");
+    if (view->vertices() != vertex_count) return malformed_lr("connectivity and file have different vertex counts");
+    if (seams.empty()) return view;
+    const Result<SeamView> valid = validate_seams(seams, slot_triangles(*view), vertex_count);
+    if (!valid) return valid.error();
+    if (valid->copies != copy_count) return malformed_lr("seams and file have different numbers of copies");
+    return view;
+}
+
+Positions LrFileView::positions() const {
+    const auto position = std::ranges::find(attributes, "POSITION", &AttributeView::name);
+    if (position == attributes.end() || position->components != 3) return {};
+    if (position->type != ComponentType::f32 && position->type != ComponentType::f64) return {};
+    return {position->data, position->type == ComponentType::f64};
+}
+
+Result<LrFileView> view_lr_file(std::span<const std::byte> bytes) {
+    LrFileView out;
+    if (reinterpret_cast<std::uintptr_t>(bytes.data()) % 8 != 0) {  // words are read where they lie
+        if (std::string why = not_an_lr_file(bytes); !why.empty()) return Error{ErrorCode::malformed, std::move(why)};
+        return Error{ErrorCode::invalid_argument, "the file does not begin at a multiple of eight bytes"};
+    }
+    const auto view_words = [](std::span<const std::byte> contents, std::span<const std::uint32_t>& words) {
+        if (words.data() != nullptr) return "occurs twice";
+        if (contents.size() % 4 != 0) return "no whole number of words";
+        words = {reinterpret_cast<const std::uint32_t*>(contents.data()), contents.size() / 4};
+        return "";
+    };
+    const Result<FileHeader> header = visit_sections(
+        bytes, [&](const FileHeader& h, const Section& section, std::span<const std::byte> contents) -> std::string {
+            switch (section.kind) {
+                case kLean:
+                case kLr:
+                case kLrCompact:
+                case kPacked:
+                    out.format = format_of(section.kind);
+                    return view_words(contents, out.words);
+                case kVertexOrder:
+                    return view_words(contents, out.vertex_order);
+                case kCornerOrder:
+                    return view_words(contents, out.corner_order);
+                case kSeams:
+                    return view_words(contents, out.seams);
+                case kAttribute:
+                    return view_attribute(h, section, contents, out.attributes.emplace_back());
+                case kVertices:
+                    return view_stream_of(h, section, contents, out.attributes.emplace_back());
+                default:
+                    return fmt::format("unknown kind {}", section.kind);
+            }
+        });
+    if (!header) return header.error();
+    if (out.words.data() == nullptr) return malformed_lr("no connectivity");
+    if (out.seams.empty() != (header->copies == 0))
+        return malformed_lr("seams without copies, or copies without seams");
+    out.vertex_count = header->vertices;
+    out.copy_count = header->copies;
+    out.input_triangles = header->input_triangles;
+    if (!out.vertex_order.empty() && out.vertex_order.size() != std::max(out.vertex_count, out.copy_count)) {
+        return malformed_lr("the vertex order has another size");
+    }
+    return out;
+}
+
+}  // namespace lacedring
