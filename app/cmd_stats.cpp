@@ -58,11 +58,11 @@ Json sizes_to_json(const std::string& path, const Mesh& mesh, const FormatSet& s
     for (const MeasuredFormat& format : set.formats) {
         const CacheFigures cache = analyze_fifo32(format.indices, format.vertex_count(mesh));
         Json entry = {{"bytes", format.bytes},
+                      {"seam_bytes", format.seam_bytes},
                       {"bits_per_triangle", 8 * static_cast<double>(format.bytes) / triangles},
                       {"references_per_triangle", static_cast<double>(format.references) / triangles},
                       {"acmr_fifo32", cache.acmr},
                       {"atvr_fifo32", cache.atvr}};
-        if (format.seam_bytes != 0) entry["seam_bytes"] = format.seam_bytes;
         if (format.deflated != 0) entry["bytes_deflated"] = format.deflated;
         if (format.ring != nullptr) {
             entry["ring"] = format.ring;
@@ -106,16 +106,21 @@ void print_sizes(const std::string& path, const Mesh& mesh, const FormatSet& set
     if (lr) print_contents(*lr);
     print("  ring: {} vertices on it, {} isolated; T0 {:.2f} %, in warts {:.2f} %, T2 {:.2f} %\n\n",
           set.lean.ring_vertices, set.lean.isolated, share(set.lean.t0), share(set.lean.t0_wart), share(set.lean.t2));
-    print("  {:<20}{:>11}{:>10}{:>10}{:>10}{:>10}{:>10}{:>11}\n", "format", "bytes", "bits/tri", "refs/tri", "of u32",
-          "ACMR(32)", "ATVR(32)", "deflated");
+    const bool seams = set.seam_edges > 0;
+    print("  {:<20}{:>11}{:>10}{}{:>10}{:>10}{:>10}{:>10}{:>11}\n", "format", "bytes", "bits/tri",
+          seams ? "   + seams" : "", "refs/tri", "of u32", "ACMR(32)", "ATVR(32)", "deflated");
     const auto base = static_cast<double>(set.formats.front().bytes);
     for (const MeasuredFormat& format : set.formats) {
-        const auto bytes = static_cast<double>(format.bytes);
+        const auto bits = [&](std::size_t bytes) { return 8 * static_cast<double>(bytes) / triangles; };
+        const auto all = static_cast<double>(format.bytes + format.seam_bytes);
         const CacheFigures cache = analyze_fifo32(format.indices, format.vertex_count(mesh));
-        print("  {:<20}{:>11}{:>10.2f}{:>10}{:>8.1f} %{:>10.3f}{:>10.3f}{:>11}\n", format.name, format.bytes,
-              8 * bytes / triangles,
+        print("  {:<20}{:>11}{:>10.2f}{}{:>10}{:>8.1f} %{:>10.3f}{:>10.3f}{:>11}\n", format.name, format.bytes,
+              bits(format.bytes),
+              !seams                  ? ""
+              : format.seam_bytes > 0 ? fmt::format("{:>10.2f}", bits(format.seam_bytes))
+                                      : fmt::format("{:>10}", format.of_surface ? "lost" : ""),
               format.references == 0 ? "" : fmt::format("{:.3f}", static_cast<double>(format.references) / triangles),
-              base > 0 ? 100 * bytes / base : 0.0, cache.acmr, cache.atvr,
+              base > 0 ? 100 * all / base : 0.0, cache.acmr, cache.atvr,
               format.deflated == 0 ? "" : fmt::format("{}", format.deflated));
     }
     if (set.best_order) {
@@ -123,16 +128,8 @@ void print_sizes(const std::string& path, const Mesh& mesh, const FormatSet& set
               set.best_order->acmr, set.best_order->atvr);
     }
     for (const auto& [name, reason] : set.absent) print("  {:<20}absent: {}\n", name, reason);
-    if (set.seam_edges > 0) {
-        const auto seam_bits = [&](const MeasuredFormat& format) {
-            return format.seam_bytes == 0
-                       ? ""
-                       : fmt::format(" {} {:.2f}", format.name, 8 * static_cast<double>(format.seam_bytes) / triangles);
-        };
-        std::string line;
-        for (const MeasuredFormat& format : set.formats) line += seam_bits(format);
-        print("  of these bits for seams:{}; winged_edge, corner_table and squad have none\n", line);
-    }
+    if (seams)
+        print("  + seams: bits/tri beside the format's, which \"of u32\" counts; lost: it has the surface alone\n");
     print("\n");
 }
 

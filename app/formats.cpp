@@ -49,7 +49,6 @@ void add_indices(MeasuredFormat& format, const Subject& subject, Encoded encoded
     std::erase(format.indices, UINT32_MAX);
     format.order = std::move(seams->copy_order);
     format.seam_bytes = 4 * seams->words.size();
-    format.bytes += format.seam_bytes;
 }
 
 /// The lean stream, decoded twice: as a whole, and slot by slot.

@@ -30,7 +30,7 @@ struct MeasuredFormat {
     std::uint32_t k = 0;         ///< of the hybrid
     std::uint32_t passes = 0;    ///< of the optimiser
     std::size_t copies = 0;      ///< of non-manifold vertices: entries of `order` beyond the mesh's vertices
-    std::size_t seam_bytes = 0;  ///< those of `bytes` that are the seam section's
+    std::size_t seam_bytes = 0;  ///< of the seam section, beside `bytes`
     bool of_surface = false;     ///< `indices` and `order` are of the surface: it has no copies for seams
     std::size_t deflated = 0;    ///< bytes after zlib, of a format that is for transmission; else 0
     std::string invalid = {};    ///< what the format's own validation found wrong; empty if nothing
