@@ -1,4 +1,4 @@
-/* Prints the mesh of an .lr file (docs/lr-file.md) as OBJ: what lacedring encode MESH -o FILE.lr writes. */
+/* Prints the surface of an .lr file (docs/lr-file.md) as OBJ: what lacedring encode MESH -o FILE.lr writes. */
 #define LACEDRING_DECODE_IMPLEMENTATION
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,10 +9,12 @@
 static uint32_t* file_words; /* the whole file; sections begin at multiples of eight bytes */
 static size_t file_count;
 
-/* The words of section i of one kind: 7 is a packed stream, 8 an attribute as a vertex stream. */
-static const uint32_t* section(uint32_t i, uint32_t kind, size_t* count) {
-    const uint32_t* s = file_words + 8 + (size_t)8 * i; /* kind, CRC-32, offset, size, layout, length of the name */
-    if (file_count < 16 + (size_t)8 * i || s[0] != kind) return NULL;
+/* The words of the first section of one kind: 7 is a packed stream, 8 an attribute as a vertex stream. */
+static const uint32_t* section(uint32_t kind, size_t* count) {
+    const uint32_t* s = file_words + 8; /* kind, CRC-32, offset, size, layout, length of the name */
+    uint32_t left = file_count < 8 ? 0 : file_words[2];
+    while (left > 0 && file_count >= (size_t)(s - file_words) + 8 && s[0] != kind) s += 8, --left;
+    if (left == 0 || file_count < (size_t)(s - file_words) + 8) return NULL;
     if (s[3] != 0 || s[5] != 0 || s[2] / 4 > file_count || s[4] / 4 > file_count - s[2] / 4) return NULL;
     *count = s[4] / 4;
     return file_words + s[2] / 4;
@@ -35,11 +37,11 @@ int main(int argc, char** argv) {
     fclose(file);
     file_count = size / 4;
 
-    words = section(0, 7, &count);
+    words = section(7, &count);
     if (words == NULL || lacedring_packed_validate(words, count, &packed, NULL) != LACEDRING_STATUS_OK) {
         return fputs("no valid packed stream\n", stderr), 1;
     }
-    words = section(1, 8, &count); /* the name POSITION takes eight bytes */
+    words = section(8, &count); /* the name POSITION, which is the first, takes eight bytes */
     if (words == NULL || count < 2 || memcmp(words, "POSITION", 8) != 0 ||
         lacedring_vertices_validate(words + 2, count - 2, &positions, NULL) != LACEDRING_STATUS_OK ||
         positions.vertices != packed.vertices || positions.type != 6 || lacedring_vertices_values(&positions) != 3) {
