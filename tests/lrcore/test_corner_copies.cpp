@@ -236,7 +236,7 @@ void check_texcoords(const LrStreamView<View>& tables, const StreamView& stream,
 }  // namespace
 
 TEST_CASE("a corner's copy at random access is what the whole section decodes to") {
-    std::uint64_t seed = 1;
+    std::uint32_t seed = 0;
     Seen seen;
     for (const test::NamedMesh& named : test::named_meshes()) {
         if (named.mesh.triangle_count() > 1000) continue;
@@ -248,7 +248,8 @@ TEST_CASE("a corner's copy at random access is what the whole section decodes to
             if (!encoded) continue;
             const Result<StreamView> stream = validate(encoded->words);
             REQUIRE_MESSAGE(stream, stream.error().message);
-            for (std::uint32_t how = 0; how < test::kCuts; ++how) check_copies(*stream, how, ++seed, seen);
+            check_copies(*stream, seed % test::kCuts, seed, seen);  // all ways to cut, in turn
+            ++seed;
         }
     }
     CHECK(seen.redundant > 0);
