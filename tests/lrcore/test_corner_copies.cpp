@@ -72,7 +72,7 @@ void check_copies(const StreamView& stream, std::uint32_t how, std::uint64_t see
 
     for (std::uint32_t b = 0; b < view->blocks(); ++b) {
         const auto begin = slots.begin() + std::ptrdiff_t{3} * kSeamBlock * b;
-        Numbers alone(std::min<std::size_t>(3 * kSeamBlock, static_cast<std::size_t>(slots.end() - begin)));
+        Numbers alone(std::min(std::size_t{3} * kSeamBlock, static_cast<std::size_t>(slots.end() - begin)));
         slot_triangles(stream, b, alone);
         REQUIRE(std::ranges::equal(alone, std::span(begin, alone.size())));
     }
