@@ -25,12 +25,21 @@ int main(void) {
             status = lacedring_seams_check(&seams, triangles, scratch, NULL);
             if (status == LACEDRING_STATUS_OK && *sound) {
                 uint32_t *copies = malloc(4 * corners + 4), *wanted = take(corners);
-                if (copies == NULL) return 2;
+                uint32_t* vertices = malloc(4 * (size_t)seams.copies + 4);
+                size_t k;
+                if (copies == NULL || vertices == NULL) return 2;
                 lacedring_seams_decode(&seams, triangles, scratch, copies);
                 if (memcmp(copies, wanted, 4 * corners) != 0) {
                     printf("section %u: other copies\n", (unsigned)section);
                     return 1;
                 }
+                lacedring_seams_copy_vertices(&seams, triangles, scratch, vertices);
+                for (k = 0; k < corners; ++k) {
+                    if (copies[k] == UINT32_MAX || vertices[copies[k]] == triangles[k]) continue;
+                    printf("section %u: a copy of another vertex\n", (unsigned)section);
+                    return 1;
+                }
+                free(vertices);
                 free(copies);
                 free(wanted);
             }

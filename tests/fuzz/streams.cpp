@@ -223,7 +223,9 @@ void mend_seams(Words& words) {
     const std::size_t space = words.size() - head - LACEDRING_SEAMS_HEADER_WORDS;
     words[1] = static_cast<std::uint32_t>(std::min<std::size_t>(words[1], space / 3));
     const std::size_t corners = std::size_t{3} * words[1];
-    for (std::size_t c = 0; c < corners && words[0] > 0; ++c) words[head + c] %= words[0];
+    for (std::size_t c = 0; c < corners && words[0] > 0; ++c) {
+        if (words[head + c] != UINT32_MAX) words[head + c] %= words[0];  // UINT32_MAX: the slot is empty
+    }
     const std::span<std::uint32_t> section = std::span(words).subspan(head + corners);
     section[0] = magic::kSeams;
     section[1] = crc32(std::as_bytes(section.subspan(2)));

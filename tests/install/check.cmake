@@ -63,6 +63,8 @@ run(${CMAKE_COMMAND} -S ${SOURCE}/examples -B ${WORK}/core -Dlacedring_DIR=${WOR
 run(${CMAKE_COMMAND} --build ${WORK}/core)
 run(${WORK}/core/encode)
 expect("${encode_prints}")
+run(${WORK}/core/seams)
+expect("^8 vertices, 24 copies, 12 sharp edges\n$")
 
 # add_subdirectory, where no package can be found.
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/subdirectory -B ${WORK}/subdirectory -DLACEDRING=${SOURCE}

@@ -9,6 +9,7 @@
 #include "lrcore/base/crc32.h"
 #include "lrcore/base/message.h"
 #include "lrcore/base/signature.h"
+#include "lrcore/codec/tables/tables_decode.h"
 
 namespace lacedring {
 namespace {
@@ -55,6 +56,19 @@ lacedring_seams as_c(const SeamView& view) {
     return out;
 }
 
+/// Corners of a block of `slots` slots.
+std::size_t block_corners(std::uint32_t slots, std::uint32_t block) {
+    return std::size_t{3} * std::min(slots - block * kSeamBlock, kSeamBlock);
+}
+
+/// The slots from `first` on, one by one, as many as there is room for.
+void write_slots(const StreamView& stream, std::uint32_t first, std::span<std::uint32_t> triangles) {
+    for (std::size_t i = 0; i < triangles.size(); i += 3, ++first) {
+        const Triangle t = decode_triangle(stream, first).value_or(Triangle{{UINT32_MAX, UINT32_MAX, UINT32_MAX}});
+        std::ranges::copy(t.v, triangles.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+}
+
 }  // namespace
 
 Result<SeamView> view_seams(std::span<const std::uint32_t> words, std::uint32_t triangles, std::uint32_t vertices) {
@@ -94,24 +108,32 @@ void decode_seams(const SeamView& view, std::span<const std::uint32_t> triangles
 void decode_seam_block(const SeamView& view, std::uint32_t block, std::span<const std::uint32_t> triangles,
                        std::span<std::uint32_t> copies) {
     assert(block < view.blocks());
-    assert(triangles.size() == std::size_t{3} * std::min(view.triangles - block * kSeamBlock, kSeamBlock));
+    assert(triangles.size() == block_corners(view.triangles, block));
     assert(copies.size() == triangles.size());
     const lacedring_seams seams = as_c(view);
     lacedring_seams_block(&seams, block, triangles.data(), copies.data());
 }
 
 std::vector<std::uint32_t> slot_triangles(const StreamView& stream) {
-    std::vector<std::uint32_t> out(std::size_t{3} * stream.slots(), UINT32_MAX);
+    std::vector<std::uint32_t> out(std::size_t{3} * stream.slots());
     if (const PackedView* packed = stream.get<PackedView>()) {
         decode_packed(*packed, out);
         return out;
     }
-    for (std::uint32_t slot = 0; slot < stream.slots(); ++slot) {
-        if (const std::optional<Triangle> t = decode_triangle(stream, slot)) {
-            std::ranges::copy(t->v, out.begin() + std::ptrdiff_t{3} * slot);
-        }
-    }
+    write_slots(stream, 0, out);
     return out;
+}
+
+void slot_triangles(const StreamView& stream, std::uint32_t block, std::span<std::uint32_t> triangles) {
+    assert(triangles.size() == block_corners(stream.slots(), block));
+    const PackedView* packed = stream.get<PackedView>();
+    if (packed == nullptr) return write_slots(stream, block * kSeamBlock, triangles);
+    constexpr std::size_t kCorners = std::size_t{3} * StreamView::kBlock;
+    for (std::uint32_t b = block * (kSeamBlock / StreamView::kBlock); !triangles.empty(); ++b) {
+        const std::size_t size = std::min(triangles.size(), kCorners);
+        decode_packed_block(*packed, b, triangles.first(size));
+        triangles = triangles.subspan(size);
+    }
 }
 
 void first_copies(const SeamView& view, std::span<std::uint32_t> first) {
@@ -119,6 +141,45 @@ void first_copies(const SeamView& view, std::span<std::uint32_t> first) {
     const lacedring_seams seams = as_c(view);
     lacedring_seams_homes(&seams, first.data());
     for (std::uint32_t& copy : first) copy >>= 1;
+}
+
+void copy_vertices(const SeamView& view, std::span<const std::uint32_t> triangles, std::span<std::uint32_t> vertices) {
+    assert(triangles.size() == std::size_t{3} * view.triangles && vertices.size() == view.copies);
+    const lacedring_seams seams = as_c(view);
+    std::vector<std::uint32_t> home(std::size_t{view.vertices} + 1);
+    lacedring_seams_copy_vertices(&seams, triangles.data(), home.data(), vertices.data());
+}
+
+CornerCopies::CornerCopies(const StreamView& stream, const SeamView& seams) : stream_(stream), seams_(seams) {
+    assert(stream.slots() == seams.triangles && stream.vertices() == seams.vertices);
+    for (std::uint32_t i = 0; i < recent_.size(); ++i) recent_[i] = {UINT32_MAX, i};
+}
+
+std::uint32_t CornerCopies::copy(std::uint32_t slot, std::uint32_t place) {
+    assert(slot < seams_.triangles && place < 3);
+    const std::uint32_t block = slot / kSeamBlock;
+    auto found = std::ranges::find(recent_, block, &Cached::block);
+    if (found == recent_.end()) {
+        --found;
+        std::array<std::uint32_t, std::size_t{3} * kSeamBlock> buffer;
+        const std::span triangles = std::span(buffer).first(block_corners(seams_.triangles, block));
+        slot_triangles(stream_, block, triangles);
+        decode_seam_block(seams_, block, triangles, std::span(copies_[found->entry]).first(triangles.size()));
+        found->block = block;
+    }
+    std::rotate(recent_.begin(), found, found + 1);
+    return copies_[recent_.front().entry][std::size_t{3} * (slot % kSeamBlock) + place];
+}
+
+std::uint32_t CornerCopies::copy(CornerId c) {
+    const auto in = [&](const auto& tables) {
+        const CornerId own = Operators(tables).canonical(c);
+        return own.is_null() ? UINT32_MAX : copy(own.value / 4, detail::place_of(tables, own));
+    };
+    if (const auto* lr = stream_.get<LrStreamView<LrView>>()) return in(lr->view);
+    const auto* compact = stream_.get<LrStreamView<CompactLrView>>();
+    assert(compact != nullptr);
+    return in(compact->view);
 }
 
 }  // namespace lacedring

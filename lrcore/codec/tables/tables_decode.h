@@ -30,6 +30,13 @@ Triangle table_triangle(const Operators<View>& ops, std::uint32_t t) {
     return out;
 }
 
+/// Which of table_triangle's vertices a corner is at.
+template <class View>
+std::uint32_t place_of(const View& view, CornerId c) {
+    const std::uint32_t k = c.value % 4;
+    return view.flipped(c.value / 4) ? 2 - k : k;
+}
+
 template <class View>
 std::optional<Triangle> decode_slot(const LrStreamView<View>& stream, std::uint32_t t) {
     const Operators<View> ops(stream.view);

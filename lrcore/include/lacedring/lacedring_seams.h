@@ -115,6 +115,11 @@ void lacedring_seams_decode(const struct lacedring_seams* seams, const uint32_t*
 void lacedring_seams_block(const struct lacedring_seams* seams, uint32_t block, const uint32_t* triangles,
                            uint32_t* copies);
 
+/* The vertex of each copy: seams->copies entries. Fills `home` as lacedring_seams_homes does. Linear time, 26 KB of
+   stack. */
+void lacedring_seams_copy_vertices(const struct lacedring_seams* seams, const uint32_t* triangles, uint32_t* home,
+                                   uint32_t* vertices);
+
 /* Steps of the format that the encoder takes, too. */
 
 /* Which of a triangle's vertices it is, or 3. */
@@ -638,6 +643,26 @@ void lacedring_seams_block(const struct lacedring_seams* s, uint32_t block, cons
         }
     }
     lacedring_seam_walk_end_(s, &w, copies);
+}
+
+void lacedring_seams_copy_vertices(const struct lacedring_seams* s, const uint32_t* triangles, uint32_t* home,
+                                   uint32_t* vertices) {
+    const uint32_t blocks = lacedring_seam_block_count_(s->triangles);
+    uint32_t block, v, k, copies[LACEDRING_SEAM_CORNERS_];
+    struct lacedring_seam_walk_ w;
+    lacedring_seams_homes(s, home);
+    for (v = 0; v < s->vertices; ++v) {
+        for (k = home[v] >> 1; k < home[v + 1] >> 1; ++k) vertices[k] = v;
+    }
+    for (block = 0; block < blocks; ++block) {
+        lacedring_seam_walk_begin_(s, block, triangles + (size_t)block * LACEDRING_SEAM_CORNERS_, &w);
+        if (w.r.copies == 0) continue; /* no private copy begins here */
+        lacedring_seam_gather_(&w, home);
+        lacedring_seam_walk_end_(s, &w, copies);
+        for (k = 0; k < 3 * w.count; ++k) {
+            if (copies[k] != UINT32_MAX) vertices[copies[k]] = w.triangles[k];
+        }
+    }
 }
 
 enum lacedring_status lacedring_seams_check(const struct lacedring_seams* s, const uint32_t* triangles,

@@ -7,6 +7,7 @@
 // other copy is numbered behind these, by the block of 512 triangles that meets it first. A block decodes alone, from
 // its triangles and the blocks of its vertices.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -67,8 +68,48 @@ void decode_seam_block(const SeamView& view, std::uint32_t block, std::span<cons
 /// Cost: O(T).
 std::vector<std::uint32_t> slot_triangles(const StreamView& stream);
 
+/// The same of one block of 512 slots: what decode_seam_block takes. 3 * 512 entries, or what the last block has.
+/// Reads a bounded number of words: no allocation.
+void slot_triangles(const StreamView& stream, std::uint32_t block, std::span<std::uint32_t> triangles);
+
 /// The home copies of vertex v are first[v] to first[v + 1] - 1: view.vertices + 1 entries. At least one a vertex: its
 /// position is that of copy first[v].
 void first_copies(const SeamView& view, std::span<std::uint32_t> first);
+
+/// The vertex of each copy, home or not: view.copies entries. With it, positions and other data of the vertices are
+/// expanded to the copies. `triangles` as for decode_seams. Cost: O(T) time, 4 bytes a vertex.
+void copy_vertices(const SeamView& view, std::span<const std::uint32_t> triangles, std::span<std::uint32_t> vertices);
+
+/// The copies of single corners, at random access:
+///
+///     CornerCopies copies(stream, seams);
+///     ops.star(v, [&](CornerId c) { use(normals[copies.copy(c)]); });
+///
+/// A question decodes the corner's block, in about 0.1 ms, if it is not among the last eight that were used. The
+/// triangles around a vertex lie in about three blocks, and so do those around the next vertices on the ring. Reads a
+/// bounded number of words. An object has 48 KB, allocates nothing, and is for one thread; other threads make their
+/// own.
+class CornerCopies {
+  public:
+    /// Both are valid, and the words that they view outlive the object. `seams` is of the slots of `stream`.
+    CornerCopies(const StreamView& stream, const SeamView& seams);
+
+    /// The copy at vertex 0, 1 or 2 of decode_triangle(stream, slot); UINT32_MAX if the slot has no triangle.
+    std::uint32_t copy(std::uint32_t slot, std::uint32_t place);
+
+    /// The copy at a corner of Operators on the stream, which is LR tables; UINT32_MAX if the corner has no triangle.
+    /// The copy's vertex is ops.original(ops.vertex(c)): seam sections take the fans of a vertex for one vertex.
+    std::uint32_t copy(CornerId c);
+
+  private:
+    struct Cached {
+        std::uint32_t block, entry;
+    };
+
+    StreamView stream_;
+    SeamView seams_;
+    std::array<Cached, 8> recent_;  ///< the block in each entry of copies_; the last one used is the first
+    std::array<std::array<std::uint32_t, std::size_t{3} * kSeamBlock>, 8> copies_;
+};
 
 }  // namespace lacedring
