@@ -95,10 +95,15 @@ struct GpuMesh {
     // Of a stream only:
     Buffer stream;
     std::array<std::uint32_t, 4> stream_layout{};  ///< DrawConstants::stream_layout
-    Buffer commands;                        ///< VkDrawIndexedIndirectCommand, written by the device. Path::compute
-    Buffer slot_triangle;                   ///< the mesh's triangle of each slot
-    Buffer vertex_order;                    ///< the mesh's vertex of each vertex
-    Buffer vertex_stream;                   ///< of the positions. Source::packed_vertices
+    Buffer commands;       ///< VkDrawIndexedIndirectCommand, written by the device. Path::compute
+    Buffer slot_triangle;  ///< the mesh's triangle of each slot
+    Buffer vertex_order;   ///< the mesh's vertex of each vertex
+    Buffer vertex_stream;  ///< of the positions. Source::packed_vertices
+    // Of a stream of a surface with seams:
+    Buffer seams;  ///< the seam section
+    Buffer
+        homes;  ///< u32, twice the first copy of each vertex of the surface and whether it wraps; written by the device
+    Buffer copies;                          ///< as `indices`, of copies; written by the device
     std::array<float, 4> unit{0, 0, 0, 1};  ///< DrawConstants::unit
     // Only if asked for:
     Buffer classes;  ///< LR_CLASS_*, or bits of offsets, one byte a slot

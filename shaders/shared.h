@@ -22,6 +22,8 @@ using mat4 = std::array<float, 16>;  // column-major
 #define LR_CONSTANT_INTEGERS 1    // vertex_decode.comp: writes them, not the values they stand for
 #define LR_CONSTANT_MAPPING 2     // vertex_decode.comp: what they stand for
 
+#define LR_CONSTANT_CORNERS 0  // seam_decode.comp: decodes triangle blocks, not vertex blocks
+
 // lean_decode.comp, packed_decode.comp: one dispatch expands `slots` slots from `first_slot`, through descriptors that
 // cover only what these need.
 struct DecodeConstants {
@@ -43,7 +45,20 @@ struct VertexConstants {
     uint unused;
     uvec2 stream;  // its address
 };
-#define LR_VERTEX_GROUP_SIZE 32u  // invocations, a block each
+#define LR_VERTEX_GROUP_SIZE 32u  // of this and of seam_decode.comp: invocations, a block each
+
+// seam_decode.comp: one dispatch decodes `blocks` blocks from `first_block`. Its descriptors begin at the first vertex,
+// or the first corner, of these.
+struct SeamConstants {
+    uint first_block;
+    uint blocks;
+    uint vertices;  // of the surface
+    uint slots;     // of its stream
+    uvec2 section;  // addresses
+    uvec2 home;
+    uint words;  // of the section
+    uint unused;
+};
 
 // rotate.comp: the window of the index buffer is the descriptor's.
 struct RotateConstants {

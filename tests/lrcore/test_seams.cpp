@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <map>
 #include <memory>
 #include <numeric>
 
@@ -13,51 +11,22 @@
 #include "lrcore/base/crc32.h"
 #include "lrlab/generate/generate.h"
 #include "tests/support/capture.h"
+#include "tests/support/cuts.h"
 #include "tests/support/meshes.h"
 #include "tests/support/shapes.h"
 
 using namespace lacedring;
+using test::cut;
+using test::CutSurface;
+using test::kCuts;
 using test::random_below;
 
 namespace {
 
 using Words = std::vector<std::uint32_t>;
 
-/// A surface and the copies of its corners.
-struct Cut {
-    Words triangles, copies;
-    std::uint32_t vertices = 0;
-};
-
-/// Numbers the copies: corners of a vertex in charts of one number share one.
-Cut cut_by_chart(Words triangles, std::uint32_t vertices,
-                 const std::function<std::uint32_t(std::uint32_t corner)>& chart_of) {
-    Cut out{std::move(triangles), {}, vertices};
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> numbers;
-    for (std::uint32_t c = 0; c < out.triangles.size(); ++c) {
-        const std::pair key(out.triangles[c], chart_of(c));
-        out.copies.push_back(numbers.emplace(key, static_cast<std::uint32_t>(7 * numbers.size() + 3)).first->second);
-    }
-    return out;
-}
-
-/// Ways to cut: no seams, stripes of triangles, random triangles, each triangle alone, random copies.
-constexpr std::uint32_t kCuts = 5;
-Cut cut(const Words& triangles, std::uint32_t vertices, std::uint32_t how, std::uint64_t seed) {
-    Words charts(triangles.size());
-    std::uint64_t state = seed;
-    for (std::uint32_t c = 0; c < charts.size(); ++c) {
-        const std::uint32_t i = c / 3;
-        if (how == 1) charts[c] = i / 37 % 5;
-        if (how == 2) charts[c] = c % 3 == 0 ? random_below(state, 4) / 3 : charts[c - 1];
-        if (how == 3) charts[c] = i;
-        if (how == 4) charts[c] = random_below(state, 1 + random_below(state, 5));
-    }
-    return cut_by_chart(triangles, vertices, [&](std::uint32_t c) { return charts[c]; });
-}
-
 /// The triangles in the order and numbers of a packed stream.
-Cut in_stream_order(const Mesh& mesh, std::uint32_t how, std::uint64_t seed) {
+CutSurface in_stream_order(const Mesh& mesh, std::uint32_t how, std::uint64_t seed) {
     const Result<Encoded> encoded = encode(mesh.indices, mesh.vertex_count, {.effort = 0});
     REQUIRE_MESSAGE(encoded, encoded.error().message);
     const Result<PackedView> view = validate_packed(encoded->words);
@@ -75,7 +44,7 @@ Words without_degenerate(const Words& triangles) {
     return out;
 }
 
-EncodedSeams encoded(const Cut& mesh) {
+EncodedSeams encoded(const CutSurface& mesh) {
     Result<EncodedSeams> out = encode_seams(mesh.triangles, mesh.vertices, mesh.copies);
     REQUIRE_MESSAGE(out, out.error().message);
     return std::move(*out);
@@ -87,7 +56,7 @@ std::span<const std::uint32_t> block_of(std::span<const std::uint32_t> corners, 
 }
 
 /// Validates and decodes in buffers of exactly the sizes; blocks give the same copies in any order.
-Words decoded(const Words& words, const Cut& mesh) {
+Words decoded(const Words& words, const CutSurface& mesh) {
     const auto exact = std::make_unique<std::uint32_t[]>(words.size());
     std::ranges::copy(words, exact.get());
     const std::span<const std::uint32_t> section(exact.get(), words.size());
@@ -104,7 +73,7 @@ Words decoded(const Words& words, const Cut& mesh) {
 }
 
 /// Every corner gets its copy back; copies are numbered without gaps, homes by vertex.
-void check(const Cut& mesh) {
+void check(const CutSurface& mesh) {
     const EncodedSeams seams = encoded(mesh);
     const Words corners = decoded(seams.words, mesh);
     const Result<SeamView> view =
@@ -146,7 +115,7 @@ void mend(Words& words) {
     words[1] = crc32(std::as_bytes(std::span(words).subspan(2)));
 }
 
-Cut blob(std::uint32_t triangles, std::uint32_t how) {
+CutSurface blob(std::uint32_t triangles, std::uint32_t how) {
     return in_stream_order(generate("blob", triangles).value(), how, 5);
 }
 
@@ -227,12 +196,12 @@ TEST_CASE("seams of every size around a block and a group of blocks come back") 
 }
 
 TEST_CASE("a section without seams is little more than its header") {
-    const Cut mesh = blob(20000, 0);
+    const CutSurface mesh = blob(20000, 0);
     CHECK(encoded(mesh).words.size() < 8 + 30);
 }
 
 TEST_CASE("charts cost about as much as their borders") {
-    const Cut stripes = blob(20000, 1);
+    const CutSurface stripes = blob(20000, 1);
     const double bits = 32.0 * static_cast<double>(encoded(stripes).words.size()) / 20000;
     CHECK(bits < 0.5);
 }
@@ -257,7 +226,7 @@ TEST_CASE("what cannot be encoded is refused") {
 
 TEST_CASE("sections of other meshes, cut short or changed are refused") {
     for (const std::uint32_t how : {1U, 4U}) {
-        const Cut mesh = blob(1500, how);
+        const CutSurface mesh = blob(1500, how);
         const Words words = encoded(mesh).words;
         for (std::size_t size = 0; size < words.size(); ++size) {
             CHECK(!validate_seams(std::span(words).first(size), mesh.triangles, mesh.vertices));
@@ -290,7 +259,7 @@ TEST_CASE("what is accepted decodes to copies of the corner's vertex, whatever w
     std::uint64_t state = 9;
     std::uint32_t accepted = 0;
     for (const std::uint32_t how : {0U, 1U, 2U, 4U}) {
-        const Cut mesh = blob(1500, how);
+        const CutSurface mesh = blob(1500, how);
         const Words words = encoded(mesh).words;
         for (std::uint32_t n = 0; n < 200; ++n) {
             Words changed = words;
@@ -302,7 +271,7 @@ TEST_CASE("what is accepted decodes to copies of the corner's vertex, whatever w
             const Result<SeamView> view = validate_seams(changed, mesh.triangles, mesh.vertices);
             if (!view) continue;
             ++accepted;
-            const Cut again{mesh.triangles, decoded(changed, mesh), mesh.vertices};
+            const CutSurface again{mesh.triangles, decoded(changed, mesh), mesh.vertices};
             REQUIRE(*std::ranges::max_element(again.copies) < view->copies);
             check(again);  // no copy is of two vertices
         }
