@@ -8,6 +8,8 @@
 //     #define LR_SEAM_HOME(v) home[v]
 //     #define LR_SEAM_VERTEX(k) indices[k]             // the vertex of corner k: corner k % 3 of triangle k / 3
 //     #define LR_SEAM_COPY(k) copies[k]                // a uint of a buffer that is read and written: gets the copy of corner k
+//     // Of both, if wanted: called for every copy once, with its vertex
+//     #define LR_SEAM_PUT_VERTEX(copy, v) vertex_of[copy] = v
 //     #include "lacedring_seams.glsl"
 //
 //     LrSeamLayout seams = lr_seam_layout(vertex_count, triangle_count);
@@ -18,7 +20,8 @@
 // corners get copy 0. home[v] is twice the first copy of vertex v, plus 1 if it wraps; vertex_count + 1 entries. home[vertex_count] / 2
 // is the number of home copies.
 // A section must be valid for these triangles (lacedring::validate_seams). On any other, every loop still ends and nothing but
-// home[0..vertex_count] and the block's own copies is written; but entries of `home` and words behind the section may be asked for.
+// home[0..vertex_count] and the block's own corners is written; but LR_SEAM_PUT_VERTEX may be called for copies that are not there, and
+// entries of `home` and words behind the section may be asked for.
 #ifndef LACEDRING_SEAMS_GLSL
 #define LACEDRING_SEAMS_GLSL
 
@@ -173,6 +176,10 @@ bool lr_seam_flag(uint context) {
     return likely == (run >= 0);
 }
 
+#ifndef LR_SEAM_PUT_VERTEX
+#define LR_SEAM_PUT_VERTEX(copy, v)
+#endif
+
 #ifdef LR_SEAM_PUT_HOME
 void lr_seam_vertex_block(LrSeamLayout p, uint block) {
     uint vertex = block * LR_SEAM_BLOCK, first = vertex + lr_seam_open(p.by_vertex, block), before = 0u;
@@ -190,6 +197,7 @@ void lr_seam_vertex_block(LrSeamLayout p, uint block) {
             context = context < LR_SEAM_MORE ? LR_SEAM_MORE : again ? LR_SEAM_MANY : LR_SEAM_WRAP;
         }
         LR_SEAM_PUT_HOME(vertex, 2u * first + wrap);
+        for (uint copy = 0u; copy <= steps - wrap; ++copy) LR_SEAM_PUT_VERTEX(first + copy, vertex);
         first += steps + 1u - wrap;
         before = min(steps, 2u);
         ++vertex;
@@ -427,7 +435,9 @@ void lr_seam_triangle_block(LrSeamLayout p, uint block) {
             } else {
                 q = lr_seam_start(t, words, j, h.steps, side, found > 0u);
             }
+            uint copy = made;
             words[j] = lr_seam_choose(h, current, q, made);
+            if (copy < made) LR_SEAM_PUT_VERTEX(copy, t[j]);
         }
         words.x |= side << 30;
         for (uint j = 0u; j < 3u; ++j) LR_SEAM_COPY(corner + j) = words[j];

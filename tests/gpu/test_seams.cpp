@@ -1,5 +1,11 @@
 // shaders/seam_decode.comp, with shaders/lacedring_seams.glsl: the copies that the device decodes are decode_seams',
-// corner by corner.
+// corner by corner. Pictures of a mesh with seams are those of streams of its surface.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
 
 #include "lacedring/lacedring.hpp"
 #include "lacedring/seams.hpp"
@@ -30,7 +36,7 @@ struct SeamDecode : GpuTest {
     }
 
     struct Decoded {
-        std::vector<std::uint32_t> homes, copies;
+        std::vector<std::uint32_t> homes, copies, copy_vertices;
     };
     /// `triangles` as the stream's decoder writes them.
     Decoded decoded(const SeamView& view, const std::vector<std::uint32_t>& triangles, std::uint64_t max_range) {
@@ -46,6 +52,7 @@ struct SeamDecode : GpuTest {
         };
         make(mesh.seams, view.words.size(), kAddress);
         make(mesh.homes, std::size_t{view.vertices} + 1, kAddress);
+        make(mesh.copy_vertices, view.copies, kAddress);
         make(mesh.indices, padded, kUsage);
         make(mesh.copies, padded, kUsage);
         auto transfer = gpu::Transfer::create(*context);
@@ -57,15 +64,16 @@ struct SeamDecode : GpuTest {
         const auto plan = decoder.plan(descriptors, mesh, view);
         REQUIRE_MESSAGE(plan, plan.error().message);
         if (max_range == kSmallRange) {
-            CHECK(plan->homes.dispatches.size() == (view.vertices + 511) / 512);
-            CHECK(plan->copies.dispatches.size() == view.blocks());
+            CHECK(plan->vertices.dispatches.size() == (view.vertices + 511) / 512);
+            CHECK(plan->triangles.dispatches.size() == view.blocks());
         }
         const auto buffer = commands->begin();
         REQUIRE(buffer);
         decoder.record(*buffer, *plan);
         gpu::decode_barrier(*buffer);
         REQUIRE(commands->run());
-        Decoded out{read(mesh.homes, std::size_t{view.vertices} + 1), read(mesh.copies, padded)};
+        Decoded out{read(mesh.homes, std::size_t{view.vertices} + 1), read(mesh.copies, padded),
+                    read(mesh.copy_vertices, view.copies)};
         for (; out.copies.size() > triangles.size(); out.copies.pop_back()) REQUIRE(out.copies.back() == 0);
         return out;
     }
@@ -93,6 +101,12 @@ struct SeamDecode : GpuTest {
         bool right = true;
         for (std::size_t v = 0; v < first.size(); ++v) right &= device.homes[v] >> 1 == first[v];
         CHECK(right);
+        std::vector<std::uint32_t> vertices(view->copies);
+        for (std::uint32_t v = 0; v < view->vertices; ++v) vertices[first[v]] = v;
+        for (std::size_t k = 0; k < copies.size(); ++k) {
+            if (mesh.triangles[k] != UINT32_MAX) vertices[copies[k]] = mesh.triangles[k];
+        }
+        CHECK(device.copy_vertices == vertices);
     }
 
     /// The slots of both streams, cut.
@@ -172,6 +186,169 @@ TEST_CASE_FIXTURE(SeamDecode, "damaged seam sections neither hang nor write beyo
         view.words = words;
         view.vertices = surface.vertices;
         view.triangles = static_cast<std::uint32_t>(triangles.size() / 3);
+        view.copies = 3 * view.triangles;
         decoded(view, triangles, kSmallRange);
     }
+}
+
+namespace {
+
+/// A mesh cut along seams. Every copy has a normal of its own.
+struct CutMesh {
+    Mesh mesh;
+    std::vector<std::uint32_t> surface;
+    std::uint32_t vertices = 0;  // of the surface
+
+    CutMesh(const Mesh& whole, std::uint32_t how, std::uint64_t seed) : vertices(whole.vertex_count) {
+        const CutSurface cut_surface = cut(whole.indices, whole.vertex_count, how, seed);
+        std::map<std::uint32_t, std::uint32_t> numbers;  // of the copies
+        const std::vector<float> all = positions_f32(whole);
+        std::vector<float> positions, normals;
+        std::uint64_t state = seed;
+        const auto add = [&](std::uint32_t v) {
+            surface.push_back(v);
+            std::array<float, 3> normal{};
+            for (float& x : normal) x = static_cast<float>(random_below(state, 2000)) / 1000 - 0.9995F;
+            const float length = std::hypot(normal[0], normal[1], normal[2]);
+            for (std::size_t i = 0; i < 3; ++i) {
+                positions.push_back(all[3 * std::size_t{v} + i]);
+                normals.push_back(normal[i] / length);
+            }
+        };
+        add(0);  // no triangle has it
+        for (std::size_t k = 0; k < cut_surface.copies.size(); ++k) {
+            const auto [at, is_new] =
+                numbers.emplace(cut_surface.copies[k], static_cast<std::uint32_t>(surface.size()));
+            if (is_new) add(whole.indices[k]);
+            mesh.indices.push_back(at->second);
+        }
+        mesh.vertex_count = static_cast<std::uint32_t>(surface.size());
+        for (const auto& [name, values] : {std::pair("POSITION", &positions), std::pair("NORMAL", &normals)}) {
+            Attribute attribute{name, ComponentType::f32, 3, false, {}};
+            const auto bytes = std::as_bytes(std::span(*values));
+            attribute.data.assign(bytes.begin(), bytes.end());
+            mesh.attributes.push_back(std::move(attribute));
+        }
+    }
+
+    gpu::Model model(const VertexOptions& options = {}) const {
+        gpu::ModelOptions out{.packed = true, .vertices = options};
+        out.surface = surface;
+        out.surface_vertices = vertices;
+        Result<gpu::Model> made = gpu::make_model(mesh, out);
+        REQUIRE_MESSAGE(made, made.error().message);
+        return std::move(made).value();
+    }
+};
+
+struct SeamPictures : GpuTest {
+    gpu::Renderer renderer(gpu::View view, std::uint64_t max_range) {
+        gpu::RendererOptions options;
+        options.view = view;
+        options.width = 80;
+        options.height = 60;
+        options.max_range = max_range;
+        Result<gpu::Renderer> out = gpu::Renderer::create(*context, options);
+        REQUIRE_MESSAGE(out, out.error().message);
+        return std::move(out).value();
+    }
+
+    /// All sources by all paths.
+    std::vector<gpu::Subject> subjects(bool small) const {
+        std::vector<gpu::Subject> out;
+        for (const auto source : {gpu::Source::lean, gpu::Source::packed, gpu::Source::packed_vertices}) {
+            for (const gpu::NamedPath& named : gpu::kPaths) {
+                if (named.path == gpu::Path::mesh && context->info().max_mesh_groups == 0) continue;
+                if (gpu::is_slow(source, named.path, small ? 0 : UINT32_MAX)) continue;
+                out.push_back({source, named.path});
+            }
+        }
+        return out;
+    }
+
+    void check_same(gpu::Renderer& pictures, const gpu::Model& model, bool small) {
+        const std::vector<gpu::Subject> drawn = subjects(small);
+        const auto all = gpu::compare(pictures, model, drawn);
+        REQUIRE_MESSAGE(all, all.error().message);
+        for (std::size_t i = 0; i < all->size(); ++i) {
+            CAPTURE(static_cast<int>(drawn[i].source));
+            CAPTURE(static_cast<int>(drawn[i].path));
+            const gpu::Comparison& c = (*all)[i];
+            CHECK(c.pixels_different == 0);
+            CHECK(c.triangle_ids_different == 0);
+            CHECK(c.indices_equal_cpu);
+            CHECK(c.vertices_equal_cpu.value_or(true));
+            CHECK(!c.blank);
+        }
+    }
+
+    static VertexOptions lattice() {
+        VertexOptions options;
+        options.mapping = VertexMapping::lattice;
+        options.bits = 12;
+        return options;
+    }
+};
+
+}  // namespace
+
+TEST_CASE_FIXTURE(SeamPictures, "pictures of meshes with seams are the same from all sources by every path") {
+    gpu::Renderer pictures = renderer(gpu::View::smooth, kSmallRange);
+    std::uint64_t seed = 1;
+    for (const char* kind : {"blob", "moebius", "parts", "soup"}) {
+        CAPTURE(kind);
+        for (std::uint32_t how = 0; how < kCuts; ++how) {
+            CAPTURE(how);
+            const CutMesh cut_mesh(generated(kind, 300, 2), how, ++seed);
+            check_same(pictures, cut_mesh.model(how % 2 == 0 ? VertexOptions{} : lattice()), true);
+        }
+    }
+    check_same(pictures, CutMesh(random_gluing(200, 500, 3), 2, 5).model(), true);
+    gpu::Renderer large = renderer(gpu::View::smooth, 0);
+    check_same(large, CutMesh(generated("genus", 40000), 1, 3).model(lattice()), false);
+}
+
+TEST_CASE_FIXTURE(SeamPictures, "views of meshes with seams are the same from all sources by every path") {
+    const CutMesh cut_mesh(generated("blob", 600), 1, 7);
+    const gpu::Model model = cut_mesh.model();
+    for (const gpu::View view : {gpu::View::triangle_class, gpu::View::ring, gpu::View::wire, gpu::View::silhouette}) {
+        CAPTURE(static_cast<int>(view));
+        gpu::Renderer pictures = renderer(view, 0);
+        const auto camera = gpu::make_camera(model, {}, 80, 60);
+        REQUIRE(camera);
+        const auto drawn = [&](const gpu::Model& of, const gpu::Subject& subject) {
+            Result<gpu::Drawable> drawable = pictures.upload(of, subject.source, subject.path);
+            REQUIRE_MESSAGE(drawable, drawable.error().message);
+            Result<gpu::Picture> picture = pictures.draw(*drawable, of, *camera, true);
+            REQUIRE_MESSAGE(picture, picture.error().message);
+            return std::move(picture).value();
+        };
+        const gpu::Picture plain = drawn(model, {gpu::Source::plain, gpu::Path::compute});
+        for (const gpu::Subject& subject : subjects(true)) {
+            CHECK(gpu::difference(plain, drawn(model, subject)).pixels == 0);
+        }
+        // The surface's normals and outline, as if it had no seams.
+        if (view != gpu::View::silhouette) continue;
+        const Mesh whole = generated("blob", 600);
+        CHECK(gpu::difference(plain, drawn(model_of(whole), {})).pixels == 0);
+    }
+}
+
+TEST_CASE_FIXTURE(SeamPictures, "a wrong seam section is found out") {
+    const CutMesh cut_mesh(generated("blob", 3000), 1, 7);
+    const gpu::Model good = cut_mesh.model();
+    gpu::Renderer pictures = renderer(gpu::View::smooth, 0);
+    const auto same = [&](const gpu::Model& model) {
+        const std::array<gpu::Subject, 1> subject{{{gpu::Source::packed, gpu::Path::compute}}};
+        const auto all = gpu::compare(pictures, model, subject);
+        REQUIRE_MESSAGE(all, all.error().message);
+        return all->front().same();
+    };
+    CHECK(same(good));
+    gpu::Model bad = cut_mesh.model();
+    std::swap(bad.packed_seams.copy_order[100], bad.packed_seams.copy_order[900]);
+    CHECK(!same(bad));
+    bad = cut_mesh.model();
+    bad.packed_seams.words.push_back(0);
+    CHECK(!gpu::compare(pictures, bad, std::array<gpu::Subject, 1>{{{gpu::Source::packed, gpu::Path::compute}}}));
 }
