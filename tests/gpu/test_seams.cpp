@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <map>
 #include <utility>
 
 #include "lacedring/lacedring.hpp"
@@ -193,53 +191,14 @@ TEST_CASE_FIXTURE(SeamDecode, "damaged seam sections neither hang nor write beyo
 
 namespace {
 
-/// A mesh cut along seams. Every copy has a normal of its own.
-struct CutMesh {
-    Mesh mesh;
-    std::vector<std::uint32_t> surface;
-    std::uint32_t vertices = 0;  // of the surface
-
-    CutMesh(const Mesh& whole, std::uint32_t how, std::uint64_t seed) : vertices(whole.vertex_count) {
-        const CutSurface cut_surface = cut(whole.indices, whole.vertex_count, how, seed);
-        std::map<std::uint32_t, std::uint32_t> numbers;  // of the copies
-        const std::vector<float> all = positions_f32(whole);
-        std::vector<float> positions, normals;
-        std::uint64_t state = seed;
-        const auto add = [&](std::uint32_t v) {
-            surface.push_back(v);
-            std::array<float, 3> normal{};
-            for (float& x : normal) x = static_cast<float>(random_below(state, 2000)) / 1000 - 0.9995F;
-            const float length = std::hypot(normal[0], normal[1], normal[2]);
-            for (std::size_t i = 0; i < 3; ++i) {
-                positions.push_back(all[3 * std::size_t{v} + i]);
-                normals.push_back(normal[i] / length);
-            }
-        };
-        add(0);  // no triangle has it
-        for (std::size_t k = 0; k < cut_surface.copies.size(); ++k) {
-            const auto [at, is_new] =
-                numbers.emplace(cut_surface.copies[k], static_cast<std::uint32_t>(surface.size()));
-            if (is_new) add(whole.indices[k]);
-            mesh.indices.push_back(at->second);
-        }
-        mesh.vertex_count = static_cast<std::uint32_t>(surface.size());
-        for (const auto& [name, values] : {std::pair("POSITION", &positions), std::pair("NORMAL", &normals)}) {
-            Attribute attribute{name, ComponentType::f32, 3, false, {}};
-            const auto bytes = std::as_bytes(std::span(*values));
-            attribute.data.assign(bytes.begin(), bytes.end());
-            mesh.attributes.push_back(std::move(attribute));
-        }
-    }
-
-    gpu::Model model(const VertexOptions& options = {}) const {
-        gpu::ModelOptions out{.packed = true, .vertices = options};
-        out.surface = surface;
-        out.surface_vertices = vertices;
-        Result<gpu::Model> made = gpu::make_model(mesh, out);
-        REQUIRE_MESSAGE(made, made.error().message);
-        return std::move(made).value();
-    }
-};
+gpu::Model model_of(const CutMesh& cut, const VertexOptions& options = {}) {
+    gpu::ModelOptions all{.packed = true, .vertices = options};
+    all.surface = cut.surface;
+    all.surface_vertices = cut.surface_vertices;
+    Result<gpu::Model> made = gpu::make_model(cut.mesh, all);
+    REQUIRE_MESSAGE(made, made.error().message);
+    return std::move(made).value();
+}
 
 struct SeamPictures : GpuTest {
     gpu::Renderer renderer(gpu::View view, std::uint64_t max_range) {
@@ -299,18 +258,20 @@ TEST_CASE_FIXTURE(SeamPictures, "pictures of meshes with seams are the same from
         CAPTURE(kind);
         for (std::uint32_t how = 0; how < kCuts; ++how) {
             CAPTURE(how);
-            const CutMesh cut_mesh(generated(kind, 300, 2), how, ++seed);
-            check_same(pictures, cut_mesh.model(how % 2 == 0 ? VertexOptions{} : lattice()), true);
+            const CutMesh cut = cut_mesh(generated(kind, 300, 2), how, ++seed);
+            check_same(pictures, model_of(cut, how % 2 == 0 ? VertexOptions{} : lattice()), true);
         }
     }
-    check_same(pictures, CutMesh(random_gluing(200, 500, 3), 2, 5).model(), true);
+    const CutMesh glued = cut_mesh(random_gluing(200, 500, 3), 2, 5);
+    check_same(pictures, model_of(glued), true);
     gpu::Renderer large = renderer(gpu::View::smooth, 0);
-    check_same(large, CutMesh(generated("genus", 40000), 1, 3).model(lattice()), false);
+    const CutMesh cut = cut_mesh(generated("genus", 40000), 1, 3);
+    check_same(large, model_of(cut, lattice()), false);
 }
 
 TEST_CASE_FIXTURE(SeamPictures, "views of meshes with seams are the same from all sources by every path") {
-    const CutMesh cut_mesh(generated("blob", 600), 1, 7);
-    const gpu::Model model = cut_mesh.model();
+    const CutMesh cut = cut_mesh(generated("blob", 600), 1, 7);
+    const gpu::Model model = model_of(cut);
     for (const gpu::View view : {gpu::View::triangle_class, gpu::View::ring, gpu::View::wire, gpu::View::silhouette}) {
         CAPTURE(static_cast<int>(view));
         gpu::Renderer pictures = renderer(view, 0);
@@ -330,13 +291,13 @@ TEST_CASE_FIXTURE(SeamPictures, "views of meshes with seams are the same from al
         // The surface's normals and outline, as if it had no seams.
         if (view != gpu::View::silhouette) continue;
         const Mesh whole = generated("blob", 600);
-        CHECK(gpu::difference(plain, drawn(model_of(whole), {})).pixels == 0);
+        CHECK(gpu::difference(plain, drawn(test::model_of(whole), {})).pixels == 0);
     }
 }
 
 TEST_CASE_FIXTURE(SeamPictures, "a wrong seam section is found out") {
-    const CutMesh cut_mesh(generated("blob", 3000), 1, 7);
-    const gpu::Model good = cut_mesh.model();
+    const CutMesh cut = cut_mesh(generated("blob", 3000), 1, 7);
+    const gpu::Model good = model_of(cut);
     gpu::Renderer pictures = renderer(gpu::View::smooth, 0);
     const auto same = [&](const gpu::Model& model) {
         const std::array<gpu::Subject, 1> subject{{{gpu::Source::packed, gpu::Path::compute}}};
@@ -345,10 +306,10 @@ TEST_CASE_FIXTURE(SeamPictures, "a wrong seam section is found out") {
         return all->front().same();
     };
     CHECK(same(good));
-    gpu::Model bad = cut_mesh.model();
+    gpu::Model bad = model_of(cut);
     std::swap(bad.packed_seams.copy_order[100], bad.packed_seams.copy_order[900]);
     CHECK(!same(bad));
-    bad = cut_mesh.model();
+    bad = model_of(cut);
     bad.packed_seams.words.push_back(0);
     CHECK(!gpu::compare(pictures, bad, std::array<gpu::Subject, 1>{{{gpu::Source::packed, gpu::Path::compute}}}));
 }
