@@ -25,12 +25,12 @@ struct AdjacencyOptions {
 struct Adjacency {
     std::uint32_t vertices = 0;               ///< with the copies of non-manifold ones
     std::uint32_t triangle_numbers = 0;       ///< as LrView::triangle_numbers
-    std::vector<std::uint32_t> vertex_order;  ///< the mesh's vertex of each one
+    std::vector<std::uint32_t> vertex_order;  ///< the mesh's vertex of each one; of several at a seam, the first
     Buffer tables;                            ///< the whole stream, words
     Buffer positions;                         ///< 3 floats a vertex, in the tables' order
 };
 
-/// Of the model's own triangles (corner table, ring, tables), in its unit sphere. Cost: O(V + T).
+/// Of the model's surface (corner table, ring, tables), in its unit sphere. Cost: O(V + T).
 /// Errors: build_corner_table's, encode_lr's and Vulkan's.
 Result<Adjacency> upload_adjacency(Context& context, Transfer& transfer, const Model& model,
                                    const AdjacencyOptions& options = {});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "lacedring/seams.hpp"
 #include "lacedring/streams.hpp"
 #include "lacedring/vertices.hpp"
 #include "renderer/renderer.h"
@@ -81,15 +82,31 @@ Result<bool> indices_equal_cpu(Renderer& renderer, Drawable& drawable, const Mod
         LR_ASSIGN(const PackedView view, view_packed(model.packed.words));
         decode_packed(view, host);
     }
-    return device == host;
+    if (device != host) return false;
+    const EncodedSeams* seams = seams_of(model, drawable.mesh.source);
+    if (seams == nullptr) return true;
+    LR_ASSIGN(const std::vector<std::uint32_t> copies, renderer.read_copies(drawable));
+    LR_ASSIGN(const SeamView view, view_seams(seams->words, drawable.mesh.slots, drawable.mesh.surface_vertices));
+    LR_ASSIGN(const StreamView stream,
+              view_stream(is_packed(drawable.mesh.source) ? model.packed.words : model.lean.words));
+    decode_seams(view, slot_triangles(stream), host);
+    std::ranges::replace(host, UINT32_MAX, 0U);  // slots without a triangle
+    return copies == host;
 }
 
 Result<bool> vertices_equal_cpu(Renderer& renderer, Drawable& drawable, const Model& model) {
     LR_ASSIGN(const std::vector<std::uint32_t> device, renderer.read_positions(drawable));
     LR_ASSIGN(const VertexView view, view_vertices(model.vertices.words));
-    std::vector<std::uint32_t> host(device.size());
+    std::vector<std::uint32_t> host(std::size_t{3} * view.vertices);
     decode_vertices(view, std::as_writable_bytes(std::span(host)));
-    return device == host;
+    if (!drawable.mesh.positions) return device == host;
+    std::vector<std::uint32_t> place(view.vertices);
+    for (std::uint32_t v = 0; v < view.vertices; ++v) place[model.packed.vertex_order[v]] = v;
+    for (std::size_t k = 0; k < device.size(); ++k) {
+        const std::size_t v = place[model.surface_of(model.packed_seams.copy_order[k / 3])];
+        if (device[k] != host[3 * v + k % 3]) return false;
+    }
+    return true;
 }
 
 /// The mesh's own pictures, from all sides.

@@ -46,7 +46,8 @@ class ComputePass {
 using Decoder = ComputePass<DecodeConstants>;
 using DecodePlan = PassPlan<DecodeConstants>;
 
-/// Makes a decoder's writes visible to index and vertex input, indirect commands, the rotating pass and copies.
+/// Makes a decoder's writes visible to index and vertex input, indirect commands, shaders that make vertices, other
+/// passes and copies.
 void decode_barrier(VkCommandBuffer commands);
 
 /// No device wants more of a descriptor's offset.

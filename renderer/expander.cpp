@@ -12,6 +12,7 @@ Result<Expander> Expander::create(Context& context) {
     LR_ASSIGN(out.lean_, LeanDecoder::create(context));
     LR_ASSIGN(out.packed_, PackedDecoder::create(context));
     LR_ASSIGN(out.vertices_, VertexDecoder::create(context));
+    LR_ASSIGN(out.seams_, SeamDecoder::create(context));
     LR_ASSIGN(out.rotator_, Rotator::create(context));
     return out;
 }
@@ -21,7 +22,7 @@ Result<Drawable> Expander::upload(Transfer& transfer, const Model& model, Source
     Drawable out;
     out.descriptors = Descriptors(*context_);
     LR_ASSIGN(out.mesh, upload_mesh(*context_, transfer, model, source, options));
-    if (options.path != Path::compute) return out;
+    if (!out.mesh.indices) return out;
     if (source == Source::lean) {
         LR_ASSIGN(const LeanView view, view_lean(model.lean.words));
         LR_ASSIGN(out.decode, lean_.plan(out.descriptors, out.mesh, view));
@@ -29,6 +30,11 @@ Result<Drawable> Expander::upload(Transfer& transfer, const Model& model, Source
         LR_ASSIGN(const PackedView view, view_packed(model.packed.words));
         LR_ASSIGN(out.decode, packed_.plan(out.descriptors, out.mesh, view));
     }
+    if (const EncodedSeams* seams = seams_of(model, source)) {
+        LR_ASSIGN(const SeamView view, view_seams(seams->words, out.mesh.slots, out.mesh.surface_vertices));
+        LR_ASSIGN(out.seams, seams_.plan(out.descriptors, out.mesh, view));
+    }
+    if (options.path != Path::compute) return out;
     if (source == Source::packed_vertices) {
         LR_ASSIGN(const VertexView view, view_vertices(model.vertices.words));
         LR_ASSIGN(out.vertices, vertices_.plan(out.descriptors, out.mesh, view));
@@ -38,10 +44,12 @@ Result<Drawable> Expander::upload(Transfer& transfer, const Model& model, Source
 }
 
 void Expander::decode(VkCommandBuffer commands, Drawable& drawable, bool barrier) const {
-    if (drawable.mesh.decoded || drawable.mesh.path != Path::compute) return;
+    if (drawable.mesh.decoded || drawable.decode.dispatches.empty()) return;
     const Decoder& decoder = drawable.mesh.source == Source::lean ? static_cast<const Decoder&>(lean_) : packed_;
     decoder.record(commands, drawable.decode);
     vertices_.record(commands, drawable.vertices);
+    seams_.record(commands, drawable.seams);
+    seams_.record_positions(commands, drawable.seams);
     if (barrier) decode_barrier(commands);
     drawable.mesh.decoded = true;
     drawable.mesh.rotated = false;
@@ -49,6 +57,7 @@ void Expander::decode(VkCommandBuffer commands, Drawable& drawable, bool barrier
 
 void Expander::decode_vertices(VkCommandBuffer commands, const Drawable& drawable) const {
     vertices_.record(commands, drawable.vertices);
+    seams_.record_positions(commands, drawable.seams);
     decode_barrier(commands);
 }
 

@@ -7,6 +7,7 @@
 #include "renderer/lean_decoder.h"
 #include "renderer/packed_decoder.h"
 #include "renderer/rotator.h"
+#include "renderer/seam_decoder.h"
 #include "renderer/surface.h"
 #include "renderer/vertex_decoder.h"
 
@@ -16,9 +17,10 @@ namespace lacedring::gpu {
 struct Drawable {
     GpuMesh mesh;
     Descriptors descriptors;
-    DecodePlan decode;    ///< empty for Source::plain, and where no path but compute is taken
+    DecodePlan decode;    ///< empty for Source::plain; where the surface has no seams, of Path::compute only
     VertexPlan vertices;  ///< Source::packed_vertices by compute
-    RotatePlan rotate;    ///< likewise for the other paths
+    SeamPlan seams;       ///< of a surface with seams, by every path
+    RotatePlan rotate;    ///< Path::compute
     DrawPlan draw;
     std::optional<Adjacency> adjacency;  ///< View::silhouette
 };
@@ -42,6 +44,7 @@ class Expander {
     LeanDecoder lean_;
     PackedDecoder packed_;
     VertexDecoder vertices_;
+    SeamDecoder seams_;
     Rotator rotator_;
 };
 

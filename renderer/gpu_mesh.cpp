@@ -30,6 +30,11 @@ std::uint64_t slots_of(const Model& model, Source source) {
     return source == Source::lean ? model.lean.slot_triangle.size() : model.packed.triangle_order.size();
 }
 
+std::uint32_t vertices_of(const Model& model, Source source) {
+    const EncodedSeams* seams = seams_of(model, source);
+    return seams == nullptr ? model.vertex_count() : static_cast<std::uint32_t>(seams->copy_order.size());
+}
+
 /// Bytes of a vertex in GpuMesh::vertices.
 constexpr std::size_t vertex_stride(Source source, Path path) {
     const bool pulled = source == Source::packed_vertices && path != Path::compute;
@@ -47,8 +52,10 @@ Result<GpuMesh> prepare(Context& context, const Model& model, Source source, con
     if (mesh.max_range < kSmallestRange) return Error{ErrorCode::invalid_argument, "descriptor range below 4096 bytes"};
     if (slots == 0) return Error{ErrorCode::unsupported, "the mesh has no triangles to draw"};
     if (slots > UINT32_MAX / 3) return Error{ErrorCode::too_large, "more than 2^32 indices"};
-    if (model.vertex_count() - 1 > context.info().max_index) {
-        return Error{kNoDevice, std::to_string(model.vertex_count()) + " vertices; the device's indices go to " +
+    mesh.vertex_count = vertices_of(model, source);
+    mesh.surface_vertices = model.surface_vertices;
+    if (mesh.vertex_count - 1 > context.info().max_index) {
+        return Error{kNoDevice, std::to_string(mesh.vertex_count) + " vertices; the device's indices go to " +
                                     std::to_string(context.info().max_index)};
     }
     mesh.path = options.path;
@@ -57,7 +64,6 @@ Result<GpuMesh> prepare(Context& context, const Model& model, Source source, con
     }
     const MeshBytes bytes = mesh_bytes(model, source, options);
     LR_TRY(context.arena().check_room(bytes.all, bytes.largest));
-    mesh.vertex_count = model.vertex_count();
     mesh.slots = static_cast<std::uint32_t>(slots);
     mesh.draw_slots = static_cast<std::uint32_t>(
         std::min<std::uint64_t>(mesh.max_range / sizeof(std::uint32_t), std::uint64_t{1} << 30) / kSlotStep *
@@ -71,7 +77,7 @@ Result<GpuMesh> prepare(Context& context, const Model& model, Source source, con
     LR_ASSIGN(mesh.vertices,
               Buffer::create(context, "vertices", vertex_stride(source, mesh.path) * std::uint64_t{mesh.vertex_count},
                              VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | kAddress));
-    if (mesh.path != Path::compute) return mesh;
+    if (mesh.path != Path::compute && seams_of(model, source) == nullptr) return mesh;
     LR_ASSIGN(mesh.indices, Buffer::create(context, "indices", 12 * padded_slots(mesh.slots),
                                            VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT));
     return mesh;
@@ -118,21 +124,22 @@ Result<void> upload_classes(Context& context, Transfer& transfer, GpuMesh& mesh,
 }
 
 /// The lines in the vertex numbers of a source: `order` is its vertex order, empty for the mesh's own. They come in the
-/// same order and direction for all sources, so that they are drawn alike.
+/// same order and direction for all sources, so that they are drawn alike. Any vertex at the place does.
 Result<void> upload_lines(Context& context, Transfer& transfer, GpuMesh& mesh, const Model& model, const LeanView& lean,
                           UploadOptions::Lines kind, std::span<const std::uint32_t> order) {
     if (kind == UploadOptions::Lines::none) return {};
     std::vector<std::uint32_t> lines;
     if (kind == UploadOptions::Lines::ring) {
         lines = ring_lines(lean);
-        for (std::uint32_t& v : lines) v = model.lean.vertex_order[v];
+        const std::vector<std::uint32_t> of_surface = mesh_vertices(model);
+        for (std::uint32_t& v : lines) v = of_surface[model.lean.vertex_order[v]];
     } else {
         lines = mesh_edges(model.indices);
     }
     if (!order.empty()) {
-        std::vector<std::uint32_t> place(order.size());
-        for (std::uint32_t i = 0; i < order.size(); ++i) place[order[i]] = i;
-        for (std::uint32_t& v : lines) v = place[v];
+        std::vector<std::uint32_t> place(model.surface_vertices);
+        for (std::uint32_t i = 0; i < order.size(); ++i) place[model.surface_of(order[i])] = i;
+        for (std::uint32_t& v : lines) v = place[model.surface_of(v)];
     }
     if (lines.size() > UINT32_MAX) return Error{ErrorCode::too_large, "more than 2^31 lines"};
     LR_ASSIGN(mesh.lines, Buffer::create(context, "lines", 4 * lines.size(), VK_BUFFER_USAGE_INDEX_BUFFER_BIT));
@@ -156,15 +163,15 @@ Result<void> upload_rest(Context& context, Transfer& transfer, GpuMesh& mesh, co
     };
     if (!options.ring) return vertices_with([](std::uint32_t) { return -1.0F; });
     const std::uint32_t rings = lean.rings2 + lean.rings1;
-    std::vector<float> ring(mesh.vertex_count, -1.0F);
+    std::vector<float> ring(model.surface_vertices, -1.0F);
     for (std::uint32_t i = 0; i < rings; ++i) {
         ring[model.lean.vertex_order[i]] = static_cast<float>(i) / static_cast<float>(rings);
     }
-    LR_TRY(vertices_with([&](std::uint32_t v) { return ring[original(v)]; }));
+    LR_TRY(vertices_with([&](std::uint32_t v) { return ring[model.surface_of(original(v))]; }));
     return upload_classes(context, transfer, mesh, model, lean, options.offsets, triangle_of);
 }
 
-/// A stream, its vertex order and the mesh's triangle of each slot.
+/// A stream, the mesh's vertex of each one that is drawn, and the mesh's triangle of each slot.
 struct Stream {
     std::span<const std::uint32_t> words, vertex_order, slot_triangle;
     std::array<std::uint32_t, 4> layout;
@@ -173,7 +180,7 @@ struct Stream {
 Result<Stream> lean_stream(const Model& model) {
     const EncodedLean& stream = model.lean;
     LR_ASSIGN(const LeanView view, view_lean(stream.words));
-    if (view.vertices != model.vertex_count() || stream.vertex_order.size() != view.vertices ||
+    if (view.vertices != model.surface_vertices || stream.vertex_order.size() != view.vertices ||
         stream.slot_triangle.size() != view.slots()) {
         return Error{ErrorCode::invalid_argument, "the lean stream is not of this mesh"};
     }
@@ -185,7 +192,7 @@ Result<Stream> packed_stream(const Model& model) {
     const EncodedPacked& stream = model.packed;
     if (stream.words.empty()) return Error{ErrorCode::invalid_argument, "the model was made without a packed stream"};
     LR_ASSIGN(const PackedView view, view_packed(stream.words));
-    if (view.vertices != model.vertex_count() || stream.vertex_order.size() != view.vertices ||
+    if (view.vertices != model.surface_vertices || stream.vertex_order.size() != view.vertices ||
         stream.triangle_order.size() != view.triangles) {
         return Error{ErrorCode::invalid_argument, "the packed stream is not of this mesh"};
     }
@@ -200,7 +207,7 @@ Result<void> upload_vertex_stream(Context& context, Transfer& transfer, GpuMesh&
     const std::span<const std::uint32_t> words = model.vertices.words;
     if (words.empty()) return Error{ErrorCode::invalid_argument, "the model was made without a vertex stream"};
     LR_ASSIGN(const VertexView view, view_vertices(words));
-    if (view.vertices != model.vertex_count() || view.integers != 3 || view.type != ComponentType::f32 ||
+    if (view.vertices != model.surface_vertices || view.integers != 3 || view.type != ComponentType::f32 ||
         view.mapping == VertexMapping::octahedral) {
         return Error{ErrorCode::invalid_argument, "the vertex stream is not of this mesh's positions"};
     }
@@ -210,17 +217,41 @@ Result<void> upload_vertex_stream(Context& context, Transfer& transfer, GpuMesh&
     return transfer.upload(mesh.vertex_stream, words);
 }
 
+Result<void> upload_seams(Context& context, Transfer& transfer, GpuMesh& mesh, const EncodedSeams& seams) {
+    LR_ASSIGN(const SeamView view, view_seams(seams.words, mesh.slots, mesh.surface_vertices));
+    if (view.copies != seams.copy_order.size())
+        return Error{ErrorCode::invalid_argument, "the seam section is not of this mesh"};
+    constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | kAddress;
+    const std::span<const std::uint32_t> words = seams.words;
+    LR_ASSIGN(mesh.seams, Buffer::create(context, "seams", words.size_bytes(), kStorage));
+    LR_ASSIGN(mesh.homes,
+              Buffer::create(context, "homes", (std::uint64_t{view.vertices} + 1) * sizeof(std::uint32_t), kStorage));
+    LR_ASSIGN(mesh.copies,
+              Buffer::create(context, "copies", mesh.indices.size(), kStorage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT));
+    LR_ASSIGN(mesh.copy_vertices, Buffer::create(context, "vertices of copies",
+                                                 std::uint64_t{view.copies} * sizeof(std::uint32_t), kStorage));
+    if (mesh.source == Source::packed_vertices && mesh.path == Path::compute) {
+        LR_ASSIGN(mesh.positions, Buffer::create(context, "positions of the surface",
+                                                 std::uint64_t{view.vertices} * sizeof(Vertex::position), kStorage));
+    }
+    return transfer.upload(mesh.seams, words);
+}
+
 Result<GpuMesh> upload_stream(Context& context, Transfer& transfer, const Model& model, Source source,
                               const UploadOptions& options) {
-    LR_ASSIGN(const Stream stream, source == Source::lean ? lean_stream(model) : packed_stream(model));
+    LR_ASSIGN(Stream stream, source == Source::lean ? lean_stream(model) : packed_stream(model));
     LR_ASSIGN(GpuMesh mesh, prepare(context, model, source, options));
+    if (const EncodedSeams* seams = seams_of(model, source)) {
+        stream.vertex_order = seams->copy_order;
+        LR_TRY(upload_seams(context, transfer, mesh, *seams));
+    }
     if (source == Source::packed_vertices) LR_TRY(upload_vertex_stream(context, transfer, mesh, model));
     mesh.stream_layout = stream.layout;
     constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     LR_ASSIGN(mesh.stream,
               Buffer::create(context, "stream", stream.words.size_bytes() + kStreamTail, kStorage | kAddress));
     LR_TRY(transfer.upload(mesh.stream, stream.words));
-    if (mesh.path == Path::compute) {
+    if (mesh.indices) {
         LR_ASSIGN(mesh.commands, Buffer::create(context, "draw commands",
                                                 mesh.draws * std::uint64_t{sizeof(VkDrawIndexedIndirectCommand)},
                                                 kStorage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT));
@@ -288,9 +319,16 @@ bool has_source(const Model& model, Source source) {
     return !is_packed(source) || !model.packed.words.empty();
 }
 
+const EncodedSeams* seams_of(const Model& model, Source source) {
+    if (source == Source::plain || model.surface.empty()) return nullptr;
+    return source == Source::lean ? &model.lean_seams : &model.packed_seams;
+}
+
 std::uint64_t connectivity_bytes(const Model& model, Source source) {
     if (source == Source::plain) return 0;
-    return sizeof(std::uint32_t) * (is_packed(source) ? model.packed.words : model.lean.words).size();
+    const EncodedSeams* seams = seams_of(model, source);
+    return sizeof(std::uint32_t) * ((is_packed(source) ? model.packed.words : model.lean.words).size() +
+                                    (seams == nullptr ? 0 : seams->words.size()));
 }
 
 MeshBytes mesh_bytes(const Model& model, Source source, const UploadOptions& options) {
@@ -301,14 +339,23 @@ MeshBytes mesh_bytes(const Model& model, Source source, const UploadOptions& opt
         out.all += bytes;
         out.largest = std::max(out.largest, bytes);
     };
-    add(vertex_stride(source, options.path) * std::uint64_t{model.vertex_count()});
-    if (options.path == Path::compute) add(3 * kWord * padded_slots(static_cast<std::uint32_t>(slots)));
+    const bool seams = seams_of(model, source) != nullptr, indices = options.path == Path::compute || seams;
+    const std::uint64_t vertices = vertices_of(model, source), surface_vertices = model.surface_vertices;
+    const std::uint64_t index_bytes = 3 * kWord * padded_slots(static_cast<std::uint32_t>(slots));
+    add(vertex_stride(source, options.path) * vertices);
+    if (indices) add(index_bytes);
+    if (seams) {
+        add(index_bytes);
+        add(kWord * (surface_vertices + 1));
+        add(kWord * vertices);
+        if (source == Source::packed_vertices && options.path == Path::compute) add(3 * kWord * surface_vertices);
+    }
     if (source != Source::plain) {
         add(connectivity_bytes(model, source) + kStreamTail);
         if (source == Source::packed_vertices) add(kWord * model.vertices.words.size());
         add(kWord * slots);
-        add(kWord * model.vertex_count());
-        if (options.path == Path::compute) add(sizeof(VkDrawIndexedIndirectCommand) * (slots / kSlotStep + 1));
+        add(kWord * vertices);
+        if (indices) add(sizeof(VkDrawIndexedIndirectCommand) * (slots / kSlotStep + 1));
     }
     if (options.ring) add((slots + 3) / 4 * 4);
     if (options.lines == UploadOptions::Lines::ring) add(2 * kWord * model.vertex_count());

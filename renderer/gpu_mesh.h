@@ -64,7 +64,9 @@ std::vector<std::string> source_names();
 
 /// Is this source there in the model?
 bool has_source(const Model& model, Source source);
-/// Bytes of its stream of triangles; 0 of Source::plain.
+/// The seams of its stream; null where the mesh has none, and for Source::plain.
+const EncodedSeams* seams_of(const Model& model, Source source);
+/// Bytes of its stream of triangles, seams included; 0 of Source::plain.
 std::uint64_t connectivity_bytes(const Model& model, Source source);
 
 struct UploadOptions {
@@ -84,22 +86,30 @@ struct UploadOptions {
 struct GpuMesh {
     Source source = Source::plain;
     Path path = Path::compute;
-    std::uint32_t vertex_count = 0;
-    std::uint32_t slots = 0;       ///< triangles of the index buffer, degenerate ones too
-    std::uint32_t draw_slots = 0;  ///< slots of every draw command but the last: a multiple of 256
-    std::uint32_t draws = 0;       ///< draw commands
-    std::uint64_t max_range = 0;   ///< bytes a descriptor covers
+    std::uint32_t vertex_count = 0;      ///< of those drawn: of a surface with seams its copies
+    std::uint32_t surface_vertices = 0;  ///< of the stream
+    std::uint32_t slots = 0;             ///< triangles of the index buffer, degenerate ones too
+    std::uint32_t draw_slots = 0;        ///< slots of every draw command but the last: a multiple of 256
+    std::uint32_t draws = 0;             ///< draw commands
+    std::uint64_t max_range = 0;         ///< bytes a descriptor covers
 
     Buffer vertices;  ///< Vertex; without positions where pulls_positions()
-    Buffer indices;   ///< u32, 3 a slot, padded to whole invocations; of a stream: written by the device. Path::compute
+    /// u32, 3 a slot, padded to whole invocations; of a stream: written by the device. Path::compute, and with seams
+    Buffer indices;
     // Of a stream only:
     Buffer stream;
     std::array<std::uint32_t, 4> stream_layout{};  ///< DrawConstants::stream_layout
-    Buffer commands;                        ///< VkDrawIndexedIndirectCommand, written by the device. Path::compute
+    Buffer commands;                        ///< VkDrawIndexedIndirectCommand, written by the device. As `indices`
     Buffer slot_triangle;                   ///< the mesh's triangle of each slot
-    Buffer vertex_order;                    ///< the mesh's vertex of each vertex
+    Buffer vertex_order;                    ///< the mesh's vertex of each one in `vertices`
     Buffer vertex_stream;                   ///< of the positions. Source::packed_vertices
     std::array<float, 4> unit{0, 0, 0, 1};  ///< DrawConstants::unit
+    // Of a stream of a surface with seams. All but the section are written by the device.
+    Buffer seams;          ///< the section
+    Buffer homes;          ///< of each vertex of the surface, as lacedring_seams_homes
+    Buffer copies;         ///< as `indices`, which are the surface's, of copies
+    Buffer copy_vertices;  ///< the surface's vertex of each copy
+    Buffer positions;      ///< 3 floats a vertex of the surface. Source::packed_vertices by Path::compute
     // Only if asked for:
     Buffer classes;  ///< LR_CLASS_*, or bits of offsets, one byte a slot
     Buffer lines;    ///< u32, 2 a line
@@ -110,6 +120,9 @@ struct GpuMesh {
 
     /// Shaders decode each vertex when they want it; no buffer has the positions.
     bool pulls_positions() const { return source == Source::packed_vertices && path != Path::compute; }
+    /// Shaders read their slots' copies, instead of decoding the stream's triangles.
+    bool pulls_copies() const { return copies && path != Path::compute; }
+    const Buffer& drawn_indices() const { return copies ? copies : indices; }
 };
 
 /// Device memory that a source of the model takes with these options, before alignment: all that an upload allocates.

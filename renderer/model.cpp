@@ -72,14 +72,43 @@ double mean_edge(const Model& model) {
     return length / static_cast<double>(model.indices.size());
 }
 
+/// The seams of a stream of the model's surface, whose slots are these triangles of the mesh.
+Result<EncodedSeams> seams_of(const Model& model, std::span<const std::uint32_t> words,
+                              std::span<const std::uint32_t> vertex_order,
+                              std::span<const std::uint32_t> slot_triangle) {
+    LR_ASSIGN(const StreamView view, view_stream(words));
+    const std::vector<std::uint32_t> triangles = slot_triangles(view);
+    std::vector<std::uint32_t> copies(triangles.size());
+    for (std::size_t k = 0; k < triangles.size(); ++k) {
+        if (triangles[k] == UINT32_MAX) continue;
+        const std::uint32_t* corner = &model.indices[std::size_t{3} * slot_triangle[k / 3]];
+        while (model.surface[*corner] != vertex_order[triangles[k]]) ++corner;
+        copies[k] = *corner;
+    }
+    LR_ASSIGN(EncodedSeams out, encode_seams(triangles, view.vertices(), copies));
+    // A vertex without corners has a copy, too.
+    LR_ASSIGN(const SeamView seams, view_seams(out.words, view.slots(), view.vertices()));
+    std::vector<std::uint32_t> first(std::size_t{view.vertices()} + 1);
+    first_copies(seams, first);
+    const std::vector<std::uint32_t> of_surface = mesh_vertices(model);
+    for (std::uint32_t v = 0; v < view.vertices(); ++v) {
+        std::uint32_t& copy = out.copy_order[first[v]];
+        if (copy == UINT32_MAX) copy = of_surface[vertex_order[v]];
+    }
+    return out;
+}
+
 /// Encodes the positions as floats, as all that is drawn are, in the packed stream's order. What is lost is lost for
 /// the whole model.
 Result<void> encode_positions(Model& model, const Mesh& mesh, const VertexOptions& options) {
     const std::vector<std::uint32_t>& order = model.packed.vertex_order;
+    const std::vector<std::uint32_t> of_surface = mesh_vertices(model);
     std::vector<float> positions = positions_f32(mesh), ordered;
-    ordered.reserve(positions.size());
-    for (const std::uint32_t v : order)
-        ordered.insert(ordered.end(), &positions[3 * std::size_t{v}], &positions[3 * std::size_t{v}] + 3);
+    ordered.reserve(3 * order.size());
+    for (const std::uint32_t surface_vertex : order) {
+        const float* position = &positions[3 * std::size_t{of_surface[surface_vertex]}];
+        ordered.insert(ordered.end(), position, position + 3);
+    }
     const VertexValues values{ComponentType::f32, 3, false, std::as_bytes(std::span(ordered))};
     Result<EncodedVertices> encoded = encode_vertices(values, options);
     if (!encoded && encoded.error().code == ErrorCode::invalid_argument) {
@@ -90,8 +119,12 @@ Result<void> encode_positions(Model& model, const Mesh& mesh, const VertexOption
     if (model.vertices.largest_error == 0) return {};
     LR_ASSIGN(const VertexView view, view_vertices(model.vertices.words));
     decode_vertices(view, std::as_writable_bytes(std::span(ordered)));
-    for (std::size_t i = 0; i < order.size(); ++i)
-        std::copy_n(&ordered[3 * i], 3, &positions[3 * std::size_t{order[i]}]);
+    std::vector<std::uint32_t> place(order.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i) place[order[i]] = i;
+    for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
+        const std::size_t i = place[model.surface_of(v)];
+        std::copy_n(&ordered[3 * i], 3, &positions[3 * std::size_t{v}]);
+    }
     Mesh decoded = mesh;
     Attribute attribute{"POSITION", ComponentType::f32, 3, false, {}};
     const auto bytes = std::as_bytes(std::span(positions));
@@ -99,17 +132,29 @@ Result<void> encode_positions(Model& model, const Mesh& mesh, const VertexOption
     for (Attribute& a : decoded.attributes) {
         if (a.name == attribute.name) a = std::move(attribute);
     }
-    LR_ASSIGN(Model surface, make_surface(decoded));
-    surface.indices = model.indices;
-    surface.lean = std::move(model.lean);
-    surface.packed = std::move(model.packed);
-    surface.vertices = std::move(model.vertices);
-    surface.exact = std::move(model.exact);
-    model = std::move(surface);
+    LR_ASSIGN(const Model moved, make_surface(decoded));
+    model.positions = moved.positions;
+    model.normals = moved.normals;
+    model.centre = moved.centre;
+    model.radius = moved.radius;
+    model.unit = moved.unit;
+    model.mean_edge = moved.mean_edge;
     return {};
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> surface_triangles(const Model& model) {
+    std::vector<std::uint32_t> out(model.indices.begin(), model.indices.end());
+    for (std::uint32_t& v : out) v = model.surface_of(v);
+    return out;
+}
+
+std::vector<std::uint32_t> mesh_vertices(const Model& model) {
+    std::vector<std::uint32_t> out(model.surface_vertices);
+    for (std::uint32_t v = model.vertex_count(); v-- > 0;) out[model.surface_of(v)] = v;
+    return out;
+}
 
 Result<Model> make_surface(const Mesh& mesh) {
     if (mesh.indices.empty()) return Error{ErrorCode::unsupported, "the mesh has no triangles to draw"};
@@ -117,6 +162,7 @@ Result<Model> make_surface(const Mesh& mesh) {
     model.indices = mesh.indices;
     model.positions = positions_f32(mesh);
     model.normals = normals_f32(mesh);
+    model.surface_vertices = mesh.vertex_count;
     LR_TRY(normalise(model));
     model.mean_edge = mean_edge(model);
     return model;
@@ -124,15 +170,31 @@ Result<Model> make_surface(const Mesh& mesh) {
 
 Result<Model> make_model(const Mesh& mesh, const ModelOptions& options) {
     LR_ASSIGN(Model model, make_surface(mesh));
-    LR_ASSIGN(const CornerTable table, build_corner_table(mesh.indices, mesh.vertex_count));
+    const bool seams = !options.surface.empty();
+    if (seams) {
+        model.surface.assign(options.surface.begin(), options.surface.end());
+        model.surface_vertices = options.surface_vertices;
+        if (model.surface.size() != mesh.vertex_count || std::ranges::max(model.surface) >= options.surface_vertices) {
+            return Error{ErrorCode::invalid_argument, "the surface is not of this mesh"};
+        }
+    }
+    LR_ASSIGN(const CornerTable table, build_corner_table(surface_triangles(model), model.surface_vertices));
     const Rings rings = expand_rings(table, options.ring);
     OptimizeOptions optimize = options.optimize;
     optimize.cost = kLeanRingCost;
     LR_ASSIGN(model.lean, encode_lean(table, optimize_rings(table, rings, optimize), options.lean));
+    if (seams) {
+        LR_ASSIGN(model.lean_seams,
+                  seams_of(model, model.lean.words, model.lean.vertex_order, model.lean.slot_triangle));
+    }
     if (options.packed) {
         optimize.cost = kPackedRingCost;
         LR_ASSIGN(PackedChoice packed, encode_smallest_packed(table, options.ring, optimize));
         model.packed = std::move(packed.stream);
+        if (seams) {
+            LR_ASSIGN(model.packed_seams,
+                      seams_of(model, model.packed.words, model.packed.vertex_order, model.packed.triangle_order));
+        }
         if (options.vertices) LR_TRY(encode_positions(model, mesh, *options.vertices));
     }
     return model;

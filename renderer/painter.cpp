@@ -36,33 +36,37 @@ Result<Painter> Painter::create(Context& context, View view, std::uint32_t sampl
 
 Result<Painter> Painter::again() const {
     LR_ASSIGN(Painter out, create(*context_, view_, samples_, outlined_));
-    for (const auto& [key, surface] : surfaces_) LR_TRY(out.make_surface(key.first, key.second));
-    for (const auto& [pulled, lines] : lines_) LR_TRY(out.make_lines(pulled));
+    for (const auto& [key, surface] : surfaces_) LR_TRY(out.make_surface(key));
+    for (const auto& [key, lines] : lines_) LR_TRY(out.make_lines(key));
     return out;
 }
 
-Result<void> Painter::make_lines(bool pulled) {
-    if (upload_options(view_).lines == UploadOptions::Lines::none || lines_.contains(pulled)) return {};
+Result<void> Painter::make_lines(const LineKey& key) {
+    const auto [pulled, seams] = key;
+    if (upload_options(view_).lines == UploadOptions::Lines::none || lines_.contains(key)) return {};
     GraphicsInfo lines = line_pipeline("lines", pulled ? spirv_line_pull_vert : spirv_line_vert, spirv_line_frag);
-    if (!pulled) {
+    if (pulled) {
+        lines.constants = {0, 0, 0, 0, 0, seams ? VK_TRUE : VK_FALSE};
+    } else {
         lines.vertex_binding = {0, sizeof(Vertex), VK_VERTEX_INPUT_RATE_VERTEX};
         lines.vertex_attributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Vertex, position)}};
     }
     LR_ASSIGN(PipelineHandle pipeline, create_graphics(*context_, layout_, lines));
-    lines_.emplace(pulled, std::move(pipeline));
+    lines_.emplace(key, std::move(pipeline));
     return {};
 }
 
-Result<void> Painter::make_surface(Source source, Path path) {
-    if (surfaces_.contains({source, path})) return {};
-    LR_ASSIGN(Surface surface, Surface::create(*context_, layout_, view_, source, path, outlined_));
-    surfaces_.emplace(std::pair(source, path), std::move(surface));
+Result<void> Painter::make_surface(const SurfaceKey& key) {
+    if (surfaces_.contains(key)) return {};
+    const auto [source, path, seams] = key;
+    LR_ASSIGN(Surface surface, Surface::create(*context_, layout_, view_, source, path, seams, outlined_));
+    surfaces_.emplace(key, std::move(surface));
     return {};
 }
 
 Result<DrawPlan> Painter::plan(Descriptors& descriptors, const GpuMesh& mesh, const Target& target) {
-    LR_TRY(make_surface(mesh.source, mesh.path));
-    LR_TRY(make_lines(mesh.pulls_positions()));
+    LR_TRY(make_surface(key_of(mesh)));
+    LR_TRY(make_lines(line_key_of(mesh)));
     DrawPlan plan;
     for (std::uint32_t draw = 0; draw < mesh.draws; ++draw) {
         const std::uint64_t first = std::uint64_t{draw} * mesh.draw_slots;
@@ -106,7 +110,7 @@ void Painter::draw_lines(VkCommandBuffer commands, const GpuMesh& mesh, const Dr
     const VkBuffer vertices = mesh.vertices.handle();
     const VkDeviceSize zero = 0;
     const DrawConstants constants = draw_constants(mesh, 0, mesh.slots);
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, lines_.at(mesh.pulls_positions()).get());
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, lines_.at(line_key_of(mesh)).get());
     vkCmdPushConstants(commands, layout_.pipeline(), surface_stages(*context_), 0, sizeof(constants), &constants);
     vkCmdSetLineWidth(commands, line_width_);
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.pipeline(), 0, 1, &plan.sets[0], 0,
@@ -118,7 +122,7 @@ void Painter::draw_lines(VkCommandBuffer commands, const GpuMesh& mesh, const Dr
 
 void Painter::record(VkCommandBuffer commands, const GpuMesh& mesh, const DrawPlan& plan, const Target& target,
                      Ties ties) const {
-    const Surface& triangles = surfaces_.at({mesh.source, mesh.path});
+    const Surface& triangles = surfaces_.at(key_of(mesh));
     target.prepare(commands);
     Target::Use surface{.colour = true, .triangles = true, .clear_colour = true, .clear_depth = true};
     if (ties == Ties::by_number) {

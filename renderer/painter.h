@@ -2,6 +2,7 @@
 // The passes that make one picture.
 
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "renderer/camera.h"
@@ -39,8 +40,17 @@ class Painter {
                 Ties ties) const;
 
   private:
-    Result<void> make_surface(Source source, Path path);
-    Result<void> make_lines(bool pulled);
+    /// Source and path of a mesh, and whether it has pulls_copies().
+    using SurfaceKey = std::tuple<Source, Path, bool>;
+    static SurfaceKey key_of(const GpuMesh& mesh) { return {mesh.source, mesh.path, mesh.pulls_copies()}; }
+    /// Whether it has pulls_positions() and pulls_copies().
+    using LineKey = std::pair<bool, bool>;
+    static LineKey line_key_of(const GpuMesh& mesh) {
+        return {mesh.pulls_positions(), mesh.pulls_positions() && mesh.pulls_copies()};
+    }
+
+    Result<void> make_surface(const SurfaceKey& key);
+    Result<void> make_lines(const LineKey& key);
     void draw_lines(VkCommandBuffer commands, const GpuMesh& mesh, const DrawPlan& plan) const;
 
     Context* context_ = nullptr;
@@ -49,8 +59,8 @@ class Painter {
     bool outlined_ = false;
     float line_width_ = 1;
     Layout layout_;
-    std::map<std::pair<Source, Path>, Surface> surfaces_;
-    std::map<bool, PipelineHandle> lines_;  // of positions in a buffer; pulled from a vertex stream
+    std::map<SurfaceKey, Surface> surfaces_;
+    std::map<LineKey, PipelineHandle> lines_;
     Buffer frame_;
     Buffer nothing_;  // bound where a mesh has no such buffer
 };

@@ -39,7 +39,7 @@ Result<Drawable> Renderer::upload(const Model& model, Source source, Path path) 
     std::vector<float> normals;
     if (vertex_normals_) {
         LR_ASSIGN(adjacency, upload_adjacency(*context_, *transfer_, model));
-        LR_ASSIGN(normals, normals_of(*adjacency, model.vertex_count()));
+        LR_ASSIGN(normals, normals_of(*adjacency, model));
         options.normals = normals;
     }
     LR_ASSIGN(Drawable out, expander_.upload(*transfer_, model, source, options));
@@ -48,13 +48,18 @@ Result<Drawable> Renderer::upload(const Model& model, Source source, Path path) 
     return out;
 }
 
-Result<std::vector<float>> Renderer::normals_of(const Adjacency& adjacency, std::uint32_t vertices) {
+Result<std::vector<float>> Renderer::normals_of(const Adjacency& adjacency, const Model& model) {
     LR_ASSIGN(const Buffer buffer, vertex_normals_->compute(*commands_, adjacency));
     std::vector<float> by_table(std::size_t{3} * adjacency.vertices);
     LR_TRY(transfer_->read(buffer, 0, std::as_writable_bytes(std::span(by_table))));
-    std::vector<float> out(std::size_t{3} * vertices);
+    std::vector<float> out(model.positions.size());
     for (std::size_t v = adjacency.vertices; v-- > 0;) {
         std::copy_n(&by_table[3 * v], 3, &out[3 * std::size_t{adjacency.vertex_order[v]}]);
+    }
+    if (model.surface.empty()) return out;
+    const std::vector<std::uint32_t> of_surface = mesh_vertices(model);
+    for (std::size_t v = 0; v < model.surface.size(); ++v) {
+        std::copy_n(&out[3 * std::size_t{of_surface[model.surface[v]]}], 3, &out[3 * v]);
     }
     return out;
 }
@@ -85,11 +90,20 @@ Result<Picture> Renderer::draw(Drawable& drawable, const Model& model, const Cam
 
 Result<std::vector<std::uint32_t>> Renderer::read_indices(Drawable& drawable) {
     if (drawable.mesh.path != Path::compute) return slots_.read(*commands_, *transfer_, drawable.mesh);
+    return read_decoded(drawable, drawable.mesh.indices);
+}
+
+Result<std::vector<std::uint32_t>> Renderer::read_copies(Drawable& drawable) {
+    if (!drawable.mesh.copies) return std::vector<std::uint32_t>();
+    return read_decoded(drawable, drawable.mesh.copies);
+}
+
+Result<std::vector<std::uint32_t>> Renderer::read_decoded(Drawable& drawable, const Buffer& indices) {
     LR_ASSIGN(const VkCommandBuffer commands, commands_->begin());
     decode(commands, drawable);
     LR_TRY(commands_->run());
     std::vector<std::uint32_t> out(std::size_t{3} * drawable.mesh.slots);
-    LR_TRY(transfer_->read(drawable.mesh.indices, 0, std::as_writable_bytes(std::span(out))));
+    LR_TRY(transfer_->read(indices, 0, std::as_writable_bytes(std::span(out))));
     return out;
 }
 

@@ -45,9 +45,12 @@ class Renderer {
     /// need be; of the others what their shaders get, slot by slot.
     Result<std::vector<std::uint32_t>> read_indices(Drawable& drawable);
 
+    /// Of a surface with seams: the copy of each of these corners, in the same way; empty of others.
+    Result<std::vector<std::uint32_t>> read_copies(Drawable& drawable);
+
     /// Source::packed_vertices: the bits of 3 floats a vertex, in the mesh's coordinates, as the device decodes them.
-    /// The positions in the vertex buffer (Path::compute), or those that the shaders of other paths decode, vertex by
-    /// vertex.
+    /// The positions in the vertex buffer (Path::compute), of copies where there are seams; or those that the shaders
+    /// of other paths decode, vertex by vertex of the stream.
     Result<std::vector<std::uint32_t>> read_positions(Drawable& drawable);
 
     /// Words of its stream that decoding every slot by itself loads: what a picture by Path::geometry or mesh reads,
@@ -66,9 +69,10 @@ class Renderer {
 
   private:
     Renderer() = default;
-    /// Normals of the mesh's vertices, by the device, from positions and tables alone. Of a vertex in several fans:
-    /// that of the first.
-    Result<std::vector<float>> normals_of(const Adjacency& adjacency, std::uint32_t vertices);
+    Result<std::vector<std::uint32_t>> read_decoded(Drawable& drawable, const Buffer& indices);
+    /// Normals of the mesh's vertices, by the device, from positions and tables of the surface alone. Of a vertex in
+    /// several fans: that of the first.
+    Result<std::vector<float>> normals_of(const Adjacency& adjacency, const Model& model);
 
     Context* context_ = nullptr;
     RendererOptions options_;

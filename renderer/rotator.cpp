@@ -26,10 +26,11 @@ Result<RotatePlan> Rotator::plan(Descriptors& descriptors, const GpuMesh& mesh) 
     RotatePlan plan;
     for (std::uint64_t first = 0; first < mesh.slots; first += step) {
         const std::uint64_t triangles = std::min(step, mesh.slots - first);
-        const VkDeviceSize bytes = std::min(12 * ((triangles + 3) / 4 * 4), mesh.indices.size() - 12 * first);
+        const VkDeviceSize bytes = std::min(12 * ((triangles + 3) / 4 * 4), mesh.drawn_indices().size() - 12 * first);
         RotatePlan::Dispatch dispatch;
         LR_ASSIGN(dispatch.set, descriptors.allocate(layout_));
-        descriptors.write(dispatch.set, 0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, {&mesh.indices, 12 * first, bytes});
+        descriptors.write(dispatch.set, 0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                          {&mesh.drawn_indices(), 12 * first, bytes});
         dispatch.constants = {static_cast<std::uint32_t>(triangles), mesh.source == Source::plain ? 0U : 1U,
                               mesh.vertex_order.address_words()};
         constexpr std::uint64_t kPerGroup = std::uint64_t{LR_COMPUTE_GROUP} * LR_TRIANGLES_PER_INVOCATION;

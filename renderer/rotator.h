@@ -7,7 +7,7 @@ namespace lacedring::gpu {
 
 using RotatePlan = PassPlan<RotateConstants>;
 
-/// Reads and writes mesh.indices.
+/// Reads and writes mesh.drawn_indices().
 class Rotator : public ComputePass<RotateConstants> {
   public:
     static Result<Rotator> create(Context& context);

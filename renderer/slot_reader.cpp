@@ -24,14 +24,15 @@ template <class Done>
 Result<void> SlotReader::run(Commands& commands, const GpuMesh& mesh, Task task, const Done& done) {
     if (mesh.source == Source::plain) return Error{ErrorCode::invalid_argument, "an index list has no stream"};
     const bool packed = is_packed(mesh.source), fours = task == Task::words_by_fours;
-    const std::uint32_t count = task == Task::positions ? mesh.vertex_count : mesh.slots;
+    const std::uint32_t count = task == Task::positions ? mesh.surface_vertices : mesh.slots;
     PipelineHandle& pipeline = pipelines_[2 * static_cast<std::size_t>(task) + (packed ? 1 : 0)];
     if (!pipeline) {
-        const std::array<std::uint32_t, 6> constants{0,
+        const std::array<std::uint32_t, 7> constants{0,
                                                      0,
                                                      packed ? 1U : 0U,
                                                      0,  // triangles as they are
                                                      0,
+                                                     0,  // and of the stream
                                                      fours ? 1U : 0U};
         const Shader& shader = task == Task::indices     ? spirv_slot_indices_comp
                                : task == Task::positions ? spirv_vertex_positions_comp
@@ -61,7 +62,7 @@ Result<void> SlotReader::run(Commands& commands, const GpuMesh& mesh, Task task,
 
 Result<std::vector<std::uint32_t>> SlotReader::read_threes(Commands& commands, Transfer& transfer, const GpuMesh& mesh,
                                                            Task task) {
-    std::vector<std::uint32_t> out(std::size_t{3} * (task == Task::positions ? mesh.vertex_count : mesh.slots));
+    std::vector<std::uint32_t> out(std::size_t{3} * (task == Task::positions ? mesh.surface_vertices : mesh.slots));
     LR_TRY(run(commands, mesh, task, [&](std::uint32_t first, std::uint32_t count, const Buffer& part) {
         return transfer.read(
             part, 0, std::as_writable_bytes(std::span(out).subspan(std::size_t{3} * first, std::size_t{3} * count)));

@@ -50,7 +50,7 @@ VkShaderStageFlags surface_stages(const Context& context) {
     return VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_GEOMETRY_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | mesh;
 }
 
-Result<Surface> Surface::create(Context& context, const Layout& layout, View view, Source source, Path path,
+Result<Surface> Surface::create(Context& context, const Layout& layout, View view, Source source, Path path, bool seams,
                                 bool outlined) {
     Surface out;
     out.context_ = &context;
@@ -61,9 +61,12 @@ Result<Surface> Surface::create(Context& context, const Layout& layout, View vie
         info.push_back = has_lines(view) || outlined;
         // Exact pictures are of triangles that begin with their smallest vertex; the index buffers of Path::compute are
         // turned so by the rotating pass.
-        info.constants = {static_cast<std::uint32_t>(view), pass == resolve ? VK_TRUE : VK_FALSE,
-                          is_packed(source) ? VK_TRUE : VK_FALSE, pass != single ? VK_TRUE : VK_FALSE,
-                          source == Source::packed_vertices ? VK_TRUE : VK_FALSE};
+        info.constants = {static_cast<std::uint32_t>(view),
+                          pass == resolve ? VK_TRUE : VK_FALSE,
+                          is_packed(source) ? VK_TRUE : VK_FALSE,
+                          pass != single ? VK_TRUE : VK_FALSE,
+                          source == Source::packed_vertices ? VK_TRUE : VK_FALSE,
+                          seams ? VK_TRUE : VK_FALSE};
         if (pass == claim || pass == resolve) {
             info.depth_compare = VK_COMPARE_OP_EQUAL;
             info.depth_write = false;
@@ -84,7 +87,7 @@ void Surface::draw(VkCommandBuffer commands, Pass pass, const GpuMesh& mesh, con
         const VkBuffer vertices = mesh.vertices.handle();
         const VkDeviceSize zero = 0;
         vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &zero);
-        vkCmdBindIndexBuffer(commands, mesh.indices.handle(), 0, VK_INDEX_TYPE_UINT32);
+        vkCmdBindIndexBuffer(commands, mesh.drawn_indices().handle(), 0, VK_INDEX_TYPE_UINT32);
     }
     for (std::uint32_t draw = 0; draw < mesh.draws; ++draw) {
         const std::uint32_t first = draw * mesh.draw_slots;
@@ -136,6 +139,8 @@ DrawConstants draw_constants(const GpuMesh& mesh, std::uint32_t first, std::uint
     constants.vertices = mesh.vertices.address_words();
     constants.vertex_order = mesh.vertex_order.address_words();
     constants.vertex_stream = mesh.vertex_stream.address_words();
+    constants.copies = mesh.copies.address_words();
+    constants.copy_vertices = mesh.copy_vertices.address_words();
     constants.stream_layout = mesh.stream_layout;
     constants.unit = mesh.unit;
     return constants;

@@ -27,11 +27,12 @@ class Surface {
     };
     static constexpr std::size_t kPasses = 4;
 
-    /// The layout has DrawConstants for surface_stages(). `outlined`: lines of others are drawn over it.
+    /// The layout has DrawConstants for surface_stages(). `seams`: of meshes that have pulls_copies(). `outlined`:
+    /// lines of others are drawn over it.
     static Result<Surface> create(Context& context, const Layout& layout, View view, Source source, Path path,
-                                  bool outlined = false);
+                                  bool seams, bool outlined);
 
-    /// Draws every triangle of a mesh that has this source and path. Its buffers must be visible.
+    /// Draws every triangle of a mesh that has this source and path, and seams. Its buffers must be visible.
     void draw(VkCommandBuffer commands, Pass pass, const GpuMesh& mesh, const DrawPlan& plan) const;
 
   private:

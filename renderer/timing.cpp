@@ -64,6 +64,7 @@ struct BestOrder {
             if (number[v] == UINT32_MAX) move(v);
         }
         model.indices = indices;
+        model.surface_vertices = from.vertex_count();
     }
 };
 
@@ -88,8 +89,14 @@ Result<void> count_bytes(Renderer& renderer, Uploaded& uploaded, std::size_t str
         return {};
     }
     LR_ASSIGN(const WordsRead words, renderer.words_read(uploaded.drawable));
+    const std::uint64_t times = way.path == Path::pull ? 3 : 1;
     way.connectivity_bytes = stream_bytes;
-    way.bytes_read = sizeof(std::uint32_t) * words.all * (way.path == Path::pull ? 3 : 1);
+    way.bytes_read = sizeof(std::uint32_t) * words.all * times;
+    if (mesh.pulls_copies()) {  // instead of the stream, which is decoded before
+        LR_TRY(renderer.read_copies(uploaded.drawable));
+        way.connectivity_bytes = index_bytes;
+        way.bytes_read = index_bytes * times;
+    }
     return {};
 }
 

@@ -30,25 +30,26 @@ Result<VertexDecoder> VertexDecoder::create(Context& context) {
 }
 
 Result<VertexPlan> VertexDecoder::plan(Descriptors& descriptors, const GpuMesh& mesh, const VertexView& view) const {
-    constexpr std::uint64_t kBlockBytes = sizeof(Vertex) * std::uint64_t{kVertexBlock};
-    static_assert(kBlockBytes % kDescriptorAlignment == 0);
+    const Buffer& out = mesh.positions ? mesh.positions : mesh.vertices;
+    const std::uint32_t stride = mesh.positions ? LR_POSITION_FLOATS : LR_VERTEX_FLOATS;
+    const std::uint64_t block_bytes = sizeof(float) * std::uint64_t{stride} * kVertexBlock;
+    static_assert(sizeof(float) * kVertexBlock % kDescriptorAlignment == 0);
     const std::uint64_t by_groups =
         std::uint64_t{context_->limits().maxComputeWorkGroupCount[0]} * LR_VERTEX_GROUP_SIZE;
-    const std::uint64_t step = std::min(mesh.max_range / kBlockBytes, by_groups);
-    const std::uint64_t all = (std::uint64_t{mesh.vertex_count} + kVertexBlock - 1) / kVertexBlock;
+    const std::uint64_t step = std::min(mesh.max_range / block_bytes, by_groups);
+    const std::uint64_t all = (std::uint64_t{view.vertices} + kVertexBlock - 1) / kVertexBlock;
     const auto pipeline = std::find(kMappings.begin(), kMappings.end(), view.mapping) - kMappings.begin();
     VertexPlan plan;
     for (std::uint64_t first = 0; first < all; first += step) {
         const std::uint64_t blocks = std::min(step, all - first);
-        const VkDeviceSize bytes = std::min(blocks * kBlockBytes, mesh.vertices.size() - first * kBlockBytes);
+        const VkDeviceSize bytes = std::min(blocks * block_bytes, out.size() - first * block_bytes);
         VertexPlan::Dispatch dispatch;
         LR_ASSIGN(dispatch.set, descriptors.allocate(layout_));
-        descriptors.write(dispatch.set, 0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                          {&mesh.vertices, first * kBlockBytes, bytes});
+        descriptors.write(dispatch.set, 0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, {&out, first * block_bytes, bytes});
         dispatch.pipeline = static_cast<std::uint32_t>(pipeline);
         dispatch.constants.first_block = static_cast<std::uint32_t>(first);
         dispatch.constants.blocks = static_cast<std::uint32_t>(blocks);
-        dispatch.constants.stride = LR_VERTEX_FLOATS;
+        dispatch.constants.stride = stride;
         dispatch.constants.stream = mesh.vertex_stream.address_words();
         dispatch.groups = static_cast<std::uint32_t>((blocks + LR_VERTEX_GROUP_SIZE - 1) / LR_VERTEX_GROUP_SIZE);
         plan.dispatches.push_back(dispatch);

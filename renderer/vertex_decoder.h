@@ -8,12 +8,12 @@ namespace lacedring::gpu {
 
 using VertexPlan = PassPlan<VertexConstants>;
 
-/// Writes the positions of mesh.vertices.
+/// Writes mesh.positions, or those of mesh.vertices where the surface has no seams.
 class VertexDecoder : public ComputePass<VertexConstants> {
   public:
     static Result<VertexDecoder> create(Context& context);
 
-    /// Splits the vertex buffer so that no descriptor covers more than mesh.max_range bytes. The stream is read through
+    /// Splits the buffer so that no descriptor covers more than mesh.max_range bytes. The stream is read through
     /// its address.
     Result<VertexPlan> plan(Descriptors& descriptors, const GpuMesh& mesh, const VertexView& view) const;
 };

@@ -9,6 +9,8 @@
 layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Words { uint at[]; };
 layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Floats { float at[]; };
 
+layout(constant_id = LR_CONSTANT_SEAMS) const bool seams = false;
+
 layout(push_constant) uniform Push { DrawConstants push; };
 
 // From the coordinates of the source into the unit sphere, to the bit as normalise() of renderer/model.cpp has it.

@@ -4,4 +4,4 @@
 #include "shaders/line_vertex.glsl"
 #include "shaders/vertex_source.glsl"
 
-void main() { gl_Position = line_vertex(uintBitsToFloat(stream_position(uint(gl_VertexIndex)))); }
+void main() { gl_Position = line_vertex(uintBitsToFloat(stream_position(stream_vertex(uint(gl_VertexIndex))))); }

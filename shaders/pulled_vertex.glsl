@@ -10,7 +10,7 @@ SurfaceVertex pulled_vertex(uint v) {
     uint at = v * (vertex_stream ? LR_VERTEX_FLOATS - LR_POSITION_FLOATS : LR_VERTEX_FLOATS);
     vec3 position;
     if (vertex_stream) {
-        position = uintBitsToFloat(stream_position(v));
+        position = uintBitsToFloat(stream_position(stream_vertex(v)));
     } else {
         position = vec3(vertices.at[at], vertices.at[at + 1u], vertices.at[at + 2u]);
         at += LR_POSITION_FLOATS;

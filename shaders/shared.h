@@ -22,6 +22,8 @@ using mat4 = std::array<float, 16>;  // column-major
 #define LR_CONSTANT_INTEGERS 1    // vertex_decode.comp: writes them, not the values they stand for
 #define LR_CONSTANT_MAPPING 2     // vertex_decode.comp: what they stand for
 
+#define LR_CONSTANT_SEAM_PASS 0  // seam_decode.comp: LR_SEAM_PASS_*
+
 // lean_decode.comp, packed_decode.comp: one dispatch expands `slots` slots from `first_slot`, through descriptors that
 // cover only what these need.
 struct DecodeConstants {
@@ -43,7 +45,25 @@ struct VertexConstants {
     uint unused;
     uvec2 stream;  // its address
 };
-#define LR_VERTEX_GROUP_SIZE 32u  // invocations, a block each
+#define LR_VERTEX_GROUP_SIZE 32u  // of this and of seam_decode.comp: invocations, a block each
+
+// seam_decode.comp: one dispatch decodes `blocks` blocks from `first_block`, or moves the positions of that many
+// copies. Its descriptors begin at the first vertex, the first corner, or the first copy, of these.
+struct SeamConstants {
+    uint first_block;
+    uint blocks;
+    uint vertices;  // of the surface
+    uint slots;     // of its stream
+    uint copies;
+    uint words;     // of the section
+    uvec2 section;  // addresses
+    uvec2 homes;
+    uvec2 copy_vertices;
+    uvec2 positions;
+};
+#define LR_SEAM_PASS_VERTICES 0u   // decodes vertex blocks
+#define LR_SEAM_PASS_TRIANGLES 1u  // decodes triangle blocks
+#define LR_SEAM_PASS_POSITIONS 2u  // gives each copy the position of its vertex
 
 // rotate.comp: the window of the index buffer is the descriptor's.
 struct RotateConstants {
@@ -72,6 +92,8 @@ struct DrawConstants {
     uvec2 vertices;
     uvec2 vertex_order;
     uvec2 vertex_stream;
+    uvec2 copies;
+    uvec2 copy_vertices;
     uvec4 stream_layout;  // lean: LrLeanLayout; packed: LrPackedLayout
     // Positions are (x - unit.xyz) * unit.w in the unit sphere.
     vec4 unit;
@@ -82,7 +104,9 @@ struct DrawConstants {
 #define LR_CONSTANT_ROTATE 3         // triangles begin with their smallest original vertex
 #define LR_CONSTANT_VERTEX_STREAM 4  // positions are decoded from a vertex stream
 
-#define LR_CONSTANT_FOURS 5  // slot_words.comp: four slots at a time
+#define LR_CONSTANT_SEAMS 5  // triangles are read from `copies`
+
+#define LR_CONSTANT_FOURS 6  // slot_words.comp: four slots at a time
 
 // Floats of a vertex: position (none where a shader decodes it from a vertex stream), normal, place along the rings.
 #define LR_POSITION_FLOATS 3u

@@ -1,4 +1,4 @@
-// The triangles of a stream, for the stages that decode by themselves.
+// The triangles of a stream, for the stages that decode by themselves; those over the copies of a surface with seams are read.
 #include "shaders/draw_push.glsl"
 
 layout(constant_id = LR_CONSTANT_PACKED) const bool packed_stream = false;
@@ -35,6 +35,11 @@ LrPackedLayout packed_layout() {
 }
 
 uvec3 slot_triangle(uint slot) {
+    if (seams) {
+        Words copies = Words(push.copies);
+        uvec3 c = uvec3(copies.at[3u * slot], copies.at[3u * slot + 1u], copies.at[3u * slot + 2u]);
+        return rotate ? rotated(c) : c;
+    }
     uvec3 t = packed_stream ? lr_packed_triangle(packed_layout(), slot) : lr_lean_triangle(lean_layout(), slot);
     return rotate ? rotated(t) : t;
 }
@@ -59,6 +64,10 @@ void slot_pair(uint slot, out uvec3 t0, out uvec3 t1) {
 // The triangles of slots 4i to 4i + 3, of which the first `count` are there.
 uvec3 slot_four[4];
 void read_slot_four(uint slot, uint count) {
+    if (seams) {
+        for (uint i = 0u; i < 4u; ++i) slot_four[i] = i < count ? slot_triangle(slot + i) : uvec3(0u);
+        return;
+    }
     if (packed_stream) {
         lr_packed_triangles_of_quad(packed_layout(), slot, count);
         for (uint i = 0u; i < 4u; ++i) slot_four[i] = lr_packed_quad[i];

@@ -6,10 +6,13 @@
 #define LR_VERTEX_PUT(i)
 #include "shaders/lacedring_vertices.glsl"
 
-// The bits of its floats. Reads the vertex's block up to there.
+// The bits of its floats; v is a vertex of the stream. Reads its block up to there.
 uvec3 stream_position(uint v) {
     LrVertexLayout p = lr_vertex_layout();
     lr_vertex_block(p, v / LR_VERTEX_BLOCK, v % LR_VERTEX_BLOCK + 1u);
     return uvec3(lr_vertex_float(p, 3u * v, lr_vertex_value[0]), lr_vertex_float(p, 3u * v + 1u, lr_vertex_value[1]),
                  lr_vertex_float(p, 3u * v + 2u, lr_vertex_value[2]));
 }
+
+// The stream's vertex of one that is drawn.
+uint stream_vertex(uint v) { return seams ? Words(push.copy_vertices).at[v] : v; }

@@ -3,6 +3,7 @@
 #include "lrcore/codec/lean/lean_format.h"
 #include "renderer/adjacency.h"
 #include "tests/gpu/gpu_test.h"
+#include "tests/support/cuts.h"
 
 using namespace lacedring;
 using namespace lacedring::test;
@@ -23,8 +24,9 @@ struct Range {
 
 std::vector<Range> ranges_of(const gpu::Drawable& drawable) {
     std::vector<Range> out;
-    for (const gpu::Buffer* buffer :
-         {&drawable.mesh.stream, &drawable.mesh.vertices, &drawable.mesh.vertex_order, &drawable.mesh.vertex_stream}) {
+    for (const gpu::Buffer* buffer : {&drawable.mesh.stream, &drawable.mesh.vertices, &drawable.mesh.vertex_order,
+                                      &drawable.mesh.vertex_stream, &drawable.mesh.seams, &drawable.mesh.homes,
+                                      &drawable.mesh.copies, &drawable.mesh.copy_vertices, &drawable.mesh.positions}) {
         if (*buffer) out.push_back({buffer->address(), buffer->address() + buffer->size()});
     }
     if (drawable.adjacency) {
@@ -90,6 +92,26 @@ TEST_CASE("GPU-assisted validation is clean on every source and path") {
                 const gpu::Drawable drawable = draw(*renderer, model, {source, path});
                 CHECK(messages(*context, ranges_of(drawable)) == 0);
             }
+        }
+    }
+}
+
+TEST_CASE("GPU-assisted validation is clean on meshes with seams") {
+    const auto context = assisted();
+    gpu::RendererOptions options;
+    options.width = options.height = kPicture;
+    options.max_range = kSmallRange;
+    auto renderer = gpu::Renderer::create(*context, options);
+    REQUIRE(renderer);
+    const CutMesh cut = cut_mesh(generated("parts", 1000), 1, 3);
+    gpu::ModelOptions all{.packed = true, .vertices = VertexOptions{}};
+    all.surface = cut.surface;
+    all.surface_vertices = cut.surface_vertices;
+    const gpu::Model model = gpu::make_model(cut.mesh, all).value();
+    for (const gpu::Path path : {gpu::Path::compute, gpu::Path::pull}) {
+        for (const gpu::Source source : {gpu::Source::lean, gpu::Source::packed_vertices}) {
+            const gpu::Drawable drawable = draw(*renderer, model, {source, path});
+            CHECK(messages(*context, ranges_of(drawable)) == 0);
         }
     }
 }

@@ -11,7 +11,7 @@
 #include "lacedring/lacedring.hpp"
 #include "lacedring/seams.hpp"
 #include "lrlab/generate/generate.h"
-#include "tests/support/cut.h"
+#include "tests/support/cuts.h"
 #include "tests/support/meshes.h"
 
 using namespace lacedring;
@@ -54,7 +54,7 @@ void check_corners(const LrStreamView<View>& tables, const Numbers& slots, const
 /// CornerCopies and copy_vertices against decode_seams, for one way to cut.
 void check_copies(const StreamView& stream, std::uint32_t how, std::uint64_t seed, Seen& seen) {
     const Numbers slots = slot_triangles(stream);
-    const test::Cut mesh = test::cut(slots, stream.vertices(), how, seed);
+    const test::CutSurface mesh = test::cut(slots, stream.vertices(), how, seed);
     const Result<EncodedSeams> seams = encode_seams(slots, stream.vertices(), mesh.copies);
     REQUIRE_MESSAGE(seams, seams.error().message);
     const Result<SeamView> view = validate_seams(seams->words, slots, stream.vertices());

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <map>
 #include <memory>
 #include <numeric>
 
@@ -13,13 +11,13 @@
 #include "lrcore/base/crc32.h"
 #include "lrlab/generate/generate.h"
 #include "tests/support/capture.h"
-#include "tests/support/cut.h"
+#include "tests/support/cuts.h"
 #include "tests/support/meshes.h"
 #include "tests/support/shapes.h"
 
 using namespace lacedring;
 using test::cut;
-using test::Cut;
+using test::CutSurface;
 using test::kCuts;
 using test::random_below;
 
@@ -28,7 +26,7 @@ namespace {
 using Words = std::vector<std::uint32_t>;
 
 /// The triangles in the order and numbers of a packed stream.
-Cut in_stream_order(const Mesh& mesh, std::uint32_t how, std::uint64_t seed) {
+CutSurface in_stream_order(const Mesh& mesh, std::uint32_t how, std::uint64_t seed) {
     const Result<Encoded> encoded = encode(mesh.indices, mesh.vertex_count, {.effort = 0});
     REQUIRE_MESSAGE(encoded, encoded.error().message);
     const Result<PackedView> view = validate_packed(encoded->words);
@@ -46,7 +44,7 @@ Words without_degenerate(const Words& triangles) {
     return out;
 }
 
-EncodedSeams encoded(const Cut& mesh) {
+EncodedSeams encoded(const CutSurface& mesh) {
     Result<EncodedSeams> out = encode_seams(mesh.triangles, mesh.vertices, mesh.copies);
     REQUIRE_MESSAGE(out, out.error().message);
     return std::move(*out);
@@ -58,7 +56,7 @@ std::span<const std::uint32_t> block_of(std::span<const std::uint32_t> corners, 
 }
 
 /// Validates and decodes in buffers of exactly the sizes; blocks give the same copies in any order.
-Words decoded(const Words& words, const Cut& mesh) {
+Words decoded(const Words& words, const CutSurface& mesh) {
     const auto exact = std::make_unique<std::uint32_t[]>(words.size());
     std::ranges::copy(words, exact.get());
     const std::span<const std::uint32_t> section(exact.get(), words.size());
@@ -75,7 +73,7 @@ Words decoded(const Words& words, const Cut& mesh) {
 }
 
 /// Every corner gets its copy back; copies are numbered without gaps, homes by vertex.
-void check(const Cut& mesh) {
+void check(const CutSurface& mesh) {
     const EncodedSeams seams = encoded(mesh);
     const Words corners = decoded(seams.words, mesh);
     const Result<SeamView> view =
@@ -117,7 +115,7 @@ void mend(Words& words) {
     words[1] = crc32(std::as_bytes(std::span(words).subspan(2)));
 }
 
-Cut blob(std::uint32_t triangles, std::uint32_t how) {
+CutSurface blob(std::uint32_t triangles, std::uint32_t how) {
     return in_stream_order(generate("blob", triangles).value(), how, 5);
 }
 
@@ -198,12 +196,12 @@ TEST_CASE("seams of every size around a block and a group of blocks come back") 
 }
 
 TEST_CASE("a section without seams is little more than its header") {
-    const Cut mesh = blob(20000, 0);
+    const CutSurface mesh = blob(20000, 0);
     CHECK(encoded(mesh).words.size() < 8 + 30);
 }
 
 TEST_CASE("charts cost about as much as their borders") {
-    const Cut stripes = blob(20000, 1);
+    const CutSurface stripes = blob(20000, 1);
     const double bits = 32.0 * static_cast<double>(encoded(stripes).words.size()) / 20000;
     CHECK(bits < 0.5);
 }
@@ -228,7 +226,7 @@ TEST_CASE("what cannot be encoded is refused") {
 
 TEST_CASE("sections of other meshes, cut short or changed are refused") {
     for (const std::uint32_t how : {1U, 4U}) {
-        const Cut mesh = blob(1500, how);
+        const CutSurface mesh = blob(1500, how);
         const Words words = encoded(mesh).words;
         for (std::size_t size = 0; size < words.size(); ++size) {
             CHECK(!validate_seams(std::span(words).first(size), mesh.triangles, mesh.vertices));
@@ -261,7 +259,7 @@ TEST_CASE("what is accepted decodes to copies of the corner's vertex, whatever w
     std::uint64_t state = 9;
     std::uint32_t accepted = 0;
     for (const std::uint32_t how : {0U, 1U, 2U, 4U}) {
-        const Cut mesh = blob(1500, how);
+        const CutSurface mesh = blob(1500, how);
         const Words words = encoded(mesh).words;
         for (std::uint32_t n = 0; n < 200; ++n) {
             Words changed = words;
@@ -273,7 +271,7 @@ TEST_CASE("what is accepted decodes to copies of the corner's vertex, whatever w
             const Result<SeamView> view = validate_seams(changed, mesh.triangles, mesh.vertices);
             if (!view) continue;
             ++accepted;
-            const Cut again{mesh.triangles, decoded(changed, mesh), mesh.vertices};
+            const CutSurface again{mesh.triangles, decoded(changed, mesh), mesh.vertices};
             REQUIRE(*std::ranges::max_element(again.copies) < view->copies);
             check(again);  // no copy is of two vertices
         }
