@@ -18,12 +18,15 @@ Candidate candidate(std::string name, const gpu::Times& times) {
 
 }  // namespace
 
-Result<GpuFigures> measure_gpu(const Mesh& mesh, const VertexOptions& vertices, const gpu::ContextOptions& options,
-                               int rounds) {
+Result<GpuFigures> measure_gpu(const LoadedMesh& mesh, const VertexOptions& vertices,
+                               const gpu::ContextOptions& options, int rounds) {
     OptimizeOptions optimize;
     optimize.progress = progress_bar("optimising the ring", optimize.passes);
-    const Result<gpu::Model> model =
-        gpu::make_model(mesh, {.packed = true, .vertices = vertices, .optimize = std::move(optimize)});
+    const Result<gpu::Model> model = gpu::make_model(mesh.mesh, {.packed = true,
+                                                                 .vertices = vertices,
+                                                                 .optimize = std::move(optimize),
+                                                                 .surface = mesh.surface.vertex_of,
+                                                                 .surface_vertices = mesh.surface.vertex_count});
     if (!model) return model.error();
     const Result<std::unique_ptr<gpu::Context>> context = gpu::Context::create(options);
     if (!context) return context.error();

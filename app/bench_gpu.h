@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
+#include "app/input.h"
 #include "app/measure.h"
 #include "lacedring/base.hpp"
-#include "lacedring/mesh.hpp"
 #include "lacedring/vertices.hpp"
 #include "renderer/context.h"
 
@@ -30,7 +30,7 @@ struct GpuFigures {
 };
 
 /// With the streams that the program recommends, optimised. Errors: kNoDevice, and those of the renderer.
-Result<GpuFigures> measure_gpu(const Mesh& mesh, const VertexOptions& vertices, const gpu::ContextOptions& options,
-                               int rounds);
+Result<GpuFigures> measure_gpu(const LoadedMesh& mesh, const VertexOptions& vertices,
+                               const gpu::ContextOptions& options, int rounds);
 
 }  // namespace lacedring::app

@@ -131,8 +131,11 @@ int failed(const std::string& path, const Error& error) {
 /// One mesh: its figures printed, or put into `meshes`. Returns an Exit.
 int bench(const BenchOptions& options, const std::string& path, Json& meshes, [[maybe_unused]] std::size_t& messages,
           RunLog& log) {
-    const Result<Mesh> mesh = load({path, options.input}, log);
-    if (!mesh) return fail(path, mesh.error());
+    const Result<LoadedMesh> loaded = load_file({path, options.input}, log);
+    if (!loaded) return fail(path, loaded.error());
+    // Connectivity is the surface's, the rivals' too; what is drawn has its copies.
+    const Mesh joined = surface_mesh(loaded->mesh, loaded->surface);
+    const Mesh* mesh = &joined;
     const auto build = [&] { return build_corner_table(mesh->indices, mesh->vertex_count); };
     const Result<CornerTable> table = build();
     if (!table) return fail(path, table.error());
@@ -221,6 +224,23 @@ int bench(const BenchOptions& options, const std::string& path, Json& meshes, [[
     if (!vertices) return failed(path, vertices.error());
     for (const auto& [name, reason] : vertices->absent) absent[name] = reason;
     std::ranges::move(vertices->candidates, std::back_inserter(decode.candidates));
+    EncodedSeams seams;
+    Result<SeamView> seam_view = SeamView{};
+    if (loaded->surface.has_seams()) {
+        Result<EncodedSeams> encoded =
+            encode_seams(as_encoded(EncodedPacked(*small)), loaded->mesh.indices, loaded->surface.vertex_of);
+        if (!encoded) return failed(path, encoded.error());
+        seams = std::move(*encoded);
+        seam_view = view_seams(seams.words, packed->triangles, packed->vertices);
+        if (!seam_view) return failed(path, seam_view.error());
+        decode.candidates.push_back({"packed_seams",
+                                     [&] {
+                                         decode_packed(*packed, unpacked);
+                                         decode_seams(*seam_view, unpacked, decoded);
+                                     },
+                                     {},
+                                     {}});
+    }
     measure(decode, options.rounds * 3);
 
     std::vector<OperatorFigures> operators;
@@ -253,7 +273,7 @@ int bench(const BenchOptions& options, const std::string& path, Json& meshes, [[
     Result<GpuFigures> gpu = Error{gpu::kNoDevice, ""};
     if (options.no_gpu) {
         gpu_skipped = "--no-gpu";
-    } else if (gpu = measure_gpu(*mesh, positions, options.context, options.rounds); gpu) {
+    } else if (gpu = measure_gpu(*loaded, positions, options.context, options.rounds); gpu) {
         gpu_skipped.clear();
         device = gpu->device;
         decode_gpu.candidates = gpu->decode;
@@ -358,6 +378,7 @@ void add_bench(CLI::App& program, Action& action) {
     auto options = std::make_shared<BenchOptions>();
     CLI::App* command = program.add_subcommand("bench", "time construction, decoding and drawing beside rivals");
     command->add_option("MESH", options->paths, "mesh files")->required();
+    options->input.seams = Seams::surface;
     add_input_options(*command, options->input, 400);
     command->add_option("--rounds", options->rounds, "how often each is run")
         ->check(CLI::Range(1, 1000))

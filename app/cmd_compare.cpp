@@ -130,13 +130,15 @@ std::string verdict(bool passed, std::span<const Compared> all, std::uint32_t tr
 }
 
 int run_compare(const CompareOptions& options, RunLog& log) {
-    const Result<Mesh> mesh = load(options.input, log);
-    if (!mesh) return fail(options.input.path, mesh.error());
+    const Result<LoadedMesh> loaded = load_file(options.input, log);
+    if (!loaded) return fail(options.input.path, loaded.error());
+    const Mesh* mesh = &loaded->mesh;
     constexpr std::string_view kExtensions[] = {".png"};
     if (const auto good = check_output(options.diff.path, options.diff, log, kExtensions); !good) {
         return fail(options.diff.path, good.error());
     }
-    gpu::ModelOptions model_options{.packed = true};
+    gpu::ModelOptions model_options{
+        .packed = true, .surface = loaded->surface.vertex_of, .surface_vertices = loaded->surface.vertex_count};
     if (options.compares("packed_vertices")) model_options.vertices = position_options(options.positions);
     const Result<gpu::Model> model = gpu::make_model(*mesh, model_options);
     if (!model) return fail(options.input.path, model.error());
@@ -217,6 +219,7 @@ void add_compare(CLI::App& program, Action& action) {
     CLI::App* command =
         program.add_subcommand("compare", "draw a mesh plain and from its streams, and compare the pixels");
     command->add_option("MESH", options->input.path, "mesh file")->required();
+    options->input.options.seams = Seams::surface;
     add_input_options(*command, options->input.options, 250);
     add_force(*command, options->diff);
     add_size(*command, options->size);

@@ -43,8 +43,9 @@ using ContextPointer = std::unique_ptr<gpu::Context>;
 /// Returns an Exit. Makes `context`, once, when a mesh has been read.
 int render(const RenderOptions& options, const std::string& input, const std::filesystem::path& output,
            ContextPointer& context, RunLog& log) {
-    const Result<Mesh> mesh = load({input, options.input}, log);
-    if (!mesh) return fail(input, mesh.error());
+    const Result<LoadedMesh> loaded = load_file({input, options.input}, log);
+    if (!loaded) return fail(input, loaded.error());
+    const Mesh* mesh = &loaded->mesh;
     constexpr std::string_view kExtensions[] = {".png"};
     if (const auto good = check_output(output, options.output, log, kExtensions); !good) {
         return fail(output_name(output), good.error());
@@ -58,6 +59,8 @@ int render(const RenderOptions& options, const std::string& input, const std::fi
                                     gpu::is_packed(source),
                                     {},
                                     std::move(optimize)};
+    model_options.surface = loaded->surface.vertex_of;
+    model_options.surface_vertices = loaded->surface.vertex_count;
     if (source == gpu::Source::packed_vertices) model_options.vertices = position_options(options.positions);
     const Result<gpu::Model> model = gpu::make_model(*mesh, model_options);
     if (!model) return fail(input, model.error());
@@ -149,6 +152,7 @@ void add_render(CLI::App& program, Action& action) {
     CLI::App* command = program.add_subcommand("render", "draw a mesh into a PNG file");
     command->add_option("MESH", options->inputs, "mesh files; - is standard input")->required();
     add_output(*command, options->output, "the PNG file; FOLDER/ for several, - for standard output");
+    options->input.seams = Seams::surface;
     add_input_options(*command, options->input, 150);
     command->add_option("--source", options->source, "what the triangles come from")
         ->check(CLI::IsMember(gpu::source_names()))

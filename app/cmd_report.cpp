@@ -111,7 +111,7 @@ int run_report(const ReportOptions& options, RunLog& log) {
 #ifdef LACEDRING_GPU
         if (context != nullptr) {
             const Result<void> drawn =
-                draw_pictures(*context, options.size, options.camera, mesh->mesh, options.ring, *report);
+                draw_pictures(*context, options.size, options.camera, *mesh, options.ring, *report);
             if (!drawn) return leave_out(drawn.error().message, fail(path, drawn.error()));
         }
 #endif

@@ -35,10 +35,13 @@ std::uint32_t report_samples(const gpu::Context& context, const PictureSize& siz
 }
 
 Result<void> draw_pictures(gpu::Context& context, const PictureSize& size, const gpu::CameraOptions& camera,
-                           const Mesh& mesh, const RingChoice& choice, MeshReport& report) {
+                           const LoadedMesh& loaded, const RingChoice& choice, MeshReport& report) {
     // With the very stream that the size table is of.
+    const Mesh& mesh = loaded.mesh;
     const Result<gpu::Model> model = gpu::make_model(mesh, {.ring = ring_options(choice, mesh.triangle_count()),
-                                                            .optimize = optimize_options(choice, kLeanRingCost)});
+                                                            .optimize = optimize_options(choice, kLeanRingCost),
+                                                            .surface = loaded.surface.vertex_of,
+                                                            .surface_vertices = loaded.surface.vertex_count});
     if (!model) {
         report.no_pictures = model.error().message;
         return {};

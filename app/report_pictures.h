@@ -14,6 +14,6 @@ std::uint32_t report_samples(const gpu::Context& context, const PictureSize& siz
 /// `report.no_pictures` says why. Errors: of the device, and of a camera
 /// that cannot be.
 Result<void> draw_pictures(gpu::Context& context, const PictureSize& size, const gpu::CameraOptions& camera,
-                           const Mesh& mesh, const RingChoice& choice, MeshReport& report);
+                           const LoadedMesh& loaded, const RingChoice& choice, MeshReport& report);
 
 }  // namespace lacedring::app

@@ -13,6 +13,7 @@
 #include "lrlab/generate/generate.h"
 #include "tests/support/cuts.h"
 #include "tests/support/meshes.h"
+#include "tests/support/shapes.h"
 
 using namespace lacedring;
 
