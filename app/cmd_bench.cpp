@@ -378,7 +378,6 @@ void add_bench(CLI::App& program, Action& action) {
     auto options = std::make_shared<BenchOptions>();
     CLI::App* command = program.add_subcommand("bench", "time construction, decoding and drawing beside rivals");
     command->add_option("MESH", options->paths, "mesh files")->required();
-    options->input.seams = Seams::surface;
     add_input_options(*command, options->input, 400);
     command->add_option("--rounds", options->rounds, "how often each is run")
         ->check(CLI::Range(1, 1000))

@@ -219,7 +219,6 @@ void add_compare(CLI::App& program, Action& action) {
     CLI::App* command =
         program.add_subcommand("compare", "draw a mesh plain and from its streams, and compare the pixels");
     command->add_option("MESH", options->input.path, "mesh file")->required();
-    options->input.options.seams = Seams::surface;
     add_input_options(*command, options->input.options, 250);
     add_force(*command, options->diff);
     add_size(*command, options->size);

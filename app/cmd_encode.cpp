@@ -121,7 +121,6 @@ void add_encode(CLI::App& program, Action& action) {
     command->add_option("--profile", options->profile, "of packed: the fewest bits, or an order for the vertex cache")
         ->check(CLI::IsMember({"small", "cache"}))
         ->capture_default_str();
-    options->input.seams = Seams::surface;
     add_input_options(*command, options->input, 130);
     add_ring_options(*command, options->ring);
     command->add_option("--effort", options->ring.effort, "how long to look for good rings: 0 to 9")
@@ -149,7 +148,7 @@ void add_encode(CLI::App& program, Action& action) {
     });
     command->callback([options, rules, &action] {
         rules->check();
-        if (options->keep_order) options->input.seams = Seams::kept;
+        options->input.keep_vertices = options->keep_order;
         action = [options](RunLog& log) { return run_encode(*options, log); };
     });
 }

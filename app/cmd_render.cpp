@@ -152,7 +152,6 @@ void add_render(CLI::App& program, Action& action) {
     CLI::App* command = program.add_subcommand("render", "draw a mesh into a PNG file");
     command->add_option("MESH", options->inputs, "mesh files; - is standard input")->required();
     add_output(*command, options->output, "the PNG file; FOLDER/ for several, - for standard output");
-    options->input.seams = Seams::surface;
     add_input_options(*command, options->input, 150);
     command->add_option("--source", options->source, "what the triangles come from")
         ->check(CLI::IsMember(gpu::source_names()))
@@ -162,7 +161,7 @@ void add_render(CLI::App& program, Action& action) {
         ->check(CLI::IsMember(gpu::path_names()))
         ->capture_default_str();
     command->add_option("--view", options->view, "what is shown")
-        ->check(CLI::IsMember({"smooth", "flat", "class", "ring", "wire", "offsets", "silhouette"}))
+        ->check(CLI::IsMember({"smooth", "flat", "class", "ring", "wire", "offsets", "seams", "silhouette"}))
         ->capture_default_str();
     command
         ->add_option("--crease", options->crease,

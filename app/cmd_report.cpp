@@ -150,7 +150,6 @@ void add_report(CLI::App& program, Action& action) {
     CLI::App* command = program.add_subcommand("report", "figures, charts and pictures of meshes as one HTML page");
     command->add_option("MESH", options->paths, "mesh files")->required();
     add_output(*command, options->output, "the HTML file; - for standard output");
-    options->input.seams = Seams::surface;
     add_input_options(*command, options->input, 350);
     add_ring_options(*command, options->ring);
     command->add_flag("--no-gpu", options->no_gpu, "no pictures");

@@ -259,7 +259,6 @@ void add_stats(CLI::App& program, Action& action) {
     auto options = std::make_shared<StatsOptions>();
     CLI::App* command = program.add_subcommand("stats", "size of every format, side by side");
     command->add_option("MESH", options->paths, "mesh files")->required();
-    options->input.seams = Seams::surface;
     add_input_options(*command, options->input, 350);
     add_ring_options(*command, options->ring);
     command->add_flag(

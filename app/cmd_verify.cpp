@@ -79,7 +79,6 @@ void add_verify(CLI::App& program, Action& action) {
     auto options = std::make_shared<VerifyOptions>();
     CLI::App* command = program.add_subcommand("verify", "check that every format round-trips");
     command->add_option("MESH|IN.lr", options->input.path, "mesh file or .lr file")->required();
-    options->input.options.seams = Seams::surface;
     add_input_options(*command, options->input.options, 350);
     add_ring_options(*command, options->ring);
     command->add_flag("--json", options->json, "one JSON document on standard output");

@@ -73,7 +73,7 @@ void join_seams(LoadedMesh& loaded, const MeshInput& input, RunLog& log) {
     SurfaceReport report;
     loaded.surface = find_surface(loaded.mesh, options.tolerance, &report);
     if (report.moved > 0) move_to_surface(loaded.mesh, loaded.surface);
-    if (options.seams == Seams::surface) loaded.mesh = merge_copies(loaded.mesh, loaded.surface);
+    if (!options.keep_vertices) loaded.mesh = merge_copies(loaded.mesh, loaded.surface);
     const std::string name = input_name(input.path);
     if (report.largest_move > 0) {
         log.note(name, fmt::format("--weld-tolerance: {} vertices move, by {:.3g} at most", report.moved,
@@ -84,42 +84,25 @@ void join_seams(LoadedMesh& loaded, const MeshInput& input, RunLog& log) {
     }
 }
 
-/// Joins vertices and loses attributes.
-void weld_vertices(LoadedMesh& loaded, const MeshInput& input, RunLog& log) {
-    WeldReport report;
-    const bool position = input.options.weld == "position";
-    loaded.mesh = weld(loaded.mesh, position ? Weld::position : Weld::attributes, &report);
-    if (report.vertices > 0) {
-        log.note(input_name(input.path), fmt::format("--weld=position: {} vertices lose their own {}", report.vertices,
-                                                     listed(report.attributes)));
-    }
-}
-
 }  // namespace
 
 void add_input_options(CLI::App& command, InputOptions& options, std::uint32_t triangle_bytes) {
     options.triangle_bytes = triangle_bytes;
-    const bool joins = options.seams != Seams::cut;
-    CLI::Option* weld =
-        command
-            .add_flag("--weld{attributes}", options.weld,
-                      joins ? "merge only vertices that are the same in all attributes; --weld=position, as without "
-                              "it: join those at one position, whose attributes are kept as copies"
-                            : "merge vertices that are the same in all attributes; --weld=position: that are at one "
-                              "position")
-            ->check(CLI::IsMember({"attributes", "position"}))
-            ->option_text("[=attributes|position]");
-    if (joins) {
-        CLI::Option* none = command.add_flag("--no-weld{none}", options.weld,
-                                             "keep vertices at one position apart: a mesh cut at its seams");
-        none->excludes(weld);
-        command
-            .add_option("--weld-tolerance", options.tolerance,
-                        "join positions that are no farther apart, in the mesh's units")
-            ->check(CLI::PositiveNumber)
-            ->type_name("DISTANCE")
-            ->excludes(none);
-    }
+    CLI::Option* weld = command
+                            .add_flag("--weld{attributes}", options.weld,
+                                      "merge only vertices that are the same in all attributes; --weld=position, as "
+                                      "without it: join those at one position, whose attributes are kept as copies")
+                            ->check(CLI::IsMember({"attributes", "position"}))
+                            ->option_text("[=attributes|position]");
+    CLI::Option* none = command.add_flag("--no-weld{none}", options.weld,
+                                         "keep vertices at one position apart: a mesh cut at its seams");
+    none->excludes(weld);
+    command
+        .add_option("--weld-tolerance", options.tolerance,
+                    "join positions that are no farther apart, in the mesh's units")
+        ->check(CLI::PositiveNumber)
+        ->type_name("DISTANCE")
+        ->excludes(none);
     std::set<std::string> formats;
     for (const auto& [name, format] : kFormats) formats.insert(name);
     command.add_option("--input-format", options.format, "of meshes whose format does not show")
@@ -151,15 +134,18 @@ Result<std::vector<std::byte>> read_input(const std::string& path, const InputOp
 }
 
 Result<LoadedMesh> load_file(const MeshInput& input, RunLog& log) {
+    const std::string& how = input.options.weld;
+    if (how == "attributes" && input.options.tolerance > 0) {
+        return Error{ErrorCode::invalid_argument, "--weld-tolerance does not go with --weld"};
+    }
     Result<LoadedMesh> loaded = read(input, log);
     if (!loaded) return loaded;
-    const std::string& how = input.options.weld;
-    if (input.options.seams != Seams::cut && (how.empty() || how == "position")) {
+    if (how.empty() || how == "position") {
         join_seams(*loaded, input, log);
-        return loaded;
+    } else {
+        if (how == "attributes") loaded->mesh = weld(loaded->mesh, Weld::attributes);
+        loaded->surface = {loaded->mesh.vertex_count, {}};
     }
-    if (how == "attributes" || how == "position") weld_vertices(*loaded, input, log);
-    loaded->surface = {loaded->mesh.vertex_count, {}};
     return loaded;
 }
 
@@ -167,12 +153,6 @@ Result<CornerTable> surface_table(const LoadedMesh& loaded) {
     if (!loaded.surface.has_seams()) return build_corner_table(loaded.mesh.indices, loaded.mesh.vertex_count);
     const Mesh surface = surface_mesh(loaded.mesh, loaded.surface);
     return build_corner_table(surface.indices, surface.vertex_count);
-}
-
-Result<Mesh> load(const MeshInput& input, RunLog& log) {
-    Result<LoadedMesh> loaded = load_file(input, log);
-    if (!loaded) return loaded.error();
-    return std::move(loaded->mesh);
 }
 
 }  // namespace lacedring::app

@@ -32,8 +32,8 @@ std::string input_name(const std::string& path);
 /// The whole file, or standard input. Errors: those of read_file.
 Result<std::vector<std::byte>> read_input(const std::string& path, const InputOptions& options, RunLog& log);
 
-/// A mesh, and of an .lr file what it consists of. Where the command takes seams (InputOptions), the surface is that of
-/// the mesh; else each vertex is its own.
+/// A mesh, its surface (with --no-weld and --weld=attributes each vertex is its own), and of an .lr file what it
+/// consists of.
 struct LoadedMesh {
     Mesh mesh;
     Surface surface;
@@ -45,6 +45,5 @@ Result<CornerTable> surface_table(const LoadedMesh& loaded);
 
 /// Reads and welds. An .lr file is validated and decoded. `log` is told what is not kept.
 Result<LoadedMesh> load_file(const MeshInput& input, RunLog& log);
-Result<Mesh> load(const MeshInput& input, RunLog& log);
 
 }  // namespace lacedring::app

@@ -6,19 +6,12 @@
 
 namespace lacedring::app {
 
-/// What a command makes of a mesh with seams.
-enum class Seams {
-    cut,      ///< its vertices as they are; --weld=position joins them and loses attributes
-    surface,  ///< the surface and its copies
-    kept,     ///< likewise, and copies that do not differ stay apart
-};
-
 /// Options of every command that reads meshes.
 struct InputOptions {
-    std::string weld;      ///< "" as the command does it, "none", "attributes" or "position"
-    double tolerance = 0;  ///< of positions that are one
-    std::string format;    ///< "" as read_mesh tells, or "gltf", "obj", ...
-    Seams seams = Seams::cut;
+    std::string weld;            ///< "none", "attributes", or else position
+    double tolerance = 0;        ///< of positions that are one
+    std::string format;          ///< "" as read_mesh tells, or "gltf", "obj", ...
+    bool keep_vertices = false;  ///< copies that do not differ stay apart
     bool allow_outside = false;
     std::uint64_t max_memory = 0;  ///< MiB; 0: by the file's size (ReadOptions)
     /// Bytes that the command takes for each triangle at its peak, the mesh aside (docs/reliability.md).

@@ -134,8 +134,10 @@ Result<void> upload_lines(Context& context, Transfer& transfer, GpuMesh& mesh, c
         const std::vector<std::uint32_t> of_surface = mesh_vertices(model);
         for (std::uint32_t& v : lines) v = of_surface[model.lean.vertex_order[v]];
     } else {
-        lines = mesh_edges(model.indices);
+        lines =
+            kind == UploadOptions::Lines::edges ? mesh_edges(model.indices) : seam_lines(model.indices, model.surface);
     }
+    if (lines.empty()) return {};
     if (!order.empty()) {
         std::vector<std::uint32_t> place(model.surface_vertices);
         for (std::uint32_t i = 0; i < order.size(); ++i) place[model.surface_of(order[i])] = i;
@@ -359,7 +361,9 @@ MeshBytes mesh_bytes(const Model& model, Source source, const UploadOptions& opt
     }
     if (options.ring) add((slots + 3) / 4 * 4);
     if (options.lines == UploadOptions::Lines::ring) add(2 * kWord * model.vertex_count());
-    if (options.lines == UploadOptions::Lines::edges) add(6 * kWord * model.triangle_count());
+    if (options.lines == UploadOptions::Lines::edges || (options.lines == UploadOptions::Lines::seams && seams)) {
+        add(6 * kWord * model.triangle_count());
+    }
     return out;
 }
 

@@ -77,7 +77,7 @@ struct UploadOptions {
     std::span<const float> normals;  ///< 3 a vertex of the mesh, instead of the model's; must stay while uploading
     bool ring = false;               ///< triangle classes, and the vertices' places on the rings
     bool offsets = false;            ///< significant bits of the triangles' offsets instead of their classes
-    enum class Lines { none, ring, edges } lines = Lines::none;  ///< drawn over the surface
+    enum class Lines { none, ring, edges, seams } lines = Lines::none;  ///< drawn over the surface
 };
 
 /// Triangles are numbered by slot: for Source::plain that is the mesh's own order, for Source::packed the stream's.
@@ -126,7 +126,7 @@ struct GpuMesh {
 };
 
 /// Device memory that a source of the model takes with these options, before alignment: all that an upload allocates.
-/// `largest`: the largest buffer of it. View::wire's lines are counted as if no two triangles shared an edge.
+/// `largest`: the largest buffer of it. Edges and seams are counted as if no two triangles shared an edge.
 struct MeshBytes {
     std::uint64_t all = 0, largest = 0;
 };

@@ -72,32 +72,6 @@ double mean_edge(const Model& model) {
     return length / static_cast<double>(model.indices.size());
 }
 
-/// The seams of a stream of the model's surface, whose slots are these triangles of the mesh.
-Result<EncodedSeams> seams_of(const Model& model, std::span<const std::uint32_t> words,
-                              std::span<const std::uint32_t> vertex_order,
-                              std::span<const std::uint32_t> slot_triangle) {
-    LR_ASSIGN(const StreamView view, view_stream(words));
-    const std::vector<std::uint32_t> triangles = slot_triangles(view);
-    std::vector<std::uint32_t> copies(triangles.size());
-    for (std::size_t k = 0; k < triangles.size(); ++k) {
-        if (triangles[k] == UINT32_MAX) continue;
-        const std::uint32_t* corner = &model.indices[std::size_t{3} * slot_triangle[k / 3]];
-        while (model.surface[*corner] != vertex_order[triangles[k]]) ++corner;
-        copies[k] = *corner;
-    }
-    LR_ASSIGN(EncodedSeams out, encode_seams(triangles, view.vertices(), copies));
-    // A vertex without corners has a copy, too.
-    LR_ASSIGN(const SeamView seams, view_seams(out.words, view.slots(), view.vertices()));
-    std::vector<std::uint32_t> first(std::size_t{view.vertices()} + 1);
-    first_copies(seams, first);
-    const std::vector<std::uint32_t> of_surface = mesh_vertices(model);
-    for (std::uint32_t v = 0; v < view.vertices(); ++v) {
-        std::uint32_t& copy = out.copy_order[first[v]];
-        if (copy == UINT32_MAX) copy = of_surface[vertex_order[v]];
-    }
-    return out;
-}
-
 /// Encodes the positions as floats, as all that is drawn are, in the packed stream's order. What is lost is lost for
 /// the whole model.
 Result<void> encode_positions(Model& model, const Mesh& mesh, const VertexOptions& options) {
@@ -168,10 +142,20 @@ Result<Model> make_surface(const Mesh& mesh) {
     return model;
 }
 
+Result<void> encode_seams(Model& model) {
+    model.lean_seams = model.packed_seams = {};
+    if (model.surface.empty()) return {};
+    LR_ASSIGN(model.lean_seams,
+              lacedring::encode_seams(as_encoded(EncodedLean(model.lean)), model.indices, model.surface));
+    if (model.packed.words.empty()) return {};
+    LR_ASSIGN(model.packed_seams,
+              lacedring::encode_seams(as_encoded(EncodedPacked(model.packed)), model.indices, model.surface));
+    return {};
+}
+
 Result<Model> make_model(const Mesh& mesh, const ModelOptions& options) {
     LR_ASSIGN(Model model, make_surface(mesh));
-    const bool seams = !options.surface.empty();
-    if (seams) {
+    if (!options.surface.empty()) {
         model.surface.assign(options.surface.begin(), options.surface.end());
         model.surface_vertices = options.surface_vertices;
         if (model.surface.size() != mesh.vertex_count || std::ranges::max(model.surface) >= options.surface_vertices) {
@@ -183,20 +167,13 @@ Result<Model> make_model(const Mesh& mesh, const ModelOptions& options) {
     OptimizeOptions optimize = options.optimize;
     optimize.cost = kLeanRingCost;
     LR_ASSIGN(model.lean, encode_lean(table, optimize_rings(table, rings, optimize), options.lean));
-    if (seams) {
-        LR_ASSIGN(model.lean_seams,
-                  seams_of(model, model.lean.words, model.lean.vertex_order, model.lean.slot_triangle));
-    }
     if (options.packed) {
         optimize.cost = kPackedRingCost;
         LR_ASSIGN(PackedChoice packed, encode_smallest_packed(table, options.ring, optimize));
         model.packed = std::move(packed.stream);
-        if (seams) {
-            LR_ASSIGN(model.packed_seams,
-                      seams_of(model, model.packed.words, model.packed.vertex_order, model.packed.triangle_order));
-        }
         if (options.vertices) LR_TRY(encode_positions(model, mesh, *options.vertices));
     }
+    LR_TRY(encode_seams(model));
     return model;
 }
 

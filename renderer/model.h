@@ -65,6 +65,9 @@ std::vector<std::uint32_t> mesh_vertices(const Model& model);
 /// Errors: unsupported (no triangles, extent zero or past f32).
 Result<Model> make_surface(const Mesh& mesh);
 
+/// Makes the seam sections of the model's streams anew, where it has a surface of its own. Errors: encode_seams'.
+Result<void> encode_seams(Model& model);
+
 /// Normalises, and encodes the streams (corner table, ring, streams). Cost: O(V + T).
 /// Errors: unsupported (no triangles, extent zero or past f32), build_corner_table's too_large, invalid_argument (a
 /// surface of another mesh), encode_seams'.

@@ -94,6 +94,9 @@ void Painter::set_frame(const Model& model, const Camera& camera, const Target& 
     if (view_ == View::wire) {
         frame.line_colour = {0.07F, 0.08F, 0.10F, static_cast<float>(0.13 + 0.57 * strength)};
         line_width_ = static_cast<float>(0.6 + 0.6 * strength) * static_cast<float>(samples_);
+    } else if (view_ == View::seams) {
+        frame.line_colour = {0.80F, 0.06F, 0.03F, static_cast<float>(0.55 + 0.40 * strength)};
+        line_width_ = static_cast<float>(1.2 + 1.2 * strength) * static_cast<float>(samples_);
     } else {
         // Colours of the order and of offsets are worth more than the line.
         const double opacity = view_ == View::triangle_class ? 0.22 + 0.76 * strength : 0.10 + 0.80 * strength;

@@ -1,6 +1,7 @@
 #include "renderer/triangle_class.h"
 
 #include <algorithm>
+#include <array>
 
 #include "lacedring/streams.hpp"
 #include "lrcore/codec/lean/lean_format.h"
@@ -109,6 +110,28 @@ std::vector<std::uint32_t> mesh_edges(std::span<const std::uint32_t> indices) {
     for (const std::uint64_t edge : edges) {
         out.push_back(static_cast<std::uint32_t>(edge >> 32));
         out.push_back(static_cast<std::uint32_t>(edge));
+    }
+    return out;
+}
+
+std::vector<std::uint32_t> seam_lines(std::span<const std::uint32_t> indices, std::span<const std::uint32_t> surface) {
+    if (surface.empty()) return {};
+    struct Side {
+        std::array<std::uint32_t, 2> edge, copies;
+        auto operator<=>(const Side&) const = default;
+    };
+    std::vector<Side> sides;
+    sides.reserve(indices.size());
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        std::array<std::uint32_t, 2> ends{indices[i], indices[i % 3 == 2 ? i - 2 : i + 1]};
+        if (surface[ends[0]] > surface[ends[1]]) std::swap(ends[0], ends[1]);
+        if (ends[0] != ends[1]) sides.push_back({{surface[ends[0]], surface[ends[1]]}, ends});
+    }
+    std::sort(sides.begin(), sides.end());
+    std::vector<std::uint32_t> out;
+    for (std::size_t i = 0, next = 0; i < sides.size(); i = next) {
+        while (next < sides.size() && sides[next].edge == sides[i].edge) ++next;
+        if (sides[i] != sides[next - 1]) out.insert(out.end(), sides[i].copies.begin(), sides[i].copies.end());
     }
     return out;
 }

@@ -24,6 +24,10 @@ std::vector<std::uint8_t> of_triangles(std::span<const std::uint8_t> by_slot,
 /// triangle.
 std::vector<std::uint32_t> mesh_edges(std::span<const std::uint32_t> indices);
 
+/// The edges of the surface at which triangles have other vertices of the mesh, as pairs of these, sorted; `surface` is
+/// Model::surface. Cost: O(T log T), 48 bytes a triangle.
+std::vector<std::uint32_t> seam_lines(std::span<const std::uint32_t> indices, std::span<const std::uint32_t> surface);
+
 /// The rings as pairs (v, v.n) of ring vertices.
 std::vector<std::uint32_t> ring_lines(const LeanView& lean);
 

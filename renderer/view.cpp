@@ -13,16 +13,17 @@ bool has_ring(View view) {
 }  // namespace
 
 bool has_lines(View view) {
-    return has_ring(view) || view == View::wire || view == View::silhouette;
+    return has_ring(view) || view == View::wire || view == View::seams || view == View::silhouette;
 }
 
 std::optional<View> view_named(std::string_view name) {
-    constexpr std::array<std::pair<std::string_view, View>, 7> kViews{{{"smooth", View::smooth},
+    constexpr std::array<std::pair<std::string_view, View>, 8> kViews{{{"smooth", View::smooth},
                                                                        {"flat", View::flat},
                                                                        {"class", View::triangle_class},
                                                                        {"ring", View::ring},
                                                                        {"wire", View::wire},
                                                                        {"offsets", View::offsets},
+                                                                       {"seams", View::seams},
                                                                        {"silhouette", View::silhouette}}};
     for (const auto& [text, view] : kViews) {
         if (text == name) return view;
@@ -36,6 +37,7 @@ UploadOptions upload_options(View view) {
     options.offsets = view == View::offsets;
     if (options.ring) options.lines = UploadOptions::Lines::ring;
     if (view == View::wire) options.lines = UploadOptions::Lines::edges;
+    if (view == View::seams) options.lines = UploadOptions::Lines::seams;
     return options;
 }
 

@@ -17,6 +17,7 @@ enum class View : std::uint32_t {
     ring = LR_VIEW_RING,              ///< the vertices' order along the ring, and the ring
     wire = LR_VIEW_WIRE,              ///< flat, and the triangles' edges
     offsets = LR_VIEW_OFFSETS,        ///< significant bits of each triangle's offset along the ring, and the ring
+    seams = LR_VIEW_SEAMS,            ///< interpolated normals, and the seams
     silhouette = LR_VIEW_SILHOUETTE,  ///< outline, creases and borders, over normals that the device computed
 };
 
@@ -24,7 +25,7 @@ enum class View : std::uint32_t {
 UploadOptions upload_options(View view);
 /// Are lines drawn over the surface? It is pushed back a little then.
 bool has_lines(View view);
-/// "smooth", "flat", "class", "ring", "wire", "offsets", "silhouette"
+/// "smooth", "flat", "class", "ring", "wire", "offsets", "seams", "silhouette"
 std::optional<View> view_named(std::string_view name);
 
 }  // namespace lacedring::gpu

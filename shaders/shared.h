@@ -123,6 +123,7 @@ struct DrawConstants {
 #define LR_VIEW_WIRE 4u
 #define LR_VIEW_OFFSETS 5u
 #define LR_VIEW_SILHOUETTE 6u
+#define LR_VIEW_SEAMS 7u
 
 // The picture of triangle numbers: 0 is the background, else the original triangle + 1 and which side of it is seen.
 #define LR_FRONT_FLAG 0x80000000u

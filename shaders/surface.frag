@@ -86,7 +86,7 @@ void main() {
         gloss = 0.2;
     }
     vec3 colour;
-    if (view == LR_VIEW_SMOOTH || view == LR_VIEW_RING || view == LR_VIEW_SILHOUETTE) {
+    if (view == LR_VIEW_SMOOTH || view == LR_VIEW_RING || view == LR_VIEW_SILHOUETTE || view == LR_VIEW_SEAMS) {
         // Both sides of the surface are lit, and which one this is comes from the normal, gradually: at a silhouette a
         // triangle that faces the eye and its neighbour that does not have nearly the same depth, and whichever is seen by
         // a rounding error must look the same.

@@ -8,6 +8,7 @@
 #include "app/mesh_input.h"
 #include "lacedring/lacedring.hpp"
 #include "lacedring/ring.hpp"
+#include "lacedring/surface.hpp"
 #include "lacedring/topology.hpp"
 #include "renderer/model.h"
 
@@ -43,7 +44,8 @@ struct StreamFigures {
 struct Document {
     std::string path;
     std::shared_ptr<const Mesh> mesh;
-    std::shared_ptr<const CornerTable> table;
+    std::shared_ptr<const Surface> surface;
+    std::shared_ptr<const CornerTable> table;    ///< the surface's
     std::shared_ptr<const Rings> rings;          ///< lean's
     std::shared_ptr<const Expansion> expansion;  ///< how these were begun, before the optimiser
     std::shared_ptr<const gpu::Model> model;
@@ -53,6 +55,11 @@ struct Document {
     std::chrono::steady_clock::time_point asked;  ///< when a file or a ring was
     double seconds = 0;                           ///< from then until this was made
 
+    /// The mesh's vertex at a corner of the table: the copy of its surface vertex.
+    std::uint32_t copy_at(CornerId c) const {
+        const std::uint32_t t = c.value / 3, place = c.value % 3;
+        return mesh->indices[3 * std::size_t{t} + (place > 0 && table->flipped(TriangleId{t}) ? 3 - place : place)];
+    }
     double t0_share() const {
         return static_cast<double>(model->lean.statistics.t0) / static_cast<double>(mesh->triangle_count());
     }
@@ -60,7 +67,7 @@ struct Document {
 
 /// What takes longer, and comes later.
 struct Tables {
-    std::shared_ptr<const Mesh> mesh;  ///< whose they are
+    std::shared_ptr<const Mesh> mesh;  ///< of whose surface they are
     EncodedLr lr;
     std::vector<std::uint32_t> number;    ///< LR triangle of each of the mesh's, UINT32_MAX: degenerate
     std::vector<std::uint32_t> triangle;  ///< the mesh's triangle of each LR number, UINT32_MAX: none

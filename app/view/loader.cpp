@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/formats.h"
+#include "app/input.h"
 #include "app/view/files.h"
 #include "lacedring/lacedring.hpp"
 #include "lacedring/streams.hpp"
@@ -99,7 +100,7 @@ class Loader::Job {
 
   private:
     void work();
-    Result<Mesh> read();
+    Result<app::LoadedMesh> read();
     Result<void> make(Document& document);
     Result<void> finish(Document& document, bool quick);
     void measure_formats(const Document& document);
@@ -251,10 +252,10 @@ void Loader::Job::run() {
 }
 
 /// Reads the file: it may take for ever.
-Result<Mesh> Loader::Job::read() {
+Result<app::LoadedMesh> Loader::Job::read() {
     say("reading the file", 0.05);
     app::RunLog log;
-    Result<Mesh> mesh = app::load(*request_.input, log);
+    Result<app::LoadedMesh> mesh = app::load_file(*request_.input, log);
     if (mesh) log.flush();
     const std::lock_guard lock(shared_->mutex);
     --shared_->readers;
@@ -293,6 +294,7 @@ Result<void> Loader::Job::finish(Document& document, bool quick) {
         auto model = std::make_shared<gpu::Model>(*document.model);
         model->lean = std::move(*lean);
         model->packed = {};
+        if (!gpu::encode_seams(*model)) return;
         early.rings = std::make_shared<const Rings>(rings);
         early.model = std::move(model);
         early.settings = settings;
@@ -325,6 +327,7 @@ Result<void> Loader::Job::finish(Document& document, bool quick) {
         LR_ASSIGN(PackedChoice packed, encode_smallest_packed(table, ring_options(settings, quick), optimise));
         model->packed = std::move(packed.stream);
     }
+    LR_TRY(gpu::encode_seams(*model));
     if (stopped()) return {};
     document.rings = std::move(lean_rings);
     // Where it went the same way it stays the same one, so that what is made of it does.
@@ -340,10 +343,16 @@ Result<void> Loader::Job::finish(Document& document, bool quick) {
 /// The corner table and the surface of a mesh, shown with a quick ring.
 Result<void> Loader::Job::make(Document& document) {
     say("building the corner table", 0.3);
-    LR_ASSIGN(CornerTable table, build_corner_table(document.mesh->indices, document.mesh->vertex_count));
+    const Surface& surface = *document.surface;
+    const Mesh joined = surface_mesh(*document.mesh, surface);
+    LR_ASSIGN(CornerTable table, build_corner_table(joined.indices, joined.vertex_count));
     if (stopped()) return {};
     document.table = std::make_shared<const CornerTable>(std::move(table));
     LR_ASSIGN(gpu::Model model, gpu::make_surface(*document.mesh));
+    if (surface.has_seams()) {
+        model.surface = surface.vertex_of;
+        model.surface_vertices = surface.vertex_count;
+    }
     document.model = std::make_shared<const gpu::Model>(std::move(model));
     if (stopped()) return {};
     return finish(document, true);
@@ -358,7 +367,7 @@ void Loader::Job::measure_formats(const Document& document) {
     }
     app::RingChoice choice;
     Result<app::FormatSet> formats =
-        app::make_formats(*document.mesh, {document.mesh->vertex_count, {}}, choice, false, [&](double share, const std::string& what) {
+        app::make_formats(*document.mesh, *document.surface, choice, false, [&](double share, const std::string& what) {
             say("measuring " + what, share, true);
             return !stopped();
         });
@@ -378,11 +387,12 @@ void Loader::Job::work() {
     Document document;
     if (stopped()) return;
     if (reads()) {
-        Result<Mesh> mesh = read();
-        if (!mesh) return fail(mesh.error().message);
+        Result<app::LoadedMesh> read_mesh = read();
+        if (!read_mesh) return fail(read_mesh.error().message);
         if (!begin_computing()) return;
         document.path = path();
-        document.mesh = std::make_shared<const Mesh>(std::move(*mesh));
+        document.mesh = std::make_shared<const Mesh>(std::move(read_mesh->mesh));
+        document.surface = std::make_shared<const Surface>(std::move(read_mesh->surface));
         if (const Result<void> made = make(document); !made) return fail(made.error().message);
     } else {
         if (!begin_computing()) return;

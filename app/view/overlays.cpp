@@ -31,7 +31,7 @@ void mark_selection(const State& state, const Orbit& orbit, double width, double
         const double weight[3] = {towards, (1 - towards) / 2, (1 - towards) / 2};
         const CornerId corners[3] = {c, next(c), previous(c)};
         for (std::size_t j = 0; j < 3; ++j) {
-            const std::size_t v = document.table->vertex(corners[j]).value;
+            const std::size_t v = document.copy_at(corners[j]);
             for (std::size_t i = 0; i < 3; ++i) {
                 const double x = static_cast<double>(document.model->positions[3 * v + i]) * document.model->radius +
                                  document.model->centre[i];

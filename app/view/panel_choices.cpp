@@ -139,12 +139,13 @@ void draw_growth(State& state) {
 void draw_view(State& state) {
     heading("View");
     using gpu::View;
-    constexpr std::array<std::pair<const char*, View>, 6> kViews{{{"smooth", View::smooth},
+    constexpr std::array<std::pair<const char*, View>, 7> kViews{{{"smooth", View::smooth},
                                                                   {"flat", View::flat},
                                                                   {"triangle classes", View::triangle_class},
                                                                   {"ring order", View::ring},
                                                                   {"wireframe", View::wire},
-                                                                  {"offsets", View::offsets}}};
+                                                                  {"offsets", View::offsets},
+                                                                  {"seams", View::seams}}};
     constexpr std::array<std::pair<const char*, Paint>, 4> kPaints{{{"none", Paint::none},
                                                                     {"corridors", Paint::corridors},
                                                                     {"blocks", Paint::blocks},
@@ -156,7 +157,9 @@ void draw_view(State& state) {
     bool changed = choose(
         "Show", kViews, shown.view,
         "How the surface is drawn. Triangle classes: T0, T1 and T2 have none, one, two edges on the ring. Ring order: "
-        "where its vertices come along the ring. Offsets: how far apart they are along it");
+        "where its vertices come along the ring. Offsets: how far apart they are along it. Seams: edges with other "
+        "normals, texture coordinates or the like on "
+        "either side");
     if (choose(
             "Colours", kPaints, state.paint,
             "Laid over the surface. Corridors: runs of triangles between two parts of the ring. Blocks: parts of the "

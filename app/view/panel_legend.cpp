@@ -63,6 +63,9 @@ void add_view(const State& state, std::vector<Entry>& out) {
         case gpu::View::wire:
             out.push_back({Entry::line, {kLine}, "edges of triangles"});
             break;
+        case gpu::View::seams:
+            out.push_back({Entry::line, {linear(0.80F, 0.06F, 0.03F)}, "seams"});
+            break;
         default:
             break;
     }

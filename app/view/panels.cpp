@@ -60,7 +60,9 @@ std::string opened(const State& state, float room) {
         return fmt::format("   {} {}", grouped(count), count == 1 ? one : many);
     };
     const std::string triangles = counted(document.mesh->triangle_count(), "triangle", "triangles");
-    const std::string all = name + triangles + counted(document.mesh->vertex_count, "vertex", "vertices");
+    const std::string all =
+        name + triangles + counted(document.table->vertex_count, "vertex", "vertices") +
+        (document.surface->has_seams() ? counted(document.mesh->vertex_count, "copy", "copies") : "");
     if (ImGui::CalcTextSize(all.c_str()).x <= room) return all;
     const float left = room - ImGui::CalcTextSize(triangles.c_str()).x;
     if (left > px(120)) return elided(name, left) + triangles;

@@ -168,6 +168,7 @@ UploadKey Scene::key_of(const Shown& shown, int side) {
     using With = UploadKey::With;
     const With with = shown.view == gpu::View::offsets ? With::offsets
                       : shown.view == gpu::View::wire  ? With::edges
+                      : shown.view == gpu::View::seams ? With::seams
                                                        : With::ring;
     if (shown.source == gpu::Source::plain || (shown.mode != Mode::single && side == 0)) {
         return {gpu::Source::plain, gpu::Path::compute, with};
@@ -280,7 +281,8 @@ Result<VkPipeline> Scene::compose_pipeline(Mode mode) {
     std::uint32_t paint = painted_ ? LR_PAINT_TRIANGLES : LR_PAINT_NONE;
     if (grows_) paint |= LR_PAINT_GROWTH;
     if (grows_ && edge_pixels_ > kLeastEdge) paint |= LR_PAINT_RING;
-    const bool grey = view_ == gpu::View::smooth || view_ == gpu::View::flat || view_ == gpu::View::wire;
+    const bool grey =
+        view_ == gpu::View::smooth || view_ == gpu::View::flat || view_ == gpu::View::wire || view_ == gpu::View::seams;
     if (paint != LR_PAINT_NONE && !grey) paint |= LR_PAINT_FLAT;
     const std::array<std::uint32_t, 3> constants{how, samples_, paint};
     gpu::PipelineHandle& made = compose_[constants];

@@ -35,7 +35,7 @@ CornerId nearest_corner(const Document& document, std::uint32_t t, const Point& 
     double distance = std::numeric_limits<double>::infinity();
     for (std::uint32_t i = 0; i < 3; ++i) {
         const CornerId c = lacedring::corner(TriangleId{t}, i);
-        const Point d = cross(minus(place(*document.model, document.table->vertex(c).value), eye), ray);
+        const Point d = cross(minus(place(*document.model, document.copy_at(c)), eye), ray);
         if (dot(d, d) < distance) {
             distance = dot(d, d);
             best = c;
@@ -122,11 +122,11 @@ std::vector<Mark> selection_marks(const Document& document, CornerId corner) {
 }
 
 std::pair<Point, double> ball(const Document& document, CornerId corner) {
-    const Point centre = place(*document.model, document.table->vertex(corner).value);
+    const Point centre = place(*document.model, document.copy_at(corner));
     double squared = 0;
     for (const CornerId c : around(*document.table, corner)) {
         for (const CornerId other : {next(c), previous(c)}) {
-            const Point d = minus(place(*document.model, document.table->vertex(other).value), centre);
+            const Point d = minus(place(*document.model, document.copy_at(other)), centre);
             squared = std::max(squared, dot(d, d));
         }
     }

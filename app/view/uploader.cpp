@@ -12,9 +12,10 @@ namespace {
 gpu::UploadOptions options_of(const UploadKey& key) {
     gpu::UploadOptions out;
     out.path = key.path;
-    out.ring = key.with != UploadKey::With::edges;
+    using Lines = gpu::UploadOptions::Lines;
+    out.ring = key.with == UploadKey::With::ring || key.with == UploadKey::With::offsets;
     out.offsets = key.with == UploadKey::With::offsets;
-    out.lines = key.with == UploadKey::With::edges ? gpu::UploadOptions::Lines::edges : gpu::UploadOptions::Lines::ring;
+    out.lines = out.ring ? Lines::ring : key.with == UploadKey::With::edges ? Lines::edges : Lines::seams;
     return out;
 }
 

@@ -20,8 +20,9 @@ struct UploadKey {
     enum class With {
         ring,
         offsets,
-        edges
-    };  ///< ring order, classes and the ring's lines; sizes of offsets; all edges
+        edges,
+        seams
+    };  ///< ring order, classes and the ring's lines; sizes of offsets; all edges; seams
     gpu::Source source = gpu::Source::plain;
     gpu::Path path = gpu::Path::compute;
     With with = With::ring;

@@ -141,8 +141,9 @@ void Viewer::handle_key(const Event& event) {
             state_.ring.start = state_.selection.corner;
             return;
         case 'V': {
-            constexpr std::array<gpu::View, 6> kOrder{gpu::View::smooth, gpu::View::flat, gpu::View::triangle_class,
-                                                      gpu::View::ring,   gpu::View::wire, gpu::View::offsets};
+            constexpr std::array<gpu::View, 7> kOrder{gpu::View::smooth, gpu::View::flat, gpu::View::triangle_class,
+                                                      gpu::View::ring,   gpu::View::wire, gpu::View::offsets,
+                                                      gpu::View::seams};
             const auto* at = std::find(kOrder.begin(), kOrder.end(), state_.shown.view);
             const auto i = static_cast<std::size_t>(at - kOrder.begin());
             state_.shown.view = kOrder[(i + (shift ? kOrder.size() - 1 : 1)) % kOrder.size()];

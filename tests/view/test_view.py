@@ -85,7 +85,7 @@ class View(driver.Scripted):
 
     def test_screenshots_are_what_render_draws(self):
         blob = mesh("blob", 3000)
-        views = ["smooth", "flat", "class", "ring", "wire", "offsets"]
+        views = ["smooth", "flat", "class", "ring", "wire", "offsets", "seams"]
         script = ["set panels off", "wait optimised", "set passes 0", "wait settled", "drag 200 150 260 170", "scroll 250 140 2", "drag 200 150 190 120 middle", "print"]
         for view in views:
             script += [f"set view {view}", f"screenshot {driver.folder}/{view}.png"]
