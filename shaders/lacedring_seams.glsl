@@ -86,7 +86,8 @@ uint lr_seam_field(uint at, uint bits) { return bitfieldExtract(lr_seam_load(0u,
 
 // The block that is read: its bits are counted from word lr_seam_word on.
 uint lr_seam_word, lr_seam_at, lr_seam_end;
-int lr_seam_run[8];  // of each run class: likely values still to come; -1: the run is not read yet
+int lr_seam_run[8];   // of each run class: likely values still to come; -1: the run is not read yet
+uvec4 lr_seam_table;  // of contexts
 
 // Begins to read a block. Returns how many copies the blocks before it make.
 uint lr_seam_open(LrSeamPart part, uint block) {
@@ -107,6 +108,7 @@ uint lr_seam_open(LrSeamPart part, uint block) {
     lr_seam_at = bit % 32u;
     lr_seam_end = lr_seam_at + lr_seam_field(at, part.length_bits);
     for (uint k = 0u; k < 8u; ++k) lr_seam_run[k] = -1;
+    for (uint k = 0u; k < 4u; ++k) lr_seam_table[k] = LR_SEAM_WORD(4u + k);
     return before;
 }
 
@@ -167,7 +169,7 @@ int lr_seam_read_run(uint k) {
 }
 
 bool lr_seam_flag(uint context) {
-    uint entry = LR_SEAM_WORD(4u + context / 8u) >> 4u * (context & 7u), k = entry >> 1 & 7u;
+    uint entry = lr_seam_table[context / 8u] >> 4u * (context & 7u), k = entry >> 1 & 7u;
     bool likely = (entry & 1u) != 0u;
     if (k == 0u) return lr_seam_at == lr_seam_end ? likely : lr_seam_take(1u) != 0u;
     int run = lr_seam_run[k];
@@ -217,6 +219,7 @@ uvec3 lr_seam_triangle(uint i) {
     return t.x == t.y || t.y == t.z || t.z == t.x ? uvec3(0xffffffffu) : t;  // no vertex has this number
 }
 uint lr_seam_corner(uvec3 t, uint v) { return t.x == v ? 0u : t.y == v ? 1u : t.z == v ? 2u : 3u; }
+bool lr_seam_two(bvec3 has) { return (has.x && has.y) || (has.z && (has.x || has.y)); }
 bool lr_seam_has(uvec3 t, uint v) { return t.x == v || t.y == v || t.z == v; }
 uint lr_seam_side(uvec3 t) {  // 0 left, 1 right, 2 no ring edge
     if (t.y == t.x + 1u) return 0u;
@@ -227,22 +230,24 @@ uint lr_seam_side(uvec3 t) {  // 0 left, 1 right, 2 no ring edge
     return t.z == t.x + 1u ? 1u : 2u;
 }
 
-// Of a vertex.
+// A bit for a vertex.
+uint lr_seam_mark(uint v) { return 1u << (v * 0x9e3779b9u >> 27); }
+
+// Of the vertices of a triangle.
 struct LrSeamHomes {
-    uint first, count;  // home copies
-    uint steps;         // the last position
+    uvec3 first, count;  // home copies
+    uvec3 steps;         // the last position
 };
-LrSeamHomes lr_seam_homes(uint v) {
+LrSeamHomes lr_seam_homes(uvec3 t) {
+    uvec3 entry = uvec3(LR_SEAM_HOME(t.x), LR_SEAM_HOME(t.y), LR_SEAM_HOME(t.z));
     LrSeamHomes h;
-    h.first = LR_SEAM_HOME(v);
-    uint wraps = h.first & 1u;
-    h.first >>= 1;
-    h.count = (LR_SEAM_HOME(v + 1u) >> 1) - h.first;
-    h.steps = h.count - 1u + wraps;
+    h.first = entry >> 1;
+    h.count = (uvec3(LR_SEAM_HOME(t.x + 1u), LR_SEAM_HOME(t.y + 1u), LR_SEAM_HOME(t.z + 1u)) >> 1) - h.first;
+    h.steps = h.count - 1u + (entry & 1u);
     return h;
 }
-uint lr_seam_place(LrSeamHomes h, uint position) {  // the word of a corner at a position
-    return position == h.count ? h.first | LR_SEAM_LAST : h.first + position;
+uint lr_seam_place(LrSeamHomes h, uint j, uint position) {  // the word of corner j at a position
+    return position == h.count[j] ? h.first[j] | LR_SEAM_LAST : h.first[j] + position;
 }
 
 // An end of the edge that a triangle shares with its parent.
@@ -252,26 +257,25 @@ struct LrSeamEnd {
     bool is_private;
     uint far;     // the position where the fan ends
     uint type;    // left: 0 one position, 1 at the end, 2 on its way, 3 too late; right: 0, 1 at the end, 2 not
-    uint fan;  // counts the fan's triangles from this one on, up to 3
+    uint fan;     // counts the fan's triangles from this one on, up to 3
 };
 // `next`: the two triangles behind it. The block has `left` triangles from this one on.
-LrSeamEnd lr_seam_end_of(LrSeamLayout p, uvec3 t, uint j, uint other, uvec3 parent, uint parent_corner, uint side, uvec3 next[2],
+LrSeamEnd lr_seam_end_of(LrSeamLayout p, uvec3 t, LrSeamHomes h, uint j, uint other, uvec3 parent, uint parent_corner, uint side, uvec3 next[2],
                          uint left) {
     uint v = t[j], in_parent = lr_seam_corner(parent, v);
-    LrSeamHomes h = lr_seam_homes(v);
     LrSeamEnd e;
     e.word = LR_SEAM_COPY(parent_corner + in_parent) & (LR_SEAM_LAST | LR_SEAM_COPY_BITS);
     e.is_private = (e.word & LR_SEAM_COPY_BITS) >= p.homes;
-    e.position = (e.word & LR_SEAM_LAST) != 0u ? h.count : e.word - h.first;
+    e.position = (e.word & LR_SEAM_LAST) != 0u ? h.count[j] : e.word - h.first[j];
     e.fan = left >= 2u && !lr_seam_has(next[0], v) ? 1u : left >= 3u && !lr_seam_has(next[1], v) ? 2u : 3u;
     bool precedes = parent[in_parent > 0u ? in_parent - 1u : 2u] == t[other];
-    e.far = (side == 0u) == precedes ? 0u : h.steps;
+    e.far = (side == 0u) == precedes ? 0u : h.steps[j];
     if (side == 0u) {
         uint to_go = e.is_private ? 0u : uint(abs(int(e.far - e.position)));
-        e.type = to_go == 0u ? (h.steps > 0u ? 1u : 0u) : to_go < e.fan ? 2u : 3u;
+        e.type = to_go == 0u ? (h.steps[j] > 0u ? 1u : 0u) : to_go < e.fan ? 2u : 3u;
     } else {
-        bool there = (e.word & LR_SEAM_COPY_BITS) == (lr_seam_place(h, e.far) & LR_SEAM_COPY_BITS);
-        e.type = !there ? 2u : h.steps > 0u ? 1u : 0u;
+        bool there = (e.word & LR_SEAM_COPY_BITS) == (lr_seam_place(h, j, e.far) & LR_SEAM_COPY_BITS);
+        e.type = !there ? 2u : h.steps[j] > 0u ? 1u : 0u;
     }
     return e;
 }
@@ -300,7 +304,8 @@ LrSeamQuestion lr_seam_change(LrSeamEnd e, uint steps, uint side) {
     return q;
 }
 // Of corner j that is not in the parent. With a parent, the words of the others are known.
-LrSeamQuestion lr_seam_start(uvec3 t, uvec3 words, uint j, uint steps, uint side, bool has_parent) {
+LrSeamQuestion lr_seam_start(uvec3 t, LrSeamHomes h, uvec3 words, uint j, uint side, bool has_parent) {
+    uint steps = h.steps[j];
     uint before = lr_seam_corner(t, t[j] - 1u), after = lr_seam_corner(t, t[j] + 1u);
     LrSeamQuestion q = LrSeamQuestion(before == 3u && after < 3u ? steps : 0u, LR_SEAM_START_L, LR_SEAM_NEW_L, false);
     if (side == 0u) {
@@ -313,8 +318,7 @@ LrSeamQuestion lr_seam_start(uvec3 t, uvec3 words, uint j, uint steps, uint side
     for (uint n = 0u; n < 2u; ++n) {  // the ring neighbor's copy where the ring edge is
         uint neighbor = n == 0u ? before : after;
         if (neighbor == 3u) continue;
-        LrSeamHomes h = lr_seam_homes(t[neighbor]);
-        bool plain = ((words[neighbor] ^ lr_seam_place(h, n == 0u ? h.steps : 0u)) & LR_SEAM_COPY_BITS) == 0u;
+        bool plain = ((words[neighbor] ^ lr_seam_place(h, neighbor, n == 0u ? h.steps[neighbor] : 0u)) & LR_SEAM_COPY_BITS) == 0u;
         q.at = (n == 0u) == plain ? 0u : steps;
         q.at_context = plain ? LR_SEAM_PLAIN : LR_SEAM_LEAVE;
         q.new_context = plain ? LR_SEAM_NEW_R : steps > 0u ? LR_SEAM_SEAMED2 : LR_SEAM_SEAMED;
@@ -324,12 +328,12 @@ LrSeamQuestion lr_seam_start(uvec3 t, uvec3 words, uint j, uint steps, uint side
     return q;
 }
 
-// Reads the word of a corner, whose copy is not that of the word `current`. `made`: the next private copy.
+// Reads the word of corner j, whose copy is not that of the word `current`. `made`: the next private copy.
 #define LR_SEAM_UNKNOWN 0xffffffffu  // no copy
-uint lr_seam_choose(LrSeamHomes h, uint current, LrSeamQuestion q, inout uint made) {
-    uint copy = (lr_seam_place(h, q.at) & LR_SEAM_COPY_BITS) - h.first, left = h.count;
-    uvec2 excluded = uvec2((current & LR_SEAM_COPY_BITS) - h.first, 0xffffffffu);  // home copies, in order
-    if (excluded.x < h.count) {
+uint lr_seam_choose(LrSeamHomes h, uint j, uint current, LrSeamQuestion q, inout uint made) {
+    uint copy = (lr_seam_place(h, j, q.at) & LR_SEAM_COPY_BITS) - h.first[j], left = h.count[j];
+    uvec2 excluded = uvec2((current & LR_SEAM_COPY_BITS) - h.first[j], 0xffffffffu);  // home copies, in order
+    if (excluded.x < h.count[j]) {
         --left;
     } else {
         excluded.x = 0xffffffffu;
@@ -350,19 +354,20 @@ uint lr_seam_choose(LrSeamHomes h, uint current, LrSeamQuestion q, inout uint ma
             --left;
         }
     }
-    if (answer == 1u) return lr_seam_place(h, q.at);
+    if (answer == 1u) return lr_seam_place(h, j, q.at);
     if (answer < 3u) return made++;
     uint width = answer == 3u ? uint(findMSB(left - 1u) + 1) : min(lr_seam_unary() + 2u, 31u), value = lr_seam_take(width);
     if (answer == 4u) return made + 3u - (1u << width) - value;
     if (value >= excluded.x) ++value;
     if (value >= excluded.y) ++value;
-    return h.first + value;
+    return h.first[j] + value;
 }
 
 void lr_seam_triangle_block(LrSeamLayout p, uint block) {
     uint first = block * LR_SEAM_BLOCK, count = min(p.triangles - first, LR_SEAM_BLOCK);
     uint made = p.homes + lr_seam_open(p.by_triangle, block);
-    uvec3 next[2];  // of them, those that there are
+    uint marks[LR_SEAM_BACK];  // of the vertices of the last triangles: most are not loaded again
+    uvec3 next[2];             // those that there are
     next[0] = lr_seam_triangle(first);
     if (count > 1u) next[1] = lr_seam_triangle(first + 1u);
     for (uint i = 0u; i < LR_SEAM_BLOCK; ++i) {
@@ -373,28 +378,35 @@ void lr_seam_triangle_block(LrSeamLayout p, uint block) {
         if (i + 2u < count) next[1] = lr_seam_triangle(first + i + 2u);
         if (t.x == t.y) {
             for (uint j = 0u; j < 3u; ++j) LR_SEAM_COPY(corner + j) = 0u;
+            marks[i % LR_SEAM_BACK] = 0u;
             continue;
         }
         bvec3 has;
+        uvec3 mark = uvec3(lr_seam_mark(t.x), lr_seam_mark(t.y), lr_seam_mark(t.z));
         for (uint back = 1u; back <= LR_SEAM_BACK; ++back) {
             if (back > i) break;
-            parent = lr_seam_triangle(first + i - back);
-            has = bvec3(lr_seam_has(parent, t.x), lr_seam_has(parent, t.y), lr_seam_has(parent, t.z));
-            if ((has.x && has.y) || (has.z && (has.x || has.y))) {
-                found = back;
-                break;
+            has = notEqual(marks[(i - back) % LR_SEAM_BACK] & mark, uvec3(0u));
+            if (lr_seam_two(has)) {
+                parent = lr_seam_triangle(first + i - back);
+                has = bvec3(lr_seam_has(parent, t.x), lr_seam_has(parent, t.y), lr_seam_has(parent, t.z));
+                if (lr_seam_two(has)) {
+                    found = back;
+                    break;
+                }
             }
         }
+        marks[i % LR_SEAM_BACK] = mark.x | mark.y | mark.z;
         uint side = lr_seam_side(t), parent_corner = corner - 3u * found, n = 0u;
         if (side == 2u) side = found > 0u && (LR_SEAM_COPY(parent_corner) & LR_SEAM_RIGHT) != 0u ? 1u : 0u;
         uvec3 order = uvec3(0u, 1u, 2u);  // the ends of the edge to the parent, then the corner that is not in it
+        LrSeamHomes h = lr_seam_homes(t);
         LrSeamEnd a, b;
         bool b_changes = true;
         if (found > 0u) {
             if (!has.y) order = uvec3(0u, 2u, 1u);
             if (!has.x) order = uvec3(1u, 2u, 0u);
-            a = lr_seam_end_of(p, t, order.x, order.y, parent, parent_corner, side, next, count - i);
-            b = lr_seam_end_of(p, t, order.y, order.x, parent, parent_corner, side, next, count - i);
+            a = lr_seam_end_of(p, t, h, order.x, order.y, parent, parent_corner, side, next, count - i);
+            b = lr_seam_end_of(p, t, h, order.y, order.x, parent, parent_corner, side, next, count - i);
             if (b.type < a.type) {
                 LrSeamEnd swap = a;
                 a = b;
@@ -411,12 +423,17 @@ void lr_seam_triangle_block(LrSeamLayout p, uint block) {
                 context = a.type == 1u || b.type == 1u ? LR_SEAM_RIGHT0
                           : a.type == 2u               ? LR_SEAM_RIGHT4
                           : b.type == 0u               ? LR_SEAM_RIGHT1
-                          : a.fan == 1u             ? LR_SEAM_RIGHT2
+                          : a.fan == 1u                ? LR_SEAM_RIGHT2
                                                        : LR_SEAM_RIGHT3;
             }
+            bool seam = false, usual = false, lone = context == LR_SEAM_LONE;  // usually b alone changes, or both
+            for (uint flag = 0u; flag < 2u; ++flag) {
+                usual = lr_seam_flag(flag == 0u ? context : a.type == 0u ? LR_SEAM_HALF : LR_SEAM_BOTH);
+                if (flag == 0u && !usual) break;
+                seam = true;
+            }
             n = 2u;
-            if (lr_seam_flag(context)) {  // usually b alone changes, or both
-                bool usual = lr_seam_flag(a.type == 0u ? LR_SEAM_HALF : LR_SEAM_BOTH), lone = context == LR_SEAM_LONE;
+            if (seam) {
                 bool a_alone = !usual && lr_seam_take(1u) != 0u;
                 b_changes = !a_alone;
                 n = (usual ? !lone : a_alone || lone) ? 0u : 1u;
@@ -425,18 +442,17 @@ void lr_seam_triangle_block(LrSeamLayout p, uint block) {
         for (; n < 3u; ++n) {
             if (n == 1u && !b_changes) continue;
             uint j = order[n], current = LR_SEAM_UNKNOWN;
-            LrSeamHomes h = lr_seam_homes(t[j]);
             LrSeamQuestion q;
             if (found > 0u && n < 2u) {
                 LrSeamEnd e = b;
                 if (n == 0u) e = a;
-                q = lr_seam_change(e, h.steps, side);
+                q = lr_seam_change(e, h.steps[j], side);
                 current = e.word;
             } else {
-                q = lr_seam_start(t, words, j, h.steps, side, found > 0u);
+                q = lr_seam_start(t, h, words, j, side, found > 0u);
             }
             uint copy = made;
-            words[j] = lr_seam_choose(h, current, q, made);
+            words[j] = lr_seam_choose(h, j, current, q, made);
             if (copy < made) LR_SEAM_PUT_VERTEX(copy, t[j]);
         }
         words.x |= side << 30;

@@ -158,6 +158,8 @@ TEST_CASE_FIXTURE(SeamDecode, "seams of larger meshes, of several groups of bloc
         CAPTURE(kind.name);
         check(generated(kind.name, 40000, 3), how++ % kCuts, kLargeRange);
     }
+    const Shape wheel = fan(700, true);  // more copies than a vertex has positions
+    check(make_mesh(wheel.triangles, wheel.vertices), 3, kSmallRange);
     for (how = 0; how < kCuts; ++how) {
         CAPTURE(how);
         check(generated("blob", 20000), how, kSmallRange);
