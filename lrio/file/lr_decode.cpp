@@ -94,6 +94,8 @@ Result<Mesh> decode_mesh(const LrFile& file, DecodedLr& decoded, Surface* surfac
     mesh.vertex_count = static_cast<std::uint32_t>(kept.size());
     std::vector<std::uint32_t> of_vertex = kept;  // the place of each in an attribute of vertices
     for (std::uint32_t& i : of_vertex) i = decoded.vertex_of.empty() ? i : decoded.vertex_of[i];
+    std::vector<bool> used(all);
+    for (const std::uint32_t v : decoded.indices) used[v] = true;
     const bool as_it_is = decoded.vertex_of.empty() && kept.size() == all;
     for (const LrAttribute& attribute : file.attributes) {
         Attribute values = decode_attribute(attribute);
@@ -111,9 +113,10 @@ Result<Mesh> decode_mesh(const LrFile& file, DecodedLr& decoded, Surface* surfac
     if (decoded.vertex_of.empty()) return mesh;
     std::vector<std::uint32_t> number(decoded.vertices, UINT32_MAX);
     surface->vertex_count = 0;
-    for (const std::uint32_t v : of_vertex) {
-        if (number[v] == UINT32_MAX) number[v] = surface->vertex_count++;
-        surface->vertex_of.push_back(number[v]);
+    for (std::size_t i = 0; i < kept.size(); ++i) {  // as find_surface does, copies without triangles stay apart
+        std::uint32_t alone = UINT32_MAX, &joined = used[kept[i]] ? number[of_vertex[i]] : alone;
+        if (joined == UINT32_MAX) joined = surface->vertex_count++;
+        surface->vertex_of.push_back(joined);
     }
     return mesh;
 }

@@ -36,6 +36,8 @@ class Reader {
             case kLr:
             case kLrCompact:
             case kPacked:
+                if (has_connectivity_) return "occurs twice";
+                has_connectivity_ = true;
                 file_.format = format_of(section.kind);
                 return read_words(contents, file_.words);
             case kVertexOrder:
@@ -54,7 +56,7 @@ class Reader {
     }
 
     static std::string read_words(std::span<const std::byte> contents, std::vector<std::uint32_t>& words) {
-        if (!words.empty()) return "occurs twice";
+        if (!words.empty()) return contents.empty() ? "" : "occurs twice";
         if (contents.size() % 4 != 0) return "no whole number of words";
         words.resize(contents.size() / 4);
         if (!words.empty()) std::memcpy(words.data(), contents.data(), contents.size());
@@ -153,6 +155,7 @@ class Reader {
     }
 
     LrFile file_;
+    bool has_connectivity_ = false;
 };
 
 }  // namespace

@@ -77,7 +77,7 @@ Result<StreamView> LrFileView::validate() const {
 
 Positions LrFileView::positions() const {
     const auto position = std::ranges::find(attributes, "POSITION", &AttributeView::name);
-    if (position == attributes.end() || position->components != 3) return {};
+    if (position == attributes.end() || position->components != 3 || position->per_copy) return {};
     if (position->type != ComponentType::f32 && position->type != ComponentType::f64) return {};
     return {position->data, position->type == ComponentType::f64};
 }
@@ -89,7 +89,7 @@ Result<LrFileView> view_lr_file(std::span<const std::byte> bytes) {
         return Error{ErrorCode::invalid_argument, "the file does not begin at a multiple of eight bytes"};
     }
     const auto view_words = [](std::span<const std::byte> contents, std::span<const std::uint32_t>& words) {
-        if (words.data() != nullptr) return "occurs twice";
+        if (!words.empty()) return contents.empty() ? "" : "occurs twice";
         if (contents.size() % 4 != 0) return "no whole number of words";
         words = {reinterpret_cast<const std::uint32_t*>(contents.data()), contents.size() / 4};
         return "";
@@ -101,6 +101,7 @@ Result<LrFileView> view_lr_file(std::span<const std::byte> bytes) {
                 case kLr:
                 case kLrCompact:
                 case kPacked:
+                    if (out.words.data() != nullptr) return "occurs twice";
                     out.format = format_of(section.kind);
                     return view_words(contents, out.words);
                 case kVertexOrder:

@@ -69,8 +69,14 @@ class Kept {
         std::uint32_t number, next;
     };
 
-    Point cell_of(const Point& p) const {
-        return {std::floor(p[0] / tolerance_), std::floor(p[1] / tolerance_), std::floor(p[2] / tolerance_)};
+    /// Where cells are narrower than the numbers are apart, each number is its own: a quotient may be infinite.
+    Point cell_of(Point p) const {
+        constexpr double kNarrow = 9007199254740992.0;  // 2^53
+        for (double& x : p) {
+            const double cell = std::floor(x / tolerance_);
+            if (std::abs(cell) < kNarrow) x = cell;
+        }
+        return p;
     }
     /// Two cells may have one key: points are compared themselves.
     static std::uint64_t key(Point cell) {
@@ -83,8 +89,13 @@ class Kept {
     std::vector<Entry> points_;
 };
 
-/// The group of each vertex, named by its first one. Vertices that are not used are alone.
-std::vector<std::uint32_t> group_vertices(const Mesh& mesh, const Positions& positions, double tolerance) {
+/// The groups of each vertex, named by their first ones. Vertices that are not used are alone.
+struct VertexGroups {
+    std::vector<std::uint32_t> equal;  ///< of one position
+    std::vector<std::uint32_t> near;   ///< of a kept vertex; empty without a tolerance, which keeps all
+};
+
+VertexGroups group_vertices(const Mesh& mesh, const Positions& positions, double tolerance) {
     const BitVector used = used_vertices(mesh);
     std::vector<std::uint32_t> vertices;
     for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
@@ -100,14 +111,19 @@ std::vector<std::uint32_t> group_vertices(const Mesh& mesh, const Positions& pos
             const Point p = position(positions, vertices[i]), q = position(positions, vertices[j]);
             return std::memcmp(p.data(), q.data(), sizeof p);
         });
-    std::vector<std::uint32_t> first = groups.first_items(), out(mesh.vertex_count);
+    const auto by_first = [&](std::span<const std::uint32_t> first) {
+        std::vector<std::uint32_t> out(mesh.vertex_count);
+        std::iota(out.begin(), out.end(), 0U);
+        for (std::size_t i = 0; i < vertices.size(); ++i) out[vertices[i]] = first[groups.of[i]];
+        return out;
+    };
+    std::vector<std::uint32_t> first = groups.first_items();
     for (std::uint32_t& item : first) item = vertices[item];
-    if (tolerance > 0) {
-        Kept kept(tolerance);
-        for (std::uint32_t& v : first) v = kept.join(position(positions, v), v);
-    }
-    std::iota(out.begin(), out.end(), 0U);
-    for (std::size_t i = 0; i < vertices.size(); ++i) out[vertices[i]] = first[groups.of[i]];
+    VertexGroups out{by_first(first), {}};
+    if (!(tolerance > 0)) return out;
+    Kept kept(tolerance);
+    for (std::uint32_t& v : first) v = kept.join(position(positions, v), v);
+    out.near = by_first(first);
     return out;
 }
 
@@ -127,20 +143,64 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_in_triangles(const Me
     return out;
 }
 
+/// Where `from` has 0 and `to` has -0, this becomes 0.
+template <class Real>
+void keep_zeros(std::byte* to, const std::byte* from) {
+    for (std::size_t at = 0; at < 3 * sizeof(Real); at += sizeof(Real)) {
+        Real a = 0, b = 0;
+        std::memcpy(&a, to + at, sizeof a);
+        std::memcpy(&b, from + at, sizeof b);
+        if (a == 0 && b == 0 && !std::signbit(b)) std::memcpy(to + at, &b, sizeof b);
+    }
+}
+
+/// The positions of the surface's vertices: of their first copies, but 0 for -0 where another copy has 0.
+Attribute surface_positions(const Attribute& positions, const Surface& surface) {
+    Attribute out = std::move(permute_attributes({&positions, 1}, first_vertices(surface))[0]);
+    const std::size_t stride = positions.stride();
+    const bool wide = positions.type == ComponentType::f64;
+    if (positions.components != 3 || (!wide && positions.type != ComponentType::f32)) return out;
+    for (std::size_t v = 0; v < surface.vertex_of.size(); ++v) {
+        std::byte* to = out.data.data() + surface.vertex_of[v] * stride;
+        const std::byte* from = positions.data.data() + v * stride;
+        if (std::memcmp(to, from, stride) != 0) wide ? keep_zeros<double>(to, from) : keep_zeros<float>(to, from);
+    }
+    return out;
+}
+
+/// What joining costs, of a surface with seams.
+SurfaceReport report_moves(const Mesh& mesh, const Surface& surface) {
+    SurfaceReport out;
+    const Attribute &before = *find_attribute(mesh, "POSITION"), after = surface_positions(before, surface);
+    const bool wide = before.type == ComponentType::f64;
+    const std::size_t stride = before.stride();
+    for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
+        const std::uint32_t to = surface.vertex_of[v];
+        if (std::memcmp(before.data.data() + v * stride, after.data.data() + to * stride, stride) == 0) continue;
+        ++out.moved;
+        out.largest_move =
+            std::max(out.largest_move, distance(position(positions_of(mesh), v), position({after.data, wide}, to)));
+    }
+    return out;
+}
+
 }  // namespace
 
 Surface find_surface(const Mesh& mesh, double tolerance, SurfaceReport* report) {
+    if (report != nullptr) *report = {};
     Surface out;
     out.vertex_count = mesh.vertex_count;
     const Positions positions = positions_of(mesh);
     if (positions.empty()) return out;
-    const std::vector<std::uint32_t> group = group_vertices(mesh, positions, tolerance);
+    const VertexGroups groups = group_vertices(mesh, positions, tolerance);
+    const std::vector<std::uint32_t>& group = groups.near.empty() ? groups.equal : groups.near;
     const std::vector<std::pair<std::uint32_t, std::uint32_t>> apart = pairs_in_triangles(mesh, group);
-    // Of a group, vertices of rank 0 are joined, those of rank 1, and so on.
+    // Of a group, vertices of rank 0 are joined; of a higher rank, those of one position: others may be too far apart.
     std::vector<std::uint32_t> rank(apart.empty() ? 0 : mesh.vertex_count), ranks_apart;
     std::vector<std::uint32_t> number(mesh.vertex_count, UINT32_MAX);  // of rank 0 of the group with that first vertex
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> higher;  // of a group and a rank
-    std::vector<std::uint32_t> vertex_of(mesh.vertex_count), first;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> higher;  // of a position and a rank
+    std::vector<std::uint32_t> vertex_of(mesh.vertex_count);
+    std::uint32_t count = 0;
     auto pair = apart.begin();
     for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
         ranks_apart.clear();
@@ -150,28 +210,14 @@ Surface find_surface(const Mesh& mesh, double tolerance, SurfaceReport* report) 
         for (const std::uint32_t other : ranks_apart) own += own == other ? 1 : 0;
         if (!rank.empty()) rank[v] = own;
         std::uint32_t& joined =
-            own == 0 ? number[group[v]] : higher.try_emplace({group[v], own}, UINT32_MAX).first->second;
-        if (joined == UINT32_MAX) {
-            joined = static_cast<std::uint32_t>(first.size());
-            first.push_back(v);
-        }
+            own == 0 ? number[group[v]] : higher.try_emplace({groups.equal[v], own}, UINT32_MAX).first->second;
+        if (joined == UINT32_MAX) joined = count++;
         vertex_of[v] = joined;
     }
-    if (report != nullptr) {
-        const Attribute& position_attribute = *find_attribute(mesh, "POSITION");
-        const std::size_t stride = position_attribute.stride();
-        const std::byte* bytes = position_attribute.data.data();
-        for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
-            const std::uint32_t to = first[vertex_of[v]];
-            if (std::memcmp(bytes + v * stride, bytes + to * stride, stride) == 0) continue;
-            ++report->moved;
-            report->largest_move =
-                std::max(report->largest_move, distance(position(positions, v), position(positions, to)));
-        }
-    }
-    if (first.size() == mesh.vertex_count) return out;
-    out.vertex_count = static_cast<std::uint32_t>(first.size());
+    if (count == mesh.vertex_count) return out;
+    out.vertex_count = count;
     out.vertex_of = std::move(vertex_of);
+    if (report != nullptr) *report = report_moves(mesh, out);
     return out;
 }
 
@@ -201,14 +247,10 @@ std::vector<CornerId> seam_edges(const CornerTable& table, const Mesh& mesh) {
 
 void move_to_surface(Mesh& mesh, const Surface& surface) {
     if (!surface.has_seams()) return;
-    const std::vector<std::uint32_t> first = first_vertices(surface);
     for (Attribute& attribute : mesh.attributes) {
         if (attribute.name != "POSITION") continue;
-        const std::size_t stride = attribute.stride();
-        for (std::size_t v = 0; v < mesh.vertex_count; ++v) {
-            const std::size_t from = first[surface.vertex_of[v]];  // v or one before it, which does not move
-            std::memmove(attribute.data.data() + v * stride, attribute.data.data() + from * stride, stride);
-        }
+        const Attribute joined = surface_positions(attribute, surface);
+        attribute = std::move(permute_attributes({&joined, 1}, surface.vertex_of)[0]);
     }
 }
 
@@ -257,7 +299,7 @@ Mesh surface_mesh(const Mesh& mesh, const Surface& surface) {
         for (std::uint32_t& v : out.indices) v = surface.vertex_of[v];
     }
     if (const Attribute* positions = find_attribute(mesh, "POSITION")) {
-        out.attributes = permute_attributes(std::span(positions, 1), first_vertices(surface));
+        out.attributes.push_back(surface_positions(*positions, surface));
     }
     return out;
 }

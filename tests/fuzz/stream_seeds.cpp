@@ -14,6 +14,7 @@
 #include "lacedring/seams.hpp"
 #include "lacedring/vertices.hpp"
 #include "lrlab/generate/generate.h"
+#include "tests/support/cut_mesh.h"
 #include "tests/support/meshes.h"
 
 using namespace lacedring;
@@ -38,6 +39,10 @@ void write_stream(const char* target, const std::string& name, const Mesh& mesh,
     const AttributeBits bits{.positions = mesh.vertex_count % 3 * 5, .normals = 8};  // 0: lossless
     all_written = compress_attributes(file, bits).has_value() && all_written;
     write("lr_file", std::string(target) + "-" + name + "-vertices", serialize_lr(file));
+    const auto [cut, surface] = test::cut_mesh(mesh, 1 + mesh.vertex_count % 4, mesh.vertex_count);
+    const Result<LrFile> seams = make_lr_file(cut, surface, encoded, mesh.triangle_count() % 3 == 0);
+    all_written = seams.has_value() && all_written;
+    if (seams) write("lr_file", std::string(target) + "-" + name + "-seams", serialize_lr(*seams));
 }
 
 /// The section of a mesh that is cut into charts: those triangles apart that are so many apart. Where that is an even
@@ -85,6 +90,12 @@ void write_seeds(std::string name, const Mesh& mesh, std::uint32_t number) {
             input.push_back(static_cast<std::byte>(option));
         }
         write("chain_indices", name, input);
+        if (number % 4 != 1) return;
+        input[input.size() - 9] =
+            static_cast<std::byte>(number % 8 == 1 ? 0x60 : 0x0c);                // not welded, in its order or not
+        input[input.size() - 4] = static_cast<std::byte>(4 * (2 + number % 16));  // positions repeat
+        input[input.size() - 3] = static_cast<std::byte>(number % 3 == 0 ? 0xc0 : 0);  // a tolerance
+        write("chain_indices", name + "-cut", input);
     }
 }
 

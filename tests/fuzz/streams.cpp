@@ -318,7 +318,7 @@ void mutate_vertices(Bytes& bytes, std::size_t max_size, Random& random) {
     mutate_as_words(bytes, max_size, [&](Words& words, std::size_t max) { mutate_vertex_stream(words, max, random); });
 }
 
-void mutate_seams(Bytes& bytes, std::size_t max_size, Random& random) {
+void mutate_section(Bytes& bytes, std::size_t max_size, Random& random) {
     mutate_as_words(bytes, max_size, [&](Words& words, std::size_t max) { mutate_seam_section(words, max, random); });
 }
 
@@ -385,6 +385,16 @@ bool use_seam_section(std::span<const std::uint32_t> words) {
 }
 
 void mutate_seam_section(Words& words, std::size_t max_words, Random& random) {
+    const std::size_t behind = words.size() < 2 ? SIZE_MAX : 2 + std::size_t{3} * words[1];
+    if (behind < words.size() && random_below(random, 4) != 0) {  // the blocks alone
+        const auto section = words.begin() + static_cast<std::ptrdiff_t>(behind);
+        Words changed(section, words.end());
+        mutate_seams(changed, std::span(words).subspan(2, behind - 2), words[0], random);
+        words.resize(behind);
+        words.insert(words.end(), changed.begin(), changed.end());
+        words.resize(std::min(words.size(), max_words));
+        return;
+    }
     mutate_unmended(words, max_words, random);
     if (random_below(random, 16) != 0) mend_seams(words);
 }
@@ -400,6 +410,6 @@ extern const Target packed_target{"packed", run<Format::packed>, mutate<Format::
 extern const Target lr_target{"lr", run<Format::lr>, mutate<Format::lr>};
 extern const Target lr_compact_target{"lr_compact", run<Format::lr_compact>, mutate<Format::lr_compact>};
 extern const Target vertices_target{"vertices", run_vertices, mutate_vertices};
-extern const Target seams_target{"seams", run_seams, mutate_seams};
+extern const Target seams_target{"seams", run_seams, mutate_section};
 
 }  // namespace lacedring::fuzz

@@ -3,7 +3,7 @@
 #include "lrcore/codec/lean/lean_format.h"
 #include "renderer/adjacency.h"
 #include "tests/gpu/gpu_test.h"
-#include "tests/support/cuts.h"
+#include "tests/support/cut_mesh.h"
 
 using namespace lacedring;
 using namespace lacedring::test;
@@ -105,8 +105,8 @@ TEST_CASE("GPU-assisted validation is clean on meshes with seams") {
     REQUIRE(renderer);
     const CutMesh cut = cut_mesh(generated("parts", 1000), 1, 3);
     gpu::ModelOptions all{.packed = true, .vertices = VertexOptions{}};
-    all.surface = cut.surface;
-    all.surface_vertices = cut.surface_vertices;
+    all.surface = cut.surface.vertex_of;
+    all.surface_vertices = cut.surface.vertex_count;
     const gpu::Model model = gpu::make_model(cut.mesh, all).value();
     for (const gpu::Path path : {gpu::Path::compute, gpu::Path::pull}) {
         for (const gpu::Source source : {gpu::Source::lean, gpu::Source::packed_vertices}) {

@@ -9,6 +9,7 @@
 #include "lacedring/seams.hpp"
 #include "renderer/seam_decoder.h"
 #include "tests/gpu/gpu_test.h"
+#include "tests/support/cut_mesh.h"
 #include "tests/support/cuts.h"
 #include "tests/support/meshes.h"
 #include "tests/support/shapes.h"
@@ -195,8 +196,8 @@ namespace {
 
 gpu::Model model_of(const CutMesh& cut, const VertexOptions& options = {}) {
     gpu::ModelOptions all{.packed = true, .vertices = options};
-    all.surface = cut.surface;
-    all.surface_vertices = cut.surface_vertices;
+    all.surface = cut.surface.vertex_of;
+    all.surface_vertices = cut.surface.vertex_count;
     Result<gpu::Model> made = gpu::make_model(cut.mesh, all);
     REQUIRE_MESSAGE(made, made.error().message);
     return std::move(made).value();

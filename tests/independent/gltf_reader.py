@@ -127,7 +127,7 @@ class Gltf:
             if parent is not None:
                 matrix = multiply(parent, matrix)
             if "mesh" in node:
-                out.append((node["mesh"], matrix))
+                out.append((node["mesh"], IDENTITY if "skin" in node else matrix))  # joints alone place a skinned mesh
             stack += [(child, matrix) for child in reversed(node.get("children", []))]
         return out
 

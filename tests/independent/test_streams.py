@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """The readers of the packed stream and the LR tables, by hand-made streams; and what `lacedring encode` writes, whole
-and with one bit changed, vertex streams included.
+and with one bit changed, vertex streams and seams included.
 
-    test_streams.py [LACEDRING]      LACEDRING_MESHES: a folder of meshes whose vertex streams are read, too
+    test_streams.py [LACEDRING]      LACEDRING_MESHES: a folder of meshes that are read, too, corner by corner
 """
 
 import array
@@ -15,18 +15,21 @@ import sys
 import tempfile
 import unittest
 import zlib
+from collections import Counter
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import check_decode
 import lr_reader
+from gltf_reader import Gltf
 from lr_corners import check_corners
 from lr_tables_reader import Tables, decode_tables
-from mesh_readers import TYPES, BadFile, ply_attributes, unpack
+from mesh_readers import TYPES, Attribute, BadFile, ply_attributes, unpack
 from packed_reader import decode_packed, read_triangle
 from vertex_reader import LATTICE, OCTAHEDRAL, Vertices
 
 LACEDRING = None
 FORMATS = ("lean", "packed", "lr", "lr-compact")
+ASSETS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "assets")
 SANITIZED = os.environ.get("LACEDRING_SANITIZED", "0") == "1"  # ten times slower
 KINDS = ("sphere", "torus", "genus", "terrain", "blob", "parts", "moebius", "soup")
 VERTICES, WIDTH = 1024, 10  # of the packed streams made here
@@ -541,11 +544,47 @@ def attributes_of(points, kind, generator):
             ("9 doubles", "d", 0, [[float(x) for x in v] for v in numbers(0, 3, 9)])]
 
 
+def of_type(attribute):
+    """The values' format character, and the bytes of a vertex's."""
+    code = TYPES[attribute.type]
+    return code, attribute.components * struct.calcsize("<" + code)
+
+
+def corners_of(attributes, indices):
+    """The multiset of the triangles that name three vertices, by all attributes at their corners. -0 of a position is 0."""
+    values = []
+    for attribute in attributes:
+        (code, size), given = of_type(attribute), attribute.values
+        if attribute.name == "POSITION":
+            given = array.array(code, [x + 0.0 for x in array.array(code, given)]).tobytes()
+        values.append([given[i:i + size] for i in range(0, len(given), size)])
+    numbers = {}
+    number = [numbers.setdefault(value, len(numbers)) for value in zip(*values)]
+    corners = iter(indices)
+    triangles = [t for t in zip(corners, corners, corners) if len(set(t)) == 3]
+    by_values = [tuple(number[v] for v in t) for t in triangles]
+    names = list(numbers)
+    return Counter(min((names[a], names[b], names[c]), (names[b], names[c], names[a]), (names[c], names[a], names[b]))
+                   for a, b, c in by_values)
+
+
+def cut(indices, generator):
+    """An index list cut into charts, and the vertex of each copy."""
+    numbers, chart, out = {}, 0, []
+    for t in range(0, len(indices), 3):
+        chart = generator.randrange(3) if generator.random() < 0.1 else chart
+        out += [numbers.setdefault((v, chart), len(numbers)) for v in indices[t:t + 3]]
+    return out, [v for v, _ in numbers]
+
+
 class VertexStreams(WithProgram):
-    def make(self, kind, triangles):
-        """Writes a generated mesh with more attributes; returns them."""
+    def make(self, kind, triangles, with_seams=False):
+        """Writes a generated mesh with more attributes; returns them. With seams, each copy of a vertex has its own."""
         self.generate(kind, triangles)
         mesh = check_decode.read(self.path("m.ply"))
+        if with_seams:
+            mesh.indices, copies = cut(mesh.indices, random.Random(triangles))
+            mesh.positions = [mesh.positions[v] for v in copies]
         columns = attributes_of([unpack(p) for p in mesh.positions], kind, random.Random(1))
         head, rows = "ply\nformat binary_little_endian 1.0\n", [b""] * len(mesh.positions)
         properties = []
@@ -580,6 +619,9 @@ class VertexStreams(WithProgram):
         self.assertEqual((attribute.name, attribute.components, attribute.normalized, attribute.v_up),
                          (wanted.name, wanted.components, wanted.normalized, wanted.v_up))
         if stream is None or stream.mapping not in (LATTICE, OCTAHEDRAL):
+            if attribute.name == "POSITION" and attribute.values != given:  # -0 of a joined vertex may be 0
+                pairs = zip(array.array(codes, attribute.values), array.array(codes, given))
+                given = array.array(codes, [x if x == y == 0 and math.copysign(1, x) > 0 else y for x, y in pairs]).tobytes()
             self.assertEqual((attribute.type, attribute.values), (wanted.type, given), wanted.name)
             return
         error = max(map(lambda a, b: abs(a - b), array.array("f", attribute.values), array.array(codes, given)))
@@ -669,6 +711,81 @@ class VertexStreams(WithProgram):
                         different += attribute not in (None, unchanged)
             self.assertGreater(different, 0)
 
+    def check_corners(self, mesh, wanted, indices, streams):
+        """Has each corner of an .lr file that keeps the order the vertex of its source, with the values of that?"""
+        for attribute, given in zip(mesh.attributes, wanted, strict=True):
+            self.check_values(attribute, given, mesh.vertex_order, streams.get(given.name))
+        left = set(range(len(indices) // 3))
+        for i, corner in enumerate(mesh.corner_order):
+            t, first = divmod(corner, 3)
+            left.remove(t)
+            got = [mesh.vertex_order[v] for v in mesh.indices[3 * i:3 * i + 3]]
+            self.assertEqual(got, [indices[3 * t + (first + k) % 3] for k in range(3)], (i, corner))
+        for t in left:
+            self.assertLess(len(set(indices[3 * t:3 * t + 3])), 3, t)
+
+    def source(self, path):
+        """The attributes and indices of a mesh: of tables that hold them as they lie in memory, in the mesh's order."""
+        mesh = lr_reader.read_lr(self.encode("lr", "--no-weld", "--keep-order", "--effort", "0", mesh=path))
+        place = dict(zip(mesh.vertex_order, range(len(mesh.vertex_order))))
+        for attribute in mesh.attributes:
+            size = of_type(attribute)[1]
+            attribute.values = b"".join(attribute.values[size * place[v]:size * place[v] + size] for v in range(len(place)))
+        self.assertIsNone(check_decode.in_order(check_decode.read(path), mesh))
+        indices = [0] * (3 * struct.unpack_from("<I", self.read("m.lr"), 16)[0])  # degenerate triangles are not there
+        for i, corner in enumerate(mesh.corner_order):
+            for k in range(3):
+                indices[corner // 3 * 3 + (corner + k) % 3] = mesh.vertex_order[mesh.indices[3 * i + k]]
+        return mesh.attributes, indices
+
+    def check_seams(self, wanted, indices, path, bits=((),), formats=FORMATS):
+        """A mesh with seams, with its order kept and without. Yields the latter .lr file of each format."""
+        every_corner = corners_of(wanted, indices)
+        for name in formats:
+            for options in bits:
+                with self.subTest(path=path, format=name, bits=options):
+                    data = self.encode(name, "--keep-order", "--effort", "0", *options, mesh=path)
+                    mesh = lr_reader.read_lr(data)
+                    self.check_corners(mesh, wanted, indices, self.streams(data))
+                    self.check_decoded(mesh.attributes, mesh.copies)
+            with self.subTest(path=path, format=name):
+                data = self.encode(name, "--effort", "0", mesh=path)
+                mesh = lr_reader.read_lr(data)
+                self.assertEqual(corners_of(mesh.attributes, mesh.indices), every_corner)
+                yield data
+
+    def test_seams(self):
+        kinds = set()
+        for i, kind in enumerate(("soup", "moebius") if SANITIZED else KINDS):
+            wanted = self.make(kind, 200 + 180 * (i % 3), with_seams=True)  # the last in two blocks
+            indices = check_decode.read(self.path("m.ply")).indices
+            formats = FORMATS if SANITIZED else FORMATS[i // 2 % 2::2]
+            for data in self.check_seams(wanted, indices, self.path("m.ply"), (((), BITS)[i % 2],), formats):
+                parts = lr_reader.sections(data)
+                kinds |= {part[0] for part in parts}
+                per_copy = dict(zip((a.name for a in wanted), lr_reader.attributes(data, parts)[1]))
+                equal = {"POSITION", "NORMAL", "f64"}  # made of positions alone
+                self.assertEqual({name for name in equal if per_copy[name]}, set())
+                self.assertTrue(per_copy["TEXCOORD_0"] and per_copy["COLOR_0"])
+        self.assertEqual(kinds, {1, 2, 5, 6, 7, 8, 9})
+
+    def test_assets(self):
+        globe = os.path.join(ASSETS, "globe.glb")
+        with open(globe, "rb") as file:
+            gltf = Gltf(file.read(), ASSETS)
+        primitive = gltf.json["meshes"][0]["primitives"][0]
+        wanted, indices = self.source(globe)
+        self.assertEqual(indices, [v for (v,) in gltf.accessor(primitive["indices"])[0]])
+        self.assertEqual([a.name for a in wanted], list(primitive["attributes"]))
+        for attribute in wanted:
+            values, _ = gltf.accessor(primitive["attributes"][attribute.name], raw_floats=True)
+            self.assertEqual(attribute.values, b"".join(struct.pack(f"<{len(v)}I", *v) for v in values), attribute.name)
+        for data in self.check_seams(wanted, indices, globe):
+            self.assertTrue(any(part[0] == lr_reader.SEAMS for part in lr_reader.sections(data)))
+        list(self.check_seams(wanted, indices, globe, bits=(BITS,), formats=("packed",)))
+        torus = os.path.join(ASSETS, "cut_torus.ply")
+        list(self.check_seams(*self.source(torus), torus, formats=("packed",)))
+
     def test_real_meshes(self):
         folder = os.environ.get("LACEDRING_MESHES")
         if not folder:
@@ -676,21 +793,17 @@ class VertexStreams(WithProgram):
         for name in sorted(os.listdir(folder)):
             if not name.endswith((".obj", ".ply", ".off", ".stl", ".gltf", ".glb")):
                 continue
-            mesh = os.path.join(folder, name)
-            # Tables with attributes as they lie in memory tell what the input's bytes are, and in what order.
-            data = self.encode("lr", "--keep-order", "--effort", "0", mesh=mesh)
-            wanted = lr_reader.read_lr(data)
-            numbers = wanted.vertex_order
-            place = dict(zip(numbers, range(len(numbers))))
-            self.assertEqual(self.streams(data), {})
-            for bits in ((), BITS):
-                with self.subTest(name=name, bits=bits):
-                    data = self.encode("packed", "--keep-order", "--effort", "0", *bits, mesh=mesh)
-                    mesh, streams = lr_reader.read_lr(data), self.streams(data)
-                    order = [place[v] for v in mesh.vertex_order]
-                    for attribute, given in zip(mesh.attributes, wanted.attributes, strict=True):
-                        self.check_values(attribute, given, order, streams[given.name])
-                    self.check_decoded(mesh.attributes)
+            path = os.path.join(folder, name)
+            wanted, indices = self.source(path)
+            for form, bits in (("lean", ()), ("lr", ()), ("packed", ()), ("packed", BITS)):
+                with self.subTest(name=name, format=form, bits=bits):
+                    data = self.encode(form, "--keep-order", "--effort", "0", *bits, mesh=path)
+                    mesh = lr_reader.read_lr(data)
+                    self.check_corners(mesh, wanted, indices, self.streams(data))
+                    self.check_decoded(mesh.attributes, mesh.copies)
+                    copies, seams = struct.unpack_from("<I", data, 20)[0], [len(p[1]) for p in lr_reader.sections(data) if p[0] == 9]
+                    print(f"{name} {form} {bits[:2]}: {len(indices) // 3} triangles, {copies} copies, {sum(seams)} bytes of seams",
+                          flush=True)
 
 
 if __name__ == "__main__":

@@ -1,30 +1,19 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <memory>
 
-#include "lacedring/lacedring.hpp"
-#include "lacedring/lr_file.hpp"
+#include "tests/lrio/lr_files.h"
 #include "tests/support/capture.h"
-#include "tests/support/meshes.h"
 
 using namespace lacedring;
 
 namespace {
 
 LrFile make(const Mesh& mesh, bool keep_order, Format format = Format::lean) {
-    EncodeOptions options{.format = format, .effort = 0};
-    if (format == Format::lr_compact) options.periods = {0, 3};
-    Result<Encoded> encoded = encode(mesh.indices, mesh.vertex_count, options);
-    REQUIRE(encoded);
-    return make_lr_file(mesh, std::move(*encoded), keep_order);
+    return make_lr_file(mesh, test::encode_as(format, mesh), keep_order);
 }
-
-constexpr Format kFormats[] = {Format::lean, Format::lr, Format::lr_compact, Format::packed};
 
 /// A mesh with attributes of several types, all values telling.
 Mesh with_attributes() {
@@ -43,32 +32,16 @@ Mesh with_attributes() {
     return mesh;
 }
 
-/// The index list without degenerate triangles.
-std::vector<std::uint32_t> indices_of_kept(const Mesh& mesh) {
-    std::vector<std::uint32_t> out;
-    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-        const auto triangle = std::span(mesh.indices).subspan(i, 3);
-        if (!test::oriented_triangles(triangle).empty()) out.insert(out.end(), triangle.begin(), triangle.end());
-    }
-    return out;
-}
-
 }  // namespace
 
 TEST_CASE("lr files give back the mesh") {
     for (const auto& [name, mesh] : test::named_meshes()) {
         CAPTURE_COPY(name);
-        for (const Format format : kFormats) {
+        for (const Format format : test::kFormats) {
             CAPTURE(static_cast<int>(format));
             const Result<LrFile> file = parse_lr(serialize_lr(make(mesh, true, format)));
             REQUIRE_MESSAGE(file, file.error().message);
-            const Result<Mesh> original = decode_lr_original_order(*file);
-            REQUIRE(original);
-            CHECK(original->indices == indices_of_kept(mesh));
-            REQUIRE(original->attributes.size() == mesh.attributes.size());
-            for (std::size_t a = 0; a < mesh.attributes.size(); ++a) {
-                CHECK(original->attributes[a].data == mesh.attributes[a].data);
-            }
+            test::check_same_mesh(decode_lr_original_order(*file), mesh);
             CHECK(decode_lr(*file)->vertex_count == mesh.vertex_count);
         }
     }
@@ -78,23 +51,13 @@ TEST_CASE("attributes of every type travel bit for bit") {
     const Mesh mesh = with_attributes();
     const Result<LrFile> file = parse_lr(serialize_lr(make(mesh, true)));
     REQUIRE(file);
-    const Result<Mesh> back = decode_lr_original_order(*file);
-    REQUIRE(back);
-    REQUIRE(back->attributes.size() == 3);
-    for (std::size_t a = 0; a < 3; ++a) {
-        CHECK(back->attributes[a].name == mesh.attributes[a].name);
-        CHECK(back->attributes[a].type == mesh.attributes[a].type);
-        CHECK(back->attributes[a].components == mesh.attributes[a].components);
-        CHECK(back->attributes[a].normalized == mesh.attributes[a].normalized);
-        CHECK(back->attributes[a].v_up == mesh.attributes[a].v_up);
-        CHECK(back->attributes[a].data == mesh.attributes[a].data);
-    }
+    test::check_same_mesh(decode_lr_original_order(*file), mesh);
     CHECK_FALSE(decode_lr_original_order(make(mesh, false)));
 }
 
 TEST_CASE("compressed attributes come back, bit for bit where nothing was quantized") {
-    for (std::size_t f = 0; f < 2 * std::size(kFormats); ++f) {
-        const Format format = kFormats[f / 2];
+    for (std::size_t f = 0; f < 2 * std::size(test::kFormats); ++f) {
+        const Format format = test::kFormats[f / 2];
         const bool quantized = f % 2 != 0;
         CAPTURE(static_cast<int>(format));
         CAPTURE(quantized);
@@ -132,7 +95,7 @@ TEST_CASE("compressed attributes come back, bit for bit where nothing was quanti
         CHECK(view->positions().size() == 0);
         const Result<Mesh> back = decode_lr_original_order(*read);
         REQUIRE(back);
-        CHECK(back->indices == indices_of_kept(mesh));
+        CHECK(back->indices == test::indices_of_kept(mesh));
         REQUIRE(back->attributes.size() == 4);
         for (std::size_t a = 0; a < 4; ++a) {
             CHECK(back->attributes[a].name == mesh.attributes[a].name);
@@ -153,7 +116,7 @@ TEST_CASE("compressed attributes come back, bit for bit where nothing was quanti
 }
 
 TEST_CASE("a view of a file in memory has what the parsed file has, in place") {
-    for (const Format format : kFormats) {
+    for (const Format format : test::kFormats) {
         const LrFile file = make(with_attributes(), true, format);
         const std::vector<std::byte> bytes = serialize_lr(file);
         const Result<LrFileView> view = view_lr_file(bytes);
@@ -216,41 +179,16 @@ TEST_CASE("every truncation and every flipped bit of an lr file is refused") {
     }
 }
 
-// The bytes in hexadecimal. After an intended change of the format, which needs a new version number,
-// LACEDRING_WRITE_GOLDEN=1 test_core -tc='golden*' rewrites them.
 TEST_CASE("golden bytes: lr files are written as they were, and read as they were") {
     const Mesh mesh = with_attributes();
     const char* names[] = {"lean", "lr", "lr-compact", "packed"};
-    for (std::size_t f = 0; f < std::size(kFormats); ++f) {
-        const std::string path = std::string(GOLDEN_FOLDER) + "/file-" + names[f] + ".hex";
-        CAPTURE(path);
-        const LrFile file = make(mesh, true, kFormats[f]);
-        std::string now;
-        for (const std::byte b : serialize_lr(file)) {
-            if (!now.empty() && now.size() % 97 == 96) now += '\n';
-            now += "0123456789abcdef"[std::to_integer<unsigned>(b) >> 4U];
-            now += "0123456789abcdef"[std::to_integer<unsigned>(b) & 15U];
-        }
-        now += '\n';
-        if (std::getenv("LACEDRING_WRITE_GOLDEN") != nullptr) std::ofstream(path) << now;
-        std::ifstream in(path);
-        const std::string golden((std::istreambuf_iterator<char>(in)), {});
-        CHECK(now == golden);
-        std::vector<std::byte> bytes;
-        for (std::size_t i = 0; i + 1 < golden.size(); i += golden[i + 2] == '\n' ? 3 : 2) {
-            bytes.push_back(static_cast<std::byte>(std::stoi(golden.substr(i, 2), nullptr, 16)));
-        }
+    for (std::size_t f = 0; f < std::size(names); ++f) {
+        const std::vector<std::byte> bytes =
+            test::check_golden(std::string(GOLDEN_FOLDER) + "/file-" + names[f] + ".hex",
+                               serialize_lr(make(mesh, true, test::kFormats[f])));
         const Result<LrFile> read = parse_lr(bytes);
         REQUIRE_MESSAGE(read, read.error().message);
-        const Result<Mesh> back = decode_lr_original_order(*read);
-        REQUIRE_MESSAGE(back, back.error().message);
-        CHECK(back->indices == indices_of_kept(mesh));
-        REQUIRE(back->attributes.size() == mesh.attributes.size());
-        for (std::size_t a = 0; a < mesh.attributes.size(); ++a) {
-            CHECK(back->attributes[a].name == mesh.attributes[a].name);
-            CHECK(back->attributes[a].v_up == mesh.attributes[a].v_up);
-            CHECK(back->attributes[a].data == mesh.attributes[a].data);
-        }
+        test::check_same_mesh(decode_lr_original_order(*read), mesh);
     }
 }
 

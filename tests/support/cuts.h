@@ -5,8 +5,6 @@
 #include <functional>
 #include <vector>
 
-#include "lacedring/mesh.hpp"
-
 namespace lacedring::test {
 
 /// A surface and the copies of its corners. Slots without a triangle are UINT32_MAX three times.
@@ -23,14 +21,5 @@ CutSurface cut_by_chart(std::vector<std::uint32_t> triangles, std::uint32_t vert
 constexpr std::uint32_t kCuts = 5;
 CutSurface cut(const std::vector<std::uint32_t>& triangles, std::uint32_t vertices, std::uint32_t how,
                std::uint64_t seed);
-
-/// A mesh with seams. surface[v] is the surface's vertex of the mesh's vertex v.
-struct CutMesh {
-    Mesh mesh;
-    std::vector<std::uint32_t> surface;
-    std::uint32_t surface_vertices = 0;
-};
-/// `whole`, cut so: every copy is a vertex with a normal of its own. Vertex 0 is in no triangle.
-CutMesh cut_mesh(const Mesh& whole, std::uint32_t how, std::uint64_t seed);
 
 }  // namespace lacedring::test

@@ -749,7 +749,6 @@ Result<EncodedSeams> encode_seams(const Encoded& surface, std::span<const std::u
     }
     Result<EncodedSeams> out = encode_seams(slots, view->vertices(), copies);
     if (!out) return out;
-    if (std::ranges::find(out->copy_order, kNone) == out->copy_order.end()) return out;
     const Result<SeamView> seams = view_seams(out->words, view->slots(), view->vertices());
     if (!seams) return seams.error();
     std::vector<std::uint32_t> homes(std::size_t{view->vertices()} + 1);
@@ -758,7 +757,14 @@ Result<EncodedSeams> encode_seams(const Encoded& surface, std::span<const std::u
         std::uint32_t& copy = out->copy_order[homes[v]];
         if (copy == kNone) copy = first[surface.vertex_order[v]];
     }
-    return out;
+    std::vector<bool> found(vertex_of.size());
+    for (const std::uint32_t v : out->copy_order) {
+        if (v != kNone) found[v] = true;
+    }
+    const auto lost = std::ranges::find(found, false);
+    if (lost == found.end()) return out;
+    return invalid_seams(
+        message("vertex ", lost - found.begin(), " has no corner, and is not its surface vertex's only one"));
 }
 
 }  // namespace lacedring

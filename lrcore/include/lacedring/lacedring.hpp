@@ -117,8 +117,8 @@ Result<Encoded> encode(CornerTable&& table, const EncodeOptions& options = {});
 
 /// The seam section of a surface that encode() made a stream of. `indices` are those of the mesh with seams, and
 /// vertex_of[v] the surface's vertex of each of the mesh's vertices: encode() got vertex_of[indices[i]] for each i.
-/// copy_order[new] is the mesh's vertex of each copy; of a vertex without corners the first of the mesh's that has it.
-/// Cost and errors: encode_seams' (seams.hpp).
+/// copy_order[new] is the mesh's vertex of each copy; of a vertex without corners it is the one that the mesh has.
+/// Cost and errors: encode_seams' (seams.hpp); invalid_argument, too, where a vertex without corners is not alone.
 Result<EncodedSeams> encode_seams(const Encoded& surface, std::span<const std::uint32_t> indices,
                                   std::span<const std::uint32_t> vertex_of);
 

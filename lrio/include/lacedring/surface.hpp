@@ -24,9 +24,9 @@ struct SurfaceReport {
 };
 
 /// Joins the vertices of equal position; -0 equals 0. With a tolerance, also a vertex with the nearest one, of those
-/// kept before it, that is no farther away. A surface vertex has the position of the first of its copies. Vertices that
-/// no triangle uses stay apart, and so do those of one triangle: none becomes degenerate. Cost: O(V + T) expected time,
-/// 8 bytes a vertex and about 15 a surface vertex. `report` may be null.
+/// kept before it, that is no farther away. A surface vertex has the position of the first of its copies, but 0 for -0
+/// where another copy has 0. Vertices that no triangle uses stay apart, and so do those of one triangle: none becomes
+/// degenerate. Cost: O(V + T) expected time, 12 bytes a vertex and about 15 a surface vertex. `report` may be null.
 Surface find_surface(const Mesh& mesh, double tolerance = 0, SurfaceReport* report = nullptr);
 
 /// Gives each of the mesh's vertices its surface vertex's position, to the bit. Cost: O(V).

@@ -1,0 +1,75 @@
+#pragma once
+// What the tests of .lr files share.
+
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "lacedring/lacedring.hpp"
+#include "lacedring/lr_file.hpp"
+#include "tests/support/meshes.h"
+
+namespace lacedring::test {
+
+constexpr Format kFormats[] = {Format::lean, Format::lr, Format::lr_compact, Format::packed};
+
+inline Encoded encode_as(Format format, const Mesh& mesh) {
+    EncodeOptions options{.format = format, .effort = 0};
+    if (format == Format::lr_compact) options.periods = {0, 3};
+    Result<Encoded> encoded = encode(mesh.indices, mesh.vertex_count, options);
+    REQUIRE_MESSAGE(encoded, encoded.error().message);
+    return std::move(*encoded);
+}
+
+/// The index list without degenerate triangles.
+inline std::vector<std::uint32_t> indices_of_kept(const Mesh& mesh) {
+    std::vector<std::uint32_t> out;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const auto triangle = std::span(mesh.indices).subspan(i, 3);
+        if (!oriented_triangles(triangle).empty()) out.insert(out.end(), triangle.begin(), triangle.end());
+    }
+    return out;
+}
+
+/// Are these the bytes in tests/golden/NAME.hex, in hexadecimal there? After an intended change of the format, which
+/// needs a new version number, LACEDRING_WRITE_GOLDEN=1 test_files -tc='golden*' rewrites them. Gives back those there.
+inline std::vector<std::byte> check_golden(const std::string& path, std::span<const std::byte> bytes) {
+    CAPTURE(path);
+    std::string now;
+    for (const std::byte b : bytes) {
+        if (!now.empty() && now.size() % 97 == 96) now += '\n';
+        now += "0123456789abcdef"[std::to_integer<unsigned>(b) >> 4U];
+        now += "0123456789abcdef"[std::to_integer<unsigned>(b) & 15U];
+    }
+    now += '\n';
+    if (std::getenv("LACEDRING_WRITE_GOLDEN") != nullptr) std::ofstream(path) << now;
+    std::ifstream in(path);
+    const std::string golden((std::istreambuf_iterator<char>(in)), {});
+    CHECK(now == golden);
+    std::vector<std::byte> out;
+    for (std::size_t i = 0; i + 1 < golden.size(); i += golden[i + 2] == '\n' ? 3 : 2) {
+        out.push_back(static_cast<std::byte>(std::stoi(golden.substr(i, 2), nullptr, 16)));
+    }
+    return out;
+}
+
+/// Has the mesh exactly the triangles that `of` has without degenerate ones, and its vertices and attributes?
+inline void check_same_mesh(const Result<Mesh>& mesh, const Mesh& of) {
+    REQUIRE_MESSAGE(mesh, mesh.error().message);
+    CHECK(mesh->vertex_count == of.vertex_count);
+    CHECK(mesh->indices == indices_of_kept(of));
+    REQUIRE(mesh->attributes.size() == of.attributes.size());
+    for (std::size_t a = 0; a < of.attributes.size(); ++a) {
+        CHECK(mesh->attributes[a].name == of.attributes[a].name);
+        CHECK(mesh->attributes[a].type == of.attributes[a].type);
+        CHECK(mesh->attributes[a].components == of.attributes[a].components);
+        CHECK(mesh->attributes[a].normalized == of.attributes[a].normalized);
+        CHECK(mesh->attributes[a].v_up == of.attributes[a].v_up);
+        CHECK(mesh->attributes[a].data == of.attributes[a].data);
+    }
+}
+
+}  // namespace lacedring::test
