@@ -22,11 +22,8 @@ Result<GpuFigures> measure_gpu(const LoadedMesh& mesh, const VertexOptions& vert
                                const gpu::ContextOptions& options, int rounds) {
     OptimizeOptions optimize;
     optimize.progress = progress_bar("optimising the ring", optimize.passes);
-    const Result<gpu::Model> model = gpu::make_model(mesh.mesh, {.packed = true,
-                                                                 .vertices = vertices,
-                                                                 .optimize = std::move(optimize),
-                                                                 .surface = mesh.surface.vertex_of,
-                                                                 .surface_vertices = mesh.surface.vertex_count});
+    const Result<gpu::Model> model = gpu::make_model(
+        mesh.mesh, {.packed = true, .vertices = vertices, .optimize = std::move(optimize), .surface = mesh.surface});
     if (!model) return model.error();
     const Result<std::unique_ptr<gpu::Context>> context = gpu::Context::create(options);
     if (!context) return context.error();

@@ -137,8 +137,7 @@ int run_compare(const CompareOptions& options, RunLog& log) {
     if (const auto good = check_output(options.diff.path, options.diff, log, kExtensions); !good) {
         return fail(options.diff.path, good.error());
     }
-    gpu::ModelOptions model_options{
-        .packed = true, .surface = loaded->surface.vertex_of, .surface_vertices = loaded->surface.vertex_count};
+    gpu::ModelOptions model_options{.packed = true, .surface = loaded->surface};
     if (options.compares("packed_vertices")) model_options.vertices = position_options(options.positions);
     const Result<gpu::Model> model = gpu::make_model(*mesh, model_options);
     if (!model) return fail(options.input.path, model.error());

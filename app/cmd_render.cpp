@@ -59,8 +59,7 @@ int render(const RenderOptions& options, const std::string& input, const std::fi
                                     gpu::is_packed(source),
                                     {},
                                     std::move(optimize)};
-    model_options.surface = loaded->surface.vertex_of;
-    model_options.surface_vertices = loaded->surface.vertex_count;
+    model_options.surface = loaded->surface;
     if (source == gpu::Source::packed_vertices) model_options.vertices = position_options(options.positions);
     const Result<gpu::Model> model = gpu::make_model(*mesh, model_options);
     if (!model) return fail(input, model.error());

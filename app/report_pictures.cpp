@@ -40,8 +40,7 @@ Result<void> draw_pictures(gpu::Context& context, const PictureSize& size, const
     const Mesh& mesh = loaded.mesh;
     const Result<gpu::Model> model = gpu::make_model(mesh, {.ring = ring_options(choice, mesh.triangle_count()),
                                                             .optimize = optimize_options(choice, kLeanRingCost),
-                                                            .surface = loaded.surface.vertex_of,
-                                                            .surface_vertices = loaded.surface.vertex_count});
+                                                            .surface = loaded.surface});
     if (!model) {
         report.no_pictures = model.error().message;
         return {};

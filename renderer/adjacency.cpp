@@ -47,9 +47,9 @@ Result<Adjacency> upload_adjacency(Context& context, Transfer& transfer, const E
 
 Result<Adjacency> upload_adjacency(Context& context, Transfer& transfer, const Model& model,
                                    const AdjacencyOptions& options) {
-    LR_ASSIGN(CornerTable table, build_corner_table(surface_triangles(model), model.surface_vertices));
+    LR_ASSIGN(CornerTable table, build_corner_table(surface_triangles(model), model.surface.vertex_count));
     LR_ASSIGN(EncodedLr tables, encode_lr(std::move(table), options.ring, {.passes = 0}, options.wart_skipping));
-    const std::vector<std::uint32_t> of_surface = mesh_vertices(model);
+    const std::vector<std::uint32_t> of_surface = first_vertices(model.surface);
     for (std::uint32_t& v : tables.vertex_order) v = of_surface[v];
     return upload_adjacency(context, transfer, tables, model.positions);
 }

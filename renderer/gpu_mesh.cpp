@@ -53,7 +53,7 @@ Result<GpuMesh> prepare(Context& context, const Model& model, Source source, con
     if (slots == 0) return Error{ErrorCode::unsupported, "the mesh has no triangles to draw"};
     if (slots > UINT32_MAX / 3) return Error{ErrorCode::too_large, "more than 2^32 indices"};
     mesh.vertex_count = vertices_of(model, source);
-    mesh.surface_vertices = model.surface_vertices;
+    mesh.surface_vertices = model.surface.vertex_count;
     if (mesh.vertex_count - 1 > context.info().max_index) {
         return Error{kNoDevice, std::to_string(mesh.vertex_count) + " vertices; the device's indices go to " +
                                     std::to_string(context.info().max_index)};
@@ -131,15 +131,15 @@ Result<void> upload_lines(Context& context, Transfer& transfer, GpuMesh& mesh, c
     std::vector<std::uint32_t> lines;
     if (kind == UploadOptions::Lines::ring) {
         lines = ring_lines(lean);
-        const std::vector<std::uint32_t> of_surface = mesh_vertices(model);
+        const std::vector<std::uint32_t> of_surface = first_vertices(model.surface);
         for (std::uint32_t& v : lines) v = of_surface[model.lean.vertex_order[v]];
     } else {
-        lines =
-            kind == UploadOptions::Lines::edges ? mesh_edges(model.indices) : seam_lines(model.indices, model.surface);
+        lines = kind == UploadOptions::Lines::edges ? mesh_edges(model.indices)
+                                                    : seam_lines(model.indices, model.surface.vertex_of);
     }
     if (lines.empty()) return {};
     if (!order.empty()) {
-        std::vector<std::uint32_t> place(model.surface_vertices);
+        std::vector<std::uint32_t> place(model.surface.vertex_count);
         for (std::uint32_t i = 0; i < order.size(); ++i) place[model.surface_of(order[i])] = i;
         for (std::uint32_t& v : lines) v = place[model.surface_of(v)];
     }
@@ -165,7 +165,7 @@ Result<void> upload_rest(Context& context, Transfer& transfer, GpuMesh& mesh, co
     };
     if (!options.ring) return vertices_with([](std::uint32_t) { return -1.0F; });
     const std::uint32_t rings = lean.rings2 + lean.rings1;
-    std::vector<float> ring(model.surface_vertices, -1.0F);
+    std::vector<float> ring(model.surface.vertex_count, -1.0F);
     for (std::uint32_t i = 0; i < rings; ++i) {
         ring[model.lean.vertex_order[i]] = static_cast<float>(i) / static_cast<float>(rings);
     }
@@ -182,7 +182,7 @@ struct Stream {
 Result<Stream> lean_stream(const Model& model) {
     const EncodedLean& stream = model.lean;
     LR_ASSIGN(const LeanView view, view_lean(stream.words));
-    if (view.vertices != model.surface_vertices || stream.vertex_order.size() != view.vertices ||
+    if (view.vertices != model.surface.vertex_count || stream.vertex_order.size() != view.vertices ||
         stream.slot_triangle.size() != view.slots()) {
         return Error{ErrorCode::invalid_argument, "the lean stream is not of this mesh"};
     }
@@ -194,7 +194,7 @@ Result<Stream> packed_stream(const Model& model) {
     const EncodedPacked& stream = model.packed;
     if (stream.words.empty()) return Error{ErrorCode::invalid_argument, "the model was made without a packed stream"};
     LR_ASSIGN(const PackedView view, view_packed(stream.words));
-    if (view.vertices != model.surface_vertices || stream.vertex_order.size() != view.vertices ||
+    if (view.vertices != model.surface.vertex_count || stream.vertex_order.size() != view.vertices ||
         stream.triangle_order.size() != view.triangles) {
         return Error{ErrorCode::invalid_argument, "the packed stream is not of this mesh"};
     }
@@ -209,7 +209,7 @@ Result<void> upload_vertex_stream(Context& context, Transfer& transfer, GpuMesh&
     const std::span<const std::uint32_t> words = model.vertices.words;
     if (words.empty()) return Error{ErrorCode::invalid_argument, "the model was made without a vertex stream"};
     LR_ASSIGN(const VertexView view, view_vertices(words));
-    if (view.vertices != model.surface_vertices || view.integers != 3 || view.type != ComponentType::f32 ||
+    if (view.vertices != model.surface.vertex_count || view.integers != 3 || view.type != ComponentType::f32 ||
         view.mapping == VertexMapping::octahedral) {
         return Error{ErrorCode::invalid_argument, "the vertex stream is not of this mesh's positions"};
     }
@@ -322,7 +322,7 @@ bool has_source(const Model& model, Source source) {
 }
 
 const EncodedSeams* seams_of(const Model& model, Source source) {
-    if (source == Source::plain || model.surface.empty()) return nullptr;
+    if (source == Source::plain || !model.surface.has_seams()) return nullptr;
     return source == Source::lean ? &model.lean_seams : &model.packed_seams;
 }
 
@@ -342,7 +342,7 @@ MeshBytes mesh_bytes(const Model& model, Source source, const UploadOptions& opt
         out.largest = std::max(out.largest, bytes);
     };
     const bool seams = seams_of(model, source) != nullptr, indices = options.path == Path::compute || seams;
-    const std::uint64_t vertices = vertices_of(model, source), surface_vertices = model.surface_vertices;
+    const std::uint64_t vertices = vertices_of(model, source), surface_vertices = model.surface.vertex_count;
     const std::uint64_t index_bytes = 3 * kWord * padded_slots(static_cast<std::uint32_t>(slots));
     add(vertex_stride(source, options.path) * vertices);
     if (indices) add(index_bytes);

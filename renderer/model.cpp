@@ -72,11 +72,25 @@ double mean_edge(const Model& model) {
     return length / static_cast<double>(model.indices.size());
 }
 
+/// The file's normals, or the surface's: a seam is no crease.
+std::vector<float> surface_normals(const Mesh& mesh, const lacedring::Surface& surface) {
+    const Attribute* own = find_attribute(mesh, "NORMAL");
+    if (own != nullptr && own->type == ComponentType::f32 && own->components == 3) return normals_f32(mesh);
+    const std::vector<float> normals = normals_f32(surface_mesh(mesh, surface));
+    std::vector<float> out;
+    out.reserve(std::size_t{3} * mesh.vertex_count);
+    for (const std::uint32_t v : surface.vertex_of) {
+        const auto from = normals.begin() + std::ptrdiff_t{3} * v;
+        out.insert(out.end(), from, from + 3);
+    }
+    return out;
+}
+
 /// Encodes the positions as floats, as all that is drawn are, in the packed stream's order. What is lost is lost for
 /// the whole model.
 Result<void> encode_positions(Model& model, const Mesh& mesh, const VertexOptions& options) {
     const std::vector<std::uint32_t>& order = model.packed.vertex_order;
-    const std::vector<std::uint32_t> of_surface = mesh_vertices(model);
+    const std::vector<std::uint32_t> of_surface = first_vertices(model.surface);
     std::vector<float> positions = positions_f32(mesh), ordered;
     ordered.reserve(3 * order.size());
     for (const std::uint32_t surface_vertex : order) {
@@ -106,7 +120,7 @@ Result<void> encode_positions(Model& model, const Mesh& mesh, const VertexOption
     for (Attribute& a : decoded.attributes) {
         if (a.name == attribute.name) a = std::move(attribute);
     }
-    LR_ASSIGN(const Model moved, make_surface(decoded));
+    LR_ASSIGN(const Model moved, make_surface(decoded, model.surface));
     model.positions = moved.positions;
     model.normals = moved.normals;
     model.centre = moved.centre;
@@ -124,19 +138,22 @@ std::vector<std::uint32_t> surface_triangles(const Model& model) {
     return out;
 }
 
-std::vector<std::uint32_t> mesh_vertices(const Model& model) {
-    std::vector<std::uint32_t> out(model.surface_vertices);
-    for (std::uint32_t v = model.vertex_count(); v-- > 0;) out[model.surface_of(v)] = v;
-    return out;
-}
-
-Result<Model> make_surface(const Mesh& mesh) {
+Result<Model> make_surface(const Mesh& mesh, const lacedring::Surface& surface) {
     if (mesh.indices.empty()) return Error{ErrorCode::unsupported, "the mesh has no triangles to draw"};
     Model model;
     model.indices = mesh.indices;
     model.positions = positions_f32(mesh);
-    model.normals = normals_f32(mesh);
-    model.surface_vertices = mesh.vertex_count;
+    model.surface = surface;
+    if (!surface.has_seams()) {
+        model.surface.vertex_count = mesh.vertex_count;
+        model.normals = normals_f32(mesh);
+    } else {
+        const std::vector<std::uint32_t>& vertex_of = surface.vertex_of;
+        if (vertex_of.size() != mesh.vertex_count || std::ranges::max(vertex_of) >= surface.vertex_count) {
+            return Error{ErrorCode::invalid_argument, "the surface is not of this mesh"};
+        }
+        model.normals = surface_normals(mesh, surface);
+    }
     LR_TRY(normalise(model));
     model.mean_edge = mean_edge(model);
     return model;
@@ -144,25 +161,18 @@ Result<Model> make_surface(const Mesh& mesh) {
 
 Result<void> encode_seams(Model& model) {
     model.lean_seams = model.packed_seams = {};
-    if (model.surface.empty()) return {};
+    if (!model.surface.has_seams()) return {};
     LR_ASSIGN(model.lean_seams,
-              lacedring::encode_seams(as_encoded(EncodedLean(model.lean)), model.indices, model.surface));
+              lacedring::encode_seams(as_encoded(EncodedLean(model.lean)), model.indices, model.surface.vertex_of));
     if (model.packed.words.empty()) return {};
     LR_ASSIGN(model.packed_seams,
-              lacedring::encode_seams(as_encoded(EncodedPacked(model.packed)), model.indices, model.surface));
+              lacedring::encode_seams(as_encoded(EncodedPacked(model.packed)), model.indices, model.surface.vertex_of));
     return {};
 }
 
 Result<Model> make_model(const Mesh& mesh, const ModelOptions& options) {
-    LR_ASSIGN(Model model, make_surface(mesh));
-    if (!options.surface.empty()) {
-        model.surface.assign(options.surface.begin(), options.surface.end());
-        model.surface_vertices = options.surface_vertices;
-        if (model.surface.size() != mesh.vertex_count || std::ranges::max(model.surface) >= options.surface_vertices) {
-            return Error{ErrorCode::invalid_argument, "the surface is not of this mesh"};
-        }
-    }
-    LR_ASSIGN(const CornerTable table, build_corner_table(surface_triangles(model), model.surface_vertices));
+    LR_ASSIGN(Model model, make_surface(mesh, options.surface));
+    LR_ASSIGN(const CornerTable table, build_corner_table(surface_triangles(model), model.surface.vertex_count));
     const Rings rings = expand_rings(table, options.ring);
     OptimizeOptions optimize = options.optimize;
     optimize.cost = kLeanRingCost;

@@ -13,6 +13,7 @@
 #include "lacedring/mesh.hpp"
 #include "lacedring/ring.hpp"
 #include "lacedring/seams.hpp"
+#include "lacedring/surface.hpp"
 #include "lacedring/vertices.hpp"
 
 namespace lacedring::gpu {
@@ -25,11 +26,9 @@ struct Model {
     std::vector<float> positions;            ///< 3 a vertex, in the mesh's own vertex order
     std::vector<float> normals;              ///< 3 a vertex, unit
     EncodedLean lean;
-    EncodedPacked packed;      ///< empty unless asked for
-    EncodedVertices vertices;  ///< likewise: the positions, in the packed stream's vertex order
-    /// Of a mesh with seams: for each vertex its vertex of the surface, which the streams are of. Else empty.
-    std::vector<std::uint32_t> surface;
-    std::uint32_t surface_vertices = 0;     ///< of the streams
+    EncodedPacked packed;                   ///< empty unless asked for
+    EncodedVertices vertices;               ///< likewise: the positions, in the packed stream's vertex order
+    lacedring::Surface surface;             ///< which the streams are of
     EncodedSeams lean_seams, packed_seams;  ///< of a mesh with seams. copy_order: the mesh's vertex of every copy
     std::string exact;                      ///< why they are lossless although a lattice was asked for, or empty
     std::array<double, 3> centre{};         ///< of the unit sphere, in the mesh's coordinates: floats
@@ -37,7 +36,9 @@ struct Model {
     std::array<float, 4> unit{0, 0, 0, 1};  ///< centre and 1 / radius: DrawConstants::unit
     double mean_edge = 0;                   ///< mean length of the triangles' edges, of the unit sphere
 
-    std::uint32_t surface_of(std::uint32_t vertex) const { return surface.empty() ? vertex : surface[vertex]; }
+    std::uint32_t surface_of(std::uint32_t vertex) const {
+        return surface.has_seams() ? surface.vertex_of[vertex] : vertex;
+    }
     std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(positions.size() / 3); }
     std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(indices.size() / 3); }
 };
@@ -50,27 +51,22 @@ struct ModelOptions {
     /// normals where the mesh has none, are then of what it decodes to. With `packed` only.
     std::optional<VertexOptions> vertices = {};
     OptimizeOptions optimize = {.passes = 0};  ///< of the rings; the cost is each stream's own
-    /// For each vertex of the mesh its vertex of the surface, of which there are `surface_vertices`: vertices of one
-    /// have one position. Streams are of the surface, and have seam sections. Empty: the mesh is its surface.
-    std::span<const std::uint32_t> surface = {};
-    std::uint32_t surface_vertices = 0;
+    /// Of the mesh. Streams are of it, and have seam sections where it has seams.
+    lacedring::Surface surface = {};
 };
 
 /// The surface's triangles: `model.indices`, or those of its surface.
 std::vector<std::uint32_t> surface_triangles(const Model& model);
-/// A vertex of the mesh for each vertex of the surface; vertex 0 where it has none.
-std::vector<std::uint32_t> mesh_vertices(const Model& model);
 
 /// A model without streams, for who encodes them himself: positions, normals, sizes. Cost: O(V + T).
-/// Errors: unsupported (no triangles, extent zero or past f32).
-Result<Model> make_surface(const Mesh& mesh);
+/// Errors: unsupported (no triangles, extent zero or past f32), invalid_argument (a surface of another mesh).
+Result<Model> make_surface(const Mesh& mesh, const lacedring::Surface& surface = {});
 
 /// Makes the seam sections of the model's streams anew, where it has a surface of its own. Errors: encode_seams'.
 Result<void> encode_seams(Model& model);
 
 /// Normalises, and encodes the streams (corner table, ring, streams). Cost: O(V + T).
-/// Errors: unsupported (no triangles, extent zero or past f32), build_corner_table's too_large, invalid_argument (a
-/// surface of another mesh), encode_seams'.
+/// Errors: make_surface's, build_corner_table's too_large, encode_seams'.
 Result<Model> make_model(const Mesh& mesh, const ModelOptions& options = {});
 
 }  // namespace lacedring::gpu

@@ -56,10 +56,10 @@ Result<std::vector<float>> Renderer::normals_of(const Adjacency& adjacency, cons
     for (std::size_t v = adjacency.vertices; v-- > 0;) {
         std::copy_n(&by_table[3 * v], 3, &out[3 * std::size_t{adjacency.vertex_order[v]}]);
     }
-    if (model.surface.empty()) return out;
-    const std::vector<std::uint32_t> of_surface = mesh_vertices(model);
-    for (std::size_t v = 0; v < model.surface.size(); ++v) {
-        std::copy_n(&out[3 * std::size_t{of_surface[model.surface[v]]}], 3, &out[3 * v]);
+    if (!model.surface.has_seams()) return out;
+    const std::vector<std::uint32_t> of_surface = first_vertices(model.surface);
+    for (std::size_t v = 0; v < model.surface.vertex_of.size(); ++v) {
+        std::copy_n(&out[3 * std::size_t{of_surface[model.surface.vertex_of[v]]}], 3, &out[3 * v]);
     }
     return out;
 }

@@ -64,7 +64,7 @@ struct BestOrder {
             if (number[v] == UINT32_MAX) move(v);
         }
         model.indices = indices;
-        model.surface_vertices = from.vertex_count();
+        model.surface.vertex_count = from.vertex_count();
     }
 };
 

@@ -348,11 +348,7 @@ Result<void> Loader::Job::make(Document& document) {
     LR_ASSIGN(CornerTable table, build_corner_table(joined.indices, joined.vertex_count));
     if (stopped()) return {};
     document.table = std::make_shared<const CornerTable>(std::move(table));
-    LR_ASSIGN(gpu::Model model, gpu::make_surface(*document.mesh));
-    if (surface.has_seams()) {
-        model.surface = surface.vertex_of;
-        model.surface_vertices = surface.vertex_count;
-    }
+    LR_ASSIGN(gpu::Model model, gpu::make_surface(*document.mesh, surface));
     document.model = std::make_shared<const gpu::Model>(std::move(model));
     if (stopped()) return {};
     return finish(document, true);

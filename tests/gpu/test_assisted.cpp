@@ -105,8 +105,7 @@ TEST_CASE("GPU-assisted validation is clean on meshes with seams") {
     REQUIRE(renderer);
     const CutMesh cut = cut_mesh(generated("parts", 1000), 1, 3);
     gpu::ModelOptions all{.packed = true, .vertices = VertexOptions{}};
-    all.surface = cut.surface.vertex_of;
-    all.surface_vertices = cut.surface.vertex_count;
+    all.surface = cut.surface;
     const gpu::Model model = gpu::make_model(cut.mesh, all).value();
     for (const gpu::Path path : {gpu::Path::compute, gpu::Path::pull}) {
         for (const gpu::Source source : {gpu::Source::lean, gpu::Source::packed_vertices}) {

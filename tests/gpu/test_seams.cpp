@@ -196,8 +196,7 @@ namespace {
 
 gpu::Model model_of(const CutMesh& cut, const VertexOptions& options = {}) {
     gpu::ModelOptions all{.packed = true, .vertices = options};
-    all.surface = cut.surface.vertex_of;
-    all.surface_vertices = cut.surface.vertex_count;
+    all.surface = cut.surface;
     Result<gpu::Model> made = gpu::make_model(cut.mesh, all);
     REQUIRE_MESSAGE(made, made.error().message);
     return std::move(made).value();
