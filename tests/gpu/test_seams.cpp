@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <map>
 #include <utility>
 
 #include "lacedring/lacedring.hpp"
+#include "lacedring/mesh_files.hpp"
 #include "lacedring/seams.hpp"
 #include "renderer/seam_decoder.h"
 #include "tests/gpu/gpu_test.h"
@@ -269,6 +272,24 @@ TEST_CASE_FIXTURE(SeamPictures, "pictures of meshes with seams are the same from
     gpu::Renderer large = renderer(gpu::View::smooth, 0);
     const CutMesh cut = cut_mesh(generated("genus", 40000), 1, 3);
     check_same(large, model_of(cut, lattice()), false);
+}
+
+TEST_CASE_FIXTURE(SeamPictures,
+                  "pictures of a file whose texture has a seam are the same from all sources by every path") {
+    const Result<Mesh> mesh = read_mesh((std::filesystem::path(LACEDRING_ASSETS) / "globe.glb").string());
+    REQUIRE_MESSAGE(mesh, mesh.error().message);
+    CutMesh globe{*mesh, {}, 0};
+    const std::vector<float> positions = positions_f32(*mesh);
+    std::map<std::array<float, 3>, std::uint32_t> places;
+    for (std::size_t v = 0; v < mesh->vertex_count; ++v) {
+        const std::array place{positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]};
+        const auto number = static_cast<std::uint32_t>(places.size());
+        globe.surface.push_back(places.emplace(place, number).first->second);
+    }
+    globe.surface_vertices = static_cast<std::uint32_t>(places.size());
+    CHECK(globe.surface_vertices < mesh->vertex_count);
+    gpu::Renderer pictures = renderer(gpu::View::smooth, 0);
+    check_same(pictures, model_of(globe), true);
 }
 
 TEST_CASE_FIXTURE(SeamPictures, "views of meshes with seams are the same from all sources by every path") {
