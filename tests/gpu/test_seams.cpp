@@ -280,6 +280,7 @@ TEST_CASE_FIXTURE(SeamPictures,
     CutMesh globe{*mesh, find_surface(*mesh)};
     CHECK(globe.surface.has_seams());
     move_to_surface(globe.mesh, globe.surface);  // some positions have a -0
+    gpu::Renderer pictures = renderer(gpu::View::smooth, 0);
     check_same(pictures, model_of(globe), true);
 }
 
