@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <utility>
 
 #include "lacedring/file.hpp"
@@ -113,12 +114,17 @@ void add_input_options(CLI::App& command, InputOptions& options, std::uint32_t t
         CLI::Option* none = command.add_flag("--no-weld{none}", options.weld,
                                              "keep vertices at one position apart: a mesh cut at its seams");
         none->excludes(weld);
-        command
-            .add_option("--weld-tolerance", options.tolerance,
-                        "join positions that are no farther apart, in the mesh's units")
-            ->check(CLI::PositiveNumber)
-            ->type_name("DISTANCE")
-            ->excludes(none);
+        const CLI::Option* tolerance = command
+                                           .add_option("--weld-tolerance", options.tolerance,
+                                                       "join positions that are no farther apart, in the mesh's units")
+                                           ->check(CLI::PositiveNumber)
+                                           ->type_name("DISTANCE")
+                                           ->excludes(none);
+        command.parse_complete_callback([&options, tolerance] {
+            if (std::isnan(options.tolerance)) throw CLI::ValidationError("--weld-tolerance", "not a number");
+            if (tolerance->count() == 0 || options.weld != "attributes") return;
+            throw CLI::ValidationError("--weld-tolerance", "has no effect with --weld, which moves no vertex");
+        });
     }
     std::set<std::string> formats;
     for (const auto& [name, format] : kFormats) formats.insert(name);
