@@ -1,11 +1,12 @@
-// The whole chain: mesh -> weld -> corner table -> rings -> every stream and file -> decode -> compare with the mesh.
-// The last bytes of an input are the options; before them lie an index list or a mesh file.
+// The whole chain: mesh -> weld -> surface -> corner table -> rings -> every stream and file -> decode -> compare with
+// the mesh. The last bytes of an input are the options; before them lie an index list or a mesh file.
 
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 #include "lacedring/lacedring.hpp"
 #include "lacedring/mesh_files.hpp"
@@ -34,6 +35,9 @@ struct Options {
     /// In half of the cases, the file of one format has vertex streams: encoding them is slow.
     bool compressed(Format format) const { return byte[4] % 8 == static_cast<std::uint32_t>(format); }
     bool one_per_shell() const { return (byte[0] & 0x10) != 0; }
+    /// Vertices of one position are joined, and keep their attributes as copies.
+    bool joins() const { return (byte[8] & 0x40) == 0; }
+    double tolerance() const { return std::array{0.0, 0.0, 1e-3, 3.0}[byte[6] >> 6 & 3]; }
     /// Zero runs everything; an input that leaves steps out runs faster.
     bool wants(std::uint32_t step) const { return (byte[8] >> step & 1) == 0; }
     RingOptions ring(const CornerTable& table) const {
@@ -126,6 +130,47 @@ Mesh welded(const Mesh& mesh, Weld mode) {
     return out;
 }
 
+/// A mesh and its surface.
+struct Subject {
+    Mesh mesh;
+    Surface surface;
+    Mesh whole;  ///< the surface; only its positions
+};
+
+/// The surface keeps every triangle, and every corner its values, but for positions that a tolerance moves.
+Subject joined(Mesh mesh, const Options& options) {
+    Subject out{std::move(mesh), {}, {}};
+    out.surface.vertex_count = out.mesh.vertex_count;
+    if (options.joins()) {
+        const Mesh before = out.mesh;
+        const double tolerance = options.tolerance();
+        SurfaceReport report;
+        out.surface = find_surface(out.mesh, tolerance, &report);
+        REQUIRE(report.largest_move <= tolerance);
+        move_to_surface(out.mesh, out.surface);
+        REQUIRE(report.moved > 0 || same_attributes(out.mesh, before));
+        if (!options.keep_order()) {
+            const Mesh cut = std::exchange(out.mesh, merge_copies(out.mesh, out.surface));
+            ValueNumbers values;
+            for (std::size_t i = 0; i < cut.indices.size(); ++i) {
+                REQUIRE(values(cut, cut.indices[i]) == values(out.mesh, out.mesh.indices[i]));
+            }
+        }
+        ValueNumbers positions(1, true);
+        for (std::size_t i = 0; i < before.indices.size() && tolerance == 0; ++i) {
+            REQUIRE(positions(out.mesh, out.mesh.indices[i]) == positions(before, before.indices[i]));
+        }
+    }
+    out.whole = surface_mesh(out.mesh, out.surface);
+    REQUIRE(out.whole.vertex_count == out.surface.vertex_count);
+    REQUIRE(triangles_of(out.whole.indices).size() == triangles_of(out.mesh.indices).size());
+    ValueNumbers positions(1);
+    for (std::size_t i = 0; i < out.mesh.indices.size(); ++i) {
+        REQUIRE(positions(out.mesh, out.mesh.indices[i]) == positions(out.whole, out.whole.indices[i]));
+    }
+    return out;
+}
+
 void check_table(const Mesh& mesh, const CornerTable& table) {
     REQUIRE(check_corner_table(table).empty());
     REQUIRE(table.vertex_count == mesh.vertex_count && table.corners.size() == mesh.indices.size());
@@ -137,30 +182,34 @@ void check_table(const Mesh& mesh, const CornerTable& table) {
     }
 }
 
-/// A stream of `mesh` as the encoder gave it: valid, decoded to the same triangles, and so is the file made of it.
-void check_stream(const Mesh& mesh, Encoded encoded, const Options& options) {
+/// A stream of the surface as the encoder gave it: valid, decoded to the same triangles, and so is the file made of it.
+void check_stream(const Subject& subject, Encoded encoded, const Options& options) {
+    const Mesh &mesh = subject.mesh, &whole = subject.whole;
     const std::optional<Words> indices = use_stream(encoded.format, encoded.words);
     REQUIRE(indices);
-    for (const std::uint32_t v : encoded.vertex_order) REQUIRE(v < mesh.vertex_count);
+    for (const std::uint32_t v : encoded.vertex_order) REQUIRE(v < whole.vertex_count);
     const std::vector<Triangle> got = triangles_of(*indices, [&](std::uint32_t v) { return encoded.vertex_order[v]; });
-    REQUIRE(sorted(got) == sorted(triangles_of(mesh.indices)));
+    REQUIRE(sorted(got) == sorted(triangles_of(whole.indices)));
     const Words& order = encoded.triangle_order;
     REQUIRE(order.size() == got.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
-        REQUIRE(order[i] < mesh.triangle_count());
-        const std::uint32_t* t = mesh.indices.data() + 3 * std::size_t{order[i]};
+        REQUIRE(order[i] < whole.triangle_count());
+        const std::uint32_t* t = whole.indices.data() + 3 * std::size_t{order[i]};
         REQUIRE(got[i] == rotated({t[0], t[1], t[2]}));
     }
 
     const bool compressed = options.compressed(encoded.format);
-    LrFile made = make_lr_file(mesh, std::move(encoded), options.keep_order());
+    LrFile made = make_lr_file(mesh, subject.surface, std::move(encoded), options.keep_order()).value();
+    REQUIRE((made.copy_count > 0) == subject.surface.has_seams());
     const Mesh before = decode_lr(made).value();
     REQUIRE(!compressed || compress_attributes(made));
     const std::vector<std::byte> bytes = serialize_lr(made);
     const Result<LrFile> file = parse_lr(bytes);
     REQUIRE(file);
     REQUIRE(serialize_lr(*file) == bytes);
-    const Mesh decoded = decode_lr(*file).value();
+    Surface surface;
+    const Mesh decoded = decode_lr(*file, &surface).value();
+    REQUIRE(surface.vertex_count == whole.vertex_count && surface.has_seams() == subject.surface.has_seams());
     REQUIRE(decoded.vertex_count == mesh.vertex_count && same_attributes(decoded, before));
     ValueNumbers values;
     REQUIRE(values.triangles(mesh) == values.triangles(decoded));
@@ -176,7 +225,7 @@ void check_stream(const Mesh& mesh, Encoded encoded, const Options& options) {
     REQUIRE(original->indices == kept);
 }
 
-void check_lean(const Mesh& mesh, const CornerTable& table, const Options& options) {
+void check_lean(const Subject& subject, const CornerTable& table, const Options& options) {
     Expansion expansion;
     Rings rings = expand_rings(table, options.ring(table), &expansion);
     REQUIRE(check_rings(table, rings).empty());
@@ -185,17 +234,17 @@ void check_lean(const Mesh& mesh, const CornerTable& table, const Options& optio
     REQUIRE(check_rings(table, rings).empty());
     Result<EncodedLean> lean = encode_lean(table, rings, {.wart_skipping = options.wart_skipping()});
     REQUIRE(lean);
-    check_stream(mesh, as_encoded(std::move(*lean)), options);
+    check_stream(subject, as_encoded(std::move(*lean)), options);
 }
 
-void check_packed(const Mesh& mesh, const CornerTable& table, const Options& options, PackedProfile profile) {
+void check_packed(const Subject& subject, const CornerTable& table, const Options& options, PackedProfile profile) {
     Result<PackedChoice> packed =
         encode_smallest_packed(table, options.ring(table), options.optimize(kPackedRingCost), profile);
     REQUIRE(packed);
-    check_stream(mesh, as_encoded(std::move(packed->stream)), options);
+    check_stream(subject, as_encoded(std::move(packed->stream)), options);
 }
 
-void check_lr(const Mesh& mesh, const CornerTable& table, const Options& options, Format kind) {
+void check_lr(const Subject& subject, const CornerTable& table, const Options& options, Format kind) {
     RingOptions ring = options.ring(table);
     ring.start = kNullCorner;  // of the table before its fans are split
     const std::array<std::uint32_t, 2> periods{0, options.byte[1]};
@@ -203,7 +252,7 @@ void check_lr(const Mesh& mesh, const CornerTable& table, const Options& options
                                ? encode_lr(table, ring, options.optimize(kLrRingCost), options.wart_skipping())
                                : encode_compact_lr(table, ring, std::span(periods).first(options.byte[1] == 0 ? 1 : 2));
     REQUIRE(lr);
-    check_stream(mesh, as_encoded(std::move(*lr)), options);
+    check_stream(subject, as_encoded(std::move(*lr)), options);
 }
 
 /// The triangles that a structure holds, by its operators.
@@ -248,21 +297,23 @@ void check_rivals(const Mesh& mesh, CornerTable table) {
 }
 
 void run_chain(const Mesh& input, const Options& options) {
-    const Mesh mesh = welded(input, options.welding());
+    const Subject subject = joined(welded(input, options.welding()), options);
+    const Mesh& mesh = subject.whole;
     const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
     REQUIRE(table);
     check_table(mesh, *table);
+    for (const CornerId c : seam_edges(*table, subject.mesh)) REQUIRE(c < table->opposite(c));
     const Positions positions = positions_of(mesh);
     REQUIRE(vertex_normals(*table, positions).size() == std::size_t{3} * mesh.vertex_count);
     const std::vector<ClosedShell> shells = closed_shells(*table, positions);
     const SmeshCheck smesh = check_smesh(*table, report_topology(*table), shells);
     REQUIRE(smesh.is_smesh() == smesh.reason.empty());
 
-    if (options.wants(0)) check_lean(mesh, *table, options);
-    if (options.wants(1)) check_packed(mesh, *table, options, PackedProfile::small);
-    if (options.wants(2)) check_packed(mesh, *table, options, PackedProfile::cache);
-    if (options.wants(3)) check_lr(mesh, *table, options, Format::lr);
-    if (options.wants(4)) check_lr(mesh, *table, options, Format::lr_compact);
+    if (options.wants(0)) check_lean(subject, *table, options);
+    if (options.wants(1)) check_packed(subject, *table, options, PackedProfile::small);
+    if (options.wants(2)) check_packed(subject, *table, options, PackedProfile::cache);
+    if (options.wants(3)) check_lr(subject, *table, options, Format::lr);
+    if (options.wants(4)) check_lr(subject, *table, options, Format::lr_compact);
     if (options.wants(5)) check_rivals(mesh, *table);
 }
 

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
+#include "lacedring/lacedring.hpp"
+#include "lacedring/seams.hpp"
 #include "lrcore/base/crc32.h"
 #include "tests/fuzz/streams.h"
 #include "tests/fuzz/use.h"
@@ -13,7 +16,7 @@ namespace lacedring::fuzz {
 namespace {
 
 struct Header {
-    std::uint32_t magic, version, sections, vertices, input_triangles, reserved, table_crc, header_crc;
+    std::uint32_t magic, version, sections, vertices, input_triangles, copies, table_crc, header_crc;
 };
 struct Entry {
     std::uint16_t kind, coding;
@@ -25,7 +28,8 @@ struct Section {
     Entry entry;
     Bytes contents;
 };
-constexpr std::uint32_t kAttribute = 2, kVertexOrder = 3, kCornerOrder = 4, kVertices = 8;
+constexpr std::uint32_t kAttribute = 2, kVertexOrder = 3, kCornerOrder = 4, kVertices = 8, kSeams = 9,
+                        kPerCopy = 1U << 18;
 
 /// Of a section's kind; the kinds above, and unknown ones, are taken for lean.
 Format format_of(std::uint32_t kind) {
@@ -36,7 +40,41 @@ Format format_of(std::uint32_t kind) {
 template <class Other>
 bool same_attribute(const Other& a, const LrAttribute& b) {
     return a.name == b.name && a.type == b.type && a.components == b.components && a.normalized == b.normalized &&
-           a.v_up == b.v_up && std::ranges::equal(a.data, b.data) && std::ranges::equal(a.words, b.words);
+           a.v_up == b.v_up && a.per_copy == b.per_copy && std::ranges::equal(a.data, b.data) &&
+           std::ranges::equal(a.words, b.words);
+}
+
+/// The surface of a mesh with seams is what its connectivity alone decodes to, and both are encoded again.
+void check_seams(const LrFile& file, const Mesh& mesh, const Surface& surface) {
+    const StreamView stream = view_stream(file.words).value();
+    const std::vector<std::uint32_t> slots = slot_triangles(stream);
+    use_seams(view_seams(file.seams, stream.slots(), stream.vertices()).value(), slots);
+    LrFile whole = file;
+    whole.seams.clear();
+    whole.copy_count = 0;
+    whole.vertex_order.clear();
+    std::erase_if(whole.attributes, [](const LrAttribute& attribute) { return attribute.per_copy; });
+    const Mesh plain = decode_lr(whole).value(), joined = surface_mesh(mesh, surface);
+    REQUIRE(plain.indices.size() == joined.indices.size());
+    std::vector<std::uint32_t> there(joined.vertex_count, UINT32_MAX), back(plain.vertex_count, UINT32_MAX);
+    for (std::size_t i = 0; i < plain.indices.size(); ++i) {
+        const std::uint32_t v = joined.indices[i], w = plain.indices[i];
+        if (there[v] == UINT32_MAX) there[v] = w;
+        if (back[w] == UINT32_MAX) back[w] = v;
+        REQUIRE(there[v] == w && back[w] == v);
+        const std::size_t stride = plain.attributes[0].stride();
+        REQUIRE(std::memcmp(plain.attributes[0].data.data() + w * stride, joined.attributes[0].data.data() + v * stride,
+                            stride) == 0);
+    }
+    if (mesh.triangle_count() == 0 || mesh.triangle_count() > 300 || mesh.vertex_count > 2000) return;
+    Result<Encoded> encoded = encode(joined.indices, joined.vertex_count, {.format = file.format, .effort = 0});
+    REQUIRE(encoded);
+    const Result<LrFile> made = make_lr_file(mesh, surface, std::move(*encoded), true);
+    REQUIRE(made);
+    const Result<LrFile> read = parse_lr(serialize_lr(*made));
+    REQUIRE(read);
+    const Mesh original = decode_lr_original_order(*read).value();
+    REQUIRE(original.indices == mesh.indices && same_attributes(original, mesh));
 }
 
 bool run(std::span<const std::byte> bytes) {
@@ -59,8 +97,16 @@ bool run(std::span<const std::byte> bytes) {
     const std::optional<Words> indices = use_stream(file->format, file->words);
     REQUIRE(indices);
     REQUIRE(indices->size() / 3 <= file->input_triangles);
-    const Mesh mesh = decode_lr(*file).value();
+    REQUIRE(in_place->validate() && in_place->copy_count == file->copy_count);
+    REQUIRE(std::ranges::equal(in_place->seams, file->seams));
+    Surface surface;
+    const Mesh mesh = decode_lr(*file, &surface).value();
     REQUIRE(mesh.indices.size() == indices->size());
+    if (file->seams.empty()) {
+        REQUIRE(!surface.has_seams() && surface.vertex_count == mesh.vertex_count);
+    } else {
+        check_seams(*file, mesh, surface);
+    }
     if (!mesh.indices.empty()) check_mesh(mesh);
     const bool ordered = !file->vertex_order.empty() && !file->corner_order.empty();
     const Result<Mesh> original = decode_lr_original_order(*file);
@@ -72,7 +118,7 @@ bool run(std::span<const std::byte> bytes) {
     }
     const Result<LrFile> again = parse_lr(serialize_lr(*file));
     REQUIRE(again && again->words == file->words && again->vertex_order == file->vertex_order &&
-            again->corner_order == file->corner_order);
+            again->corner_order == file->corner_order && again->seams == file->seams);
     REQUIRE(std::ranges::equal(again->attributes, file->attributes, same_attribute<LrAttribute>));
     LrFile compressed = *file;
     REQUIRE(compress_attributes(compressed));
@@ -163,6 +209,42 @@ void mutate_section(Section& section, std::size_t room, Random& random) {
     }
 }
 
+/// Mutates the section of seams, and gives attributes and the order of vertices as many entries as there are copies.
+/// False if there is none that goes with the connectivity.
+bool mutate_seams_of(Header& header, std::vector<Section>& sections, Random& random) {
+    const auto found = std::ranges::find(sections, kSeams, [](const Section& s) { return s.entry.kind; });
+    const auto words_at = [](const Section& s) { return words_of(s.contents); };
+    if (found == sections.end()) return false;
+    for (const Section& section : sections) {
+        const std::uint32_t kind = section.entry.kind;
+        if (kind != 1 && (kind < 5 || kind > 7)) continue;
+        const Words connectivity = words_at(section);
+        const Result<StreamView> stream = validate(connectivity);
+        if (!stream) return false;
+        Words seams = words_at(*found);
+        mutate_seams(seams, slot_triangles(*stream), stream->vertices(), random);
+        const auto bytes = std::as_bytes(std::span(seams));
+        found->contents.assign(bytes.begin(), bytes.end());
+        const Result<SeamView> view = view_seams(seams, stream->slots(), stream->vertices());
+        if (!view || header.copies == 0 || view->copies > 4 * header.copies) return true;
+        const std::uint32_t before = std::exchange(header.copies, view->copies);
+        for (Section& other : sections) {
+            const bool raw = other.entry.kind == kAttribute && (other.entry.layout & kPerCopy) != 0;
+            const std::size_t name = raw ? (std::size_t{other.entry.name_length} + 7) / 8 * 8 : 0;
+            if (name > other.contents.size()) continue;
+            if (raw) other.contents.resize(name + (other.contents.size() - name) / before * header.copies);
+            if (other.entry.kind != kVertexOrder) continue;
+            Words order = words_at(other);
+            std::erase_if(order, [&](std::uint32_t v) { return v >= header.copies; });
+            while (order.size() < header.copies) order.push_back(static_cast<std::uint32_t>(order.size()));
+            const auto entries = std::as_bytes(std::span(order));
+            other.contents.assign(entries.begin(), entries.end());
+        }
+        return true;
+    }
+    return false;
+}
+
 void mutate(Bytes& bytes, std::size_t max_size, Random& random) {
     if (bytes.size() < sizeof(Header) || random_below(random, 8) == 0) return mutate_bytes(bytes, max_size);
     Header header;
@@ -171,9 +253,16 @@ void mutate(Bytes& bytes, std::size_t max_size, Random& random) {
     const std::size_t room = max_size > bytes.size() + 64 ? max_size - bytes.size() - 64 : 0;
     const std::uint32_t chosen = random_below(random, sections.size());
     Section& section = sections[chosen];
+    if (random_below(random, 4) == 0 && mutate_seams_of(header, sections, random)) {
+        bytes = put_together(header, sections);
+        return;
+    }
     switch (random_below(random, 16)) {
         case 0:
-            mutate_number(random_below(random, 2) == 0 ? header.vertices : header.input_triangles, random);
+            mutate_number(random_below(random, 3) == 0   ? header.vertices
+                          : random_below(random, 2) == 0 ? header.copies
+                                                         : header.input_triangles,
+                          random);
             break;
         case 1:
             mutate_number(section.entry.layout, random);

@@ -223,7 +223,10 @@ void mend_seams(Words& words) {
     const std::size_t space = words.size() - head - LACEDRING_SEAMS_HEADER_WORDS;
     words[1] = static_cast<std::uint32_t>(std::min<std::size_t>(words[1], space / 3));
     const std::size_t corners = std::size_t{3} * words[1];
-    for (std::size_t c = 0; c < corners && words[0] > 0; ++c) words[head + c] %= words[0];
+    for (std::size_t c = 0; c < corners && words[0] > 0; ++c) {
+        std::uint32_t& v = words[head + c];
+        if (words[head + c / 3 * 3] != UINT32_MAX) v %= words[0];  // else an empty slot
+    }
     const std::span<std::uint32_t> section = std::span(words).subspan(head + corners);
     section[0] = magic::kSeams;
     section[1] = crc32(std::as_bytes(section.subspan(2)));
@@ -316,7 +319,7 @@ void mutate_vertices(Bytes& bytes, std::size_t max_size, Random& random) {
     mutate_as_words(bytes, max_size, [&](Words& words, std::size_t max) { mutate_vertex_stream(words, max, random); });
 }
 
-void mutate_seams(Bytes& bytes, std::size_t max_size, Random& random) {
+void mutate_section(Bytes& bytes, std::size_t max_size, Random& random) {
     mutate_as_words(bytes, max_size, [&](Words& words, std::size_t max) { mutate_seam_section(words, max, random); });
 }
 
@@ -383,6 +386,16 @@ bool use_seam_section(std::span<const std::uint32_t> words) {
 }
 
 void mutate_seam_section(Words& words, std::size_t max_words, Random& random) {
+    const std::size_t behind = words.size() < 2 ? SIZE_MAX : 2 + std::size_t{3} * words[1];
+    if (behind < words.size() && random_below(random, 4) != 0) {  // the blocks alone
+        const auto section = words.begin() + static_cast<std::ptrdiff_t>(behind);
+        Words changed(section, words.end());
+        mutate_seams(changed, std::span(words).subspan(2, behind - 2), words[0], random);
+        words.resize(behind);
+        words.insert(words.end(), changed.begin(), changed.end());
+        words.resize(std::min(words.size(), max_words));
+        return;
+    }
     mutate_unmended(words, max_words, random);
     if (random_below(random, 16) != 0) mend_seams(words);
 }
@@ -398,6 +411,6 @@ extern const Target packed_target{"packed", run<Format::packed>, mutate<Format::
 extern const Target lr_target{"lr", run<Format::lr>, mutate<Format::lr>};
 extern const Target lr_compact_target{"lr_compact", run<Format::lr_compact>, mutate<Format::lr_compact>};
 extern const Target vertices_target{"vertices", run_vertices, mutate_vertices};
-extern const Target seams_target{"seams", run_seams, mutate_seams};
+extern const Target seams_target{"seams", run_seams, mutate_section};
 
 }  // namespace lacedring::fuzz

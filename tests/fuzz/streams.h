@@ -28,6 +28,10 @@ void mutate_stream(Format kind, Words& words, std::size_t max_words, Random& ran
 void mutate_vertex_stream(Words& words, std::size_t max_words, Random& random);
 void mutate_seam_section(Words& words, std::size_t max_words, Random& random);
 
+/// Mutates the blocks of a seam section that goes with the triangles, so that it mostly stays valid. Large ones stay as
+/// they are.
+void mutate_seams(Words& section, std::span<const std::uint32_t> triangles, std::uint32_t vertices, Random& random);
+
 /// The whole words of `bytes`.
 Words words_of(std::span<const std::byte> bytes);
 

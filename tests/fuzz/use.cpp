@@ -302,6 +302,8 @@ void use_seams(const SeamView& view, std::span<const std::uint32_t> triangles) {
     REQUIRE(std::ranges::adjacent_find(first.span(), std::greater_equal()) == first.span().end());
     for (std::size_t c = 0; c < triangles.size(); ++c) {
         const std::uint32_t v = triangles[c], copy = copies.span()[c];
+        REQUIRE((v == UINT32_MAX) == (copy == UINT32_MAX));
+        if (v == UINT32_MAX) continue;
         REQUIRE(copy < view.copies);
         REQUIRE(copy >= view.homes || (first.span()[v] <= copy && copy < first.span()[v + 1]));
     }
@@ -311,6 +313,7 @@ void use_seams(const SeamView& view, std::span<const std::uint32_t> triangles) {
         decode_seam_block(view, block, triangles.subspan(begin, alone.size), alone.span());
         REQUIRE(std::ranges::equal(alone.span(), copies.span().subspan(begin, alone.size)));
     }
+    if (view.words[1] % 8 != 0) return;  // encoding takes long: some sections, by their checksum
     const Result<EncodedSeams> encoded = encode_seams(triangles, view.vertices, copies.span());
     REQUIRE(encoded);
     const Result<SeamView> again = validate_seams(encoded->words, triangles, view.vertices);
@@ -318,7 +321,7 @@ void use_seams(const SeamView& view, std::span<const std::uint32_t> triangles) {
     const ExactWords decoded(triangles.size());
     decode_seams(*again, triangles, decoded.span());
     for (std::size_t c = 0; c < triangles.size(); ++c) {
-        REQUIRE(encoded->copy_order[decoded.span()[c]] == copies.span()[c]);
+        REQUIRE(triangles[c] == UINT32_MAX || encoded->copy_order[decoded.span()[c]] == copies.span()[c]);
     }
 }
 
