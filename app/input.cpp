@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <utility>
 
 #include "lacedring/file.hpp"
@@ -97,12 +98,17 @@ void add_input_options(CLI::App& command, InputOptions& options, std::uint32_t t
     CLI::Option* none = command.add_flag("--no-weld{none}", options.weld,
                                          "keep vertices at one position apart: a mesh cut at its seams");
     none->excludes(weld);
-    command
-        .add_option("--weld-tolerance", options.tolerance,
-                    "join positions that are no farther apart, in the mesh's units")
-        ->check(CLI::PositiveNumber)
-        ->type_name("DISTANCE")
-        ->excludes(none);
+    const CLI::Option* tolerance = command
+                                       .add_option("--weld-tolerance", options.tolerance,
+                                                   "join positions that are no farther apart, in the mesh's units")
+                                       ->check(CLI::PositiveNumber)
+                                       ->type_name("DISTANCE")
+                                       ->excludes(none);
+    command.parse_complete_callback([&options, tolerance] {
+        if (std::isnan(options.tolerance)) throw CLI::ValidationError("--weld-tolerance", "not a number");
+        if (tolerance->count() == 0 || options.weld != "attributes") return;
+        throw CLI::ValidationError("--weld-tolerance", "has no effect with --weld, which moves no vertex");
+    });
     std::set<std::string> formats;
     for (const auto& [name, format] : kFormats) formats.insert(name);
     command.add_option("--input-format", options.format, "of meshes whose format does not show")
@@ -134,12 +140,9 @@ Result<std::vector<std::byte>> read_input(const std::string& path, const InputOp
 }
 
 Result<LoadedMesh> load_file(const MeshInput& input, RunLog& log) {
-    const std::string& how = input.options.weld;
-    if (how == "attributes" && input.options.tolerance > 0) {
-        return Error{ErrorCode::invalid_argument, "--weld-tolerance does not go with --weld"};
-    }
     Result<LoadedMesh> loaded = read(input, log);
     if (!loaded) return loaded;
+    const std::string& how = input.options.weld;
     if (how.empty() || how == "position") {
         join_seams(*loaded, input, log);
     } else {

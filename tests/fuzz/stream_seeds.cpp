@@ -45,15 +45,13 @@ void write_stream(const char* target, const std::string& name, const Mesh& mesh,
     if (seams) write("lr_file", std::string(target) + "-" + name + "-seams", serialize_lr(*seams));
 }
 
-/// The section of a mesh that is cut into charts: those triangles apart that are so many apart. Where that is an even
-/// number, some slots are empty.
+/// The section of a mesh that is cut into charts: those triangles apart that are so many apart.
 void write_seams(const std::string& name, const Encoded& encoded, std::uint32_t vertices, std::uint32_t chart) {
-    const Result<PackedView> view = view_packed(encoded.words);
-    std::vector<std::uint32_t> words{vertices, view->triangles}, triangles(std::size_t{3} * view->triangles), copies;
-    decode_packed(*view, triangles);
+    const std::vector<std::uint32_t> triangles = slot_triangles(view_stream(encoded.words).value());
+    std::vector<std::uint32_t> words{vertices, static_cast<std::uint32_t>(triangles.size() / 3)}, copies;
     for (std::size_t c = 0; c < triangles.size(); ++c) {
-        if (chart % 2 == 0 && c / 3 % 9 == 0) triangles[c] = UINT32_MAX;
-        copies.push_back(static_cast<std::uint32_t>(triangles[c] + vertices * (c / 3 / chart % 4)));
+        const auto copy = static_cast<std::uint32_t>(triangles[c] + vertices * (c / 3 / chart % 4));
+        copies.push_back(triangles[c] == UINT32_MAX ? UINT32_MAX : copy);
     }
     const Result<EncodedSeams> seams = encode_seams(triangles, vertices, copies);
     all_written = seams.has_value() && all_written;
@@ -68,7 +66,9 @@ void write_seeds(std::string name, const Mesh& mesh, std::uint32_t number) {
     const CornerTable table = build_corner_table(mesh.indices, mesh.vertex_count).value();
     Rings rings = expand_rings(table, {.k = number % 4});
     if (number % 2 == 0) rings = optimize_rings(table, std::move(rings), {.passes = 2});
-    write_stream("lean", name, mesh, as_encoded(*encode_lean(table, rings)));
+    const Encoded lean = as_encoded(*encode_lean(table, rings));
+    write_stream("lean", name, mesh, lean);
+    write_seams(name + "-lean", lean, mesh.vertex_count, 1 + number % 7);
     for (const PackedProfile profile : {PackedProfile::small, PackedProfile::cache}) {
         PackedChoice packed =
             encode_smallest_packed(table, {.k = number % 4}, {.passes = 2 - number % 2 * 2}, profile).value();

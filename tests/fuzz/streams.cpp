@@ -224,7 +224,8 @@ void mend_seams(Words& words) {
     words[1] = static_cast<std::uint32_t>(std::min<std::size_t>(words[1], space / 3));
     const std::size_t corners = std::size_t{3} * words[1];
     for (std::size_t c = 0; c < corners && words[0] > 0; ++c) {
-        if (words[head + c] != UINT32_MAX) words[head + c] %= words[0];  // UINT32_MAX: the slot is empty
+        std::uint32_t& v = words[head + c];
+        if (words[head + c / 3 * 3] != UINT32_MAX) v %= words[0];  // else an empty slot
     }
     const std::span<std::uint32_t> section = std::span(words).subspan(head + corners);
     section[0] = magic::kSeams;

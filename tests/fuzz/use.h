@@ -38,8 +38,8 @@ std::vector<std::uint32_t> use_lr(const LrStreamView<CompactLrView>& stream);
 /// one of more than 64 MiB: a few bytes may hold many equal vertices.
 void use_vertices(const VertexView& view);
 
-/// Decodes a section that is valid for the triangles as a whole and by blocks, and encodes the copies again. Does
-/// nothing with more than 2^16 vertices: a few bytes may hold many.
+/// Decodes a section that is valid for the triangles as a whole and by blocks, and encodes some sections' copies again.
+/// Does nothing with more than 2^16 vertices: a few bytes may hold many.
 void use_seams(const SeamView& view, std::span<const std::uint32_t> triangles);
 
 /// Calls every operator of a structure (Operators or one of its rivals) on every corner and vertex.

@@ -279,6 +279,62 @@ TEST_CASE("what is accepted decodes to copies of the corner's vertex, whatever w
     CHECK(accepted > 20);
 }
 
+TEST_CASE("a block is decoded from its bits, its vertices' blocks and groups of the directories alone") {
+    const Cut mesh = blob(20000, 4);  // two groups of blocks
+    const Words words = encoded(mesh).words, copies = decoded(words, mesh);
+    Result<SeamView> view = validate_seams(words, mesh.triangles, mesh.vertices);
+    REQUIRE(view);
+    std::size_t at = 256;
+    const auto take = [&](std::size_t count) {
+        std::uint64_t value = 0;
+        for (std::size_t k = 0; k < count; ++k, ++at) value |= std::uint64_t{words[at / 32] >> at % 32 & 1} << k;
+        return static_cast<std::size_t>(value);
+    };
+    // Where the groups of each directory and the blocks begin, in bits, and where the last ones end.
+    std::vector<std::size_t> groups[2], begins[2];
+    for (std::uint32_t kind = 0; kind < 2; ++kind) {
+        const std::uint32_t length = words[3] >> 16 * kind & 255, count = words[3] >> (16 * kind + 8) & 255;
+        const std::uint32_t elements = kind == 0 ? mesh.vertices : view->triangles;
+        begins[kind] = {0};
+        for (std::uint32_t b = 0; b < (elements + kSeamBlock - 1) / kSeamBlock; ++b) {
+            if (b % LACEDRING_SEAMS_GROUP == 0) groups[kind].push_back(at);
+            if (b > 0 && b % LACEDRING_SEAMS_GROUP == 0) at += 64;
+            begins[kind].push_back(begins[kind].back() + take(length));
+            at += count;
+        }
+        groups[kind].push_back(at);
+    }
+    REQUIRE(groups[1].size() == 3);
+    const std::size_t parts[] = {at, at + begins[0].back()};
+    for (const std::uint32_t block : {0U, 1U, 31U, 32U, view->blocks() - 1}) {
+        CAPTURE(block);
+        std::vector<bool> kept(32 * words.size());
+        const auto keep = [&](std::size_t begin, std::size_t end) {
+            std::fill(kept.begin() + static_cast<std::ptrdiff_t>(begin),
+                      kept.begin() + static_cast<std::ptrdiff_t>(end), true);
+        };
+        const auto keep_block = [&](std::uint32_t kind, std::size_t b) {
+            const std::size_t group = b / LACEDRING_SEAMS_GROUP, last = groups[kind].size() - 2;
+            keep(groups[kind][group], groups[kind][group + 1]);
+            keep(groups[kind][last], groups[kind][last + 1]);  // tells where the part ends
+            keep(parts[kind] + begins[kind][b], parts[kind] + begins[kind][b + 1]);
+        };
+        keep(0, 256);
+        keep_block(1, block);
+        const auto triangles = block_of(mesh.triangles, block);
+        for (const std::uint32_t v : triangles) keep_block(0, v / kSeamBlock);
+        Words poisoned = words;
+        for (std::size_t bit = 0; bit < kept.size(); ++bit) {
+            if (!kept[bit]) poisoned[bit / 32] ^= 1U << bit % 32;
+        }
+        CHECK(poisoned != words);
+        view->words = poisoned;
+        Words alone(triangles.size());
+        decode_seam_block(*view, block, triangles, alone);
+        CHECK(std::ranges::equal(alone, block_of(copies, block)));
+    }
+}
+
 TEST_CASE("golden bytes: a seam section is written as it was") {
     std::uint32_t sum = 0;
     for (std::uint32_t how = 0; how < kCuts; ++how) {
