@@ -280,7 +280,7 @@ TEST_CASE("what is accepted decodes to copies of the corner's vertex, whatever w
 }
 
 TEST_CASE("a block is decoded from its bits, its vertices' blocks and groups of the directories alone") {
-    const Cut mesh = blob(20000, 4);  // two groups of blocks
+    const CutSurface mesh = blob(20000, 4);  // two groups of blocks
     const Words words = encoded(mesh).words, copies = decoded(words, mesh);
     Result<SeamView> view = validate_seams(words, mesh.triangles, mesh.vertices);
     REQUIRE(view);
