@@ -44,7 +44,8 @@ struct LrFile {
 /// The way back to the input's order is kept only with `keep_order`: 4 bytes a vertex and 4 a triangle. Cost: O(T).
 LrFile make_lr_file(const Mesh& mesh, Encoded encoded, bool keep_order);
 
-/// The same of a mesh with seams; encode() was given the surface's triangles (surface_mesh). An attribute on which all
+/// The same of a mesh with seams; encode() was given the surface's triangles (surface_mesh). Each vertex has the
+/// position of its first copy (move_to_surface). An attribute on which all
 /// copies of each vertex agree has a value a vertex. Cost and errors: encode_seams'.
 Result<LrFile> make_lr_file(const Mesh& mesh, const Surface& surface, Encoded encoded, bool keep_order);
 
