@@ -51,6 +51,13 @@ void draw_stream_figures(const State& state) {
             "Vertex numbers that are stored, for each triangle of the file. An index list has three");
     }
     row("bytes", grouped(figures.bytes), "Connectivity alone: positions and other attributes are not counted");
+    if (const EncodedSeams* seams = gpu::seams_of(*document.model, state.shown.source)) {
+        row("seams, bits per triangle",
+            fmt::format("{:.2f}", figures.bits * 4 * static_cast<double>(seams->words.size()) /
+                                      static_cast<double>(std::max<std::size_t>(1, figures.bytes))),
+            "Beside the connectivity, which is that of the surface: which copy of its vertex each corner has. View "
+            "seams shows them");
+    }
     row("ACMR, FIFO of 32", fmt::format("{:.3f}", figures.acmr),
         "Average cache miss ratio: vertices transformed for each triangle when they come in this order and the last "
         "32 vertices are kept. 0.5 is the least, 3 the most");

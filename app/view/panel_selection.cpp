@@ -108,6 +108,12 @@ void draw_streams(const State& state, CornerId c) {
     };
     const std::size_t fan = around(*document.table, c).size();
     ImGui::TextDisabled("%zu triangle%s around the vertex", fan, fan == 1 ? "" : "s");
+    if (document.surface->has_seams()) {
+        part(
+            "vertex copy", fmt::format("{} of {}", document.copy_at(c), document.mesh->vertex_count),
+            "The file's vertex at this corner: its normal, texture coordinates and the like. Beyond a seam, corners of "
+            "the same vertex have another copy");
+    }
     part("LR tables hold", state.tables ? lr_text(*state.tables, *document.table, c) : "being made",
          "Their own numbers: L[v] and R[v] are the triangles left and right of ring edge v, VO the T0 triangles");
     part("lean holds", lean_text(*document.model, triangle(c).value),

@@ -260,7 +260,8 @@ TEST_CASE_FIXTURE(SeamPictures, "pictures of meshes with seams are the same from
     std::uint64_t seed = 1;
     for (const char* kind : {"blob", "moebius", "parts", "soup"}) {
         CAPTURE(kind);
-        for (std::uint32_t how = 0; how < kCuts; ++how) {
+        for (std::uint32_t how = static_cast<std::uint32_t>(seed % 2); how < kCuts;
+             how += 2) {  // half of them, in turn
             CAPTURE(how);
             const CutMesh cut = cut_mesh(generated(kind, 300, 2), how, ++seed);
             check_same(pictures, model_of(cut, how % 2 == 0 ? VertexOptions{} : lattice()), true);
