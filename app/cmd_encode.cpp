@@ -121,7 +121,7 @@ void add_encode(CLI::App& program, Action& action) {
     command->add_option("--profile", options->profile, "of packed: the fewest bits, or an order for the vertex cache")
         ->check(CLI::IsMember({"small", "cache"}))
         ->capture_default_str();
-    add_input_options(*command, options->input, 130);
+    add_input_options(*command, options->input, 200);
     add_ring_options(*command, options->ring);
     command->add_option("--effort", options->ring.effort, "how long to look for good rings: 0 to 9")
         ->check(CLI::Range(0, 9))

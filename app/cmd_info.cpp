@@ -136,7 +136,7 @@ void add_info(CLI::App& program, Action& action) {
     auto options = std::make_shared<InfoOptions>();
     CLI::App* command = program.add_subcommand("info", "topology report; of an .lr file its sections, too");
     command->add_option("MESH", options->input.path, "mesh file")->required();
-    add_input_options(*command, options->input.options, 80);
+    add_input_options(*command, options->input.options, 130);
     command->add_flag("--json", options->json, "one JSON document on standard output");
     command->callback([options, &action] { action = [options](RunLog& log) { return run_info(*options, log); }; });
 }
