@@ -19,7 +19,7 @@ void set_ring(MeasuredFormat& format, std::uint32_t k, std::uint32_t passes) {
     format.passes = passes;
 }
 
-/// What our formats are made of: a mesh, its surface, and this as a mesh of its own.
+/// A mesh, its surface, and the surface as a mesh: our formats are made of these.
 struct Subject {
     const Mesh& mesh;
     const Surface& surface;

@@ -30,7 +30,7 @@ struct Adjacency {
     Buffer positions;                         ///< 3 floats a vertex, in the tables' order
 };
 
-/// Of the model's surface (corner table, ring, tables), in its unit sphere. Cost: O(V + T).
+/// Makes the tables of the model's surface (corner table, ring, LR tables), in its unit sphere. Cost: O(V + T).
 /// Errors: build_corner_table's, encode_lr's and Vulkan's.
 Result<Adjacency> upload_adjacency(Context& context, Transfer& transfer, const Model& model,
                                    const AdjacencyOptions& options = {});

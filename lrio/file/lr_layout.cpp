@@ -36,7 +36,7 @@ std::string view_name(const Section& section, std::span<const std::byte>& conten
 
 namespace {
 
-/// What attributes of both kinds have.
+/// Reads the part that sections of both kinds of attributes share.
 std::string view_layout(const FileHeader& header, const Section& section, std::span<const std::byte>& contents,
                         AttributeView& out) {
     out.v_up = (section.layout & kVUp) != 0;

@@ -66,7 +66,7 @@ constexpr Kind kKinds[] = {kLean, kPacked, kLr, kLrCompact};
 inline Kind kind_of(Format format) {
     return kKinds[static_cast<std::size_t>(format)];
 }
-/// Of a kind in kKinds.
+/// The format of a section kind, one of kKinds.
 Format format_of(std::uint32_t kind);
 
 Error malformed_lr(std::string message);

@@ -143,7 +143,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_in_triangles(const Me
     return out;
 }
 
-/// Where `from` has 0 and `to` has -0, this becomes 0.
+/// Makes each -0 of `to` a 0 if `from` has 0 there.
 template <class Real>
 void keep_zeros(std::byte* to, const std::byte* from) {
     for (std::size_t at = 0; at < 3 * sizeof(Real); at += sizeof(Real)) {
@@ -168,7 +168,7 @@ Attribute surface_positions(const Attribute& positions, const Surface& surface) 
     return out;
 }
 
-/// What joining costs, of a surface with seams.
+/// Counts the vertices that joining moves.
 SurfaceReport report_moves(const Mesh& mesh, const Surface& surface) {
     SurfaceReport out;
     const Attribute &before = *find_attribute(mesh, "POSITION"), after = surface_positions(before, surface);

@@ -14,17 +14,14 @@
 #include "lrcore/base/message.h"
 #include "lrcore/base/signature.h"
 #include "lrcore/codec/bit_writer.h"
+#include "lrcore/codec/seams/seam_codes.h"
 
 namespace lacedring {
 namespace {
 
 constexpr std::uint32_t kNone = UINT32_MAX;
 constexpr std::uint32_t kPrivate = LACEDRING_SEAMS_PRIVATE;
-constexpr std::uint32_t kContexts = LACEDRING_SEAM_CONTEXTS;
 constexpr std::uint32_t kMostHomes = LACEDRING_SEAMS_MAX_STEPS;  // of a vertex: one step fewer, or as many with a wrap
-constexpr std::uint32_t kClasses = 8;                            // of runs
-constexpr std::uint32_t kRare = 7;                               // the class of an Exp-Golomb code
-constexpr std::uint32_t kSampledBlocks = 64;                     // of each kind, by which the table is chosen
 
 using Triangles = std::span<const std::uint32_t>;
 
@@ -164,40 +161,8 @@ Homes find_homes(Triangles triangles, std::uint32_t vertices, std::span<const st
     return out;
 }
 
-/// An answer: a flag of a context, or bits as they are.
-struct Answer {
-    std::uint32_t value;
-    std::uint8_t context;  ///< kContexts: bits
-    std::uint8_t bits;
-};
-
-/// The answers of blocks, one behind the other.
-struct Answers {
-    std::vector<Answer> all;
-    std::vector<std::size_t> begin;     ///< of each block
-    std::vector<std::uint32_t> copies;  ///< made by each block
-
-    bool flag(std::uint32_t context, bool value) {
-        all.push_back({value ? 1U : 0U, static_cast<std::uint8_t>(context), 1});
-        return value;
-    }
-    void bits(std::uint32_t value, std::uint32_t count) {
-        if (count > 0) all.push_back({value, kContexts, static_cast<std::uint8_t>(count)});
-    }
-    void golomb(std::uint32_t value, std::uint32_t order) {
-        const std::uint32_t x = value + (1U << order);
-        const auto width = static_cast<std::uint32_t>(std::bit_width(x)) - 1;
-        const std::uint32_t ones = width - order;
-        bits((1U << ones) - 1, ones + 1);
-        bits(x & ((1U << width) - 1), width);
-    }
-    std::span<const Answer> block(std::size_t b) const {
-        return std::span(all).subspan(begin[b], (b + 1 < begin.size() ? begin[b + 1] : all.size()) - begin[b]);
-    }
-};
-
-Answers answer_vertices(const Homes& homes, std::uint32_t vertices) {
-    Answers out;
+SeamAnswers answer_vertices(const Homes& homes, std::uint32_t vertices) {
+    SeamAnswers out;
     for (std::uint32_t v = 0, before = 0; v < vertices; ++v) {
         if (v % kSeamBlock == 0) {
             out.begin.push_back(out.all.size());
@@ -215,13 +180,13 @@ Answers answer_vertices(const Homes& homes, std::uint32_t vertices) {
     return out;
 }
 
-/// Answers what decoders ask about the triangles' corners, as lacedring_seams.h asks it.
+/// SeamAnswers what decoders ask about the triangles' corners, as lacedring_seams.h asks it.
 class CornerEncoder {
   public:
     CornerEncoder(Triangles triangles, std::span<const std::uint32_t> copies, const Homes& homes)
         : triangles_(triangles), copies_(copies), homes_(homes), private_(homes.index.size(), kNone) {}
 
-    Answers run() {
+    SeamAnswers run() {
         const auto count = static_cast<std::uint32_t>(triangles_.size() / 3);
         state_.resize(triangles_.size());
         sides_.resize(count);
@@ -397,223 +362,7 @@ class CornerEncoder {
     std::vector<std::uint32_t> state_;    // of each corner
     std::vector<std::uint8_t> sides_;
     std::uint32_t first_ = 0, end_ = 0;  // triangles of the block
-    Answers out_;
-};
-
-/// The likely value of each context, and the class of its runs.
-struct Table {
-    std::array<std::uint8_t, kContexts> likely{}, run_class{};
-};
-
-std::uint32_t run_bits(std::uint32_t run, std::uint32_t k) {
-    return k == kRare ? 1 + BitWriter::golomb_bits(run, 5) : (run >> (k - 1)) + k;
-}
-
-/// The run that stands for `run` likely values and no other to come. Of the rare class there is a code for that.
-std::uint32_t last_run(std::uint32_t run, std::uint32_t k) {
-    return run | ((1U << (k - 1)) - 1);
-}
-
-/// Finds the codes of a block: calls code(place, class, run, last) for each run, with the answer before which it is
-/// written. Returns the bits that they take. `end` becomes the place from which on a reader infers all codes.
-template <class Code>
-std::uint64_t find_codes(std::span<const Answer> answers, const Table& table, std::size_t& end, Code code) {
-    struct Run {
-        std::uint32_t length = 0;
-        std::size_t place = 0;
-        std::uint64_t single = 0;  // bits of class 0 that would be inferred, before it
-    };
-    Run runs[kClasses];
-    std::uint64_t bits = 0, single = 0, single_before_end = 0;
-    end = 0;
-    const auto extend = [&](std::size_t place, std::uint64_t before) {
-        if (place < end) return;
-        end = place + 1;
-        single_before_end = before;
-    };
-    for (std::size_t i = 0; i < answers.size(); ++i) {
-        const Answer& answer = answers[i];
-        if (answer.context == kContexts) {
-            bits += answer.bits;
-            extend(i, single);
-            continue;
-        }
-        const std::uint32_t k = table.run_class[answer.context];
-        const bool likely = answer.value == table.likely[answer.context];
-        if (k == 0) {
-            if (likely) {
-                ++single;
-            } else {
-                ++bits;
-                extend(i, single);
-            }
-            continue;
-        }
-        Run& run = runs[k];
-        if (run.length == 0) {
-            run.place = i;
-            run.single = single;
-        }
-        if (likely) {
-            ++run.length;
-            continue;
-        }
-        bits += run_bits(run.length, k);
-        extend(run.place, run.single);
-        code(run.place, k, run.length, false);
-        run.length = 0;
-    }
-    for (std::uint32_t k = 1; k < kClasses; ++k) {
-        if (runs[k].length == 0 || runs[k].place >= end) continue;
-        bits += k == kRare ? 1 : run_bits(last_run(runs[k].length, k), k);
-        code(runs[k].place, k, runs[k].length, true);
-    }
-    return bits + single_before_end;
-}
-
-void write_block(BitWriter& out, std::span<const Answer> answers, const Table& table) {
-    struct Run {
-        std::uint32_t length = kNone;
-        bool last = false;
-    };
-    std::vector<Run> runs(answers.size());
-    std::size_t end = 0;
-    find_codes(answers, table, end, [&](std::size_t place, std::uint32_t, std::uint32_t length, bool last) {
-        runs[place] = {length, last};
-    });
-    for (std::size_t i = 0; i < end; ++i) {
-        const Answer& answer = answers[i];
-        const std::uint32_t k = answer.context == kContexts ? 0 : table.run_class[answer.context];
-        if (k == 0) {
-            out.put(answer.value, answer.bits);
-        } else if (runs[i].length == kNone) {
-            continue;
-        } else if (k == kRare) {
-            out.put(runs[i].last ? 0 : 1, 1);
-            if (!runs[i].last) out.put_golomb(runs[i].length, 5);
-        } else {
-            out.put_rice(runs[i].last ? last_run(runs[i].length, k) : runs[i].length, k - 1);
-        }
-    }
-}
-
-/// Chooses the table: each context's best class alone, then classes joined and contexts moved where that is smaller.
-class TableSearch {
-  public:
-    TableSearch(const Answers& vertices, const Answers& corners) {
-        for (const Answers* answers : {&vertices, &corners}) {
-            const std::size_t blocks = answers->begin.size();
-            const std::size_t step = (blocks + kSampledBlocks - 1) / kSampledBlocks;
-            for (std::size_t b = 0; b < blocks; b += step) blocks_.push_back(answers->block(b));
-        }
-    }
-
-    Table best() {
-        Counts counts{};
-        for (const auto& block : blocks_) {
-            for (const Answer& answer : block) {
-                if (answer.context < kContexts) ++counts[answer.context][answer.value];
-            }
-        }
-        for (std::uint32_t c = 0; c < kContexts; ++c) table_.likely[c] = counts[c][1] > counts[c][0] ? 1 : 0;
-        Table best = table_;
-        std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
-        for (const bool with_ends : {false, true}) {
-            choose_alone(counts, with_ends);
-            improve(counts);
-            if (bits_ >= least) continue;
-            least = bits_;
-            best = table_;
-        }
-        return best;
-    }
-
-  private:
-    using Counts = std::array<std::array<std::uint64_t, 2>, kContexts>;
-
-    /// Each context's best class, were it alone. `with_ends`: codes of runs that end with their block count, too.
-    void choose_alone(const Counts& counts, bool with_ends) {
-        std::array<std::array<std::uint64_t, kClasses>, kContexts> bits{};
-        std::array<std::uint32_t, kContexts> run{};
-        for (const auto& block : blocks_) {
-            for (const Answer& answer : block) {
-                if (answer.context == kContexts) continue;
-                if (answer.value == table_.likely[answer.context]) {
-                    ++run[answer.context];
-                    continue;
-                }
-                for (std::uint32_t k = 1; k < kClasses; ++k) {
-                    bits[answer.context][k] += run_bits(run[answer.context], k);
-                }
-                run[answer.context] = 0;
-            }
-            for (std::uint32_t c = 0; c < kContexts; ++c) {
-                for (std::uint32_t k = 1; k < kClasses && with_ends && run[c] > 0; ++k) {
-                    bits[c][k] += k == kRare ? 1 : run_bits(last_run(run[c], k), k);
-                }
-                if (with_ends) run[c] = 0;
-            }
-        }
-        for (std::uint32_t c = 0; c < kContexts; ++c) {
-            bits[c][0] = counts[c][0] + counts[c][1];
-            table_.run_class[c] = static_cast<std::uint8_t>(std::ranges::min_element(bits[c]) - bits[c].begin());
-        }
-    }
-
-    void improve(const Counts& counts) {
-        bits_ = size(table_);
-        for (bool better = true; better;) {
-            better = false;
-            while (join_classes()) better = true;
-            for (std::uint32_t c = 0; c < kContexts; ++c) better |= counts[c][0] + counts[c][1] > 0 && move(c);
-        }
-    }
-
-    bool join_classes() {
-        for (std::uint32_t a = 1; a < kClasses; ++a) {
-            if (std::ranges::find(table_.run_class, a) == table_.run_class.end()) continue;
-            for (std::uint32_t b = 0; b < kClasses; ++b) {
-                Table other = table_;
-                std::ranges::replace(other.run_class, static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b));
-                if (b != a && offer(other)) return true;
-            }
-        }
-        return false;
-    }
-
-    /// Moves a context to the class, of those in use, where it is smallest.
-    bool move(std::uint32_t c) {
-        std::array<bool, kClasses> used{true};
-        for (const std::uint32_t k : table_.run_class) used[k] = true;
-        bool better = false;
-        for (std::uint32_t k = 0; k < kClasses; ++k) {
-            Table other = table_;
-            other.run_class[c] = static_cast<std::uint8_t>(k);
-            better |= used[k] && k != table_.run_class[c] && offer(other);
-        }
-        return better;
-    }
-
-    bool offer(const Table& table) {
-        const std::uint64_t bits = size(table);
-        if (bits >= bits_) return false;
-        table_ = table;
-        bits_ = bits;
-        return true;
-    }
-
-    std::uint64_t size(const Table& table) const {
-        std::uint64_t bits = 0;
-        std::size_t end = 0;
-        for (const auto& block : blocks_) {
-            bits += find_codes(block, table, end, [](std::size_t, std::uint32_t, std::uint32_t, bool) {});
-        }
-        return bits;
-    }
-
-    std::vector<std::span<const Answer>> blocks_;
-    Table table_;
-    std::uint64_t bits_ = std::numeric_limits<std::uint64_t>::max();
+    SeamAnswers out_;
 };
 
 /// A directory: lengths of blocks, copies that they make, and sums of both where groups begin. Returns its field widths
@@ -638,14 +387,14 @@ std::uint32_t write_directory(BitWriter& out, std::span<const std::uint32_t> len
 }
 
 /// The section's words; none if it would be too large.
-std::vector<std::uint32_t> write_section(std::uint32_t homes, const Answers& vertices, const Answers& corners) {
-    const Table table = TableSearch(vertices, corners).best();
+std::vector<std::uint32_t> write_section(std::uint32_t homes, const SeamAnswers& vertices, const SeamAnswers& corners) {
+    const SeamTable table = best_table(vertices, corners);
     std::vector<std::uint32_t> words{magic::kSeams, 0, homes, 0, 0, 0, 0, 0};
-    for (std::uint32_t c = 0; c < kContexts; ++c) {
+    for (std::uint32_t c = 0; c < kSeamContexts; ++c) {
         words[4 + c / 8] |= (table.likely[c] | std::uint32_t{table.run_class[c]} << 1) << 4 * (c % 8);
     }
     BitWriter out, blocks;
-    for (const Answers* answers : {&vertices, &corners}) {
+    for (const SeamAnswers* answers : {&vertices, &corners}) {
         const std::size_t before = blocks.bits();
         std::vector<std::uint32_t> lengths;
         for (std::size_t b = 0; b < answers->begin.size(); ++b) {
@@ -713,7 +462,7 @@ Result<EncodedSeams> encode_seams(std::span<const std::uint32_t> triangles, std:
     if (numbers.size() + vertices > LACEDRING_SEAMS_MAX_COPIES) return too_large;
     const Homes homes = find_homes(triangles, vertices, own, static_cast<std::uint32_t>(numbers.size()));
     CornerEncoder corners(triangles, own, homes);
-    const Answers answers = corners.run();
+    const SeamAnswers answers = corners.run();
     EncodedSeams out;
     out.words = write_section(homes.first.back(), answer_vertices(homes, vertices), answers);
     if (out.words.empty()) return too_large;

@@ -30,7 +30,7 @@ Triangle table_triangle(const Operators<View>& ops, std::uint32_t t) {
     return out;
 }
 
-/// Which of table_triangle's vertices a corner is at.
+/// The place of a corner's vertex in table_triangle.
 template <class View>
 std::uint32_t place_of(const View& view, CornerId c) {
     const std::uint32_t k = c.value % 4;

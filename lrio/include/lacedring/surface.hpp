@@ -17,7 +17,7 @@ struct Surface {
     bool has_seams() const { return !vertex_of.empty(); }
 };
 
-/// What joining costs.
+/// Positions that joining changes.
 struct SurfaceReport {
     std::uint32_t moved = 0;  ///< vertices whose position gets other bits: -0 becomes 0, or a tolerance was given
     double largest_move = 0;  ///< the farthest that a vertex moves

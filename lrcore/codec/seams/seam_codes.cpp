@@ -1,0 +1,231 @@
+#include "lrcore/codec/seams/seam_codes.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace lacedring {
+namespace {
+
+constexpr std::uint32_t kNoRun = UINT32_MAX;
+constexpr std::uint32_t kClasses = 8;         // of runs
+constexpr std::uint32_t kRare = 7;            // the class of an Exp-Golomb code
+constexpr std::uint32_t kSampledBlocks = 64;  // of each kind, by which the table is chosen
+
+std::uint32_t run_bits(std::uint32_t run, std::uint32_t k) {
+    return k == kRare ? 1 + BitWriter::golomb_bits(run, 5) : (run >> (k - 1)) + k;
+}
+
+/// The run that stands for `run` likely values and no other to come. Of the rare class there is a code for that.
+std::uint32_t last_run(std::uint32_t run, std::uint32_t k) {
+    return run | ((1U << (k - 1)) - 1);
+}
+
+/// Finds the codes of a block: calls code(place, class, run, last) for each run, with the answer before which it is
+/// written. Returns the bits that they take. `end` becomes the place from which on a reader infers all codes.
+template <class Code>
+std::uint64_t find_codes(std::span<const SeamAnswer> answers, const SeamTable& table, std::size_t& end, Code code) {
+    struct Run {
+        std::uint32_t length = 0;
+        std::size_t place = 0;
+        std::uint64_t single = 0;  // bits of class 0 that would be inferred, before it
+    };
+    Run runs[kClasses];
+    std::uint64_t bits = 0, single = 0, single_before_end = 0;
+    end = 0;
+    const auto extend = [&](std::size_t place, std::uint64_t before) {
+        if (place < end) return;
+        end = place + 1;
+        single_before_end = before;
+    };
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+        const SeamAnswer& answer = answers[i];
+        if (answer.context == kSeamContexts) {
+            bits += answer.bits;
+            extend(i, single);
+            continue;
+        }
+        const std::uint32_t k = table.run_class[answer.context];
+        const bool likely = answer.value == table.likely[answer.context];
+        if (k == 0) {
+            if (likely) {
+                ++single;
+            } else {
+                ++bits;
+                extend(i, single);
+            }
+            continue;
+        }
+        Run& run = runs[k];
+        if (run.length == 0) {
+            run.place = i;
+            run.single = single;
+        }
+        if (likely) {
+            ++run.length;
+            continue;
+        }
+        bits += run_bits(run.length, k);
+        extend(run.place, run.single);
+        code(run.place, k, run.length, false);
+        run.length = 0;
+    }
+    for (std::uint32_t k = 1; k < kClasses; ++k) {
+        if (runs[k].length == 0 || runs[k].place >= end) continue;
+        bits += k == kRare ? 1 : run_bits(last_run(runs[k].length, k), k);
+        code(runs[k].place, k, runs[k].length, true);
+    }
+    return bits + single_before_end;
+}
+
+/// Chooses the table: each context's best class alone, then classes joined and contexts moved where that is smaller.
+class TableSearch {
+  public:
+    TableSearch(const SeamAnswers& vertices, const SeamAnswers& corners) {
+        for (const SeamAnswers* answers : {&vertices, &corners}) {
+            const std::size_t blocks = answers->begin.size();
+            const std::size_t step = (blocks + kSampledBlocks - 1) / kSampledBlocks;
+            for (std::size_t b = 0; b < blocks; b += step) blocks_.push_back(answers->block(b));
+        }
+    }
+
+    SeamTable best() {
+        Counts counts{};
+        for (const auto& block : blocks_) {
+            for (const SeamAnswer& answer : block) {
+                if (answer.context < kSeamContexts) ++counts[answer.context][answer.value];
+            }
+        }
+        for (std::uint32_t c = 0; c < kSeamContexts; ++c) table_.likely[c] = counts[c][1] > counts[c][0] ? 1 : 0;
+        SeamTable best = table_;
+        std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
+        for (const bool with_ends : {false, true}) {
+            choose_alone(counts, with_ends);
+            improve(counts);
+            if (bits_ >= least) continue;
+            least = bits_;
+            best = table_;
+        }
+        return best;
+    }
+
+  private:
+    using Counts = std::array<std::array<std::uint64_t, 2>, kSeamContexts>;
+
+    /// Each context's best class, were it alone. `with_ends`: codes of runs that end with their block count, too.
+    void choose_alone(const Counts& counts, bool with_ends) {
+        std::array<std::array<std::uint64_t, kClasses>, kSeamContexts> bits{};
+        std::array<std::uint32_t, kSeamContexts> run{};
+        for (const auto& block : blocks_) {
+            for (const SeamAnswer& answer : block) {
+                if (answer.context == kSeamContexts) continue;
+                if (answer.value == table_.likely[answer.context]) {
+                    ++run[answer.context];
+                    continue;
+                }
+                for (std::uint32_t k = 1; k < kClasses; ++k) {
+                    bits[answer.context][k] += run_bits(run[answer.context], k);
+                }
+                run[answer.context] = 0;
+            }
+            for (std::uint32_t c = 0; c < kSeamContexts; ++c) {
+                for (std::uint32_t k = 1; k < kClasses && with_ends && run[c] > 0; ++k) {
+                    bits[c][k] += k == kRare ? 1 : run_bits(last_run(run[c], k), k);
+                }
+                if (with_ends) run[c] = 0;
+            }
+        }
+        for (std::uint32_t c = 0; c < kSeamContexts; ++c) {
+            bits[c][0] = counts[c][0] + counts[c][1];
+            table_.run_class[c] = static_cast<std::uint8_t>(std::ranges::min_element(bits[c]) - bits[c].begin());
+        }
+    }
+
+    void improve(const Counts& counts) {
+        bits_ = size(table_);
+        for (bool better = true; better;) {
+            better = false;
+            while (join_classes()) better = true;
+            for (std::uint32_t c = 0; c < kSeamContexts; ++c) better |= counts[c][0] + counts[c][1] > 0 && move(c);
+        }
+    }
+
+    bool join_classes() {
+        for (std::uint32_t a = 1; a < kClasses; ++a) {
+            if (std::ranges::find(table_.run_class, a) == table_.run_class.end()) continue;
+            for (std::uint32_t b = 0; b < kClasses; ++b) {
+                SeamTable other = table_;
+                std::ranges::replace(other.run_class, static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b));
+                if (b != a && offer(other)) return true;
+            }
+        }
+        return false;
+    }
+
+    /// Moves a context to the class, of those in use, where it is smallest.
+    bool move(std::uint32_t c) {
+        std::array<bool, kClasses> used{true};
+        for (const std::uint32_t k : table_.run_class) used[k] = true;
+        bool better = false;
+        for (std::uint32_t k = 0; k < kClasses; ++k) {
+            SeamTable other = table_;
+            other.run_class[c] = static_cast<std::uint8_t>(k);
+            better |= used[k] && k != table_.run_class[c] && offer(other);
+        }
+        return better;
+    }
+
+    bool offer(const SeamTable& table) {
+        const std::uint64_t bits = size(table);
+        if (bits >= bits_) return false;
+        table_ = table;
+        bits_ = bits;
+        return true;
+    }
+
+    std::uint64_t size(const SeamTable& table) const {
+        std::uint64_t bits = 0;
+        std::size_t end = 0;
+        for (const auto& block : blocks_) {
+            bits += find_codes(block, table, end, [](std::size_t, std::uint32_t, std::uint32_t, bool) {});
+        }
+        return bits;
+    }
+
+    std::vector<std::span<const SeamAnswer>> blocks_;
+    SeamTable table_;
+    std::uint64_t bits_ = std::numeric_limits<std::uint64_t>::max();
+};
+
+}  // namespace
+
+SeamTable best_table(const SeamAnswers& vertices, const SeamAnswers& corners) {
+    return TableSearch(vertices, corners).best();
+}
+
+void write_block(BitWriter& out, std::span<const SeamAnswer> answers, const SeamTable& table) {
+    struct Run {
+        std::uint32_t length = kNoRun;
+        bool last = false;
+    };
+    std::vector<Run> runs(answers.size());
+    std::size_t end = 0;
+    find_codes(answers, table, end, [&](std::size_t place, std::uint32_t, std::uint32_t length, bool last) {
+        runs[place] = {length, last};
+    });
+    for (std::size_t i = 0; i < end; ++i) {
+        const SeamAnswer& answer = answers[i];
+        const std::uint32_t k = answer.context == kSeamContexts ? 0 : table.run_class[answer.context];
+        if (k == 0) {
+            out.put(answer.value, answer.bits);
+        } else if (runs[i].length == kNoRun) {
+            continue;
+        } else if (k == kRare) {
+            out.put(runs[i].last ? 0 : 1, 1);
+            if (!runs[i].last) out.put_golomb(runs[i].length, 5);
+        } else {
+            out.put_rice(runs[i].last ? last_run(runs[i].length, k) : runs[i].length, k - 1);
+        }
+    }
+}
+
+}  // namespace lacedring

@@ -1,0 +1,62 @@
+#pragma once
+// The codes of a seam section: what decoders ask, answered, and the table by which answers become bits. Internal to
+// codec/seams; docs/seams-format.md.
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lacedring/lacedring_seams.h"
+#include "lrcore/codec/bit_writer.h"
+
+namespace lacedring {
+
+constexpr std::uint32_t kSeamContexts = LACEDRING_SEAM_CONTEXTS;
+
+/// An answer: a flag of a context, or bits as they are.
+struct SeamAnswer {
+    std::uint32_t value;
+    std::uint8_t context;  ///< kSeamContexts: bits
+    std::uint8_t bits;
+};
+
+/// The answers of blocks, one behind the other.
+struct SeamAnswers {
+    std::vector<SeamAnswer> all;
+    std::vector<std::size_t> begin;     ///< of each block
+    std::vector<std::uint32_t> copies;  ///< made by each block
+
+    bool flag(std::uint32_t context, bool value) {
+        all.push_back({value ? 1U : 0U, static_cast<std::uint8_t>(context), 1});
+        return value;
+    }
+    void bits(std::uint32_t value, std::uint32_t count) {
+        if (count > 0) all.push_back({value, kSeamContexts, static_cast<std::uint8_t>(count)});
+    }
+    void golomb(std::uint32_t value, std::uint32_t order) {
+        const std::uint32_t x = value + (1U << order);
+        const auto width = static_cast<std::uint32_t>(std::bit_width(x)) - 1;
+        const std::uint32_t ones = width - order;
+        bits((1U << ones) - 1, ones + 1);
+        bits(x & ((1U << width) - 1), width);
+    }
+    std::span<const SeamAnswer> block(std::size_t b) const {
+        return std::span(all).subspan(begin[b], (b + 1 < begin.size() ? begin[b + 1] : all.size()) - begin[b]);
+    }
+};
+
+/// The likely value of each context, and the class of its runs.
+struct SeamTable {
+    std::array<std::uint8_t, kSeamContexts> likely{}, run_class{};
+};
+
+/// The table that makes the sections' blocks, or a sample of them, smallest.
+SeamTable best_table(const SeamAnswers& vertices, const SeamAnswers& corners);
+
+/// Writes the codes of a block.
+void write_block(BitWriter& out, std::span<const SeamAnswer> answers, const SeamTable& table);
+
+}  // namespace lacedring
