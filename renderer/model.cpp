@@ -138,6 +138,17 @@ std::vector<std::uint32_t> surface_triangles(const Model& model) {
     return out;
 }
 
+std::vector<float> surface_positions(const Model& model) {
+    if (!model.surface.has_seams()) return model.positions;
+    std::vector<float> out;
+    out.reserve(std::size_t{3} * model.surface.vertex_count);
+    for (const std::uint32_t v : first_vertices(model.surface)) {
+        const auto from = model.positions.begin() + std::ptrdiff_t{3} * v;
+        out.insert(out.end(), from, from + 3);
+    }
+    return out;
+}
+
 Result<Model> make_surface(const Mesh& mesh, const lacedring::Surface& surface) {
     if (mesh.indices.empty()) return Error{ErrorCode::unsupported, "the mesh has no triangles to draw"};
     Model model;

@@ -58,6 +58,9 @@ struct ModelOptions {
 /// The surface's triangles: `model.indices`, or those of its surface.
 std::vector<std::uint32_t> surface_triangles(const Model& model);
 
+/// The positions of the surface's vertices, 3 floats each. Cost: O(V).
+std::vector<float> surface_positions(const Model& model);
+
 /// A model without streams, for who encodes them himself: positions, normals, sizes. Cost: O(V + T).
 /// Errors: unsupported (no triangles, extent zero or past f32), invalid_argument (a surface of another mesh).
 Result<Model> make_surface(const Mesh& mesh, const lacedring::Surface& surface = {});

@@ -128,7 +128,7 @@ Result<void> Scene::set_outlines(const EncodedLr* tables) {
     if (!silhouettes_) {
         LR_ASSIGN(silhouettes_, gpu::Silhouettes::create(*context_));
     }
-    LR_ASSIGN(adjacency_, gpu::upload_adjacency(*context_, *transfer_, *tables, model_->positions));
+    LR_ASSIGN(adjacency_, gpu::upload_adjacency(*context_, *transfer_, *tables, gpu::surface_positions(*model_)));
     return {};
 }
 

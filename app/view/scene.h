@@ -52,7 +52,7 @@ class Scene {
     /// stays as it is. Colours stay in any case: those of another mesh have to be taken away. Errors: those of prepare.
     Result<bool> adopt(const std::shared_ptr<const gpu::Model>& model, const Shown& shown);
     const gpu::Model* model() const { return model_.get(); }
-    /// Draws outlines over the surface, asked of these LR tables of the model's mesh; null: none.
+    /// Draws outlines over the surface, asked of these LR tables of the model's surface; null: none.
     Result<void> set_outlines(const EncodedLr* tables);
     /// RGBA a triangle of the mesh, to be laid over it; empty: none. Not while a frame is being drawn.
     Result<void> set_paint(std::span<const std::uint32_t> colours);

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
 #include "lacedring/lacedring.hpp"
 #include "lacedring/mesh_files.hpp"
 #include "lacedring/seams.hpp"
+#include "renderer/adjacency.h"
 #include "renderer/seam_decoder.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/support/cut_mesh.h"
@@ -310,6 +312,31 @@ TEST_CASE_FIXTURE(SeamPictures, "views of meshes with seams are the same from al
         const Mesh whole = generated("blob", 600);
         CHECK(gpu::difference(plain, drawn(test::model_of(whole), {})).pixels == 0);
     }
+}
+
+TEST_CASE_FIXTURE(SeamPictures, "normals that the device computes of a mesh with seams are the CPU's of its surface") {
+    const CutMesh cut = cut_mesh(generated("blob", 3000), 1, 7);
+    const gpu::Model model = model_of(cut);
+    auto transfer = gpu::Transfer::create(*context);
+    auto commands = gpu::Commands::create(*context);
+    const auto normals = gpu::VertexNormals::create(*context);
+    REQUIRE((transfer && commands && normals));
+    const auto adjacency = gpu::upload_adjacency(*context, *transfer, model);
+    REQUIRE_MESSAGE(adjacency, adjacency.error().message);
+    const auto made = normals->compute(*commands, *adjacency);
+    REQUIRE_MESSAGE(made, made.error().message);
+    std::vector<float> got(std::size_t{3} * adjacency->vertices);
+    REQUIRE(transfer->read(*made, 0, std::as_writable_bytes(std::span(got))));
+    const std::vector<float> positions = gpu::surface_positions(model);
+    const CornerTable table = build_corner_table(gpu::surface_triangles(model), model.surface.vertex_count).value();
+    CHECK(table.topology.border_edges == 0);
+    const std::vector<float> expected = vertex_normals(table, Positions(std::span<const float>(positions)));
+    float worst = 0;
+    for (std::size_t v = 0; v < adjacency->vertices; ++v) {
+        const std::size_t u = model.surface_of(adjacency->vertex_order[v]);
+        for (std::size_t i = 0; i < 3; ++i) worst = std::max(worst, std::abs(got[3 * v + i] - expected[3 * u + i]));
+    }
+    CHECK(worst < 1e-5F);
 }
 
 TEST_CASE_FIXTURE(SeamPictures, "a wrong seam section is found out") {
