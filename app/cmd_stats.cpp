@@ -56,7 +56,7 @@ Json sizes_to_json(const std::string& path, const Mesh& mesh, const FormatSet& s
                 {"absent", Json::object()}};
     const double triangles = set.triangles();
     for (const MeasuredFormat& format : set.formats) {
-        const CacheFigures cache = analyze_fifo32(format.indices, format.vertex_count(mesh));
+        const CacheFigures cache = analyze_fifo32(format.indices, format.vertex_count(set.vertices));
         Json entry = {{"bytes", format.bytes},
                       {"seam_bytes", format.seam_bytes},
                       {"bits_per_triangle", 8 * static_cast<double>(format.bytes) / triangles},
@@ -112,15 +112,14 @@ void print_sizes(const std::string& path, const Mesh& mesh, const FormatSet& set
     const auto base = static_cast<double>(set.formats.front().bytes);
     for (const MeasuredFormat& format : set.formats) {
         const auto bits = [&](std::size_t bytes) { return 8 * static_cast<double>(bytes) / triangles; };
-        const auto all = static_cast<double>(format.bytes + format.seam_bytes);
-        const CacheFigures cache = analyze_fifo32(format.indices, format.vertex_count(mesh));
+        const CacheFigures cache = analyze_fifo32(format.indices, format.vertex_count(set.vertices));
         print("  {:<20}{:>11}{:>10.2f}{}{:>10}{:>8.1f} %{:>10.3f}{:>10.3f}{:>11}\n", format.name, format.bytes,
               bits(format.bytes),
-              !seams                  ? ""
-              : format.seam_bytes > 0 ? fmt::format("{:>10.2f}", bits(format.seam_bytes))
-                                      : fmt::format("{:>10}", format.of_surface ? "lost" : ""),
+              seams
+                  ? fmt::format("{:>10}", format.seam_bytes == 0 ? "" : fmt::format("{:.2f}", bits(format.seam_bytes)))
+                  : "",
               format.references == 0 ? "" : fmt::format("{:.3f}", static_cast<double>(format.references) / triangles),
-              base > 0 ? 100 * all / base : 0.0, cache.acmr, cache.atvr,
+              base > 0 ? 100 * static_cast<double>(format.bytes) / base : 0.0, cache.acmr, cache.atvr,
               format.deflated == 0 ? "" : fmt::format("{}", format.deflated));
     }
     if (set.best_order) {
@@ -128,8 +127,7 @@ void print_sizes(const std::string& path, const Mesh& mesh, const FormatSet& set
               set.best_order->acmr, set.best_order->atvr);
     }
     for (const auto& [name, reason] : set.absent) print("  {:<20}absent: {}\n", name, reason);
-    if (seams)
-        print("  + seams: bits/tri beside the format's, which \"of u32\" counts; lost: it has the surface alone\n");
+    if (seams) print("  every format is of the surface; + seams: bits/tri beside, which copy each corner has\n");
     print("\n");
 }
 

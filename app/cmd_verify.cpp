@@ -35,19 +35,14 @@ std::string check_order(const MeasuredFormat& format, std::uint32_t vertices) {
 int run_verify(const VerifyOptions& options, RunLog& log) {
     const Result<LoadedMesh> loaded = load_file(options.input, log);
     if (!loaded) return fail(options.input.path, loaded.error());
-    const Mesh& mesh = loaded->mesh;
-    const Result<FormatSet> set = make_formats(mesh, loaded->surface, options.ring);
+    const Result<FormatSet> set = make_formats(loaded->mesh, loaded->surface, options.ring);
     if (!set) return fail(options.input.path, set.error());
-    const auto of_mesh = oriented_triangles(mesh.indices, {});
-    const auto of_surface = oriented_triangles(surface_mesh(mesh, loaded->surface).indices, {});
+    const auto expected = oriented_triangles(surface_mesh(loaded->mesh, loaded->surface).indices, {});
     nlohmann::ordered_json formats = nlohmann::ordered_json::object();
     bool all = true;
     for (const MeasuredFormat& format : set->formats) {
         std::string why = format.invalid;
-        const auto& expected = format.of_surface ? of_surface : of_mesh;
-        if (why.empty() && !format.order.empty()) {
-            why = check_order(format, format.of_surface ? set->vertices : mesh.vertex_count);
-        }
+        if (why.empty() && !format.order.empty()) why = check_order(format, set->vertices);
         if (why.empty()) {
             const auto got = oriented_triangles(format.indices, format.order);
             if (got.size() != expected.size()) {

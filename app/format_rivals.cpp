@@ -127,7 +127,6 @@ void add_structures(FormatSet& set, CornerTable table, std::uint32_t vertices) {
     for (std::uint32_t t = 0; t < flipped.size(); ++t) flipped[t] = table.flipped(TriangleId{t});
     const auto add = [&](MeasuredFormat format) {
         format.copies = originals.size();
-        format.of_surface = true;
         set.formats.push_back(std::move(format));
     };
     {

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "app/format_rivals.h"
 #include "lacedring/lacedring.hpp"
 #include "lacedring/streams.hpp"
 #include "lrlab/paper/offsets.h"
 #include "lrlab/rivals/compressors.h"
+#include "lrlab/rivals/whole_mesh.h"
 
 namespace lacedring::app {
 namespace {
@@ -19,36 +21,35 @@ void set_ring(MeasuredFormat& format, std::uint32_t k, std::uint32_t passes) {
     format.passes = passes;
 }
 
-/// A mesh, its surface, and the surface as a mesh: our formats are made of these.
+/// A mesh, its surface, and the mesh's oriented triangles where that has seams.
 struct Subject {
     const Mesh& mesh;
     const Surface& surface;
-    const Mesh& shape;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Fills `format.indices` and `format.order`, and adds the seams, validated and decoded. `view` is of encoded.words.
+/// Fills `format.indices` and `format.order` and measures the seams, which have to give back the mesh's corners. `view`
+/// is of encoded.words.
 void add_indices(MeasuredFormat& format, const Subject& subject, Encoded encoded, const StreamView& view) {
-    if (!subject.surface.has_seams()) {
-        format.indices = decode(view);
-        format.order = std::move(encoded.vertex_order);
-        return;
+    format.indices = decode(view);
+    if (subject.surface.has_seams()) {
+        const Result<EncodedSeams> seams = encode_seams(encoded, subject.mesh.indices, subject.surface.vertex_of);
+        const std::vector<std::uint32_t> slots = slot_triangles(view);
+        const Result<SeamView> valid =
+            seams ? validate_seams(seams->words, slots, view.vertices()) : Result<SeamView>(seams.error());
+        if (!valid) {
+            format.invalid = valid.error().message;
+            return;
+        }
+        std::vector<std::uint32_t> copies(slots.size());
+        decode_seams(*valid, slots, copies);
+        std::erase(copies, UINT32_MAX);
+        if (oriented_triangles(copies, seams->copy_order) != subject.triangles) {
+            format.invalid = "its seams give other corners";
+        }
+        format.seam_bytes = 4 * seams->words.size();
     }
-    Result<EncodedSeams> seams = encode_seams(encoded, subject.mesh.indices, subject.surface.vertex_of);
-    if (!seams) {
-        format.invalid = seams.error().message;
-        return;
-    }
-    const std::vector<std::uint32_t> slots = slot_triangles(view);
-    const Result<SeamView> valid = validate_seams(seams->words, slots, view.vertices());
-    if (!valid) {
-        format.invalid = valid.error().message;
-        return;
-    }
-    format.indices.resize(slots.size());
-    decode_seams(*valid, slots, format.indices);
-    std::erase(format.indices, UINT32_MAX);
-    format.order = std::move(seams->copy_order);
-    format.seam_bytes = 4 * seams->words.size();
+    format.order = std::move(encoded.vertex_order);
 }
 
 /// The lean stream, decoded twice: as a whole, and slot by slot.
@@ -135,30 +136,31 @@ std::vector<std::uint32_t> without_degenerate(std::span<const std::uint32_t> ind
 Result<FormatSet> make_formats(const Mesh& mesh, const Surface& surface, const RingChoice& choice, bool paper,
                                const FormatProgress& progress) {
     const auto stop = [&](double share, const char* what) { return progress && !progress(share, what); };
-    const Mesh joined = surface.has_seams() ? surface_mesh(mesh, surface) : Mesh{};
-    const Subject subject{mesh, surface, surface.has_seams() ? joined : mesh};
-    Result<CornerTable> table = build_corner_table(subject.shape.indices, subject.shape.vertex_count);
+    const Mesh shape = surface_mesh(mesh, surface);
+    Subject subject{mesh, surface, {}};
+    if (surface.has_seams()) subject.triangles = oriented_triangles(mesh.indices, {});
+    Result<CornerTable> table = build_corner_table(shape.indices, shape.vertex_count);
     if (!table) return table.error();
     FormatSet set;
-    set.vertices = subject.shape.vertex_count;
+    set.vertices = shape.vertex_count;
     set.seam_edges = static_cast<std::uint32_t>(seam_edges(*table, mesh).size());
     set.topology = table->topology;
     set.report = report_topology(*table);
     set.ring = ring_options(choice, mesh.triangle_count());
 
-    const std::vector<std::uint32_t> triangles = without_degenerate(mesh.indices);
+    const std::vector<std::uint32_t> triangles = without_degenerate(shape.indices);
     const auto add_list = [&](const char* name, std::size_t width) {
         set.formats.push_back(
             {.name = name, .bytes = triangles.size() * width, .references = triangles.size(), .indices = triangles});
     };
     add_list("index_u32", 4);
-    if (mesh.vertex_count <= 65536) {
+    if (shape.vertex_count <= 65536) {
         add_list("index_u16", 2);
     } else {
         set.absent.emplace_back("index_u16", "more than 65,536 vertices");
     }
     if (stop(0.0, "strips")) return set;
-    add_strips(set, mesh, triangles);
+    add_strips(set, shape, triangles);
     if (stop(0.1, "lean")) return set;
     const auto how = [&](Format format, double share, const char* what) {
         EncodeOptions options = encode_options(choice, format, mesh.triangle_count());
@@ -211,7 +213,7 @@ Result<FormatSet> make_formats(const Mesh& mesh, const Surface& surface, const R
     if (!cache) return cache.error();
     set.formats.push_back(packed_format("packed_cache", subject, std::move(*cache)));
     if (stop(0.85, "meshoptimizer's formats")) return set;
-    add_codecs(set, mesh, triangles);
+    add_codecs(set, shape, triangles);
     if (stop(0.93, "winged edge, corner table, SQuad")) return set;
     add_structures(set, std::move(*table), set.vertices);
     return set;

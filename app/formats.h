@@ -24,19 +24,18 @@ struct MeasuredFormat {
     std::size_t bytes = 0;
     std::size_t references = 0;               ///< 0 where it has none
     std::vector<std::uint32_t> indices = {};  ///< numbered as `order` says
-    /// order[new] = vertex of the mesh; empty if the format keeps the mesh's numbers
+    /// order[new] = vertex of the surface; empty if the format keeps its numbers
     std::vector<std::uint32_t> order = {};
     const char* ring = nullptr;  ///< "expander", "hybrid" or "optimized"; null for a format without one
     std::uint32_t k = 0;         ///< of the hybrid
     std::uint32_t passes = 0;    ///< of the optimiser
     std::size_t copies = 0;      ///< of non-manifold vertices: entries of `order` beyond the mesh's vertices
     std::size_t seam_bytes = 0;  ///< of the seam section, beside `bytes`
-    bool of_surface = false;     ///< `indices` and `order` are of the surface: it has no copies for seams
     std::size_t deflated = 0;    ///< bytes after zlib, of a format that is for transmission; else 0
     std::string invalid = {};    ///< what the format's own validation found wrong; empty if nothing
 
-    /// Numbers that `indices` may use.
-    std::size_t vertex_count(const Mesh& mesh) const { return mesh.vertex_count + copies; }
+    /// Numbers that `indices` may use. `vertices`: FormatSet's.
+    std::size_t vertex_count(std::uint32_t vertices) const { return vertices + copies; }
 };
 
 struct FormatSet {
@@ -64,8 +63,8 @@ std::vector<std::uint32_t> without_degenerate(std::span<const std::uint32_t> ind
 /// Told what is made next, and which share of the work is done. false: stop, what there is so far is the result.
 using FormatProgress = std::function<bool(double share, const std::string& what)>;
 
-/// Makes every format of the mesh and decodes it again. Ours have the surface's connectivity and a seam section; index
-/// lists, strips and codecs are those of the mesh; structures with operators have the surface alone. Errors: those of
+/// Makes every format of the mesh and decodes it again. All are of the surface; ours have a seam
+/// section beside, if the mesh has seams. Errors: those of
 /// build_corner_table. `paper`: the paper's procedures alone. `progress`, if given, takes the place of the bar on a
 /// terminal.
 Result<FormatSet> make_formats(const Mesh& mesh, const Surface& surface, const RingChoice& choice, bool paper = false,

@@ -77,9 +77,9 @@ constexpr Column kLean[] = {
     {"lean, bytes", 0, [](const Mesh&, const FormatSet& s) { return bits(s, "lean") / 8 * s.triangles(); }},
 };
 
-double acmr(const Mesh& mesh, const FormatSet& set, std::string_view name) {
+double acmr(const FormatSet& set, std::string_view name) {
     const MeasuredFormat* format = find(set, name);
-    return format == nullptr ? kNone : analyze_fifo32(format->indices, format->vertex_count(mesh)).acmr;
+    return format == nullptr ? kNone : analyze_fifo32(format->indices, format->vertex_count(set.vertices)).acmr;
 }
 
 // Not the paper's: the packed stream and its rivals.
@@ -87,7 +87,7 @@ constexpr Column kPacked[] = {
     {"triangles", 0, mesh_triangles},
     {"packed, bits", 3, [](const Mesh&, const FormatSet& s) { return bits(s, "packed"); }},
     {"cache profile, bits", 3, [](const Mesh&, const FormatSet& s) { return bits(s, "packed_cache"); }},
-    {"its ACMR(32)", 3, [](const Mesh& m, const FormatSet& s) { return acmr(m, s, "packed_cache"); }},
+    {"its ACMR(32)", 3, [](const Mesh&, const FormatSet& s) { return acmr(s, "packed_cache"); }},
     {"best order's", 3, [](const Mesh&, const FormatSet& s) { return s.best_order ? s.best_order->acmr : kNone; }},
     {"index codec, bits", 2, [](const Mesh&, const FormatSet& s) { return bits(s, "meshopt_index_codec"); }},
     {"over packed", 1,

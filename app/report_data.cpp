@@ -47,7 +47,7 @@ Result<MeshReport> measure_mesh(const std::string& path, const LoadedMesh& loade
             figures.bits = 8 * bytes / triangles;
             figures.references = static_cast<double>(format.references) / triangles;
             figures.share = 100 * bytes / base;
-            figures.cache = analyze_fifo32(format.indices, format.vertex_count(mesh));
+            figures.cache = analyze_fifo32(format.indices, format.vertex_count(set->vertices));
             figures.ring = ring_text(format);
         }
         out.report = set->report;
