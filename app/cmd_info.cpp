@@ -48,12 +48,12 @@ int run_info(const InfoOptions& options, RunLog& log) {
     const Result<LoadedMesh> loaded = load_file(options.input, log);
     if (!loaded) return fail(options.input.path, loaded.error());
     const Mesh* mesh = &loaded->mesh;
-    const std::uint32_t vertices = loaded->surface.has_seams() ? loaded->surface.vertex_count : mesh->vertex_count;
     const Mesh surface = surface_mesh(*mesh, loaded->surface);
     const Result<CornerTable> table = build_corner_table(surface.indices, surface.vertex_count);
     if (!table) return fail(options.input.path, table.error());
     const TopologyReport r = report_topology(*table);
     const Topology& t = table->topology;
+    const std::uint32_t vertices = surface.vertex_count;
     const Positions positions = positions_of(surface);
     const std::size_t seams = seam_edges(*table, *mesh).size();
     const std::vector<ClosedShell> closed = closed_shells(*table, positions);

@@ -19,14 +19,7 @@ Result<void> decode_copies(const LrFile& file, const StreamView& stream, bool un
     std::vector<std::uint32_t> copies(slots.size());
     decode_seams(*seams, slots, copies);
     out.vertex_of.resize(seams->copies);
-    std::vector<std::uint32_t> homes(std::size_t{stream.vertices()} + 1);
-    first_copies(*seams, homes);
-    for (std::uint32_t v = 0; v < stream.vertices(); ++v) {
-        std::fill(out.vertex_of.begin() + homes[v], out.vertex_of.begin() + homes[v + 1], v);
-    }
-    for (std::size_t i = 0; i < slots.size(); ++i) {
-        if (slots[i] != UINT32_MAX) out.vertex_of[copies[i]] = slots[i];
-    }
+    copy_vertices(*seams, slots, out.vertex_of);
     std::erase(copies, UINT32_MAX);
     out.indices = std::move(copies);
     return {};
@@ -143,7 +136,7 @@ Result<Mesh> decode_lr_original_order(const LrFile& file) {
     decoded->remove_extra(vertex_order);
     Result<Mesh> stream = detail::decode_mesh(file, *decoded, nullptr);
     if (!stream) return stream;
-    // Where each new vertex was, inverted: permute_attributes wants the new number of each old vertex.
+    // permute_attributes takes the new number of each old vertex: the inverse of the order.
     std::vector<std::uint32_t> number(vertex_order.size());
     for (std::uint32_t i = 0; i < number.size(); ++i) number[vertex_order[i]] = i;
     Mesh mesh;

@@ -37,48 +37,41 @@ bool agrees_on_surface(const Attribute& attribute, const Surface& surface, std::
     return true;
 }
 
+/// Without seams the surface is the mesh, and `seams` is empty.
+LrFile make_file(const Mesh& mesh, const Surface& surface, Encoded encoded, EncodedSeams seams, bool keep_order) {
+    LrFile file;
+    file.vertex_count = static_cast<std::uint32_t>(encoded.vertex_order.size());
+    file.copy_count = static_cast<std::uint32_t>(seams.copy_order.size());
+    file.input_triangles = static_cast<std::uint32_t>(mesh.triangle_count());
+    file.format = encoded.format;
+    file.words = std::move(encoded.words);
+    file.seams = std::move(seams.words);
+    const std::vector<std::uint32_t> first = first_vertices(surface);
+    std::vector<std::uint32_t> vertices = std::move(encoded.vertex_order);
+    for (std::uint32_t& v : vertices) v = first[v];
+    for (const Attribute& attribute : mesh.attributes) {
+        const bool per_copy = attribute.name != "POSITION" && !agrees_on_surface(attribute, surface, first);
+        std::vector<Attribute> values = permute_attributes({&attribute, 1}, per_copy ? seams.copy_order : vertices);
+        file.attributes.push_back({std::move(values[0]), {}, per_copy});
+    }
+    if (keep_order) {
+        file.vertex_order = std::move(surface.has_seams() ? seams.copy_order : vertices);
+        file.corner_order = find_corners(mesh, file, encoded.triangle_order, file.vertex_order);
+    }
+    return file;
+}
+
 }  // namespace
 
 Result<LrFile> make_lr_file(const Mesh& mesh, const Surface& surface, Encoded encoded, bool keep_order) {
     if (!surface.has_seams()) return make_lr_file(mesh, std::move(encoded), keep_order);
     Result<EncodedSeams> seams = encode_seams(encoded, mesh.indices, surface.vertex_of);
     if (!seams) return seams.error();
-    LrFile file;
-    file.vertex_count = static_cast<std::uint32_t>(encoded.vertex_order.size());
-    file.copy_count = static_cast<std::uint32_t>(seams->copy_order.size());
-    file.input_triangles = static_cast<std::uint32_t>(mesh.triangle_count());
-    file.format = encoded.format;
-    file.words = std::move(encoded.words);
-    file.seams = std::move(seams->words);
-    const std::vector<std::uint32_t> first = first_vertices(surface);
-    std::vector<std::uint32_t> vertices = encoded.vertex_order;
-    for (std::uint32_t& v : vertices) v = first[v];
-    for (const Attribute& attribute : mesh.attributes) {
-        const bool per_copy = attribute.name != "POSITION" && !agrees_on_surface(attribute, surface, first);
-        std::vector<Attribute> values = permute_attributes({&attribute, 1}, per_copy ? seams->copy_order : vertices);
-        file.attributes.push_back({std::move(values[0]), {}, per_copy});
-    }
-    if (keep_order) {
-        file.corner_order = find_corners(mesh, file, encoded.triangle_order, seams->copy_order);
-        file.vertex_order = std::move(seams->copy_order);
-    }
-    return file;
+    return make_file(mesh, surface, std::move(encoded), std::move(*seams), keep_order);
 }
 
 LrFile make_lr_file(const Mesh& mesh, Encoded encoded, bool keep_order) {
-    LrFile file;
-    file.vertex_count = static_cast<std::uint32_t>(encoded.vertex_order.size());
-    file.input_triangles = static_cast<std::uint32_t>(mesh.triangle_count());
-    file.format = encoded.format;
-    file.words = std::move(encoded.words);
-    for (Attribute& attribute : permute_attributes(mesh.attributes, encoded.vertex_order)) {
-        file.attributes.push_back({std::move(attribute), {}});
-    }
-    if (keep_order) {
-        file.corner_order = find_corners(mesh, file, encoded.triangle_order, encoded.vertex_order);
-        file.vertex_order = std::move(encoded.vertex_order);
-    }
-    return file;
+    return make_file(mesh, {mesh.vertex_count, {}}, std::move(encoded), {}, keep_order);
 }
 
 std::vector<std::byte> serialize_lr(const LrFile& file) {

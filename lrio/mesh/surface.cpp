@@ -69,7 +69,8 @@ class Kept {
         std::uint32_t number, next;
     };
 
-    /// Where cells are narrower than the numbers are apart, each number is its own: a quotient may be infinite.
+    /// A coordinate is its own cell if the grid is finer than floating-point numbers there: the quotient may be
+    /// infinite.
     Point cell_of(Point p) const {
         constexpr double kNarrow = 9007199254740992.0;  // 2^53
         for (double& x : p) {
@@ -173,13 +174,13 @@ SurfaceReport report_moves(const Mesh& mesh, const Surface& surface) {
     SurfaceReport out;
     const Attribute &before = *find_attribute(mesh, "POSITION"), after = surface_positions(before, surface);
     const bool wide = before.type == ComponentType::f64;
+    const Positions from{before.data, wide}, there{after.data, wide};
     const std::size_t stride = before.stride();
     for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
         const std::uint32_t to = surface.vertex_of[v];
         if (std::memcmp(before.data.data() + v * stride, after.data.data() + to * stride, stride) == 0) continue;
         ++out.moved;
-        out.largest_move =
-            std::max(out.largest_move, distance(position(positions_of(mesh), v), position({after.data, wide}, to)));
+        out.largest_move = std::max(out.largest_move, distance(position(from, v), position(there, to)));
     }
     return out;
 }
@@ -195,7 +196,8 @@ Surface find_surface(const Mesh& mesh, double tolerance, SurfaceReport* report) 
     const VertexGroups groups = group_vertices(mesh, positions, tolerance);
     const std::vector<std::uint32_t>& group = groups.near.empty() ? groups.equal : groups.near;
     const std::vector<std::pair<std::uint32_t, std::uint32_t>> apart = pairs_in_triangles(mesh, group);
-    // Of a group, vertices of rank 0 are joined; of a higher rank, those of one position: others may be too far apart.
+    // Vertices of rank 0 of a group are joined. Those of a higher rank are joined if their positions are equal, since
+    // vertices of a group may be twice the tolerance apart.
     std::vector<std::uint32_t> rank(apart.empty() ? 0 : mesh.vertex_count), ranks_apart;
     std::vector<std::uint32_t> number(mesh.vertex_count, UINT32_MAX);  // of rank 0 of the group with that first vertex
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> higher;  // of a position and a rank
