@@ -39,7 +39,7 @@ struct Comparison {
     std::uint64_t pixels_different = 0;
     std::uint32_t max_channel_difference = 0;  ///< of 255
     std::uint64_t triangle_ids_different = 0;  ///< pixels that show another triangle, or its other side
-    /// What the device decodes (Renderer::read_indices, read_copies) is what the CPU does.
+    /// The device decodes the same indices and copies as the CPU (Renderer::read_indices, read_copies).
     bool indices_equal_cpu = false;
     /// Source::packed_vertices: the positions that the device decodes (Renderer::read_positions), bit for bit
     std::optional<bool> vertices_equal_cpu;

@@ -104,7 +104,7 @@ struct GpuMesh {
     Buffer vertex_order;                    ///< the mesh's vertex of each one in `vertices`
     Buffer vertex_stream;                   ///< of the positions. Source::packed_vertices
     std::array<float, 4> unit{0, 0, 0, 1};  ///< DrawConstants::unit
-    // Of a stream of a surface with seams. All but the section are written by the device.
+    // These are there where the surface has seams. The device writes all of them but the section.
     Buffer seams;          ///< the section
     Buffer homes;          ///< of each vertex of the surface, as lacedring_seams_homes
     Buffer copies;         ///< as `indices`, which are the surface's, of copies

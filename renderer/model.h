@@ -51,7 +51,7 @@ struct ModelOptions {
     /// normals where the mesh has none, are then of what it decodes to. With `packed` only.
     std::optional<VertexOptions> vertices = {};
     OptimizeOptions optimize = {.passes = 0};  ///< of the rings; the cost is each stream's own
-    /// Of the mesh. Streams are of it, and have seam sections where it has seams.
+    /// The surface of the mesh, whose triangles the streams hold. They have seam sections where it has seams.
     lacedring::Surface surface = {};
 };
 

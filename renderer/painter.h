@@ -43,7 +43,7 @@ class Painter {
     /// Source and path of a mesh, and whether it has pulls_copies().
     using SurfaceKey = std::tuple<Source, Path, bool>;
     static SurfaceKey key_of(const GpuMesh& mesh) { return {mesh.source, mesh.path, mesh.pulls_copies()}; }
-    /// Whether it has pulls_positions() and pulls_copies().
+    /// The mesh has pulls_positions(), pulls_copies().
     using LineKey = std::pair<bool, bool>;
     static LineKey line_key_of(const GpuMesh& mesh) {
         return {mesh.pulls_positions(), mesh.pulls_positions() && mesh.pulls_copies()};

@@ -45,7 +45,7 @@ class Renderer {
     /// need be; of the others what their shaders get, slot by slot.
     Result<std::vector<std::uint32_t>> read_indices(Drawable& drawable);
 
-    /// Of a surface with seams: the copy of each of these corners, in the same way; empty of others.
+    /// Reads the copy of each of these corners in the same way; nothing where the surface has no seams.
     Result<std::vector<std::uint32_t>> read_copies(Drawable& drawable);
 
     /// Source::packed_vertices: the bits of 3 floats a vertex, in the mesh's coordinates, as the device decodes them.

@@ -18,7 +18,7 @@ class SeamDecoder : ComputePass<SeamConstants> {
     static Result<SeamDecoder> create(Context& context);
 
     /// Splits the buffers so that no descriptor covers more than mesh.max_range bytes, or than a block of triangles.
-    /// What is read or written out of order goes through addresses, and the section, which `view` is of.
+    /// `view` is of the section. Shaders take addresses for it, and for all that they read or write out of order.
     Result<SeamPlan> plan(Descriptors& descriptors, const GpuMesh& mesh, const SeamView& view) const;
 
     /// Records the decoding, and a barrier in it that makes writes to mesh.indices visible, too.

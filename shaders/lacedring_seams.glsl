@@ -233,7 +233,7 @@ uint lr_seam_side(uvec3 t) {  // 0 left, 1 right, 2 no ring edge
 // A bit for a vertex.
 uint lr_seam_mark(uint v) { return 1u << (v * 0x9e3779b9u >> 27); }
 
-// Of the vertices of a triangle.
+// The home copies of the three vertices of a triangle.
 struct LrSeamHomes {
     uvec3 first, count;  // home copies
     uvec3 steps;         // the last position
@@ -286,7 +286,7 @@ struct LrSeamQuestion {
     uint new_context;
     bool new_first;  // asked before the position
 };
-// Of an end that changes.
+// The question for an end that changes.
 LrSeamQuestion lr_seam_change(LrSeamEnd e, uint steps, uint side) {
     LrSeamQuestion q = LrSeamQuestion(e.far, LR_SEAM_STEP_L, LR_SEAM_NEW_L, false);
     if (side == 0u) {
@@ -303,7 +303,7 @@ LrSeamQuestion lr_seam_change(LrSeamEnd e, uint steps, uint side) {
     }
     return q;
 }
-// Of corner j that is not in the parent. With a parent, the words of the others are known.
+// The question for corner j, which is not in the parent. With a parent, the words of the others are known.
 LrSeamQuestion lr_seam_start(uvec3 t, LrSeamHomes h, uvec3 words, uint j, uint side, bool has_parent) {
     uint steps = h.steps[j];
     uint before = lr_seam_corner(t, t[j] - 1u), after = lr_seam_corner(t, t[j] + 1u);
