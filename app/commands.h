@@ -9,6 +9,8 @@ void add_info(CLI::App& program, Action& action);
 void add_stats(CLI::App& program, Action& action);
 void add_encode(CLI::App& program, Action& action);
 void add_decode(CLI::App& program, Action& action);
+void add_pack(CLI::App& program, Action& action);
+void add_unpack(CLI::App& program, Action& action);
 void add_verify(CLI::App& program, Action& action);
 void add_generate(CLI::App& program, Action& action);
 void add_bench(CLI::App& program, Action& action);
@@ -23,6 +25,8 @@ inline void add_commands(CLI::App& program, Action& action) {
     add_report(program, action);
     add_encode(program, action);
     add_decode(program, action);
+    add_pack(program, action);
+    add_unpack(program, action);
     add_verify(program, action);
 #ifdef LACEDRING_GPU
     add_render(program, action);

@@ -124,6 +124,16 @@ Result<AccessorView> view_accessor(GltfFile& file, int index) {
     return view;
 }
 
+Result<std::vector<std::byte>> view_contents(GltfFile& file, int view) {
+    if (view < 0 || static_cast<std::size_t>(view) >= file.model.bufferViews.size()) {
+        return malformed("buffer view {} does not exist", view);
+    }
+    const std::size_t size = file.model.bufferViews[static_cast<std::size_t>(view)].byteLength;
+    const auto bytes = view_bytes(file, view, 0, 1, size, fmt::format("buffer view {}", view));
+    if (!bytes) return bytes.error();
+    return std::vector<std::byte>(bytes->data, bytes->data + size);
+}
+
 Result<void> copy_elements(const AccessorView& view, std::byte* out) {
     const std::size_t size = view.element_bytes();
     if (view.values.data == nullptr) {

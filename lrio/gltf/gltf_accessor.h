@@ -39,6 +39,9 @@ struct AccessorView {
 /// GltfBuffers::open's.
 Result<AccessorView> view_accessor(GltfFile& file, int index);
 
+/// The bytes of a buffer view. Errors: malformed, GltfBuffers::open's.
+Result<std::vector<std::byte>> view_contents(GltfFile& file, int view);
+
 /// count * element_bytes() tightly packed bytes, sparse ones replaced. Errors: malformed (a sparse index).
 Result<void> copy_elements(const AccessorView& view, std::byte* out);
 

@@ -38,42 +38,6 @@ std::uint32_t word_at(std::span<const std::byte> bytes, std::size_t offset) {
     return word;
 }
 
-struct Chunks {
-    std::string_view json;
-    std::optional<std::span<const std::byte>> bin;
-};
-
-/// The chunks of a GLB file; of a file that is JSON, all of it.
-Result<Chunks> split_chunks(std::span<const std::byte> bytes) {
-    const auto text = [](std::span<const std::byte> part) {
-        return std::string_view(reinterpret_cast<const char*>(part.data()), part.size());
-    };
-    if (!text(bytes).starts_with("glTF")) return Chunks{text(bytes), {}};
-    constexpr std::size_t kHeader = 12, kChunkHeader = 8;
-    constexpr std::uint32_t kJson = 0x4e4f534a, kBin = 0x004e4942;
-    if (bytes.size() < kHeader + kChunkHeader) return malformed("{} bytes are too few for a GLB file", bytes.size());
-    if (word_at(bytes, 4) != 2) return unsupported("byte 4: GLB version {}", word_at(bytes, 4));
-    const std::uint32_t length = word_at(bytes, 8);
-    if (length > bytes.size()) return malformed("byte 8: {} bytes long, but has {}", length, bytes.size());
-    bytes = bytes.first(length);
-    Chunks out;
-    // JSON first, then BIN or nothing, then what nobody knows. A last chunk need not fill a whole word.
-    for (std::size_t at = kHeader, number = 0; number < 2 && at + kChunkHeader <= bytes.size(); ++number) {
-        const std::uint32_t size = word_at(bytes, at), kind = word_at(bytes, at + 4);
-        if (size > bytes.size() - at - kChunkHeader) {
-            return malformed("byte {}: a chunk of {} bytes does not fit into the file", at, size);
-        }
-        const auto contents = bytes.subspan(at + kChunkHeader, size);
-        if (number == 0 && kind != kJson) return malformed("byte {}: the first chunk is not JSON", at);
-        if (number == 0) out.json = text(contents);
-        if (number == 1 && kind == kBin) out.bin = contents;
-        at += kChunkHeader + size;
-    }
-    // Some writers fill the chunk up with zeros, where spaces are due.
-    while (out.json.ends_with('\0')) out.json.remove_suffix(1);
-    return out;
-}
-
 /// A parser's complaint, shortened to one printable line, without the parser's name for it.
 std::string one_line(std::string_view complaint) {
     if (complaint.starts_with('[')) complaint.remove_prefix(std::min(complaint.find(']') + 1, complaint.size()));
@@ -156,12 +120,13 @@ std::vector<std::string> names_in(const nlohmann::json& document, const char* li
     return out;
 }
 
-Result<void> check_extensions(const nlohmann::json& document, Reading& reading) {
+Result<void> check_extensions(const nlohmann::json& document, Reading& reading, GltfUse use) {
     for (const std::string& name : names_in(document, "extensionsRequired")) {
         if (is_compression(name)) {
             return unsupported("glTF: the geometry is compressed with {}, which is not read", shown(name));
         }
-        if (!is_harmless(name)) return unsupported("glTF: needs the extension {}, which is not read", shown(name));
+        if (use == GltfUse::triangles && !is_harmless(name))
+            return unsupported("glTF: needs the extension {}, which is not read", shown(name));
     }
     for (const std::string& name : names_in(document, "extensionsUsed")) {
         if (!is_compression(name) && !is_harmless(name)) {
@@ -241,11 +206,58 @@ Result<tinygltf::Model> load_model(const nlohmann::json& document) {
 
 }  // namespace
 
-Result<GltfFile> load_gltf(std::span<const std::byte> bytes, Reading& reading) {
+Result<GltfChunks> split_gltf(std::span<const std::byte> bytes) {
     if (bytes.size() > std::numeric_limits<std::uint32_t>::max()) {
         return Error{ErrorCode::too_large, "glTF of more than 4 GiB"};
     }
-    const auto chunks = split_chunks(bytes);
+    const auto text = [](std::span<const std::byte> part) {
+        return std::string_view(reinterpret_cast<const char*>(part.data()), part.size());
+    };
+    if (!text(bytes).starts_with("glTF")) return GltfChunks{text(bytes), {}};
+    constexpr std::size_t kHeader = 12, kChunkHeader = 8;
+    constexpr std::uint32_t kJson = 0x4e4f534a, kBin = 0x004e4942;
+    if (bytes.size() < kHeader + kChunkHeader) return malformed("{} bytes are too few for a GLB file", bytes.size());
+    if (word_at(bytes, 4) != 2) return unsupported("byte 4: GLB version {}", word_at(bytes, 4));
+    const std::uint32_t length = word_at(bytes, 8);
+    if (length > bytes.size()) return malformed("byte 8: {} bytes long, but has {}", length, bytes.size());
+    bytes = bytes.first(length);
+    GltfChunks out;
+    // JSON first, then BIN or nothing, then what nobody knows. A last chunk need not fill a whole word.
+    for (std::size_t at = kHeader, number = 0; number < 2 && at + kChunkHeader <= bytes.size(); ++number) {
+        const std::uint32_t size = word_at(bytes, at), kind = word_at(bytes, at + 4);
+        if (size > bytes.size() - at - kChunkHeader) {
+            return malformed("byte {}: a chunk of {} bytes does not fit into the file", at, size);
+        }
+        const auto contents = bytes.subspan(at + kChunkHeader, size);
+        if (number == 0 && kind != kJson) return malformed("byte {}: the first chunk is not JSON", at);
+        if (number == 0) out.json = text(contents);
+        if (number == 1 && kind == kBin) out.bin = contents;
+        at += kChunkHeader + size;
+    }
+    // Some writers fill the chunk up with zeros, where spaces are due.
+    while (out.json.ends_with('\0')) out.json.remove_suffix(1);
+    return out;
+}
+
+bool has_unknown_extensions(const nlohmann::json& document) {
+    const auto refers = [](std::string_view name) {
+        return name == "KHR_audio_emitter" || name.ends_with("_metadata") ||
+               (!is_harmless(name) && !is_compression(name));
+    };
+    for (const std::string& name : names_in(document, "extensionsUsed")) {
+        if (refers(name)) return true;
+    }
+    return false;
+}
+
+Result<void> check_json(std::string_view text) {
+    if (nests_too_deep(text)) return malformed("glTF: values are nested more than {} deep", kDeepest);
+    if (!nlohmann::json::accept(text)) return malformed("glTF: is no JSON");
+    return {};
+}
+
+Result<GltfFile> load_gltf(std::span<const std::byte> bytes, Reading& reading, GltfUse use) {
+    const auto chunks = split_gltf(bytes);
     if (!chunks) return chunks.error();
     if (nests_too_deep(chunks->json)) return malformed("glTF: values are nested more than {} deep", kDeepest);
     nlohmann::json document;
@@ -256,13 +268,13 @@ Result<GltfFile> load_gltf(std::span<const std::byte> bytes, Reading& reading) {
     }
     if (!document.is_object()) return malformed("glTF: is not a JSON object");
     if (auto good = check_version(document); !good) return good.error();
-    if (auto good = check_extensions(document, reading); !good) return good.error();
+    if (auto good = check_extensions(document, reading, use); !good) return good.error();
     if (auto good = check_lists(document); !good) return good.error();
     auto model = load_model(document);
     if (!model) return model.error();
     tell_what_is_left_out(document, reading);
 
-    GltfFile file{std::move(document), std::move(*model), {}};
+    GltfFile file{chunks->json, std::move(document), std::move(*model), {}};
     auto buffers = GltfBuffers::make(file.document, chunks->bin, reading);
     if (!buffers) return buffers.error();
     file.buffers = std::move(*buffers);

@@ -7,7 +7,9 @@
 #include <tiny_gltf.h>
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
+#include <string_view>
 
 #include "lacedring/base.hpp"
 #include "lrio/gltf/gltf_buffers.h"
@@ -15,14 +17,34 @@
 
 namespace lacedring::detail {
 
+/// The chunks of a GLB file; of a file that is JSON, all of it.
+struct GltfChunks {
+    std::string_view json;
+    std::optional<std::span<const std::byte>> bin;
+};
+/// Errors: malformed, unsupported (a version), too_large (4 GiB).
+Result<GltfChunks> split_gltf(std::span<const std::byte> bytes);
+
+/// Does it use extensions that may refer to buffer views by their numbers?
+bool has_unknown_extensions(const nlohmann::json& document);
+
+/// Is it JSON that is nested no deeper than parsers go? Errors: malformed.
+Result<void> check_json(std::string_view text);
+
 struct GltfFile {
+    std::string_view text;    ///< of the document, in the file's bytes
     nlohmann::json document;  ///< the whole file
     tinygltf::Model model;    ///< its geometry; no buffers, materials, images, animations, ...
     GltfBuffers buffers;      ///< refers to `document` and to the file's bytes
 };
 
+enum class GltfUse : std::uint8_t {
+    triangles,   ///< what else the file has is lost
+    everything,  ///< nothing is: extensions that are not known do no harm
+};
+
 /// Parses JSON or GLB, and tells `reading` what is not read of it. No buffer is opened yet.
 /// Errors: malformed, unsupported (a version or an extension without which the geometry cannot be read), too_large.
-Result<GltfFile> load_gltf(std::span<const std::byte> bytes, Reading& reading);
+Result<GltfFile> load_gltf(std::span<const std::byte> bytes, Reading& reading, GltfUse use = GltfUse::triangles);
 
 }  // namespace lacedring::detail

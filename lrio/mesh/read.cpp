@@ -131,23 +131,6 @@ Result<Mesh> read_bytes(std::span<const std::byte> bytes, Reading& reading) {
     return unsupported("the format is not recognised (glTF, GLB, OBJ, PLY, OFF and STL are read)");
 }
 
-/// Calls read(), and turns what it throws into an error: the standard library may run out of memory, and what the glTF
-/// library throws is not documented.
-template <class Read>
-Result<Mesh> caught(const Read& read) {
-    try {
-        return read();
-    } catch (const std::bad_alloc&) {
-        return Error{ErrorCode::too_large, "does not fit into memory"};
-    } catch (const std::length_error&) {
-        return Error{ErrorCode::too_large, "does not fit into memory"};
-    } catch (const std::exception& exception) {
-        return malformed("cannot be read: {}", shown(exception.what()));
-    } catch (...) {
-        return malformed("cannot be read");
-    }
-}
-
 }  // namespace
 
 void Reading::leave_out(std::uint64_t count, std::string_view one, std::string_view many) {

@@ -6,8 +6,11 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <filesystem>
+#include <new>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -74,6 +77,23 @@ std::string shown_names(std::span<const std::string> names);
 
 /// A vertex attribute of floats.
 Attribute float_attribute(std::string name, std::uint8_t components, std::span<const float> values);
+
+/// Calls read(), and turns what it throws into an error: the standard library may run out of memory, and what the glTF
+/// library throws is not documented.
+template <class Read>
+auto caught(const Read& read) -> decltype(read()) {
+    try {
+        return read();
+    } catch (const std::bad_alloc&) {
+        return Error{ErrorCode::too_large, "does not fit into memory"};
+    } catch (const std::length_error&) {
+        return Error{ErrorCode::too_large, "does not fit into memory"};
+    } catch (const std::exception& exception) {
+        return malformed("cannot be read: {}", shown(exception.what()));
+    } catch (...) {
+        return malformed("cannot be read");
+    }
+}
 
 /// Splits a polygon, given corner by corner, into a fan around its first corner: emit(a, b, c) for each triangle. Fewer
 /// than 3 corners give nothing.

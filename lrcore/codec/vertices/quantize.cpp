@@ -9,9 +9,20 @@
 #include "lrcore/base/message.h"
 
 namespace lacedring {
-namespace {
 
 constexpr std::uint32_t kLatticeBits = 22;  // of the largest integer: two remain for the step
+
+float lattice_step(double step, double largest) {
+    step = std::max({step, std::ldexp(largest, -static_cast<int>(kLatticeBits)), 0x1p-126});
+    int exponent = 0;
+    const auto width = [&] { return std::bit_width(static_cast<std::uint32_t>(std::ceil(largest / step)) + 1); };
+    const int bits = 24 - static_cast<int>(width());  // of the step: the product of both has 24
+    const double fraction = std::ceil(std::ldexp(std::frexp(step, &exponent), bits));
+    step = std::ldexp(fraction, exponent - bits);
+    return step < 0x1p104 ? static_cast<float>(step) : 0.0F;
+}
+
+namespace {
 
 Error invalid(std::string message) {
     return {ErrorCode::invalid_argument, std::move(message)};
@@ -48,18 +59,6 @@ std::uint32_t integer_at(const VertexValues& values, std::size_t i) {
 /// The bits of a float, or the higher half of a double's, as an unsigned number that grows with it.
 std::uint32_t monotone(std::uint32_t bits) {
     return bits ^ ((bits >> 31) != 0 ? UINT32_MAX : 0x80000000U);
-}
-
-/// The least number of at least `step` whose product with every integer up to largest / step is a float, and with fewer
-/// than 2^kLatticeBits of them; 0: there is none.
-float lattice_step(double step, double largest) {
-    step = std::max({step, std::ldexp(largest, -static_cast<int>(kLatticeBits)), 0x1p-126});
-    int exponent = 0;
-    const auto width = [&] { return std::bit_width(static_cast<std::uint32_t>(std::ceil(largest / step)) + 1); };
-    const int bits = 24 - static_cast<int>(width());  // of the step: the product of both has 24
-    const double fraction = std::ceil(std::ldexp(std::frexp(step, &exponent), bits));
-    step = std::ldexp(fraction, exponent - bits);
-    return step < 0x1p104 ? static_cast<float>(step) : 0.0F;
 }
 
 Result<VertexIntegers> to_lattice(const VertexValues& values, const VertexOptions& options) {
@@ -250,9 +249,35 @@ Result<VertexIntegers> to_integers(const VertexValues& values, const VertexOptio
     }
     const std::uint32_t each = values.type == ComponentType::f64 && options.mapping != VertexMapping::lattice ? 2 : 1;
     if (each * values.components > LACEDRING_VERTICES_MAX_COMPONENTS) return invalid("more than 16 integers a vertex");
-    if (options.mapping == VertexMapping::lattice) return to_lattice(values, options);
-    if (options.mapping == VertexMapping::octahedral) return to_octahedral(values, options);
-    return to_exact(values);
+    if (options.mapping != VertexMapping::lattice && options.mapping != VertexMapping::octahedral)
+        return to_exact(values);
+    Result<VertexIntegers> out =
+        options.mapping == VertexMapping::lattice ? to_lattice(values, options) : to_octahedral(values, options);
+    if (out) out->largest_error = std::max(out->largest_error, options.lost_before);
+    return out;
+}
+
+Result<double> quantize_vertices(std::span<std::byte> values, std::uint8_t components, const VertexOptions& options) {
+    if (options.mapping != VertexMapping::lattice && options.mapping != VertexMapping::octahedral)
+        return invalid("a mapping that loses nothing");
+    const Result<VertexIntegers> integers = to_integers({ComponentType::f32, components, false, values}, options);
+    if (!integers) return integers.error();
+    const auto put = [&](std::size_t i, float value) { std::memcpy(values.data() + 4 * i, &value, 4); };
+    if (integers->mapping == VertexMapping::lattice) {
+        for (std::size_t i = 0; i < integers->values.size(); ++i) {
+            put(i, static_cast<float>(static_cast<std::int32_t>(integers->values[i])) * integers->step);
+        }
+        return integers->largest_error;
+    }
+    for (std::size_t i = 0, n = integers->components; i < integers->values.size() / n; ++i) {
+        const std::uint32_t* from = integers->values.data() + i * n;
+        float unit[3];
+        lacedring_octahedral(static_cast<std::int32_t>(from[0]), static_cast<std::int32_t>(from[1]), options.bits,
+                             unit);
+        for (std::size_t c = 0; c < 3; ++c) put(i * components + c, unit[c]);
+        if (n == 3) put(i * components + 3, from[2] == 0 ? 1.0F : -1.0F);
+    }
+    return integers->largest_error;
 }
 
 }  // namespace lacedring

@@ -55,8 +55,19 @@ struct VertexOptions {
     /// lattice: the step instead of `bits`. Meshes with the same step meet without cracks where they met before. It is
     /// rounded up to where every product is exact; a power of two never is.
     float step = 0;
-    unsigned threads = 1;  ///< run on at most that many; the same words for any
+    double lost_before = 0;  ///< lattice and octahedral: the error that the values have already (quantize_vertices)
+    unsigned threads = 1;    ///< run on at most that many; the same words for any
 };
+
+/// The least step of at least `step` whose products with all integers up to largest / step are floats: for meshes that
+/// are to share a lattice, of which `largest` is the farthest coordinate from 0. 0: there is none.
+float lattice_step(double step, double largest);
+
+/// Replaces values by those that a stream of them decodes to, so that vertices that become the same can be merged
+/// before they are encoded. Returns the largest error of any component, for VertexOptions::lost_before. `values` are
+/// floats, tightly packed; `options` say lattice or octahedral. Cost: O(V). Errors: encode_vertices'; the values are
+/// then as they were.
+Result<double> quantize_vertices(std::span<std::byte> values, std::uint8_t components, const VertexOptions& options);
 
 struct EncodedVertices {
     std::vector<std::uint32_t> words;  ///< the whole stream

@@ -1,0 +1,312 @@
+// Packs a glTF scene: plans, encodes its streams, and edits the document.
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "lacedring/scene.hpp"
+#include "lrio/gltf/gltf_accessor.h"
+#include "lrio/gltf/gltf_file.h"
+#include "lrio/scene/packed_scene.h"
+#include "lrio/scene/quantization.h"
+#include "lrio/scene/scene_plan.h"
+#include "lrio/scene/scene_set.h"
+#include "lrio/scene/scene_stream.h"
+#include "lrio/scene/scene_views.h"
+#include "lrio/scene/scene_writer.h"
+
+namespace lacedring {
+namespace {
+
+using namespace detail;
+
+/// Sets of at least so many triangles have a stream of their own; smaller ones share one, up to so many together: what
+/// a stream costs whatever is in it is then small, and a loader that wants one mesh need not decode all.
+constexpr std::size_t kAlone = 16384, kTogether = 65536;
+
+class Packer {
+  public:
+    Packer(GltfFile& file, const PackOptions& options, Reading& reading, PackReport& report, double file_bytes)
+        : file_(file),
+          options_(options),
+          reading_(reading),
+          report_(report),
+          file_bytes_(file_bytes),
+          json_(file.text) {}
+
+    Result<SceneFile> run() {
+        if (extension_of(json_.root) != nullptr) return unsupported("is packed already");
+        auto plan = plan_scene(json_.root, file_, options_.keep_order);
+        if (!plan) return plan.error();
+        plan_ = std::move(*plan);
+        report_.not_compressed = plan_.not_compressed;
+        if (auto good = read_sets(); !good) return good.error();
+        group_sets();
+        for (const Group& group : groups_) {
+            if (auto good = encode(group); !good) return good.error();
+        }
+        return finish();
+    }
+
+  private:
+    /// Sets of one stream.
+    struct Group {
+        std::vector<std::uint32_t> sets;
+        std::size_t triangles = 0;
+        bool keep_order = false;
+    };
+
+    Result<void> read_sets() {
+        SetSize all;
+        for (const VertexSet& set : plan_.sets) {
+            const auto size = size_of_set(file_, set);
+            if (!size) return size.error();
+            all.vertices += size->vertices * size->stride;
+            all.triangles += size->triangles;
+        }
+        if (auto room = reading_.check_memory(1, all.vertices, all.triangles, file_bytes_); !room) return room;
+        std::vector<VertexSet> kept;
+        for (VertexSet& set : plan_.sets) {
+            auto read = read_set(file_, set);
+            if (!read) return read.error();
+            const bool finite = has_finite_positions(read->mesh);
+            if (!finite || !every_part_has_triangles(*read)) {
+                std::size_t primitives = 0;
+                for (const ScenePart& part : set.parts) primitives += part.primitives.size();
+                report_.not_compressed[finite ? "no triangles but degenerate ones"
+                                              : "triangles with positions that are not finite"] += primitives;
+                continue;
+            }
+            report_.geometry_before += size_before(set);
+            for (ScenePart& part : set.parts) part.set = static_cast<std::uint32_t>(kept.size());
+            kept.push_back(std::move(set));
+            meshes_.push_back(std::move(*read));
+        }
+        plan_.sets = std::move(kept);
+        return {};
+    }
+
+    static bool every_part_has_triangles(const SetMesh& set) {
+        const std::vector<std::uint32_t>& indices = set.mesh.indices;
+        for (std::size_t part = 0; part + 1 < set.first_triangle.size(); ++part) {
+            bool any = false;
+            for (std::size_t t = set.first_triangle[part]; t < set.first_triangle[part + 1] && !any; ++t) {
+                const std::uint32_t a = indices[3 * t], b = indices[3 * t + 1], c = indices[3 * t + 2];
+                any = a != b && b != c && c != a;
+            }
+            if (!any) return false;
+        }
+        return true;
+    }
+
+    std::uint64_t size_before(const VertexSet& set) {
+        std::uint64_t bytes = 0;
+        const auto add = [&](std::uint32_t accessor) {
+            const auto view = view_accessor(file_, static_cast<int>(accessor));
+            if (view) bytes += view->count * view->element_bytes();
+        };
+        for (const SceneAttribute& a : set.attributes) add(a.accessor);
+        for (const ScenePart& part : set.parts) {
+            if (part.indices) add(*part.indices);
+        }
+        return bytes;
+    }
+
+    void group_sets() {
+        quantization_.emplace(plan_, meshes_, options_.bits);
+        std::map<std::string, std::size_t> open;  // the group that takes sets of a kind
+        for (std::uint32_t s = 0; s < plan_.sets.size(); ++s) {
+            const std::size_t triangles = meshes_[s].mesh.triangle_count();
+            const std::string kind = quantization_->kind_of(s) + (plan_.sets[s].keep_order ? "|order" : "");
+            if (triangles >= kAlone) {
+                groups_.push_back({{s}, triangles, plan_.sets[s].keep_order});
+                continue;
+            }
+            auto [at, added] = open.try_emplace(kind, groups_.size());
+            if (added || groups_[at->second].triangles + triangles > kTogether) {
+                at->second = groups_.size();
+                groups_.push_back({{}, 0, plan_.sets[s].keep_order});
+            }
+            groups_[at->second].sets.push_back(s);
+            groups_[at->second].triangles += triangles;
+        }
+    }
+
+    Result<void> encode(const Group& group) {
+        std::vector<CodedSet> sets;
+        std::vector<std::uint32_t> vertices;
+        const std::vector<VertexOptions> options = quantization_->options_of(group.sets);
+        for (const std::uint32_t s : group.sets) {
+            CodedSet& coded = sets.emplace_back();
+            coded.set = std::move(meshes_[s]);
+            coded.options = options;
+            if (auto good = quantize(coded, report_.max_error); !good) return good;
+            if (!group.keep_order) unused_ += drop_unused_vertices(coded.set.mesh);
+            vertices.push_back(group.keep_order ? coded.set.mesh.vertex_count : UINT32_MAX);
+        }
+        carry_errors(sets);
+        auto stream = encode_scene_stream(std::move(sets), group.keep_order, options_.bits.threads);
+        if (!stream) return stream.error();
+        degenerate_ += stream->degenerate;
+        // What a reader will see, from the bytes: counts, bounds, and the fallback.
+        std::vector<std::uint32_t> set_of_part;
+        for (const auto& numbers : stream->part_numbers) set_of_part.resize(set_of_part.size() + numbers.size());
+        for (std::size_t s = 0; s < group.sets.size(); ++s) {
+            for (const std::uint32_t number : stream->part_numbers[s])
+                set_of_part[number] = static_cast<std::uint32_t>(s);
+        }
+        auto decoded = decode_scene_stream(stream->file, stream->parts, set_of_part, vertices);
+        if (!decoded) return decoded.error();
+        return describe(group, *stream, *decoded);
+    }
+
+    /// Edits accessors and primitives of the group's sets.
+    Result<void> describe(const Group& group, const SceneStream& stream, const DecodedStream& decoded) {
+        const std::size_t number = streams_.size();
+        JsonValue value = JsonText::object(), sets = JsonText::array();
+        for (std::size_t s = 0; s < group.sets.size(); ++s) {
+            const VertexSet& set = plan_.sets[group.sets[s]];
+            JsonValue accessors = JsonText::array();
+            for (std::size_t a = 0; a < set.attributes.size(); ++a) {
+                const std::uint32_t accessor = set.attributes[a].accessor;
+                accessors.members.push_back({{}, json_.number(accessor)});
+                const DecodedSet& from = decoded.sets[s];
+                if (auto good = put_attribute(accessor, from.attributes[a], from.vertices); !good) return good;
+            }
+            sets.members.push_back({{}, std::move(accessors)});
+            for (std::size_t p = 0; p < set.parts.size(); ++p) {
+                const std::uint32_t part = stream.part_numbers[s][p];
+                put_part(set.parts[p], number, part, decoded.parts[part], decoded.sets[s].vertices);
+            }
+        }
+        value.set("sets", std::move(sets));
+        report_.geometry_after += stream.file.size() + stream.parts.size();
+        streams_.push_back({std::move(value), stream.file, stream.parts});
+        return {};
+    }
+
+    JsonValue& accessor_at(std::uint32_t number) { return json_.root.list("accessors")[number].value; }
+
+    Result<void> put_attribute(std::uint32_t number, const Attribute& attribute, std::uint32_t vertices) {
+        JsonValue& accessor = accessor_at(number);
+        for (const char* name : {"bufferView", "byteOffset", "sparse"}) accessor.remove(name);
+        describe_attribute(json_, accessor, attribute, vertices, true);
+        auto values = values_as(accessor, attribute);
+        if (!values) return values.error();
+        const std::size_t stride = values->size() / vertices;
+        if (options_.fallback) fallback_.push_back({number, std::move(*values), stride});
+        return {};
+    }
+
+    void put_part(const ScenePart& part, std::size_t stream, std::uint32_t number,
+                  const std::vector<std::uint32_t>& indices, std::uint32_t vertices) {
+        std::uint64_t accessor = 0;
+        auto all = json_.root.list("accessors");
+        if (part.indices) {
+            accessor = *part.indices;
+        } else {
+            accessor = all.size();
+            JsonValue made = JsonText::object();
+            made.set("componentType", json_.number(5121));
+            made.set("type", json_.string("SCALAR"));
+            json_.root.find("accessors")->members.push_back({{}, std::move(made)});
+        }
+        JsonValue& to = accessor_at(static_cast<std::uint32_t>(accessor));
+        strip_accessor(to);
+        describe_indices(json_, to, indices.size(), vertices);
+        if (options_.fallback) fallback_.push_back({accessor, indices_as(to, indices), 0});
+        for (const PrimitivePlace place : part.primitives) {
+            JsonValue& primitive = primitive_at(json_.root, place);
+            remove_extension(primitive, "KHR_draco_mesh_compression");
+            if (part.mode != 4) primitive.set("mode", json_.number(4));
+            primitive.set("indices", json_.number(accessor));
+            JsonValue extension = JsonText::object();
+            extension.set("stream", json_.number(stream));
+            extension.set("part", json_.number(number));
+            JsonValue* extensions = primitive.find("extensions");
+            if (extensions == nullptr) extensions = &primitive.set("extensions", JsonText::object());
+            extensions->set(kExtension, std::move(extension));
+            ++report_.primitives;
+        }
+        if (part.mode != 4) strips_ += part.primitives.size();
+        report_.triangles += indices.size() / 3;
+    }
+
+    Result<SceneFile> finish() {
+        SceneViewWriter views(json_, file_, options_.fallback);
+        if (auto good = views.keep_others(); !good) return good.error();
+        JsonValue list = JsonText::array();
+        for (Stream& stream : streams_) {
+            stream.json.set("bufferView", json_.number(views.add_stream(stream.file)));
+            if (!stream.parts.empty()) stream.json.set("parts", json_.number(views.add_stream(stream.parts)));
+            list.members.push_back({{}, std::move(stream.json)});
+        }
+        for (const Plain& plain : fallback_) {
+            accessor_at(static_cast<std::uint32_t>(plain.accessor))
+                .set("bufferView", json_.number(views.add_plain(plain.bytes, plain.stride)));
+        }
+        JsonValue extension = JsonText::object();
+        extension.set("streams", std::move(list));
+        JsonValue* extensions = json_.root.find("extensions");
+        if (extensions == nullptr) extensions = &json_.root.set("extensions", JsonText::object());
+        extensions->set(kExtension, std::move(extension));
+        for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_draco_mesh_compression"}) {
+            unlist_extension(json_.root, "extensionsUsed", name);
+            unlist_extension(json_.root, "extensionsRequired", name);
+        }
+        list_extension(json_, "extensionsUsed");
+        if (!options_.fallback) list_extension(json_, "extensionsRequired");
+        tell();
+        return views.finish(options_);
+    }
+
+    void tell() {
+        const auto note = [&](std::size_t count, const char* text) {
+            if (count > 0) report_.notes.push_back(fmt::format("{} {}", count, text));
+        };
+        note(degenerate_, "degenerate triangles dropped");
+        note(unused_, "vertices that no triangle uses dropped");
+        note(strips_, "strips and fans become lists of triangles");
+    }
+
+    struct Stream {
+        JsonValue json;
+        std::vector<std::byte> file, parts;
+    };
+    struct Plain {
+        std::uint64_t accessor = 0;
+        std::vector<std::byte> bytes;
+        std::size_t stride = 0;
+    };
+
+    GltfFile& file_;
+    const PackOptions& options_;
+    Reading& reading_;
+    PackReport& report_;
+    double file_bytes_;
+    JsonText json_;
+    ScenePlan plan_;
+    std::vector<SetMesh> meshes_;
+    std::optional<SceneQuantization> quantization_;
+    std::vector<Group> groups_;
+    std::vector<Stream> streams_;
+    std::vector<Plain> fallback_;
+    std::size_t degenerate_ = 0, unused_ = 0, strips_ = 0;
+};
+
+}  // namespace
+
+Result<SceneFile> pack_scene(std::span<const std::byte> bytes, const std::filesystem::path& name,
+                             const PackOptions& options, const ReadOptions& read, PackReport* report) {
+    PackReport unwanted;
+    PackReport& told = report != nullptr ? *report : unwanted;
+    Reading reading{read, told.read, name};
+    return caught([&]() -> Result<SceneFile> {
+        auto file = load_gltf(bytes, reading, GltfUse::everything);
+        if (!file) return file.error();
+        told.read.left_out.clear();  // of a mesh; here nothing is
+        return Packer(*file, options, reading, told, static_cast<double>(bytes.size())).run();
+    });
+}
+
+}  // namespace lacedring

@@ -1,0 +1,115 @@
+#include "lrio/scene/packed_scene.h"
+
+#include "lrio/gltf/gltf_file.h"
+#include "lrio/scene/deflate.h"
+#include "lrio/scene/float_coding.h"
+#include "lrio/scene/scene_writer.h"
+
+namespace lacedring::detail {
+
+Result<std::span<const std::byte>> SceneViews::range(const JsonValue& place) const {
+    const auto buffer = place.integer("buffer"), length = place.integer("byteLength");
+    const std::uint64_t offset = place.integer("byteOffset").value_or(0);
+    if (!buffer || !length || *buffer >= buffers_->count()) return malformed("buffer view without a buffer");
+    const auto bytes = buffers_->open(static_cast<std::size_t>(*buffer));
+    if (!bytes) return bytes;
+    if (offset > bytes->size() || *length > bytes->size() - offset) {
+        return malformed("{} bytes from byte {} on are not in buffer {} of {} bytes", *length, offset, *buffer,
+                         bytes->size());
+    }
+    return bytes->subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(*length));
+}
+
+Result<std::span<const std::byte>> SceneViews::raw(std::uint64_t index) const {
+    const auto views = root_->list("bufferViews");
+    if (index >= views.size()) return malformed("buffer view {} does not exist", index);
+    auto bytes = range(views[static_cast<std::size_t>(index)].value);
+    if (!bytes) return Error{bytes.error().code, fmt::format("buffer view {}: {}", index, bytes.error().message)};
+    return bytes;
+}
+
+Result<std::vector<std::byte>> SceneViews::contents(std::uint64_t index) const {
+    const auto views = root_->list("bufferViews");
+    if (index >= views.size()) return malformed("buffer view {} does not exist", index);
+    const JsonValue& view = views[static_cast<std::size_t>(index)].value;
+    const JsonValue* coded = extension_of(view);
+    if (coded == nullptr) {
+        const auto bytes = raw(index);
+        if (!bytes) return bytes.error();
+        return std::vector<std::byte>(bytes->begin(), bytes->end());
+    }
+    const auto in_view = [index](const Error& error) {
+        return Error{error.code, fmt::format("buffer view {}: {}", index, error.message)};
+    };
+    const auto bytes = range(*coded);
+    if (!bytes) return in_view(bytes.error());
+    const auto length = view.integer("byteLength");
+    const JsonValue* coding = coded->find("coding");
+    const std::string name = coding == nullptr ? "" : plain_string(*coding);
+    if (!length || (name != "deflate" && name != "floats")) return in_view(malformed("unknown coding {}", shown(name)));
+    auto out = name == "deflate" ? inflate_bytes(*bytes, *length) : decode_floats(*bytes, *length);
+    if (!out) return in_view(out.error());
+    if (out->size() != *length) return in_view(malformed("{} bytes, where byteLength is {}", out->size(), *length));
+    return out;
+}
+
+bool SceneViews::is_placeholder(std::uint64_t index) const {
+    const auto views = root_->list("bufferViews"), buffers = root_->list("buffers");
+    if (index >= views.size()) return false;
+    const JsonValue& view = views[static_cast<std::size_t>(index)].value;
+    const auto buffer = view.integer("buffer");
+    return buffer && *buffer < buffers.size() && extension_of(view) == nullptr &&
+           extension_of(buffers[static_cast<std::size_t>(*buffer)].value) != nullptr;
+}
+
+Result<PackedScene> PackedScene::load(std::span<const std::byte> bytes, Reading& reading) {
+    const auto chunks = split_gltf(bytes);
+    if (!chunks) return chunks.error();
+    PackedScene out;
+    const auto open = [&](std::string_view text) -> Result<void> {
+        if (auto good = check_json(text); !good) return good;
+        out.json_ = std::make_unique<JsonText>(text);
+        if (!out.json_->root.is_object()) return malformed("glTF: is not a JSON object");
+        // The buffers alone, as GltfBuffers takes them.
+        const JsonValue* buffers = out.json_->root.find("buffers");
+        out.buffer_list_ = std::make_unique<nlohmann::json>(nlohmann::json::object());
+        if (buffers != nullptr && buffers->is_array()) {
+            (*out.buffer_list_)["buffers"] = nlohmann::json::parse(text_of(*buffers), nullptr, false);
+        }
+        auto made = GltfBuffers::make(*out.buffer_list_, chunks->bin, reading);
+        if (!made) return made.error();
+        out.buffers_ = std::make_unique<GltfBuffers>(std::move(*made));
+        return {};
+    };
+    if (auto good = open(chunks->json); !good) return good.error();
+    const auto document = [&]() -> const JsonValue* {
+        const JsonValue* extension = extension_of(out.json_->root);
+        return extension == nullptr ? nullptr : extension->find("document");
+    };
+    const auto file_bytes = static_cast<double>(bytes.size());
+    if (const JsonValue* view = document()) {
+        const auto index = view->integer();
+        const auto packed = out.views().raw(index.value_or(UINT64_MAX));
+        if (!packed) return packed.error();
+        // A value takes up to 32 times its text: what may be, of the memory that may be taken.
+        std::uint64_t most = 64;
+        while (most < UINT32_MAX / 2 && reading.check_memory(1, 80.0 * static_cast<double>(most), 0, file_bytes)) {
+            most *= 2;
+        }
+        auto text = inflate_bytes(*packed, most);
+        if (!text) return Error{text.error().code, "the packed document: " + text.error().message};
+        out.text_ = std::make_unique<std::string>(reinterpret_cast<const char*>(text->data()), text->size());
+        if (auto good = open(*out.text_); !good) return good.error();
+        if (document() != nullptr) return malformed("a packed document in a packed document");
+    }
+    out.bytes_ = file_bytes;
+    double decoded = 0;
+    for (const auto& view : out.json_->root.list("bufferViews")) {
+        if (extension_of(view.value) == nullptr) continue;
+        decoded += static_cast<double>(view.value.integer("byteLength").value_or(0));
+    }
+    if (auto room = reading.check_memory(1, 2 * decoded, 0, file_bytes); !room) return room.error();
+    return out;
+}
+
+}  // namespace lacedring::detail

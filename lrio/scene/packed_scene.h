@@ -1,0 +1,54 @@
+#pragma once
+// A packed glTF as it is read: its document, and the bytes of its buffer views. Internal to lrio.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lrio/gltf/gltf_buffers.h"
+#include "lrio/mesh/read_formats.h"
+#include "lrio/scene/json_text.h"
+
+namespace lacedring::detail {
+
+/// The bytes of buffer view `index` of a document, decoded where the extension codes them.
+class SceneViews {
+  public:
+    SceneViews(const JsonValue& root, GltfBuffers& buffers) : root_(&root), buffers_(&buffers) {}
+
+    std::size_t count() const { return root_->list("bufferViews").size(); }
+    /// As they lie in the buffer. Errors: malformed, GltfBuffers'.
+    Result<std::span<const std::byte>> raw(std::uint64_t index) const;
+    /// What they stand for: a copy. Errors: malformed.
+    Result<std::vector<std::byte>> contents(std::uint64_t index) const;
+    /// Does the view stand for nothing, its buffer being a placeholder?
+    bool is_placeholder(std::uint64_t index) const;
+
+  private:
+    Result<std::span<const std::byte>> range(const JsonValue& place) const;
+    const JsonValue* root_;
+    GltfBuffers* buffers_;
+};
+
+/// The document of a glTF and its buffers, the packed document taken out of its buffer view.
+class PackedScene {
+  public:
+    /// `bytes` and `reading` outlive it. Errors: malformed, unsupported, memory_limit (the document).
+    static Result<PackedScene> load(std::span<const std::byte> bytes, Reading& reading);
+
+    JsonText& json() { return *json_; }
+    SceneViews views() { return {json_->root, *buffers_}; }
+    /// Of all views that are coded, and the file.
+    double bytes() const { return bytes_; }
+
+  private:
+    double bytes_ = 0;
+    std::unique_ptr<std::string> text_;  ///< of a packed document
+    std::unique_ptr<JsonText> json_;
+    std::unique_ptr<nlohmann::json> buffer_list_;
+    std::unique_ptr<GltfBuffers> buffers_;
+};
+
+}  // namespace lacedring::detail

@@ -1,0 +1,99 @@
+#include "lrio/scene/part_codes.h"
+
+#include <algorithm>
+
+#include "lrio/mesh/read_formats.h"
+#include "lrio/scene/deflate.h"
+
+namespace lacedring::detail {
+namespace {
+
+/// Numbers of 7 bits a byte, the lowest ones first; the highest bit says that more follow.
+void put_varint(std::vector<std::byte>& out, std::uint32_t value) {
+    for (; value >= 0x80; value >>= 7) out.push_back(static_cast<std::byte>(value | 0x80));
+    out.push_back(static_cast<std::byte>(value));
+}
+
+/// False: there is none.
+bool take_varint(std::span<const std::byte>& from, std::uint32_t& value) {
+    value = 0;
+    for (unsigned shift = 0; shift < 35 && !from.empty(); shift += 7) {
+        const auto byte = std::to_integer<std::uint32_t>(from.front());
+        from = from.subspan(1);
+        if (shift == 28 && byte > 0xf) return false;
+        value |= (byte & 0x7f) << shift;
+        if (byte < 0x80) return true;
+    }
+    return false;
+}
+
+/// Parts, the one used last first: how far from the front is the code. A code may not be farther than kFar, so that no
+/// input costs more than so many steps a run.
+constexpr std::size_t kFar = 64;
+
+}  // namespace
+
+std::vector<std::byte> encode_part_codes(std::span<const std::uint32_t> parts) {
+    std::vector<std::byte> runs;
+    std::vector<std::uint32_t> recent;  // the last one is the latest
+    std::uint32_t seen = 0;
+    for (std::size_t from = 0; from < parts.size();) {
+        std::size_t to = from + 1;
+        while (to < parts.size() && parts[to] == parts[from]) ++to;
+        const std::uint32_t part = parts[from];
+        if (part == seen) {
+            put_varint(runs, 0);
+            ++seen;
+        } else {
+            const std::size_t window = std::min(recent.size(), kFar);
+            const auto begin = recent.end() - static_cast<std::ptrdiff_t>(window);
+            const auto at = std::find(begin, recent.end(), part);
+            if (at == recent.end()) {
+                put_varint(runs, static_cast<std::uint32_t>(kFar + 1) + part);
+            } else {
+                put_varint(runs, static_cast<std::uint32_t>(recent.end() - at));
+                recent.erase(at);
+            }
+        }
+        recent.push_back(part);
+        if (recent.size() > 2 * kFar) recent.erase(recent.begin(), recent.end() - kFar);
+        put_varint(runs, static_cast<std::uint32_t>(to - from - 1));
+        from = to;
+    }
+    Result<std::vector<std::byte>> out = deflate_bytes(runs);
+    return out ? std::move(*out) : std::vector<std::byte>();
+}
+
+Result<std::vector<std::uint32_t>> decode_part_codes(std::span<const std::byte> codes, std::size_t triangles,
+                                                     std::size_t parts) {
+    const auto bytes = inflate_bytes(codes, 10 * static_cast<std::uint64_t>(triangles));
+    if (!bytes) return bytes.error();
+    std::span<const std::byte> runs = *bytes;
+    std::vector<std::uint32_t> out;
+    out.reserve(triangles);
+    std::vector<std::uint32_t> recent;
+    std::uint32_t seen = 0;
+    while (!runs.empty()) {
+        std::uint32_t code = 0, more = 0, part = 0;
+        if (!take_varint(runs, code) || !take_varint(runs, more)) return malformed("parts: half a run");
+        if (code == 0) {
+            part = seen++;
+        } else if (code <= kFar) {
+            if (code > std::min(recent.size(), kFar)) return malformed("parts: a code beyond those before");
+            const auto at = recent.end() - static_cast<std::ptrdiff_t>(code);
+            part = *at;
+            recent.erase(at);
+        } else {
+            part = code - static_cast<std::uint32_t>(kFar + 1);
+        }
+        if (part >= seen || seen > parts) return malformed("parts: part {} does not exist", part);
+        recent.push_back(part);
+        if (recent.size() > 2 * kFar) recent.erase(recent.begin(), recent.end() - kFar);
+        if (more >= triangles - out.size()) return malformed("parts: more triangles than the stream has");
+        out.insert(out.end(), std::size_t{more} + 1, part);
+    }
+    if (out.size() != triangles || seen != parts) return malformed("parts: not one for each triangle");
+    return out;
+}
+
+}  // namespace lacedring::detail

@@ -1,0 +1,63 @@
+#pragma once
+// Writes the parts of a glTF document that describe buffers: accessors, buffer views and buffers. Internal to lrio.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lacedring/mesh.hpp"
+#include "lrio/scene/json_text.h"
+#include "lrio/scene/scene_stream.h"
+
+namespace lacedring::detail {
+
+inline constexpr std::string_view kExtension = "LACEDRING_mesh_compression";
+
+/// Bytes that become a buffer, and where the views of it begin.
+class BinChunk {
+  public:
+    /// The place of the bytes, a multiple of `align`.
+    std::size_t add(std::span<const std::byte> bytes, std::size_t align = 4);
+    std::vector<std::byte> take() { return std::move(bytes_); }
+    std::size_t size() const { return bytes_.size(); }
+
+  private:
+    std::vector<std::byte> bytes_;
+};
+
+/// Takes from an accessor what says where its values lie, and its bounds.
+void strip_accessor(JsonValue& accessor);
+
+/// The attributes' values in their accessors' types, by which they may differ from the stream's (integer positions).
+/// Errors: malformed (an accessor of another type; a position that its type does not hold).
+Result<std::vector<std::byte>> values_as(const JsonValue& accessor, const Attribute& attribute);
+
+/// Sets count, and the bounds of positions; texts that say the same already stay.
+void describe_attribute(JsonText& json, JsonValue& accessor, const Attribute& attribute, std::uint32_t vertices,
+                        bool bounds);
+void describe_indices(JsonText& json, JsonValue& accessor, std::size_t count, std::uint32_t vertices);
+
+/// The indices in the accessor's type.
+std::vector<std::byte> indices_as(const JsonValue& accessor, std::span<const std::uint32_t> indices);
+
+/// A buffer view of vertices' attributes, rows of `stride` made multiples of 4, or of indices, where `stride` is 0.
+JsonValue view_of(JsonText& json, BinChunk& bin, std::uint32_t buffer, std::span<const std::byte> bytes,
+                  std::size_t stride);
+
+/// Makes one buffer of the document's, or none of no bytes; `uri` may be empty.
+void describe_buffers(JsonText& json, std::size_t size, const std::string& uri);
+
+/// Puts the extension's name on a list of the document, or takes it off.
+void list_extension(JsonText& json, std::string_view list);
+void unlist_extension(JsonValue& root, std::string_view list, std::string_view name);
+
+/// The object of the extension in a value, or null.
+const JsonValue* extension_of(const JsonValue& value);
+/// Takes the extension out of a value, and `extensions` where nothing else is in it.
+void remove_extension(JsonValue& value, std::string_view name);
+
+/// A GLB file. Errors: too_large (4 GiB).
+Result<std::vector<std::byte>> glb_of(std::string_view json, std::span<const std::byte> bin);
+
+}  // namespace lacedring::detail

@@ -1,0 +1,337 @@
+// Plain glTF of a packed scene.
+
+#include <algorithm>
+#include <set>
+
+#include "lacedring/scene.hpp"
+#include "lrio/gltf/gltf_file.h"
+#include "lrio/scene/packed_scene.h"
+#include "lrio/scene/scene_plan.h"
+#include "lrio/scene/scene_stream.h"
+#include "lrio/scene/scene_writer.h"
+
+namespace lacedring {
+namespace {
+
+using namespace detail;
+
+/// What the document says of a stream.
+struct StreamPlan {
+    std::uint64_t view = 0;
+    std::optional<std::uint64_t> parts_view;
+    std::vector<std::vector<std::uint32_t>> sets;  ///< accessors
+    struct Part {
+        std::uint32_t set = UINT32_MAX;
+        std::optional<std::uint32_t> indices;
+    };
+    std::vector<Part> parts;
+};
+
+class Unpacker {
+  public:
+    Unpacker(PackedScene scene, const Reading& reading, UnpackReport& report)
+        : scene_(std::move(scene)), reading_(reading), report_(report) {}
+
+    Result<SceneFile> run(const std::string& bin_uri) {
+        if (auto good = plan(); !good) return good.error();
+        if (auto good = keep_views(); !good) return good.error();
+        for (std::size_t i = 0; i < streams_.size(); ++i) {
+            if (auto good = unpack(streams_[i]); !good) {
+                return Error{good.error().code, fmt::format("stream {}: {}", i, good.error().message)};
+            }
+        }
+        return finish(bin_uri);
+    }
+
+  private:
+    JsonValue& root() { return scene_.json().root; }
+    std::span<JsonValue::Member> accessors() { return root().list("accessors"); }
+
+    Result<std::uint32_t> accessor_number(const JsonValue* value) {
+        const auto number = value == nullptr ? std::nullopt : value->integer();
+        if (!number || *number >= accessors().size()) return malformed("an accessor that does not exist");
+        const JsonValue& accessor = accessors()[static_cast<std::size_t>(*number)].value;
+        if (!accessor.is_object() || !accessor.integer("count")) return malformed("accessor {}: no count", *number);
+        return static_cast<std::uint32_t>(*number);
+    }
+
+    Result<void> take_once(std::uint32_t accessor, std::uint32_t stream, std::uint32_t set) {
+        if (!set_of_.try_emplace(accessor, stream, set).second)
+            return malformed("accessor {} has two values", accessor);
+        return {};
+    }
+
+    Result<void> plan() {
+        const JsonValue* extension = extension_of(root());
+        if (extension != nullptr) {
+            std::set<std::uint64_t> views;
+            for (const auto& member : extension->list("streams")) {
+                if (auto good = plan_stream(member.value, views); !good) {
+                    return Error{good.error().code, fmt::format("glTF: {}: stream {}: {}", kExtension, streams_.size(),
+                                                                good.error().message)};
+                }
+            }
+        }
+        std::uint32_t mesh = 0;
+        for (auto& member : root().list("meshes")) parts_left_ += member.value.list("primitives").size();
+        for (auto& member : root().list("meshes")) {
+            std::uint32_t number = 0;
+            for (auto& primitive : member.value.list("primitives")) {
+                if (auto good = plan_primitive(primitive.value); !good) {
+                    return Error{good.error().code,
+                                 fmt::format("glTF: mesh {}: primitive {}: {}", mesh, number, good.error().message)};
+                }
+                ++number;
+            }
+            ++mesh;
+        }
+        for (std::size_t i = 0; i < streams_.size(); ++i) {
+            const auto& parts = streams_[i].parts;
+            if (parts.empty() ||
+                std::any_of(parts.begin(), parts.end(), [](const auto& p) { return p.set == UINT32_MAX; })) {
+                return malformed("glTF: {}: stream {}: parts without a primitive", kExtension, i);
+            }
+        }
+        return {};
+    }
+
+    Result<void> plan_stream(const JsonValue& value, std::set<std::uint64_t>& views) {
+        StreamPlan stream;
+        const auto view = value.integer("bufferView");
+        if (!view || !views.insert(*view).second) return malformed("no buffer view of its own");
+        stream.view = *view;
+        if (value.find("parts") != nullptr) {
+            stream.parts_view = value.integer("parts");
+            if (!stream.parts_view || !views.insert(*stream.parts_view).second) {
+                return malformed("no buffer view of its own for parts");
+            }
+        }
+        for (const auto& set : value.list("sets")) {
+            std::vector<std::uint32_t>& to = stream.sets.emplace_back();
+            for (const auto& number : set.value.members) {
+                const auto accessor = accessor_number(&number.value);
+                if (!accessor) return accessor.error();
+                const auto at = static_cast<std::uint32_t>(stream.sets.size() - 1);
+                if (auto good = take_once(*accessor, static_cast<std::uint32_t>(streams_.size()), at); !good)
+                    return good;
+                to.push_back(*accessor);
+            }
+        }
+        if (stream.sets.empty()) return malformed("no sets");
+        streams_.push_back(std::move(stream));
+        return {};
+    }
+
+    Result<void> plan_primitive(const JsonValue& primitive) {
+        const JsonValue* extension = extension_of(primitive);
+        if (extension == nullptr) return {};
+        const auto number = extension->integer("stream"), part = extension->integer("part");
+        if (!number || *number >= streams_.size()) return malformed("a stream that does not exist");
+        StreamPlan& stream = streams_[static_cast<std::size_t>(*number)];
+        std::uint32_t set = UINT32_MAX;
+        const auto visit = [&](const std::string& name, std::uint32_t accessor) -> Result<void> {
+            const auto found = set_of_.find(accessor);
+            if (found == set_of_.end() || found->second.first != *number ||
+                (set != UINT32_MAX && found->second.second != set)) {
+                return malformed("{}: not of one set of stream {}", shown(name), *number);
+            }
+            set = found->second.second;
+            return {};
+        };
+        if (auto good = visit_attributes(primitive, visit); !good) return good;
+        // Parts are numbered without gaps, and each has a primitive.
+        if (!part || set == UINT32_MAX) return malformed("a part that does not exist");
+        if (primitive.integer("mode").value_or(4) != 4) return malformed("parts are triangles");
+        const auto indices = accessor_number(primitive.find("indices"));
+        if (!indices) return indices.error();
+        if (*part >= stream.parts.size()) {
+            const std::uint64_t more = *part - stream.parts.size() + 1;
+            if (more > parts_left_) return malformed("part {}, of fewer primitives", *part);
+            parts_left_ -= more;
+            stream.parts.resize(static_cast<std::size_t>(*part) + 1);
+        }
+        StreamPlan::Part& at = stream.parts[static_cast<std::size_t>(*part)];
+        if (at.set == UINT32_MAX) {
+            at = {set, *indices};
+            if (auto good = take_once(*indices, UINT32_MAX, 0); !good) return good;
+        } else if (at.set != set || at.indices != *indices) {
+            return malformed("another set or other indices than part {} has elsewhere", *part);
+        }
+        ++report_.primitives;
+        return {};
+    }
+
+    /// Moves the views that stay into the new buffer; those of streams and placeholders are free for what comes.
+    Result<void> keep_views() {
+        auto views = root().list("bufferViews");
+        free_.assign(views.size(), false);
+        for (const StreamPlan& stream : streams_) {
+            for (const std::uint64_t view : {stream.view, stream.parts_view.value_or(stream.view)}) {
+                if (view >= views.size()) return malformed("buffer view {} does not exist", view);
+                free_[static_cast<std::size_t>(view)] = true;
+            }
+        }
+        std::vector<JsonValue> kept(views.size());
+        for (std::size_t i = 0; i < views.size(); ++i) {
+            if (scene_.views().is_placeholder(i)) free_[i] = true;
+            if (free_[i]) continue;
+            const auto contents = scene_.views().contents(i);
+            if (!contents) return contents.error();
+            JsonValue view = views[i].value;
+            remove_extension(view, kExtension);
+            view.set("buffer", scene_.json().number(0));
+            view.set("byteOffset", scene_.json().number(bin_.add(*contents)));
+            view.set("byteLength", scene_.json().number(contents->size()));
+            kept[i] = std::move(view);
+        }
+        views_ = std::move(kept);
+        return {};
+    }
+
+    std::uint64_t add_view(JsonValue view) {
+        while (next_free_ < free_.size() && !free_[next_free_]) ++next_free_;
+        if (next_free_ == free_.size()) {
+            views_.push_back(std::move(view));
+            free_.push_back(false);
+            return next_free_++;
+        }
+        free_[next_free_] = false;
+        views_[next_free_] = std::move(view);
+        return next_free_;
+    }
+
+    Result<void> unpack(const StreamPlan& stream) {
+        const auto file = scene_.views().contents(stream.view);
+        if (!file) return file.error();
+        std::vector<std::byte> parts;
+        if (stream.parts_view) {
+            auto contents = scene_.views().contents(*stream.parts_view);
+            if (!contents) return contents.error();
+            parts = std::move(*contents);
+        }
+        std::vector<std::uint32_t> set_of_part, vertices;
+        for (const StreamPlan::Part& part : stream.parts) set_of_part.push_back(part.set);
+        for (const auto& set : stream.sets) {
+            if (set.empty()) return malformed("a set without accessors");
+            const std::uint64_t count = accessors()[set[0]].value.integer("count").value_or(UINT32_MAX);
+            if (count >= UINT32_MAX) return malformed("accessor {}: count {}", set[0], count);
+            vertices.push_back(static_cast<std::uint32_t>(count));
+        }
+        auto decoded = decode_scene_stream(*file, parts, set_of_part, vertices);
+        if (!decoded) return decoded.error();
+        if (auto good = check_room(*decoded); !good) return good;
+        for (std::size_t s = 0; s < stream.sets.size(); ++s) {
+            if (auto good = put_set(stream.sets[s], decoded->sets[s]); !good) return good;
+        }
+        for (std::size_t p = 0; p < stream.parts.size(); ++p) {
+            const std::vector<std::uint32_t>& indices = decoded->parts[p];
+            JsonValue& accessor = accessors()[*stream.parts[p].indices].value;
+            if (accessor.integer("count") != indices.size()) {
+                return malformed("part {} has {} indices, its accessor another count", p, indices.size());
+            }
+            strip_accessor(accessor);
+            describe_indices(scene_.json(), accessor, indices.size(), decoded->sets[stream.parts[p].set].vertices);
+            put_view(accessor, indices_as(accessor, indices), 0);
+            report_.triangles += indices.size() / 3;
+        }
+        return {};
+    }
+
+    /// Of all streams together, as of one mesh.
+    Result<void> check_room(const DecodedStream& decoded) {
+        for (const DecodedSet& set : decoded.sets) {
+            for (const Attribute& a : set.attributes) decoded_bytes_ += static_cast<double>(a.data.size());
+        }
+        for (const auto& part : decoded.parts) decoded_triangles_ += static_cast<double>(part.size()) / 3;
+        return reading_.check_memory(1, decoded_bytes_, decoded_triangles_, scene_.bytes());
+    }
+
+    Result<void> put_set(const std::vector<std::uint32_t>& numbers, const DecodedSet& set) {
+        if (numbers.size() != set.attributes.size()) {
+            return malformed("{} accessors for {} attributes", numbers.size(), set.attributes.size());
+        }
+        for (std::size_t a = 0; a < numbers.size(); ++a) {
+            JsonValue& accessor = accessors()[numbers[a]].value;
+            const Attribute& attribute = set.attributes[a];
+            if (accessor.integer("count") != set.vertices) {
+                return malformed("accessor {}: its set has {} vertices", numbers[a], set.vertices);
+            }
+            const auto values = values_as(accessor, attribute);
+            if (!values)
+                return Error{values.error().code, fmt::format("accessor {}: {}", numbers[a], values.error().message)};
+            for (const char* name : {"bufferView", "byteOffset", "sparse"}) accessor.remove(name);
+            describe_attribute(scene_.json(), accessor, attribute, set.vertices, true);
+            put_view(accessor, *values, set.vertices == 0 ? 4 : values->size() / set.vertices);
+        }
+        return {};
+    }
+
+    void put_view(JsonValue& accessor, std::span<const std::byte> values, std::size_t stride) {
+        accessor.set("bufferView", scene_.json().number(add_view(view_of(scene_.json(), bin_, 0, values, stride))));
+    }
+
+    Result<SceneFile> finish(const std::string& bin_uri) {
+        JsonText& json = scene_.json();
+        for (auto& mesh : root().list("meshes")) {
+            for (auto& primitive : mesh.value.list("primitives")) remove_extension(primitive.value, kExtension);
+        }
+        remove_extension(root(), kExtension);
+        unlist_extension(root(), "extensionsUsed", kExtension);
+        unlist_extension(root(), "extensionsRequired", kExtension);
+        JsonValue list = JsonText::array();
+        for (std::size_t i = 0; i < views_.size(); ++i) {
+            if (free_[i]) {  // nothing was left to put there, and others are not to be renumbered
+                JsonValue view = JsonText::object();
+                view.set("buffer", json.number(0));
+                view.set("byteLength", json.number(4));
+                if (bin_.size() < 4) bin_.add(std::vector<std::byte>(4));
+                views_[i] = std::move(view);
+            }
+            list.members.push_back({{}, std::move(views_[i])});
+        }
+        if (!list.members.empty()) root().set("bufferViews", std::move(list));
+        SceneFile out;
+        out.bin = bin_.take();
+        describe_buffers(json, out.bin.size(), bin_uri);
+        out.json = text_of(root());
+        return out;
+    }
+
+    PackedScene scene_;
+    const Reading& reading_;
+    UnpackReport& report_;
+    std::vector<StreamPlan> streams_;
+    std::map<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>> set_of_;  ///< stream and set of an accessor
+    std::vector<JsonValue> views_;
+    std::vector<bool> free_;  ///< views that nothing refers to
+    std::size_t next_free_ = 0;
+    BinChunk bin_;
+    std::uint64_t parts_left_ = 0;  ///< that all streams together may still have
+    double decoded_bytes_ = 0, decoded_triangles_ = 0;
+};
+
+}  // namespace
+
+Result<SceneFile> unpack_scene(std::span<const std::byte> bytes, const std::filesystem::path& name,
+                               const std::string& bin_uri, const ReadOptions& read, UnpackReport* report) {
+    UnpackReport unwanted;
+    UnpackReport& told = report != nullptr ? *report : unwanted;
+    Reading reading{read, told.read, name};
+    return caught([&]() -> Result<SceneFile> {
+        auto scene = PackedScene::load(bytes, reading);
+        if (!scene) return scene.error();
+        return Unpacker(std::move(*scene), reading, told).run(bin_uri);
+    });
+}
+
+bool is_packed_scene(std::span<const std::byte> bytes) {
+    const auto chunks = split_gltf(bytes);
+    if (!chunks || chunks->json.find(kExtension) == std::string_view::npos || !check_json(chunks->json)) return false;
+    return extension_of(JsonText(chunks->json).root) != nullptr;
+}
+
+Result<std::vector<std::byte>> make_glb_file(const SceneFile& scene) {
+    return glb_of(scene.json, scene.bin);
+}
+
+}  // namespace lacedring
