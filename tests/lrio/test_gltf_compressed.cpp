@@ -61,7 +61,7 @@ TEST_CASE("glTF: compressed by meshoptimizer, the mesh is the same bit for bit")
     REQUIRE(message_of(plain) == "");
     for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
         for (const Mode mode : {Mode::triangles, Mode::indices}) {
-            for (const std::size_t stride : {2, 4}) {
+            for (const std::size_t stride : {2U, 4U}) {
                 CAPTURE_COPY(name);
                 CAPTURE_COPY(stride);
                 const auto mesh = read_grid(true, mode, stride, name);
@@ -90,7 +90,7 @@ TEST_CASE("glTF: meshoptimizer's filters") {
     constexpr std::size_t count = 300;
     SUBCASE("octahedral") {
         const std::vector<float> from = unit_vectors(count, 3);
-        for (const std::size_t stride : {4, 8}) {
+        for (const std::size_t stride : {4U, 8U}) {
             std::string bytes(count * stride, '\0');
             meshopt_encodeFilterOct(bytes.data(), count, stride, stride == 4 ? 8 : 12, from.data());
             const auto mesh = read_filtered(bytes, stride, "OCTAHEDRAL", stride == 4 ? 5120 : 5122, "VEC4", true);
