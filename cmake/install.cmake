@@ -4,6 +4,8 @@ if(NOT LACEDRING_INSTALL)
     return()
 endif()
 include(CMakePackageConfigHelpers)
+get_property(io_packages GLOBAL PROPERTY lacedring_io_packages)  # what lacedring::io links
+string(REPLACE ";" " " io_packages "${io_packages}")
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/lacedring-config.cmake.in
                               ${PROJECT_BINARY_DIR}/cmake/lacedring-config.cmake
                               INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lacedring

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cstring>
 
+#include "lrio/gltf/gltf_draco.h"
+#include "lrio/gltf/gltf_view.h"
 #include "lrio/mesh/read_formats.h"
 
 namespace lacedring::detail {
-namespace {
 
 bool to_component_type(int gltf, ComponentType& out) {
     switch (gltf) {
@@ -33,6 +34,8 @@ bool to_component_type(int gltf, ComponentType& out) {
     }
 }
 
+namespace {
+
 /// `count` elements of `size` bytes from `offset` on in a buffer view. `where` names them in an error.
 Result<StridedBytes> view_bytes(GltfFile& file, int view_index, std::uint64_t offset, std::size_t count,
                                 std::size_t size, const std::string& where) {
@@ -41,17 +44,10 @@ Result<StridedBytes> view_bytes(GltfFile& file, int view_index, std::uint64_t of
         return malformed("{}: buffer view {} does not exist", where, view_index);
     }
     const tinygltf::BufferView& view = views[static_cast<std::size_t>(view_index)];
-    if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= file.buffers.count()) {
-        return malformed("buffer view {}: buffer {} does not exist", view_index, view.buffer);
-    }
-    const auto buffer = file.buffers.open(static_cast<std::size_t>(view.buffer));
-    if (!buffer) return buffer.error();
-    if (view.byteOffset > buffer->size() || view.byteLength > buffer->size() - view.byteOffset) {
-        return malformed("buffer view {}: {} bytes from byte {} on are not in buffer {} of {} bytes", view_index,
-                         view.byteLength, view.byteOffset, view.buffer, buffer->size());
-    }
     const std::size_t stride = view.byteStride == 0 ? size : view.byteStride;
     if (stride < size) return malformed("buffer view {}: a stride of {} bytes is too small", view_index, stride);
+    const auto bytes = open_view(file, static_cast<std::size_t>(view_index));
+    if (!bytes) return bytes.error();
     if (count == 0) return StridedBytes{nullptr, stride};
     // offset + (count - 1) * stride + size <= byteLength, without overflow
     const bool fits = offset <= view.byteLength && size <= view.byteLength - offset &&
@@ -60,7 +56,7 @@ Result<StridedBytes> view_bytes(GltfFile& file, int view_index, std::uint64_t of
         return malformed("{}: {} elements from byte {} on are not in buffer view {} of {} bytes", where, count, offset,
                          view_index, view.byteLength);
     }
-    return StridedBytes{buffer->data() + view.byteOffset + offset, stride};
+    return StridedBytes{bytes->data() + offset, stride};
 }
 
 Result<void> add_sparse(GltfFile& file, const tinygltf::Accessor& accessor, const std::string& where,
@@ -93,6 +89,13 @@ Result<void> add_sparse(GltfFile& file, const tinygltf::Accessor& accessor, cons
 
 }  // namespace
 
+bool is_padded_matrix(const tinygltf::Accessor& accessor) {
+    const int components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
+    ComponentType type{};
+    return (components > 4 || accessor.type == TINYGLTF_TYPE_MAT2) && to_component_type(accessor.componentType, type) &&
+           size_of(type) < 4;
+}
+
 Result<AccessorView> view_accessor(GltfFile& file, int index) {
     if (index < 0 || static_cast<std::size_t>(index) >= file.model.accessors.size()) {
         return malformed("accessor {} does not exist", index);
@@ -109,9 +112,15 @@ Result<AccessorView> view_accessor(GltfFile& file, int index) {
     view.normalized = accessor.normalized;
     view.count = accessor.count;
     if (view.count > max_vertices * 3) return Error{ErrorCode::too_large, where + ": too many elements"};
-    const bool padded_matrix = components > 4 || accessor.type == TINYGLTF_TYPE_MAT2;
-    if (padded_matrix && size_of(view.type) < 4) return unsupported("{}: a matrix of small integers", where);
+    if (is_padded_matrix(accessor)) return unsupported("{}: a matrix of small integers", where);
 
+    if (file.draco.sources.contains(index)) {
+        const auto values = draco_values(file, index);
+        if (!values) return values.error();
+        view.count = values->size() / view.element_bytes();
+        view.values = {values->data(), view.element_bytes()};
+        return view;
+    }
     if (accessor.bufferView != -1) {
         const auto values =
             view_bytes(file, accessor.bufferView, accessor.byteOffset, view.count, view.element_bytes(), where);
@@ -122,16 +131,6 @@ Result<AccessorView> view_accessor(GltfFile& file, int index) {
         if (auto good = add_sparse(file, accessor, where, view); !good) return good.error();
     }
     return view;
-}
-
-Result<std::vector<std::byte>> view_contents(GltfFile& file, int view) {
-    if (view < 0 || static_cast<std::size_t>(view) >= file.model.bufferViews.size()) {
-        return malformed("buffer view {} does not exist", view);
-    }
-    const std::size_t size = file.model.bufferViews[static_cast<std::size_t>(view)].byteLength;
-    const auto bytes = view_bytes(file, view, 0, 1, size, fmt::format("buffer view {}", view));
-    if (!bytes) return bytes.error();
-    return std::vector<std::byte>(bytes->data, bytes->data + size);
 }
 
 Result<void> copy_elements(const AccessorView& view, std::byte* out) {

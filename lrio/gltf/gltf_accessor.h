@@ -34,13 +34,16 @@ struct AccessorView {
     std::size_t element_bytes() const { return size_of(type) * components; }
 };
 
-/// Opens the buffers that the accessor lies in. An accessor without bytes of its own is all zeros, and may have any
-/// count: nothing may be allocated for it that was not checked. Errors: malformed, unsupported, too_large,
-/// GltfBuffers::open's.
-Result<AccessorView> view_accessor(GltfFile& file, int index);
+/// glTF's componentType as ours. False: glTF has no such type.
+bool to_component_type(int gltf, ComponentType& out);
 
-/// The bytes of a buffer view. Errors: malformed, GltfBuffers::open's.
-Result<std::vector<std::byte>> view_contents(GltfFile& file, int view);
+/// Does the accessor hold matrices whose columns are padded, so that view_accessor refuses it?
+bool is_padded_matrix(const tinygltf::Accessor& accessor);
+
+/// Opens the buffers that the accessor lies in, and decodes compressed data. An accessor without bytes of its own is
+/// all zeros, and may have any count: nothing may be allocated for it that was not checked. Errors: malformed,
+/// unsupported, too_large, memory_limit, GltfBuffers::open's.
+Result<AccessorView> view_accessor(GltfFile& file, int index);
 
 /// count * element_bytes() tightly packed bytes, sparse ones replaced. Errors: malformed (a sparse index).
 Result<void> copy_elements(const AccessorView& view, std::byte* out);

@@ -7,6 +7,10 @@
 #include <string>
 #include <string_view>
 
+#include "lrio/gltf/draco_mesh.h"
+#include "lrio/gltf/gltf_draco.h"
+#include "lrio/gltf/gltf_view.h"
+
 namespace lacedring::detail {
 namespace {
 
@@ -75,9 +79,14 @@ Result<void> check_version(const nlohmann::json& document) {
     return {};
 }
 
-bool is_compression(std::string_view name) {
-    return name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression" ||
-           name == "KHR_meshopt_compression";
+/// The library that decodes an extension's geometry. Null: it compresses none.
+const char* library_for(std::string_view name) {
+    if (name == "KHR_draco_mesh_compression") return "libdraco";
+    return name == "EXT_meshopt_compression" || name == "KHR_meshopt_compression" ? "meshoptimizer" : nullptr;
+}
+
+bool has_library_for(std::string_view name) {
+    return name == "KHR_draco_mesh_compression" ? has_draco() : has_meshoptimizer();
 }
 
 /// Extensions that are read, or leave the triangles and their attributes as they are: what they add is lost, and said.
@@ -122,14 +131,15 @@ std::vector<std::string> names_in(const nlohmann::json& document, const char* li
 
 Result<void> check_extensions(const nlohmann::json& document, Reading& reading, GltfUse use) {
     for (const std::string& name : names_in(document, "extensionsRequired")) {
-        if (is_compression(name)) {
-            return unsupported("glTF: the geometry is compressed with {}, which is not read", shown(name));
+        if (const char* library = library_for(name); library != nullptr) {
+            if (has_library_for(name)) continue;
+            return unsupported("glTF: the geometry is compressed with {}, and this build has no {}", name, library);
         }
         if (use == GltfUse::triangles && !is_harmless(name))
             return unsupported("glTF: needs the extension {}, which is not read", shown(name));
     }
     for (const std::string& name : names_in(document, "extensionsUsed")) {
-        if (!is_compression(name) && !is_harmless(name)) {
+        if (library_for(name) == nullptr && !is_harmless(name)) {
             reading.report.left_out.push_back("the extension " + shown(name));
         }
     }
@@ -206,6 +216,18 @@ Result<tinygltf::Model> load_model(const nlohmann::json& document) {
 
 }  // namespace
 
+bool GltfFile::requires_any_of(std::span<const char* const> names) const {
+    const std::vector<std::string> required = names_in(document, "extensionsRequired");
+    return std::find_first_of(required.begin(), required.end(), names.begin(), names.end()) != required.end();
+}
+
+Result<void> GltfFile::take_memory(double bytes, double passing) {
+    const auto room = reading->check_memory(decoded_bytes + bytes + passing, 1, 0,
+                                            static_cast<double>(file_bytes + buffers.loaded_bytes()));
+    if (room) decoded_bytes += bytes;
+    return room;
+}
+
 Result<GltfChunks> split_gltf(std::span<const std::byte> bytes) {
     if (bytes.size() > std::numeric_limits<std::uint32_t>::max()) {
         return Error{ErrorCode::too_large, "glTF of more than 4 GiB"};
@@ -242,7 +264,7 @@ Result<GltfChunks> split_gltf(std::span<const std::byte> bytes) {
 bool has_unknown_extensions(const nlohmann::json& document) {
     const auto refers = [](std::string_view name) {
         return name == "KHR_audio_emitter" || name.ends_with("_metadata") ||
-               (!is_harmless(name) && !is_compression(name));
+               (!is_harmless(name) && library_for(name) == nullptr);
     };
     for (const std::string& name : names_in(document, "extensionsUsed")) {
         if (refers(name)) return true;
@@ -274,10 +296,11 @@ Result<GltfFile> load_gltf(std::span<const std::byte> bytes, Reading& reading, G
     if (!model) return model.error();
     tell_what_is_left_out(document, reading);
 
-    GltfFile file{chunks->json, std::move(document), std::move(*model), {}};
+    GltfFile file{chunks->json, std::move(document), std::move(*model), {}, &reading, bytes.size()};
     auto buffers = GltfBuffers::make(file.document, chunks->bin, reading);
     if (!buffers) return buffers.error();
     file.buffers = std::move(*buffers);
+    if (auto good = find_draco_primitives(file); !good) return good.error();
     return file;
 }
 

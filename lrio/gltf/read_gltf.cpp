@@ -127,7 +127,8 @@ class GltfReader {
         block.accessors = &from.attributes;
         for (const auto& [name, accessor] : from.attributes) {
             const auto view = view_accessor(file_, accessor);
-            if (!view && view.error().code == ErrorCode::unsupported) {  // an attribute that no mesh can hold
+            if (!view && view.error().code == ErrorCode::unsupported &&
+                is_padded_matrix(model_.accessors[static_cast<std::size_t>(accessor)])) {  // no mesh can hold it
                 dropped_.insert(name);
                 continue;
             }
@@ -141,7 +142,7 @@ class GltfReader {
         }
         const bool has_bytes = position->second.values.data != nullptr || position->second.sparse_count > 0;
         if (!has_bytes && position->second.count > 0 && from.extensions.contains("KHR_draco_mesh_compression")) {
-            return unsupported("compressed with KHR_draco_mesh_compression, which is not read");
+            return unsupported("compressed with KHR_draco_mesh_compression, and this build has no libdraco");
         }
         block.count = position->second.count;
         plan.vertices += static_cast<double>(block.count);

@@ -144,9 +144,10 @@ Result<void> Reading::check_memory(double vertices, double stride, double triang
     const double bytes = vertices * stride + triangles * (12.0 + options.triangle_bytes);
     if (bytes <= most) return {};
     constexpr double kMebibyte = 1024.0 * 1024;
-    return Error{ErrorCode::memory_limit,
-                 fmt::format("{:.0f} triangles take about {:.0f} MiB, and {:.0f} MiB are allowed", triangles,
-                             bytes / kMebibyte, most / kMebibyte)};
+    const std::string what =
+        triangles == 0 ? "what is in the file takes" : fmt::format("{:.0f} triangles take", triangles);
+    return Error{ErrorCode::memory_limit, fmt::format("{} about {:.0f} MiB, and {:.0f} MiB are allowed", what,
+                                                      bytes / kMebibyte, most / kMebibyte)};
 }
 
 }  // namespace detail

@@ -7,6 +7,7 @@
 #include "lacedring/scene.hpp"
 #include "lrio/gltf/gltf_accessor.h"
 #include "lrio/gltf/gltf_file.h"
+#include "lrio/gltf/tinygltf.h"
 #include "lrio/scene/packed_scene.h"
 #include "lrio/scene/quantization.h"
 #include "lrio/scene/scene_plan.h"
@@ -36,6 +37,7 @@ class Packer {
 
     Result<SceneFile> run() {
         if (extension_of(json_.root) != nullptr) return unsupported("is packed already");
+        name_draco_accessors();
         auto plan = plan_scene(json_.root, file_, options_.keep_order);
         if (!plan) return plan.error();
         plan_ = std::move(*plan);
@@ -56,6 +58,42 @@ class Packer {
         bool keep_order = false;
     };
 
+    /// Primitives of Draco's as they are decoded (gltf_draco.h): lists of triangles, with accessors of their own.
+    void name_draco_accessors() {
+        const auto& accessors = file_.model.accessors;
+        constexpr const char* kShapes[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
+        for (std::size_t i = json_.root.list("accessors").size(); i < accessors.size(); ++i) {
+            JsonValue made = JsonText::object();
+            made.set("componentType", json_.number(static_cast<std::uint64_t>(accessors[i].componentType)));
+            made.set("count", json_.number(0));
+            const int components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessors[i].type));
+            made.set("type", json_.string(kShapes[components < 1 || components > 4 ? 0 : components]));
+            if (accessors[i].normalized) made.set("normalized", json_.boolean(true));
+            if (json_.root.find("accessors") == nullptr) json_.root.set("accessors", JsonText::array());
+            json_.root.find("accessors")->members.push_back({{}, std::move(made)});
+        }
+        auto meshes = json_.root.list("meshes");
+        for (std::size_t m = 0; m < std::min(meshes.size(), file_.model.meshes.size()); ++m) {
+            auto primitives = meshes[m].value.list("primitives");
+            const auto& models = file_.model.meshes[m].primitives;
+            for (std::size_t p = 0; p < std::min(primitives.size(), models.size()); ++p) {
+                JsonValue& primitive = primitives[p].value;
+                if (!models[p].extensions.contains("KHR_draco_mesh_compression")) continue;
+                if (models[p].indices >= 0) {
+                    primitive.set("indices", json_.number(static_cast<std::uint64_t>(models[p].indices)));
+                }
+                if (primitive.find("mode") != nullptr) primitive.set("mode", json_.number(4));
+                JsonValue* attributes = primitive.find("attributes");
+                if (attributes == nullptr) continue;
+                for (auto& attribute : attributes->members) {
+                    const auto found = models[p].attributes.find(plain_key(attribute.key));
+                    if (found == models[p].attributes.end() || found->second < 0) continue;
+                    attribute.value = json_.number(static_cast<std::uint64_t>(found->second));
+                }
+            }
+        }
+    }
+
     Result<void> read_sets() {
         SetSize all;
         for (const VertexSet& set : plan_.sets) {
@@ -71,6 +109,10 @@ class Packer {
             if (!read) return read.error();
             const bool finite = has_finite_positions(read->mesh);
             if (!finite || !every_part_has_triangles(*read)) {
+                if (file_.draco.sources.contains(static_cast<int>(set.attributes[0].accessor))) {
+                    return unsupported(
+                        "a primitive compressed with Draco, of no triangles or of positions that are not finite");
+                }
                 std::size_t primitives = 0;
                 for (const ScenePart& part : set.parts) primitives += part.primitives.size();
                 report_.not_compressed[finite ? "no triangles but degenerate ones"

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "lrio/gltf/gltf_accessor.h"
+#include "lrio/gltf/tinygltf.h"
 #include "lrio/mesh/read_formats.h"
 
 namespace lacedring::detail {
@@ -178,7 +179,7 @@ class Planner {
         for (const SceneAttribute& a : set.attributes) {
             const auto view = view_accessor(file_, static_cast<int>(a.accessor));
             if (!view && view.error().code == ErrorCode::unsupported) {
-                if (view.error().message.find("matrix") == std::string::npos) return view.error();
+                if (!is_padded_matrix(file_.model.accessors[a.accessor])) return view.error();
                 return refuse("triangles with matrices of small integers");
             }
             if (!view) return Error{view.error().code, fmt::format("{}: {}", shown(a.name), view.error().message)};

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "lrio/gltf/gltf_accessor.h"
+#include "lrio/gltf/tinygltf.h"
 #include "lrio/mesh/read_formats.h"
 
 namespace lacedring::detail {

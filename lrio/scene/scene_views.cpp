@@ -4,7 +4,8 @@
 #include <optional>
 #include <set>
 
-#include "lrio/gltf/gltf_accessor.h"
+#include "lrio/gltf/gltf_view.h"
+#include "lrio/gltf/tinygltf.h"
 #include "lrio/scene/deflate.h"
 #include "lrio/scene/float_coding.h"
 #include "lrio/scene/packed_scene.h"
@@ -143,26 +144,27 @@ Result<void> SceneViewWriter::keep_others() {
             views_.members.push_back({{}, std::move(view)});
             continue;
         }
-        auto contents = view_contents(file_, static_cast<int>(i));
-        if (!contents) return contents.error();
-        if (use.image) image_bytes_ += contents->size();
+        const auto bytes = open_view(file_, i);
+        if (!bytes) return bytes.error();
+        std::vector<std::byte> contents(bytes->begin(), bytes->end());
+        if (use.image) image_bytes_ += contents.size();
         use.known = known && !use.image;
         if (use.known) {
             // What was between the values that are left belonged to streams.
             std::sort(use.ranges.begin(), use.ranges.end());
             std::uint64_t end = 0;
             const auto clear = [&](std::uint64_t to) {
-                for (std::uint64_t at = end; at < std::min<std::uint64_t>(to, contents->size()); ++at) {
-                    (*contents)[static_cast<std::size_t>(at)] = std::byte{0};
+                for (std::uint64_t at = end; at < std::min<std::uint64_t>(to, contents.size()); ++at) {
+                    contents[static_cast<std::size_t>(at)] = std::byte{0};
                 }
             };
             for (const auto& [from, to] : use.ranges) {
                 clear(from);
                 end = std::max(end, to);
             }
-            clear(contents->size());
+            clear(contents.size());
         }
-        views_.members.push_back({{}, coded_view(views[i].value, *contents, use)});
+        views_.members.push_back({{}, coded_view(views[i].value, contents, use)});
     }
     const auto renumber = [&](JsonValue& value) {
         const auto old = value.integer("bufferView");

@@ -327,7 +327,8 @@ class Wrong(CliTest):
                    ("nodes/0/matrix", [1, 2, 3]), ("scene", 9), ("scenes/0/nodes", [7]), ("meshes", []), ("nodes", [3]),
                    ("buffers/0/uri", "missing.bin"), ("buffers/0/uri", "sub/missing.bin"), ("buffers/0/uri", "."),
                    ("buffers/0/uri", "data:application/octet-stream;base64,AAAA"), ("buffers/0/uri", "/etc"),
-                   ("extensionsRequired", ["KHR_draco_mesh_compression"])]
+                   ("extensionsRequired", ["FOO_folded_geometry"]),
+                   ("bufferViews/0/extensions", {"EXT_meshopt_compression": {"buffer": 0}})]
         for where, value in changes:
             document = json.loads(json.dumps(good))
             at = document

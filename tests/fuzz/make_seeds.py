@@ -55,6 +55,59 @@ def gltf_with(attributes, indices, primitive=None, accessor=None, **more):
             struct.pack("<II", len(blob), 0x004e4942) + blob)
 
 
+# The tetrahedron: its positions (plain, and for the exponential filter) and indices by meshoptimizer's three codecs, four normals for
+# the octahedral filter; and by Draco, with texture coordinates, edgebreaker and sequential.
+MESHOPT = {name: bytes.fromhex(data) for name, data in {
+    "plain": "a00000013c000000ffff013c0000007e7d0000010f000000ffff010f0000007e7d00000103000000ff01030000007e" + 64 * "0",
+    "exponential": "a000013c000000403f000130000000ca00010f000000403f000130000000ca00010300000040000130000000ca" + 40 * "0" +
+                   3 * "0000008e",
+    "triangles": "e1fe0e1203f004007687566778a9866589689801690000",
+    "indices": "d100080202040806040402060c00000000",
+    "octahedral": "a0010f000000fe96013f000000fefd91" + 64 * "0" + "7f7f"}.items()}
+DRACO = {name: bytes.fromhex("445241434f0202" + data) for name, data in {
+    "edgebreaker": "0101000000040401030000012f010110ff02664002ff00000000000100090300000201030902000102010101000303011001"
+                   "300300508224910400000000ff0000000000000000000000000000000000803f08010101000303012001200300f0830b0600"
+                   "0000003f00000000000000000000000000803f06",
+    "sequential": "0100000004040100020100010301020302000301020009030000030902000102020001010003030120012003002084888101"
+                  "00000000ff00000000010100030301300110030028826401000000003f0000000000000000000000000000000000803f0800"
+                  "000000000000000000803f06"}.items()}
+
+
+def compressed_gltf(views, accessors, primitive, blob, name, **more):
+    """A GLB of one primitive whose data is `blob`; a placeholder is buffer 1."""
+    text = json.dumps({"asset": {"version": "2.0"}, "meshes": [{"primitives": [primitive]}], "bufferViews": views,
+                       "accessors": accessors, "extensionsRequired": [name],
+                       "buffers": [{"byteLength": len(blob)}, {"byteLength": 999}], **more}, separators=(",", ":")).encode()
+    text += b" " * (-len(text) % 4)
+    blob += bytes(-len(blob) % 4)
+    return (struct.pack("<4sIIII", b"glTF", 2, 28 + len(text) + len(blob), len(text), 0x4e4f534a) + text +
+            struct.pack("<II", len(blob), 0x004e4942) + blob)
+
+
+def meshopt_gltf(positions, indices, name="EXT_meshopt_compression"):
+    blob, views = b"", []
+    for data, count, stride, mode, kind in ((positions, 4, 12, "ATTRIBUTES", positions), (indices, 12, 2, indices.upper(), "plain"),
+                                            ("octahedral", 4, 4, "ATTRIBUTES", "octahedral")):
+        extension = {"buffer": 0, "byteOffset": len(blob), "byteLength": len(MESHOPT[data]), "byteStride": stride,
+                     "count": count, "mode": mode, "filter": "NONE" if kind == "plain" else kind.upper()}
+        views.append({"buffer": 1, "byteLength": count * stride, "extensions": {name: extension}})
+        blob += MESHOPT[data]
+    accessors = [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 4},
+                 {"bufferView": 1, "componentType": 5123, "type": "SCALAR", "count": 12},
+                 {"bufferView": 2, "componentType": 5120, "type": "VEC3", "count": 4, "normalized": True}]
+    views[2]["byteStride"] = 4
+    return compressed_gltf(views, accessors, {"attributes": {"POSITION": 0, "NORMAL": 2}, "indices": 1}, blob, name)
+
+
+def draco_gltf(method):
+    name, data = "KHR_draco_mesh_compression", DRACO[method]
+    accessors = [{"componentType": 5126, "type": "VEC3", "count": 4}, {"componentType": 5123, "type": "SCALAR", "count": 12},
+                 {"componentType": 5126, "type": "VEC2", "count": 4}]
+    primitive = {"attributes": {"POSITION": 0, "TEXCOORD_0": 2}, "indices": 1,
+                 "extensions": {name: {"bufferView": 0, "attributes": {"POSITION": 0, "TEXCOORD_0": 1}}}}
+    return compressed_gltf([{"buffer": 0, "byteLength": len(data)}], accessors, primitive, data, name)
+
+
 def gltf_seeds():
     points, triangles = TETRAHEDRON
     flat = w.flat(triangles)
@@ -79,6 +132,10 @@ def gltf_seeds():
                                  extensionsRequired=["KHR_mesh_quantization"],
                                  nodes=[{"mesh": 0, "scale": [0.5, 0.5, 0.5]}], scenes=[{"nodes": [0]}], scene=0)
     yield "strided", gltf_with({"POSITION": (5126, "VEC3", 4, interleaved, 16)}, flat)
+    yield "meshopt", meshopt_gltf("plain", "triangles")
+    yield "meshopt-filters", meshopt_gltf("exponential", "indices", "KHR_meshopt_compression")
+    for method in DRACO:
+        yield "draco-" + method, draco_gltf(method)
     yield "no-view", gltf_with({"POSITION": (5126, "VEC3", 4, position, 0)}, flat, accessor={"min": [0], "max": [1]})
 
 

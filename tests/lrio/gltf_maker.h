@@ -30,19 +30,30 @@ class GltfMaker {
         return accessors_++;
     }
     int add_view(const std::string& bytes, int stride) {
-        bin_.resize((bin_.size() + 3) / 4 * 4, '\0');
-        view_json_ +=
-            fmt::format(R"({}{{"buffer":0,"byteOffset":{},"byteLength":{}{}}})", views_ == 0 ? "" : ",", bin_.size(),
-                        bytes.size(), stride == 0 ? "" : fmt::format(R"(,"byteStride":{})", stride));
-        bin_ += bytes;
+        const std::size_t offset = append(bytes);
+        return add_view_json(fmt::format(R"("buffer":0,"byteOffset":{},"byteLength":{}{})", offset, bytes.size(),
+                                         stride == 0 ? "" : fmt::format(R"(,"byteStride":{})", stride)));
+    }
+    int add_view_json(const std::string& fields) {
+        view_json_ += (views_ == 0 ? "{" : ",{") + fields + "}";
         return views_++;
     }
+    /// Where the bytes lie in the buffer.
+    std::size_t append(const std::string& bytes) {
+        bin_.resize((bin_.size() + 3) / 4 * 4, '\0');
+        const std::size_t offset = bin_.size();
+        bin_ += bytes;
+        return offset;
+    }
+    /// Buffers behind the first one: ",{...}".
+    void add_buffers(const std::string& json) { more_buffers_ += json; }
     /// `rest`: the document's other members.
     std::string glb_file(const std::string& rest) const { return glb(json(rest, ""), bin_); }
     std::string json(const std::string& rest, const std::string& uri) const {
         return fmt::format(
-            R"({{"asset":{{"version":"2.0"}},"accessors":[{}],"bufferViews":[{}],"buffers":[{{"byteLength":{}{}}}],{}}})",
-            accessor_json_, view_json_, bin_.size(), uri.empty() ? "" : R"(,"uri":")" + uri + "\"", rest);
+            R"({{"asset":{{"version":"2.0"}},"accessors":[{}],"bufferViews":[{}],"buffers":[{{"byteLength":{}{}}}{}],{}}})",
+            accessor_json_, view_json_, bin_.size(), uri.empty() ? "" : R"(,"uri":")" + uri + "\"", more_buffers_,
+            rest);
     }
     const std::string& bin() const { return bin_; }
 
@@ -50,6 +61,7 @@ class GltfMaker {
     std::string bin_;
     std::string accessor_json_;
     std::string view_json_;
+    std::string more_buffers_;
     int accessors_ = 0;
     int views_ = 0;
 };

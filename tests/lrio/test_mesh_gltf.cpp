@@ -140,19 +140,6 @@ TEST_CASE("glTF: buffers in files and in the JSON; images are not looked at") {
     }
 }
 
-TEST_CASE("glTF: compressed geometry is said to be so") {
-    GltfMaker maker;
-    maker.floats("VEC3", square, 3);
-    for (const char* name : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
-        const std::string rest = fmt::format(R"("extensionsRequired":["{}"],"extensionsUsed":["{}"],)", name, name) +
-                                 one_node + mesh_of(R"({"attributes":{"POSITION":0},"indices":7})");
-        const auto mesh = read_text("c.glb", maker.glb_file(rest));
-        REQUIRE(!mesh);
-        CHECK(mesh.error().code == ErrorCode::unsupported);
-        CHECK(mesh.error().message.find(name) != std::string::npos);
-    }
-}
-
 TEST_CASE("glTF: references, bounds and cycles are checked") {
     const auto with_accessor = [](const std::string& accessor, const std::string& attributes = R"("POSITION":0)") {
         GltfMaker maker;
