@@ -116,13 +116,14 @@ struct Recognized {
     std::span<const std::byte> text_bytes() const { return std::as_bytes(std::span(text)); }
 };
 
-Result<Recognized> recognize(std::span<const std::byte> bytes, const Reading& reading) {
+Result<Recognized> recognize(std::span<const std::byte> bytes, Reading& reading) {
     Recognized out;
     out.raw = {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
     out.text = detail::without_byte_order_mark(out.raw);
     if (out.raw.empty()) return malformed("is empty");
     out.format = reading.options.format;
     if (out.format == MeshFormat::any) out.format = format_by_content(out.raw, out.text, reading.name);
+    reading.report.format = out.format;
     return out;
 }
 

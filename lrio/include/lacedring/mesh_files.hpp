@@ -35,6 +35,7 @@ struct ReadOptions {
 struct ReadReport {
     /// Contents of the file that the mesh lacks, each with its count: "3 materials".
     std::vector<std::string> left_out;
+    MeshFormat format = MeshFormat::any;       ///< the file's
     std::size_t primitives = 1;                ///< of triangles, that the mesh was joined of
     std::vector<std::filesystem::path> files;  ///< opened beside the file
 };
