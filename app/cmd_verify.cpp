@@ -23,11 +23,9 @@ struct VerifyOptions {
 
 using Json = nlohmann::ordered_json;
 
-/// Why the first format, or the file, does not give the mesh back; empty if all do. A mesh whose triangles are all
-/// degenerate has nothing that formats hold.
+/// Why the first format, or the file, does not give the mesh back; empty if all do.
 std::string check_primitive(const LoadedPrimitive& primitive, const RingChoice& ring) {
     const Mesh& mesh = primitive.geometry;
-    if (without_degenerate(surface_mesh(mesh, primitive.surface).indices).empty()) return "";
     {
         const Result<FormatSet> set = make_formats(mesh, primitive.surface, ring);
         if (!set) return set.error().message;

@@ -88,6 +88,7 @@ std::size_t count_triangles(const LoadedScene& scene) {
 std::string check_file(const Mesh& mesh, const Surface& surface) {
     Result<CornerTable> table = surface_table({mesh, surface, {}});
     if (!table) return table.error().message;
+    if (without_degenerate(surface_mesh(mesh, surface).indices).empty()) return "";  // encode makes no file of it
     EncodeOptions how{.format = Format::packed, .effort = 0};
     how.threads = std::max(std::thread::hardware_concurrency(), 1U);
     const Result<WholeFile> whole = make_file(mesh, surface, std::move(*table), how, {}, true);

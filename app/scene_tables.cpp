@@ -61,6 +61,17 @@ Json formats_to_json(const std::vector<FormatBytes>& formats, std::size_t triang
     return out;
 }
 
+/// Adds to the formats of `sum`, and takes those out that `more` has not.
+void add_formats(std::vector<FormatBytes>& sum, const std::vector<FormatBytes>& more) {
+    std::erase_if(sum, [&more](FormatBytes& format) {
+        const auto other = std::ranges::find(more, format.name, &FormatBytes::name);
+        if (other == more.end()) return true;
+        format.bytes += other->bytes;
+        format.seams += other->seams;
+        return false;
+    });
+}
+
 }  // namespace
 
 Json primitives_to_json(const LoadedScene& scene) {
@@ -115,32 +126,23 @@ void print_primitives(const LoadedScene& scene) {
 
 Result<PrimitiveSizes> measure_primitives(const LoadedScene& scene, const RingChoice& choice, bool paper) {
     PrimitiveSizes out;
-    bool first = true;
     ProgressBar bar("primitives", scene.primitives.size());
     for (const LoadedPrimitive& primitive : scene.primitives) {
         PrimitiveSizes::Row row{&primitive, 0, {}};
-        if (!without_degenerate(surface_mesh(primitive.geometry, primitive.surface).indices).empty()) {
-            const Result<FormatSet> set = make_formats(primitive.geometry, primitive.surface, choice, paper, {}, true);
-            if (!set) return Error{set.error().code, primitive.label() + ": " + set.error().message};
-            row.triangles = set->report.triangles;
-            for (const MeasuredFormat& format : set->formats) {
-                if (!format.invalid.empty() && out.invalid.empty()) {
-                    out.invalid = fmt::format("{}: {}: {}", primitive.label(), format.name, format.invalid);
-                }
-                row.formats.push_back({format.name, format.bytes, format.seam_bytes});
+        const Result<FormatSet> set = make_formats(primitive.geometry, primitive.surface, choice, paper, {}, true);
+        if (!set) return Error{set.error().code, primitive.label() + ": " + set.error().message};
+        row.triangles = set->report.triangles;
+        for (const MeasuredFormat& format : set->formats) {
+            if (!format.invalid.empty() && out.invalid.empty()) {
+                out.invalid = fmt::format("{}: {}: {}", primitive.label(), format.name, format.invalid);
             }
-            out.triangles += row.triangles;
-            if (std::exchange(first, false)) {
-                out.sum = row.formats;
-            } else {
-                std::erase_if(out.sum, [&row](FormatBytes& sum) {
-                    const auto more = std::ranges::find(row.formats, sum.name, &FormatBytes::name);
-                    if (more == row.formats.end()) return true;
-                    sum.bytes += more->bytes;
-                    sum.seams += more->seams;
-                    return false;
-                });
-            }
+            row.formats.push_back({format.name, format.bytes, format.seam_bytes});
+        }
+        out.triangles += row.triangles;
+        if (out.rows.empty()) {
+            out.sum = row.formats;
+        } else {
+            add_formats(out.sum, row.formats);
         }
         out.rows.push_back(std::move(row));
         bar.step();
