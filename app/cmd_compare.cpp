@@ -18,6 +18,7 @@
 #include "app/option_rules.h"
 #include "app/output.h"
 #include "app/progress.h"
+#include "app/scene_check.h"
 #include "renderer/compare.h"
 #include "renderer/device_error.h"
 
@@ -49,6 +50,36 @@ struct Skipped {
     std::string reason;
 };
 
+/// The primitives of a scene in the mesh that is drawn.
+struct DrawnScene {
+    std::size_t primitives = 0;  ///< 0: the mesh is of one
+    std::size_t placed = 0;      ///< primitives where nodes place them
+    std::size_t mirrored = 0;    ///< of these, with their triangles turned round
+    std::size_t triangles = 0;   ///< of all placed ones
+    std::string why;             ///< the mesh that is drawn is not theirs; empty: it is
+};
+
+/// Every primitive through every node's transform has to be in the mesh that all pictures are of.
+DrawnScene check_scene(const LoadedScene& scene, double tolerance) {
+    DrawnScene out;
+    out.primitives = scene.primitives.size();
+    if (out.primitives == 0) return out;
+    std::vector<std::size_t> mirrored(scene.primitives.back().mesh + 1);  // placements of each mesh
+    for (const PlacedMesh& placed : scene.placed) {
+        if (placed.mesh < mirrored.size() && mirrors(placed.placement)) ++mirrored[placed.mesh];
+    }
+    for (const LoadedPrimitive& primitive : scene.primitives) {
+        out.placed += primitive.placed;
+        out.mirrored += mirrored[primitive.mesh];
+        out.triangles += primitive.placed * primitive.geometry.triangle_count();
+    }
+    const PlacedDifference difference = check_placed(scene, tolerance);
+    if (!difference.why.empty()) {
+        out.why = (difference.primitive == nullptr ? "" : difference.primitive->label() + ": ") + difference.why;
+    }
+    return out;
+}
+
 /// Visibility is a property of the mesh: the same for every result.
 bool is_blank(std::span<const Compared> all) {
     return std::any_of(all.begin(), all.end(), [](const Compared& compared) { return compared.comparison.blank; });
@@ -56,7 +87,7 @@ bool is_blank(std::span<const Compared> all) {
 
 nlohmann::ordered_json to_json(const CompareOptions& options, const gpu::DeviceInfo& info,
                                std::span<const Compared> all, std::span<const Skipped> skipped, std::size_t messages,
-                               const std::string& diff) {
+                               const std::string& diff, const DrawnScene& scene) {
     nlohmann::ordered_json out = {{"schema", 1},
                                   {"file", input_name(options.input.path)},
                                   {"device", {{"name", info.name}, {"driver", info.driver}, {"api", info.api}}},
@@ -85,6 +116,10 @@ nlohmann::ordered_json to_json(const CompareOptions& options, const gpu::DeviceI
     out["skipped"] = nlohmann::ordered_json::array();
     for (const Skipped& s : skipped) out["skipped"].push_back({{"path", s.path}, {"reason", s.reason}});
     if (!diff.empty()) out["diff"] = diff;
+    if (scene.primitives > 0) {
+        out["scene"] = {{"primitives", scene.primitives}, {"placed", scene.placed},  {"mirrored", scene.mirrored},
+                        {"triangles", scene.triangles},   {"ok", scene.why.empty()}, {"why", scene.why}};
+    }
     return out;
 }
 
@@ -130,14 +165,16 @@ std::string verdict(bool passed, std::span<const Compared> all, std::uint32_t tr
 }
 
 int run_compare(const CompareOptions& options, RunLog& log) {
-    const Result<LoadedMesh> loaded = load_file(options.input, log);
+    Result<LoadedScene> loaded = load_scene(options.input, log);
     if (!loaded) return fail(options.input.path, loaded.error());
-    const Mesh* mesh = &loaded->mesh;
+    const DrawnScene scene = check_scene(*loaded, options.input.options.tolerance);
+    loaded->primitives = {};
+    const Mesh* mesh = &loaded->joined.mesh;
     constexpr std::string_view kExtensions[] = {".png"};
     if (const auto good = check_output(options.diff.path, options.diff, log, kExtensions); !good) {
         return fail(options.diff.path, good.error());
     }
-    gpu::ModelOptions model_options{.packed = true, .surface = loaded->surface};
+    gpu::ModelOptions model_options{.packed = true, .surface = loaded->joined.surface};
     if (options.compares("packed_vertices")) model_options.vertices = position_options(options.positions);
     const Result<gpu::Model> model = gpu::make_model(*mesh, model_options);
     if (!model) return fail(options.input.path, model.error());
@@ -199,13 +236,17 @@ int run_compare(const CompareOptions& options, RunLog& log) {
             return fail(diff, written.error());
         }
     }
-    const bool passed = same && messages == 0;
+    const bool passed = same && messages == 0 && scene.why.empty();
     if (options.json) {
-        print_json(to_json(options, (*context)->info(), all, skipped, messages, diff));
+        print_json(to_json(options, (*context)->info(), all, skipped, messages, diff, scene));
     } else {
         print_table(options, (*context)->info(), all, messages);
         for (const Skipped& s : skipped) print("  {} not compared: {}\n", s.path, s.reason);
         if (!diff.empty()) print("  differences drawn in {}\n", diff);
+        if (scene.primitives > 0) {
+            print("  {} primitives at {} places, {} of them mirrored: {} triangles{}\n", scene.primitives, scene.placed,
+                  scene.mirrored, scene.triangles, scene.why.empty() ? "" : "; " + scene.why);
+        }
         print("{}\n", verdict(passed, all, model->triangle_count()));
     }
     return passed ? done : check_failed;

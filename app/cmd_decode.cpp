@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 
 #include "app/commands.h"
@@ -33,6 +34,11 @@ Result<void> write(const Mesh& mesh, const DecodeOptions& options, const fs::pat
     return write_mesh(mesh, path, &notes);
 }
 
+/// Joints and weights came with a scene's skin.
+bool has_skin(const Mesh& mesh) {
+    return std::ranges::any_of(mesh.attributes, [](const Attribute& a) { return a.name.starts_with("JOINTS_"); });
+}
+
 /// Returns an Exit.
 int decode(const DecodeOptions& options, const std::string& input, const fs::path& output, RunLog& log) {
     const auto bytes = read_input(input, options.input, log);
@@ -50,6 +56,9 @@ int decode(const DecodeOptions& options, const std::string& input, const fs::pat
         return fail(output_name(output), written.error());
     }
     for (const std::string& note : notes) log.note(output_name(output), note);
+    if (output_format(options, output) == MeshFormat::gltf && has_skin(*mesh)) {
+        log.note(output_name(output), "joints without the skin of their scene (lacedring pack keeps scenes)");
+    }
     return done;
 }
 

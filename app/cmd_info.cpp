@@ -8,6 +8,7 @@
 
 #include "app/commands.h"
 #include "app/lr_contents.h"
+#include "app/scene_tables.h"
 #include "lacedring/topology.hpp"
 
 namespace lacedring::app {
@@ -45,8 +46,9 @@ std::string describe(const Solid& solid, bool all_closed) {
 }
 
 int run_info(const InfoOptions& options, RunLog& log) {
-    const Result<LoadedMesh> loaded = load_file(options.input, log);
-    if (!loaded) return fail(options.input.path, loaded.error());
+    const Result<LoadedScene> scene = load_scene(options.input, log);
+    if (!scene) return fail(options.input.path, scene.error());
+    const LoadedMesh* const loaded = &scene->joined;
     const Mesh* mesh = &loaded->mesh;
     const Mesh surface = surface_mesh(*mesh, loaded->surface);
     const Result<CornerTable> table = build_corner_table(surface.indices, surface.vertex_count);
@@ -96,6 +98,10 @@ int run_info(const InfoOptions& options, RunLog& log) {
                                       {"volume", has_volume ? nlohmann::ordered_json(solid.volume) : nullptr},
                                       {"attributes", attributes}};
         if (loaded->lr) out["lr"] = to_json(*loaded->lr);
+        if (!scene->primitives.empty()) {
+            out["primitives"] = primitives_to_json(*scene);
+            out["sum"] = sum_to_json(*scene);
+        }
         print_json(out);
         return done;
     }
@@ -127,6 +133,7 @@ int run_info(const InfoOptions& options, RunLog& log) {
                                   type_name(a.type));
     }
     line("attributes", attributes);
+    if (!scene->primitives.empty()) print_primitives(*scene);
     return done;
 }
 
@@ -134,7 +141,8 @@ int run_info(const InfoOptions& options, RunLog& log) {
 
 void add_info(CLI::App& program, Action& action) {
     auto options = std::make_shared<InfoOptions>();
-    CLI::App* command = program.add_subcommand("info", "topology report; of an .lr file its sections, too");
+    CLI::App* command =
+        program.add_subcommand("info", "topology report; the primitives of a scene, the sections of an .lr file");
     command->add_option("MESH", options->input.path, "mesh file")->required();
     add_input_options(*command, options->input.options, 130);
     command->add_flag("--json", options->json, "one JSON document on standard output");

@@ -11,6 +11,7 @@
 #include "app/lr_contents.h"
 #include "app/option_rules.h"
 #include "app/paper_tables.h"
+#include "app/scene_tables.h"
 #include "app/total_table.h"
 #include "app/whole_file.h"
 #include "lrcore/codec/packed/packed_format.h"
@@ -136,9 +137,22 @@ bool makes_rings(const StatsOptions& options) {
     return options.table == "offsets" || options.table == "periods" || options.table == "seeds";
 }
 
+/// Does a document or a table have the primitives of scenes?
+bool shows_primitives(const StatsOptions& options) {
+    return options.json || options.table == "sizes";
+}
+
+/// A scene without its primitives.
+Result<LoadedScene> load_joined(const MeshInput& input, RunLog& log) {
+    Result<LoadedMesh> loaded = load_file(input, log);
+    if (!loaded) return loaded.error();
+    return LoadedScene{std::move(*loaded), {}, {}};
+}
+
 /// Every format, and the rows of size tables. Returns an Exit.
-int add_sizes(const StatsOptions& options, const std::string& path, const LoadedMesh& loaded, Json& json,
+int add_sizes(const StatsOptions& options, const std::string& path, const LoadedScene& scene, Json& json,
               std::vector<MeshRow>& rows) {
+    const LoadedMesh& loaded = scene.joined;
     const Mesh& mesh = loaded.mesh;
     const Result<FormatSet> set = make_formats(mesh, loaded.surface, options.ring, options.paper);
     if (!set) return fail(path, set.error());
@@ -147,11 +161,19 @@ int add_sizes(const StatsOptions& options, const std::string& path, const Loaded
         say("lacedring: {}: {}: {}\n", path, format.name, format.invalid);
         return check_failed;
     }
+    Result<PrimitiveSizes> primitives = measure_primitives(scene, options.ring, options.paper);
+    if (!primitives) return fail(path, primitives.error());
+    if (!primitives->invalid.empty()) {
+        say("lacedring: {}: {}\n", path, primitives->invalid);
+        return check_failed;
+    }
     if (options.json) {
         json = sizes_to_json(path, mesh, *set);
         if (loaded.lr) json["lr"] = to_json(*loaded.lr);
+        if (!scene.primitives.empty()) add_primitive_sizes(*primitives, json);
     } else if (options.table == "sizes") {
         print_sizes(path, mesh, *set, loaded.lr);
+        if (!scene.primitives.empty()) print_primitive_sizes(*primitives);
     } else {
         MeshRow& row = rows.emplace_back(MeshRow{path, {}});
         for (const Column& column : size_table(options.table)) row.values.push_back(column.value(mesh, *set));
@@ -217,11 +239,13 @@ int run_stats(const StatsOptions& options, RunLog& log) {
     const bool rings = makes_rings(options), total = options.table == "total";
     const int exit = for_each_input(options.paths, log, [&](std::size_t i) {
         const std::string& path = options.paths[i];
-        Result<LoadedMesh> loaded = load_file({path, options.input}, log);
-        if (!loaded) return fail(path, loaded.error());
+        const MeshInput input{path, options.input};
+        Result<LoadedScene> scene = shows_primitives(options) ? load_scene(input, log) : load_joined(input, log);
+        if (!scene) return fail(path, scene.error());
+        LoadedMesh* const loaded = &scene->joined;
         Json json;
         if (options.json || !(rings || total)) {
-            if (const int code = add_sizes(options, path, *loaded, json, mesh_rows); code != done) return code;
+            if (const int code = add_sizes(options, path, *scene, json, mesh_rows); code != done) return code;
         }
         if (rings) {
             const int code = add_ring_figures(options, path, surface_mesh(loaded->mesh, loaded->surface),

@@ -1,4 +1,5 @@
-// lacedring verify MESH|IN.lr: every format gives back the same multiset of oriented triangles.
+// lacedring verify MESH|IN.lr: every format gives back the same multiset of oriented triangles, and a file the same
+// attributes; of a scene each primitive likewise.
 
 #include <fmt/format.h>
 
@@ -8,7 +9,8 @@
 
 #include "app/commands.h"
 #include "app/formats.h"
-#include "lrlab/rivals/whole_mesh.h"
+#include "app/progress.h"
+#include "app/scene_check.h"
 
 namespace lacedring::app {
 namespace {
@@ -19,50 +21,82 @@ struct VerifyOptions {
     bool json = false;
 };
 
-/// Empty, or what of the mesh's vertices `order` loses. Copies of non-manifold vertices may come on top.
-std::string check_order(const MeasuredFormat& format, std::uint32_t vertices) {
-    std::vector<bool> seen(vertices, false);
-    std::size_t again = 0;
-    for (const std::uint32_t v : format.order) {
-        if (v >= vertices) return fmt::format("vertex {} of {}", v, vertices);
-        again += seen[v] ? 1 : 0;
-        seen[v] = true;
+using Json = nlohmann::ordered_json;
+
+/// Why the first format, or the file, does not give the mesh back; empty if all do.
+std::string check_primitive(const LoadedPrimitive& primitive, const RingChoice& ring) {
+    const Mesh& mesh = primitive.geometry;
+    {
+        const Result<FormatSet> set = make_formats(mesh, primitive.surface, ring);
+        if (!set) return set.error().message;
+        for (const FormatCheck& check : check_formats(*set, mesh, primitive.surface)) {
+            if (!check.why.empty()) return check.name + ": " + check.why;
+        }
     }
-    if (again != format.copies) return fmt::format("{} vertices twice instead of {}", again, format.copies);
-    return format.order.size() == vertices + format.copies ? "" : "some vertices are lost";
+    const std::string why = check_file(mesh, primitive.surface);
+    return why.empty() ? why : "attributes: " + why;
+}
+
+/// Checks each primitive for itself, and where the scene places it. Prints, or fills `json`. Returns whether all are
+/// good.
+bool verify_primitives(const VerifyOptions& options, const LoadedScene& scene, Json& json) {
+    const PlacedDifference placed = check_placed(scene, options.input.options.tolerance);
+    std::size_t failed = 0;
+    ProgressBar bar("primitives", scene.primitives.size());
+    for (const LoadedPrimitive& primitive : scene.primitives) {
+        std::string why = check_primitive(primitive, options.ring);
+        const LoadedPrimitive* const elsewhere =
+            placed.primitive != nullptr ? placed.primitive : &scene.primitives.back();
+        if (why.empty() && elsewhere == &primitive) why = placed.why;
+        json.push_back({{"mesh", primitive.mesh},
+                        {"primitive", primitive.number},
+                        {"name", primitive.name},
+                        {"ok", why.empty()},
+                        {"why", why}});
+        failed += why.empty() ? 0 : 1;
+        if (!options.json && !why.empty()) print("{}: FAILED: {}\n", primitive.label(), why);
+        bar.step();
+    }
+    if (!options.json && failed == 0) {
+        print("{:<20} ok: {}, one by one and where the scene places them\n", "primitives", scene.primitives.size());
+    }
+    return failed == 0;
 }
 
 int run_verify(const VerifyOptions& options, RunLog& log) {
-    const Result<LoadedMesh> loaded = load_file(options.input, log);
-    if (!loaded) return fail(options.input.path, loaded.error());
-    const Result<FormatSet> set = make_formats(loaded->mesh, loaded->surface, options.ring);
-    if (!set) return fail(options.input.path, set.error());
-    const auto expected = oriented_triangles(surface_mesh(loaded->mesh, loaded->surface).indices, {});
-    nlohmann::ordered_json formats = nlohmann::ordered_json::object();
+    const Result<LoadedScene> scene = load_scene(options.input, log);
+    if (!scene) return fail(options.input.path, scene.error());
+    const auto& [mesh, surface, lr] = scene->joined;
     bool all = true;
-    for (const MeasuredFormat& format : set->formats) {
-        std::string why = format.invalid;
-        if (why.empty() && !format.order.empty()) why = check_order(format, set->vertices);
-        if (why.empty()) {
-            const auto got = oriented_triangles(format.indices, format.order);
-            if (got.size() != expected.size()) {
-                why = fmt::format("{} triangles instead of {}", got.size(), expected.size());
-            } else if (got != expected) {
-                why = "other triangles, or another orientation";
-            }
-        }
+    Json formats = Json::object(), absent = Json::object(), primitives = Json::array();
+    const auto tell = [&](const std::string& name, const std::string& why) {
         all = all && why.empty();
-        formats[format.name] = {{"ok", why.empty()}, {"why", why}};
-        if (!options.json) print("{:<20} {}\n", format.name, why.empty() ? "ok" : "FAILED: " + why);
+        if (!options.json) print("{:<20} {}\n", name, why.empty() ? "ok" : "FAILED: " + why);
+    };
+    {
+        const Result<FormatSet> set = make_formats(mesh, surface, options.ring);
+        if (!set) return fail(options.input.path, set.error());
+        for (const FormatCheck& check : check_formats(*set, mesh, surface)) {
+            formats[check.name] = {{"ok", check.why.empty()}, {"why", check.why}};
+            tell(check.name, check.why);
+        }
+        for (const auto& [name, reason] : set->absent) {
+            absent[name] = reason;
+            if (!options.json) print("{:<20} absent: {}\n", name, reason);
+        }
     }
-    nlohmann::ordered_json absent = nlohmann::ordered_json::object();
-    for (const auto& [name, reason] : set->absent) {
-        absent[name] = reason;
-        if (!options.json) print("{:<20} absent: {}\n", name, reason);
+    const std::string why = check_file(mesh, surface);
+    tell("attributes", why);
+    if (!scene->primitives.empty()) {
+        all = verify_primitives(options, *scene, primitives) && all;
     }
     if (options.json) {
-        const nlohmann::ordered_json out = {
-            {"schema", 1}, {"file", input_name(options.input.path)}, {"formats", formats}, {"absent", absent}};
+        Json out = {{"schema", 1},
+                    {"file", input_name(options.input.path)},
+                    {"formats", formats},
+                    {"absent", absent},
+                    {"attributes", {{"ok", why.empty()}, {"why", why}}}};
+        if (!primitives.empty()) out["primitives"] = std::move(primitives);
         print_json(out);
     }
     return all ? done : check_failed;
@@ -72,7 +106,8 @@ int run_verify(const VerifyOptions& options, RunLog& log) {
 
 void add_verify(CLI::App& program, Action& action) {
     auto options = std::make_shared<VerifyOptions>();
-    CLI::App* command = program.add_subcommand("verify", "check that every format round-trips");
+    CLI::App* command =
+        program.add_subcommand("verify", "check that every format round-trips, of a scene each primitive, too");
     command->add_option("MESH|IN.lr", options->input.path, "mesh file or .lr file")->required();
     add_input_options(*command, options->input.options, 350);
     add_ring_options(*command, options->ring);

@@ -121,7 +121,55 @@ MeasuredFormat packed_format(const char* name, const Subject& subject, Encoded e
     return format;
 }
 
+/// The bit-efficient tables with the ring that makes them smallest.
+void add_compact(FormatSet& set, const CornerTable& table, const Subject& subject, EncodeOptions options,
+                 std::vector<std::uint32_t> periods, bool paper) {
+    options.periods = std::move(periods);
+    if (paper && options.periods.size() > 1) std::erase(options.periods, 0U);  // the hybrid, not the expander
+    Result<Encoded> compact = encode(table, options);
+    if (!compact) {
+        set.absent.emplace_back("lr_compact", compact.error().message);
+        return;
+    }
+    set.lr_compact = std::get<LrStatistics>(compact->report.statistics);
+    const auto stream = view_compact_lr(compact->words);
+    if (stream) set.lr_compact_long = count_long_tips(stream->view);
+    set.formats.push_back(lr_format("lr_compact", subject, std::move(*compact)));
+}
+
+/// Empty, or what of the mesh's vertices `order` loses. Copies of non-manifold vertices may come on top.
+std::string check_order(const MeasuredFormat& format, std::uint32_t vertices) {
+    std::vector<bool> seen(vertices, false);
+    std::size_t again = 0;
+    for (const std::uint32_t v : format.order) {
+        if (v >= vertices) return fmt::format("vertex {} of {}", v, vertices);
+        again += seen[v] ? 1 : 0;
+        seen[v] = true;
+    }
+    if (again != format.copies) return fmt::format("{} vertices twice instead of {}", again, format.copies);
+    return format.order.size() == vertices + format.copies ? "" : "some vertices are lost";
+}
+
 }  // namespace
+
+std::vector<FormatCheck> check_formats(const FormatSet& set, const Mesh& mesh, const Surface& surface) {
+    const auto expected = oriented_triangles(surface_mesh(mesh, surface).indices, {});
+    std::vector<FormatCheck> checks;
+    for (const MeasuredFormat& format : set.formats) {
+        std::string why = format.invalid;
+        if (why.empty() && !format.order.empty()) why = check_order(format, set.vertices);
+        if (why.empty()) {
+            const auto got = oriented_triangles(format.indices, format.order);
+            if (got.size() != expected.size()) {
+                why = fmt::format("{} triangles instead of {}", got.size(), expected.size());
+            } else if (got != expected) {
+                why = "other triangles, or another orientation";
+            }
+        }
+        checks.push_back({format.name, std::move(why)});
+    }
+    return checks;
+}
 
 std::vector<std::uint32_t> without_degenerate(std::span<const std::uint32_t> indices) {
     std::vector<std::uint32_t> out;
@@ -134,7 +182,7 @@ std::vector<std::uint32_t> without_degenerate(std::span<const std::uint32_t> ind
 }
 
 Result<FormatSet> make_formats(const Mesh& mesh, const Surface& surface, const RingChoice& choice, bool paper,
-                               const FormatProgress& progress) {
+                               const FormatProgress& progress, bool quick) {
     const auto stop = [&](double share, const char* what) { return progress && !progress(share, what); };
     const Mesh shape = surface_mesh(mesh, surface);
     Subject subject{mesh, surface, {}};
@@ -174,6 +222,7 @@ Result<FormatSet> make_formats(const Mesh& mesh, const Surface& surface, const R
     optimize.progress = for_lean.progress;
     const Rings rings = optimize_rings(*table, expand_rings(*table, set.ring), optimize);
     for (const bool warts : {true, false}) {
+        if (quick && !warts) continue;
         const char* const name = warts ? "lean" : "lean_no_warts";
         if (Result<EncodedLean> lean = encode_lean(*table, rings, {.wart_skipping = warts})) {
             if (warts) set.lean = lean->statistics;
@@ -189,17 +238,10 @@ Result<FormatSet> make_formats(const Mesh& mesh, const Surface& surface, const R
     } else {
         set.absent.emplace_back("lr", lr.error().message);
     }
-    if (stop(0.4, "lr_compact")) return set;
-    EncodeOptions for_compact = how(Format::lr_compact, 0.4, "lr_compact");
-    for_compact.periods = ring_periods(choice, mesh.triangle_count());
-    if (paper && for_compact.periods.size() > 1) std::erase(for_compact.periods, 0U);  // the hybrid, not the expander
-    if (Result<Encoded> compact = encode(*table, for_compact)) {
-        set.lr_compact = std::get<LrStatistics>(compact->report.statistics);
-        const auto stream = view_compact_lr(compact->words);
-        if (stream) set.lr_compact_long = count_long_tips(stream->view);
-        set.formats.push_back(lr_format("lr_compact", subject, std::move(*compact)));
-    } else {
-        set.absent.emplace_back("lr_compact", compact.error().message);
+    if (!quick) {
+        if (stop(0.4, "lr_compact")) return set;
+        add_compact(set, *table, subject, how(Format::lr_compact, 0.4, "lr_compact"),
+                    ring_periods(choice, mesh.triangle_count()), paper);
     }
     if (stop(0.55, "packed")) return set;
     EncodeOptions for_packed = how(Format::packed, 0.55, "packed");
@@ -207,7 +249,7 @@ Result<FormatSet> make_formats(const Mesh& mesh, const Surface& surface, const R
     if (!small) return small.error();
     set.packed = std::get<PackedStatistics>(small->report.statistics);
     set.formats.push_back(packed_format("packed", subject, std::move(*small)));
-    if (stop(0.7, "packed_cache")) return set;
+    if (quick || stop(0.7, "packed_cache")) return set;
     for_packed.profile = PackedProfile::cache;
     Result<Encoded> cache = encode(*table, for_packed);
     if (!cache) return cache.error();

@@ -66,8 +66,16 @@ using FormatProgress = std::function<bool(double share, const std::string& what)
 /// Makes every format of the mesh and decodes it again. All are of the surface; ours have a seam
 /// section beside, if the mesh has seams. Errors: those of
 /// build_corner_table. `paper`: the paper's procedures alone. `progress`, if given, takes the place of the bar on a
-/// terminal.
+/// terminal. `quick`: only index lists, strips, lean, lr and packed, for scenes of many primitives.
 Result<FormatSet> make_formats(const Mesh& mesh, const Surface& surface, const RingChoice& choice, bool paper = false,
-                               const FormatProgress& progress = {});
+                               const FormatProgress& progress = {}, bool quick = false);
+
+struct FormatCheck {
+    std::string name;
+    std::string why;  ///< what is wrong with the format; empty: it gives back the same oriented triangles and vertices
+};
+
+/// Every format of a FormatSet, checked against the mesh that it was made of.
+std::vector<FormatCheck> check_formats(const FormatSet& set, const Mesh& mesh, const Surface& surface);
 
 }  // namespace lacedring::app

@@ -29,17 +29,23 @@ std::string listed(const std::vector<std::string>& items) {
     return out;
 }
 
+double bytes_of(const Mesh& mesh, std::uint32_t triangle_bytes) {
+    double bytes = static_cast<double>(mesh.triangle_count()) * (12.0 + triangle_bytes);
+    for (const Attribute& attribute : mesh.attributes) bytes += static_cast<double>(attribute.data.size());
+    return bytes;
+}
+
 /// Checks the limit after decoding: an .lr file does not state the size of its mesh.
 Result<void> check_memory(const Mesh& mesh, const InputOptions& options) {
-    double bytes = static_cast<double>(mesh.triangle_count()) * (12.0 + options.triangle_bytes);
-    for (const Attribute& attribute : mesh.attributes) bytes += static_cast<double>(attribute.data.size());
+    const double bytes = bytes_of(mesh, options.triangle_bytes);
     constexpr double kMebibyte = 1 << 20;
     if (options.max_memory == 0 || bytes <= static_cast<double>(options.max_memory) * kMebibyte) return {};
     return Error{ErrorCode::memory_limit, fmt::format("{} triangles take about {:.0f} MiB, and {} MiB are allowed",
                                                       mesh.triangle_count(), bytes / kMebibyte, options.max_memory)};
 }
 
-Result<LoadedMesh> read(const MeshInput& input, RunLog& log) {
+/// `list`, if not null, gets the primitives of a glTF that has several.
+Result<LoadedMesh> read(const MeshInput& input, RunLog& log, PrimitiveList* list) {
     const InputOptions& options = input.options;
     const auto bytes = read_input(input.path, options, log);
     if (!bytes) return bytes.error();
@@ -56,26 +62,49 @@ Result<LoadedMesh> read(const MeshInput& input, RunLog& log) {
         return out;
     }
     ReadReport report;
-    const ReadOptions how{.format = format_named(options.format),
-                          .allow_outside = options.allow_outside,
-                          .max_bytes = options.max_memory << 20,
-                          .triangle_bytes = options.triangle_bytes};
-    Result<Mesh> mesh = read_mesh(*bytes, input.path == "-" ? "" : input.path, how, &report);
+    ReadOptions how{.format = format_named(options.format),
+                    .allow_outside = options.allow_outside,
+                    .max_bytes = options.max_memory << 20,
+                    .triangle_bytes = options.triangle_bytes};
+    const std::string name = input.path == "-" ? "" : input.path;
+    Result<Mesh> mesh = read_mesh(*bytes, name, how, &report);
     for (std::filesystem::path& file : report.files) log.read(std::move(file));
     if (!mesh) return mesh.error();
-    if (!report.left_out.empty()) log.note(input_name(input.path), "not kept: " + listed(report.left_out));
+    if (!report.left_out.empty()) {
+        const bool hint = options.scene_hint && report.format == MeshFormat::gltf;
+        log.note(input_name(input.path),
+                 "not kept: " + listed(report.left_out) + (hint ? " (lacedring pack keeps scenes)" : ""));
+    }
+    if (list != nullptr && report.primitives > 1) {
+        how.triangle_bytes = 0;  // primitives are worked on one by one, in what the joined mesh's work takes
+        how.held_bytes = static_cast<std::uint64_t>(bytes_of(*mesh, options.triangle_bytes));
+        Result<PrimitiveList> primitives = read_primitives(*bytes, name, how);
+        if (!primitives) return primitives.error();
+        *list = std::move(*primitives);
+    }
     return LoadedMesh{std::move(*mesh), {}, {}};
 }
 
 /// Joins what seams cut, unless the file had its surface.
-void join_seams(LoadedMesh& loaded, const MeshInput& input, RunLog& log) {
-    const InputOptions& options = input.options;
-    if (loaded.surface.has_seams() && options.tolerance == 0) return;
+SurfaceReport join_seams(Mesh& mesh, Surface& surface, const InputOptions& options) {
     SurfaceReport report;
-    loaded.surface = find_surface(loaded.mesh, options.tolerance, &report);
-    if (report.moved > 0) move_to_surface(loaded.mesh, loaded.surface);
-    if (!options.keep_vertices) loaded.mesh = merge_copies(loaded.mesh, loaded.surface);
-    const std::string name = input_name(input.path);
+    if (surface.has_seams() && options.tolerance == 0) return report;
+    surface = find_surface(mesh, options.tolerance, &report);
+    if (report.moved > 0) move_to_surface(mesh, surface);
+    if (!options.keep_vertices) mesh = merge_copies(mesh, surface);
+    return report;
+}
+
+/// Welds as the options say.
+SurfaceReport weld_mesh(Mesh& mesh, Surface& surface, const InputOptions& options) {
+    if (options.weld.empty() || options.weld == "position") return join_seams(mesh, surface, options);
+    if (options.weld == "attributes") mesh = weld(mesh, Weld::attributes);
+    surface = {mesh.vertex_count, {}};
+    return {};
+}
+
+void note_moves(const SurfaceReport& report, const std::string& path, RunLog& log) {
+    const std::string name = input_name(path);
     if (report.largest_move > 0) {
         log.note(name, fmt::format("--weld-tolerance: {} vertices move, by {:.3g} at most", report.moved,
                                    report.largest_move));
@@ -83,6 +112,15 @@ void join_seams(LoadedMesh& loaded, const MeshInput& input, RunLog& log) {
         log.note(name,
                  fmt::format("{} vertices with -0 get the 0 of the vertex that they are joined with", report.moved));
     }
+}
+
+/// A name as it is said beside every primitive of a mesh: its length is the file's, and so may be their number.
+std::string shortened(const std::string& name) {
+    constexpr std::size_t kMost = 80;
+    if (name.size() <= kMost) return name;
+    std::size_t end = kMost;
+    while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0U) == 0x80U) --end;  // a whole UTF-8 character
+    return name.substr(0, end) + "...";
 }
 
 }  // namespace
@@ -140,16 +178,31 @@ Result<std::vector<std::byte>> read_input(const std::string& path, const InputOp
 }
 
 Result<LoadedMesh> load_file(const MeshInput& input, RunLog& log) {
-    Result<LoadedMesh> loaded = read(input, log);
-    if (!loaded) return loaded;
-    const std::string& how = input.options.weld;
-    if (how.empty() || how == "position") {
-        join_seams(*loaded, input, log);
-    } else {
-        if (how == "attributes") loaded->mesh = weld(loaded->mesh, Weld::attributes);
-        loaded->surface = {loaded->mesh.vertex_count, {}};
-    }
+    Result<LoadedMesh> loaded = read(input, log, nullptr);
+    if (loaded) note_moves(weld_mesh(loaded->mesh, loaded->surface, input.options), input.path, log);
     return loaded;
+}
+
+std::string LoadedPrimitive::label() const {
+    return fmt::format("mesh {}, primitive {}{}", mesh, number, name.empty() ? "" : " (" + printable(name) + ")");
+}
+
+Result<LoadedScene> load_scene(const MeshInput& input, RunLog& log) {
+    PrimitiveList list;
+    Result<LoadedMesh> joined = read(input, log, &list);
+    if (!joined) return joined.error();
+    note_moves(weld_mesh(joined->mesh, joined->surface, input.options), input.path, log);
+    LoadedScene scene{std::move(*joined), {}, std::move(list.placed)};
+    std::vector<std::size_t> copies(list.mesh_names.size());
+    for (const PlacedMesh& placed : scene.placed) ++copies[placed.mesh];
+    for (Primitive& from : list.primitives) {
+        LoadedPrimitive to{from.mesh, from.number,       shortened(list.mesh_names[from.mesh]),
+                           from.mode, copies[from.mesh], std::move(from.geometry),
+                           {}};
+        weld_mesh(to.geometry, to.surface, input.options);
+        scene.primitives.push_back(std::move(to));
+    }
+    return scene;
 }
 
 Result<CornerTable> surface_table(const LoadedMesh& loaded) {

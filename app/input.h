@@ -11,6 +11,7 @@
 #include "lacedring/base.hpp"
 #include "lacedring/lr_file.hpp"
 #include "lacedring/mesh.hpp"
+#include "lacedring/primitives.hpp"
 #include "lacedring/surface.hpp"
 
 namespace CLI {
@@ -45,5 +46,27 @@ Result<CornerTable> surface_table(const LoadedMesh& loaded);
 
 /// Reads and welds. An .lr file is validated and decoded. `log` is told what is not kept.
 Result<LoadedMesh> load_file(const MeshInput& input, RunLog& log);
+
+/// A primitive of a scene, welded by itself.
+struct LoadedPrimitive {
+    std::size_t mesh = 0, number = 0;  ///< Primitive's
+    std::string name;                  ///< of the mesh, shortened
+    PrimitiveMode mode = PrimitiveMode::triangles;
+    std::size_t placed = 0;  ///< how often the scene places it
+    Mesh geometry;
+    Surface surface;
+
+    /// "mesh 2, primitive 0 (wheel)"
+    std::string label() const;
+};
+
+struct LoadedScene {
+    LoadedMesh joined;
+    std::vector<LoadedPrimitive> primitives;  ///< empty where the joined mesh is of one only
+    std::vector<PlacedMesh> placed;           ///< likewise
+};
+
+/// load_file, and the primitives of a glTF that has several. Errors: also read_primitives'.
+Result<LoadedScene> load_scene(const MeshInput& input, RunLog& log);
 
 }  // namespace lacedring::app

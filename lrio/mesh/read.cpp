@@ -92,7 +92,7 @@ std::string lower_extension(const std::filesystem::path& path) {
 }
 
 /// The format by the first bytes, else by the extension; `any` if neither tells.
-MeshFormat recognise(std::string_view raw, std::string_view text, const std::filesystem::path& name) {
+MeshFormat format_by_content(std::string_view raw, std::string_view text, const std::filesystem::path& name) {
     // Signatures first: files with the wrong extension are common.
     const std::size_t start = text.find_first_not_of(" \t\r\n");
     if (raw.starts_with("glTF") || (start != std::string_view::npos && text[start] == '{')) return MeshFormat::gltf;
@@ -108,15 +108,32 @@ MeshFormat recognise(std::string_view raw, std::string_view text, const std::fil
     return MeshFormat::any;
 }
 
+/// A file with and without its byte-order mark, and its format.
+struct Recognized {
+    std::string_view raw, text;
+    MeshFormat format = MeshFormat::any;
+
+    std::span<const std::byte> text_bytes() const { return std::as_bytes(std::span(text)); }
+};
+
+Result<Recognized> recognize(std::span<const std::byte> bytes, Reading& reading) {
+    Recognized out;
+    out.raw = {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+    out.text = detail::without_byte_order_mark(out.raw);
+    if (out.raw.empty()) return malformed("is empty");
+    out.format = reading.options.format;
+    if (out.format == MeshFormat::any) out.format = format_by_content(out.raw, out.text, reading.name);
+    reading.report.format = out.format;
+    return out;
+}
+
 Result<Mesh> read_bytes(std::span<const std::byte> bytes, Reading& reading) {
-    const std::string_view raw(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    const std::string_view text = detail::without_byte_order_mark(raw);
-    if (raw.empty()) return malformed("is empty");
-    MeshFormat format = reading.options.format;
-    if (format == MeshFormat::any) format = recognise(raw, text, reading.name);
+    const Result<Recognized> file = recognize(bytes, reading);
+    if (!file) return file.error();
+    const auto& [raw, text, format] = *file;
     switch (format) {
         case MeshFormat::gltf:
-            return read_gltf(bytes.subspan(raw.size() - text.size()), reading);
+            return read_gltf(file->text_bytes(), reading);
         case MeshFormat::obj:
             return read_obj(text, reading);
         case MeshFormat::off:
@@ -141,7 +158,8 @@ Result<void> Reading::check_memory(double vertices, double stride, double triang
     constexpr double kAlways = 512.0 * 1024 * 1024, kTimes = 128;
     const double most =
         options.max_bytes != 0 ? static_cast<double>(options.max_bytes) : std::max(kAlways, kTimes * file_bytes);
-    const double bytes = vertices * stride + triangles * (12.0 + options.triangle_bytes);
+    const double bytes =
+        vertices * stride + triangles * (12.0 + options.triangle_bytes) + static_cast<double>(options.held_bytes);
     if (bytes <= most) return {};
     constexpr double kMebibyte = 1024.0 * 1024;
     const std::string what =
@@ -173,6 +191,33 @@ Result<Mesh> read_mesh(const std::filesystem::path& path, const ReadOptions& opt
         const auto bytes = read_file(path);
         if (!bytes) return bytes.error();
         return read_mesh(*bytes, path, options, report);
+    });
+}
+
+Result<PrimitiveList> read_primitives(std::span<const std::byte> bytes, const std::filesystem::path& name,
+                                      const ReadOptions& options, ReadReport* report) {
+    ReadReport unwanted;
+    detail::Reading reading{options, report != nullptr ? *report : unwanted, name};
+    return detail::caught([&]() -> Result<PrimitiveList> {
+        const auto file = detail::recognize(bytes, reading);
+        if (!file) return file.error();
+        if (file->format == MeshFormat::gltf) return detail::read_gltf_primitives(file->text_bytes(), reading);
+        Result<Mesh> mesh = read_mesh(bytes, name, options, &reading.report);
+        if (!mesh) return mesh.error();
+        PrimitiveList out;
+        out.primitives.push_back({0, 0, PrimitiveMode::triangles, std::move(*mesh)});
+        out.placed.push_back({});
+        out.mesh_names.emplace_back();
+        return out;
+    });
+}
+
+Result<PrimitiveList> read_primitives(const std::filesystem::path& path, const ReadOptions& options,
+                                      ReadReport* report) {
+    return detail::caught([&]() -> Result<PrimitiveList> {
+        const auto bytes = read_file(path);
+        if (!bytes) return bytes.error();
+        return read_primitives(*bytes, path, options, report);
     });
 }
 

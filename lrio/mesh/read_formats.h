@@ -19,6 +19,7 @@
 #include "lacedring/base.hpp"
 #include "lacedring/mesh.hpp"
 #include "lacedring/mesh_files.hpp"
+#include "lacedring/primitives.hpp"
 
 namespace lacedring::detail {
 
@@ -36,8 +37,9 @@ struct Reading {
     Result<void> check_memory(double vertices, double stride, double triangles, double file_bytes) const;
 };
 
-// Each takes the whole file, never throws on its content but for memory, and returns a mesh that `checked` accepted.
+// Each takes the whole file, never throws on its content but for memory, and returns meshes that `checked` accepted.
 Result<Mesh> read_gltf(std::span<const std::byte> bytes, Reading& reading);
+Result<PrimitiveList> read_gltf_primitives(std::span<const std::byte> bytes, Reading& reading);
 Result<Mesh> read_obj(std::string_view text, Reading& reading);
 Result<Mesh> read_off(std::string_view text, Reading& reading);
 Result<Mesh> read_ply(std::string_view bytes, Reading& reading);

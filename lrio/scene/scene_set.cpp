@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "lrio/gltf/gltf_accessor.h"
+#include "lrio/gltf/gltf_primitives.h"
 #include "lrio/gltf/tinygltf.h"
 #include "lrio/mesh/read_formats.h"
 
@@ -21,33 +22,16 @@ Result<AccessorView> view_indices(GltfFile& file, std::uint32_t accessor) {
 
 Result<void> append_part(GltfFile& file, const ScenePart& part, std::size_t vertices,
                          std::vector<std::uint32_t>& indices) {
-    std::vector<std::uint32_t> list(vertices);
+    PrimitivePlan plan;
+    plan.mode = part.mode;
     if (part.indices) {
         const auto view = view_indices(file, *part.indices);
         if (!view) return view.error();
-        std::vector<std::byte> packed(view->count * view->element_bytes());
-        if (auto good = copy_elements(*view, packed.data()); !good) return good;
-        list.resize(view->count);
-        for (std::size_t i = 0; i < list.size(); ++i) {
-            list[i] = unsigned_at(packed.data(), view->type, i);
-            if (list[i] < vertices) continue;
-            return malformed("index {} at place {} is out of range ({} vertices)", list[i], i, vertices);
-        }
-    } else {
-        for (std::size_t i = 0; i < vertices; ++i) list[i] = static_cast<std::uint32_t>(i);
+        plan.indices = *view;
     }
-    if (part.mode == TINYGLTF_MODE_TRIANGLES) {
-        if (list.size() % 3 != 0) return malformed("{} indices are not triangles", list.size());
-        indices.insert(indices.end(), list.begin(), list.end());
-    } else if (part.mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
-        Strip strip;
-        for (const std::uint32_t v : list) strip.add(v, indices);
-    } else {  // the order of the specification: the fan's middle is each triangle's last corner
-        for (std::size_t i = 2; i < list.size(); ++i) {
-            indices.insert(indices.end(), {list[i - 1], list[i], list[0]});
-        }
-    }
-    return {};
+    const std::size_t corners = plan.corner_count(vertices);
+    if (corners % 3 != 0) return malformed("{} indices are not triangles", corners);
+    return append_triangles(plan, 0, vertices, indices);
 }
 
 Result<Attribute> read_attribute(GltfFile& file, const SceneAttribute& from) {

@@ -1,8 +1,11 @@
 // The readers of mesh files. What they accept is written in every format and read back.
 
+#include <algorithm>
 #include <string_view>
+#include <vector>
 
 #include "lacedring/mesh_files.hpp"
+#include "lacedring/primitives.hpp"
 #include "lacedring/topology.hpp"
 #include "tests/fuzz/gltf.h"
 #include "tests/fuzz/use.h"
@@ -12,6 +15,28 @@ namespace {
 
 /// Little enough to stay fast. A small file can place its meshes very often.
 constexpr std::uint64_t kMaxBytes = 8 << 20;
+
+/// Each primitive of what read_mesh accepts is a mesh; placed, they have the joined mesh's triangles.
+void check_primitives(std::span<const std::byte> bytes, const Mesh& joined, std::size_t count) {
+    const Result<PrimitiveList> list = read_primitives(bytes, {}, {.format = MeshFormat::gltf, .max_bytes = kMaxBytes});
+    if (!list) {  // they have attributes that the joined mesh has not
+        REQUIRE(list.error().code != ErrorCode::malformed || !list.error().message.ends_with("has no triangles"));
+        return;
+    }
+    REQUIRE(list->primitives.size() == count);
+    std::vector<std::size_t> triangles(list->mesh_names.size());
+    for (const Primitive& primitive : list->primitives) {
+        check_mesh(primitive.geometry);
+        triangles[primitive.mesh] += primitive.geometry.triangle_count();
+        const auto placed = std::ranges::find(list->placed, primitive.mesh, &PlacedMesh::mesh);
+        REQUIRE(placed != list->placed.end());
+        const Mesh moved = place(primitive.geometry, placed->placement);
+        REQUIRE(moved.indices.size() == primitive.geometry.indices.size());
+    }
+    std::size_t sum = 0;
+    for (const PlacedMesh& placed : list->placed) sum += triangles[placed.mesh];
+    REQUIRE(sum == joined.triangle_count());
+}
 
 template <MeshFormat format>
 bool run(std::span<const std::byte> bytes) {
@@ -26,6 +51,7 @@ bool run(std::span<const std::byte> bytes) {
     std::uint64_t size = 4 * mesh->indices.size();
     for (const Attribute& attribute : mesh->attributes) size += attribute.data.size();
     REQUIRE(size <= kMaxBytes);
+    if (format == MeshFormat::gltf) check_primitives(bytes, *mesh, report.primitives);
     check_writers(*mesh);
     const Result<CornerTable> table = build_corner_table(mesh->indices, mesh->vertex_count);
     REQUIRE(table && check_corner_table(*table).empty());

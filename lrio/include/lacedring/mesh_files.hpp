@@ -29,18 +29,23 @@ struct ReadOptions {
     /// read where that is more. A small file can place its meshes very often.
     std::uint64_t max_bytes = 0;
     std::uint32_t triangle_bytes = 0;  ///< that the caller will take for each triangle beside the mesh
+    std::uint64_t held_bytes = 0;      ///< of max_bytes, that the caller has taken already
 };
 
 struct ReadReport {
     /// Contents of the file that the mesh lacks, each with its count: "3 materials".
     std::vector<std::string> left_out;
+    MeshFormat format = MeshFormat::any;       ///< the file's
+    std::size_t primitives = 1;                ///< of triangles, that the mesh was joined of
     std::vector<std::filesystem::path> files;  ///< opened beside the file
 };
 
 /// Reads glTF/GLB, OBJ, PLY, OFF/COFF or STL. Several meshes or primitives become one list of all triangles, node
-/// transforms applied, attributes kept where every primitive has them. Polygons are cut into triangles that cover them
-/// (docs/formats-read.md). STL vertices at one position are merged. `report`, if given, is filled even on an error.
-/// Errors: cannot_open, malformed, unsupported, too_large, memory_limit. Untrusted input: safe. Cost: O(what is read).
+/// transforms applied, attributes kept where every primitive has them; NORMAL where any has it, made from the triangles
+/// of the others (read_primitives, primitives.hpp, gives each primitive with all it has). Polygons are cut into
+/// triangles that cover them (docs/formats-read.md). STL vertices at one position are merged. `report`, if given, is
+/// filled even on an error. Errors: cannot_open, malformed, unsupported, too_large, memory_limit. Untrusted input:
+/// safe. Cost: O(what is read).
 Result<Mesh> read_mesh(const std::filesystem::path& path, const ReadOptions& options = {},
                        ReadReport* report = nullptr);
 

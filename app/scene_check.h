@@ -1,0 +1,29 @@
+#pragma once
+// What verify and compare check of a scene, and of whole files.
+
+#include <cstddef>
+#include <string>
+
+#include "app/input.h"
+
+namespace lacedring::app {
+
+/// Where the joined mesh differs from the primitives where the scene places them.
+struct PlacedDifference {
+    const LoadedPrimitive* primitive = nullptr;  ///< null: triangles that are of none
+    std::string why;                             ///< empty: it does not
+};
+
+/// Compares the joined mesh with every primitive through every node's transform, corner by corner: positions, and the
+/// attributes that both have alike. With a tolerance, which moves vertices, numbers of triangles alone.
+/// Cost: O(joined mesh).
+PlacedDifference check_placed(const LoadedScene& scene, double tolerance);
+
+/// Triangles of all primitives, each counted once.
+std::size_t count_triangles(const LoadedScene& scene);
+
+/// Makes a lossless .lr file of the mesh and reads it: empty, or what it does not give back. Cost: encode's at effort
+/// 0, and the attributes' streams.
+std::string check_file(const Mesh& mesh, const Surface& surface);
+
+}  // namespace lacedring::app
