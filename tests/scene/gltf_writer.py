@@ -120,9 +120,10 @@ class GltfWriter:
     def write(self, path):
         for buffer in self.buffers:
             buffer += b"\0" * (-len(buffer) % 4)
-        document = {**self.json, "buffers": [{"byteLength": len(self.buffers[0])},
-                                             {"byteLength": len(self.buffers[1]),
-                                              "uri": data_uri(self.buffers[1], "application/octet-stream")}]}
+        document = {**self.json, "buffers": [{"byteLength": len(self.buffers[0])}]}
+        if self.buffers[1]:
+            document["buffers"].append({"byteLength": len(self.buffers[1]),
+                                        "uri": data_uri(self.buffers[1], "application/octet-stream")})
         if path.endswith(".glb"):
             text = self.text(document, ensure_ascii=False, separators=(",", ":"))
             text += b" " * (-len(text) % 4)
