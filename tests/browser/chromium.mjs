@@ -14,6 +14,9 @@ export class Page {
   #waiting = new Map();
   #listeners = new Map();
   #session;
+  #last = 0;  // id of a message
+  #ended;
+  #why;  // it has ended; undefined while it runs
 
   constructor() {
     this.#process = spawn(process.env.CHROMIUM ?? "chromium", [...FLAGS, `--user-data-dir=${this.#profile}`, "about:blank"],
@@ -24,12 +27,15 @@ export class Page {
       text = messages.pop();
       messages.forEach((message) => this.#receive(JSON.parse(message)));
     });
-    const gone = (why) => {
-      for (const { reject } of this.#waiting.values()) reject(new Error(`Chromium: ${why}`));
+    this.#ended = new Promise((resolve) => {
+      this.#process.on("error", ({ message }) => resolve(message));
+      this.#process.on("exit", (code, signal) => resolve(`ended with ${code ?? signal}`));
+    });
+    this.#ended.then((why) => {
+      this.#why = `Chromium: ${why}`;
+      for (const { reject } of this.#waiting.values()) reject(new Error(this.#why));
       this.#waiting.clear();
-    };
-    this.#process.on("error", (error) => gone(error.message));
-    this.#process.on("exit", (code) => gone(`ended with ${code}`));
+    });
     this.#process.stdio[3].on("error", () => {});
   }
 
@@ -45,7 +51,8 @@ export class Page {
 
   #send(method, params = {}) {
     return new Promise((resolve, reject) => {
-      const id = this.#waiting.size ? Math.max(...this.#waiting.keys()) + 1 : 1;
+      if (this.#why) return reject(new Error(this.#why));
+      const id = ++this.#last;
       this.#waiting.set(id, { resolve, reject });
       this.#process.stdio[3].write(JSON.stringify({ id, method, params, sessionId: this.#session }) + "\0");
     });
@@ -69,9 +76,8 @@ export class Page {
   }
 
   async close() {
-    const exited = new Promise((resolve) => this.#process.once("exit", resolve));
     await this.#send("Browser.close").catch(() => this.#process.kill());
-    await exited;
+    await this.#ended;
     rmSync(this.#profile, { recursive: true, force: true, maxRetries: 5, retryDelay: 200 });
   }
 }
