@@ -1,5 +1,5 @@
 // node sizes.mjs (SOURCE PACKED LOSSLESS GLTFPACK)...: a table of the bytes of glTF files without their images, as they are and after
-// brotli. The bytes are the JSON without image data URIs, and all buffers without the buffer views of images.
+// brotli. The bytes are the JSON without image data URIs, and all buffers without the bytes of images.
 import { existsSync, readFileSync } from "node:fs";
 import { basename, dirname, join } from "node:path";
 import { brotliCompressSync, constants } from "node:zlib";
@@ -12,36 +12,45 @@ function parts(file) {
   return [data.subarray(20, 20 + length), data.subarray(28 + length)];
 }
 
-function withoutImages(file) {
+/** The bytes of the images that lie in a glTF file. Both programs keep them, also where the JSON that names them is compressed. */
+function imagesOf(file) {
   const [text, binary] = parts(file);
   const json = JSON.parse(text);
-  const views = (json.images ?? []).flatMap(({ bufferView }) => json.bufferViews[bufferView] ?? []);
-  const out = [Buffer.from(text.toString().replaceAll(/"data:image[^"]*"/g, '""'))];
-  (json.buffers ?? []).forEach(({ uri, byteLength }, index) => {
-    if (uri?.startsWith("data:")) return;  // in the JSON
-    if (uri === undefined && (index > 0 || !binary)) return;  // EXT_meshopt_compression's, which has no bytes
-    const data = uri === undefined ? binary : readFileSync(join(dirname(file), decodeURIComponent(uri)));
-    let at = 0;
-    const mine = views.filter(({ buffer }) => buffer === index).sort((a, b) => (a.byteOffset ?? 0) - (b.byteOffset ?? 0));
-    for (const { byteOffset = 0, byteLength: size } of mine) {
-      out.push(data.subarray(at, byteOffset));
-      at = byteOffset + size;
-    }
-    out.push(data.subarray(at, Math.max(at, byteLength)));
+  return (json.images ?? []).flatMap(({ uri, bufferView }) => {
+    if (bufferView === undefined) return uri?.startsWith("data:") ? [Buffer.from(uri.split(",")[1], "base64")] : [];
+    const { buffer, byteOffset = 0, byteLength } = json.bufferViews[bufferView];
+    const from = json.buffers[buffer].uri;
+    const data = from === undefined ? binary : readUri(file, from);
+    return [data.subarray(byteOffset, byteOffset + byteLength)];
   });
-  return Buffer.concat(out);
 }
 
-function sizes(file) {
+function readUri(file, uri) {
+  return uri.startsWith("data:") ? Buffer.from(uri.split(",")[1], "base64") : readFileSync(join(dirname(file), decodeURIComponent(uri)));
+}
+
+function withoutImages(file, images) {
+  const [text, binary] = parts(file);
+  const files = (JSON.parse(text).buffers ?? []).flatMap(({ uri }) => uri && !uri.startsWith("data:") ? [readUri(file, uri)] : []);
+  let data = Buffer.concat([...(binary ? [binary] : []), ...files]);
+  for (const image of images) {
+    const at = data.indexOf(image);
+    if (at >= 0) data = Buffer.concat([data.subarray(0, at), data.subarray(at + image.length)]);
+  }
+  return Buffer.concat([Buffer.from(text.toString().replaceAll(/"data:image[^"]*"/g, '""')), data]);
+}
+
+function sizes(file, images) {
   if (!existsSync(file)) return [NaN, NaN];
-  const data = withoutImages(file);
+  const data = withoutImages(file, images);
   return [data.length, brotliCompressSync(data, { params: { [constants.BROTLI_PARAM_QUALITY]: 11 } }).length];
 }
 
 console.log("| scene | source | brotli | packed | brotli | lossless | brotli | gltfpack | brotli | packed / gltfpack | brotli |");
 console.log("|---|---|---|---|---|---|---|---|---|---|---|");
 for (let i = 2; i < process.argv.length; i += 4) {
-  const files = process.argv.slice(i, i + 4).map(sizes);
+  const images = imagesOf(process.argv[i]);
+  const files = process.argv.slice(i, i + 4).map((file) => sizes(file, images));
   const ratios = [0, 1].map((k) => (files[1][k] / files[3][k]).toFixed(2));
   console.log(`| ${[basename(process.argv[i]), ...files.flat().map((n) => n.toLocaleString("en-US")), ...ratios].join(" | ")} |`);
 }
