@@ -191,7 +191,7 @@ def match(edges):
     return right_of
 
 
-def geometry_differences(source, unpacked, errors, keep_order):
+def geometry_differences(source, unpacked, errors=None, keep_order=False):
     exact = errors is None
     for (m, p, ours), (_, _, theirs) in zip(source.primitives(), unpacked.primitives()):
         where = f"/meshes/{m}/primitives/{p}"
