@@ -3,7 +3,8 @@
 
 The JSON must be equal, texts of numbers included, but for what describes buffers (see json_differences). Triangles are compared
 as a multiset, oriented, with all attributes and morph targets at their corners: bit for bit, or within the errors
-{"POSITION": x, ...} a component (0 where there is none). Everything else must be equal bit for bit. Exit code 1 if it is not.
+{"POSITION": x, "POSITION of morph targets": y, ...} a component (0 where there is none; an accessor of several names has the
+largest of theirs), as are lines and points that share accessors with triangles. Everything else must be equal bit for bit. Exit code 1 if it is not.
 """
 
 import argparse
@@ -115,8 +116,14 @@ class Tolerance:
     def __init__(self, scene, primitive, errors):
         accessors = columns(primitive)
         self.limits, self.position = [], None
+        allowed = collections.defaultdict(float)
+        for _, _, other in scene.primitives():
+            if is_triangles(other):
+                for name, accessor in columns(other).items():
+                    kind = f"{name.split('/')[1]} of morph targets" if "/" in name else name
+                    allowed[accessor] = max(allowed[accessor], errors.get(kind, 0.0))
         for name in sorted(accessors):
-            error = errors.get(name, errors.get(name.split("/")[-1], 0.0))
+            error = allowed[accessors[name]]
             values = scene.numbers(accessors[name])
             if name == "POSITION":
                 self.position = len(self.limits)
@@ -197,17 +204,18 @@ def geometry_differences(source, unpacked, errors=None, keep_order=False):
         where = f"/meshes/{m}/primitives/{p}"
         if sorted(columns(ours)) != sorted(columns(theirs)):
             continue  # the JSON differs
-        rows = [vertices(scene, primitive, exact or not is_triangles(ours))
-                for scene, primitive in ((source, ours), (unpacked, theirs))]
+        rows = [vertices(scene, primitive, exact) for scene, primitive in ((source, ours), (unpacked, theirs))]
+        tolerance = None if exact else Tolerance(source, ours, errors)
         if not is_triangles(ours):
-            if [rows[0][v] for v in source.corners(ours)] != [rows[1][v] for v in unpacked.corners(theirs)]:
+            before, after = [rows[0][v] for v in source.corners(ours)], [rows[1][v] for v in unpacked.corners(theirs)]
+            if len(before) != len(after) or not (before == after if exact else all(map(tolerance.close, before, after))):
                 yield f"{where}: lines or points differ"
             continue
         both = triangles(source, ours, rows[0]), triangles(unpacked, theirs, rows[1])
         if keep_order and exact and rows[0] != rows[1]:
             yield f"{where}: vertices differ or have another order"
         found = (lossless_differences(*both, keep_order) if exact else
-                 quantized_differences(*both, Tolerance(source, ours, errors), keep_order))
+                 quantized_differences(*both, tolerance, keep_order))
         yield from (f"{where}: {difference}" for difference in found)
 
 
