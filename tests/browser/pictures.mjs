@@ -9,7 +9,7 @@ import { Page } from "./chromium.mjs";
 
 // The share of the covered pixels that may differ by more than 16 of 255. Even of equal triangles some may, where two are as near
 // to the eye or a texel ends: their order and first corners decide about the last bit.
-const LIMITS = { "--exact": 0.0002, "--close": 0.02 };
+const LIMITS = { "--exact": 0.0002, "--close": 0.01 };
 const TYPES = { html: "text/html", js: "text/javascript", gltf: "model/gltf+json", glb: "model/gltf-binary" };
 
 const here = dirname(fileURLToPath(import.meta.url));
