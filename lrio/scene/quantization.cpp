@@ -107,6 +107,7 @@ SceneQuantization::SceneQuantization(const ScenePlan& plan, std::span<const SetM
                     column.range.extent = std::max(column.range.extent, high[c] - low[c]);
                     column.range.largest = std::max({column.range.largest, std::abs(low[c]), std::abs(high[c])});
                 }
+                if (a.name == "POSITION" && meshes[s].integer_positions) column.finite = false;  // lossless
                 if (semantic(a.name).starts_with("TEXCOORD_")) column.range.kind = size_class(column.range.extent, 2);
             }
             kind += fmt::format("|{}|{}|{}|{}|{}|{}|{}", a.name, static_cast<int>(a.type), a.components, a.normalized,

@@ -82,6 +82,8 @@ Result<SetMesh> read_set(GltfFile& file, const VertexSet& set) {
         if (!attribute) {
             return Error{attribute.error().code, fmt::format("{}: {}", shown(a.name), attribute.error().message)};
         }
+        const auto view = view_accessor(file, static_cast<int>(a.accessor));
+        if (a.name == "POSITION") out.integer_positions = view && view->type != ComponentType::f32;
         out.mesh.attributes.push_back(std::move(*attribute));
     }
     for (const ScenePart& part : set.parts) {

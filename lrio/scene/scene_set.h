@@ -12,6 +12,7 @@ namespace lacedring::detail {
 /// One mesh of all parts of a set.
 struct SetMesh {
     Mesh mesh;  ///< POSITION as floats, integers by their value; any other attribute as it is
+    bool integer_positions = false;
     std::vector<std::uint32_t> first_triangle;  ///< of each part, and behind the last one
 };
 

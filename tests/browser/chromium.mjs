@@ -1,0 +1,83 @@
+// Headless Chromium, told what to do by the DevTools protocol over a pipe.
+import { spawn } from "node:child_process";
+import { mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+
+// WebGL2 without a GPU (SwiftShader), the same pixels on every machine. The sandbox needs rights that containers lack.
+const FLAGS = ["--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-first-run",
+  "--disable-extensions", "--remote-debugging-pipe"];
+
+export class Page {
+  #process;
+  #profile = mkdtempSync(join(tmpdir(), "lacedring-chromium-"));
+  #waiting = new Map();
+  #listeners = new Map();
+  #session;
+  #last = 0;  // id of a message
+  #ended;
+  #why;  // it has ended; undefined while it runs
+
+  constructor() {
+    this.#process = spawn(process.env.CHROMIUM ?? "chromium", [...FLAGS, `--user-data-dir=${this.#profile}`, "about:blank"],
+      { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] });
+    let text = "";
+    this.#process.stdio[4].setEncoding("utf8").on("data", (more) => {
+      const messages = (text + more).split("\0");
+      text = messages.pop();
+      messages.forEach((message) => this.#receive(JSON.parse(message)));
+    });
+    this.#ended = new Promise((resolve) => {
+      this.#process.on("error", ({ message }) => resolve(message));
+      this.#process.on("exit", (code, signal) => resolve(`ended with ${code ?? signal}`));
+    });
+    this.#ended.then((why) => {
+      this.#why = `Chromium: ${why}`;
+      for (const { reject } of this.#waiting.values()) reject(new Error(this.#why));
+      this.#waiting.clear();
+    });
+    this.#process.stdio[3].on("error", () => {});
+  }
+
+  #receive({ id, method, params, result, error }) {
+    if (id === undefined) {
+      this.#listeners.get(method)?.(params);
+      return;
+    }
+    const { resolve, reject } = this.#waiting.get(id);
+    this.#waiting.delete(id);
+    error ? reject(new Error(error.message)) : resolve(result);
+  }
+
+  #send(method, params = {}) {
+    return new Promise((resolve, reject) => {
+      if (this.#why) return reject(new Error(this.#why));
+      const id = ++this.#last;
+      this.#waiting.set(id, { resolve, reject });
+      this.#process.stdio[3].write(JSON.stringify({ id, method, params, sessionId: this.#session }) + "\0");
+    });
+  }
+
+  async open(url) {
+    const { targetId } = await this.#send("Target.createTarget", { url: "about:blank" });
+    this.#session = (await this.#send("Target.attachToTarget", { targetId, flatten: true })).sessionId;
+    await this.#send("Page.enable");
+    const loaded = new Promise((resolve) => this.#listeners.set("Page.loadEventFired", resolve));
+    await this.#send("Page.navigate", { url });
+    await loaded;
+  }
+
+  /** The value of an expression in the page; promises are waited for. */
+  async evaluate(expression) {
+    const { result, exceptionDetails } = await this.#send("Runtime.evaluate",
+      { expression, awaitPromise: true, returnByValue: true });
+    if (exceptionDetails) throw new Error(exceptionDetails.exception?.description ?? exceptionDetails.text);
+    return result.value;
+  }
+
+  async close() {
+    await this.#send("Browser.close").catch(() => this.#process.kill());
+    await this.#ended;
+    rmSync(this.#profile, { recursive: true, force: true, maxRetries: 5, retryDelay: 200 });
+  }
+}

@@ -1,0 +1,75 @@
+// Draws a glTF file from fixed directions at fixed times of its animations, and compares pictures with those of the first one.
+import * as THREE from "three";
+import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+
+const [WIDTH, HEIGHT] = [640, 480];
+const VIEWS = [{ direction: [0.25, 0.2, 1], time: 0 }, { direction: [-0.8, 0.4, -0.6], time: 0.7 }];
+
+const renderer = new THREE.WebGLRenderer({ antialias: false, preserveDrawingBuffer: true });
+renderer.setSize(WIDTH, HEIGHT);
+document.body.append(renderer.domElement);
+
+/** A sphere around all that is drawn at time 0. */
+function bounds(scene) {
+  scene.updateMatrixWorld(true);
+  return new THREE.Box3().setFromObject(scene, true).getBoundingSphere(new THREE.Sphere());
+}
+
+function cameraOf({ center, radius }, direction) {
+  const camera = new THREE.PerspectiveCamera(35, WIDTH / HEIGHT, radius * 0.1, radius * 10);
+  camera.position.fromArray(direction).normalize().multiplyScalar(radius * 2.7).add(center);
+  camera.lookAt(center);
+  return camera;
+}
+
+function pixels() {
+  const gl = renderer.getContext();
+  const out = new Uint8Array(4 * WIDTH * HEIGHT);
+  gl.readPixels(0, 0, WIDTH, HEIGHT, gl.RGBA, gl.UNSIGNED_BYTE, out);
+  return out;
+}
+
+let sphere, reference;
+
+/** Draws a file. The first one is the reference: its bounds place the camera for all. */
+async function draw(url) {
+  const { scene: model, animations } = await new GLTFLoader().loadAsync(url);
+  const scene = new THREE.Scene();
+  scene.background = new THREE.Color(0x8090a0);
+  const sun = new THREE.DirectionalLight(0xffffff, 2);
+  sun.position.set(1, 2, 3);
+  scene.add(model, new THREE.HemisphereLight(0xffffff, 0x404040, 1.5), sun);
+  sphere ??= bounds(model);
+  const mixer = new THREE.AnimationMixer(model);
+  animations.forEach((clip) => mixer.clipAction(clip).play());
+  const drawn = VIEWS.map(({ direction, time }) => {
+    mixer.setTime(time);
+    renderer.render(scene, cameraOf(sphere, direction));
+    return { pixels: pixels(), png: renderer.domElement.toDataURL("image/png") };
+  });
+  reference ??= drawn;
+  return drawn;
+}
+
+function statistics(ours, theirs) {
+  let different = 0, over = 0, largest = 0, covered = 0;
+  for (let i = 0; i < ours.length; i += 4) {
+    let difference = 0, fromBackground = 0;
+    for (let channel = 0; channel < 3; channel++) {
+      difference = Math.max(difference, Math.abs(ours[i + channel] - theirs[i + channel]));
+      fromBackground = Math.max(fromBackground, Math.abs(theirs[i + channel] - theirs[channel]));  // the first pixel is background
+    }
+    different += difference > 0;
+    over += difference > 16;
+    covered += fromBackground > 0;
+    largest = Math.max(largest, difference);
+  }
+  return { different, over, largest, covered };
+}
+
+/** For each view: pixels that differ from the reference's, by more than 16 of 255, the largest difference, pixels covered. */
+window.compare = async (url) => {
+  const drawn = await draw(url);
+  return drawn.map(({ pixels, png }, view) => ({ ...statistics(pixels, reference[view].pixels), png }));
+};
+window.reset = () => { sphere = reference = undefined; };

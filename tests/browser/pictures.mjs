@@ -1,0 +1,66 @@
+// node pictures.mjs PACKAGES [--keep FOLDER] [--source SOURCE [--exact FILE | --close FILE]...]...
+// Draws glTF files with three.js in headless Chromium and compares the pictures with those of their source. Exit code 1 if one
+// differs too much. PACKAGES is what scripts/node-packages prints; --keep writes the pictures as PNG files.
+import { createReadStream, existsSync, mkdirSync, writeFileSync } from "node:fs";
+import { createServer } from "node:http";
+import { basename, dirname, join, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+import { Page } from "./chromium.mjs";
+
+// The share of the covered pixels that may differ by more than 16 of 255. Even of equal triangles some may, where two are as near
+// to the eye or a texel ends: their order and first corners decide about the last bit.
+const LIMITS = { "--exact": 0.0002, "--close": 0.01 };
+const TYPES = { html: "text/html", js: "text/javascript", gltf: "model/gltf+json", glb: "model/gltf-binary" };
+
+const here = dirname(fileURLToPath(import.meta.url));
+const [packages, ...args] = process.argv.slice(2);
+const folders = [];  // /N/NAME is NAME in folders[N], or else in the folder of its source
+
+function find(path) {
+  const [, place, ...rest] = decodeURIComponent(path).split("/");
+  if (place === "three") return join(packages, "node_modules/three", ...rest);
+  if (folders[place]) return folders[place].map((folder) => join(folder, ...rest)).find(existsSync);
+  return join(here, place);
+}
+
+const server = createServer((request, response) => {
+  const file = find(new URL(request.url, "http://127.0.0.1").pathname);
+  if (!file || !existsSync(file)) {
+    response.writeHead(404).end();
+    return;
+  }
+  response.writeHead(200, { "content-type": TYPES[file.split(".").pop()] ?? "application/octet-stream" });
+  createReadStream(file).pipe(response);
+});
+await new Promise((listening) => server.listen(0, "127.0.0.1", listening));
+
+const page = new Page();
+let failed = 0, keep, source;
+try {
+  await page.open(`http://127.0.0.1:${server.address().port}/page.html`);
+  for (let i = 0; i < args.length; i += 2) {
+    const [option, file] = [args[i], args[i + 1]];
+    if (option === "--keep") {
+      mkdirSync(keep = file, { recursive: true });
+      continue;
+    }
+    if (option === "--source") {
+      source = file;
+      await page.evaluate("reset()");
+    }
+    folders.push([resolve(dirname(file)), resolve(dirname(source))]);
+    const views = await page.evaluate(`compare(${JSON.stringify(`/${folders.length - 1}/${encodeURIComponent(basename(file))}`)})`);
+    views.forEach(({ png, different, over, largest, covered }, view) => {
+      const limit = LIMITS[option];
+      const wrong = limit ? over > limit * covered : covered < 100;
+      failed += wrong;
+      console.log(`${wrong ? "FAILED " : ""}${basename(file)}, view ${view}: ${covered} pixels covered` +
+        (limit ? `, ${different} differ, ${over} of them by more than 16, largest difference ${largest}` : ""));
+      if (keep) writeFileSync(join(keep, `${basename(file)}-${view}.png`), Buffer.from(png.split(",")[1], "base64"));
+    });
+  }
+} finally {
+  await page.close();
+  server.close();
+}
+process.exit(failed ? 1 : 0);
