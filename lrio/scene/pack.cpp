@@ -174,14 +174,33 @@ class Packer {
         }
     }
 
+    /// The parts of the group's sets, in the document's order of their first primitives.
+    std::vector<std::vector<std::uint32_t>> number_parts(const Group& group) const {
+        std::vector<std::vector<std::uint32_t>> out;
+        std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::size_t, std::size_t>> places;
+        for (const std::uint32_t s : group.sets) {
+            const std::vector<ScenePart>& parts = plan_.sets[s].parts;
+            for (std::size_t p = 0; p < parts.size(); ++p) {
+                const PrimitivePlace at = parts[p].primitives.front();
+                places[{at.mesh, at.primitive}] = {out.size(), p};
+            }
+            out.emplace_back(parts.size());
+        }
+        std::uint32_t number = 0;
+        for (const auto& [at, part] : places) out[part.first][part.second] = number++;
+        return out;
+    }
+
     Result<void> encode(const Group& group) {
         std::vector<CodedSet> sets;
         std::vector<std::uint32_t> vertices;
         const std::vector<VertexOptions> options = quantization_->options_of(group.sets);
+        const std::vector<std::vector<std::uint32_t>> part_numbers = number_parts(group);
         for (const std::uint32_t s : group.sets) {
             CodedSet& coded = sets.emplace_back();
             coded.set = std::move(meshes_[s]);
             coded.options = options;
+            coded.part_numbers = part_numbers[sets.size() - 1];
             if (auto good = quantize(coded, report_.max_error); !good) return good;
             if (!group.keep_order) unused_ += drop_unused_vertices(coded.set.mesh);
             vertices.push_back(group.keep_order ? coded.set.mesh.vertex_count : UINT32_MAX);
@@ -192,18 +211,18 @@ class Packer {
         degenerate_ += stream->degenerate;
         // What a reader will see, from the bytes: counts, bounds, and the fallback.
         std::vector<std::uint32_t> set_of_part;
-        for (const auto& numbers : stream->part_numbers) set_of_part.resize(set_of_part.size() + numbers.size());
+        for (const auto& numbers : part_numbers) set_of_part.resize(set_of_part.size() + numbers.size());
         for (std::size_t s = 0; s < group.sets.size(); ++s) {
-            for (const std::uint32_t number : stream->part_numbers[s])
-                set_of_part[number] = static_cast<std::uint32_t>(s);
+            for (const std::uint32_t number : part_numbers[s]) set_of_part[number] = static_cast<std::uint32_t>(s);
         }
         auto decoded = decode_scene_stream(stream->file, stream->parts, set_of_part, vertices);
         if (!decoded) return decoded.error();
-        return describe(group, *stream, *decoded);
+        return describe(group, part_numbers, *stream, *decoded);
     }
 
     /// Edits accessors and primitives of the group's sets.
-    Result<void> describe(const Group& group, const SceneStream& stream, const DecodedStream& decoded) {
+    Result<void> describe(const Group& group, const std::vector<std::vector<std::uint32_t>>& part_numbers,
+                          const SceneStream& stream, const DecodedStream& decoded) {
         const std::size_t number = streams_.size();
         JsonValue value = JsonText::object(), sets = JsonText::array();
         for (std::size_t s = 0; s < group.sets.size(); ++s) {
@@ -217,11 +236,12 @@ class Packer {
             }
             sets.members.push_back({{}, std::move(accessors)});
             for (std::size_t p = 0; p < set.parts.size(); ++p) {
-                const std::uint32_t part = stream.part_numbers[s][p];
+                const std::uint32_t part = part_numbers[s][p];
                 put_part(set.parts[p], number, part, decoded.parts[part], decoded.sets[s].vertices);
             }
         }
         value.set("sets", std::move(sets));
+        if (group.keep_order) value.set("ordered", json_.boolean(true));
         report_.geometry_after += stream.file.size() + stream.parts.size();
         streams_.push_back({std::move(value), stream.file, stream.parts});
         return {};

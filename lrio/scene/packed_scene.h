@@ -40,6 +40,8 @@ class PackedScene {
 
     JsonText& json() { return *json_; }
     SceneViews views() { return {json_->root, *buffers_}; }
+    /// Was the document in a buffer view? What its streams say as well is then left out of it.
+    bool is_document_packed() const { return text_ != nullptr; }
     /// Of all views that are coded, and the file.
     double bytes() const { return bytes_; }
 

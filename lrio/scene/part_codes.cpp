@@ -27,23 +27,34 @@ bool take_varint(std::span<const std::byte>& from, std::uint32_t& value) {
     return false;
 }
 
-/// Parts, the one used last first: how far from the front is the code. A code may not be farther than kFar, so that no
-/// input costs more than so many steps a run.
+/// Codes are: 0, a part that had no run yet, its distance from the number behind the last such one following, even
+/// numbers forwards; 1 to kFar, that many parts back among those used; beyond, the part's number.
 constexpr std::size_t kFar = 64;
+
+std::uint32_t fold_distance(std::uint32_t distance) {
+    return (distance << 1) ^ ((distance >> 31) != 0 ? UINT32_MAX : 0U);
+}
+std::uint32_t unfold_distance(std::uint32_t code) {
+    return (code >> 1) ^ ((code & 1) != 0 ? UINT32_MAX : 0U);
+}
 
 }  // namespace
 
 std::vector<std::byte> encode_part_codes(std::span<const std::uint32_t> parts) {
     std::vector<std::byte> runs;
     std::vector<std::uint32_t> recent;  // the last one is the latest
-    std::uint32_t seen = 0;
+    std::vector<bool> seen;
+    std::uint32_t expected = 0;
     for (std::size_t from = 0; from < parts.size();) {
         std::size_t to = from + 1;
         while (to < parts.size() && parts[to] == parts[from]) ++to;
         const std::uint32_t part = parts[from];
-        if (part == seen) {
+        if (part >= seen.size()) seen.resize(std::size_t{part} + 1, false);
+        if (!seen[part]) {
+            seen[part] = true;
             put_varint(runs, 0);
-            ++seen;
+            put_varint(runs, fold_distance(part - expected));
+            expected = part + 1;
         } else {
             const std::size_t window = std::min(recent.size(), kFar);
             const auto begin = recent.end() - static_cast<std::ptrdiff_t>(window);
@@ -66,18 +77,26 @@ std::vector<std::byte> encode_part_codes(std::span<const std::uint32_t> parts) {
 
 Result<std::vector<std::uint32_t>> decode_part_codes(std::span<const std::byte> codes, std::size_t triangles,
                                                      std::size_t parts) {
-    const auto bytes = inflate_bytes(codes, 10 * static_cast<std::uint64_t>(triangles));
+    const auto bytes = inflate_bytes(codes, 15 * static_cast<std::uint64_t>(triangles));
     if (!bytes) return bytes.error();
     std::span<const std::byte> runs = *bytes;
     std::vector<std::uint32_t> out;
     out.reserve(triangles);
     std::vector<std::uint32_t> recent;
-    std::uint32_t seen = 0;
+    std::vector<bool> seen(parts, false);
+    std::size_t found = 0;
+    std::uint32_t expected = 0;
     while (!runs.empty()) {
-        std::uint32_t code = 0, more = 0, part = 0;
-        if (!take_varint(runs, code) || !take_varint(runs, more)) return malformed("parts: half a run");
+        std::uint32_t code = 0, distance = 0, more = 0, part = 0;
+        if (!take_varint(runs, code) || (code == 0 && !take_varint(runs, distance)) || !take_varint(runs, more)) {
+            return malformed("parts: half a run");
+        }
         if (code == 0) {
-            part = seen++;
+            part = expected + unfold_distance(distance);
+            if (part >= parts || seen[part]) return malformed("parts: part {} is not a new one", part);
+            seen[part] = true;
+            ++found;
+            expected = part + 1;
         } else if (code <= kFar) {
             if (code > std::min(recent.size(), kFar)) return malformed("parts: a code beyond those before");
             const auto at = recent.end() - static_cast<std::ptrdiff_t>(code);
@@ -86,13 +105,13 @@ Result<std::vector<std::uint32_t>> decode_part_codes(std::span<const std::byte> 
         } else {
             part = code - static_cast<std::uint32_t>(kFar + 1);
         }
-        if (part >= seen || seen > parts) return malformed("parts: part {} does not exist", part);
+        if (part >= parts || !seen[part]) return malformed("parts: part {} was not there before", part);
         recent.push_back(part);
         if (recent.size() > 2 * kFar) recent.erase(recent.begin(), recent.end() - kFar);
         if (more >= triangles - out.size()) return malformed("parts: more triangles than the stream has");
         out.insert(out.end(), std::size_t{more} + 1, part);
     }
-    if (out.size() != triangles || seen != parts) return malformed("parts: not one for each triangle");
+    if (out.size() != triangles || found != parts) return malformed("parts: not one for each triangle");
     return out;
 }
 

@@ -14,8 +14,7 @@
 
 namespace lacedring::detail {
 
-/// `parts` are numbered by first appearance: 0, then nothing above the largest one before plus 1. Cost: O(runs * parts
-/// between two uses).
+/// The parts of triangles: all numbers below the largest one occur. Cost: O(triangles).
 std::vector<std::byte> encode_part_codes(std::span<const std::uint32_t> parts);
 
 /// The part of each of so many triangles: all parts below `parts` occur. Errors: malformed. Untrusted input: safe.

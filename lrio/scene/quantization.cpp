@@ -91,14 +91,14 @@ SceneQuantization::SceneQuantization(const ScenePlan& plan, std::span<const SetM
         for (const Attribute& a : meshes[s].mesh.attributes) {
             Column column{a.name, a.type, a.components, false, false, {}};
             if (a.type == ComponentType::f32) {
-                column.finite = column.unit_w = true;
+                column.roundable = column.unit_w = true;
                 std::array<double, 16> low{}, high{};
                 low.fill(INFINITY);
                 high.fill(-INFINITY);
                 for (std::size_t i = 0, size = a.data.size() / 4, c = 0; i < size;
                      ++i, c = c + 1 == a.components ? 0 : c + 1) {
                     const double value = value_at(a, i);
-                    column.finite = column.finite && std::isfinite(value);
+                    column.roundable = column.roundable && std::isfinite(value);
                     column.unit_w = column.unit_w && (c != 3 || value == 1 || value == -1);
                     low[c] = std::min(low[c], value);
                     high[c] = std::max(high[c], value);
@@ -107,11 +107,11 @@ SceneQuantization::SceneQuantization(const ScenePlan& plan, std::span<const SetM
                     column.range.extent = std::max(column.range.extent, high[c] - low[c]);
                     column.range.largest = std::max({column.range.largest, std::abs(low[c]), std::abs(high[c])});
                 }
-                if (a.name == "POSITION" && meshes[s].integer_positions) column.finite = false;  // lossless
+                if (a.name == "POSITION" && meshes[s].integer_positions) column.roundable = false;  // lossless
                 if (semantic(a.name).starts_with("TEXCOORD_")) column.range.kind = size_class(column.range.extent, 2);
             }
             kind += fmt::format("|{}|{}|{}|{}|{}|{}|{}", a.name, static_cast<int>(a.type), a.components, a.normalized,
-                                column.finite, column.unit_w, column.range.kind);
+                                column.roundable, column.unit_w, column.range.kind);
             columns.push_back(std::move(column));
         }
         kinds_.push_back(std::move(kind));
@@ -195,7 +195,7 @@ std::vector<VertexOptions> SceneQuantization::options_of(std::span<const std::ui
             range.largest = std::max(range.largest, columns_[s][c].range.largest);
         }
         const auto fraction = [](std::uint32_t bits) { return std::ldexp(1.0F, -static_cast<int>(bits)); };
-        if (column.type != ComponentType::f32 || !column.finite) {
+        if (column.type != ComponentType::f32 || !column.roundable) {
             // stays as it is
         } else if (name == "POSITION") {
             lattice(position_step);

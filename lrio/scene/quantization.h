@@ -33,7 +33,8 @@ class SceneQuantization {
         std::string name;
         ComponentType type = ComponentType::f32;
         std::uint8_t components = 0;
-        bool finite = false, unit_w = false;
+        bool roundable = false;  ///< floats that are finite, and not integers of the source
+        bool unit_w = false;
         Range range;
     };
     std::size_t class_of_set(const ScenePlan& plan, std::size_t set) const;

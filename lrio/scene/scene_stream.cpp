@@ -17,7 +17,7 @@ namespace {
 struct Joined {
     Mesh mesh;
     Surface surface;
-    std::vector<std::uint32_t> part_of;  ///< of each triangle, numbered set by set
+    std::vector<std::uint32_t> part_of;  ///< of each triangle
     std::size_t parts = 0;
 };
 
@@ -44,9 +44,9 @@ Joined join_sets(std::vector<CodedSet>& sets, bool keep_order) {
         }
         out.mesh.vertex_count += mesh.vertex_count;
         for (const std::uint32_t v : mesh.indices) out.mesh.indices.push_back(first + v);
-        for (std::size_t part = 0; part + 1 < coded.set.first_triangle.size(); ++part, ++out.parts) {
+        for (std::size_t part = 0; part < coded.part_numbers.size(); ++part, ++out.parts) {
             const std::uint32_t triangles = coded.set.first_triangle[part + 1] - coded.set.first_triangle[part];
-            out.part_of.insert(out.part_of.end(), triangles, static_cast<std::uint32_t>(out.parts));
+            out.part_of.insert(out.part_of.end(), triangles, coded.part_numbers[part]);
         }
         mesh = {};
     }
@@ -99,8 +99,6 @@ Result<StreamChoice> make_choice(const Joined& joined, const Surface& surface,
 
 Result<SceneStream> encode_scene_stream(std::vector<CodedSet> sets, bool keep_order, unsigned threads) {
     const std::vector<VertexOptions> options = sets.front().options;
-    std::vector<std::size_t> parts_of_set;
-    for (const CodedSet& coded : sets) parts_of_set.push_back(coded.set.first_triangle.size() - 1);
     const bool several = sets.size() > 1;
     Joined joined = join_sets(sets, keep_order);
     Result<StreamChoice> best = make_choice(joined, joined.surface, options, keep_order, threads);
@@ -119,22 +117,10 @@ Result<SceneStream> encode_scene_stream(std::vector<CodedSet> sets, bool keep_or
     SceneStream out;
     out.degenerate = best->degenerate;
     out.file = std::move(best->bytes);
-    // Parts are numbered as they come.
-    std::vector<std::uint32_t> number(joined.parts, UINT32_MAX), parts;
-    std::uint32_t seen = 0;
+    std::vector<std::uint32_t> parts;
     parts.reserve(best->triangle_order.size());
-    for (const std::uint32_t t : best->triangle_order) {
-        std::uint32_t& n = number[joined.part_of[t]];
-        if (n == UINT32_MAX) n = seen++;
-        parts.push_back(n);
-    }
-    if (seen > 1) out.parts = encode_part_codes(parts);
-    std::size_t first = 0;
-    for (const std::size_t count : parts_of_set) {
-        out.part_numbers.emplace_back(number.begin() + static_cast<std::ptrdiff_t>(first),
-                                      number.begin() + static_cast<std::ptrdiff_t>(first + count));
-        first += count;
-    }
+    for (const std::uint32_t t : best->triangle_order) parts.push_back(joined.part_of[t]);
+    if (joined.parts > 1) out.parts = encode_part_codes(parts);
     return out;
 }
 
@@ -164,6 +150,7 @@ class StreamSplitter {
     Result<void> take_ranges() {
         std::uint64_t first = 0;
         for (std::size_t s = 0; s < vertices_.size(); ++s) {
+            if (vertices_[s] == UINT32_MAX) return malformed("vertices in order, and a set without a count");
             first_.push_back(static_cast<std::uint32_t>(first));
             out_.sets[s].vertices = vertices_[s];
             first += vertices_[s];

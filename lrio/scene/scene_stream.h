@@ -16,15 +16,14 @@ namespace lacedring::detail {
 struct SceneStream {
     std::vector<std::byte> file;   ///< .lr
     std::vector<std::byte> parts;  ///< part codes; empty where there is one part
-    /// The stream's part of each of a set's parts, set by set.
-    std::vector<std::vector<std::uint32_t>> part_numbers;
     std::uint32_t degenerate = 0;  ///< triangles that are left out
 };
 
 /// A set's mesh as it is encoded: values quantized, copies merged. How each attribute is coded.
 struct CodedSet {
     SetMesh set;
-    std::vector<VertexOptions> options;  ///< of each attribute
+    std::vector<VertexOptions> options;       ///< of each attribute
+    std::vector<std::uint32_t> part_numbers;  ///< the stream's number of each of its parts
 };
 
 /// Sets whose attributes are alike and coded alike as one stream; they are taken over. Positions of different sets are

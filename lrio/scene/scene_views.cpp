@@ -292,15 +292,25 @@ bool SceneViewWriter::deflates_document(const PackOptions& options, const SceneF
 }
 
 Result<void> SceneViewWriter::pack_document(SceneFile& out) {
-    // Nobody reads the bounds of streams' positions before they are unpacked, which makes them anew.
+    // Nobody reads what is in the streams as well before they are unpacked: bounds and counts, and which part a
+    // primitive has, since parts are numbered in the order of the primitives.
+    auto accessors = json_.root.list("accessors");
     for (const auto& stream : extension_of(json_.root)->list("streams")) {
+        const bool ordered = stream.value.find("ordered") != nullptr;
         for (const auto& set : stream.value.list("sets")) {
             for (const auto& number : set.value.members) {
-                JsonValue& accessor =
-                    json_.root.list("accessors")[static_cast<std::size_t>(*number.value.integer())].value;
+                JsonValue& accessor = accessors[static_cast<std::size_t>(*number.value.integer())].value;
                 accessor.remove("min");
                 accessor.remove("max");
+                if (!ordered) accessor.remove("count");
             }
+        }
+    }
+    for (auto& mesh : json_.root.list("meshes")) {
+        for (auto& primitive : mesh.value.list("primitives")) {
+            if (extension_of(primitive.value) == nullptr) continue;
+            remove_extension(primitive.value, kExtension);
+            accessors[static_cast<std::size_t>(*primitive.value.integer("indices"))].value.remove("count");
         }
     }
     out.json = text_of(json_.root);

@@ -51,7 +51,9 @@ class Unpacker {
         const auto number = value == nullptr ? std::nullopt : value->integer();
         if (!number || *number >= accessors().size()) return malformed("an accessor that does not exist");
         const JsonValue& accessor = accessors()[static_cast<std::size_t>(*number)].value;
-        if (!accessor.is_object() || !accessor.integer("count")) return malformed("accessor {}: no count", *number);
+        if (!accessor.is_object() || (!scene_.is_document_packed() && !accessor.integer("count"))) {
+            return malformed("accessor {}: no count", *number);
+        }
         return static_cast<std::uint32_t>(*number);
     }
 
@@ -122,28 +124,45 @@ class Unpacker {
         return {};
     }
 
-    Result<void> plan_primitive(const JsonValue& primitive) {
-        const JsonValue* extension = extension_of(primitive);
-        if (extension == nullptr) return {};
-        const auto number = extension->integer("stream"), part = extension->integer("part");
-        if (!number || *number >= streams_.size()) return malformed("a stream that does not exist");
-        StreamPlan& stream = streams_[static_cast<std::size_t>(*number)];
-        std::uint32_t set = UINT32_MAX;
+    /// The stream and set of a primitive's attributes. None: it has no stream. Errors: malformed (not of one set).
+    Result<std::optional<std::pair<std::uint32_t, std::uint32_t>>> set_of(const JsonValue& primitive) const {
+        std::optional<std::pair<std::uint32_t, std::uint32_t>> out;
+        bool first = true;
         const auto visit = [&](const std::string& name, std::uint32_t accessor) -> Result<void> {
             const auto found = set_of_.find(accessor);
-            if (found == set_of_.end() || found->second.first != *number ||
-                (set != UINT32_MAX && found->second.second != set)) {
-                return malformed("{}: not of one set of stream {}", shown(name), *number);
+            const bool has = found != set_of_.end() && found->second.first != UINT32_MAX;
+            if (!first && (has != out.has_value() || (has && *out != found->second))) {
+                return malformed("{}: not of one set with the attributes before", shown(name));
             }
-            set = found->second.second;
+            if (has) out = found->second;
+            first = false;
             return {};
         };
-        if (auto good = visit_attributes(primitive, visit); !good) return good;
-        // Parts are numbered without gaps, and each has a primitive.
-        if (!part || set == UINT32_MAX) return malformed("a part that does not exist");
-        if (primitive.integer("mode").value_or(4) != 4) return malformed("parts are triangles");
+        if (auto good = visit_attributes(primitive, visit); !good) return good.error();
+        return out;
+    }
+
+    Result<void> plan_primitive(const JsonValue& primitive) {
+        const JsonValue* extension = extension_of(primitive);
+        if (extension == nullptr && !scene_.is_document_packed()) return {};
+        const auto set = set_of(primitive);
+        if (!set) return set.error();
+        if (!*set) return extension == nullptr ? Result<void>() : malformed("its attributes have no stream");
+        const auto [number, of_stream] = **set;
+        StreamPlan& stream = streams_[number];
+        if (primitive.integer("mode").value_or(4) != 4) {  // lines may read the vertices of a set, too
+            return extension == nullptr ? Result<void>() : malformed("parts are triangles");
+        }
         const auto indices = accessor_number(primitive.find("indices"));
         if (!indices) return indices.error();
+        std::optional<std::uint64_t> part;
+        if (extension != nullptr) {
+            if (extension->integer("stream") != number) return malformed("its attributes are of stream {}", number);
+            part = extension->integer("part");
+        } else {  // parts are numbered in the document's order
+            part = part_of_.try_emplace({number, *indices}, stream.parts.size()).first->second;
+        }
+        if (!part) return malformed("no part");
         if (*part >= stream.parts.size()) {
             const std::uint64_t more = *part - stream.parts.size() + 1;
             if (more > parts_left_) return malformed("part {}, of fewer primitives", *part);
@@ -152,9 +171,9 @@ class Unpacker {
         }
         StreamPlan::Part& at = stream.parts[static_cast<std::size_t>(*part)];
         if (at.set == UINT32_MAX) {
-            at = {set, *indices};
+            at = {of_stream, *indices};
             if (auto good = take_once(*indices, UINT32_MAX, 0); !good) return good;
-        } else if (at.set != set || at.indices != *indices) {
+        } else if (at.set != of_stream || at.indices != *indices) {
             return malformed("another set or other indices than part {} has elsewhere", *part);
         }
         ++report_.primitives;
@@ -213,8 +232,9 @@ class Unpacker {
         for (const StreamPlan::Part& part : stream.parts) set_of_part.push_back(part.set);
         for (const auto& set : stream.sets) {
             if (set.empty()) return malformed("a set without accessors");
-            const std::uint64_t count = accessors()[set[0]].value.integer("count").value_or(UINT32_MAX);
-            if (count >= UINT32_MAX) return malformed("accessor {}: count {}", set[0], count);
+            const JsonValue& first = accessors()[set[0]].value;
+            const std::uint64_t count = first.integer("count").value_or(UINT32_MAX);
+            if (first.find("count") != nullptr && count >= UINT32_MAX) return malformed("accessor {}: count", set[0]);
             vertices.push_back(static_cast<std::uint32_t>(count));
         }
         auto decoded = decode_scene_stream(*file, parts, set_of_part, vertices);
@@ -226,7 +246,7 @@ class Unpacker {
         for (std::size_t p = 0; p < stream.parts.size(); ++p) {
             const std::vector<std::uint32_t>& indices = decoded->parts[p];
             JsonValue& accessor = accessors()[*stream.parts[p].indices].value;
-            if (accessor.integer("count") != indices.size()) {
+            if (accessor.find("count") != nullptr && accessor.integer("count") != indices.size()) {
                 return malformed("part {} has {} indices, its accessor another count", p, indices.size());
             }
             strip_accessor(accessor);
@@ -253,7 +273,7 @@ class Unpacker {
         for (std::size_t a = 0; a < numbers.size(); ++a) {
             JsonValue& accessor = accessors()[numbers[a]].value;
             const Attribute& attribute = set.attributes[a];
-            if (accessor.integer("count") != set.vertices) {
+            if (accessor.find("count") != nullptr && accessor.integer("count") != set.vertices) {
                 return malformed("accessor {}: its set has {} vertices", numbers[a], set.vertices);
             }
             const auto values = values_as(accessor, attribute);
@@ -306,6 +326,7 @@ class Unpacker {
     std::vector<bool> free_;  ///< views that nothing refers to
     std::size_t next_free_ = 0;
     BinChunk bin_;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint64_t> part_of_;  ///< by stream and indices
     std::uint64_t parts_left_ = 0;  ///< that all streams together may still have
     double decoded_bytes_ = 0, decoded_triangles_ = 0;
 };
