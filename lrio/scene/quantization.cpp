@@ -37,8 +37,8 @@ int size_class(double size, double factor) {
 void round_weights(std::vector<double>& weights, std::uint32_t bits) {
     const double all = std::ldexp(1.0, static_cast<int>(bits));
     const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-    if (!(std::abs(sum - 1) < 0.02)) {
-        for (double& w : weights) w = std::nearbyint(w * all) / all;
+    if (!(std::abs(sum - 1) < 0.02) || static_cast<double>(weights.size()) > all) {
+        for (double& w : weights) w = (w > 0 ? std::max(std::nearbyint(w * all), 1.0) : std::nearbyint(w * all)) / all;
         return;
     }
     std::vector<std::size_t> order(weights.size());
@@ -47,12 +47,14 @@ void round_weights(std::vector<double>& weights, std::uint32_t bits) {
     double left = all;
     for (std::size_t i = 0; i < weights.size(); ++i) {
         const double exact = weights[i] / sum * all;
-        weights[i] = std::floor(exact);
+        // None becomes 0: its joint would be named without effect.
+        weights[i] = weights[i] > 0 ? std::max(std::floor(exact), 1.0) : 0.0;
         lost[i] = exact - weights[i];
         left -= weights[i];
     }
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return lost[a] > lost[b]; });
     for (std::size_t i = 0; i < order.size() && left > 0.5; ++i, --left) weights[order[i]] += 1;
+    for (; left < -0.5; ++left) *std::max_element(weights.begin(), weights.end()) -= 1;
     for (double& w : weights) w /= all;
 }
 
