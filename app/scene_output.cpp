@@ -51,11 +51,13 @@ Result<void> check_scene_output(const SceneOutput& output, const OutputOptions& 
 
 Result<std::uint64_t> write_scene(const SceneFile& scene, const SceneOutput& output) {
     if (output.bin.empty()) {
-        const auto glb = make_glb_file(scene);
-        if (!glb) return glb.error();
-        const std::span<const std::byte> parts[] = {*glb};
+        const auto head = make_glb_head(scene);
+        if (!head) return head.error();
+        constexpr std::array<std::byte, 3> kZeros{};
+        const auto tail = std::span(kZeros).first((4 - scene.bin.size() % 4) % 4);
+        const std::span<const std::byte> parts[] = {*head, scene.bin, tail};
         if (auto written = write_output(output.path, parts); !written) return written.error();
-        return glb->size();
+        return head->size() + scene.bin.size() + tail.size();
     }
     const auto write = [](const fs::path& path, std::span<const std::byte> bytes) -> Result<void> {
         const std::span<const std::byte> parts[] = {bytes};

@@ -65,8 +65,8 @@ Result<DecodedLr> decode_connectivity(const LrFile& file, bool untrusted) {
 }
 
 Attribute decode_attribute(const LrAttribute& attribute) {
-    Attribute out = attribute;
-    if (attribute.words.empty()) return out;
+    if (attribute.words.empty()) return attribute;
+    Attribute out{attribute.name, attribute.type, attribute.components, attribute.normalized, {}, attribute.v_up};
     if (const Result<VertexView> view = view_vertices(attribute.words)) {
         out.data.resize(view->decoded_bytes());
         decode_vertices(*view, out.data);
@@ -74,9 +74,6 @@ Attribute decode_attribute(const LrAttribute& attribute) {
     return out;
 }
 
-namespace {
-
-/// Mesh and surface in stream order.
 Result<Mesh> decode_mesh(const LrFile& file, DecodedLr& decoded, Surface* surface) {
     // The mesh's vertices: those of the connectivity, or their copies, but for extra ones. No triangle names these.
     std::vector<std::uint32_t> kept(decoded.vertex_of.empty() ? decoded.vertices : decoded.vertex_of.size());
@@ -87,13 +84,16 @@ Result<Mesh> decode_mesh(const LrFile& file, DecodedLr& decoded, Surface* surfac
     mesh.vertex_count = static_cast<std::uint32_t>(kept.size());
     std::vector<std::uint32_t> of_vertex = kept;  // the place of each in an attribute of vertices
     for (std::uint32_t& i : of_vertex) i = decoded.vertex_of.empty() ? i : decoded.vertex_of[i];
-    std::vector<bool> used(all);
-    for (const std::uint32_t v : decoded.indices) used[v] = true;
     const bool as_it_is = decoded.vertex_of.empty() && kept.size() == all;
     for (const LrAttribute& attribute : file.attributes) {
         Attribute values = decode_attribute(attribute);
         if (!as_it_is) values = std::move(permute_attributes({&values, 1}, attribute.per_copy ? kept : of_vertex)[0]);
         mesh.attributes.push_back(std::move(values));
+    }
+    std::vector<bool> used;
+    if (surface != nullptr && !decoded.vertex_of.empty()) {
+        used.assign(all, false);
+        for (const std::uint32_t v : decoded.indices) used[v] = true;
     }
     if (kept.size() < all) {
         std::vector<std::uint32_t> number(all, 0);
@@ -114,7 +114,6 @@ Result<Mesh> decode_mesh(const LrFile& file, DecodedLr& decoded, Surface* surfac
     return mesh;
 }
 
-}  // namespace
 }  // namespace detail
 
 Result<Mesh> decode_lr(const LrFile& file, Surface* surface) {

@@ -145,6 +145,12 @@ struct DecodedLr {
 /// Decodes the connectivity and the seams. Errors: malformed; of files that are valid none, if `untrusted` is false.
 Result<DecodedLr> decode_connectivity(const LrFile& file, bool untrusted);
 
+/// Mesh and surface in stream order, as decode_lr's; takes what is decoded.
+Result<Mesh> decode_mesh(const LrFile& file, DecodedLr& decoded, Surface* surface);
+
+/// parse_lr, and the connectivity that it decoded to check it.
+Result<LrFile> parse_lr(std::span<const std::byte> bytes, DecodedLr& decoded);
+
 /// The attribute with its values. Of a stream, which is valid, they are decoded.
 Attribute decode_attribute(const LrAttribute& attribute);
 

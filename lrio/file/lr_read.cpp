@@ -29,6 +29,8 @@ class Reader {
         return std::move(file_);
     }
 
+    DecodedLr take_decoded() { return std::move(decoded_); }
+
   private:
     std::string read_section(const FileHeader& header, const Section& section, std::span<const std::byte> contents) {
         switch (section.kind) {
@@ -92,14 +94,14 @@ class Reader {
         return {};
     }
 
-    std::string check() const {
+    std::string check() {
         if (file_.seams.empty() != (file_.copy_count == 0)) return "seams without copies, or copies without seams";
         if (file_.attributes.empty() || file_.attributes[0].name != "POSITION" || file_.attributes[0].components != 3 ||
             (file_.attributes[0].type != ComponentType::f32 && file_.attributes[0].type != ComponentType::f64) ||
             file_.attributes[0].per_copy) {
             return "the first attribute is not POSITION";
         }
-        const Result<DecodedLr> decoded = decode_connectivity(file_, true);
+        Result<DecodedLr> decoded = decode_connectivity(file_, true);
         if (!decoded) return decoded.error().message;
         const std::size_t triangles = decoded->indices.size() / 3;
         if (triangles > file_.input_triangles) return "more triangles than the input had";
@@ -117,6 +119,7 @@ class Reader {
             for (std::uint32_t& corner : order) corner /= 3;
             if (!permutation_into(order, triangles, file_.input_triangles)) return "the corner order is no permutation";
         }
+        decoded_ = std::move(*decoded);
         return {};
     }
 
@@ -155,10 +158,18 @@ class Reader {
     }
 
     LrFile file_;
+    DecodedLr decoded_;
     bool has_connectivity_ = false;
 };
 
 }  // namespace
+
+Result<LrFile> detail::parse_lr(std::span<const std::byte> bytes, DecodedLr& decoded) {
+    Reader reader;
+    Result<LrFile> file = reader.read(bytes);
+    if (file) decoded = reader.take_decoded();
+    return file;
+}
 
 Result<LrFile> parse_lr(std::span<const std::byte> bytes) {
     return Reader().read(bytes);

@@ -7,6 +7,7 @@
 
 #include "lacedring/lacedring.hpp"
 #include "lacedring/surface.hpp"
+#include "lrio/file/lr_layout.h"
 #include "lrio/mesh/read_formats.h"
 #include "lrio/scene/part_codes.h"
 
@@ -135,6 +136,9 @@ class StreamSplitter {
     Result<DecodedStream> split(std::span<const std::uint32_t> part_of, bool in_order) {
         out_.sets.resize(vertices_.size());
         out_.parts.resize(set_of_part_.size());
+        if (out_.sets.size() == 1 && (vertices_[0] == UINT32_MAX || vertices_[0] == mesh_.vertex_count)) {
+            return take_all(part_of);
+        }
         place_.assign(mesh_.vertex_count, 0);
         if (auto good = in_order ? take_ranges() : number_vertices(part_of); !good) return good.error();
         for (std::size_t s = 0; s < vertices_.size(); ++s) {
@@ -147,6 +151,21 @@ class StreamSplitter {
     }
 
   private:
+    /// Of one set: everything as it is.
+    Result<DecodedStream> take_all(std::span<const std::uint32_t> part_of) {
+        out_.sets[0].vertices = mesh_.vertex_count;
+        out_.sets[0].attributes = std::move(mesh_.attributes);
+        if (out_.parts.size() == 1) {
+            out_.parts[0] = std::move(mesh_.indices);
+            return std::move(out_);
+        }
+        for (std::size_t t = 0; t < part_of.size(); ++t) {
+            const auto from = mesh_.indices.begin() + static_cast<std::ptrdiff_t>(3 * t);
+            out_.parts[part_of[t]].insert(out_.parts[part_of[t]].end(), from, from + 3);
+        }
+        return std::move(out_);
+    }
+
     Result<void> take_ranges() {
         std::uint64_t first = 0;
         for (std::size_t s = 0; s < vertices_.size(); ++s) {
@@ -237,12 +256,14 @@ class StreamSplitter {
 Result<DecodedStream> decode_scene_stream(std::span<const std::byte> bytes, std::span<const std::byte> parts,
                                           std::span<const std::uint32_t> set_of_part,
                                           std::span<const std::uint32_t> vertices) {
-    const Result<LrFile> file = parse_lr(bytes);
+    DecodedLr connectivity;
+    const Result<LrFile> file = parse_lr(bytes, connectivity);
     if (!file) return file.error();
     const bool in_order = !file->vertex_order.empty() && !file->corner_order.empty();
-    Result<Mesh> mesh = in_order ? decode_lr_original_order(*file) : decode_lr(*file);
+    Result<Mesh> mesh = in_order ? decode_lr_original_order(*file) : decode_mesh(*file, connectivity, nullptr);
     if (!mesh) return mesh.error();
-    std::vector<std::uint32_t> part_of(mesh->triangle_count(), 0);
+    std::vector<std::uint32_t> part_of;
+    if (set_of_part.size() > 1 || vertices.size() > 1) part_of.assign(mesh->triangle_count(), 0);
     if (set_of_part.size() > 1) {
         auto codes = decode_part_codes(parts, part_of.size(), set_of_part.size());
         if (!codes) return codes.error();

@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <initializer_list>
 #include <limits>
 
 #include "lrio/mesh/read_formats.h"
@@ -79,14 +78,18 @@ std::size_t BinChunk::add(std::span<const std::byte> bytes, std::size_t align) {
     return at;
 }
 
+void BinChunk::expect(std::size_t more) {
+    if (more > bytes_.capacity() - bytes_.size()) bytes_.reserve(std::max(bytes_.size() + more, 2 * bytes_.capacity()));
+}
+
 void strip_accessor(JsonValue& accessor) {
     for (const char* name : {"bufferView", "byteOffset", "sparse", "min", "max"}) accessor.remove(name);
 }
 
-Result<std::vector<std::byte>> values_as(const JsonValue& accessor, const Attribute& attribute) {
+Result<std::vector<std::byte>> values_as(const JsonValue& accessor, Attribute attribute) {
     const std::uint64_t type = accessor.integer("componentType").value_or(0);
     if (!has_shape(accessor, attribute.components)) return malformed("{}: another type", shown(attribute.name));
-    if (type == type_number(attribute.type)) return attribute.data;
+    if (type == type_number(attribute.type)) return std::move(attribute.data);
     std::vector<std::byte> out;
     const bool fits = attribute.type == ComponentType::f32 &&
                       ((type == kByte && convert_all<std::int8_t>(attribute.data, out)) ||
@@ -107,9 +110,13 @@ void describe_attribute(JsonText& json, JsonValue& accessor, const Attribute& at
     }
     std::array<float, 3> low{}, high{};
     for (std::size_t c = 0; c < 3; ++c) low[c] = high[c] = float_at(attribute.data, c);
-    for (std::size_t i = 0; i < 3 * std::size_t{vertices}; ++i) {
-        low[i % 3] = std::min(low[i % 3], float_at(attribute.data, i));
-        high[i % 3] = std::max(high[i % 3], float_at(attribute.data, i));
+    for (std::size_t v = 1; v < vertices; ++v) {
+        std::array<float, 3> at{};
+        std::memcpy(at.data(), attribute.data.data() + 12 * v, sizeof at);
+        for (std::size_t c = 0; c < 3; ++c) {
+            low[c] = std::min(low[c], at[c]);
+            high[c] = std::max(high[c], at[c]);
+        }
     }
     const auto put = [&](const char* name, const std::array<float, 3>& values) {
         if (says(accessor.find(name), values)) return;
@@ -199,29 +206,6 @@ void remove_extension(JsonValue& value, std::string_view name) {
     if (extensions == nullptr || extensions->find(name) == nullptr) return;
     extensions->remove(name);
     if (extensions->members.empty()) value.remove("extensions");
-}
-
-Result<std::vector<std::byte>> glb_of(std::string_view json, std::span<const std::byte> bin) {
-    const auto align4 = [](std::uint64_t size) { return (size + 3) / 4 * 4; };
-    const std::uint64_t total = 12 + 8 + align4(json.size()) + (bin.empty() ? 0 : 8 + align4(bin.size()));
-    if (total > UINT32_MAX) return Error{ErrorCode::too_large, "the scene does not fit into GLB's 4 GiB"};
-    std::vector<std::byte> out(static_cast<std::size_t>(total));
-    std::size_t at = 0;
-    const auto put = [&](std::span<const std::byte> part) {
-        if (!part.empty()) std::memcpy(out.data() + at, part.data(), part.size());
-        at += part.size();
-    };
-    const auto put_words = [&](std::initializer_list<std::uint32_t> words) {
-        put(std::as_bytes(std::span(words.begin(), words.size())));
-    };
-    constexpr std::uint32_t kGltf = 0x46546c67, kJson = 0x4e4f534a, kBin = 0x004e4942;
-    put_words({kGltf, 2, static_cast<std::uint32_t>(total), static_cast<std::uint32_t>(align4(json.size())), kJson});
-    put(std::as_bytes(std::span(json)));
-    for (; at % 4 != 0; ++at) out[at] = std::byte{' '};
-    if (bin.empty()) return out;
-    put_words({static_cast<std::uint32_t>(align4(bin.size())), kBin});
-    put(bin);
-    return out;
 }
 
 }  // namespace lacedring::detail

@@ -21,6 +21,8 @@ class BinChunk {
     std::size_t add(std::span<const std::byte> bytes, std::size_t align = 4);
     std::vector<std::byte> take() { return std::move(bytes_); }
     std::size_t size() const { return bytes_.size(); }
+    /// Makes room for so many bytes more, so that they are not copied as the chunk grows.
+    void expect(std::size_t more);
 
   private:
     std::vector<std::byte> bytes_;
@@ -31,7 +33,7 @@ void strip_accessor(JsonValue& accessor);
 
 /// The attributes' values in their accessors' types, by which they may differ from the stream's (integer positions).
 /// Errors: malformed (an accessor of another type; a position that its type does not hold).
-Result<std::vector<std::byte>> values_as(const JsonValue& accessor, const Attribute& attribute);
+Result<std::vector<std::byte>> values_as(const JsonValue& accessor, Attribute attribute);
 
 /// Sets count, and the bounds of positions; texts that say the same already stay.
 void describe_attribute(JsonText& json, JsonValue& accessor, const Attribute& attribute, std::uint32_t vertices,
@@ -56,8 +58,5 @@ void unlist_extension(JsonValue& root, std::string_view list, std::string_view n
 const JsonValue* extension_of(const JsonValue& value);
 /// Takes the extension out of a value, and `extensions` where nothing else is in it.
 void remove_extension(JsonValue& value, std::string_view name);
-
-/// A GLB file. Errors: too_large (4 GiB).
-Result<std::vector<std::byte>> glb_of(std::string_view json, std::span<const std::byte> bin);
 
 }  // namespace lacedring::detail

@@ -1,6 +1,7 @@
 // Plain glTF of a packed scene.
 
 #include <algorithm>
+#include <cstring>
 #include <set>
 
 #include "lacedring/scene.hpp"
@@ -259,28 +260,36 @@ class Unpacker {
 
     /// Of all streams together, as of one mesh.
     Result<void> check_room(const DecodedStream& decoded) {
+        std::size_t more = 0;
         for (const DecodedSet& set : decoded.sets) {
-            for (const Attribute& a : set.attributes) decoded_bytes_ += static_cast<double>(a.data.size());
+            for (const Attribute& a : set.attributes) more += a.data.size();
         }
-        for (const auto& part : decoded.parts) decoded_triangles_ += static_cast<double>(part.size()) / 3;
-        return reading_.check_memory(1, decoded_bytes_, decoded_triangles_, scene_.bytes());
+        decoded_bytes_ += static_cast<double>(more);
+        for (const auto& part : decoded.parts) {
+            decoded_triangles_ += static_cast<double>(part.size()) / 3;
+            more += 4 * part.size();
+        }
+        const auto room = reading_.check_memory(1, decoded_bytes_, decoded_triangles_, scene_.bytes());
+        if (room) bin_.expect(more);
+        return room;
     }
 
-    Result<void> put_set(const std::vector<std::uint32_t>& numbers, const DecodedSet& set) {
+    Result<void> put_set(const std::vector<std::uint32_t>& numbers, DecodedSet& set) {
         if (numbers.size() != set.attributes.size()) {
             return malformed("{} accessors for {} attributes", numbers.size(), set.attributes.size());
         }
         for (std::size_t a = 0; a < numbers.size(); ++a) {
             JsonValue& accessor = accessors()[numbers[a]].value;
-            const Attribute& attribute = set.attributes[a];
+            Attribute& attribute = set.attributes[a];
             if (accessor.find("count") != nullptr && accessor.integer("count") != set.vertices) {
                 return malformed("accessor {}: its set has {} vertices", numbers[a], set.vertices);
             }
-            const auto values = values_as(accessor, attribute);
-            if (!values)
-                return Error{values.error().code, fmt::format("accessor {}: {}", numbers[a], values.error().message)};
             for (const char* name : {"bufferView", "byteOffset", "sparse"}) accessor.remove(name);
             describe_attribute(scene_.json(), accessor, attribute, set.vertices, true);
+            const auto values = values_as(accessor, std::move(attribute));
+            if (!values) {
+                return Error{values.error().code, fmt::format("accessor {}: {}", numbers[a], values.error().message)};
+            }
             put_view(accessor, *values, set.vertices == 0 ? 4 : values->size() / set.vertices);
         }
         return {};
@@ -351,8 +360,29 @@ bool is_packed_scene(std::span<const std::byte> bytes) {
     return extension_of(JsonText(chunks->json).root) != nullptr;
 }
 
+Result<std::vector<std::byte>> make_glb_head(const SceneFile& scene) {
+    const auto align4 = [](std::uint64_t size) { return (size + 3) / 4 * 4; };
+    const std::uint64_t bin = scene.bin.empty() ? 0 : 8 + align4(scene.bin.size());
+    const std::uint64_t total = 12 + 8 + align4(scene.json.size()) + bin;
+    if (total > UINT32_MAX) return Error{ErrorCode::too_large, "the scene does not fit into GLB's 4 GiB"};
+    const auto narrow = [](std::uint64_t size) { return static_cast<std::uint32_t>(size); };
+    constexpr std::uint32_t kGltf = 0x46546c67, kJson = 0x4e4f534a, kBin = 0x004e4942;
+    const std::uint32_t begin[] = {kGltf, 2, narrow(total), narrow(align4(scene.json.size())), kJson};
+    const std::uint32_t behind[] = {narrow(align4(scene.bin.size())), kBin};
+    std::vector<std::byte> out(static_cast<std::size_t>(total - align4(scene.bin.size())), std::byte{' '});
+    std::memcpy(out.data(), begin, sizeof begin);
+    std::memcpy(out.data() + sizeof begin, scene.json.data(), scene.json.size());
+    if (bin != 0) std::memcpy(out.data() + out.size() - sizeof behind, behind, sizeof behind);
+    return out;
+}
+
 Result<std::vector<std::byte>> make_glb_file(const SceneFile& scene) {
-    return glb_of(scene.json, scene.bin);
+    Result<std::vector<std::byte>> out = make_glb_head(scene);
+    if (!out) return out;
+    const std::size_t at = out->size();
+    out->resize(at + (scene.bin.size() + 3) / 4 * 4);
+    if (!scene.bin.empty()) std::memcpy(out->data() + at, scene.bin.data(), scene.bin.size());
+    return out;
 }
 
 }  // namespace lacedring

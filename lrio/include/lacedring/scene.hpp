@@ -71,6 +71,10 @@ Result<SceneFile> unpack_scene(std::span<const std::byte> bytes, const std::file
 /// Does the glTF have the extension?
 bool is_packed_scene(std::span<const std::byte> bytes);
 
+/// All of a GLB file before the bytes of `bin`, which follow, with zeros up to a multiple of 4. Errors: too_large (4
+/// GiB).
+Result<std::vector<std::byte>> make_glb_head(const SceneFile& scene);
+
 /// A GLB file of a scene whose buffer has no URI. Errors: too_large (4 GiB).
 Result<std::vector<std::byte>> make_glb_file(const SceneFile& scene);
 
