@@ -155,7 +155,8 @@ void JsonValue::remove(std::string_view name) {
 
 JsonValue& JsonValue::set(std::string_view name, JsonValue value) {
     if (JsonValue* found = find(name)) return *found = std::move(value);
-    return members.emplace_back(name, std::move(value)).value;
+    members.push_back({name, std::move(value)});
+    return members.back().value;
 }
 
 JsonText::JsonText(std::string_view text) : root(JsonParser(text).value()) {}

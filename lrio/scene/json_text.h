@@ -25,7 +25,7 @@ struct JsonValue {
     bool is_object() const { return kind == Kind::object; }
     bool is_array() const { return kind == Kind::array; }
     bool is_string() const { return kind == Kind::scalar && text.starts_with('"'); }
-    std::size_t size() const { return members.size(); }
+    std::size_t size() const;
 
     /// The member of that name, the last one if there are several; null: none, or this is no object.
     JsonValue* find(std::string_view name);
@@ -47,6 +47,10 @@ struct JsonValue::Member {
     std::string_view key;  ///< without quotes, as it is written
     JsonValue value;
 };
+
+inline std::size_t JsonValue::size() const {
+    return members.size();
+}
 
 /// A document and the texts that were made for it.
 class JsonText {

@@ -27,16 +27,11 @@ constexpr std::size_t kAlone = 16384, kTogether = 65536;
 
 class Packer {
   public:
-    Packer(GltfFile& file, const PackOptions& options, Reading& reading, PackReport& report, double file_bytes)
-        : file_(file),
-          options_(options),
-          reading_(reading),
-          report_(report),
-          file_bytes_(file_bytes),
-          json_(file.text) {}
+    Packer(GltfFile& file, const PackOptions& options, Reading& reading, PackReport& report)
+        : file_(file), options_(options), reading_(reading), report_(report), json_(file.text) {}
 
     Result<SceneFile> run() {
-        if (extension_of(json_.root) != nullptr) return unsupported("is packed already");
+        if (is_packed()) return unsupported("is packed already");
         name_draco_accessors();
         auto plan = plan_scene(json_.root, file_, options_.keep_order);
         if (!plan) return plan.error();
@@ -51,12 +46,28 @@ class Packer {
     }
 
   private:
+    double file_bytes() const { return static_cast<double>(file_.file_bytes + file_.buffers.loaded_bytes()); }
+
     /// Sets of one stream.
     struct Group {
         std::vector<std::uint32_t> sets;
         std::size_t triangles = 0;
         bool keep_order = false;
     };
+
+    /// Or does a part of it say so?
+    bool is_packed() const {
+        const auto has_extension = [](const JsonValue::Member& member) {
+            return extension_of(member.value) != nullptr;
+        };
+        const auto any = [&](std::span<const JsonValue::Member> list) {
+            return std::any_of(list.begin(), list.end(), has_extension);
+        };
+        const auto meshes = std::as_const(json_.root).list("meshes");
+        return extension_of(json_.root) != nullptr || any(json_.root.list("bufferViews")) ||
+               std::any_of(meshes.begin(), meshes.end(),
+                           [&](const auto& mesh) { return any(mesh.value.list("primitives")); });
+    }
 
     /// Primitives of Draco's as they are decoded (gltf_draco.h): lists of triangles, with accessors of their own.
     void name_draco_accessors() {
@@ -102,7 +113,7 @@ class Packer {
             all.vertices += size->vertices * size->stride;
             all.triangles += size->triangles;
         }
-        if (auto room = reading_.check_memory(1, all.vertices, all.triangles, file_bytes_); !room) return room;
+        if (auto room = reading_.check_memory(1, all.vertices, all.triangles, file_bytes()); !room) return room;
         std::vector<VertexSet> kept;
         for (VertexSet& set : plan_.sets) {
             auto read = read_set(file_, set);
@@ -285,9 +296,7 @@ class Packer {
             JsonValue extension = JsonText::object();
             extension.set("stream", json_.number(stream));
             extension.set("part", json_.number(number));
-            JsonValue* extensions = primitive.find("extensions");
-            if (extensions == nullptr) extensions = &primitive.set("extensions", JsonText::object());
-            extensions->set(kExtension, std::move(extension));
+            set_extension(primitive, std::move(extension));
             ++report_.primitives;
         }
         if (part.mode != 4) strips_ += part.primitives.size();
@@ -309,9 +318,7 @@ class Packer {
         }
         JsonValue extension = JsonText::object();
         extension.set("streams", std::move(list));
-        JsonValue* extensions = json_.root.find("extensions");
-        if (extensions == nullptr) extensions = &json_.root.set("extensions", JsonText::object());
-        extensions->set(kExtension, std::move(extension));
+        set_extension(json_.root, std::move(extension));
         for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_draco_mesh_compression"}) {
             unlist_extension(json_.root, "extensionsUsed", name);
             unlist_extension(json_.root, "extensionsRequired", name);
@@ -345,7 +352,6 @@ class Packer {
     const PackOptions& options_;
     Reading& reading_;
     PackReport& report_;
-    double file_bytes_;
     JsonText json_;
     ScenePlan plan_;
     std::vector<SetMesh> meshes_;
@@ -367,7 +373,7 @@ Result<SceneFile> pack_scene(std::span<const std::byte> bytes, const std::filesy
         auto file = load_gltf(bytes, reading, GltfUse::everything);
         if (!file) return file.error();
         told.read.left_out.clear();  // of a mesh; here nothing is
-        return Packer(*file, options, reading, told, static_cast<double>(bytes.size())).run();
+        return Packer(*file, options, reading, told).run();
     });
 }
 

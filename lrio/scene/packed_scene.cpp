@@ -6,6 +6,15 @@
 #include "lrio/scene/scene_writer.h"
 
 namespace lacedring::detail {
+namespace {
+
+template <class T>
+Result<T> in_view(std::uint64_t index, Result<T> result) {
+    if (result) return result;
+    return Error{result.error().code, fmt::format("buffer view {}: {}", index, result.error().message)};
+}
+
+}  // namespace
 
 Result<std::span<const std::byte>> SceneViews::range(const JsonValue& place) const {
     const auto buffer = place.integer("buffer"), length = place.integer("byteLength");
@@ -21,45 +30,50 @@ Result<std::span<const std::byte>> SceneViews::range(const JsonValue& place) con
 }
 
 Result<std::span<const std::byte>> SceneViews::raw(std::uint64_t index) const {
-    const auto views = root_->list("bufferViews");
-    if (index >= views.size()) return malformed("buffer view {} does not exist", index);
-    auto bytes = range(views[static_cast<std::size_t>(index)].value);
-    if (!bytes) return Error{bytes.error().code, fmt::format("buffer view {}: {}", index, bytes.error().message)};
-    return bytes;
+    if (index >= views_.size()) return malformed("buffer view {} does not exist", index);
+    return in_view(index, range(views_[static_cast<std::size_t>(index)].value));
+}
+
+Result<std::span<const std::byte>> SceneViews::stored(std::uint64_t index) const {
+    if (index >= views_.size()) return malformed("buffer view {} does not exist", index);
+    const JsonValue& view = views_[static_cast<std::size_t>(index)].value;
+    const JsonValue* coded = extension_of(view);
+    return in_view(index, range(coded == nullptr ? view : *coded));
+}
+
+Result<std::uint64_t> SceneViews::size(std::uint64_t index) const {
+    const auto bytes = stored(index);
+    if (!bytes) return bytes.error();
+    const auto length = views_[static_cast<std::size_t>(index)].value.integer("byteLength");
+    if (!length) return malformed("buffer view {}: no byteLength", index);
+    return *length;
 }
 
 Result<std::vector<std::byte>> SceneViews::contents(std::uint64_t index) const {
-    const auto views = root_->list("bufferViews");
-    if (index >= views.size()) return malformed("buffer view {} does not exist", index);
-    const JsonValue& view = views[static_cast<std::size_t>(index)].value;
+    const auto bytes = stored(index);
+    if (!bytes) return bytes.error();
+    const JsonValue& view = views_[static_cast<std::size_t>(index)].value;
     const JsonValue* coded = extension_of(view);
-    if (coded == nullptr) {
-        const auto bytes = raw(index);
-        if (!bytes) return bytes.error();
-        return std::vector<std::byte>(bytes->begin(), bytes->end());
-    }
-    const auto in_view = [index](const Error& error) {
-        return Error{error.code, fmt::format("buffer view {}: {}", index, error.message)};
-    };
-    const auto bytes = range(*coded);
-    if (!bytes) return in_view(bytes.error());
+    if (coded == nullptr) return std::vector<std::byte>(bytes->begin(), bytes->end());
     const auto length = view.integer("byteLength");
     const JsonValue* coding = coded->find("coding");
     const std::string name = coding == nullptr ? "" : plain_string(*coding);
-    if (!length || (name != "deflate" && name != "floats")) return in_view(malformed("unknown coding {}", shown(name)));
-    auto out = name == "deflate" ? inflate_bytes(*bytes, *length) : decode_floats(*bytes, *length);
-    if (!out) return in_view(out.error());
-    if (out->size() != *length) return in_view(malformed("{} bytes, where byteLength is {}", out->size(), *length));
+    if (!length || (name != "deflate" && name != "floats")) {
+        return malformed("buffer view {}: unknown coding {}", index, shown(name));
+    }
+    auto out = in_view(index, name == "deflate" ? inflate_bytes(*bytes, *length) : decode_floats(*bytes, *length));
+    if (out && out->size() != *length) {
+        return malformed("buffer view {}: {} bytes, where byteLength is {}", index, out->size(), *length);
+    }
     return out;
 }
 
 bool SceneViews::is_placeholder(std::uint64_t index) const {
-    const auto views = root_->list("bufferViews"), buffers = root_->list("buffers");
-    if (index >= views.size()) return false;
-    const JsonValue& view = views[static_cast<std::size_t>(index)].value;
+    if (index >= views_.size()) return false;
+    const JsonValue& view = views_[static_cast<std::size_t>(index)].value;
     const auto buffer = view.integer("buffer");
-    return buffer && *buffer < buffers.size() && extension_of(view) == nullptr &&
-           extension_of(buffers[static_cast<std::size_t>(*buffer)].value) != nullptr;
+    return buffer && *buffer < buffer_list_.size() && extension_of(view) == nullptr &&
+           extension_of(buffer_list_[static_cast<std::size_t>(*buffer)].value) != nullptr;
 }
 
 Result<PackedScene> PackedScene::load(std::span<const std::byte> bytes, Reading& reading) {
@@ -102,13 +116,7 @@ Result<PackedScene> PackedScene::load(std::span<const std::byte> bytes, Reading&
         if (auto good = open(*out.text_); !good) return good.error();
         if (document() != nullptr) return malformed("a packed document in a packed document");
     }
-    out.bytes_ = file_bytes;
-    double decoded = 0;
-    for (const auto& view : out.json_->root.list("bufferViews")) {
-        if (extension_of(view.value) == nullptr) continue;
-        decoded += static_cast<double>(view.value.integer("byteLength").value_or(0));
-    }
-    if (auto room = reading.check_memory(1, 2 * decoded, 0, file_bytes); !room) return room.error();
+    out.file_bytes_ = file_bytes;
     return out;
 }
 

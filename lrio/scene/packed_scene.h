@@ -16,11 +16,13 @@ namespace lacedring::detail {
 /// The bytes of buffer view `index` of a document, decoded where the extension codes them.
 class SceneViews {
   public:
-    SceneViews(const JsonValue& root, GltfBuffers& buffers) : root_(&root), buffers_(&buffers) {}
+    SceneViews(const JsonValue& root, GltfBuffers& buffers)
+        : views_(root.list("bufferViews")), buffer_list_(root.list("buffers")), buffers_(&buffers) {}
 
-    std::size_t count() const { return root_->list("bufferViews").size(); }
     /// As they lie in the buffer. Errors: malformed, GltfBuffers'.
     Result<std::span<const std::byte>> raw(std::uint64_t index) const;
+    /// How many bytes they stand for, as the view says. Errors: raw's, and those of the bytes that are coded.
+    Result<std::uint64_t> size(std::uint64_t index) const;
     /// What they stand for: a copy. Errors: malformed.
     Result<std::vector<std::byte>> contents(std::uint64_t index) const;
     /// Does the view stand for nothing, its buffer being a placeholder?
@@ -28,25 +30,27 @@ class SceneViews {
 
   private:
     Result<std::span<const std::byte>> range(const JsonValue& place) const;
-    const JsonValue* root_;
+    /// The bytes of a view as they are in the file, coded or not.
+    Result<std::span<const std::byte>> stored(std::uint64_t index) const;
+    std::span<const JsonValue::Member> views_, buffer_list_;
     GltfBuffers* buffers_;
 };
 
 /// The document of a glTF and its buffers, the packed document taken out of its buffer view.
 class PackedScene {
   public:
-    /// `bytes` and `reading` outlive it. Errors: malformed, unsupported, memory_limit (the document).
+    /// `bytes` and `reading` outlive it. Errors: malformed, unsupported.
     static Result<PackedScene> load(std::span<const std::byte> bytes, Reading& reading);
 
     JsonText& json() { return *json_; }
     SceneViews views() { return {json_->root, *buffers_}; }
     /// Was the document in a buffer view? What its streams say as well is then left out of it.
     bool is_document_packed() const { return text_ != nullptr; }
-    /// Of all views that are coded, and the file.
-    double bytes() const { return bytes_; }
+    /// Of the file, and of those that were opened beside it.
+    double bytes() const { return file_bytes_ + static_cast<double>(buffers_->loaded_bytes()); }
 
   private:
-    double bytes_ = 0;
+    double file_bytes_ = 0;
     std::unique_ptr<std::string> text_;  ///< of a packed document
     std::unique_ptr<JsonText> json_;
     std::unique_ptr<nlohmann::json> buffer_list_;

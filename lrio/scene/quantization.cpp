@@ -30,7 +30,8 @@ double value_at(const Attribute& a, std::size_t i) {
 
 /// Sizes that differ by less than `factor` are of one class.
 int size_class(double size, double factor) {
-    return size > 0 ? static_cast<int>(std::floor(std::log2(size) / std::log2(factor))) : INT16_MIN;
+    return size > 0 && std::isfinite(size) ? static_cast<int>(std::floor(std::log2(size) / std::log2(factor)))
+                                           : INT16_MIN;
 }
 
 /// Weights of a vertex as multiples of 2^-bits whose sum stays 1.

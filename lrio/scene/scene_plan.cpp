@@ -36,6 +36,7 @@ class Planner {
         for (std::uint32_t i = 0; i < accessors_; ++i) group_[i] = i;
         used_otherwise_.assign(accessors_, false);
         is_indices_.assign(accessors_, false);
+        lacks_positions_.assign(accessors_, false);
     }
 
     Result<ScenePlan> run() {
@@ -90,6 +91,8 @@ class Planner {
                                                [](const auto& a) { return a.name == "POSITION"; });
         if (out.mode < 4 || !has_positions) {
             leave_out(out, out.mode == 0 ? "points" : out.mode < 4 ? "lines" : "triangles without positions");
+            if (out.mode < 4) return {};
+            for (const SceneAttribute& a : out.attributes) lacks_positions_[a.accessor] = true;
             return {};
         }
         for (const SceneAttribute& a : out.attributes) {
@@ -193,6 +196,8 @@ class Planner {
             first = false;
             set.vertices = view->count;
             if (is_indices_[a.accessor]) return refuse("triangles with an accessor for indices and attributes");
+            if (lacks_positions_[a.accessor])
+                return refuse("triangles that share vertices with some without positions");
             set.keep_order = set.keep_order || used_otherwise_[a.accessor];
         }
         std::map<std::pair<std::uint32_t, int>, std::size_t> parts;
@@ -220,6 +225,7 @@ class Planner {
     std::size_t accessors_;
     std::vector<std::uint32_t> group_;
     std::vector<bool> used_otherwise_, is_indices_;
+    std::vector<bool> lacks_positions_;  ///< a reader could take their triangles for a part
     std::vector<Candidate> candidates_;
     ScenePlan plan_;
 };

@@ -255,7 +255,13 @@ class StreamSplitter {
 
 Result<DecodedStream> decode_scene_stream(std::span<const std::byte> bytes, std::span<const std::byte> parts,
                                           std::span<const std::uint32_t> set_of_part,
-                                          std::span<const std::uint32_t> vertices) {
+                                          std::span<const std::uint32_t> vertices,
+                                          const std::function<Result<void>(const LrContents&)>& check) {
+    if (check) {
+        const Result<LrContents> contents = list_lr(bytes);
+        if (!contents) return contents.error();
+        if (auto good = check(*contents); !good) return good.error();
+    }
     DecodedLr connectivity;
     const Result<LrFile> file = parse_lr(bytes, connectivity);
     if (!file) return file.error();

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
@@ -41,9 +42,11 @@ struct DecodedStream {
 };
 
 /// `set_of_part` says of which set each part is. Sets have as many vertices as `vertices` says, or what the triangles
-/// use where that is UINT32_MAX and no order was kept. Errors: malformed. Untrusted input: safe.
+/// use where that is UINT32_MAX and no order was kept. `check`, where there is one, sees what the file says of itself
+/// before memory is taken for it. Errors: malformed, check's. Untrusted input: safe.
 Result<DecodedStream> decode_scene_stream(std::span<const std::byte> file, std::span<const std::byte> parts,
                                           std::span<const std::uint32_t> set_of_part,
-                                          std::span<const std::uint32_t> vertices);
+                                          std::span<const std::uint32_t> vertices,
+                                          const std::function<Result<void>(const LrContents&)>& check = {});
 
 }  // namespace lacedring::detail

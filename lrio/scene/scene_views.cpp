@@ -146,6 +146,8 @@ Result<void> SceneViewWriter::keep_others() {
         }
         const auto bytes = open_view(file_, i);
         if (!bytes) return bytes.error();
+        // A small file can have many views of the same bytes.
+        if (auto room = file_.take_memory(2 * static_cast<double>(bytes->size())); !room) return room;
         std::vector<std::byte> contents(bytes->begin(), bytes->end());
         if (use.image) image_bytes_ += contents.size();
         use.known = known && !use.image;
@@ -218,9 +220,7 @@ JsonValue SceneViewWriter::coded_view(const JsonValue& view, std::span<const std
     extension.set("byteOffset", json_.number(bin_.add(best)));
     extension.set("byteLength", json_.number(best.size()));
     extension.set("coding", json_.string(coding));
-    JsonValue* extensions = out.find("extensions");
-    if (extensions == nullptr) extensions = &out.set("extensions", JsonText::object());
-    extensions->set(kExtension, std::move(extension));
+    set_extension(out, std::move(extension));
     return out;
 }
 
@@ -255,23 +255,29 @@ Result<SceneFile> SceneViewWriter::finish(const PackOptions& options) {
     if (apart) {
         for (const std::size_t i : plain_views_) views_.members[i].value.set("buffer", json_.number(1));
     }
-    root.set("bufferViews", std::move(views_));
+    if (bin_.size() == 0 && views_.size() > 0) bin_.add(std::vector<std::byte>(4));  // what has views has a buffer
+    if (views_.size() > 0) {
+        root.set("bufferViews", std::move(views_));
+    } else {
+        root.remove("bufferViews");
+    }
     out.bin = bin_.take();
     describe_buffers(json_, out.bin.size(), options.bin_uri);
-    auto& buffers = root.find("buffers")->members;
-    if (apart) {
+    if (out.bin.empty()) {
+        // no views: no buffers
+    } else if (apart) {
         out.fallback = fallback_.take();
         JsonValue buffer = JsonText::object();
         buffer.set("uri", json_.string(options.fallback_uri));
         buffer.set("byteLength", json_.number(out.fallback.size()));
-        buffers.push_back({{}, std::move(buffer)});
+        root.find("buffers")->members.push_back({{}, std::move(buffer)});
     } else if (placeholder_ > 0) {
         JsonValue buffer = JsonText::object(), extensions = JsonText::object(), extension = JsonText::object();
         extension.set("placeholder", json_.boolean(true));
         extensions.set(kExtension, std::move(extension));
         buffer.set("byteLength", json_.number(placeholder_));
         buffer.set("extensions", std::move(extensions));
-        buffers.push_back({{}, std::move(buffer)});
+        root.find("buffers")->members.push_back({{}, std::move(buffer)});
     }
     out.json = text_of(root);
     if (deflates_document(options, out)) {

@@ -30,7 +30,7 @@ bool has_shape(const JsonValue& accessor, std::uint8_t components) {
     const JsonValue* type = accessor.find("type");
     if (type == nullptr) return false;
     const std::string name = plain_string(*type);
-    return name == shape_name(components) || (components == 4 && name == "MAT2");
+    return (!name.empty() && name == shape_name(components)) || (components == 4 && name == "MAT2");
 }
 
 float float_at(std::span<const std::byte> data, std::size_t i) {
@@ -89,7 +89,7 @@ void strip_accessor(JsonValue& accessor) {
 Result<std::vector<std::byte>> values_as(const JsonValue& accessor, Attribute attribute) {
     const std::uint64_t type = accessor.integer("componentType").value_or(0);
     if (!has_shape(accessor, attribute.components)) return malformed("{}: another type", shown(attribute.name));
-    if (type == type_number(attribute.type)) return std::move(attribute.data);
+    if (type != 0 && type == type_number(attribute.type)) return std::move(attribute.data);
     std::vector<std::byte> out;
     const bool fits = attribute.type == ComponentType::f32 &&
                       ((type == kByte && convert_all<std::int8_t>(attribute.data, out)) ||
@@ -103,7 +103,8 @@ Result<std::vector<std::byte>> values_as(const JsonValue& accessor, Attribute at
 void describe_attribute(JsonText& json, JsonValue& accessor, const Attribute& attribute, std::uint32_t vertices,
                         bool bounds) {
     accessor.set("count", json.number(vertices));
-    if (!attribute.name.starts_with("POSITION") || attribute.type != ComponentType::f32 || vertices == 0 || !bounds) {
+    const bool is_position = attribute.name.starts_with("POSITION") && attribute.components == 3;
+    if (!is_position || attribute.type != ComponentType::f32 || vertices == 0 || !bounds) {
         accessor.remove("min");
         accessor.remove("max");
         return;
@@ -184,8 +185,9 @@ void describe_buffers(JsonText& json, std::size_t size, const std::string& uri) 
 }
 
 void list_extension(JsonText& json, std::string_view list) {
-    if (json.root.find(list) == nullptr) json.root.set(list, JsonText::array());
-    json.root.find(list)->members.push_back({{}, json.string(kExtension)});
+    JsonValue* names = json.root.find(list);
+    if (names == nullptr || !names->is_array()) names = &json.root.set(list, JsonText::array());
+    names->members.push_back({{}, json.string(kExtension)});
 }
 
 void unlist_extension(JsonValue& root, std::string_view list, std::string_view name) {
@@ -199,6 +201,12 @@ void unlist_extension(JsonValue& root, std::string_view list, std::string_view n
 const JsonValue* extension_of(const JsonValue& value) {
     const JsonValue* extensions = value.find("extensions");
     return extensions == nullptr ? nullptr : extensions->find(kExtension);
+}
+
+void set_extension(JsonValue& value, JsonValue extension) {
+    JsonValue* extensions = value.find("extensions");
+    if (extensions == nullptr || !extensions->is_object()) extensions = &value.set("extensions", JsonText::object());
+    extensions->set(kExtension, std::move(extension));
 }
 
 void remove_extension(JsonValue& value, std::string_view name) {

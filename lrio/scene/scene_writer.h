@@ -56,6 +56,8 @@ void unlist_extension(JsonValue& root, std::string_view list, std::string_view n
 
 /// The object of the extension in a value, or null.
 const JsonValue* extension_of(const JsonValue& value);
+/// Puts it there, whatever `extensions` was.
+void set_extension(JsonValue& value, JsonValue extension);
 /// Takes the extension out of a value, and `extensions` where nothing else is in it.
 void remove_extension(JsonValue& value, std::string_view name);
 

@@ -31,7 +31,7 @@ struct StreamPlan {
 class Unpacker {
   public:
     Unpacker(PackedScene scene, const Reading& reading, UnpackReport& report)
-        : scene_(std::move(scene)), reading_(reading), report_(report) {}
+        : scene_(std::move(scene)), reading_(reading), report_(report), accessors_(root().list("accessors")) {}
 
     Result<SceneFile> run(const std::string& bin_uri) {
         if (auto good = plan(); !good) return good.error();
@@ -46,12 +46,11 @@ class Unpacker {
 
   private:
     JsonValue& root() { return scene_.json().root; }
-    std::span<JsonValue::Member> accessors() { return root().list("accessors"); }
 
     Result<std::uint32_t> accessor_number(const JsonValue* value) {
         const auto number = value == nullptr ? std::nullopt : value->integer();
-        if (!number || *number >= accessors().size()) return malformed("an accessor that does not exist");
-        const JsonValue& accessor = accessors()[static_cast<std::size_t>(*number)].value;
+        if (!number || *number >= accessors_.size()) return malformed("an accessor that does not exist");
+        const JsonValue& accessor = accessors_[static_cast<std::size_t>(*number)].value;
         if (!accessor.is_object() || (!scene_.is_document_packed() && !accessor.integer("count"))) {
             return malformed("accessor {}: no count", *number);
         }
@@ -165,9 +164,9 @@ class Unpacker {
         }
         if (!part) return malformed("no part");
         if (*part >= stream.parts.size()) {
-            const std::uint64_t more = *part - stream.parts.size() + 1;
-            if (more > parts_left_) return malformed("part {}, of fewer primitives", *part);
-            parts_left_ -= more;
+            const std::uint64_t skipped = *part - stream.parts.size();
+            if (skipped >= parts_left_) return malformed("part {}, of fewer primitives", *part);
+            parts_left_ -= skipped + 1;
             stream.parts.resize(static_cast<std::size_t>(*part) + 1);
         }
         StreamPlan::Part& at = stream.parts[static_cast<std::size_t>(*part)];
@@ -184,6 +183,7 @@ class Unpacker {
     /// Moves the views that stay into the new buffer; those of streams and placeholders are free for what comes.
     Result<void> keep_views() {
         auto views = root().list("bufferViews");
+        const SceneViews source = scene_.views();
         free_.assign(views.size(), false);
         for (const StreamPlan& stream : streams_) {
             for (const std::uint64_t view : {stream.view, stream.parts_view.value_or(stream.view)}) {
@@ -193,9 +193,9 @@ class Unpacker {
         }
         std::vector<JsonValue> kept(views.size());
         for (std::size_t i = 0; i < views.size(); ++i) {
-            if (scene_.views().is_placeholder(i)) free_[i] = true;
+            if (source.is_placeholder(i)) free_[i] = true;
             if (free_[i]) continue;
-            const auto contents = scene_.views().contents(i);
+            const auto contents = open_view(source, i);
             if (!contents) return contents.error();
             JsonValue view = views[i].value;
             remove_extension(view, kExtension);
@@ -206,6 +206,14 @@ class Unpacker {
         }
         views_ = std::move(kept);
         return {};
+    }
+
+    /// The contents of a view, if there is room for them: a small file can have many views of the same bytes.
+    Result<std::vector<std::byte>> open_view(const SceneViews& source, std::uint64_t view) {
+        const auto size = source.size(view);
+        if (!size) return size.error();
+        if (auto room = take_memory(2 * static_cast<double>(*size), 0); !room) return room.error();
+        return source.contents(view);
     }
 
     std::uint64_t add_view(JsonValue view) {
@@ -221,11 +229,11 @@ class Unpacker {
     }
 
     Result<void> unpack(const StreamPlan& stream) {
-        const auto file = scene_.views().contents(stream.view);
+        const auto file = open_view(scene_.views(), stream.view);
         if (!file) return file.error();
         std::vector<std::byte> parts;
         if (stream.parts_view) {
-            auto contents = scene_.views().contents(*stream.parts_view);
+            auto contents = open_view(scene_.views(), *stream.parts_view);
             if (!contents) return contents.error();
             parts = std::move(*contents);
         }
@@ -233,20 +241,21 @@ class Unpacker {
         for (const StreamPlan::Part& part : stream.parts) set_of_part.push_back(part.set);
         for (const auto& set : stream.sets) {
             if (set.empty()) return malformed("a set without accessors");
-            const JsonValue& first = accessors()[set[0]].value;
+            const JsonValue& first = accessors_[set[0]].value;
             const std::uint64_t count = first.integer("count").value_or(UINT32_MAX);
             if (first.find("count") != nullptr && count >= UINT32_MAX) return malformed("accessor {}: count", set[0]);
             vertices.push_back(static_cast<std::uint32_t>(count));
         }
-        auto decoded = decode_scene_stream(*file, parts, set_of_part, vertices);
+        const auto check = [&](const LrContents& contents) { return check_stream(stream, contents); };
+        auto decoded = decode_scene_stream(*file, parts, set_of_part, vertices, check);
         if (!decoded) return decoded.error();
-        if (auto good = check_room(*decoded); !good) return good;
+        expect(*decoded);
         for (std::size_t s = 0; s < stream.sets.size(); ++s) {
             if (auto good = put_set(stream.sets[s], decoded->sets[s]); !good) return good;
         }
         for (std::size_t p = 0; p < stream.parts.size(); ++p) {
             const std::vector<std::uint32_t>& indices = decoded->parts[p];
-            JsonValue& accessor = accessors()[*stream.parts[p].indices].value;
+            JsonValue& accessor = accessors_[*stream.parts[p].indices].value;
             if (accessor.find("count") != nullptr && accessor.integer("count") != indices.size()) {
                 return malformed("part {} has {} indices, its accessor another count", p, indices.size());
             }
@@ -258,28 +267,42 @@ class Unpacker {
         return {};
     }
 
-    /// Of all streams together, as of one mesh.
-    Result<void> check_room(const DecodedStream& decoded) {
+    /// Before it is decoded: does each of its attributes have an accessor, and is there room? A few bytes may hold many
+    /// equal vertices.
+    Result<void> check_stream(const StreamPlan& stream, const LrContents& contents) {
+        std::size_t attributes = 0, stride = 0;
+        for (const LrSection& section : contents.sections) {
+            if (section.kind != "attribute" && section.kind != "vertices") continue;
+            ++attributes;
+            stride += size_of(section.type) * section.components;
+        }
+        for (const auto& set : stream.sets) {
+            if (set.size() != attributes) return malformed("{} accessors for {} attributes", set.size(), attributes);
+        }
+        const double vertices = std::max(contents.vertices, contents.copies);
+        return take_memory(vertices * static_cast<double>(stride), contents.input_triangles);
+    }
+
+    /// Of all views and streams together, as of one mesh.
+    Result<void> take_memory(double bytes, double triangles) {
+        taken_bytes_ += bytes;
+        taken_triangles_ += triangles;
+        return reading_.check_memory(1, taken_bytes_, taken_triangles_, scene_.bytes());
+    }
+
+    /// Makes room for what a stream gave.
+    void expect(const DecodedStream& decoded) {
         std::size_t more = 0;
         for (const DecodedSet& set : decoded.sets) {
             for (const Attribute& a : set.attributes) more += a.data.size();
         }
-        decoded_bytes_ += static_cast<double>(more);
-        for (const auto& part : decoded.parts) {
-            decoded_triangles_ += static_cast<double>(part.size()) / 3;
-            more += 4 * part.size();
-        }
-        const auto room = reading_.check_memory(1, decoded_bytes_, decoded_triangles_, scene_.bytes());
-        if (room) bin_.expect(more);
-        return room;
+        for (const auto& part : decoded.parts) more += 4 * part.size();
+        bin_.expect(more);
     }
 
     Result<void> put_set(const std::vector<std::uint32_t>& numbers, DecodedSet& set) {
-        if (numbers.size() != set.attributes.size()) {
-            return malformed("{} accessors for {} attributes", numbers.size(), set.attributes.size());
-        }
         for (std::size_t a = 0; a < numbers.size(); ++a) {
-            JsonValue& accessor = accessors()[numbers[a]].value;
+            JsonValue& accessor = accessors_[numbers[a]].value;
             Attribute& attribute = set.attributes[a];
             if (accessor.find("count") != nullptr && accessor.integer("count") != set.vertices) {
                 return malformed("accessor {}: its set has {} vertices", numbers[a], set.vertices);
@@ -309,11 +332,11 @@ class Unpacker {
         unlist_extension(root(), "extensionsRequired", kExtension);
         JsonValue list = JsonText::array();
         for (std::size_t i = 0; i < views_.size(); ++i) {
+            if (bin_.size() < 4) bin_.add(std::vector<std::byte>(4));  // what has views has a buffer
             if (free_[i]) {  // nothing was left to put there, and others are not to be renumbered
                 JsonValue view = JsonText::object();
                 view.set("buffer", json.number(0));
                 view.set("byteLength", json.number(4));
-                if (bin_.size() < 4) bin_.add(std::vector<std::byte>(4));
                 views_[i] = std::move(view);
             }
             list.members.push_back({{}, std::move(views_[i])});
@@ -329,6 +352,7 @@ class Unpacker {
     PackedScene scene_;
     const Reading& reading_;
     UnpackReport& report_;
+    std::span<JsonValue::Member> accessors_;
     std::vector<StreamPlan> streams_;
     std::map<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>> set_of_;  ///< stream and set of an accessor
     std::vector<JsonValue> views_;
@@ -337,7 +361,7 @@ class Unpacker {
     BinChunk bin_;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint64_t> part_of_;  ///< by stream and indices
     std::uint64_t parts_left_ = 0;  ///< that all streams together may still have
-    double decoded_bytes_ = 0, decoded_triangles_ = 0;
+    double taken_bytes_ = 0, taken_triangles_ = 0;
 };
 
 }  // namespace
