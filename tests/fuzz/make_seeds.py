@@ -202,6 +202,8 @@ def main():
                                               "stl": stl_seeds}.items()):
         for name, data in seeds():
             write(target, name, data)
+            if target == "gltf":
+                write("scene", name, data)
             options = bytes([0x40 + number, number, 1, number % 4, 1, 255, 0, FORMATS.index(target), 0])
             write("chain_mesh", f"{target}-{name}", data + options)
     for name, data in (("grid-ply", w.decoded(*grid(12))), ("grid-off", w.off(*grid(6)))):
