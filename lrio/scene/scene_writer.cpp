@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 
+#include "lrio/gltf/gltf_accessor.h"
 #include "lrio/mesh/read_formats.h"
 
 namespace lacedring::detail {
@@ -104,16 +105,20 @@ void describe_attribute(JsonText& json, JsonValue& accessor, const Attribute& at
                         bool bounds) {
     accessor.set("count", json.number(vertices));
     const bool is_position = attribute.name.starts_with("POSITION") && attribute.components == 3;
-    if (!is_position || attribute.type != ComponentType::f32 || vertices == 0 || !bounds) {
+    if (!is_position || vertices == 0 || !bounds) {
         accessor.remove("min");
         accessor.remove("max");
         return;
     }
     std::array<float, 3> low{}, high{};
-    for (std::size_t c = 0; c < 3; ++c) low[c] = high[c] = float_at(attribute.data, c);
-    for (std::size_t v = 1; v < vertices; ++v) {
+    const bool floats = attribute.type == ComponentType::f32;
+    for (std::size_t v = 0; v < vertices; ++v) {
         std::array<float, 3> at{};
-        std::memcpy(at.data(), attribute.data.data() + 12 * v, sizeof at);
+        if (floats) std::memcpy(at.data(), attribute.data.data() + 12 * v, sizeof at);
+        for (std::size_t c = 0; c < 3 && !floats; ++c) {
+            at[c] = static_cast<float>(component_at(attribute.data.data(), attribute.type, false, 3 * v + c));
+        }
+        if (v == 0) low = high = at;
         for (std::size_t c = 0; c < 3; ++c) {
             low[c] = std::min(low[c], at[c]);
             high[c] = std::max(high[c], at[c]);

@@ -144,15 +144,15 @@ class Unpacker {
 
     Result<void> plan_primitive(const JsonValue& primitive) {
         const JsonValue* extension = extension_of(primitive);
-        if (extension == nullptr && !scene_.is_document_packed()) return {};
+        const bool triangles = primitive.integer("mode").value_or(4) == 4;
+        // Lines may read the vertices of a set, too, beside attributes of their own.
+        if (extension == nullptr && (!scene_.is_document_packed() || !triangles)) return {};
         const auto set = set_of(primitive);
         if (!set) return set.error();
         if (!*set) return extension == nullptr ? Result<void>() : malformed("its attributes have no stream");
         const auto [number, of_stream] = **set;
         StreamPlan& stream = streams_[number];
-        if (primitive.integer("mode").value_or(4) != 4) {  // lines may read the vertices of a set, too
-            return extension == nullptr ? Result<void>() : malformed("parts are triangles");
-        }
+        if (!triangles) return malformed("parts are triangles");
         const auto indices = accessor_number(primitive.find("indices"));
         if (!indices) return indices.error();
         std::optional<std::uint64_t> part;
