@@ -19,7 +19,7 @@ Result<std::vector<std::byte>> deflate_bytes(std::span<const std::byte> bytes) {
     return out;
 }
 
-Result<std::vector<std::byte>> inflate_bytes(std::span<const std::byte> bytes, std::uint64_t most) {
+Result<std::vector<std::byte>> inflate_bytes(std::span<const std::byte> bytes, std::uint64_t most, ErrorCode beyond) {
     if (bytes.size() > UINT32_MAX) return malformed("a zlib stream of more than 4 GiB");
     z_stream stream{};
     stream.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(bytes.data()));  // zlib's interface has no const
@@ -41,7 +41,7 @@ Result<std::vector<std::byte>> inflate_bytes(std::span<const std::byte> bytes, s
     }
     const bool whole = state == Z_STREAM_END && stream.avail_in == 0;
     inflateEnd(&stream);
-    if (done > most) return malformed("a zlib stream of more than {} bytes", most);
+    if (done > most) return Error{beyond, fmt::format("a zlib stream of more than {} bytes", most)};
     if (!whole) return malformed("no sound zlib stream");
     out.resize(done);
     return out;

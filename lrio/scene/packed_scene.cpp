@@ -110,7 +110,7 @@ Result<PackedScene> PackedScene::load(std::span<const std::byte> bytes, Reading&
         while (most < UINT32_MAX / 2 && reading.check_memory(1, 80.0 * static_cast<double>(most), 0, file_bytes)) {
             most *= 2;
         }
-        auto text = inflate_bytes(*packed, most);
+        auto text = inflate_bytes(*packed, most, ErrorCode::memory_limit);
         if (!text) return Error{text.error().code, "the packed document: " + text.error().message};
         out.text_ = std::make_unique<std::string>(reinterpret_cast<const char*>(text->data()), text->size());
         if (auto good = open(*out.text_); !good) return good.error();

@@ -386,26 +386,26 @@ bool is_packed_scene(std::span<const std::byte> bytes) {
 
 Result<std::vector<std::byte>> make_glb_head(const SceneFile& scene) {
     const auto align4 = [](std::uint64_t size) { return (size + 3) / 4 * 4; };
-    const std::uint64_t bin = scene.bin.empty() ? 0 : 8 + align4(scene.bin.size());
-    const std::uint64_t total = 12 + 8 + align4(scene.json.size()) + bin;
+    const std::uint64_t head = 12 + 8 + align4(scene.json.size()) + (scene.bin.empty() ? 0 : 8);
+    const std::uint64_t total = head + align4(scene.bin.size());
     if (total > UINT32_MAX) return Error{ErrorCode::too_large, "the scene does not fit into GLB's 4 GiB"};
     const auto narrow = [](std::uint64_t size) { return static_cast<std::uint32_t>(size); };
     constexpr std::uint32_t kGltf = 0x46546c67, kJson = 0x4e4f534a, kBin = 0x004e4942;
     const std::uint32_t begin[] = {kGltf, 2, narrow(total), narrow(align4(scene.json.size())), kJson};
     const std::uint32_t behind[] = {narrow(align4(scene.bin.size())), kBin};
-    std::vector<std::byte> out(static_cast<std::size_t>(total - align4(scene.bin.size())), std::byte{' '});
+    std::vector<std::byte> out(static_cast<std::uint32_t>(head), std::byte{' '});
     std::memcpy(out.data(), begin, sizeof begin);
     std::memcpy(out.data() + sizeof begin, scene.json.data(), scene.json.size());
-    if (bin != 0) std::memcpy(out.data() + out.size() - sizeof behind, behind, sizeof behind);
+    if (!scene.bin.empty()) std::memcpy(out.data() + out.size() - sizeof behind, behind, sizeof behind);
     return out;
 }
 
 Result<std::vector<std::byte>> make_glb_file(const SceneFile& scene) {
-    Result<std::vector<std::byte>> out = make_glb_head(scene);
-    if (!out) return out;
-    const std::size_t at = out->size();
-    out->resize(at + (scene.bin.size() + 3) / 4 * 4);
-    if (!scene.bin.empty()) std::memcpy(out->data() + at, scene.bin.data(), scene.bin.size());
+    const Result<std::vector<std::byte>> head = make_glb_head(scene);
+    if (!head) return head;
+    std::vector<std::byte> out(head->size() + (scene.bin.size() + 3) / 4 * 4);
+    std::memcpy(out.data(), head->data(), head->size());
+    if (!scene.bin.empty()) std::memcpy(out.data() + head->size(), scene.bin.data(), scene.bin.size());
     return out;
 }
 

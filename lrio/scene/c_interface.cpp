@@ -1,0 +1,82 @@
+// scene.h: the C interface, on C++'s.
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <string_view>
+
+#include "lacedring/scene.h"
+#include "lacedring/scene.hpp"
+
+namespace lacedring {
+namespace {
+
+lacedring_code scene_code(ErrorCode code) {
+    switch (code) {
+        case ErrorCode::too_large:
+            return LACEDRING_CODE_TOO_LARGE;
+        case ErrorCode::memory_limit:
+            return LACEDRING_CODE_OUT_OF_MEMORY;
+        case ErrorCode::invalid_argument:
+            return LACEDRING_CODE_INVALID_ARGUMENT;
+        default:  // all else is something about the bytes
+            return LACEDRING_CODE_MALFORMED;
+    }
+}
+
+lacedring_code fail_scene(lacedring_code code, std::string_view text, lacedring_message* message) {
+    if (message != nullptr) {
+        const std::size_t size = std::min(text.size(), sizeof message->text - 1);
+        std::memcpy(message->text, text.data(), size);
+        message->text[size] = 0;
+    }
+    return code;
+}
+
+Result<std::vector<std::byte>> plain_glb(std::span<const std::byte> bytes, std::uint64_t max_bytes) {
+    const auto scene = unpack_scene(bytes, "", "", {.max_bytes = max_bytes});
+    if (!scene) return scene.error();
+    return make_glb_file(*scene);
+}
+
+}  // namespace
+}  // namespace lacedring
+
+using namespace lacedring;
+
+int lacedring_is_packed_scene(const void* bytes, std::size_t size) {
+    if (bytes == nullptr) return 0;
+    try {
+        return is_packed_scene({static_cast<const std::byte*>(bytes), size}) ? 1 : 0;
+    } catch (...) {  // std::bad_alloc
+        return 0;
+    }
+}
+
+lacedring_code lacedring_unpack_scene(const void* bytes, std::size_t size, std::uint64_t max_bytes, unsigned char** glb,
+                                      std::size_t* glb_size, lacedring_message* message) {
+    if (glb != nullptr) *glb = nullptr;
+    if (glb_size != nullptr) *glb_size = 0;
+    if (bytes == nullptr || glb == nullptr || glb_size == nullptr) {
+        return fail_scene(LACEDRING_CODE_INVALID_ARGUMENT, "a null pointer", message);
+    }
+    const auto no_memory = [message] {
+        return fail_scene(LACEDRING_CODE_OUT_OF_MEMORY, lacedring_code_string(LACEDRING_CODE_OUT_OF_MEMORY), message);
+    };
+    try {
+        const auto plain = plain_glb({static_cast<const std::byte*>(bytes), size}, max_bytes);
+        if (!plain) return fail_scene(scene_code(plain.error().code), plain.error().message, message);
+        void* out = std::malloc(plain->size());
+        if (out == nullptr) return no_memory();
+        std::memcpy(out, plain->data(), plain->size());
+        *glb = static_cast<unsigned char*>(out);
+        *glb_size = plain->size();
+        return LACEDRING_CODE_OK;
+    } catch (...) {  // std::bad_alloc: no exception passes into C
+        return no_memory();
+    }
+}
+
+void lacedring_free(void* memory) {
+    std::free(memory);
+}
