@@ -1,0 +1,177 @@
+#!/usr/bin/env python3
+"""test_pack_bad.py LACEDRING: packed scenes whose extension lies, one field at a time, and scenes that cannot be packed. Each is refused in
+one line with exit code 3, and nothing is written; or the change does no harm, and what comes out can be read."""
+
+import copy
+import json
+import os
+import struct
+import sys
+import zlib
+
+from cli_support import BAD_INPUT, DONE, HERE, SANITIZED, CliTest, in_parallel, main, run
+
+sys.path.insert(0, os.path.join(os.path.dirname(HERE), "scene"))
+from make_scene import SceneMaker
+from scene_reader import Scene
+
+EXTENSION = "LACEDRING_mesh_compression"
+REMOVED = object()
+WRONG = [REMOVED, -1, 1.5, 0, 1, 2, 7, 2**31, 2**32 - 1, 2**32, 2**64 - 1, 10**30, "0", "", None, True, [], {}, [0], [[0]], {"a": 0}]
+
+
+def split(glb):
+    size = struct.unpack_from("<I", glb, 12)[0]
+    return json.loads(glb[20:20 + size]), glb[28 + size:]
+
+
+def join(document, binary):
+    text = document if isinstance(document, bytes) else json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    binary += bytes(-len(binary) % 4)
+    return (struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(binary)) + struct.pack("<I4s", len(text), b"JSON") + text +
+            struct.pack("<I4s", len(binary), b"BIN\0") + binary)
+
+
+class Packed:
+    """A packed GLB whose document can be replaced, wherever it lies."""
+
+    def __init__(self, glb):
+        self.outer, self.binary = split(glb)
+        self.document = self.outer
+        number = self.outer["extensions"][EXTENSION].get("document")
+        self.view = None if number is None else self.outer["bufferViews"][number]
+        if self.view:
+            at = self.view["byteOffset"]
+            self.document = json.loads(zlib.decompress(self.binary[at:at + self.view["byteLength"]]))
+
+    def with_document(self, document):
+        if not self.view:
+            return join(document, self.binary)
+        outer, packed = copy.deepcopy(self.outer), zlib.compress(json.dumps(document).encode())
+        binary = self.binary[:self.view["byteOffset"]] + packed
+        outer["bufferViews"][outer["extensions"][EXTENSION]["document"]]["byteLength"] = len(packed)
+        outer["buffers"][0]["byteLength"] = len(binary)
+        return join(outer, binary)
+
+
+def paths_below(value, path=()):
+    """The places of all values in a value, itself too; of long lists the first three and the last."""
+    yield path
+    if isinstance(value, dict):
+        for key in value:
+            yield from paths_below(value[key], path + (key,))
+    elif isinstance(value, list):
+        for i in sorted({0, 1, 2, len(value) - 1} & set(range(len(value)))):
+            yield from paths_below(value[i], path + (i,))
+
+
+def extension_paths(document):
+    """The places of the extension's fields, of what streams say as well, and of what they depend on."""
+    for path in paths_below(document):
+        if EXTENSION in path or (len(path) == 3 and path[0] == "accessors" and path[2] in ("count", "type", "componentType")):
+            yield path
+        elif path[:1] in (("bufferViews",), ("buffers",)) and len(path) <= 3:
+            yield path
+        elif len(path) >= 5 and path[0] == "meshes" and path[4] in ("indices", "attributes", "mode"):
+            yield path
+
+
+def mutated(document, path, value):
+    out = copy.deepcopy(document)
+    at = out
+    for key in path[:-1]:
+        at = at[key]
+    if value is REMOVED:
+        del at[path[-1]]
+    else:
+        at[path[-1]] = value
+    return out
+
+
+class PackBad(CliTest):
+    def setUp(self):
+        super().setUp()
+        SceneMaker().write(self.path("scene.glb"))
+
+    def packed(self, *options):
+        path = self.path("good.glb")
+        self.ok("pack", self.path("scene.glb"), "-o", path, "--force", *options)
+        with open(path, "rb") as file:
+            return file.read()
+
+    def check(self, case):
+        """Unpacks, or packs, bytes: one line and no output, or an output that can be read."""
+        name, command, data = case
+        source, target = self.write(f"{name}.glb", data), self.path(f"{name}.out.glb")
+        outcome = run(command, source, "-o", target)
+        self.assertIn(outcome.code, (DONE, BAD_INPUT), f"{name}: {outcome}")
+        if outcome.code == BAD_INPUT:
+            self.check_error(outcome)
+            self.assertFalse(os.path.exists(target), f"{name}: written although refused")
+        else:
+            Scene(target)
+            os.remove(target)
+        os.remove(source)
+        return outcome.code
+
+    def check_all(self, cases):
+        """How many were refused."""
+        return sum(code == BAD_INPUT for code in in_parallel(self.check, cases))
+
+    def test_fields(self):
+        for options in (["--document", "plain"], ["--document", "packed"], ["--document", "plain", "--keep-order"]):
+            packed = Packed(self.packed(*options))
+            cases = []
+            for path in extension_paths(packed.document):
+                for wrong in WRONG:
+                    cases.append((f"f{len(cases)}", "unpack", packed.with_document(mutated(packed.document, path, wrong))))
+            cases = cases[::40 if SANITIZED else 12]
+            refused = self.check_all(cases)
+            print(f"{' '.join(options)}: {refused} of {len(cases)} refused")
+            self.assertGreater(refused, len(cases) // 2)
+
+    def test_bytes(self):
+        """Files cut short, and files with a damaged byte."""
+        cases = []
+        for options in (["--document", "plain"], ["--document", "packed"]):
+            good = self.packed(*options)
+            step = len(good) // (8 if SANITIZED else 60)
+            for at in range(0, len(good), step):
+                cases.append((f"c{len(cases)}", "unpack", good[:at]))
+                cases.append((f"c{len(cases)}", "unpack", good[:at] + bytes([good[at] ^ 0x41]) + good[at + 1:]))
+        self.assertGreater(self.check_all(cases), len(cases) // 2)
+
+    def test_outer(self):
+        """A packed document that is none, or holds another one."""
+        packed = Packed(self.packed("--document", "packed"))
+        cases = []
+        for text in (b"", b"{", b"[]", b"7", b"{}", b"[" * 100000, json.dumps(packed.outer).encode(), bytes(10**8)):
+            outer, data = copy.deepcopy(packed.outer), zlib.compress(text)
+            binary = packed.binary[:packed.view["byteOffset"]] + data
+            outer["bufferViews"][0]["byteLength"] = len(data)
+            outer["buffers"][0]["byteLength"] = len(binary)
+            cases.append((f"o{len(cases)}", "unpack", join(outer, binary)))
+        self.check_all(cases)
+        self.fails("unpack", self.write("deep.glb", cases[6][2]), "-o", self.path("x.glb"), mentions=["packed document"])
+
+    def test_sources(self):
+        """Scenes that pack cannot read."""
+        with open(self.path("scene.glb"), "rb") as file:
+            document, binary = split(file.read())
+        cases = []
+        for path in paths_below(document):
+            wanted = (path[:1] == ("accessors",) and len(path) <= 3) or (path[:1] == ("bufferViews",) and len(path) <= 3) or (
+                path[:1] == ("meshes",) and 4 <= len(path) <= 6)
+            if wanted:
+                for wrong in WRONG:
+                    cases.append((f"s{len(cases)}", "pack", join(mutated(document, path, wrong), binary)))
+        self.assertGreater(self.check_all(cases[::60 if SANITIZED else 30]), 10)
+        lost = {**document, "buffers": [{"byteLength": 12, "uri": "missing.bin"}]}
+        self.fails("pack", self.write("lost.glb", join(lost, b"")), "-o", self.path("x.glb"), mentions=["missing.bin"])
+        self.packed()
+        self.fails("pack", self.path("good.glb"), "-o", self.path("x.glb"), mentions=["packed already"])
+
+
+if __name__ == "__main__":
+    main()
