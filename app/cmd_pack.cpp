@@ -42,7 +42,7 @@ std::string errors_of(const std::map<std::string, double>& errors) {
     return out;
 }
 
-Json to_json(const std::string& file, const PackReport& report) {
+Json to_json(const std::string& file, const PackReport& report, std::uint64_t before, std::uint64_t after) {
     Json errors = Json::object(), rest = Json::object();
     for (const auto& [name, error] : report.max_error) errors[name] = error;
     for (const auto& [what, count] : report.not_compressed) rest[what] = count;
@@ -50,8 +50,8 @@ Json to_json(const std::string& file, const PackReport& report) {
             {"file", file},
             {"primitives", report.primitives},
             {"triangles", report.triangles},
-            {"bytes_before", report.bytes_before},
-            {"bytes_after", report.bytes_after},
+            {"bytes_before", before},
+            {"bytes_after", after},
             {"geometry_before", report.geometry_before},
             {"geometry_after", report.geometry_after},
             {"max_error", std::move(errors)},
@@ -67,14 +67,8 @@ int pack_file(const PackCommand& options, const std::string& input, const std::f
     how.bin_uri = output.bin;
     how.fallback_uri = output.fallback;
     how.bits.threads = std::max(1U, std::thread::hardware_concurrency());
-    if (!output.bin.empty() && how.json == SceneJson::packed) {
-        return fail(output_name(path), Error{ErrorCode::invalid_argument, "--document packed needs a GLB"});
-    }
-    const ReadOptions read{.allow_outside = options.input.allow_outside,
-                           .max_bytes = options.input.max_memory << 20,
-                           .triangle_bytes = options.input.triangle_bytes};
     PackReport report;
-    const auto scene = pack_scene(*bytes, input == "-" ? "" : input, how, read, &report);
+    const auto scene = pack_scene(*bytes, input == "-" ? "" : input, how, read_options(options.input), &report);
     for (std::filesystem::path& file : report.read.files) log.read(file);
     if (!scene) return fail(input, scene.error());
     if (const auto good = check_scene_output(output, options.output, log); !good) {
@@ -82,22 +76,21 @@ int pack_file(const PackCommand& options, const std::string& input, const std::f
     }
     const auto written = write_scene(*scene, output);
     if (!written) return fail(output_name(path), written.error());
-    report.bytes_before = input_bytes(bytes->size(), report.read);
-    report.bytes_after = *written;
+    const std::uint64_t before = input_bytes(bytes->size(), report.read);
     for (const std::string& note : report.notes) log.note(input_name(input), note);
     if (!report.not_compressed.empty()) {
         log.note(input_name(input), "primitives not compressed: " + listed(report.not_compressed));
     }
     note_images(*scene, input, output, log);
     if (options.json) {
-        print_json(to_json(input_name(input), report));
+        print_json(to_json(input_name(input), report, before, *written));
         return done;
     }
     const std::string errors = errors_of(report.max_error);
     log.flush();
     say("{}: {} primitives, {} triangles: {} bytes, before {}; geometry {} bytes, before {}; {}\n", output_name(path),
-        report.primitives, report.triangles, report.bytes_after, report.bytes_before, report.geometry_after,
-        report.geometry_before, errors.empty() ? "lossless" : "largest error: " + errors);
+        report.primitives, report.triangles, *written, before, report.geometry_after, report.geometry_before,
+        errors.empty() ? "lossless" : "largest error: " + errors);
     return done;
 }
 
@@ -130,7 +123,7 @@ void add_pack(CLI::App& program, Action& action) {
                      "the JSON of a .glb: as it is, or deflated; unless told deflated where it is much of the file")
         ->check(CLI::IsMember({"plain", "packed"}));
     command->add_flag("--json", options->json, "print a JSON document with the figures");
-    command->add_flag("--allow-outside", options->input.allow_outside, "a glTF may name files outside its folder");
+    add_allow_outside(*command, options->input);
     add_max_memory(*command, options->input);
     options->input.triangle_bytes = 200;
     auto rules = std::make_shared<OptionRules>(*command);

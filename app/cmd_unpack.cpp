@@ -22,9 +22,9 @@ int unpack_file(const UnpackCommand& options, const std::string& input, const st
     const auto bytes = read_input(input, options.input, log);
     if (!bytes) return fail(input, bytes.error());
     const SceneOutput output(path);
-    const ReadOptions read{.allow_outside = options.input.allow_outside, .max_bytes = options.input.max_memory << 20};
     UnpackReport report;
-    const auto scene = unpack_scene(*bytes, input == "-" ? "" : input, output.bin, read, &report);
+    const auto scene =
+        unpack_scene(*bytes, input == "-" ? "" : input, output.bin, read_options(options.input), &report);
     for (std::filesystem::path& file : report.read.files) log.read(file);
     if (!scene) return fail(input, scene.error());
     if (const auto good = check_scene_output(output, options.output, log); !good) {
@@ -53,7 +53,7 @@ void add_unpack(CLI::App& program, Action& action) {
     CLI::App* command = program.add_subcommand("unpack", "write a packed scene as plain glTF");
     command->add_option("PACKED", options->inputs, "what pack wrote; - is standard input")->required();
     add_output(*command, options->output, "the .glb or .gltf file; FOLDER/ for several, - for standard output");
-    command->add_flag("--allow-outside", options->input.allow_outside, "a glTF may name files outside its folder");
+    add_allow_outside(*command, options->input);
     add_max_memory(*command, options->input);
     command->callback([options, &action] { action = [options](RunLog& log) { return run_unpack(*options, log); }; });
 }

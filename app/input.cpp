@@ -62,10 +62,7 @@ Result<LoadedMesh> read(const MeshInput& input, RunLog& log, PrimitiveList* list
         return out;
     }
     ReadReport report;
-    ReadOptions how{.format = format_named(options.format),
-                    .allow_outside = options.allow_outside,
-                    .max_bytes = options.max_memory << 20,
-                    .triangle_bytes = options.triangle_bytes};
+    ReadOptions how = read_options(options);
     const std::string name = input.path == "-" ? "" : input.path;
     Result<Mesh> mesh = read_mesh(*bytes, name, how, &report);
     for (std::filesystem::path& file : report.files) log.read(std::move(file));
@@ -151,8 +148,12 @@ void add_input_options(CLI::App& command, InputOptions& options, std::uint32_t t
     for (const auto& [name, format] : kFormats) formats.insert(name);
     command.add_option("--input-format", options.format, "of meshes whose format does not show")
         ->check(CLI::IsMember(formats));
-    command.add_flag("--allow-outside", options.allow_outside, "a glTF may name files outside its folder");
+    add_allow_outside(command, options);
     add_max_memory(command, options);
+}
+
+void add_allow_outside(CLI::App& command, InputOptions& options) {
+    command.add_flag("--allow-outside", options.allow_outside, "a glTF may name files outside its folder");
 }
 
 void add_max_memory(CLI::App& command, InputOptions& options) {
@@ -161,6 +162,13 @@ void add_max_memory(CLI::App& command, InputOptions& options) {
                     "what a mesh may take; unless told 512, or 128 times the file where that is more")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 30))
         ->type_name("MiB");
+}
+
+ReadOptions read_options(const InputOptions& options) {
+    return {.format = format_named(options.format),
+            .allow_outside = options.allow_outside,
+            .max_bytes = options.max_memory << 20,
+            .triangle_bytes = options.triangle_bytes};
 }
 
 std::string input_name(const std::string& path) {

@@ -24,8 +24,12 @@ namespace lacedring::app {
 /// InputOptions.
 void add_input_options(CLI::App& command, InputOptions& options, std::uint32_t triangle_bytes);
 
-/// --max-memory alone.
+/// --allow-outside, or --max-memory, alone.
+void add_allow_outside(CLI::App& command, InputOptions& options);
 void add_max_memory(CLI::App& command, InputOptions& options);
+
+/// The library's options for them.
+ReadOptions read_options(const InputOptions& options);
 
 /// As messages and JSON name it.
 std::string input_name(const std::string& path);

@@ -1,5 +1,5 @@
 #pragma once
-// What verify and compare check of a scene, and of whole files.
+// Checks of scenes and of whole files, for verify and compare.
 
 #include <cstddef>
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace lacedring::app {
 
-/// Where the joined mesh differs from the primitives where the scene places them.
+/// The first difference between the joined mesh and the placed primitives.
 struct PlacedDifference {
     const LoadedPrimitive* primitive = nullptr;  ///< null: triangles that are of none
-    std::string why;                             ///< empty: it does not
+    std::string why;                             ///< empty: there is none
 };
 
 /// Compares the joined mesh with every primitive through every node's transform, corner by corner: positions, and the

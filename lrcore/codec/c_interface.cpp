@@ -6,6 +6,7 @@
 
 #include "lacedring/lacedring.h"
 #include "lacedring/lacedring.hpp"
+#include "lrcore/codec/c_message.h"
 #include "lrcore/codec/decode_slot.h"
 #include "lrcore/codec/packed/packed_format.h"
 
@@ -29,25 +30,6 @@ lacedring_code code_of(ErrorCode code) {
     }
 }
 
-lacedring_code fail(lacedring_code code, std::string_view text, lacedring_message* message) {
-    if (message != nullptr) {
-        const std::size_t size = std::min(text.size(), sizeof message->text - 1);
-        std::memcpy(message->text, text.data(), size);
-        message->text[size] = 0;
-    }
-    return code;
-}
-
-/// Returns work()'s code, or OUT_OF_MEMORY if it throws: no exception passes into C.
-template <class Work>
-lacedring_code guarded(lacedring_message* message, Work work) {
-    try {
-        return work();
-    } catch (...) {  // std::bad_alloc, or std::length_error where size_t has 32 bits
-        return fail(LACEDRING_CODE_OUT_OF_MEMORY, lacedring_code_string(LACEDRING_CODE_OUT_OF_MEMORY), message);
-    }
-}
-
 /// False if it is wanted and does not fit. `capacity` counts elements.
 bool put(const std::vector<std::uint32_t>& from, std::uint32_t* to, std::size_t capacity, std::size_t& count) {
     count = from.size();
@@ -59,7 +41,7 @@ bool put(const std::vector<std::uint32_t>& from, std::uint32_t* to, std::size_t 
 
 lacedring_code open(const Result<StreamView>& view, std::span<const std::uint32_t> words, lacedring_stream* stream,
                     lacedring_message* message) {
-    if (!view) return fail(code_of(view.error().code), view.error().message, message);
+    if (!view) return fail_with(code_of(view.error().code), view.error().message, message);
     stream->words = words.data();
     stream->word_count = words.size();
     stream->format = static_cast<lacedring_format>(view->format());
@@ -213,7 +195,7 @@ lacedring_code lacedring_encode(const std::uint32_t* indices, std::size_t index_
         lacedring_default_options(&chosen);
         if (options != nullptr) chosen = *options;
         if (chosen.format < LACEDRING_FORMAT_LEAN || chosen.format > LACEDRING_FORMAT_LR_COMPACT) {
-            return fail(LACEDRING_CODE_INVALID_ARGUMENT, "no such format", message);
+            return fail_with(LACEDRING_CODE_INVALID_ARGUMENT, "no such format", message);
         }
         EncodeOptions how;
         how.format = static_cast<Format>(chosen.format);
@@ -222,7 +204,7 @@ lacedring_code lacedring_encode(const std::uint32_t* indices, std::size_t index_
         how.wart_skipping = chosen.no_wart_skipping == 0;
         how.threads = static_cast<unsigned>(std::max(chosen.threads, 1));
         const Result<Encoded> made = encode({indices, index_count}, vertex_count, how);
-        if (!made) return fail(code_of(made.error().code), made.error().message, message);
+        if (!made) return fail_with(code_of(made.error().code), made.error().message, message);
         encoded->degenerate = made->report.topology.degenerate;
         const bool words = put(made->words, encoded->words, encoded->word_capacity, encoded->word_count);
         const bool vertices =
@@ -230,7 +212,7 @@ lacedring_code lacedring_encode(const std::uint32_t* indices, std::size_t index_
         const bool triangles =
             put(made->triangle_order, encoded->triangle_order, encoded->triangle_capacity, encoded->triangle_count);
         if (words && vertices && triangles) return LACEDRING_CODE_OK;
-        return fail(LACEDRING_CODE_TOO_SMALL, lacedring_code_string(LACEDRING_CODE_TOO_SMALL), message);
+        return fail_with(LACEDRING_CODE_TOO_SMALL, lacedring_code_string(LACEDRING_CODE_TOO_SMALL), message);
     });
 }
 

@@ -56,8 +56,8 @@ class BoundedDecoder : public Decoder {
     bool DecodeGeometryData() override {
         Claim claim;
         if (!peek_claim(*this->buffer(), is_edgebreaker, claim)) return false;
-        // What Draco 1.5 has for a face and a point at most: corner table, points of corners, faces, lists of corners;
-        // and for each table of an attribute: vertices and seams of corners.
+        // Bytes that Draco 1.5 allocates at most. For each face and point: corner table, points of corners, faces,
+        // lists of corners. For each attribute's table: vertices and seams of corners.
         constexpr double kFace = 80, kPoint = 24, kTableFace = 40, kTablePoint = 16;
         return take(claim.faces * (kFace + kTableFace * claim.tables) +
                     claim.points * (kPoint + kTablePoint * claim.tables)) &&

@@ -33,7 +33,7 @@ bool has_unknown_extensions(const nlohmann::json& document);
 /// Is it JSON that is nested no deeper than parsers go? Errors: malformed.
 Result<void> check_json(std::string_view text);
 
-/// What KHR_draco_mesh_compression holds (gltf_draco.h).
+/// The data of KHR_draco_mesh_compression (gltf_draco.h).
 struct DracoData {
     struct Source {
         int view = 0;                 ///< the buffer view of Draco's data

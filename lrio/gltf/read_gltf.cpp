@@ -54,8 +54,8 @@ class GltfJoiner {
         }
     }
 
-    /// Those that every block has alike, and NORMAL where any has it: shading would change without it. Integer normals
-    /// and tangents that a node turns become floats.
+    /// Keeps the attributes that every block has alike, and NORMAL if any block has it: without it, shading would
+    /// change. Integer normals and tangents that a node turns become floats.
     void choose_attributes(const std::vector<MeshInstance>& instances) {
         const bool moved = std::any_of(instances.begin(), instances.end(),
                                        [](const MeshInstance& i) { return !i.transform.is_identity(); });

@@ -6,52 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "lrio/gltf/gltf_names.h"
 #include "lrio/mesh/write_formats.h"
 
 namespace lacedring::detail {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr int gltf_unsigned_short = 5123;
-constexpr int gltf_unsigned_int = 5125;
-constexpr int vertex_target = 34962;
-constexpr int index_target = 34963;
-
-int gltf_component_type(ComponentType type) {
-    switch (type) {
-        case ComponentType::i8:
-            return 5120;
-        case ComponentType::u8:
-            return 5121;
-        case ComponentType::i16:
-            return 5122;
-        case ComponentType::u16:
-            return gltf_unsigned_short;
-        default:
-            return 5126;  // 32-bit integers and doubles have become floats
-    }
-}
-
-/// glTF's name for that many components.
-const char* gltf_type(const Attribute& attribute) {
-    switch (attribute.components) {
-        case 1:
-            return "SCALAR";
-        case 2:
-            return "VEC2";
-        case 3:
-            return "VEC3";
-        case 4:
-            return "VEC4";
-        case 9:
-            return attribute.type == ComponentType::f32 ? "MAT3" : nullptr;  // columns of small integers are padded
-        case 16:
-            return attribute.type == ComponentType::f32 ? "MAT4" : nullptr;
-        default:
-            return nullptr;
-    }
-}
 
 class GlbMaker {
   public:
@@ -69,25 +30,14 @@ class GlbMaker {
         }
         const std::size_t indices = add_indices();
         const std::string json = document(attributes, indices);
-        const std::uint64_t total = 12 + 8 + json.size() + 8 + bin_.size();
-        if (total > std::numeric_limits<std::uint32_t>::max()) {
-            return Error{ErrorCode::too_large, "the mesh does not fit into GLB's 4 GiB"};
-        }
-        append(head, "glTF");
-        add_word(head, 2);
-        add_word(head, static_cast<std::uint32_t>(total));
-        add_word(head, static_cast<std::uint32_t>(json.size()));
-        append(head, "JSON");
-        append(head, json);
-        add_word(head, static_cast<std::uint32_t>(bin_.size()));
-        append(head, std::string_view("BIN\0", 4));
+        Result<Bytes> begin = make_glb_head(json, bin_.size());
+        if (!begin) return begin.error();
+        head = std::move(*begin);
         body = std::move(bin_);
         return {};
     }
 
   private:
-    static void add_word(Bytes& to, std::uint32_t word) { append(to, std::as_bytes(std::span(&word, 1))); }
-
     /// glTF wants the bounds of POSITION.
     void find_bounds(const Attribute& position) {
         low_.assign(3, std::numeric_limits<float>::infinity());
@@ -111,12 +61,12 @@ class GlbMaker {
         Json view{{"buffer", 0}, {"byteOffset", offset}, {"byteLength", padded * mesh_.vertex_count}};
         // 252 is the longest stride that may be written down, and no attribute here has more than 64 bytes
         view["byteStride"] = padded;
-        view["target"] = vertex_target;
+        view["target"] = kGltfVertexTarget;
         views_.push_back(std::move(view));
         Json accessor{{"bufferView", views_.size() - 1},
                       {"componentType", gltf_component_type(attribute.type)},
                       {"count", mesh_.vertex_count},
-                      {"type", gltf_type(attribute)}};
+                      {"type", gltf_type(attribute.components)}};
         if (attribute.normalized && attribute.type != ComponentType::f32) accessor["normalized"] = true;
         if (is_position) {
             accessor["min"] = low_;
@@ -140,9 +90,9 @@ class GlbMaker {
         } else {
             std::memcpy(bin_.data() + offset, mesh_.indices.data(), length);
         }
-        views_.push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", length}, {"target", index_target}});
+        views_.push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", length}, {"target", kGltfIndexTarget}});
         accessors_.push_back({{"bufferView", views_.size() - 1},
-                              {"componentType", narrow ? gltf_unsigned_short : gltf_unsigned_int},
+                              {"componentType", narrow ? kGltfUnsignedShort : kGltfUnsignedInt},
                               {"count", mesh_.indices.size()},
                               {"type", "SCALAR"}});
         return accessors_.size() - 1;
@@ -162,9 +112,7 @@ class GlbMaker {
         out["accessors"] = accessors_;
         out["bufferViews"] = views_;
         out["buffers"] = Json::array({Json{{"byteLength", bin_.size()}}});
-        std::string text = out.dump();
-        text.resize((text.size() + 3) / 4 * 4, ' ');
-        return text;
+        return out.dump();
     }
 
     const Mesh& mesh_;

@@ -1,12 +1,12 @@
 // scene.h: the C interface, on C++'s.
 
-#include <algorithm>
 #include <cstdlib>
 #include <cstring>
-#include <string_view>
+#include <new>
 
 #include "lacedring/scene.h"
 #include "lacedring/scene.hpp"
+#include "lrcore/codec/c_message.h"
 
 namespace lacedring {
 namespace {
@@ -22,15 +22,6 @@ lacedring_code scene_code(ErrorCode code) {
         default:  // all else is something about the bytes
             return LACEDRING_CODE_MALFORMED;
     }
-}
-
-lacedring_code fail_scene(lacedring_code code, std::string_view text, lacedring_message* message) {
-    if (message != nullptr) {
-        const std::size_t size = std::min(text.size(), sizeof message->text - 1);
-        std::memcpy(message->text, text.data(), size);
-        message->text[size] = 0;
-    }
-    return code;
 }
 
 Result<std::vector<std::byte>> plain_glb(std::span<const std::byte> bytes, std::uint64_t max_bytes) {
@@ -58,23 +49,18 @@ lacedring_code lacedring_unpack_scene(const void* bytes, std::size_t size, std::
     if (glb != nullptr) *glb = nullptr;
     if (glb_size != nullptr) *glb_size = 0;
     if (bytes == nullptr || glb == nullptr || glb_size == nullptr) {
-        return fail_scene(LACEDRING_CODE_INVALID_ARGUMENT, "a null pointer", message);
+        return fail_with(LACEDRING_CODE_INVALID_ARGUMENT, "a null pointer", message);
     }
-    const auto no_memory = [message] {
-        return fail_scene(LACEDRING_CODE_OUT_OF_MEMORY, lacedring_code_string(LACEDRING_CODE_OUT_OF_MEMORY), message);
-    };
-    try {
+    return guarded(message, [&] {
         const auto plain = plain_glb({static_cast<const std::byte*>(bytes), size}, max_bytes);
-        if (!plain) return fail_scene(scene_code(plain.error().code), plain.error().message, message);
+        if (!plain) return fail_with(scene_code(plain.error().code), plain.error().message, message);
         void* out = std::malloc(plain->size());
-        if (out == nullptr) return no_memory();
+        if (out == nullptr) throw std::bad_alloc();
         std::memcpy(out, plain->data(), plain->size());
         *glb = static_cast<unsigned char*>(out);
         *glb_size = plain->size();
         return LACEDRING_CODE_OK;
-    } catch (...) {  // std::bad_alloc: no exception passes into C
-        return no_memory();
-    }
+    });
 }
 
 void lacedring_free(void* memory) {

@@ -3,6 +3,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "lrio/mesh/read_formats.h"
 
@@ -25,6 +26,8 @@ Result<std::vector<std::byte>> inflate_bytes(std::span<const std::byte> bytes, s
     stream.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(bytes.data()));  // zlib's interface has no const
     stream.avail_in = static_cast<uInt>(bytes.size());
     if (inflateInit(&stream) != Z_OK) return Error{ErrorCode::too_large, "zlib has no memory"};
+    const auto end = [](z_stream* open) { inflateEnd(open); };
+    const std::unique_ptr<z_stream, decltype(end)> ended(&stream, end);  // memory may run out below
     std::vector<std::byte> out;
     std::size_t done = 0;
     int state = Z_OK;
@@ -40,7 +43,6 @@ Result<std::vector<std::byte>> inflate_bytes(std::span<const std::byte> bytes, s
         done += room - stream.avail_out;
     }
     const bool whole = state == Z_STREAM_END && stream.avail_in == 0;
-    inflateEnd(&stream);
     if (done > most) return Error{beyond, fmt::format("a zlib stream of more than {} bytes", most)};
     if (!whole) return malformed("no sound zlib stream");
     out.resize(done);

@@ -42,7 +42,7 @@ std::uint32_t rest_rank(const std::uint32_t* row, std::uint32_t which, bool nega
     return rank_of(std::bit_cast<std::uint32_t>(negative ? -root : root));
 }
 
-/// Which component is largest, and 4 more where it is negative.
+/// The number of the largest component; 4 is added if the component is negative.
 std::uint32_t largest_of(const std::uint32_t* row) {
     std::uint32_t which = 3;
     float most = -1;
@@ -143,7 +143,7 @@ Result<std::vector<std::byte>> decode_floats(std::span<const std::byte> coded, s
         std::uint32_t* row = ranks.data() + i * width;
         const auto largest = quaternions ? std::to_integer<std::uint32_t>((*lengths)[i]) : 8;
         if (quaternions && largest >= 8) return malformed("floats: no component {}", largest);
-        // What is left comes last: it needs the others.
+        // The largest component of a quaternion is computed from the other three, so it comes last.
         std::array<std::uint32_t, kMostWidth> codes{};
         for (std::uint32_t c = 0; c < width; ++c) {
             const auto length = std::to_integer<unsigned>((*lengths)[base + c * rows + i]);

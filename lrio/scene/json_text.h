@@ -35,7 +35,7 @@ struct JsonValue {
     std::span<const Member> list(std::string_view name) const;
     /// A number that is an integer from 0 on, written without fraction or exponent.
     std::optional<std::uint64_t> integer() const;
-    /// That of the member `name`.
+    /// The integer of the member `name`, as above.
     std::optional<std::uint64_t> integer(std::string_view name) const;
 
     void remove(std::string_view name);

@@ -1,12 +1,11 @@
 // Packs a glTF scene: plans, encodes its streams, and edits the document.
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
 
 #include "lacedring/scene.hpp"
 #include "lrio/gltf/gltf_accessor.h"
 #include "lrio/gltf/gltf_file.h"
+#include "lrio/gltf/gltf_names.h"
 #include "lrio/gltf/tinygltf.h"
 #include "lrio/scene/packed_scene.h"
 #include "lrio/scene/quantization.h"
@@ -33,6 +32,8 @@ class Packer {
     Result<SceneFile> run() {
         if (is_packed()) return unsupported("is packed already");
         name_draco_accessors();
+        accessors_ = json_.root.find("accessors");
+        meshes_json_ = json_.root.list("meshes");
         auto plan = plan_scene(json_.root, file_, options_.keep_order);
         if (!plan) return plan.error();
         plan_ = std::move(*plan);
@@ -72,13 +73,12 @@ class Packer {
     /// Primitives of Draco's as they are decoded (gltf_draco.h): lists of triangles, with accessors of their own.
     void name_draco_accessors() {
         const auto& accessors = file_.model.accessors;
-        constexpr const char* kShapes[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
         for (std::size_t i = json_.root.list("accessors").size(); i < accessors.size(); ++i) {
             JsonValue made = JsonText::object();
             made.set("componentType", json_.number(static_cast<std::uint64_t>(accessors[i].componentType)));
             made.set("count", json_.number(0));
             const int components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessors[i].type));
-            made.set("type", json_.string(kShapes[components < 1 || components > 4 ? 0 : components]));
+            made.set("type", json_.string(gltf_type(static_cast<std::uint8_t>(std::clamp(components, 0, 16)))));
             if (accessors[i].normalized) made.set("normalized", json_.boolean(true));
             if (json_.root.find("accessors") == nullptr) json_.root.set("accessors", JsonText::array());
             json_.root.find("accessors")->members.push_back({{}, std::move(made)});
@@ -131,7 +131,6 @@ class Packer {
                 continue;
             }
             report_.geometry_before += size_before(set);
-            for (ScenePart& part : set.parts) part.set = static_cast<std::uint32_t>(kept.size());
             kept.push_back(std::move(set));
             meshes_.push_back(std::move(*read));
         }
@@ -220,7 +219,7 @@ class Packer {
         auto stream = encode_scene_stream(std::move(sets), group.keep_order, options_.bits.threads);
         if (!stream) return stream.error();
         degenerate_ += stream->degenerate;
-        // What a reader will see, from the bytes: counts, bounds, and the fallback.
+        // Counts, bounds and the fallback are those of the decoded stream: a reader sees the same.
         std::vector<std::uint32_t> set_of_part;
         for (const auto& numbers : part_numbers) set_of_part.resize(set_of_part.size() + numbers.size());
         for (std::size_t s = 0; s < group.sets.size(); ++s) {
@@ -228,12 +227,12 @@ class Packer {
         }
         auto decoded = decode_scene_stream(stream->file, stream->parts, set_of_part, vertices);
         if (!decoded) return decoded.error();
-        return describe(group, part_numbers, *stream, *decoded);
+        return describe(group, part_numbers, std::move(*stream), *decoded);
     }
 
     /// Edits accessors and primitives of the group's sets.
     Result<void> describe(const Group& group, const std::vector<std::vector<std::uint32_t>>& part_numbers,
-                          const SceneStream& stream, const DecodedStream& decoded) {
+                          SceneStream stream, const DecodedStream& decoded) {
         const std::size_t number = streams_.size();
         JsonValue value = JsonText::object(), sets = JsonText::array();
         for (std::size_t s = 0; s < group.sets.size(); ++s) {
@@ -254,16 +253,16 @@ class Packer {
         value.set("sets", std::move(sets));
         if (group.keep_order) value.set("ordered", json_.boolean(true));
         report_.geometry_after += stream.file.size() + stream.parts.size();
-        streams_.push_back({std::move(value), stream.file, stream.parts});
+        streams_.push_back({std::move(value), std::move(stream.file), std::move(stream.parts)});
         return {};
     }
 
-    JsonValue& accessor_at(std::uint32_t number) { return json_.root.list("accessors")[number].value; }
+    JsonValue& accessor_at(std::uint64_t number) { return accessors_->members[static_cast<std::size_t>(number)].value; }
 
     Result<void> put_attribute(std::uint32_t number, const Attribute& attribute, std::uint32_t vertices) {
         JsonValue& accessor = accessor_at(number);
-        for (const char* name : {"bufferView", "byteOffset", "sparse"}) accessor.remove(name);
-        describe_attribute(json_, accessor, attribute, vertices, true);
+        strip_accessor(accessor);
+        describe_attribute(json_, accessor, attribute, vertices);
         auto values = values_as(accessor, attribute);
         if (!values) return values.error();
         const std::size_t stride = values->size() / vertices;
@@ -273,23 +272,19 @@ class Packer {
 
     void put_part(const ScenePart& part, std::size_t stream, std::uint32_t number,
                   const std::vector<std::uint32_t>& indices, std::uint32_t vertices) {
-        std::uint64_t accessor = 0;
-        auto all = json_.root.list("accessors");
-        if (part.indices) {
-            accessor = *part.indices;
-        } else {
-            accessor = all.size();
+        const std::uint64_t accessor = part.indices.value_or(static_cast<std::uint32_t>(accessors_->size()));
+        if (!part.indices) {
             JsonValue made = JsonText::object();
-            made.set("componentType", json_.number(5121));
+            made.set("componentType", json_.number(kGltfUnsignedByte));
             made.set("type", json_.string("SCALAR"));
-            json_.root.find("accessors")->members.push_back({{}, std::move(made)});
+            accessors_->members.push_back({{}, std::move(made)});
         }
-        JsonValue& to = accessor_at(static_cast<std::uint32_t>(accessor));
+        JsonValue& to = accessor_at(accessor);
         strip_accessor(to);
         describe_indices(json_, to, indices.size(), vertices);
         if (options_.fallback) fallback_.push_back({accessor, indices_as(to, indices), 0});
         for (const PrimitivePlace place : part.primitives) {
-            JsonValue& primitive = primitive_at(json_.root, place);
+            JsonValue& primitive = meshes_json_[place.mesh].value.list("primitives")[place.primitive].value;
             remove_extension(primitive, "KHR_draco_mesh_compression");
             if (part.mode != 4) primitive.set("mode", json_.number(4));
             primitive.set("indices", json_.number(accessor));
@@ -313,8 +308,7 @@ class Packer {
             list.members.push_back({{}, std::move(stream.json)});
         }
         for (const Plain& plain : fallback_) {
-            accessor_at(static_cast<std::uint32_t>(plain.accessor))
-                .set("bufferView", json_.number(views.add_plain(plain.bytes, plain.stride)));
+            accessor_at(plain.accessor).set("bufferView", json_.number(views.add_plain(plain.bytes, plain.stride)));
         }
         JsonValue extension = JsonText::object();
         extension.set("streams", std::move(list));
@@ -353,6 +347,8 @@ class Packer {
     Reading& reading_;
     PackReport& report_;
     JsonText json_;
+    JsonValue* accessors_ = nullptr;  ///< the document's, and its meshes
+    std::span<JsonValue::Member> meshes_json_;
     ScenePlan plan_;
     std::vector<SetMesh> meshes_;
     std::optional<SceneQuantization> quantization_;
@@ -369,6 +365,9 @@ Result<SceneFile> pack_scene(std::span<const std::byte> bytes, const std::filesy
     PackReport unwanted;
     PackReport& told = report != nullptr ? *report : unwanted;
     Reading reading{read, told.read, name};
+    if (options.json == SceneJson::packed && (options.fallback || !options.bin_uri.empty())) {
+        return Error{ErrorCode::invalid_argument, "a packed document needs a GLB without a fallback"};
+    }
     return caught([&]() -> Result<SceneFile> {
         auto file = load_gltf(bytes, reading, GltfUse::everything);
         if (!file) return file.error();

@@ -40,7 +40,7 @@ std::uint32_t unfold_distance(std::uint32_t code) {
 
 }  // namespace
 
-std::vector<std::byte> encode_part_codes(std::span<const std::uint32_t> parts) {
+Result<std::vector<std::byte>> encode_part_codes(std::span<const std::uint32_t> parts) {
     std::vector<std::byte> runs;
     std::vector<std::uint32_t> recent;  // the last one is the latest
     std::vector<bool> seen;
@@ -71,8 +71,7 @@ std::vector<std::byte> encode_part_codes(std::span<const std::uint32_t> parts) {
         put_varint(runs, static_cast<std::uint32_t>(to - from - 1));
         from = to;
     }
-    Result<std::vector<std::byte>> out = deflate_bytes(runs);
-    return out ? std::move(*out) : std::vector<std::byte>();
+    return deflate_bytes(runs);
 }
 
 Result<std::vector<std::uint32_t>> decode_part_codes(std::span<const std::byte> codes, std::size_t triangles,

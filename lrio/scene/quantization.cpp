@@ -28,10 +28,9 @@ double value_at(const Attribute& a, std::size_t i) {
     return static_cast<double>(value);
 }
 
-/// Sizes that differ by less than `factor` are of one class.
-int size_class(double size, double factor) {
-    return size > 0 && std::isfinite(size) ? static_cast<int>(std::floor(std::log2(size) / std::log2(factor)))
-                                           : INT16_MIN;
+/// Sizes from one power of two up to the next are of one class.
+int size_class(double size) {
+    return size > 0 && std::isfinite(size) ? static_cast<int>(std::floor(std::log2(size))) : INT16_MIN;
 }
 
 /// Weights of a vertex as multiples of 2^-bits whose sum stays 1.
@@ -111,10 +110,10 @@ SceneQuantization::SceneQuantization(const ScenePlan& plan, std::span<const SetM
                     column.range.largest = std::max({column.range.largest, std::abs(low[c]), std::abs(high[c])});
                 }
                 if (a.name == "POSITION" && meshes[s].integer_positions) column.roundable = false;  // lossless
-                if (semantic(a.name).starts_with("TEXCOORD_")) column.range.kind = size_class(column.range.extent, 2);
             }
+            const bool by_size = a.type == ComponentType::f32 && semantic(a.name).starts_with("TEXCOORD_");
             kind += fmt::format("|{}|{}|{}|{}|{}|{}|{}", a.name, static_cast<int>(a.type), a.components, a.normalized,
-                                column.roundable, column.unit_w, column.range.kind);
+                                column.roundable, column.unit_w, by_size ? size_class(column.range.extent) : 0);
             columns.push_back(std::move(column));
         }
         kinds_.push_back(std::move(kind));

@@ -27,7 +27,6 @@ class SceneQuantization {
   private:
     struct Range {
         double extent = 0, largest = 0;  ///< of any component, and the farthest from 0
-        int kind = 0;                    ///< the size class
     };
     struct Column {
         std::string name;
@@ -37,7 +36,6 @@ class SceneQuantization {
         bool unit_w = false;
         Range range;
     };
-    std::size_t class_of_set(const ScenePlan& plan, std::size_t set) const;
     void measure_positions(const ScenePlan& plan, std::span<const SetMesh> meshes);
 
     AttributeBits bits_;

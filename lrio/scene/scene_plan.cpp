@@ -1,7 +1,6 @@
 #include "lrio/scene/scene_plan.h"
 
 #include <algorithm>
-#include <array>
 #include <set>
 
 #include "lrio/gltf/gltf_accessor.h"
@@ -150,8 +149,6 @@ class Planner {
                                                            set.error().message)};
             }
             if (set->attributes.empty()) continue;
-            plan_.primitives += primitives.size();
-            for (ScenePart& part : set->parts) part.set = static_cast<std::uint32_t>(plan_.sets.size());
             plan_.sets.push_back(std::move(*set));
         }
         return std::move(plan_);
@@ -165,12 +162,12 @@ class Planner {
             for (const Candidate* primitive : primitives) leave_out(*primitive, why);
             return VertexSet{};
         };
-        std::map<std::uint32_t, std::size_t> numbers;  // of an accessor in the set's attributes
+        std::set<std::uint32_t> taken;  // accessors
         std::map<std::string, std::size_t> names;
         for (const Candidate* primitive : primitives) {
             set.keep_order = set.keep_order || primitive->in_order;
             for (const SceneAttribute& a : primitive->attributes) {
-                if (!numbers.emplace(a.accessor, set.attributes.size()).second) continue;
+                if (!taken.insert(a.accessor).second) continue;
                 const std::size_t count = ++names[a.name];
                 set.attributes.push_back({a.accessor, count == 1 ? a.name : fmt::format("{}#{}", a.name, count)});
             }
@@ -204,7 +201,7 @@ class Planner {
         for (const Candidate* primitive : primitives) {
             const std::pair key{primitive->indices.value_or(kNone), primitive->mode};
             const auto [at, added] = parts.emplace(key, set.parts.size());
-            if (added) set.parts.push_back({0, primitive->indices, primitive->mode, {}});
+            if (added) set.parts.push_back({primitive->indices, primitive->mode, {}});
             set.parts[at->second].primitives.push_back(primitive->place);
             if (primitive->indices && used_otherwise_[*primitive->indices]) {
                 return refuse("triangles whose indices something else uses");
@@ -234,10 +231,6 @@ class Planner {
 
 Result<ScenePlan> plan_scene(const JsonValue& document, GltfFile& file, bool keep_order) {
     return Planner(document, file, keep_order).run();
-}
-
-JsonValue& primitive_at(JsonValue& document, PrimitivePlace place) {
-    return document.list("meshes")[place.mesh].value.list("primitives")[place.primitive].value;
 }
 
 }  // namespace lacedring::detail

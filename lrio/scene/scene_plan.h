@@ -22,7 +22,6 @@ struct PrimitivePlace {
 
 /// An index list, and the primitives that have it.
 struct ScenePart {
-    std::uint32_t set = 0;
     std::optional<std::uint32_t> indices;  ///< accessor; none: the vertices in their order
     int mode = 4;                          ///< triangles, strip or fan
     std::vector<PrimitivePlace> primitives;
@@ -45,15 +44,11 @@ struct VertexSet {
 
 struct ScenePlan {
     std::vector<VertexSet> sets;
-    std::size_t primitives = 0;                         ///< of triangles, that are compressed
     std::map<std::string, std::size_t> not_compressed;  ///< primitives by what they are
 };
 
 /// Reads no values, but looks at where they lie. Errors: malformed (primitives that are not as glTF has them).
 Result<ScenePlan> plan_scene(const JsonValue& document, GltfFile& file, bool keep_order);
-
-/// The primitive in the document, which has it.
-JsonValue& primitive_at(JsonValue& document, PrimitivePlace place);
 
 /// Calls visit(name, accessor) for each attribute of a primitive, those of morph targets as "NAME@TARGET". What visit
 /// returns, if it is an error, ends it. Errors: malformed (a number that is none).

@@ -78,9 +78,9 @@ struct StreamChoice {
     std::uint32_t degenerate = 0;
 };
 
-Result<StreamChoice> make_choice(const Joined& joined, const Surface& surface,
-                                 const std::vector<VertexOptions>& options, bool keep_order, unsigned threads) {
-    const Mesh bare = surface_mesh(joined.mesh, surface);
+Result<StreamChoice> make_choice(const Mesh& mesh, const Surface& surface, const std::vector<VertexOptions>& options,
+                                 bool keep_order, unsigned threads) {
+    const Mesh bare = surface_mesh(mesh, surface);
     EncodeOptions how;
     how.threads = threads;
     Result<Encoded> encoded = encode(bare.indices, bare.vertex_count, how);
@@ -88,7 +88,7 @@ Result<StreamChoice> make_choice(const Joined& joined, const Surface& surface,
     StreamChoice out;
     out.triangle_order = encoded->triangle_order;
     out.degenerate = encoded->report.topology.degenerate;
-    Result<LrFile> file = make_lr_file(joined.mesh, surface, std::move(*encoded), keep_order);
+    Result<LrFile> file = make_lr_file(mesh, surface, std::move(*encoded), keep_order);
     if (!file) return file.error();
     out.file = std::move(*file);
     if (auto good = compress(out.file, options, threads); !good) return good.error();
@@ -102,15 +102,15 @@ Result<SceneStream> encode_scene_stream(std::vector<CodedSet> sets, bool keep_or
     const std::vector<VertexOptions> options = sets.front().options;
     const bool several = sets.size() > 1;
     Joined joined = join_sets(sets, keep_order);
-    Result<StreamChoice> best = make_choice(joined, joined.surface, options, keep_order, threads);
+    Result<StreamChoice> best = make_choice(joined.mesh, joined.surface, options, keep_order, threads);
     if (!best) return best.error();
     if (several) {
         // Parts of one model often meet: their positions are then there once. Where they do not, as of many alike that
         // lie in one another until their nodes move them, joining them is worth nothing.
         const Surface across = find_surface(joined.mesh);
         if (across.vertex_count < joined.surface.vertex_count - joined.surface.vertex_count / 20) {
-            Joined moved = joined;
-            move_to_surface(moved.mesh, across);
+            Mesh moved = joined.mesh;
+            move_to_surface(moved, across);
             Result<StreamChoice> other = make_choice(moved, across, options, keep_order, threads);
             if (other && other->bytes.size() < best->bytes.size()) best = std::move(other);
         }
@@ -121,7 +121,11 @@ Result<SceneStream> encode_scene_stream(std::vector<CodedSet> sets, bool keep_or
     std::vector<std::uint32_t> parts;
     parts.reserve(best->triangle_order.size());
     for (const std::uint32_t t : best->triangle_order) parts.push_back(joined.part_of[t]);
-    if (joined.parts > 1) out.parts = encode_part_codes(parts);
+    if (joined.parts > 1) {
+        auto codes = encode_part_codes(parts);
+        if (!codes) return codes.error();
+        out.parts = std::move(*codes);
+    }
     return out;
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 
+#include "lrio/gltf/gltf_accessor.h"
 #include "lrio/gltf/gltf_view.h"
 #include "lrio/gltf/tinygltf.h"
 #include "lrio/scene/deflate.h"
@@ -16,7 +17,6 @@ namespace lacedring::detail {
 struct SceneViewWriter::Use {
     bool used = false;
     bool image = false;
-    bool known = true;        ///< by accessors alone
     std::uint32_t width = 0;  ///< floats in rows, tightly packed; 0: other values, or more than one kind
     bool mixed = false;
     bool quaternions = false;
@@ -56,20 +56,14 @@ std::vector<bool> views_of_accessors(const GltfFile& file) {
     return out;
 }
 
-std::size_t element_bytes(const JsonValue& accessor, std::uint32_t& floats) {
-    const auto type = accessor.integer("componentType").value_or(0);
-    const JsonValue* shape = accessor.find("type");
-    const std::string name = shape == nullptr ? "" : plain_string(*shape);
-    const std::uint32_t components = name == "SCALAR"                   ? 1
-                                     : name == "VEC2"                   ? 2
-                                     : name == "VEC3"                   ? 3
-                                     : name == "VEC4" || name == "MAT2" ? 4
-                                     : name == "MAT3"                   ? 9
-                                     : name == "MAT4"                   ? 16
-                                                                        : 0;
-    const std::size_t size = type == 5120 || type == 5121 ? 1 : type == 5122 || type == 5123 ? 2 : 4;
-    floats = type == 5126 ? components : 0;
-    return size * components;
+/// Bytes of an accessor's element, and how many floats they are; 0 where its columns are padded or its type is unknown.
+std::size_t element_bytes(const tinygltf::Accessor& accessor, std::uint32_t& floats) {
+    ComponentType type = ComponentType::f32;
+    const int components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
+    floats = 0;
+    if (components < 1 || !to_component_type(accessor.componentType, type) || is_padded_matrix(accessor)) return 0;
+    if (type == ComponentType::f32) floats = static_cast<std::uint32_t>(components);
+    return size_of(type) * static_cast<std::size_t>(components);
 }
 
 }  // namespace
@@ -97,10 +91,13 @@ std::vector<SceneViewWriter::Use> SceneViewWriter::find_uses() {
         const JsonValue& accessor = member.value;
         const std::uint64_t count = accessor.integer("count").value_or(0);
         std::uint32_t floats = 0;
-        const std::size_t bytes = element_bytes(accessor, floats);
+        const std::size_t known = file_.model.accessors.size();  // those that packing adds have no views
+        const std::size_t bytes = number < known ? element_bytes(file_.model.accessors[number], floats) : 0;
         if (accessor.find("bufferView") != nullptr) {
             Use* use = use_of(accessor);
-            if (use != nullptr) {
+            if (use != nullptr && bytes == 0) {
+                read(use, 0, UINT64_MAX, 0);
+            } else if (use != nullptr) {
                 const JsonValue& view = views[static_cast<std::size_t>(*accessor.integer("bufferView"))].value;
                 const std::uint64_t stride = view.integer("byteStride").value_or(bytes);
                 read(use, accessor.integer("byteOffset").value_or(0), count == 0 ? 0 : (count - 1) * stride + bytes,
@@ -150,8 +147,7 @@ Result<void> SceneViewWriter::keep_others() {
         if (auto room = file_.take_memory(2 * static_cast<double>(bytes->size())); !room) return room;
         std::vector<std::byte> contents(bytes->begin(), bytes->end());
         if (use.image) image_bytes_ += contents.size();
-        use.known = known && !use.image;
-        if (use.known) {
+        if (known && !use.image) {
             // What was between the values that are left belonged to streams.
             std::sort(use.ranges.begin(), use.ranges.end());
             std::uint64_t end = 0;

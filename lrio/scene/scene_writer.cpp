@@ -9,29 +9,17 @@
 #include <limits>
 
 #include "lrio/gltf/gltf_accessor.h"
+#include "lrio/gltf/gltf_names.h"
 #include "lrio/mesh/read_formats.h"
 
 namespace lacedring::detail {
 namespace {
 
-constexpr std::uint64_t kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123, kUnsignedInt = 5125,
-                        kFloat = 5126;
-
-std::uint64_t type_number(ComponentType type) {
-    constexpr std::uint64_t kNumbers[] = {kByte, kUnsignedByte, kShort, kUnsignedShort, 0, kUnsignedInt, kFloat, 0};
-    return kNumbers[static_cast<std::size_t>(type)];
-}
-
-std::string_view shape_name(std::uint8_t components) {
-    constexpr std::string_view kNames[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
-    return components <= 4 ? kNames[components] : components == 9 ? "MAT3" : components == 16 ? "MAT4" : "";
-}
-
 bool has_shape(const JsonValue& accessor, std::uint8_t components) {
     const JsonValue* type = accessor.find("type");
     if (type == nullptr) return false;
     const std::string name = plain_string(*type);
-    return (!name.empty() && name == shape_name(components)) || (components == 4 && name == "MAT2");
+    return (!name.empty() && name == gltf_type(components)) || (components == 4 && name == "MAT2");
 }
 
 float float_at(std::span<const std::byte> data, std::size_t i) {
@@ -84,28 +72,27 @@ void BinChunk::expect(std::size_t more) {
 }
 
 void strip_accessor(JsonValue& accessor) {
-    for (const char* name : {"bufferView", "byteOffset", "sparse", "min", "max"}) accessor.remove(name);
+    for (const char* name : {"bufferView", "byteOffset", "sparse"}) accessor.remove(name);
 }
 
 Result<std::vector<std::byte>> values_as(const JsonValue& accessor, Attribute attribute) {
     const std::uint64_t type = accessor.integer("componentType").value_or(0);
     if (!has_shape(accessor, attribute.components)) return malformed("{}: another type", shown(attribute.name));
-    if (type != 0 && type == type_number(attribute.type)) return std::move(attribute.data);
+    if (type != 0 && type == gltf_component_type(attribute.type)) return std::move(attribute.data);
     std::vector<std::byte> out;
     const bool fits = attribute.type == ComponentType::f32 &&
-                      ((type == kByte && convert_all<std::int8_t>(attribute.data, out)) ||
-                       (type == kUnsignedByte && convert_all<std::uint8_t>(attribute.data, out)) ||
-                       (type == kShort && convert_all<std::int16_t>(attribute.data, out)) ||
-                       (type == kUnsignedShort && convert_all<std::uint16_t>(attribute.data, out)));
+                      ((type == kGltfByte && convert_all<std::int8_t>(attribute.data, out)) ||
+                       (type == kGltfUnsignedByte && convert_all<std::uint8_t>(attribute.data, out)) ||
+                       (type == kGltfShort && convert_all<std::int16_t>(attribute.data, out)) ||
+                       (type == kGltfUnsignedShort && convert_all<std::uint16_t>(attribute.data, out)));
     if (!fits) return malformed("{}: component type {} does not hold it", shown(attribute.name), type);
     return out;
 }
 
-void describe_attribute(JsonText& json, JsonValue& accessor, const Attribute& attribute, std::uint32_t vertices,
-                        bool bounds) {
+void describe_attribute(JsonText& json, JsonValue& accessor, const Attribute& attribute, std::uint32_t vertices) {
     accessor.set("count", json.number(vertices));
     const bool is_position = attribute.name.starts_with("POSITION") && attribute.components == 3;
-    if (!is_position || vertices == 0 || !bounds) {
+    if (!is_position || vertices == 0) {
         accessor.remove("min");
         accessor.remove("max");
         return;
@@ -139,14 +126,16 @@ void describe_indices(JsonText& json, JsonValue& accessor, std::size_t count, st
     accessor.remove("max");
     accessor.set("count", json.number(count));
     // The highest number of each type restarts strips, and is no index.
-    const std::uint64_t needed = vertices <= 0xff ? kUnsignedByte : vertices <= 0xffff ? kUnsignedShort : kUnsignedInt;
+    const std::uint64_t needed = vertices <= 0xff     ? kGltfUnsignedByte
+                                 : vertices <= 0xffff ? kGltfUnsignedShort
+                                                      : kGltfUnsignedInt;
     if (const auto now = accessor.integer("componentType"); now && *now >= needed) return;
-    accessor.set("componentType", json.number(std::max(needed, kUnsignedShort)));
+    accessor.set("componentType", json.number(std::max(needed, kGltfUnsignedShort)));
 }
 
 std::vector<std::byte> indices_as(const JsonValue& accessor, std::span<const std::uint32_t> indices) {
-    const std::uint64_t type = accessor.integer("componentType").value_or(kUnsignedInt);
-    const std::size_t size = type == kUnsignedByte ? 1 : type == kUnsignedShort ? 2 : 4;
+    const std::uint64_t type = accessor.integer("componentType").value_or(kGltfUnsignedInt);
+    const std::size_t size = type == kGltfUnsignedByte ? 1 : type == kGltfUnsignedShort ? 2 : 4;
     std::vector<std::byte> out(indices.size() * size);
     if (size == 4) {
         if (!indices.empty()) std::memcpy(out.data(), indices.data(), out.size());
@@ -158,7 +147,6 @@ std::vector<std::byte> indices_as(const JsonValue& accessor, std::span<const std
 
 JsonValue view_of(JsonText& json, BinChunk& bin, std::uint32_t buffer, std::span<const std::byte> bytes,
                   std::size_t stride) {
-    constexpr std::uint64_t kVertices = 34962, kIndices = 34963;
     const std::size_t padded = (stride + 3) / 4 * 4;
     std::size_t size = bytes.size(), at = 0;
     if (padded == stride) {
@@ -175,7 +163,7 @@ JsonValue view_of(JsonText& json, BinChunk& bin, std::uint32_t buffer, std::span
     view.set("byteOffset", json.number(at));
     view.set("byteLength", json.number(size));
     if (stride != 0) view.set("byteStride", json.number(padded));
-    view.set("target", json.number(stride != 0 ? kVertices : kIndices));
+    view.set("target", json.number(stride != 0 ? kGltfVertexTarget : kGltfIndexTarget));
     return view;
 }
 

@@ -28,7 +28,7 @@ class BinChunk {
     std::vector<std::byte> bytes_;
 };
 
-/// Takes from an accessor what says where its values lie, and its bounds.
+/// Takes from an accessor what says where its values lie.
 void strip_accessor(JsonValue& accessor);
 
 /// The attributes' values in their accessors' types, by which they may differ from the stream's (integer positions).
@@ -36,8 +36,7 @@ void strip_accessor(JsonValue& accessor);
 Result<std::vector<std::byte>> values_as(const JsonValue& accessor, Attribute attribute);
 
 /// Sets count, and the bounds of positions; texts that say the same already stay.
-void describe_attribute(JsonText& json, JsonValue& accessor, const Attribute& attribute, std::uint32_t vertices,
-                        bool bounds);
+void describe_attribute(JsonText& json, JsonValue& accessor, const Attribute& attribute, std::uint32_t vertices);
 void describe_indices(JsonText& json, JsonValue& accessor, std::size_t count, std::uint32_t vertices);
 
 /// The indices in the accessor's type.

@@ -6,6 +6,7 @@
 
 #include "lacedring/scene.hpp"
 #include "lrio/gltf/gltf_file.h"
+#include "lrio/gltf/gltf_names.h"
 #include "lrio/scene/packed_scene.h"
 #include "lrio/scene/scene_plan.h"
 #include "lrio/scene/scene_stream.h"
@@ -307,8 +308,8 @@ class Unpacker {
             if (accessor.find("count") != nullptr && accessor.integer("count") != set.vertices) {
                 return malformed("accessor {}: its set has {} vertices", numbers[a], set.vertices);
             }
-            for (const char* name : {"bufferView", "byteOffset", "sparse"}) accessor.remove(name);
-            describe_attribute(scene_.json(), accessor, attribute, set.vertices, true);
+            strip_accessor(accessor);
+            describe_attribute(scene_.json(), accessor, attribute, set.vertices);
             const auto values = values_as(accessor, std::move(attribute));
             if (!values) {
                 return Error{values.error().code, fmt::format("accessor {}: {}", numbers[a], values.error().message)};
@@ -331,8 +332,8 @@ class Unpacker {
         unlist_extension(root(), "extensionsUsed", kExtension);
         unlist_extension(root(), "extensionsRequired", kExtension);
         JsonValue list = JsonText::array();
+        if (!views_.empty() && bin_.size() < 4) bin_.add(std::vector<std::byte>(4));  // what has views has a buffer
         for (std::size_t i = 0; i < views_.size(); ++i) {
-            if (bin_.size() < 4) bin_.add(std::vector<std::byte>(4));  // what has views has a buffer
             if (free_[i]) {  // nothing was left to put there, and others are not to be renumbered
                 JsonValue view = JsonText::object();
                 view.set("buffer", json.number(0));
@@ -385,23 +386,11 @@ bool is_packed_scene(std::span<const std::byte> bytes) {
 }
 
 Result<std::vector<std::byte>> make_glb_head(const SceneFile& scene) {
-    const auto align4 = [](std::uint64_t size) { return (size + 3) / 4 * 4; };
-    const std::uint64_t head = 12 + 8 + align4(scene.json.size()) + (scene.bin.empty() ? 0 : 8);
-    const std::uint64_t total = head + align4(scene.bin.size());
-    if (total > UINT32_MAX) return Error{ErrorCode::too_large, "the scene does not fit into GLB's 4 GiB"};
-    const auto narrow = [](std::uint64_t size) { return static_cast<std::uint32_t>(size); };
-    constexpr std::uint32_t kGltf = 0x46546c67, kJson = 0x4e4f534a, kBin = 0x004e4942;
-    const std::uint32_t begin[] = {kGltf, 2, narrow(total), narrow(align4(scene.json.size())), kJson};
-    const std::uint32_t behind[] = {narrow(align4(scene.bin.size())), kBin};
-    std::vector<std::byte> out(static_cast<std::uint32_t>(head), std::byte{' '});
-    std::memcpy(out.data(), begin, sizeof begin);
-    std::memcpy(out.data() + sizeof begin, scene.json.data(), scene.json.size());
-    if (!scene.bin.empty()) std::memcpy(out.data() + out.size() - sizeof behind, behind, sizeof behind);
-    return out;
+    return detail::make_glb_head(scene.json, scene.bin.size());
 }
 
 Result<std::vector<std::byte>> make_glb_file(const SceneFile& scene) {
-    const Result<std::vector<std::byte>> head = make_glb_head(scene);
+    const Result<std::vector<std::byte>> head = lacedring::make_glb_head(scene);
     if (!head) return head;
     std::vector<std::byte> out(head->size() + (scene.bin.size() + 3) / 4 * 4);
     std::memcpy(out.data(), head->data(), head->size());

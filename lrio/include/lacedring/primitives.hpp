@@ -38,7 +38,7 @@ struct PlacedMesh {
 };
 
 struct PrimitiveList {
-    /// Those of meshes that the scene places, in the order of the file. None is empty.
+    /// The primitives of all meshes that the scene places, in the order of the file. Each has triangles.
     std::vector<Primitive> primitives;
     /// In the order in which read_mesh joins them: primitives of the first one, of the second one, ...
     std::vector<PlacedMesh> placed;

@@ -16,7 +16,7 @@
 
 namespace lacedring {
 
-/// Where a packed scene's JSON lies.
+/// How the JSON document of a packed scene is stored.
 enum class SceneJson : std::uint8_t {
     automatic,  ///< deflated in a GLB's binary chunk where it would be more than a fifth of the file without its images
     plain,      ///< as in any glTF
@@ -36,7 +36,6 @@ struct PackOptions {
 struct PackReport {
     std::size_t primitives = 0;                             ///< that are compressed
     std::uint64_t triangles = 0;                            ///< of those
-    std::uint64_t bytes_before = 0, bytes_after = 0;        ///< of all files, those of images aside
     std::uint64_t geometry_before = 0, geometry_after = 0;  ///< of accessors, and of streams
     std::map<std::string, double> max_error;                ///< by attribute, of those that lose something
     std::map<std::string, std::size_t> not_compressed;      ///< primitives, by what they are
@@ -52,7 +51,8 @@ struct SceneFile {
 
 /// Packs a glTF or GLB. Numbers of nodes, meshes, accessors and the like stay what they are, and so does what nobody
 /// knows. `name` gives the folder of its buffers (read_mesh). Cost: that of encoding the triangles. Errors: those of
-/// read_mesh; unsupported (is packed already). Untrusted input: safe.
+/// read_mesh; unsupported (is packed already); invalid_argument (a packed document with a URI or a fallback). Untrusted
+/// input: safe.
 Result<SceneFile> pack_scene(std::span<const std::byte> bytes, const std::filesystem::path& name,
                              const PackOptions& options = {}, const ReadOptions& read = {},
                              PackReport* report = nullptr);
