@@ -51,6 +51,20 @@ lacedring_vertices as_c(std::span<const std::uint32_t> words) {
     return out;
 }
 
+/// The checksum and all that decoders rely on; writes the values, too, if `values` is not null.
+Result<void> check_vertices(std::span<const std::uint32_t> words, std::byte* values) {
+    const std::uint32_t header = crc32(std::as_bytes(words.first(kChecksumWord)));
+    if (words[kChecksumWord] != crc32(std::as_bytes(words.subspan(kChecksumWord + 1)), header)) {
+        return bad_vertices(LACEDRING_STATUS_CHECKSUM, 0, words);
+    }
+    const lacedring_vertices stream = as_c(words);
+    std::uint64_t where = 0;
+    const lacedring_status status = values == nullptr ? lacedring_vertices_check(&stream, &where)
+                                                      : lacedring_vertices_decode_checked(&stream, values, &where);
+    if (status != LACEDRING_STATUS_OK) return bad_vertices(status, where, words);
+    return {};
+}
+
 }  // namespace
 
 Result<VertexView> view_vertices(std::span<const std::uint32_t> words) {
@@ -77,15 +91,13 @@ Result<VertexView> view_vertices(std::span<const std::uint32_t> words) {
 Result<VertexView> validate_vertices(std::span<const std::uint32_t> words) {
     const Result<VertexView> view = view_vertices(words);
     if (!view) return view;
-    const std::uint32_t header = crc32(std::as_bytes(words.first(kChecksumWord)));
-    if (words[kChecksumWord] != crc32(std::as_bytes(words.subspan(kChecksumWord + 1)), header)) {
-        return bad_vertices(LACEDRING_STATUS_CHECKSUM, 0, words);
-    }
-    const lacedring_vertices stream = as_c(words);
-    std::uint64_t where = 0;
-    const lacedring_status status = lacedring_vertices_check(&stream, &where);
-    if (status != LACEDRING_STATUS_OK) return bad_vertices(status, where, words);
+    if (auto good = check_vertices(words, nullptr); !good) return good.error();
     return view;
+}
+
+Result<void> decode_vertices_checked(const VertexView& view, std::span<std::byte> values) {
+    assert(values.size() == view.decoded_bytes());
+    return check_vertices(view.words, values.data());
 }
 
 void decode_vertices(const VertexView& view, std::span<std::byte> values) {

@@ -63,6 +63,10 @@ enum lacedring_status lacedring_vertices_open(const uint32_t* words, size_t coun
    range that its component and mapping have. `stream` was opened. Linear time, no memory. Any words: safe. */
 enum lacedring_status lacedring_vertices_check(const struct lacedring_vertices* stream, uint64_t* where);
 
+/* The check and lacedring_vertices_decode in one pass. Where it finds a fault, what `out` holds is of no use. */
+enum lacedring_status lacedring_vertices_decode_checked(const struct lacedring_vertices* stream, void* out,
+                                                        uint64_t* where);
+
 /* Open, checksum and check. */
 enum lacedring_status lacedring_vertices_validate(const uint32_t* words, size_t count,
                                                   struct lacedring_vertices* stream, uint64_t* where);
@@ -229,6 +233,14 @@ static uint64_t lacedring_vertex_begin_(const struct lacedring_vertices* s, uint
     }
     return 32 * (uint64_t)group[0] + field;
 }
+
+/* Integers of component c are sound if they minus its parameter have no bits beyond mask, and they plus more are most
+   or less. */
+struct lacedring_ranges_ {
+    uint32_t mask[LACEDRING_VERTICES_MAX_COMPONENTS];
+    uint32_t more[LACEDRING_VERTICES_MAX_COMPONENTS];
+    uint32_t most[LACEDRING_VERTICES_MAX_COMPONENTS];
+};
 
 /* How the values of a run of vertices are coded. */
 struct lacedring_run_ {
@@ -696,10 +708,30 @@ LACEDRING_WIDE_ LACEDRING_HOT_ void lacedring_lane_values_(const struct lacedrin
     }
 }
 
+/* Returns not 0 in lanes with an integer out of its range. */
+LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_ranges_(const struct lacedring_vertices* s,
+                                                                       const struct lacedring_ranges_* ranges,
+                                                                       const lacedring_lanes_* rows) {
+    lacedring_lanes_ wrong = _mm256_setzero_si256();
+    uint32_t c, k;
+    for (c = 0; c < s->components; ++c) {
+        const lacedring_lanes_ base = lacedring_lane_all_(s->parameters[2 * c]);
+        const lacedring_lanes_ mask = lacedring_lane_all_(ranges->mask[c]);
+        const lacedring_lanes_ most = lacedring_lane_all_(ranges->most[c]);
+        for (k = c; k < LACEDRING_VERTICES_BLOCK * s->components; k += s->components) {
+            const lacedring_lanes_ sum = lacedring_lane_add_(rows[k], ranges->more[c]);
+            wrong = _mm256_or_si256(wrong, _mm256_andnot_si256(mask, _mm256_sub_epi32(rows[k], base)));
+            wrong = _mm256_or_si256(wrong, _mm256_xor_si256(_mm256_max_epu32(sum, most), most));
+        }
+    }
+    return wrong;
+}
+
 /* Eight whole blocks, whose bits lie within half a gigabyte. */
 LACEDRING_WIDE_ LACEDRING_HOT_ uint32_t lacedring_lane_eight_(const struct lacedring_vertices* s,
                                                               const struct lacedring_data_* d,
-                                                              enum lacedring_purpose_ purpose, uint64_t at[8],
+                                                              enum lacedring_purpose_ purpose,
+                                                              const struct lacedring_ranges_* ranges, uint64_t at[8],
                                                               uint32_t* out) {
     const uint64_t base = at[0] / 8, last = (d->last + 32) / 8 - base; /* 64 bits may be read from the last on */
     const size_t stride = (size_t)LACEDRING_VERTICES_BLOCK * s->components;
@@ -715,6 +747,7 @@ LACEDRING_WIDE_ LACEDRING_HOT_ uint32_t lacedring_lane_eight_(const struct laced
               : lacedring_lane_blocks_(s, &data, s->components, purpose == LACEDRING_TO_CHECK_, &lanes, rows);
     _mm256_storeu_si256((lacedring_lanes_*)(void*)bits, lanes);
     for (k = 0; k < 8; ++k) at[k] = 8 * base + bits[k];
+    if (purpose == LACEDRING_TO_CHECK_) bad = _mm256_or_si256(bad, lacedring_lane_ranges_(s, ranges, rows));
     for (k = 0; k < stride; k += 8) {
         if (purpose == LACEDRING_TO_VALUES_) lacedring_lane_values_(s, rows + k);
         lacedring_lane_turn_(rows + k, out + k, stride);
@@ -723,11 +756,12 @@ LACEDRING_WIDE_ LACEDRING_HOT_ uint32_t lacedring_lane_eight_(const struct laced
 }
 LACEDRING_WIDE_ static uint32_t lacedring_vertex_eight_(const struct lacedring_vertices* s,
                                                         const struct lacedring_data_* d,
-                                                        enum lacedring_purpose_ purpose, uint64_t at[8],
+                                                        enum lacedring_purpose_ purpose,
+                                                        const struct lacedring_ranges_* ranges, uint64_t at[8],
                                                         uint32_t* out) {
-    if (purpose == LACEDRING_TO_CHECK_) return lacedring_lane_eight_(s, d, LACEDRING_TO_CHECK_, at, out);
-    if (purpose == LACEDRING_TO_VALUES_) return lacedring_lane_eight_(s, d, LACEDRING_TO_VALUES_, at, out);
-    return lacedring_lane_eight_(s, d, LACEDRING_TO_INTEGERS_, at, out);
+    if (purpose == LACEDRING_TO_CHECK_) return lacedring_lane_eight_(s, d, LACEDRING_TO_CHECK_, ranges, at, out);
+    if (purpose == LACEDRING_TO_VALUES_) return lacedring_lane_eight_(s, d, LACEDRING_TO_VALUES_, ranges, at, out);
+    return lacedring_lane_eight_(s, d, LACEDRING_TO_INTEGERS_, ranges, at, out);
 }
 #endif
 
@@ -739,11 +773,14 @@ static struct lacedring_data_ lacedring_data_of_(const struct lacedring_vertices
 }
 
 /* The integers of block `block`, or of eight blocks from there where those are decoded at once, and `end` is not among
-   them. Returns how many blocks, and where each ends; `*bad` becomes not 0 if one has a fault. */
+   them. Returns how many blocks, and where each ends; `*bad` becomes not 0 if one has a fault. `ranges` are to be
+   checked, or null. */
 static uint32_t lacedring_vertex_some_(const struct lacedring_vertices* s, const struct lacedring_data_* d,
-                                       uint32_t block, uint32_t end, enum lacedring_purpose_ purpose, uint64_t ends[8],
-                                       uint32_t* bad, uint32_t* out) {
+                                       uint32_t block, uint32_t end, enum lacedring_purpose_ purpose,
+                                       const struct lacedring_ranges_* ranges, uint64_t ends[8], uint32_t* bad,
+                                       uint32_t* out) {
     const uint32_t n = s->components, count = lacedring_vertex_count_(s, block);
+    uint32_t i, c;
     ends[0] = lacedring_vertex_begin_(s, block);
 #ifdef LACEDRING_AVX2_
     if (n <= LACEDRING_LANE_COMPONENTS_ && end - block >= 8 && lacedring_vertex_count_(s, block + 7) == 128 &&
@@ -754,7 +791,7 @@ static uint32_t lacedring_vertex_some_(const struct lacedring_vertices* s, const
             near_by &= ends[k] - ends[0] < UINT32_C(1) << 30;
         }
         if (near_by) {
-            *bad = lacedring_vertex_eight_(s, d, purpose, ends, out);
+            *bad = lacedring_vertex_eight_(s, d, purpose, ranges, ends, out);
             return 8;
         }
     }
@@ -765,6 +802,11 @@ static uint32_t lacedring_vertex_some_(const struct lacedring_vertices* s, const
     *bad = n == 3   ? lacedring_vertex_block_(s, d, 3, count, ends, out)
            : n == 2 ? lacedring_vertex_block_(s, d, 2, count, ends, out)
                     : lacedring_vertex_block_(s, d, n, count, ends, out);
+    for (i = 0; ranges != NULL && i < count; ++i) {
+        for (c = 0; c < n; ++c, ++out)
+            *bad |= (uint32_t)(((*out - s->parameters[2 * c]) & ~ranges->mask[c]) != 0) |
+                    (uint32_t)(*out + ranges->more[c] > ranges->most[c]);
+    }
     return 1;
 }
 
@@ -777,7 +819,7 @@ void lacedring_vertices_blocks(const struct lacedring_vertices* s, uint32_t bloc
     while (block < end) {
         uint64_t ends[8];
         uint32_t bad;
-        const uint32_t some = lacedring_vertex_some_(s, &d, block, end, LACEDRING_TO_INTEGERS_, ends, &bad, out);
+        const uint32_t some = lacedring_vertex_some_(s, &d, block, end, LACEDRING_TO_INTEGERS_, NULL, ends, &bad, out);
         out += (size_t)some * LACEDRING_VERTICES_BLOCK * s->components;
         block += some;
     }
@@ -798,81 +840,6 @@ static void lacedring_vertex_range_(const struct lacedring_vertices* s, uint32_t
         *most = s->type < 2 ? 255 : 65535;
         if (s->type % 2 == 0) *more = *most / 2 + 1;
     }
-}
-
-enum lacedring_status lacedring_vertices_check(const struct lacedring_vertices* s, uint64_t* where) {
-    const struct lacedring_data_ d = lacedring_data_of_(s);
-    const uint32_t blocks = lacedring_vertex_blocks_(s), group_words = lacedring_vertex_group_(s);
-    uint32_t block, c, i, some = 0, k = 0, bad = 0, alone = 0, values[LACEDRING_SOME_VALUES_];
-    uint32_t mask[LACEDRING_VERTICES_MAX_COMPONENTS];
-    uint32_t more[LACEDRING_VERTICES_MAX_COMPONENTS], most[LACEDRING_VERTICES_MAX_COMPONENTS];
-    uint64_t end = 0, ends[8];
-    for (c = 0; c < s->components; ++c) {
-        const uint32_t said = s->parameters[2 * c + 1];
-        if (said >> 16 != 0 || (said & 63) > 32)
-            return lacedring_at_(where, LACEDRING_VERTICES_HEADER_WORDS + 2 * c + 1, LACEDRING_STATUS_HEADER);
-    }
-    for (i = 0; i < s->exception_count; ++i) { /* in order, and of the attribute */
-        const uint32_t value = s->exceptions[(size_t)2 * i];
-        if (value >= (uint64_t)s->vertices * s->components || (i > 0 && value <= s->exceptions[(size_t)2 * i - 2]))
-            return lacedring_at_(where, 6, LACEDRING_STATUS_HEADER);
-    }
-    for (c = 0; c < s->components; ++c) {
-        const uint32_t bits = s->parameters[2 * c + 1] & 63;
-        lacedring_vertex_range_(s, c, more + c, most + c);
-        mask[c] = (uint32_t)((UINT64_C(1) << bits) - 1);
-    }
-    for (block = 0; block < blocks; ++block, ++k) {
-        const uint32_t count = lacedring_vertex_count_(s, block);
-        const uint32_t* value;
-        uint32_t wrong = 0;
-        uint64_t at;
-        if (k == some) {
-            k = 0;
-            some = lacedring_vertex_some_(s, &d, block, alone ? block + 1 : blocks, LACEDRING_TO_CHECK_, ends, &bad,
-                                          values);
-            alone = some > 1 && bad;
-            if (alone) some = lacedring_vertex_some_(s, &d, block, block + 1, LACEDRING_TO_CHECK_, ends, &bad, values);
-        }
-        at = lacedring_vertex_begin_(s, block);
-        if (block % LACEDRING_VERTICES_GROUP_ == 0) { /* at the next word, behind zeros */
-            const uint32_t* group = s->table + (size_t)(block / LACEDRING_VERTICES_GROUP_) * group_words;
-            const uint32_t fields = blocks - block < LACEDRING_VERTICES_GROUP_ ? blocks - block - 1 : 15;
-            const uint32_t used = fields * s->field_bits;
-            if (end % 32 != 0 && lacedring_data_take_(&d, &end, (uint32_t)(32 - end % 32)) != 0)
-                return lacedring_at_(where, block - 1, LACEDRING_STATUS_BLOCK);
-            for (i = 1; i < group_words; ++i) { /* no bits behind the fields */
-                const uint32_t below = used > 32 * (i - 1) ? used - 32 * (i - 1) : 0;
-                if (below < 32 && group[i] >> below != 0) return lacedring_at_(where, block, LACEDRING_STATUS_GROUP);
-            }
-            if (at != end) return lacedring_at_(where, block, LACEDRING_STATUS_GROUP);
-        }
-        if (at != end || end > d.last || bad || ends[k] > d.last)
-            return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
-        value = values + (size_t)k * LACEDRING_VERTICES_BLOCK * s->components;
-        for (i = 0; i < count; ++i) {
-            for (c = 0; c < s->components; ++c, ++value)
-                wrong |= (uint32_t)(((*value - s->parameters[2 * c]) & ~mask[c]) != 0) |
-                         (uint32_t)(*value + more[c] > most[c]);
-        }
-        if (wrong) return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
-        end = ends[k];
-    }
-    if (end % 32 != 0 && lacedring_data_take_(&d, &end, (uint32_t)(32 - end % 32)) != 0)
-        return lacedring_at_(where, blocks - 1, LACEDRING_STATUS_BLOCK);
-    if (end != d.last || s->data[s->data_words - 2] != 0 || s->data[s->data_words - 1] != 0)
-        return lacedring_at_(where, end / 32, LACEDRING_STATUS_SIZE);
-    return LACEDRING_STATUS_OK;
-}
-
-enum lacedring_status lacedring_vertices_validate(const uint32_t* words, size_t count, struct lacedring_vertices* s,
-                                                  uint64_t* where) {
-    const enum lacedring_status status = lacedring_vertices_open(words, count, s, where);
-    uint32_t crc;
-    if (status != LACEDRING_STATUS_OK) return status;
-    crc = lacedring_crc_(lacedring_crc_(UINT32_MAX, words, 3), words + 4, count - 4) ^ UINT32_MAX;
-    if (crc != words[3]) return lacedring_at_(where, 0, LACEDRING_STATUS_CHECKSUM);
-    return lacedring_vertices_check(s, where);
 }
 
 void lacedring_octahedral(int32_t x, int32_t y, uint32_t bits, float out[3]) {
@@ -953,6 +920,86 @@ static uint8_t* lacedring_vertex_values_(const struct lacedring_vertices* s, con
     return out;
 }
 
+/* Checks all blocks, and writes their values, too, if `out` is not null. */
+static enum lacedring_status lacedring_vertex_check_(const struct lacedring_vertices* s, uint8_t* out,
+                                                     uint64_t* where) {
+    const struct lacedring_data_ d = lacedring_data_of_(s);
+    const uint32_t blocks = lacedring_vertex_blocks_(s), group_words = lacedring_vertex_group_(s);
+    uint32_t block, c, i, some = 0, k = 0, bad = 0, alone = 0, values[LACEDRING_SOME_VALUES_];
+    struct lacedring_ranges_ ranges;
+    uint64_t end = 0, ends[8];
+    for (c = 0; c < s->components; ++c) {
+        const uint32_t said = s->parameters[2 * c + 1];
+        if (said >> 16 != 0 || (said & 63) > 32)
+            return lacedring_at_(where, LACEDRING_VERTICES_HEADER_WORDS + 2 * c + 1, LACEDRING_STATUS_HEADER);
+    }
+    for (i = 0; i < s->exception_count; ++i) { /* in order, and of the attribute */
+        const uint32_t value = s->exceptions[(size_t)2 * i];
+        if (value >= (uint64_t)s->vertices * s->components || (i > 0 && value <= s->exceptions[(size_t)2 * i - 2]))
+            return lacedring_at_(where, 6, LACEDRING_STATUS_HEADER);
+    }
+    for (c = 0; c < s->components; ++c) {
+        const uint32_t bits = s->parameters[2 * c + 1] & 63;
+        lacedring_vertex_range_(s, c, ranges.more + c, ranges.most + c);
+        ranges.mask[c] = (uint32_t)((UINT64_C(1) << bits) - 1);
+    }
+    for (block = 0; block < blocks; ++block, ++k) {
+        uint64_t at;
+        if (k == some) {
+            k = 0;
+            some = lacedring_vertex_some_(s, &d, block, alone ? block + 1 : blocks, LACEDRING_TO_CHECK_, &ranges, ends,
+                                          &bad, values);
+            alone = some > 1 && bad;
+            if (alone)
+                some =
+                    lacedring_vertex_some_(s, &d, block, block + 1, LACEDRING_TO_CHECK_, &ranges, ends, &bad, values);
+        }
+        at = lacedring_vertex_begin_(s, block);
+        if (block % LACEDRING_VERTICES_GROUP_ == 0) { /* at the next word, behind zeros */
+            const uint32_t* group = s->table + (size_t)(block / LACEDRING_VERTICES_GROUP_) * group_words;
+            const uint32_t fields = blocks - block < LACEDRING_VERTICES_GROUP_ ? blocks - block - 1 : 15;
+            const uint32_t used = fields * s->field_bits;
+            if (end % 32 != 0 && lacedring_data_take_(&d, &end, (uint32_t)(32 - end % 32)) != 0)
+                return lacedring_at_(where, block - 1, LACEDRING_STATUS_BLOCK);
+            for (i = 1; i < group_words; ++i) { /* no bits behind the fields */
+                const uint32_t below = used > 32 * (i - 1) ? used - 32 * (i - 1) : 0;
+                if (below < 32 && group[i] >> below != 0) return lacedring_at_(where, block, LACEDRING_STATUS_GROUP);
+            }
+            if (at != end) return lacedring_at_(where, block, LACEDRING_STATUS_GROUP);
+        }
+        if (at != end || end > d.last || bad || ends[k] > d.last)
+            return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
+        if (out != NULL)
+            out = lacedring_vertex_values_(s, values + (size_t)k * LACEDRING_VERTICES_BLOCK * s->components,
+                                           block * LACEDRING_VERTICES_BLOCK, lacedring_vertex_count_(s, block), out);
+        end = ends[k];
+    }
+    if (end % 32 != 0 && lacedring_data_take_(&d, &end, (uint32_t)(32 - end % 32)) != 0)
+        return lacedring_at_(where, blocks - 1, LACEDRING_STATUS_BLOCK);
+    if (end != d.last || s->data[s->data_words - 2] != 0 || s->data[s->data_words - 1] != 0)
+        return lacedring_at_(where, end / 32, LACEDRING_STATUS_SIZE);
+    return LACEDRING_STATUS_OK;
+}
+
+enum lacedring_status lacedring_vertices_check(const struct lacedring_vertices* s, uint64_t* where) {
+    return lacedring_vertex_check_(s, NULL, where);
+}
+
+enum lacedring_status lacedring_vertices_decode_checked(const struct lacedring_vertices* s, void* out,
+                                                        uint64_t* where) {
+    return lacedring_vertex_check_(s, (uint8_t*)out, where);
+}
+
+enum lacedring_status lacedring_vertices_validate(const uint32_t* words, size_t count, struct lacedring_vertices* s,
+                                                  uint64_t* where) {
+    const enum lacedring_status status = lacedring_vertices_open(words, count, s, where);
+    uint32_t crc;
+    if (status != LACEDRING_STATUS_OK) return status;
+    crc = lacedring_crc_(lacedring_crc_(UINT32_MAX, words, 3), words + 4, count - 4) ^ UINT32_MAX;
+    if (crc != words[3]) return lacedring_at_(where, 0, LACEDRING_STATUS_CHECKSUM);
+    return lacedring_vertices_check(s, where);
+}
+
 void lacedring_vertices_decode(const struct lacedring_vertices* s, void* out) {
     const struct lacedring_data_ d = lacedring_data_of_(s);
     const uint32_t blocks = lacedring_vertex_blocks_(s), whole = s->vertices / LACEDRING_VERTICES_BLOCK;
@@ -967,7 +1014,7 @@ void lacedring_vertices_decode(const struct lacedring_vertices* s, void* out) {
             at = (uint32_t*)out + (size_t)block * LACEDRING_VERTICES_BLOCK * s->components;
             to = (uint8_t*)at;
         }
-        some = lacedring_vertex_some_(s, &d, block, blocks, LACEDRING_TO_VALUES_, ends, &bad, at);
+        some = lacedring_vertex_some_(s, &d, block, blocks, LACEDRING_TO_VALUES_, NULL, ends, &bad, at);
         first = block * LACEDRING_VERTICES_BLOCK;
         count = some * LACEDRING_VERTICES_BLOCK;
         if (count > s->vertices - first) count = s->vertices - first;

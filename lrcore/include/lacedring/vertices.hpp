@@ -109,6 +109,10 @@ Result<VertexView> validate_vertices(std::span<const std::uint32_t> words);
 /// The attribute's values: view.decoded_bytes() of them. Cost: O(V), no allocation.
 void decode_vertices(const VertexView& view, std::span<std::byte> values);
 
+/// validate_vertices and decode_vertices in one pass, for a stream whose header alone was read. Errors: malformed; the
+/// values are then of no use. Cost: O(V), no allocation. Untrusted input: safe.
+Result<void> decode_vertices_checked(const VertexView& view, std::span<std::byte> values);
+
 /// Integers of the vertices of one block, view.integers each; at most kVertexBlock vertices.
 void decode_vertex_block(const VertexView& view, std::uint32_t block, std::span<std::uint32_t> integers);
 
