@@ -10,7 +10,7 @@ namespace detail {
 namespace {
 
 /// The copies of the slots' corners, and the vertex of each copy.
-Result<void> decode_copies(const LrFile& file, const StreamView& stream, bool untrusted, DecodedLr& out) {
+Result<void> decode_copies(const LrFileView& file, const StreamView& stream, bool untrusted, DecodedLr& out) {
     const std::vector<std::uint32_t> slots = slot_triangles(stream);
     const Result<SeamView> seams = untrusted ? validate_seams(file.seams, slots, stream.vertices())
                                              : view_seams(file.seams, stream.slots(), stream.vertices());
@@ -36,7 +36,7 @@ void DecodedLr::remove_extra(std::vector<std::uint32_t>& values) const {
     values.resize(kept);
 }
 
-Result<DecodedLr> decode_connectivity(const LrFile& file, bool untrusted) {
+Result<DecodedLr> decode_connectivity(const LrFileView& file, bool untrusted) {
     const Result<StreamView> view = untrusted ? validate(file.words) : view_stream(file.words);
     if (!view) return view.error();
     if (view->format() != file.format) return malformed_lr("the stream is of another format than its section");
@@ -117,13 +117,13 @@ Result<Mesh> decode_mesh(const LrFile& file, DecodedLr& decoded, Surface* surfac
 }  // namespace detail
 
 Result<Mesh> decode_lr(const LrFile& file, Surface* surface) {
-    Result<detail::DecodedLr> decoded = detail::decode_connectivity(file, false);
+    Result<detail::DecodedLr> decoded = detail::decode_connectivity(detail::view_of(file), false);
     if (!decoded) return decoded.error();
     return detail::decode_mesh(file, *decoded, surface);
 }
 
 Result<Mesh> decode_lr_original_order(const LrFile& file) {
-    Result<detail::DecodedLr> decoded = detail::decode_connectivity(file, false);
+    Result<detail::DecodedLr> decoded = detail::decode_connectivity(detail::view_of(file), false);
     if (!decoded) return decoded.error();
     const std::size_t triangles = decoded->indices.size() / 3;
     const std::size_t vertices = decoded->vertex_of.empty() ? decoded->vertices : decoded->vertex_of.size();

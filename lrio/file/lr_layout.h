@@ -142,8 +142,20 @@ struct DecodedLr {
     void remove_extra(std::vector<std::uint32_t>& values) const;
 };
 
+/// A file in memory as one that lies somewhere; holds no copy.
+LrFileView view_of(const LrFile& file);
+
+/// view_lr_file, and the sections' checksums.
+Result<LrFileView> view_checked_lr(std::span<const std::byte> bytes);
+
+/// Is the first attribute POSITION, of one float or double for each coordinate of each vertex? Errors: malformed.
+Result<void> check_position(const LrFileView& file);
+
+/// Errors: malformed (a coordinate that is not finite as a float: what draws or exports a mesh has no other).
+Result<void> check_finite(ComponentType type, std::span<const std::byte> coordinates);
+
 /// Decodes the connectivity and the seams. Errors: malformed; of files that are valid none, if `untrusted` is false.
-Result<DecodedLr> decode_connectivity(const LrFile& file, bool untrusted);
+Result<DecodedLr> decode_connectivity(const LrFileView& file, bool untrusted);
 
 /// Mesh and surface in stream order, as decode_lr's; takes what is decoded.
 Result<Mesh> decode_mesh(const LrFile& file, DecodedLr& decoded, Surface* surface);

@@ -13,7 +13,7 @@ using namespace detail;  // lr_layout.h's
 /// The input's corner that each decoded triangle begins with. `triangles` are those of the input, in decoded order.
 std::vector<std::uint32_t> find_corners(const Mesh& mesh, const LrFile& file, std::span<const std::uint32_t> triangles,
                                         std::span<const std::uint32_t> vertex_order) {
-    const Result<DecodedLr> decoded = decode_connectivity(file, false);
+    const Result<DecodedLr> decoded = decode_connectivity(view_of(file), false);
     std::vector<std::uint32_t> out;
     if (!decoded) return out;
     out.reserve(decoded->indices.size() / 3);

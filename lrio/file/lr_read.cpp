@@ -1,7 +1,6 @@
 // Reads .lr files and checks all that is in them.
 
 #include <algorithm>
-#include <cmath>
 
 #include "lacedring/file.hpp"
 #include "lrcore/base/bits.h"
@@ -25,7 +24,7 @@ class Reader {
                 return read_section(h, section, contents);
             });
         if (!header) return header.error();
-        if (std::string why = check(); !why.empty()) return malformed_lr(std::move(why));
+        if (auto good = check(); !good) return good.error();
         return std::move(file_);
     }
 
@@ -94,50 +93,36 @@ class Reader {
         return {};
     }
 
-    std::string check() {
-        if (file_.seams.empty() != (file_.copy_count == 0)) return "seams without copies, or copies without seams";
-        if (file_.attributes.empty() || file_.attributes[0].name != "POSITION" || file_.attributes[0].components != 3 ||
-            (file_.attributes[0].type != ComponentType::f32 && file_.attributes[0].type != ComponentType::f64) ||
-            file_.attributes[0].per_copy) {
-            return "the first attribute is not POSITION";
+    Result<void> check() {
+        if (file_.seams.empty() != (file_.copy_count == 0)) {
+            return malformed_lr("seams without copies, or copies without seams");
         }
-        Result<DecodedLr> decoded = decode_connectivity(file_, true);
-        if (!decoded) return decoded.error().message;
+        const LrFileView view = view_of(file_);
+        if (auto good = check_position(view); !good) return good;
+        Result<DecodedLr> decoded = decode_connectivity(view, true);
+        if (!decoded) return decoded.error();
         const std::size_t triangles = decoded->indices.size() / 3;
-        if (triangles > file_.input_triangles) return "more triangles than the input had";
-        if (!finite(decode_attribute(file_.attributes[0]))) return "a position is not finite as a float";
+        if (triangles > file_.input_triangles) return malformed_lr("more triangles than the input had");
+        const Attribute position = decode_attribute(file_.attributes[0]);
+        if (auto good = check_finite(position.type, position.data); !good) return good;
         if (!file_.vertex_order.empty()) {
-            if (file_.vertex_order.size() != std::max(file_.vertex_count, file_.copy_count))
-                return "the vertex order has another size";
+            if (file_.vertex_order.size() != std::max(file_.vertex_count, file_.copy_count)) {
+                return malformed_lr("the vertex order has another size");
+            }
             std::vector<std::uint32_t> order = file_.vertex_order;
             decoded->remove_extra(order);
             const auto kept = static_cast<std::uint32_t>(order.size());
-            if (!permutation_into(order, kept, kept)) return "the vertex order is no permutation";
+            if (!permutation_into(order, kept, kept)) return malformed_lr("the vertex order is no permutation");
         }
         if (!file_.corner_order.empty()) {
             std::vector<std::uint32_t> order = file_.corner_order;
             for (std::uint32_t& corner : order) corner /= 3;
-            if (!permutation_into(order, triangles, file_.input_triangles)) return "the corner order is no permutation";
+            if (!permutation_into(order, triangles, file_.input_triangles)) {
+                return malformed_lr("the corner order is no permutation");
+            }
         }
         decoded_ = std::move(*decoded);
         return {};
-    }
-
-    /// As floats: what draws or exports a mesh has no other.
-    static bool finite(const Attribute& attribute) {
-        const std::size_t size = size_of(attribute.type);
-        for (std::size_t i = 0; i < attribute.data.size(); i += size) {
-            double value = 0;
-            if (attribute.type == ComponentType::f64) {
-                std::memcpy(&value, attribute.data.data() + i, sizeof value);
-            } else {
-                float single = 0;
-                std::memcpy(&single, attribute.data.data() + i, sizeof single);
-                value = static_cast<double>(single);
-            }
-            if (!std::isfinite(static_cast<float>(value))) return false;
-        }
-        return true;
     }
 
     /// `size` distinct numbers below `range`?

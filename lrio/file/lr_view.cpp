@@ -1,6 +1,7 @@
 // .lr files where they lie, in a mapping above all: what they consist of, without a copy.
 
 #include <algorithm>
+#include <cmath>
 
 #include "lrio/file/lr_layout.h"
 
@@ -82,7 +83,9 @@ Positions LrFileView::positions() const {
     return {position->data, position->type == ComponentType::f64};
 }
 
-Result<LrFileView> view_lr_file(std::span<const std::byte> bytes) {
+namespace {
+
+Result<LrFileView> view_sections(std::span<const std::byte> bytes, bool checksums) {
     LrFileView out;
     if (reinterpret_cast<std::uintptr_t>(bytes.data()) % 8 != 0) {  // words are read where they lie
         if (std::string why = not_an_lr_file(bytes); !why.empty()) return Error{ErrorCode::malformed, std::move(why)};
@@ -96,6 +99,7 @@ Result<LrFileView> view_lr_file(std::span<const std::byte> bytes) {
     };
     const Result<FileHeader> header = visit_sections(
         bytes, [&](const FileHeader& h, const Section& section, std::span<const std::byte> contents) -> std::string {
+            if (checksums && section.crc != crc32(contents)) return "is damaged";
             switch (section.kind) {
                 case kLean:
                 case kLr:
@@ -131,4 +135,52 @@ Result<LrFileView> view_lr_file(std::span<const std::byte> bytes) {
     return out;
 }
 
+}  // namespace
+
+Result<LrFileView> view_lr_file(std::span<const std::byte> bytes) {
+    return view_sections(bytes, false);
+}
+
+namespace detail {
+
+Result<LrFileView> view_checked_lr(std::span<const std::byte> bytes) {
+    return view_sections(bytes, true);
+}
+
+LrFileView view_of(const LrFile& file) {
+    LrFileView out{file.vertex_count, file.copy_count,  file.input_triangles, file.format, file.words, file.seams, {},
+                   file.vertex_order, file.corner_order};
+    for (const LrAttribute& a : file.attributes) {
+        out.attributes.push_back({a.name, a.type, a.components, a.normalized, a.v_up, a.per_copy,
+                                  std::as_bytes(std::span(a.data)), a.words});
+    }
+    return out;
+}
+
+Result<void> check_position(const LrFileView& file) {
+    const bool is_position =
+        !file.attributes.empty() && file.attributes[0].name == "POSITION" && file.attributes[0].components == 3 &&
+        !file.attributes[0].per_copy &&
+        (file.attributes[0].type == ComponentType::f32 || file.attributes[0].type == ComponentType::f64);
+    return is_position ? Result<void>() : malformed_lr("the first attribute is not POSITION");
+}
+
+Result<void> check_finite(ComponentType type, std::span<const std::byte> coordinates) {
+    const std::size_t size = size_of(type);
+    bool finite = true;
+    for (std::size_t i = 0; i < coordinates.size(); i += size) {
+        float single = 0;
+        if (type == ComponentType::f64) {
+            double value = 0;
+            std::memcpy(&value, coordinates.data() + i, sizeof value);
+            single = static_cast<float>(value);
+        } else {
+            std::memcpy(&single, coordinates.data() + i, sizeof single);
+        }
+        finite &= std::isfinite(single);
+    }
+    return finite ? Result<void>() : malformed_lr("a position is not finite as a float");
+}
+
+}  // namespace detail
 }  // namespace lacedring

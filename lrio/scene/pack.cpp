@@ -14,6 +14,7 @@
 #include "lrio/scene/scene_stream.h"
 #include "lrio/scene/scene_views.h"
 #include "lrio/scene/scene_writer.h"
+#include "lrio/scene/stream_decoder.h"
 
 namespace lacedring {
 namespace {
@@ -220,19 +221,55 @@ class Packer {
         if (!stream) return stream.error();
         degenerate_ += stream->degenerate;
         // Counts, bounds and the fallback are those of the decoded stream: a reader sees the same.
-        std::vector<std::uint32_t> set_of_part;
-        for (const auto& numbers : part_numbers) set_of_part.resize(set_of_part.size() + numbers.size());
+        StreamDecoder::Said said{{}, std::move(vertices)};
+        for (const auto& numbers : part_numbers) said.set_of_part.resize(said.set_of_part.size() + numbers.size());
         for (std::size_t s = 0; s < group.sets.size(); ++s) {
-            for (const std::uint32_t number : part_numbers[s]) set_of_part[number] = static_cast<std::uint32_t>(s);
+            for (const std::uint32_t number : part_numbers[s]) said.set_of_part[number] = static_cast<std::uint32_t>(s);
         }
-        auto decoded = decode_scene_stream(stream->file, stream->parts, set_of_part, vertices);
+        auto decoder = StreamDecoder::open(stream->file, stream->parts, std::move(said));
+        if (!decoder) return decoder.error();
+        const auto decoded = decode(*decoder, group.sets.size());
         if (!decoded) return decoded.error();
         return describe(group, part_numbers, std::move(*stream), *decoded);
     }
 
+    struct Decoded {
+        struct Set {
+            std::uint32_t vertices = 0;
+            std::vector<Attribute> attributes;
+        };
+        std::vector<Set> sets;
+        std::vector<std::vector<std::uint32_t>> parts;
+    };
+
+    static Result<Decoded> decode(StreamDecoder& decoder, std::size_t sets) {
+        Decoded out;
+        out.sets.resize(sets);
+        for (std::size_t s = 0; s < sets; ++s) out.sets[s].vertices = decoder.vertices(s);
+        for (std::size_t a = 0; a < decoder.attributes().size(); ++a) {
+            const AttributeView& from = decoder.attributes()[a];
+            std::vector<std::span<std::byte>> to;
+            for (Decoded::Set& set : out.sets) {
+                Attribute& made = set.attributes.emplace_back();
+                made = {std::string(from.name), from.type, from.components, from.normalized, {}, from.v_up};
+                made.data.resize(set.vertices * made.stride());
+                to.emplace_back(made.data);
+            }
+            if (auto good = decoder.decode_attribute(a, to); !good) return good.error();
+        }
+        std::vector<std::span<std::uint32_t>> to;
+        out.parts.resize(decoder.parts());
+        for (std::size_t p = 0; p < out.parts.size(); ++p) {
+            out.parts[p].resize(decoder.corners(p));
+            to.emplace_back(out.parts[p]);
+        }
+        decoder.decode_parts(to);
+        return out;
+    }
+
     /// Edits accessors and primitives of the group's sets.
     Result<void> describe(const Group& group, const std::vector<std::vector<std::uint32_t>>& part_numbers,
-                          SceneStream stream, const DecodedStream& decoded) {
+                          SceneStream stream, const Decoded& decoded) {
         const std::size_t number = streams_.size();
         JsonValue value = JsonText::object(), sets = JsonText::array();
         for (std::size_t s = 0; s < group.sets.size(); ++s) {
@@ -241,7 +278,7 @@ class Packer {
             for (std::size_t a = 0; a < set.attributes.size(); ++a) {
                 const std::uint32_t accessor = set.attributes[a].accessor;
                 accessors.members.push_back({{}, json_.number(accessor)});
-                const DecodedSet& from = decoded.sets[s];
+                const Decoded::Set& from = decoded.sets[s];
                 if (auto good = put_attribute(accessor, from.attributes[a], from.vertices); !good) return good;
             }
             sets.members.push_back({{}, std::move(accessors)});
@@ -262,8 +299,10 @@ class Packer {
     Result<void> put_attribute(std::uint32_t number, const Attribute& attribute, std::uint32_t vertices) {
         JsonValue& accessor = accessor_at(number);
         strip_accessor(accessor);
-        describe_attribute(json_, accessor, attribute, vertices);
-        auto values = values_as(accessor, attribute);
+        const AttributeView decoded{attribute.name, attribute.type, attribute.components, attribute.normalized,
+                                    attribute.v_up, false,          attribute.data,       {}};
+        describe_attribute(json_, accessor, decoded, vertices);
+        auto values = values_as(accessor, decoded);
         if (!values) return values.error();
         const std::size_t stride = values->size() / vertices;
         if (options_.fallback) fallback_.push_back({number, std::move(*values), stride});

@@ -231,7 +231,7 @@ std::uint64_t SceneViewWriter::add_stream(std::span<const std::byte> bytes) {
 
 std::uint64_t SceneViewWriter::add_plain(std::span<const std::byte> bytes, std::size_t stride) {
     plain_views_.push_back(views_.size());
-    views_.members.push_back({{}, view_of(json_, fallback_, 0, bytes, stride)});
+    views_.members.push_back({{}, put_rows(json_, fallback_, bytes, stride)});
     return views_.size() - 1;
 }
 

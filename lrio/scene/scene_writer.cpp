@@ -30,6 +30,7 @@ float float_at(std::span<const std::byte> data, std::size_t i) {
 
 template <class To>
 bool convert_all(std::span<const std::byte> floats, std::vector<std::byte>& out) {
+    out.resize(floats.size() / 4 * sizeof(To));
     for (std::size_t i = 0; i < floats.size() / 4; ++i) {
         const float value = float_at(floats, i);
         if (!(value >= static_cast<float>(std::numeric_limits<To>::min()) &&
@@ -38,10 +39,32 @@ bool convert_all(std::span<const std::byte> floats, std::vector<std::byte>& out)
             return false;
         }
         const auto integer = static_cast<To>(value);
-        const auto bytes = std::as_bytes(std::span(&integer, 1));
-        out.insert(out.end(), bytes.begin(), bytes.end());
+        std::memcpy(out.data() + i * sizeof integer, &integer, sizeof integer);
     }
     return true;
+}
+
+struct Bounds {
+    std::array<float, 3> low{}, high{};
+};
+
+/// Of three floats a vertex, one at least. Four vertices at a time, so that none waits for the one before.
+Bounds bounds_of(std::span<const std::byte> positions) {
+    std::array<float, 12> low{}, high{}, next{};
+    for (std::size_t k = 0; k < 12; ++k) low[k] = high[k] = float_at(positions, k % 3);
+    for (std::size_t at = 0; at < positions.size(); at += sizeof next) {
+        std::memcpy(next.data(), positions.data() + at, std::min(sizeof next, positions.size() - at));
+        for (std::size_t k = 0; k < 12; ++k) {
+            low[k] = next[k] < low[k] ? next[k] : low[k];
+            high[k] = next[k] > high[k] ? next[k] : high[k];
+        }
+    }
+    Bounds out;
+    for (std::size_t c = 0; c < 3; ++c) {
+        out.low[c] = std::min({low[c], low[c + 3], low[c + 6], low[c + 9]});
+        out.high[c] = std::max({high[c], high[c + 3], high[c + 6], high[c + 9]});
+    }
+    return out;
 }
 
 /// Do the numbers say these floats?
@@ -67,6 +90,12 @@ std::size_t BinChunk::add(std::span<const std::byte> bytes, std::size_t align) {
     return at;
 }
 
+std::size_t BinChunk::add_zeros(std::size_t size) {
+    const std::size_t at = (bytes_.size() + 3) / 4 * 4;
+    bytes_.resize(at + size);
+    return at;
+}
+
 void BinChunk::expect(std::size_t more) {
     if (more > bytes_.capacity() - bytes_.size()) bytes_.reserve(std::max(bytes_.size() + more, 2 * bytes_.capacity()));
 }
@@ -75,21 +104,31 @@ void strip_accessor(JsonValue& accessor) {
     for (const char* name : {"bufferView", "byteOffset", "sparse"}) accessor.remove(name);
 }
 
-Result<std::vector<std::byte>> values_as(const JsonValue& accessor, Attribute attribute) {
+Result<bool> has_type_of(const JsonValue& accessor, const AttributeView& attribute) {
     const std::uint64_t type = accessor.integer("componentType").value_or(0);
     if (!has_shape(accessor, attribute.components)) return malformed("{}: another type", shown(attribute.name));
-    if (type != 0 && type == gltf_component_type(attribute.type)) return std::move(attribute.data);
+    if (type != 0 && type == gltf_component_type(attribute.type)) return true;
+    const bool integers =
+        type == kGltfByte || type == kGltfUnsignedByte || type == kGltfShort || type == kGltfUnsignedShort;
+    if (attribute.type == ComponentType::f32 && integers) return false;
+    return malformed("{}: component type {} does not hold it", shown(attribute.name), type);
+}
+
+Result<std::vector<std::byte>> values_as(const JsonValue& accessor, const AttributeView& attribute) {
+    const auto same = has_type_of(accessor, attribute);
+    if (!same) return same.error();
+    if (*same) return std::vector<std::byte>(attribute.data.begin(), attribute.data.end());
+    const std::uint64_t type = accessor.integer("componentType").value_or(0);
     std::vector<std::byte> out;
-    const bool fits = attribute.type == ComponentType::f32 &&
-                      ((type == kGltfByte && convert_all<std::int8_t>(attribute.data, out)) ||
-                       (type == kGltfUnsignedByte && convert_all<std::uint8_t>(attribute.data, out)) ||
-                       (type == kGltfShort && convert_all<std::int16_t>(attribute.data, out)) ||
-                       (type == kGltfUnsignedShort && convert_all<std::uint16_t>(attribute.data, out)));
+    const bool fits = (type == kGltfByte && convert_all<std::int8_t>(attribute.data, out)) ||
+                      (type == kGltfUnsignedByte && convert_all<std::uint8_t>(attribute.data, out)) ||
+                      (type == kGltfShort && convert_all<std::int16_t>(attribute.data, out)) ||
+                      (type == kGltfUnsignedShort && convert_all<std::uint16_t>(attribute.data, out));
     if (!fits) return malformed("{}: component type {} does not hold it", shown(attribute.name), type);
     return out;
 }
 
-void describe_attribute(JsonText& json, JsonValue& accessor, const Attribute& attribute, std::uint32_t vertices) {
+void describe_attribute(JsonText& json, JsonValue& accessor, const AttributeView& attribute, std::uint32_t vertices) {
     accessor.set("count", json.number(vertices));
     const bool is_position = attribute.name.starts_with("POSITION") && attribute.components == 3;
     if (!is_position || vertices == 0) {
@@ -97,28 +136,25 @@ void describe_attribute(JsonText& json, JsonValue& accessor, const Attribute& at
         accessor.remove("max");
         return;
     }
-    std::array<float, 3> low{}, high{};
-    const bool floats = attribute.type == ComponentType::f32;
-    for (std::size_t v = 0; v < vertices; ++v) {
-        std::array<float, 3> at{};
-        if (floats) std::memcpy(at.data(), attribute.data.data() + 12 * v, sizeof at);
-        for (std::size_t c = 0; c < 3 && !floats; ++c) {
-            at[c] = static_cast<float>(component_at(attribute.data.data(), attribute.type, false, 3 * v + c));
+    std::vector<std::byte> floats;
+    std::span<const std::byte> positions = attribute.data;
+    if (attribute.type != ComponentType::f32) {
+        floats.resize(std::size_t{12} * vertices);
+        for (std::size_t i = 0; i < std::size_t{3} * vertices; ++i) {
+            const auto value = static_cast<float>(component_at(attribute.data.data(), attribute.type, false, i));
+            std::memcpy(floats.data() + 4 * i, &value, sizeof value);
         }
-        if (v == 0) low = high = at;
-        for (std::size_t c = 0; c < 3; ++c) {
-            low[c] = std::min(low[c], at[c]);
-            high[c] = std::max(high[c], at[c]);
-        }
+        positions = floats;
     }
+    const Bounds bounds = bounds_of(positions);
     const auto put = [&](const char* name, const std::array<float, 3>& values) {
         if (says(accessor.find(name), values)) return;
         JsonValue list = JsonText::array();
         for (const float value : values) list.members.push_back({{}, json.real(value)});
         accessor.set(name, std::move(list));
     };
-    put("min", low);
-    put("max", high);
+    put("min", bounds.low);
+    put("max", bounds.high);
 }
 
 void describe_indices(JsonText& json, JsonValue& accessor, std::size_t count, std::uint32_t vertices) {
@@ -133,36 +169,43 @@ void describe_indices(JsonText& json, JsonValue& accessor, std::size_t count, st
     accessor.set("componentType", json.number(std::max(needed, kGltfUnsignedShort)));
 }
 
-std::vector<std::byte> indices_as(const JsonValue& accessor, std::span<const std::uint32_t> indices) {
+std::size_t index_size(const JsonValue& accessor) {
     const std::uint64_t type = accessor.integer("componentType").value_or(kGltfUnsignedInt);
-    const std::size_t size = type == kGltfUnsignedByte ? 1 : type == kGltfUnsignedShort ? 2 : 4;
+    return type == kGltfUnsignedByte ? 1 : type == kGltfUnsignedShort ? 2 : 4;
+}
+
+std::vector<std::byte> indices_as(const JsonValue& accessor, std::span<const std::uint32_t> indices) {
+    const std::size_t size = index_size(accessor);
     std::vector<std::byte> out(indices.size() * size);
     if (size == 4) {
         if (!indices.empty()) std::memcpy(out.data(), indices.data(), out.size());
         return out;
     }
-    for (std::size_t i = 0; i < indices.size(); ++i) std::memcpy(out.data() + i * size, &indices[i], size);
+    const auto narrow = [&](auto as) {
+        for (std::size_t i = 0; i < indices.size(); ++i) {
+            as = static_cast<decltype(as)>(indices[i]);
+            std::memcpy(out.data() + i * sizeof as, &as, sizeof as);
+        }
+    };
+    size == 1 ? narrow(std::uint8_t{}) : narrow(std::uint16_t{});
     return out;
 }
 
-JsonValue view_of(JsonText& json, BinChunk& bin, std::uint32_t buffer, std::span<const std::byte> bytes,
-                  std::size_t stride) {
+JsonValue put_rows(JsonText& json, BinChunk& bin, std::span<const std::byte> bytes, std::size_t stride) {
     const std::size_t padded = (stride + 3) / 4 * 4;
-    std::size_t size = bytes.size(), at = 0;
-    if (padded == stride) {
-        at = bin.add(bytes);
-    } else {
-        const std::size_t rows = bytes.size() / stride;
-        std::vector<std::byte> out(rows * padded);
-        for (std::size_t i = 0; i < rows; ++i) std::memcpy(out.data() + i * padded, bytes.data() + i * stride, stride);
-        size = out.size();
-        at = bin.add(out);
-    }
+    if (padded == stride) return describe_view(json, bin.add(bytes), bytes.size(), stride);
+    const std::size_t rows = bytes.size() / stride, at = bin.add_zeros(rows * padded);
+    const std::span<std::byte> out = bin.bytes(at, rows * padded);
+    for (std::size_t i = 0; i < rows; ++i) std::memcpy(&out[i * padded], bytes.data() + i * stride, stride);
+    return describe_view(json, at, out.size(), padded);
+}
+
+JsonValue describe_view(JsonText& json, std::size_t at, std::size_t size, std::size_t stride) {
     JsonValue view = JsonText::object();
-    view.set("buffer", json.number(buffer));
+    view.set("buffer", json.number(0));
     view.set("byteOffset", json.number(at));
     view.set("byteLength", json.number(size));
-    if (stride != 0) view.set("byteStride", json.number(padded));
+    if (stride != 0) view.set("byteStride", json.number(stride));
     view.set("target", json.number(stride != 0 ? kGltfVertexTarget : kGltfIndexTarget));
     return view;
 }

@@ -6,9 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "lacedring/mesh.hpp"
+#include "lacedring/lr_file.hpp"
 #include "lrio/scene/json_text.h"
-#include "lrio/scene/scene_stream.h"
 
 namespace lacedring::detail {
 
@@ -19,6 +18,9 @@ class BinChunk {
   public:
     /// The place of the bytes, a multiple of `align`.
     std::size_t add(std::span<const std::byte> bytes, std::size_t align = 4);
+    /// The place of so many zeros, a multiple of 4.
+    std::size_t add_zeros(std::size_t size);
+    std::span<std::byte> bytes(std::size_t at, std::size_t size) { return std::span(bytes_).subspan(at, size); }
     std::vector<std::byte> take() { return std::move(bytes_); }
     std::size_t size() const { return bytes_.size(); }
     /// Makes room for so many bytes more, so that they are not copied as the chunk grows.
@@ -31,20 +33,29 @@ class BinChunk {
 /// Takes from an accessor what says where its values lie.
 void strip_accessor(JsonValue& accessor);
 
-/// The attributes' values in their accessors' types, by which they may differ from the stream's (integer positions).
-/// Errors: malformed (an accessor of another type; a position that its type does not hold).
-Result<std::vector<std::byte>> values_as(const JsonValue& accessor, Attribute attribute);
+/// Has the accessor the attribute's type, so that it may have its values as they are? It may also be one that
+/// values_as converts to. Errors: malformed (neither).
+Result<bool> has_type_of(const JsonValue& accessor, const AttributeView& attribute);
 
-/// Sets count, and the bounds of positions; texts that say the same already stay.
-void describe_attribute(JsonText& json, JsonValue& accessor, const Attribute& attribute, std::uint32_t vertices);
+/// The attribute's values, of `data`, in the accessor's type, by which they may differ from the stream's (integer
+/// positions). Errors: malformed (a position that the type does not hold).
+Result<std::vector<std::byte>> values_as(const JsonValue& accessor, const AttributeView& attribute);
+
+/// Sets count, and the bounds of positions, of `data`; texts that say the same already stay.
+void describe_attribute(JsonText& json, JsonValue& accessor, const AttributeView& attribute, std::uint32_t vertices);
 void describe_indices(JsonText& json, JsonValue& accessor, std::size_t count, std::uint32_t vertices);
+
+/// Bytes of an index of the accessor.
+std::size_t index_size(const JsonValue& accessor);
 
 /// The indices in the accessor's type.
 std::vector<std::byte> indices_as(const JsonValue& accessor, std::span<const std::uint32_t> indices);
 
-/// A buffer view of vertices' attributes, rows of `stride` made multiples of 4, or of indices, where `stride` is 0.
-JsonValue view_of(JsonText& json, BinChunk& bin, std::uint32_t buffer, std::span<const std::byte> bytes,
-                  std::size_t stride);
+/// Puts rows of `stride` bytes, made multiples of 4, into `bin`, or indices, where `stride` is 0; their buffer view.
+JsonValue put_rows(JsonText& json, BinChunk& bin, std::span<const std::byte> bytes, std::size_t stride);
+
+/// A buffer view of buffer 0: of rows of a multiple of 4 bytes, or of indices, where `stride` is 0.
+JsonValue describe_view(JsonText& json, std::size_t at, std::size_t size, std::size_t stride);
 
 /// Makes one buffer of the document's, or none of no bytes; `uri` may be empty.
 void describe_buffers(JsonText& json, std::size_t size, const std::string& uri);

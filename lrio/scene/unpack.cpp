@@ -9,8 +9,8 @@
 #include "lrio/gltf/gltf_names.h"
 #include "lrio/scene/packed_scene.h"
 #include "lrio/scene/scene_plan.h"
-#include "lrio/scene/scene_stream.h"
 #include "lrio/scene/scene_writer.h"
+#include "lrio/scene/stream_decoder.h"
 
 namespace lacedring {
 namespace {
@@ -238,50 +238,154 @@ class Unpacker {
             if (!contents) return contents.error();
             parts = std::move(*contents);
         }
-        std::vector<std::uint32_t> set_of_part, vertices;
-        for (const StreamPlan::Part& part : stream.parts) set_of_part.push_back(part.set);
+        StreamDecoder::Said said;
+        for (const StreamPlan::Part& part : stream.parts) said.set_of_part.push_back(part.set);
         for (const auto& set : stream.sets) {
             if (set.empty()) return malformed("a set without accessors");
             const JsonValue& first = accessors_[set[0]].value;
             const std::uint64_t count = first.integer("count").value_or(UINT32_MAX);
             if (first.find("count") != nullptr && count >= UINT32_MAX) return malformed("accessor {}: count", set[0]);
-            vertices.push_back(static_cast<std::uint32_t>(count));
+            said.vertices.push_back(static_cast<std::uint32_t>(count));
         }
-        const auto check = [&](const LrContents& contents) { return check_stream(stream, contents); };
-        auto decoded = decode_scene_stream(*file, parts, set_of_part, vertices, check);
-        if (!decoded) return decoded.error();
-        expect(*decoded);
-        for (std::size_t s = 0; s < stream.sets.size(); ++s) {
-            if (auto good = put_set(stream.sets[s], decoded->sets[s]); !good) return good;
-        }
-        for (std::size_t p = 0; p < stream.parts.size(); ++p) {
-            const std::vector<std::uint32_t>& indices = decoded->parts[p];
-            JsonValue& accessor = accessors_[*stream.parts[p].indices].value;
-            if (accessor.find("count") != nullptr && accessor.integer("count") != indices.size()) {
-                return malformed("part {} has {} indices, its accessor another count", p, indices.size());
-            }
-            strip_accessor(accessor);
-            describe_indices(scene_.json(), accessor, indices.size(), decoded->sets[stream.parts[p].set].vertices);
-            put_view(accessor, indices_as(accessor, indices), 0);
-            report_.triangles += indices.size() / 3;
-        }
-        return {};
+        const auto check = [&](const LrFileView& contents) { return check_stream(stream, contents); };
+        auto decoder = StreamDecoder::open(*file, parts, std::move(said), check);
+        if (!decoder) return decoder.error();
+        return decode(stream, *decoder);
     }
 
     /// Before it is decoded: does each of its attributes have an accessor, and is there room? A few bytes may hold many
     /// equal vertices.
-    Result<void> check_stream(const StreamPlan& stream, const LrContents& contents) {
-        std::size_t attributes = 0, stride = 0;
-        for (const LrSection& section : contents.sections) {
-            if (section.kind != "attribute" && section.kind != "vertices") continue;
-            ++attributes;
-            stride += size_of(section.type) * section.components;
-        }
+    Result<void> check_stream(const StreamPlan& stream, const LrFileView& contents) {
+        std::size_t stride = 0;
+        for (const AttributeView& a : contents.attributes) stride += size_of(a.type) * a.components;
         for (const auto& set : stream.sets) {
-            if (set.size() != attributes) return malformed("{} accessors for {} attributes", set.size(), attributes);
+            if (set.size() == contents.attributes.size()) continue;
+            return malformed("{} accessors for {} attributes", set.size(), contents.attributes.size());
         }
-        const double vertices = std::max(contents.vertices, contents.copies);
+        const double vertices = std::max(contents.vertex_count, contents.copy_count);
         return take_memory(vertices * static_cast<double>(stride), contents.input_triangles);
+    }
+
+    /// Where an accessor's values are decoded to.
+    struct Target {
+        std::size_t size = 0;           ///< bytes
+        std::optional<std::size_t> at;  ///< in bin_, if they are there as they are decoded
+        std::vector<std::byte> apart;   ///< else
+    };
+
+    std::span<std::byte> bytes_of(Target& target) {
+        return target.at ? bin_.bytes(*target.at, target.size) : std::span(target.apart);
+    }
+
+    Result<void> decode(const StreamPlan& stream, StreamDecoder& decoder) {
+        std::vector<std::vector<Target>> sets(stream.sets.size());
+        std::vector<Target> parts(stream.parts.size());
+        for (std::size_t s = 0; s < sets.size(); ++s) {
+            if (auto good = plan_set(stream.sets[s], decoder, s, sets[s]); !good) return good;
+        }
+        for (std::size_t p = 0; p < parts.size(); ++p) {
+            if (auto good = plan_part(stream.parts[p], decoder, p, parts[p]); !good) return good;
+        }
+        place(sets, parts);
+        for (std::size_t a = 0; a < decoder.attributes().size(); ++a) {
+            std::vector<std::span<std::byte>> to;
+            for (auto& set : sets) to.push_back(bytes_of(set[a]));
+            if (auto good = decoder.decode_attribute(a, to); !good) return good;
+        }
+        std::vector<std::span<std::uint32_t>> to;
+        for (Target& part : parts) {
+            to.emplace_back(reinterpret_cast<std::uint32_t*>(bytes_of(part).data()), part.size / sizeof(std::uint32_t));
+        }
+        decoder.decode_parts(to);
+        for (std::size_t s = 0; s < sets.size(); ++s) {
+            if (auto good = put_set(stream.sets[s], decoder, s, sets[s]); !good) return good;
+        }
+        for (std::size_t p = 0; p < parts.size(); ++p) {
+            JsonValue& accessor = accessors_[*stream.parts[p].indices].value;
+            const JsonValue view = parts[p].at ? describe_view(scene_.json(), *parts[p].at, parts[p].size, 0)
+                                               : put_rows(scene_.json(), bin_, indices_as(accessor, to[p]), 0);
+            accessor.set("bufferView", scene_.json().number(add_view(view)));
+            report_.triangles += decoder.corners(p) / 3;
+        }
+        return {};
+    }
+
+    Result<void> plan_set(const std::vector<std::uint32_t>& numbers, const StreamDecoder& decoder, std::size_t set,
+                          std::vector<Target>& targets) {
+        const std::uint32_t vertices = decoder.vertices(set);
+        for (std::size_t a = 0; a < numbers.size(); ++a) {
+            const AttributeView& attribute = decoder.attributes()[a];
+            JsonValue& accessor = accessors_[numbers[a]].value;
+            if (accessor.find("count") != nullptr && accessor.integer("count") != vertices) {
+                return malformed("accessor {}: its set has {} vertices", numbers[a], vertices);
+            }
+            const auto same = has_type_of(accessor, attribute);
+            if (!same) return in_accessor(numbers[a], same.error());
+            const std::size_t stride = size_of(attribute.type) * attribute.components;
+            Target& target = targets.emplace_back();
+            target.size = vertices * stride;
+            if (*same && stride % 4 == 0) target.at = 0;
+        }
+        return {};
+    }
+
+    Result<void> plan_part(const StreamPlan::Part& part, const StreamDecoder& decoder, std::size_t number,
+                           Target& target) {
+        JsonValue& accessor = accessors_[*part.indices].value;
+        const std::size_t corners = decoder.corners(number);
+        if (accessor.find("count") != nullptr && accessor.integer("count") != corners) {
+            return malformed("part {} has {} indices, its accessor another count", number, corners);
+        }
+        strip_accessor(accessor);
+        describe_indices(scene_.json(), accessor, corners, decoder.vertices(part.set));
+        target.size = corners * sizeof(std::uint32_t);
+        if (index_size(accessor) == sizeof(std::uint32_t)) target.at = 0;
+        return {};
+    }
+
+    /// Gives each its place, all at once, so that none moves once there are values.
+    void place(std::vector<std::vector<Target>>& sets, std::vector<Target>& parts) {
+        std::size_t all = 0;
+        const auto visit = [&](const auto& use) {
+            for (auto& set : sets) std::ranges::for_each(set, use);
+            std::ranges::for_each(parts, use);
+        };
+        visit([&](const Target& target) { all += target.size; });
+        bin_.expect(all);
+        visit([&](Target& target) {
+            if (target.at) {
+                target.at = bin_.add_zeros(target.size);
+            } else {
+                target.apart.resize(target.size);
+            }
+        });
+    }
+
+    static Error in_accessor(std::uint32_t number, const Error& error) {
+        return {error.code, fmt::format("accessor {}: {}", number, error.message)};
+    }
+
+    Result<void> put_set(const std::vector<std::uint32_t>& numbers, const StreamDecoder& decoder, std::size_t set,
+                         std::vector<Target>& targets) {
+        const std::uint32_t vertices = decoder.vertices(set);
+        for (std::size_t a = 0; a < numbers.size(); ++a) {
+            JsonValue& accessor = accessors_[numbers[a]].value;
+            AttributeView attribute = decoder.attributes()[a];
+            attribute.data = bytes_of(targets[a]);
+            strip_accessor(accessor);
+            describe_attribute(scene_.json(), accessor, attribute, vertices);
+            JsonValue view;
+            if (targets[a].at) {
+                view = describe_view(scene_.json(), *targets[a].at, targets[a].size,
+                                     size_of(attribute.type) * attribute.components);
+            } else {
+                const auto values = values_as(accessor, attribute);
+                if (!values) return in_accessor(numbers[a], values.error());
+                view = put_rows(scene_.json(), bin_, *values, vertices == 0 ? 4 : values->size() / vertices);
+            }
+            accessor.set("bufferView", scene_.json().number(add_view(std::move(view))));
+        }
+        return {};
     }
 
     /// Of all views and streams together, as of one mesh.
@@ -289,38 +393,6 @@ class Unpacker {
         taken_bytes_ += bytes;
         taken_triangles_ += triangles;
         return reading_.check_memory(1, taken_bytes_, taken_triangles_, scene_.bytes());
-    }
-
-    /// Makes room for what a stream gave.
-    void expect(const DecodedStream& decoded) {
-        std::size_t more = 0;
-        for (const DecodedSet& set : decoded.sets) {
-            for (const Attribute& a : set.attributes) more += a.data.size();
-        }
-        for (const auto& part : decoded.parts) more += 4 * part.size();
-        bin_.expect(more);
-    }
-
-    Result<void> put_set(const std::vector<std::uint32_t>& numbers, DecodedSet& set) {
-        for (std::size_t a = 0; a < numbers.size(); ++a) {
-            JsonValue& accessor = accessors_[numbers[a]].value;
-            Attribute& attribute = set.attributes[a];
-            if (accessor.find("count") != nullptr && accessor.integer("count") != set.vertices) {
-                return malformed("accessor {}: its set has {} vertices", numbers[a], set.vertices);
-            }
-            strip_accessor(accessor);
-            describe_attribute(scene_.json(), accessor, attribute, set.vertices);
-            const auto values = values_as(accessor, std::move(attribute));
-            if (!values) {
-                return Error{values.error().code, fmt::format("accessor {}: {}", numbers[a], values.error().message)};
-            }
-            put_view(accessor, *values, set.vertices == 0 ? 4 : values->size() / set.vertices);
-        }
-        return {};
-    }
-
-    void put_view(JsonValue& accessor, std::span<const std::byte> values, std::size_t stride) {
-        accessor.set("bufferView", scene_.json().number(add_view(view_of(scene_.json(), bin_, 0, values, stride))));
     }
 
     Result<SceneFile> finish(const std::string& bin_uri) {
