@@ -12,14 +12,18 @@ namespace {
 /// The copies of the slots' corners, and the vertex of each copy.
 Result<void> decode_copies(const LrFileView& file, const StreamView& stream, bool untrusted, DecodedLr& out) {
     const std::vector<std::uint32_t> slots = slot_triangles(stream);
-    const Result<SeamView> seams = untrusted ? validate_seams(file.seams, slots, stream.vertices())
-                                             : view_seams(file.seams, stream.slots(), stream.vertices());
+    std::vector<std::uint32_t> copies(slots.size());
+    const Result<SeamView> seams = view_seams(file.seams, stream.slots(), stream.vertices());
     if (!seams) return seams.error();
     if (seams->copies != file.copy_count) return malformed_lr("seams and file have different numbers of copies");
-    std::vector<std::uint32_t> copies(slots.size());
-    decode_seams(*seams, slots, copies);
-    out.vertex_of.resize(seams->copies);
-    copy_vertices(*seams, slots, out.vertex_of);
+    if (untrusted) {
+        const auto checked = decode_seams_checked(file.seams, slots, stream.vertices(), copies, out.vertex_of);
+        if (!checked) return checked.error();
+    } else {
+        decode_seams(*seams, slots, copies);
+        out.vertex_of.resize(seams->copies);
+        copy_vertices(*seams, slots, out.vertex_of);
+    }
     std::erase(copies, UINT32_MAX);
     out.indices = std::move(copies);
     return {};

@@ -356,6 +356,10 @@ bool use_vertex_stream(std::span<const std::uint32_t> words) {
     lacedring_vertices stream;
     const bool valid = lacedring_vertices_validate(words.data(), words.size(), &stream, nullptr) == LACEDRING_STATUS_OK;
     REQUIRE(view.has_value() == valid);
+    if (const Result<VertexView> opened = view_vertices(words); opened && opened->decoded_bytes() < 1 << 20) {
+        std::vector<std::byte> values(opened->decoded_bytes());
+        REQUIRE(decode_vertices_checked(*opened, values).has_value() == valid);
+    }
     if (view) {
         use_vertices(*view);
     } else {
@@ -377,6 +381,8 @@ bool use_seam_section(std::span<const std::uint32_t> words) {
     std::ranges::copy(words.subspan(2, corners), triangles.get());
     const std::span<const std::uint32_t> exact(triangles.get(), corners);
     const Result<SeamView> view = validate_seams(section, exact, words[0]);
+    Words copies(corners), vertices;
+    REQUIRE(decode_seams_checked(section, exact, words[0], copies, vertices).has_value() == view.has_value());
     if (view) {
         use_seams(*view, exact);
     } else {

@@ -268,6 +268,8 @@ void use_vertices(const VertexView& view) {
     const auto decoded = std::make_unique<std::byte[]>(size);
     const std::span<std::byte> values(decoded.get(), size);
     decode_vertices(view, values);
+    std::vector<std::byte> at_once(size);
+    REQUIRE(decode_vertices_checked(view, at_once) && std::ranges::equal(at_once, values));
     const bool lossless = view.mapping != VertexMapping::lattice && view.mapping != VertexMapping::octahedral;
     REQUIRE(lossless || all_finite<float>(values));
     const auto decode_block = [&](std::uint32_t block) {
@@ -299,6 +301,9 @@ void use_seams(const SeamView& view, std::span<const std::uint32_t> triangles) {
     decode_seams(view, triangles, copies.span());
     first_copies(view, first.span());
     copy_vertices(view, triangles, vertices.span());
+    std::vector<std::uint32_t> copies_at_once(triangles.size()), vertices_at_once;
+    REQUIRE(decode_seams_checked(view.words, triangles, view.vertices, copies_at_once, vertices_at_once));
+    REQUIRE(std::ranges::equal(copies_at_once, copies.span()) && std::ranges::equal(vertices_at_once, vertices.span()));
     REQUIRE(first.span().front() == 0 && first.span().back() == view.homes);
     REQUIRE(std::ranges::adjacent_find(first.span(), std::greater_equal()) == first.span().end());
     for (std::size_t c = 0; c < triangles.size(); ++c) {

@@ -55,7 +55,8 @@ std::span<const std::uint32_t> block_of(std::span<const std::uint32_t> corners, 
     return corners.subspan(first, std::min<std::size_t>(corners.size() - first, 3 * kSeamBlock));
 }
 
-/// Validates and decodes in buffers of exactly the sizes; blocks give the same copies in any order.
+/// Validates and decodes in buffers of exactly the sizes, in several passes and in one; blocks give the same copies in
+/// any order.
 Words decoded(const Words& words, const CutSurface& mesh) {
     const auto exact = std::make_unique<std::uint32_t[]>(words.size());
     std::ranges::copy(words, exact.get());
@@ -64,6 +65,11 @@ Words decoded(const Words& words, const CutSurface& mesh) {
     REQUIRE_MESSAGE(view, view.error().message);
     Words out(mesh.triangles.size());
     decode_seams(*view, mesh.triangles, out);
+    Words at_once(out.size()), vertices(view->copies), vertices_at_once;
+    copy_vertices(*view, mesh.triangles, vertices);
+    REQUIRE(decode_seams_checked(section, mesh.triangles, mesh.vertices, at_once, vertices_at_once));
+    REQUIRE(at_once == out);
+    REQUIRE(vertices_at_once == vertices);
     for (std::uint32_t b = view->blocks(); b-- > 0;) {
         Words alone(block_of(out, b).size());
         decode_seam_block(*view, b, block_of(mesh.triangles, b), alone);

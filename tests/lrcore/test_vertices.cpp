@@ -32,7 +32,8 @@ std::vector<float> floats_of(const Bytes& bytes) {
     return out;
 }
 
-/// Validates and decodes a stream in buffers of exactly its size; blocks give the same integers in any order.
+/// Validates and decodes a stream in buffers of exactly its size, in two passes and in one; blocks give the same
+/// integers in any order.
 Bytes decoded(const std::vector<std::uint32_t>& words) {
     const auto exact = std::make_unique<std::uint32_t[]>(words.size());
     std::copy(words.begin(), words.end(), exact.get());
@@ -40,6 +41,9 @@ Bytes decoded(const std::vector<std::uint32_t>& words) {
     REQUIRE_MESSAGE(view, view.error().message);
     Bytes out(view->decoded_bytes());
     decode_vertices(*view, out);
+    Bytes at_once(out.size());
+    CHECK(decode_vertices_checked(*view, at_once));
+    CHECK(at_once == out);
     std::vector<std::uint32_t> forward, backward;
     std::vector<std::uint32_t> block(std::size_t{kVertexBlock} * view->integers);
     const auto used = [&](std::uint32_t b) {
@@ -346,7 +350,12 @@ TEST_CASE("every truncation, every flipped bit and every wrong word of a vertex 
             CHECK_FALSE(validate_vertices(bad));
             if (bit / 32 == 3) continue;
             mend(bad);
-            if (!validate_vertices(bad)) continue;
+            const bool valid = validate_vertices(bad).has_value();
+            if (const Result<VertexView> view = view_vertices(bad); view && view->decoded_bytes() < 1 << 16) {
+                Bytes values(view->decoded_bytes());
+                CHECK(decode_vertices_checked(*view, values).has_value() == valid);
+            }
+            if (!valid) continue;
             ++accepted;
             // Every bit means something: the decoded values differ, or the step, the error or the type does.
             // Every bit means something: the decoded values differ, but for what the header says of most blocks where

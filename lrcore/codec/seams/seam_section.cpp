@@ -80,12 +80,16 @@ Result<SeamView> view_seams(std::span<const std::uint32_t> words, std::uint32_t 
     return SeamView{words, vertices, triangles, seams.homes, seams.copies};
 }
 
-Result<SeamView> validate_seams(std::span<const std::uint32_t> words, std::span<const std::uint32_t> triangles,
-                                std::uint32_t vertices) {
+namespace {
+
+/// Checks the section, and decodes it where `vertices` is not null.
+Result<SeamView> check_seams(std::span<const std::uint32_t> words, std::span<const std::uint32_t> triangles,
+                             std::uint32_t vertex_count, std::span<std::uint32_t> copies,
+                             std::vector<std::uint32_t>* vertices) {
     if (triangles.size() % 3 != 0 || triangles.size() / 3 > UINT32_MAX / 3) {
         return Error{ErrorCode::malformed, "seam section: triangles of an impossible number of corners"};
     }
-    const Result<SeamView> view = view_seams(words, static_cast<std::uint32_t>(triangles.size() / 3), vertices);
+    const Result<SeamView> view = view_seams(words, static_cast<std::uint32_t>(triangles.size() / 3), vertex_count);
     if (!view) return view;
     if (words[kSeamChecksum] != crc32(std::as_bytes(words.subspan(kSeamChecksum + 1)))) {
         return bad_seams(LACEDRING_STATUS_CHECKSUM, 0, words);
@@ -93,9 +97,30 @@ Result<SeamView> validate_seams(std::span<const std::uint32_t> words, std::span<
     const lacedring_seams seams = as_c(*view);
     std::vector<std::uint32_t> scratch(lacedring_seams_scratch(&seams));
     std::uint64_t where = 0;
-    const lacedring_status status = lacedring_seams_check(&seams, triangles.data(), scratch.data(), &where);
+    lacedring_status status = LACEDRING_STATUS_OK;
+    if (vertices == nullptr) {
+        status = lacedring_seams_check(&seams, triangles.data(), scratch.data(), &where);
+    } else {
+        vertices->resize(view->copies);
+        status = lacedring_seams_decode_checked(&seams, triangles.data(), scratch.data(), copies.data(),
+                                                vertices->data(), &where);
+    }
     if (status != LACEDRING_STATUS_OK) return bad_seams(status, where, words);
     return view;
+}
+
+}  // namespace
+
+Result<SeamView> validate_seams(std::span<const std::uint32_t> words, std::span<const std::uint32_t> triangles,
+                                std::uint32_t vertices) {
+    return check_seams(words, triangles, vertices, {}, nullptr);
+}
+
+Result<SeamView> decode_seams_checked(std::span<const std::uint32_t> words, std::span<const std::uint32_t> triangles,
+                                      std::uint32_t vertex_count, std::span<std::uint32_t> copies,
+                                      std::vector<std::uint32_t>& vertices) {
+    assert(copies.size() == triangles.size());
+    return check_seams(words, triangles, vertex_count, copies, &vertices);
 }
 
 void decode_seams(const SeamView& view, std::span<const std::uint32_t> triangles, std::span<std::uint32_t> copies) {

@@ -120,6 +120,12 @@ void lacedring_seams_block(const struct lacedring_seams* seams, uint32_t block, 
 void lacedring_seams_copy_vertices(const struct lacedring_seams* seams, const uint32_t* triangles, uint32_t* home,
                                    uint32_t* vertices);
 
+/* The check, lacedring_seams_decode and lacedring_seams_copy_vertices in one pass; `scratch` is the check's. Where it
+   finds a fault, `copies` and `vertices` are of no use. */
+enum lacedring_status lacedring_seams_decode_checked(const struct lacedring_seams* seams, const uint32_t* triangles,
+                                                     uint32_t* scratch, uint32_t* copies, uint32_t* vertices,
+                                                     uint64_t* where);
+
 /* Steps of the format that the encoder takes, too. */
 
 /* Which of a triangle's vertices it is, or 3. */
@@ -645,15 +651,21 @@ void lacedring_seams_block(const struct lacedring_seams* s, uint32_t block, cons
     lacedring_seam_walk_end_(s, &w, copies);
 }
 
-void lacedring_seams_copy_vertices(const struct lacedring_seams* s, const uint32_t* triangles, uint32_t* home,
-                                   uint32_t* vertices) {
-    const uint32_t blocks = lacedring_seam_block_count_(s->triangles);
-    uint32_t block, v, k, copies[LACEDRING_SEAM_CORNERS_];
-    struct lacedring_seam_walk_ w;
-    lacedring_seams_homes(s, home);
+/* The vertex of each home copy. */
+static void lacedring_seam_home_vertices_(const struct lacedring_seams* s, const uint32_t* home, uint32_t* vertices) {
+    uint32_t v, k;
     for (v = 0; v < s->vertices; ++v) {
         for (k = home[v] >> 1; k < home[v + 1] >> 1; ++k) vertices[k] = v;
     }
+}
+
+void lacedring_seams_copy_vertices(const struct lacedring_seams* s, const uint32_t* triangles, uint32_t* home,
+                                   uint32_t* vertices) {
+    const uint32_t blocks = lacedring_seam_block_count_(s->triangles);
+    uint32_t block, k, copies[LACEDRING_SEAM_CORNERS_];
+    struct lacedring_seam_walk_ w;
+    lacedring_seams_homes(s, home);
+    lacedring_seam_home_vertices_(s, home, vertices);
     for (block = 0; block < blocks; ++block) {
         lacedring_seam_walk_begin_(s, block, triangles + (size_t)block * LACEDRING_SEAM_CORNERS_, &w);
         if (w.r.copies == 0) continue; /* no private copy begins here */
@@ -665,11 +677,12 @@ void lacedring_seams_copy_vertices(const struct lacedring_seams* s, const uint32
     }
 }
 
-enum lacedring_status lacedring_seams_check(const struct lacedring_seams* s, const uint32_t* triangles,
-                                            uint32_t* scratch, uint64_t* where) {
+/* Checks all; writes the copies of the corners, too, if `copies` is not null. */
+static enum lacedring_status lacedring_seam_check_(const struct lacedring_seams* s, const uint32_t* triangles,
+                                                   uint32_t* scratch, uint32_t* copies, uint64_t* where) {
     const uint32_t blocks[2] = {lacedring_seam_block_count_(s->vertices), lacedring_seam_block_count_(s->triangles)};
     uint32_t *home = scratch, *owner = scratch + (size_t)s->vertices + 1; /* the vertex of each private copy */
-    uint32_t block, k, copies[LACEDRING_SEAM_CORNERS_];
+    uint32_t block, k, own[LACEDRING_SEAM_CORNERS_];
     uint64_t i, end = s->blocks[0], made = 0;
     struct lacedring_seam_walk_ w;
     for (i = 0; i < s->triangles; ++i) {
@@ -695,17 +708,18 @@ enum lacedring_status lacedring_seams_check(const struct lacedring_seams* s, con
         return lacedring_at_(where, blocks[0] - 1, LACEDRING_STATUS_VERTEX_BLOCK);
     made = 0;
     for (block = 0; block < blocks[1]; ++block) {
+        uint32_t* of_block = copies == NULL ? own : copies + (size_t)block * LACEDRING_SEAM_CORNERS_;
         lacedring_seam_walk_begin_(s, block, triangles + (size_t)block * LACEDRING_SEAM_CORNERS_, &w);
         if (w.made != made || w.r.at != end) return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
         lacedring_seam_gather_(&w, home);
-        lacedring_seam_walk_end_(s, &w, copies);
+        lacedring_seam_walk_end_(s, &w, of_block);
         if (w.r.bad || w.r.at != w.r.end || w.made > s->copies - s->homes)
             return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
         for (k = (uint32_t)made; k < w.made; ++k) owner[k] = UINT32_MAX;
         for (k = 0; k < 3 * w.count; ++k) { /* no private copy is of two vertices */
             uint32_t* of;
-            if (copies[k] < s->homes || copies[k] == UINT32_MAX) continue;
-            of = owner + (copies[k] - s->homes);
+            if (of_block[k] < s->homes || of_block[k] == UINT32_MAX) continue;
+            of = owner + (of_block[k] - s->homes);
             if (*of == UINT32_MAX) *of = w.triangles[k];
             if (*of != w.triangles[k]) return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
         }
@@ -713,6 +727,22 @@ enum lacedring_status lacedring_seams_check(const struct lacedring_seams* s, con
         end = w.r.end;
     }
     if (made != s->copies - s->homes) return lacedring_at_(where, blocks[1] - 1, LACEDRING_STATUS_BLOCK);
+    return LACEDRING_STATUS_OK;
+}
+
+enum lacedring_status lacedring_seams_check(const struct lacedring_seams* s, const uint32_t* triangles,
+                                            uint32_t* scratch, uint64_t* where) {
+    return lacedring_seam_check_(s, triangles, scratch, NULL, where);
+}
+
+enum lacedring_status lacedring_seams_decode_checked(const struct lacedring_seams* s, const uint32_t* triangles,
+                                                     uint32_t* scratch, uint32_t* copies, uint32_t* vertices,
+                                                     uint64_t* where) {
+    const enum lacedring_status status = lacedring_seam_check_(s, triangles, scratch, copies, where);
+    if (status != LACEDRING_STATUS_OK) return status;
+    lacedring_seam_home_vertices_(s, scratch, vertices);
+    if (s->copies > s->homes)
+        memcpy(vertices + s->homes, scratch + (size_t)s->vertices + 1, 4 * (size_t)(s->copies - s->homes));
     return LACEDRING_STATUS_OK;
 }
 

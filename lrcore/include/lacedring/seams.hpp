@@ -55,6 +55,12 @@ Result<SeamView> view_seams(std::span<const std::uint32_t> words, std::uint32_t 
 Result<SeamView> validate_seams(std::span<const std::uint32_t> words, std::span<const std::uint32_t> triangles,
                                 std::uint32_t vertices);
 
+/// validate_seams, decode_seams and copy_vertices in one pass: fills `copies`, as many as `triangles`, and `vertices`,
+/// the vertex of each copy. Errors: malformed; both are then of no use. Cost, and the rest: validate_seams'.
+Result<SeamView> decode_seams_checked(std::span<const std::uint32_t> words, std::span<const std::uint32_t> triangles,
+                                      std::uint32_t vertex_count, std::span<std::uint32_t> copies,
+                                      std::vector<std::uint32_t>& vertices);
+
 /// The copy of each corner of the triangles that the section was validated for; UINT32_MAX where a slot has none. Cost:
 /// O(T) time, 4 bytes a vertex.
 void decode_seams(const SeamView& view, std::span<const std::uint32_t> triangles, std::span<std::uint32_t> copies);
