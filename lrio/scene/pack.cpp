@@ -321,7 +321,11 @@ class Packer {
         JsonValue& to = accessor_at(accessor);
         strip_accessor(to);
         describe_indices(json_, to, indices.size(), vertices);
-        if (options_.fallback) fallback_.push_back({accessor, indices_as(to, indices), 0});
+        if (options_.fallback) {
+            std::vector<std::byte> bytes(indices.size() * index_size(to));
+            put_indices(to, indices, bytes);
+            fallback_.push_back({accessor, std::move(bytes), 0});
+        }
         for (const PrimitivePlace place : part.primitives) {
             JsonValue& primitive = meshes_json_[place.mesh].value.list("primitives")[place.primitive].value;
             remove_extension(primitive, "KHR_draco_mesh_compression");

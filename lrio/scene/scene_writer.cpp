@@ -174,21 +174,15 @@ std::size_t index_size(const JsonValue& accessor) {
     return type == kGltfUnsignedByte ? 1 : type == kGltfUnsignedShort ? 2 : 4;
 }
 
-std::vector<std::byte> indices_as(const JsonValue& accessor, std::span<const std::uint32_t> indices) {
-    const std::size_t size = index_size(accessor);
-    std::vector<std::byte> out(indices.size() * size);
-    if (size == 4) {
-        if (!indices.empty()) std::memcpy(out.data(), indices.data(), out.size());
-        return out;
-    }
-    const auto narrow = [&](auto as) {
+void put_indices(const JsonValue& accessor, std::span<const std::uint32_t> indices, std::span<std::byte> out) {
+    const auto put = [&](auto as) {
         for (std::size_t i = 0; i < indices.size(); ++i) {
             as = static_cast<decltype(as)>(indices[i]);
             std::memcpy(out.data() + i * sizeof as, &as, sizeof as);
         }
     };
-    size == 1 ? narrow(std::uint8_t{}) : narrow(std::uint16_t{});
-    return out;
+    const std::size_t size = index_size(accessor);
+    size == 1 ? put(std::uint8_t{}) : size == 2 ? put(std::uint16_t{}) : put(std::uint32_t{});
 }
 
 JsonValue put_rows(JsonText& json, BinChunk& bin, std::span<const std::byte> bytes, std::size_t stride) {

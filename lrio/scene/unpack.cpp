@@ -268,13 +268,13 @@ class Unpacker {
 
     /// Where an accessor's values are decoded to.
     struct Target {
-        std::size_t size = 0;           ///< bytes
-        std::optional<std::size_t> at;  ///< in bin_, if they are there as they are decoded
-        std::vector<std::byte> apart;   ///< else
+        std::size_t size = 0;  ///< bytes, as they are decoded
+        bool apart = false;    ///< they are not as the accessor has them, and decoded to apart_
+        std::size_t at = 0;    ///< in bin_, or apart_
     };
 
-    std::span<std::byte> bytes_of(Target& target) {
-        return target.at ? bin_.bytes(*target.at, target.size) : std::span(target.apart);
+    std::span<std::byte> bytes_of(const Target& target) {
+        return target.apart ? std::span(apart_).subspan(target.at, target.size) : bin_.bytes(target.at, target.size);
     }
 
     Result<void> decode(const StreamPlan& stream, StreamDecoder& decoder) {
@@ -302,9 +302,13 @@ class Unpacker {
         }
         for (std::size_t p = 0; p < parts.size(); ++p) {
             JsonValue& accessor = accessors_[*stream.parts[p].indices].value;
-            const JsonValue view = parts[p].at ? describe_view(scene_.json(), *parts[p].at, parts[p].size, 0)
-                                               : put_rows(scene_.json(), bin_, indices_as(accessor, to[p]), 0);
-            accessor.set("bufferView", scene_.json().number(add_view(view)));
+            std::size_t at = parts[p].at, size = parts[p].size;
+            if (parts[p].apart) {
+                size = to[p].size() * index_size(accessor);
+                at = bin_.add_zeros(size);
+                put_indices(accessor, to[p], bin_.bytes(at, size));
+            }
+            accessor.set("bufferView", scene_.json().number(add_view(describe_view(scene_.json(), at, size, 0))));
             report_.triangles += decoder.corners(p) / 3;
         }
         return {};
@@ -324,7 +328,7 @@ class Unpacker {
             const std::size_t stride = size_of(attribute.type) * attribute.components;
             Target& target = targets.emplace_back();
             target.size = vertices * stride;
-            if (*same && stride % 4 == 0) target.at = 0;
+            target.apart = !*same || stride % 4 != 0;
         }
         return {};
     }
@@ -339,13 +343,13 @@ class Unpacker {
         strip_accessor(accessor);
         describe_indices(scene_.json(), accessor, corners, decoder.vertices(part.set));
         target.size = corners * sizeof(std::uint32_t);
-        if (index_size(accessor) == sizeof(std::uint32_t)) target.at = 0;
+        target.apart = index_size(accessor) != sizeof(std::uint32_t);
         return {};
     }
 
     /// Gives each its place, all at once, so that none moves once there are values.
     void place(std::vector<std::vector<Target>>& sets, std::vector<Target>& parts) {
-        std::size_t all = 0;
+        std::size_t all = 0, apart = 0;
         const auto visit = [&](const auto& use) {
             for (auto& set : sets) std::ranges::for_each(set, use);
             std::ranges::for_each(parts, use);
@@ -353,12 +357,10 @@ class Unpacker {
         visit([&](const Target& target) { all += target.size; });
         bin_.expect(all);
         visit([&](Target& target) {
-            if (target.at) {
-                target.at = bin_.add_zeros(target.size);
-            } else {
-                target.apart.resize(target.size);
-            }
+            target.at = target.apart ? apart : bin_.add_zeros(target.size);
+            if (target.apart) apart += (target.size + 3) / 4 * 4;
         });
+        if (apart > apart_.size()) apart_.resize(apart);
     }
 
     static Error in_accessor(std::uint32_t number, const Error& error) {
@@ -375,8 +377,8 @@ class Unpacker {
             strip_accessor(accessor);
             describe_attribute(scene_.json(), accessor, attribute, vertices);
             JsonValue view;
-            if (targets[a].at) {
-                view = describe_view(scene_.json(), *targets[a].at, targets[a].size,
+            if (!targets[a].apart) {
+                view = describe_view(scene_.json(), targets[a].at, targets[a].size,
                                      size_of(attribute.type) * attribute.components);
             } else {
                 const auto values = values_as(accessor, attribute);
@@ -432,6 +434,7 @@ class Unpacker {
     std::vector<bool> free_;  ///< views that nothing refers to
     std::size_t next_free_ = 0;
     BinChunk bin_;
+    std::vector<std::byte> apart_;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint64_t> part_of_;  ///< by stream and indices
     std::uint64_t parts_left_ = 0;  ///< that all streams together may still have
     double taken_bytes_ = 0, taken_triangles_ = 0;
