@@ -1,0 +1,376 @@
+// Streams of scenes, decoded to sets and parts, against the mesh that decode_lr gives.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+
+#include "lrio/scene/part_codes.h"
+#include "lrio/scene/stream_decoder.h"
+#include "tests/lrio/lr_files.h"
+#include "tests/support/capture.h"
+#include "tests/support/cut_mesh.h"
+#include "tests/support/cuts.h"
+#include "tests/support/shapes.h"
+
+using namespace lacedring;
+using detail::StreamDecoder;
+
+namespace {
+
+using Rows = std::vector<std::byte>;
+
+/// A mesh whose vertices and triangles are those of sets and parts.
+struct Grouped {
+    test::CutMesh cut;
+    std::vector<std::uint32_t> set_of;       ///< of each vertex
+    std::vector<std::uint32_t> part_of;      ///< of each triangle
+    std::vector<std::uint32_t> set_of_part;  ///< of each part
+    std::vector<std::uint32_t> vertices;     ///< of each set
+
+    StreamDecoder::Said said() const { return {set_of_part, vertices}; }
+    StreamDecoder::Said unsaid() const { return {set_of_part, std::vector(vertices.size(), UINT32_MAX)}; }
+};
+
+/// Deals the components of the mesh's vertices out to at most `sets` sets, and the triangles of each to at most `parts`
+/// parts. Vertices lie set by set. Where no order is to be kept, degenerate triangles and unused vertices are left out.
+Grouped group_mesh(const test::CutMesh& whole, std::size_t sets, std::size_t parts, bool keep_order,
+                   std::uint64_t seed) {
+    const Mesh& mesh = whole.mesh;
+    const auto& vertex_of = whole.surface.vertex_of;
+    std::vector<std::uint32_t> root(mesh.vertex_count);
+    std::iota(root.begin(), root.end(), 0U);
+    const auto find = [&](std::uint32_t v) {
+        while (root[v] != v) v = root[v] = root[root[v]];
+        return v;
+    };
+    std::vector<bool> used(mesh.vertex_count, keep_order), kept(mesh.triangle_count());
+    for (std::size_t t = 0; t < kept.size(); ++t) {
+        const std::uint32_t* v = &mesh.indices[3 * t];
+        const auto surface = [&](std::size_t k) { return vertex_of.empty() ? v[k] : vertex_of[v[k]]; };
+        kept[t] = surface(0) != surface(1) && surface(1) != surface(2) && surface(2) != surface(0);
+        for (std::size_t k = 0; k < 3 && (kept[t] || keep_order); ++k) {
+            root[find(v[k])] = find(v[0]);
+            used[v[k]] = true;
+        }
+    }
+    // A set needs a triangle, so those of components with one are dealt first.
+    std::vector<std::uint32_t> set_of_root(mesh.vertex_count, UINT32_MAX), set_of(mesh.vertex_count);
+    std::uint32_t count = 0;
+    for (std::size_t t = 0; t < kept.size(); ++t) {
+        std::uint32_t& set = set_of_root[find(mesh.indices[3 * t])];
+        if (!kept[t] || set != UINT32_MAX) continue;
+        set = count < sets ? count++ : test::random_below(seed, count);
+    }
+    for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
+        set_of[v] = set_of_root[find(v)] == UINT32_MAX ? 0 : set_of_root[find(v)];
+    }
+    std::vector<std::uint32_t> order;
+    for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
+        if (used[v]) order.push_back(v);
+    }
+    std::ranges::stable_sort(order, {}, [&](std::uint32_t v) { return set_of[v]; });
+    Grouped out;
+    out.vertices.resize(count);
+    std::vector<std::uint32_t> number(mesh.vertex_count, UINT32_MAX),
+        surface_number(whole.surface.vertex_count, UINT32_MAX);
+    Surface& surface = out.cut.surface;
+    for (std::uint32_t i = 0; i < order.size(); ++i) {
+        number[order[i]] = i;
+        out.set_of.push_back(set_of[order[i]]);
+        ++out.vertices[out.set_of.back()];
+        std::uint32_t& at = surface_number[vertex_of.empty() ? order[i] : vertex_of[order[i]]];
+        if (at == UINT32_MAX) at = surface.vertex_count++;
+        if (!vertex_of.empty()) surface.vertex_of.push_back(at);
+    }
+    out.cut.mesh.vertex_count = static_cast<std::uint32_t>(order.size());
+    out.cut.mesh.attributes = permute_attributes(mesh.attributes, order);
+    std::vector<std::vector<std::uint32_t>> parts_of(count);
+    for (std::size_t t = 0; t < kept.size(); ++t) {
+        if (!kept[t] && !keep_order) continue;
+        for (std::size_t k = 0; k < 3; ++k) out.cut.mesh.indices.push_back(number[mesh.indices[3 * t + k]]);
+        std::vector<std::uint32_t>& of_set = parts_of[set_of[mesh.indices[3 * t]]];
+        if (kept[t] && of_set.size() < parts) {
+            out.part_of.push_back(static_cast<std::uint32_t>(out.set_of_part.size()));
+            of_set.push_back(out.part_of.back());
+            out.set_of_part.push_back(set_of[mesh.indices[3 * t]]);
+        } else {
+            out.part_of.push_back(
+                of_set.empty() ? 0 : of_set[test::random_below(seed, static_cast<std::uint32_t>(of_set.size()))]);
+        }
+    }
+    return out;
+}
+
+/// A stream of the extension: a file, and part codes where there are several parts.
+struct Stream {
+    Rows file, parts;
+    std::vector<std::uint32_t> part_of;  ///< of each triangle that decode_lr, or decode_lr_original_order, gives
+};
+
+Stream encode_group(const Grouped& group, Format format, bool keep_order, std::uint32_t compression) {
+    const auto& [mesh, surface] = group.cut;
+    Encoded encoded = test::encode_as(format, surface_mesh(mesh, surface));
+    Stream out;
+    std::vector<std::uint32_t> order = encoded.triangle_order;
+    for (const std::uint32_t t : order) out.part_of.push_back(group.part_of[t]);
+    if (group.set_of_part.size() > 1) {
+        const auto codes = detail::encode_part_codes(out.part_of);
+        REQUIRE(codes);
+        out.parts = *codes;
+    }
+    if (keep_order) {
+        std::ranges::sort(order);
+        for (std::size_t i = 0; i < order.size(); ++i) out.part_of[i] = group.part_of[order[i]];
+    }
+    Result<LrFile> file = make_lr_file(mesh, surface, std::move(encoded), keep_order);
+    REQUIRE_MESSAGE(file, file.error().message);
+    const AttributeBits lossy{.positions = 10, .normals = 8, .texcoords = 9, .colors = 8};
+    if (compression > 0) REQUIRE(compress_attributes(*file, compression == 1 ? AttributeBits{} : lossy));
+    out.file = serialize_lr(*file);
+    return out;
+}
+
+/// What a StreamDecoder gives.
+struct Sets {
+    std::vector<std::vector<Rows>> values;  ///< of each set, of each attribute
+    std::vector<std::vector<std::uint32_t>> parts;
+};
+
+Sets decode_all(StreamDecoder& decoder, std::size_t sets) {
+    Sets out{std::vector<std::vector<Rows>>(sets), std::vector<std::vector<std::uint32_t>>(decoder.parts())};
+    for (std::size_t a = 0; a < decoder.attributes().size(); ++a) {
+        const AttributeView& attribute = decoder.attributes()[a];
+        std::vector<std::span<std::byte>> to;
+        for (std::size_t s = 0; s < sets; ++s) {
+            to.emplace_back(
+                out.values[s].emplace_back(decoder.vertices(s) * size_of(attribute.type) * attribute.components));
+        }
+        const Result<void> good = decoder.decode_attribute(a, to);
+        REQUIRE_MESSAGE(good, good.error().message);
+    }
+    std::vector<std::span<std::uint32_t>> to;
+    for (std::size_t p = 0; p < out.parts.size(); ++p) {
+        out.parts[p].resize(decoder.corners(p));
+        to.emplace_back(out.parts[p]);
+    }
+    decoder.decode_parts(to);
+    return out;
+}
+
+/// The bytes of a vertex's values, those of all attributes.
+std::string row_of(const Mesh& mesh, std::uint32_t v) {
+    std::string out;
+    for (const Attribute& a : mesh.attributes) {
+        out.append(reinterpret_cast<const char*>(a.data.data()) + v * a.stride(), a.stride());
+    }
+    return out;
+}
+std::string row_of(const StreamDecoder& decoder, const std::vector<Rows>& values, std::uint32_t v) {
+    std::string out;
+    for (std::size_t a = 0; a < values.size(); ++a) {
+        const AttributeView& attribute = decoder.attributes()[a];
+        const std::size_t stride = size_of(attribute.type) * attribute.components;
+        out.append(reinterpret_cast<const char*>(values[a].data()) + v * stride, stride);
+    }
+    return out;
+}
+
+/// Each part has the triangles of `mesh` that are its own, in order, and each set its vertices.
+void check_sets(const Mesh& mesh, const Stream& stream, const Grouped& group, StreamDecoder& decoder, bool keep_order) {
+    const Sets sets = decode_all(decoder, group.vertices.size());
+    std::vector<std::uint32_t> set_of(mesh.vertex_count, UINT32_MAX), place(mesh.vertex_count), next(sets.parts.size());
+    REQUIRE(mesh.triangle_count() == stream.part_of.size());
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+        const std::uint32_t part = stream.part_of[i / 3], set = group.set_of_part[part], v = mesh.indices[i];
+        REQUIRE(next[part] < sets.parts[part].size());
+        const std::uint32_t element = sets.parts[part][next[part]++];
+        REQUIRE(element < decoder.vertices(set));
+        REQUIRE((set_of[v] == UINT32_MAX || (set_of[v] == set && place[v] == element)));
+        set_of[v] = set;
+        place[v] = element;
+    }
+    for (std::size_t p = 0; p < next.size(); ++p) REQUIRE(next[p] == sets.parts[p].size());
+    std::vector<std::uint32_t> count(group.vertices.size(), 0);
+    for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
+        const std::uint32_t set = keep_order ? group.set_of[v] : set_of[v];
+        REQUIRE(set != UINT32_MAX);
+        if (set_of[v] != UINT32_MAX) REQUIRE(place[v] == count[set]);
+        REQUIRE(row_of(mesh, v) == row_of(decoder, sets.values[set], count[set]++));
+    }
+    for (std::size_t s = 0; s < count.size(); ++s) REQUIRE(count[s] == decoder.vertices(s));
+}
+
+void check_stream(const Grouped& group, Format format, bool keep_order, std::uint32_t compression) {
+    const Stream stream = encode_group(group, format, keep_order, compression);
+    const Result<LrFile> file = parse_lr(stream.file);
+    REQUIRE_MESSAGE(file, file.error().message);
+    const Result<Mesh> mesh = keep_order ? decode_lr_original_order(*file) : decode_lr(*file);
+    REQUIRE_MESSAGE(mesh, mesh.error().message);
+    if (keep_order && compression < 2) test::check_same_mesh(mesh, group.cut.mesh);
+    Result<StreamDecoder> decoder =
+        StreamDecoder::open(stream.file, stream.parts, keep_order ? group.said() : group.unsaid());
+    REQUIRE_MESSAGE(decoder, decoder.error().message);
+    check_sets(*mesh, stream, group, *decoder, keep_order);
+    StreamDecoder::Said said = group.said();
+    CHECK(StreamDecoder::open(stream.file, stream.parts, said));
+    if (keep_order) CHECK_FALSE(StreamDecoder::open(stream.file, stream.parts, group.unsaid()));
+    said.vertices.back() += 1;
+    CHECK_FALSE(StreamDecoder::open(stream.file, stream.parts, said));
+    said.vertices[0] -= 1;  // with two sets, as many vertices as there are
+    if (said.vertices.size() > 1) {
+        // Ranges of vertices that are not the sets' are refused where a triangle shows it: all vertices may be unused.
+        const bool refused = !StreamDecoder::open(stream.file, stream.parts, said);
+        CHECK((refused || keep_order));
+    }
+}
+
+bool has_triangles(const test::CutMesh& cut) {
+    return !test::oriented_triangles(surface_mesh(cut.mesh, cut.surface).indices).empty();
+}
+
+Grouped two_sets(bool keep_order) {
+    test::CutMesh cut = test::cut_mesh(test::random_gluing(40, 80, 5), 1, 1);
+    return group_mesh(cut, 2, 2, keep_order, 1);
+}
+
+std::string refusal(const Stream& stream, const StreamDecoder::Said& said) {
+    const auto decoder = StreamDecoder::open(stream.file, stream.parts, said);
+    if (decoder) return "";
+    CHECK(decoder.error().code == ErrorCode::malformed);
+    return decoder.error().message;
+}
+
+}  // namespace
+
+TEST_CASE("streams of scenes decode to the triangles and values of their files, set by set and part by part") {
+    std::uint64_t seed = 0;
+    std::size_t several_sets = 0, several_parts = 0;
+    for (const auto& [name, mesh] : test::named_meshes()) {
+        if (mesh.triangle_count() > 150) continue;
+        CAPTURE_COPY(name);
+        for (const std::uint32_t how : {0U, 1U, 2U, 3U, 4U}) {
+            ++seed;
+            CAPTURE(seed);
+            // Uncut, or cut in several ways.
+            const test::CutMesh cut =
+                how == 0 ? test::CutMesh{mesh, {mesh.vertex_count, {}}} : test::cut_mesh(mesh, how, seed);
+            if (!has_triangles(cut)) continue;
+            for (const bool keep_order : {false, true}) {
+                CAPTURE(keep_order);
+                const Grouped group = group_mesh(cut, 1 + seed % 3 * 2, 1 + seed / 3 % 2 * 3, keep_order, seed);
+                several_sets += group.vertices.size() > 1 ? 1 : 0;
+                several_parts += group.set_of_part.size() > 1 ? 1 : 0;
+                const Format format = test::kFormats[(seed + (keep_order ? 1 : 0)) % 4];
+                CAPTURE(std::string(name_of(format)));
+                check_stream(group, format, keep_order, static_cast<std::uint32_t>(seed % 3));
+            }
+        }
+    }
+    CHECK(several_sets > 50);
+    CHECK(several_parts > 100);
+}
+
+TEST_CASE("a large stream of one set and one part, and of several parts, decodes as its file does") {
+    const test::CutMesh whole = {test::random_gluing(4000, 8000, 3), {4000, {}}};
+    const test::CutMesh cut = test::cut_mesh(whole.mesh, 1, 3);
+    for (const test::CutMesh* mesh : {&whole, &cut}) {
+        for (const std::size_t parts : {1U, 100U}) {
+            const Grouped group = group_mesh(*mesh, parts, parts, false, 7);
+            check_stream(group, Format::packed, false, 2);
+            check_stream(group, Format::lean, false, 1);
+        }
+    }
+}
+
+TEST_CASE("what a document says of a stream must be so") {
+    const Grouped group = two_sets(false);
+    REQUIRE(group.vertices.size() == 2);
+    REQUIRE(group.set_of_part.size() == 4);
+    for (const Format format : test::kFormats) {
+        CAPTURE(std::string(name_of(format)));
+        const Stream stream = encode_group(group, format, false, 1);
+        CHECK(refusal(stream, group.unsaid()).empty());
+        const auto refuses = [&](const auto& change) {
+            StreamDecoder::Said said = group.unsaid();
+            change(said);
+            return !refusal(stream, said).empty();
+        };
+        CHECK(refuses([](auto& said) { said.set_of_part[0] = 1 - said.set_of_part[0]; }));  // with a vertex of two sets
+        CHECK(refuses([](auto& said) { said.set_of_part.push_back(0); }));
+        CHECK(refuses([](auto& said) { said.set_of_part.pop_back(); }));
+        CHECK(refuses([](auto& said) { said.vertices.push_back(1); }));
+        CHECK(refuses([](auto& said) { said = {{0}, {UINT32_MAX}}; }));  // one part has no part codes
+        CHECK_FALSE(refusal({stream.file, {}, {}}, group.unsaid()).empty());
+        std::vector<std::uint32_t> parts = stream.part_of;
+        parts.push_back(0);  // of another file
+        CHECK_FALSE(refusal({stream.file, detail::encode_part_codes(parts).value(), {}}, group.unsaid()).empty());
+    }
+    const Grouped ordered = two_sets(true);
+    const Stream stream = encode_group(ordered, Format::packed, true, 1);
+    CHECK(refusal(stream, ordered.said()).empty());
+    StreamDecoder::Said said = ordered.said();
+    std::swap(said.set_of_part.front(), said.set_of_part.back());
+    CHECK_FALSE(refusal(stream, said).empty());  // triangles with vertices of another set
+    said = ordered.said();
+    said.vertices = {said.vertices[0] + said.vertices[1], UINT32_MAX};
+    CHECK_FALSE(refusal(stream, said).empty());
+}
+
+TEST_CASE("a check sees the file before it is decoded, and its error is the decoder's") {
+    const Grouped group = two_sets(false);
+    const Stream stream = encode_group(group, Format::packed, false, 0);
+    const auto refuse = [&](const LrFileView& view) -> Result<void> {
+        CHECK(view.attributes.size() == group.cut.mesh.attributes.size());
+        return Error{ErrorCode::memory_limit, "no room"};
+    };
+    const auto decoder = StreamDecoder::open(stream.file, stream.parts, group.unsaid(), refuse);
+    REQUIRE_FALSE(decoder);
+    CHECK(decoder.error().code == ErrorCode::memory_limit);
+    CHECK(decoder.error().message == "no room");
+}
+
+TEST_CASE("every truncation and every flipped bit of a scene's stream is refused") {
+    for (const bool keep_order : {false, true}) {
+        const Grouped group = two_sets(keep_order);
+        const Stream stream = encode_group(group, Format::packed, keep_order, 2);
+        REQUIRE(refusal(stream, group.said()).empty());
+        for (std::size_t size = 0; size < stream.file.size(); ++size) {
+            CAPTURE(size);
+            REQUIRE_FALSE(StreamDecoder::open(std::span(stream.file).first(size), stream.parts, group.said()));
+        }
+        for (std::size_t i = 0; i < stream.file.size(); ++i) {
+            CAPTURE(i);
+            Rows bad = stream.file;
+            bad[i] ^= static_cast<std::byte>(1U << (i % 8));
+            REQUIRE_FALSE(StreamDecoder::open(bad, stream.parts, group.said()));
+        }
+    }
+}
+
+TEST_CASE("values of a damaged vertex stream are refused when they are decoded") {
+    const Grouped group = two_sets(false);
+    LrFile file = parse_lr(encode_group(group, Format::packed, false, 1).file).value();
+    const Stream good = encode_group(group, Format::packed, false, 1);
+    for (std::size_t a = 0; a < file.attributes.size(); ++a) {
+        CAPTURE(a);
+        LrFile bad = file;
+        REQUIRE_FALSE(bad.attributes[a].words.empty());
+        bad.attributes[a].words.back() ^= 1;  // its own checksum fails, those of the sections do not
+        bad.attributes[a].words[bad.attributes[a].words.size() - 3] ^= 1;
+        const Rows bytes = serialize_lr(bad);
+        auto decoder = StreamDecoder::open(bytes, good.parts, group.unsaid());
+        REQUIRE_MESSAGE(decoder, decoder.error().message);
+        const std::size_t stride = size_of(bad.attributes[a].type) * bad.attributes[a].components;
+        std::vector<Rows> values(2);
+        std::vector<std::span<std::byte>> to;
+        for (std::size_t s = 0; s < 2; ++s) {
+            values[s].resize(decoder->vertices(s) * stride);
+            to.emplace_back(values[s]);
+        }
+        const Result<void> done = decoder->decode_attribute(a, to);
+        REQUIRE_FALSE(done);
+        CHECK(done.error().code == ErrorCode::malformed);
+    }
+}
