@@ -103,6 +103,10 @@ Result<std::vector<std::uint32_t>> decode_part_codes(std::span<const std::byte> 
             recent.erase(at);
         } else {
             part = code - static_cast<std::uint32_t>(kFar + 1);
+            const std::size_t window = std::min(recent.size(), kFar);
+            if (std::find(recent.end() - static_cast<std::ptrdiff_t>(window), recent.end(), part) != recent.end()) {
+                return malformed("parts: part {} is among those used lately", part);
+            }
         }
         if (part >= parts || !seen[part]) return malformed("parts: part {} was not there before", part);
         recent.push_back(part);
