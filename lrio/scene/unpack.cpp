@@ -22,6 +22,7 @@ struct StreamPlan {
     std::uint64_t view = 0;
     std::optional<std::uint64_t> parts_view;
     std::vector<std::vector<std::uint32_t>> sets;  ///< accessors
+    bool ordered = false;
     struct Part {
         std::uint32_t set = UINT32_MAX;
         std::optional<std::uint32_t> indices;
@@ -121,6 +122,11 @@ class Unpacker {
             }
         }
         if (stream.sets.empty()) return malformed("no sets");
+        if (const JsonValue* ordered = value.find("ordered")) {
+            if (ordered->text != "true" && ordered->text != "false")
+                return malformed("ordered: neither true nor false");
+            stream.ordered = ordered->text == "true";
+        }
         streams_.push_back(std::move(stream));
         return {};
     }
@@ -181,7 +187,28 @@ class Unpacker {
         return {};
     }
 
-    /// Moves the views that stay into the new buffer; those of streams and placeholders are free for what comes.
+    /// Counts how often each view is referred to, by extensions, too, which call the member so.
+    static void count_uses(const JsonValue& value, std::span<std::size_t> uses) {
+        const auto view = value.integer("bufferView");
+        if (view && *view < uses.size()) ++uses[static_cast<std::size_t>(*view)];
+        for (const auto& member : value.members) count_uses(member.value, uses);
+    }
+
+    /// The views of a fallback are free: nothing else refers to them, and streams have their values. Their buffer,
+    /// which may be another file, is then not opened.
+    void free_fallback() {
+        std::vector<std::size_t> uses(free_.size(), 0), fallback(free_.size(), 0);
+        count_uses(root(), uses);
+        for (const auto& [accessor, place] : set_of_) {
+            const auto view = accessors_[accessor].value.integer("bufferView");
+            if (view && *view < fallback.size()) ++fallback[static_cast<std::size_t>(*view)];
+        }
+        for (std::size_t i = 0; i < free_.size(); ++i)
+            free_[i] = free_[i] || (fallback[i] > 0 && fallback[i] == uses[i]);
+    }
+
+    /// Moves the views that stay into the new buffer; those of streams, fallbacks and placeholders are free for
+    /// what comes.
     Result<void> keep_views() {
         auto views = root().list("bufferViews");
         const SceneViews source = scene_.views();
@@ -192,6 +219,7 @@ class Unpacker {
                 free_[static_cast<std::size_t>(view)] = true;
             }
         }
+        free_fallback();
         std::vector<JsonValue> kept(views.size());
         for (std::size_t i = 0; i < views.size(); ++i) {
             if (source.is_placeholder(i)) free_[i] = true;
@@ -256,6 +284,9 @@ class Unpacker {
     /// Before it is decoded: does each of its attributes have an accessor, and is there room? A few bytes may hold many
     /// equal vertices.
     Result<void> check_stream(const StreamPlan& stream, const LrFileView& contents) {
+        if (stream.ordered == (contents.vertex_order.empty() || contents.corner_order.empty())) {
+            return malformed("it has an order, or the document says so, but not both");
+        }
         std::size_t stride = 0;
         for (const AttributeView& a : contents.attributes) stride += size_of(a.type) * a.components;
         for (const auto& set : stream.sets) {
