@@ -1,0 +1,107 @@
+#pragma once
+// Scenes, packed and unpacked, for tests.
+
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "lacedring/scene.hpp"
+#include "tests/lrio/gltf_maker.h"
+
+namespace lacedring::test {
+
+inline std::span<const std::byte> bytes_of(const std::string& text) {
+    return std::as_bytes(std::span(text));
+}
+
+inline std::string glb_of(const SceneFile& scene) {
+    const auto bytes = make_glb_file(scene);
+    REQUIRE(bytes);
+    return {reinterpret_cast<const char*>(bytes->data()), bytes->size()};
+}
+
+inline SceneFile must_pack(const std::string& glb, const PackOptions& options, PackReport* report = nullptr) {
+    auto packed = pack_scene(bytes_of(glb), {}, options, {}, report);
+    REQUIRE_MESSAGE(packed, packed.error().message);
+    return std::move(*packed);
+}
+
+inline SceneFile must_unpack(const std::string& glb, UnpackReport* report = nullptr) {
+    auto scene = unpack_scene(bytes_of(glb), {}, "", {}, report);
+    REQUIRE_MESSAGE(scene, scene.error().message);
+    return std::move(*scene);
+}
+
+inline Mesh mesh_of_glb(const std::string& glb) {
+    auto mesh = read_mesh(bytes_of(glb), "x.glb");
+    REQUIRE_MESSAGE(mesh, mesh.error().message);
+    return std::move(*mesh);
+}
+
+/// The document in a GLB's first chunk.
+inline nlohmann::json document_of(const std::string& glb) {
+    std::uint32_t size = 0;
+    std::memcpy(&size, glb.data() + 12, 4);
+    return nlohmann::json::parse(glb.substr(20, size));
+}
+
+inline PackOptions lossless() {
+    PackOptions options;
+    options.bits = {};
+    return options;
+}
+
+/// The bits of values in a buffer view of their own, rows `stride` bytes apart; 0: tightly. The accessor's number.
+template <class T>
+int add_rows(GltfMaker& maker, int component_type, const char* type, const std::vector<T>& values,
+             std::size_t components, std::size_t stride = 0, const std::string& more = "") {
+    std::string bytes;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        put(bytes, values[i]);
+        if (stride > 0 && (i + 1) % components == 0) bytes.append(stride - components * sizeof(T), '\x7f');
+    }
+    const int view = maker.add_view(bytes, static_cast<int>(stride));
+    return maker.add_accessor(fmt::format(R"("bufferView":{},"componentType":{},"count":{},"type":"{}"{})", view,
+                                          component_type, values.size() / components, type, more));
+}
+
+/// A grid of size * size points, all different, and its triangles.
+struct GridScene {
+    std::vector<float> positions, texcoords;
+    std::vector<std::uint32_t> indices;
+    std::string bounds;
+
+    GridScene(std::uint32_t size, float at) {
+        for (std::uint32_t i = 0; i < size * size; ++i) {
+            const auto x = static_cast<float>(i % size), y = static_cast<float>(i / size);
+            positions.insert(positions.end(), {at + x, y * 0.37F, std::sin(x + 2 * y)});
+            texcoords.insert(texcoords.end(), {x / 7, y / 9});
+        }
+        for (std::uint32_t i = 0; i + size < size * size; ++i) {
+            if (i % size == size - 1) continue;
+            indices.insert(indices.end(), {i, i + 1, i + size, i + 1, i + size + 1, i + size});
+        }
+        std::string low, high;
+        for (std::size_t c = 0; c < 3; ++c) {
+            float least = INFINITY, most = -INFINITY;
+            for (std::size_t i = c; i < positions.size(); i += 3) {
+                least = std::min(least, positions[i]);
+                most = std::max(most, positions[i]);
+            }
+            low += fmt::format("{}{}", c == 0 ? "" : ",", least);
+            high += fmt::format("{}{}", c == 0 ? "" : ",", most);
+        }
+        bounds = fmt::format(R"(,"min":[{}],"max":[{}])", low, high);
+    }
+
+    template <class T>
+    std::vector<T> indices_as() const {
+        std::vector<T> out;
+        for (const std::uint32_t v : indices) out.push_back(static_cast<T>(v));
+        return out;
+    }
+};
+
+}  // namespace lacedring::test

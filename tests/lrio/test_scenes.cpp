@@ -1,0 +1,344 @@
+// Small scenes, packed and unpacked.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/lrio/scene_files.h"
+#include "tests/support/capture.h"
+#include "tests/support/cut_mesh.h"
+
+using namespace lacedring;
+using nlohmann::json;
+using test::GltfMaker;
+using test::GridScene;
+
+namespace {
+
+struct NamedOptions {
+    const char* name;
+    PackOptions options;
+};
+
+std::vector<NamedOptions> lossless_ways() {
+    std::vector<NamedOptions> out(6, {"lossless", test::lossless()});
+    out[1].name = "kept order";
+    out[1].options.keep_order = true;
+    out[2].name = "fallback";
+    out[2].options.fallback = true;
+    out[3].name = "packed document";
+    out[3].options.json = SceneJson::packed;
+    out[4].name = "packed document and kept order";
+    out[4].options.json = SceneJson::packed;
+    out[4].options.keep_order = true;
+    out[5].name = "fallback and kept order";
+    out[5].options.fallback = true;
+    out[5].options.keep_order = true;
+    return out;
+}
+
+/// The document without what says where bytes lie.
+json placeless(const std::string& glb) {
+    json out = test::document_of(glb);
+    out.erase("buffers");
+    out.erase("bufferViews");
+    for (json& accessor : out["accessors"]) {
+        accessor.erase("bufferView");
+        accessor.erase("byteOffset");
+    }
+    return out;
+}
+
+bool same_triangles(const Mesh& a, const Mesh& b) {
+    test::ValueNumbers numbers;
+    return test::triangles_by_values(a, numbers) == test::triangles_by_values(b, numbers);
+}
+
+/// A fallback's scene, as a reader without the extension sees it.
+std::string without_extension(const std::string& glb) {
+    json document = test::document_of(glb);
+    const std::string name = "LACEDRING_mesh_compression";
+    std::uint32_t size = 0;
+    std::memcpy(&size, glb.data() + 12, 4);
+    document.erase("extensionsUsed");
+    document["extensions"].erase(name);
+    for (json& mesh : document["meshes"]) {
+        for (json& primitive : mesh["primitives"]) {
+            if (primitive.contains("extensions")) primitive["extensions"].erase(name);
+        }
+    }
+    return test::glb(document.dump(), glb.substr(28 + size));
+}
+
+/// Packs and unpacks the scene in every way that loses nothing. Its triangles stay, in their order where that is kept;
+/// `same_document`: so does the document.
+void check_scene(const std::string& glb, std::size_t primitives, bool same_document = true) {
+    const Mesh mesh = test::mesh_of_glb(glb);
+    for (const auto& [name, options] : lossless_ways()) {
+        CAPTURE_COPY(name);
+        PackReport packed_report;
+        const std::string packed = test::glb_of(test::must_pack(glb, options, &packed_report));
+        CHECK(is_packed_scene(test::bytes_of(packed)));
+        CHECK(packed_report.primitives == primitives);
+        CHECK(packed_report.max_error.empty());
+        const auto again = pack_scene(test::bytes_of(packed), {}, options);
+        REQUIRE_FALSE(again);
+        CHECK(again.error().code == ErrorCode::unsupported);
+        UnpackReport unpacked_report;
+        const std::string unpacked = test::glb_of(test::must_unpack(packed, &unpacked_report));
+        CHECK_FALSE(is_packed_scene(test::bytes_of(unpacked)));
+        CHECK(unpacked_report.primitives == primitives);
+        CHECK(unpacked_report.triangles == packed_report.triangles);
+        const Mesh back = test::mesh_of_glb(unpacked);
+        CHECK(same_triangles(back, mesh));
+        if (options.keep_order) CHECK(test::same(back, mesh));
+        if (options.fallback) CHECK(test::same(test::mesh_of_glb(without_extension(packed)), back));
+        if (same_document) CHECK(placeless(unpacked) == placeless(glb));
+        const std::string once_more = test::glb_of(test::must_unpack(unpacked));
+        CHECK(test::same(test::mesh_of_glb(once_more), back));
+        CHECK(placeless(once_more) == placeless(unpacked));
+    }
+}
+
+}  // namespace
+
+TEST_CASE("scenes with indices of every type come back, document and all") {
+    GltfMaker maker;
+    const GridScene small(5, 0), middle(20, 10), large(6, 40);
+    std::string primitives;
+    const auto add = [&](const GridScene& grid, int component_type, const auto& indices) {
+        const int positions = test::add_rows(maker, 5126, "VEC3", grid.positions, 3, 0, grid.bounds);
+        const int texcoords = test::add_rows(maker, 5126, "VEC2", grid.texcoords, 2);
+        const int list = test::add_rows(maker, component_type, "SCALAR", indices, 1);
+        primitives += fmt::format(R"({}{{"attributes":{{"TEXCOORD_0":{},"POSITION":{}}},"indices":{},"extras":[1e2]}})",
+                                  primitives.empty() ? "" : ",", texcoords, positions, list);
+    };
+    add(small, 5121, small.indices_as<std::uint8_t>());
+    add(middle, 5123, middle.indices_as<std::uint16_t>());
+    add(large, 5125, large.indices);
+    check_scene(maker.glb_file(test::mesh_of(primitives, test::one_node) + R"(,"extras":{"a":1.50,"b":"\u00e9"})"), 3);
+}
+
+TEST_CASE("positions that are integers come back as integers") {
+    for (const bool normalized : {false, true}) {
+        CAPTURE(normalized);
+        GltfMaker maker;
+        const GridScene grid(9, 0);
+        std::vector<std::int16_t> positions;
+        for (const float x : grid.positions) positions.push_back(static_cast<std::int16_t>(1000 * x - 4000));
+        const std::string more = normalized ? R"(,"normalized":true)" : "";
+        const int at = test::add_rows(maker, 5122, "VEC3", positions, 3, 8, more);
+        const int list = test::add_rows(maker, 5123, "SCALAR", grid.indices_as<std::uint16_t>(), 1);
+        const std::string rest = test::mesh_of(
+            fmt::format(R"({{"attributes":{{"POSITION":{}}},"indices":{}}})", at, list),
+            R"("extensionsUsed":["KHR_mesh_quantization"],"extensionsRequired":["KHR_mesh_quantization"],)"
+            R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"scale":[0.5,0.5,0.5],"translation":[1,2,3]}],)");
+        const std::string glb = maker.glb_file(rest);
+        check_scene(glb, 1, false);
+        const json accessor = test::document_of(test::glb_of(test::must_unpack(
+            test::glb_of(test::must_pack(glb, test::lossless())))))["accessors"][static_cast<std::size_t>(at)];
+        CHECK(accessor["componentType"] == 5122);
+        CHECK(accessor.value("normalized", false) == normalized);
+    }
+}
+
+TEST_CASE("attributes with padding between their rows come back without it") {
+    GltfMaker maker;
+    const GridScene grid(8, -3);
+    const std::vector<std::uint8_t> colors = grid.indices_as<std::uint8_t>();
+    const int positions = test::add_rows(maker, 5126, "VEC3", grid.positions, 3, 20, grid.bounds);
+    const int texcoords = test::add_rows(maker, 5126, "VEC2", grid.texcoords, 2, 12);
+    const int color = test::add_rows(maker, 5121, "VEC3", std::vector(colors.begin(), colors.begin() + 192), 3, 4,
+                                     R"(,"normalized":true)");
+    const int list = test::add_rows(maker, 5121, "SCALAR", grid.indices_as<std::uint8_t>(), 1);
+    check_scene(maker.glb_file(test::mesh_of(
+                    fmt::format(R"({{"attributes":{{"POSITION":{},"TEXCOORD_0":{},"COLOR_0":{}}},"indices":{}}})",
+                                positions, texcoords, color, list),
+                    test::one_node)),
+                1);
+}
+
+TEST_CASE("primitives without indices, strips and fans come back as triangles") {
+    GltfMaker maker;
+    const GridScene grid(7, 0);
+    std::vector<float> corners;  // every triangle's own
+    for (const std::uint32_t v : grid.indices) {
+        corners.insert(corners.end(), grid.positions.begin() + 3 * v, grid.positions.begin() + 3 * v + 3);
+    }
+    const int plain = test::add_rows(maker, 5126, "VEC3", corners, 3);
+    const int vertices = test::add_rows(maker, 5126, "VEC3", grid.positions, 3);
+    const int strip = test::add_rows(maker, 5123, "SCALAR", std::vector<std::uint16_t>{0, 7, 1, 8, 2, 9, 9, 10, 3}, 1);
+    const int fan = test::add_rows(maker, 5121, "SCALAR", std::vector<std::uint8_t>{24, 30, 31, 32, 25, 18}, 1);
+    const std::string primitives =
+        fmt::format(R"({{"attributes":{{"POSITION":{}}}}},{{"attributes":{{"POSITION":{}}},"indices":{},"mode":5}},)"
+                    R"({{"attributes":{{"POSITION":{}}},"indices":{},"mode":6}})",
+                    plain, vertices, strip, vertices, fan);
+    const std::string glb = maker.glb_file(test::mesh_of(primitives, test::one_node));
+    const Mesh mesh = test::mesh_of_glb(glb);
+    for (const auto& [name, options] : lossless_ways()) {
+        CAPTURE_COPY(name);
+        PackReport report;
+        const std::string packed = test::glb_of(test::must_pack(glb, options, &report));
+        CHECK(report.primitives == 3);
+        const std::string unpacked = test::glb_of(test::must_unpack(packed));
+        CHECK(same_triangles(test::mesh_of_glb(unpacked), mesh));
+        for (const json& primitive : test::document_of(unpacked)["meshes"][0]["primitives"]) {
+            CHECK(primitive.value("mode", 4) == 4);
+            CHECK(primitive.contains("indices"));
+        }
+    }
+}
+
+TEST_CASE("primitives that share vertices go on sharing them, and morph targets stay with theirs") {
+    GltfMaker maker;
+    const GridScene grid(12, 0);
+    std::vector<float> moved;
+    for (std::size_t i = 0; i < grid.positions.size(); ++i) moved.push_back(static_cast<float>(i % 7) * 0.125F);
+    const int positions = test::add_rows(maker, 5126, "VEC3", grid.positions, 3, 0, grid.bounds);
+    const int target = test::add_rows(maker, 5126, "VEC3", moved, 3, 0, R"(,"min":[0,0,0],"max":[0.75,0.75,0.75])");
+    const std::vector<std::uint16_t> all = grid.indices_as<std::uint16_t>();
+    std::string primitives;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto begin = all.begin() + static_cast<std::ptrdiff_t>(i * all.size() / 3 / 3 * 3);
+        const auto end = all.begin() + static_cast<std::ptrdiff_t>((i + 1) * all.size() / 3 / 3 * 3);
+        const int list = test::add_rows(maker, 5123, "SCALAR", std::vector<std::uint16_t>(begin, end), 1);
+        primitives += fmt::format(
+            R"({}{{"attributes":{{"POSITION":{}}},"targets":[{{"POSITION":{}}}],"indices":{},"material":{}}})",
+            i == 0 ? "" : ",", positions, target, list, i);
+    }
+    check_scene(maker.glb_file(test::mesh_of(primitives, R"("materials":[{},{},{"name":"c"}],)" + test::one_node)), 3);
+}
+
+TEST_CASE("a scene with nothing to compress comes back as it was") {
+    GltfMaker maker;
+    const GridScene grid(4, 0);
+    const int positions = test::add_rows(maker, 5126, "VEC3", grid.positions, 3, 0, grid.bounds);
+    const std::string points = maker.glb_file(
+        test::mesh_of(fmt::format(R"({{"attributes":{{"POSITION":{}}},"mode":0}})", positions), test::one_node));
+    const std::string empty = test::glb(R"({"asset":{"version":"2.0"},"scenes":[{}],"scene":0})", "");
+    for (const std::string& glb : {points, empty}) {
+        for (const auto& [name, options] : lossless_ways()) {
+            CAPTURE_COPY(name);
+            PackReport report;
+            const std::string packed = test::glb_of(test::must_pack(glb, options, &report));
+            CHECK(report.primitives == 0);
+            CHECK(report.triangles == 0);
+            const std::string unpacked = test::glb_of(test::must_unpack(packed));
+            CHECK(placeless(unpacked) == placeless(glb));
+            if (glb == empty) continue;
+            const json document = test::document_of(unpacked);
+            const json& view = document["bufferViews"][document["accessors"][0]["bufferView"].get<std::size_t>()];
+            const std::string bin = unpacked.substr(unpacked.find(std::string("BIN\0", 4)) + 4);
+            CHECK(std::memcmp(bin.data() + view.value("byteOffset", 0), grid.positions.data(),
+                              4 * grid.positions.size()) == 0);
+        }
+    }
+}
+
+TEST_CASE("what packing loses is no more than it says") {
+    GltfMaker maker;
+    const GridScene grid(15, 100);
+    std::vector<float> normals;
+    for (std::size_t i = 0; i < grid.positions.size() / 3; ++i) {
+        const double a = 0.1 * static_cast<double>(i);
+        normals.insert(normals.end(), {static_cast<float>(std::sin(a)), 0, static_cast<float>(std::cos(a))});
+    }
+    const int positions = test::add_rows(maker, 5126, "VEC3", grid.positions, 3, 0, grid.bounds);
+    const int normal = test::add_rows(maker, 5126, "VEC3", normals, 3);
+    const int texcoords = test::add_rows(maker, 5126, "VEC2", grid.texcoords, 2);
+    const int list = test::add_rows(maker, 5125, "SCALAR", grid.indices, 1);
+    const std::string glb = maker.glb_file(
+        test::mesh_of(fmt::format(R"({{"attributes":{{"POSITION":{},"NORMAL":{},"TEXCOORD_0":{}}},"indices":{}}})",
+                                  positions, normal, texcoords, list),
+                      test::one_node));
+    PackOptions options;
+    options.keep_order = true;  // so that values can be compared one by one
+    PackReport report;
+    const std::string packed = test::glb_of(test::must_pack(glb, options, &report));
+    const Mesh before = test::mesh_of_glb(glb), after = test::mesh_of_glb(test::glb_of(test::must_unpack(packed)));
+    CHECK(after.indices == before.indices);
+    for (const char* name : {"POSITION", "NORMAL", "TEXCOORD_0"}) {
+        CAPTURE(std::string(name));
+        REQUIRE(report.max_error.contains(name));
+        const auto x = test::values_of<float>(before, name), y = test::values_of<float>(after, name);
+        REQUIRE(x.size() == y.size());
+        double largest = 0;
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            largest = std::max(largest, std::abs(static_cast<double>(x[i]) - static_cast<double>(y[i])));
+        }
+        CHECK(largest > 0);
+        CHECK(largest <= report.max_error[name] * (1 + 1e-6));
+    }
+    CHECK(report.max_error["POSITION"] <= 14.0 / (1 << 14));  // half a step of 14 bits along the extent, rounded up
+    // What is decoded once stays as it is: packing it again loses nothing more.
+    const std::string unpacked = test::glb_of(test::must_unpack(packed));
+    CHECK(test::same(
+        test::mesh_of_glb(test::glb_of(test::must_unpack(test::glb_of(test::must_pack(unpacked, options))))), after));
+}
+
+TEST_CASE("a packed scene that lies in files comes back from them") {
+    GltfMaker maker;
+    const GridScene grid(6, 0);
+    const int positions = test::add_rows(maker, 5126, "VEC3", grid.positions, 3, 0, grid.bounds);
+    const int list = test::add_rows(maker, 5125, "SCALAR", grid.indices, 1);
+    const std::string glb = maker.glb_file(test::mesh_of(
+        fmt::format(R"({{"attributes":{{"POSITION":{}}},"indices":{}}})", positions, list), test::one_node));
+    PackOptions options = test::lossless();
+    options.bin_uri = "scene.bin";
+    options.fallback_uri = "scene.fallback.bin";
+    options.fallback = true;
+    const SceneFile packed = test::must_pack(glb, options);
+    const auto text = [](const std::vector<std::byte>& bytes) {
+        return std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    };
+    const auto path = test::write_text("scene.gltf", packed.json);
+    test::write_text("scene.bin", text(packed.bin));
+    CHECK_FALSE(packed.fallback.empty());  // which is not opened: it is not written
+    const auto unpacked = unpack_scene(test::bytes_of(packed.json), path);
+    REQUIRE_MESSAGE(unpacked, unpacked.error().message);
+    CHECK(same_triangles(test::mesh_of_glb(test::glb_of(*unpacked)), test::mesh_of_glb(glb)));
+    // And nothing of the fallback is left in what comes of it.
+    options.fallback = false;
+    options.json = SceneJson::plain;
+    const auto bare = unpack_scene(test::bytes_of(test::must_pack(glb, options).json), path);
+    REQUIRE_MESSAGE(bare, bare.error().message);
+    CHECK(bare->bin == unpacked->bin);
+
+    options.fallback = true;
+    options.json = SceneJson::packed;
+    const auto refused = [&] {
+        const auto result = pack_scene(test::bytes_of(glb), {}, options);
+        return !result && result.error().code == ErrorCode::invalid_argument;
+    };
+    CHECK(refused());
+    options.bin_uri = options.fallback_uri = "";
+    CHECK(refused());
+    options.fallback = false;
+    CHECK_FALSE(refused());
+}
+
+TEST_CASE("a stream and a document that differ about the order are refused") {
+    GltfMaker maker;
+    const GridScene grid(6, 0);
+    const int positions = test::add_rows(maker, 5126, "VEC3", grid.positions, 3);
+    const int list = test::add_rows(maker, 5125, "SCALAR", grid.indices, 1);
+    const std::string glb = maker.glb_file(test::mesh_of(
+        fmt::format(R"({{"attributes":{{"POSITION":{}}},"indices":{}}})", positions, list), test::one_node));
+    for (const bool keep_order : {false, true}) {
+        PackOptions options = test::lossless();
+        options.keep_order = keep_order;
+        options.json = SceneJson::plain;
+        const SceneFile packed = test::must_pack(glb, options);
+        const std::string bin(reinterpret_cast<const char*>(packed.bin.data()), packed.bin.size());
+        const auto accepted = [&](const json& ordered) {
+            json document = json::parse(packed.json);
+            document["extensions"]["LACEDRING_mesh_compression"]["streams"][0]["ordered"] = ordered;
+            return unpack_scene(test::bytes_of(test::glb(document.dump(), bin)), {}).has_value();
+        };
+        CHECK(accepted(keep_order));
+        CHECK_FALSE(accepted(!keep_order));
+        CHECK_FALSE(accepted(1));
+        CHECK_FALSE(accepted("true"));
+    }
+}
