@@ -77,32 +77,48 @@ Bytes piece(const Bytes& bytes, std::size_t at, std::size_t size) {
     return {begin, begin + static_cast<std::ptrdiff_t>(std::min(size, left))};
 }
 
+constexpr std::uint32_t kGlbMagic = 0x46546c67, kJsonType = 0x4e4f534a, kBinType = 0x004e4942;
+constexpr std::size_t kHeader = 12, kChunkHeader = 8;
+
+bool is_glb(const Bytes& bytes) {
+    return bytes.size() >= kHeader + kChunkHeader && word_at(bytes, 0) == kGlbMagic;
+}
+
 }  // namespace
 
+GlbChunks split_glb(const Bytes& glb) {
+    if (!is_glb(glb)) return {};
+    Bytes json = piece(glb, kHeader + kChunkHeader, word_at(glb, kHeader));
+    Bytes bin = piece(glb, kHeader + kChunkHeader + json.size() + kChunkHeader, SIZE_MAX);
+    return {std::move(json), std::move(bin)};
+}
+
+Bytes join_glb(GlbChunks chunks) {
+    auto& [json, bin] = chunks;
+    json.resize((json.size() + 3) / 4 * 4, std::byte{' '});
+    bin.resize((bin.size() + 3) / 4 * 4);
+    const std::size_t size = kHeader + kChunkHeader + json.size() + kChunkHeader + bin.size();
+    Bytes out;
+    for (const std::size_t word : {std::size_t{kGlbMagic}, std::size_t{2}, size, json.size(), std::size_t{kJsonType}}) {
+        put_word(out, static_cast<std::uint32_t>(word));
+    }
+    out.insert(out.end(), json.begin(), json.end());
+    put_word(out, static_cast<std::uint32_t>(bin.size()));
+    put_word(out, kBinType);
+    out.insert(out.end(), bin.begin(), bin.end());
+    return out;
+}
+
 void mutate_gltf(Bytes& bytes, std::size_t max_size, Random& random) {
-    constexpr std::uint32_t glb_magic = 0x46546c67, json_type = 0x4e4f534a, bin_type = 0x004e4942;
-    constexpr std::size_t header = 12, chunk_header = 8;
-    if (bytes.size() < header + chunk_header || word_at(bytes, 0) != glb_magic)
-        return mutate_json(bytes, max_size, random);
+    if (!is_glb(bytes)) return mutate_json(bytes, max_size, random);
     if (random_below(random, 8) == 0 || max_size < 64) return mutate_bytes(bytes, max_size);
-    Bytes json = piece(bytes, header + chunk_header, word_at(bytes, header));
-    Bytes bin = piece(bytes, header + chunk_header + json.size() + chunk_header, SIZE_MAX);
+    auto [json, bin] = split_glb(bytes);
     if (random_below(random, 2) == 0) {
         mutate_json(json, max_size - std::min(bin.size(), max_size / 2) - 32, random);
     } else {
         mutate_buffer(bin, max_size - std::min(json.size(), max_size / 2) - 32, random);
     }
-    json.resize((json.size() + 3) / 4 * 4, std::byte{' '});
-    bin.resize((bin.size() + 3) / 4 * 4);
-    const std::size_t size = header + chunk_header + json.size() + chunk_header + bin.size();
-    bytes.clear();
-    for (const std::size_t word : {std::size_t{glb_magic}, std::size_t{2}, size, json.size(), std::size_t{json_type}}) {
-        put_word(bytes, static_cast<std::uint32_t>(word));
-    }
-    bytes.insert(bytes.end(), json.begin(), json.end());
-    put_word(bytes, static_cast<std::uint32_t>(bin.size()));
-    put_word(bytes, bin_type);
-    bytes.insert(bytes.end(), bin.begin(), bin.end());
+    bytes = join_glb({std::move(json), std::move(bin)});
 }
 
 }  // namespace lacedring::fuzz

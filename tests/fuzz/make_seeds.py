@@ -14,6 +14,7 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "independent"))
 import mesh_writers as w  # noqa: E402
+from scene_seeds import scene_seeds  # noqa: E402
 
 FORMATS = ["any", "gltf", "obj", "off", "ply", "stl"]  # as MeshFormat counts
 
@@ -198,6 +199,10 @@ def main():
         (folder / target).mkdir(exist_ok=True)
         (folder / target / name).write_bytes(data)
 
+    for name, data in scene_seeds():
+        write("scene", name, data)
+    scenes = sorted(path for path in (folder / "scene").iterdir())
+    subprocess.run([program, folder, *scenes], check=True)
     for number, (target, seeds) in enumerate({"gltf": gltf_seeds, "obj": obj_seeds, "off": off_seeds, "ply": ply_seeds,
                                               "stl": stl_seeds}.items()):
         for name, data in seeds():

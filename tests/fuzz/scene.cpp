@@ -73,6 +73,6 @@ bool run_scene(std::span<const std::byte> bytes) {
 
 }  // namespace
 
-extern const Target scene_target{"scene", run_scene, mutate_gltf};
+extern const Target scene_target{"scene", run_scene, mutate_scene};
 
 }  // namespace lacedring::fuzz

@@ -1,4 +1,5 @@
 // Writes small valid streams, .lr files and inputs of the chain: fuzz_stream_seeds FOLDER makes FOLDER/lean/NAME, ...
+// With scenes behind it, these are packed.
 
 #include <algorithm>
 #include <array>
@@ -11,6 +12,7 @@
 #include "lacedring/lacedring.hpp"
 #include "lacedring/lr_file.hpp"
 #include "lacedring/ring.hpp"
+#include "lacedring/scene.hpp"
 #include "lacedring/seams.hpp"
 #include "lacedring/vertices.hpp"
 #include "lrlab/generate/generate.h"
@@ -148,11 +150,33 @@ void write_vertex_seeds() {
                            [&](auto v, auto c) { return std::round(wave(v, c) * 4096) / 4096; });
 }
 
+/// Packs the scene in every way: FOLDER/scene/NAME-... .
+void write_packed_scenes(const std::filesystem::path& source) {
+    const auto file = MappedFile::open(source);
+    all_written = file.has_value() && all_written;
+    if (!file) return;
+    for (std::uint32_t way = 0; way < 16; ++way) {
+        PackOptions options;
+        if (way % 2 == 0) options.bits = {};
+        options.keep_order = way / 2 % 2 != 0;
+        options.json = way / 4 % 2 != 0 ? SceneJson::packed : SceneJson::plain;
+        options.fallback = way / 8 != 0;
+        if (options.fallback && options.json == SceneJson::packed) continue;
+        const Result<SceneFile> scene = pack_scene(file->bytes(), source, options);
+        all_written = scene.has_value() && all_written;
+        if (!scene) continue;
+        write("scene", source.filename().string() + "-packed-" + std::to_string(way), make_glb_file(*scene).value());
+    }
+}
+
 }  // namespace
 
+/// fuzz_stream_seeds FOLDER [SCENE...]: the streams, or the scenes packed.
 int main(int argc, char** argv) {
-    if (argc != 2) return 2;
+    if (argc < 2) return 2;
     folder = argv[1];
+    for (int i = 2; i < argc; ++i) write_packed_scenes(argv[i]);
+    if (argc > 2) return all_written ? 0 : 1;
     std::uint32_t number = 0;
     for (const test::NamedMesh& named : test::named_meshes()) {
         if (named.mesh.triangle_count() <= 200) write_seeds(named.name, named.mesh, number);
