@@ -48,10 +48,13 @@ struct Bounds {
     std::array<float, 3> low{}, high{};
 };
 
-/// Of three floats a vertex, one at least. Four vertices at a time, so that none waits for the one before.
+/// Of three floats a vertex, one at least, and of those that are numbers. Four vertices at a time, so that none waits
+/// for the one before.
 Bounds bounds_of(std::span<const std::byte> positions) {
     std::array<float, 12> low{}, high{}, next{};
-    for (std::size_t k = 0; k < 12; ++k) low[k] = high[k] = float_at(positions, k % 3);
+    low.fill(INFINITY);
+    high.fill(-INFINITY);
+    for (std::size_t k = 0; k < 12; ++k) next[k] = float_at(positions, k % 3);  // where there are fewer than four
     for (std::size_t at = 0; at < positions.size(); at += sizeof next) {
         std::memcpy(next.data(), positions.data() + at, std::min(sizeof next, positions.size() - at));
         for (std::size_t k = 0; k < 12; ++k) {
@@ -131,11 +134,11 @@ Result<std::vector<std::byte>> values_as(const JsonValue& accessor, const Attrib
 void describe_attribute(JsonText& json, JsonValue& accessor, const AttributeView& attribute, std::uint32_t vertices) {
     accessor.set("count", json.number(vertices));
     const bool is_position = attribute.name.starts_with("POSITION") && attribute.components == 3;
-    if (!is_position || vertices == 0) {
+    const auto say_nothing = [&] {
         accessor.remove("min");
         accessor.remove("max");
-        return;
-    }
+    };
+    if (!is_position || vertices == 0) return say_nothing();
     std::vector<std::byte> floats;
     std::span<const std::byte> positions = attribute.data;
     if (attribute.type != ComponentType::f32) {
@@ -147,6 +150,10 @@ void describe_attribute(JsonText& json, JsonValue& accessor, const AttributeView
         positions = floats;
     }
     const Bounds bounds = bounds_of(positions);
+    const auto is_finite = [](float value) { return std::isfinite(value); };
+    if (!std::ranges::all_of(bounds.low, is_finite) || !std::ranges::all_of(bounds.high, is_finite)) {
+        return say_nothing();  // displacements may be anything, JSON has no infinity
+    }
     const auto put = [&](const char* name, const std::array<float, 3>& values) {
         if (says(accessor.find(name), values)) return;
         JsonValue list = JsonText::array();

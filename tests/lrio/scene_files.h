@@ -9,6 +9,7 @@
 
 #include "lacedring/scene.hpp"
 #include "tests/lrio/gltf_maker.h"
+#include "tests/support/cut_mesh.h"
 
 namespace lacedring::test {
 
@@ -51,6 +52,34 @@ inline PackOptions lossless() {
     PackOptions options;
     options.bits = {};
     return options;
+}
+
+/// Options by which nothing is lost.
+struct NamedOptions {
+    const char* name;
+    PackOptions options;
+};
+
+inline std::vector<NamedOptions> lossless_ways() {
+    std::vector<NamedOptions> out(6, {"lossless", lossless()});
+    out[1].name = "kept order";
+    out[1].options.keep_order = true;
+    out[2].name = "fallback";
+    out[2].options.fallback = true;
+    out[3].name = "packed document";
+    out[3].options.json = SceneJson::packed;
+    out[4].name = "packed document and kept order";
+    out[4].options.json = SceneJson::packed;
+    out[4].options.keep_order = true;
+    out[5].name = "fallback and kept order";
+    out[5].options.fallback = true;
+    out[5].options.keep_order = true;
+    return out;
+}
+
+inline bool same_triangles(const Mesh& a, const Mesh& b) {
+    ValueNumbers numbers;
+    return triangles_by_values(a, numbers) == triangles_by_values(b, numbers);
 }
 
 /// The bits of values in a buffer view of their own, rows `stride` bytes apart; 0: tightly. The accessor's number.

@@ -7,7 +7,6 @@
 
 #include "tests/lrio/scene_files.h"
 #include "tests/support/capture.h"
-#include "tests/support/cut_mesh.h"
 
 using namespace lacedring;
 using nlohmann::json;
@@ -15,28 +14,6 @@ using test::GltfMaker;
 using test::GridScene;
 
 namespace {
-
-struct NamedOptions {
-    const char* name;
-    PackOptions options;
-};
-
-std::vector<NamedOptions> lossless_ways() {
-    std::vector<NamedOptions> out(6, {"lossless", test::lossless()});
-    out[1].name = "kept order";
-    out[1].options.keep_order = true;
-    out[2].name = "fallback";
-    out[2].options.fallback = true;
-    out[3].name = "packed document";
-    out[3].options.json = SceneJson::packed;
-    out[4].name = "packed document and kept order";
-    out[4].options.json = SceneJson::packed;
-    out[4].options.keep_order = true;
-    out[5].name = "fallback and kept order";
-    out[5].options.fallback = true;
-    out[5].options.keep_order = true;
-    return out;
-}
 
 /// The document without what says where bytes lie.
 json placeless(const std::string& glb) {
@@ -48,11 +25,6 @@ json placeless(const std::string& glb) {
         accessor.erase("byteOffset");
     }
     return out;
-}
-
-bool same_triangles(const Mesh& a, const Mesh& b) {
-    test::ValueNumbers numbers;
-    return test::triangles_by_values(a, numbers) == test::triangles_by_values(b, numbers);
 }
 
 /// A fallback's scene, as a reader without the extension sees it.
@@ -75,7 +47,7 @@ std::string without_extension(const std::string& glb) {
 /// `same_document`: so does the document.
 void check_scene(const std::string& glb, std::size_t primitives, bool same_document = true) {
     const Mesh mesh = test::mesh_of_glb(glb);
-    for (const auto& [name, options] : lossless_ways()) {
+    for (const auto& [name, options] : test::lossless_ways()) {
         CAPTURE_COPY(name);
         PackReport packed_report;
         const std::string packed = test::glb_of(test::must_pack(glb, options, &packed_report));
@@ -91,7 +63,7 @@ void check_scene(const std::string& glb, std::size_t primitives, bool same_docum
         CHECK(unpacked_report.primitives == primitives);
         CHECK(unpacked_report.triangles == packed_report.triangles);
         const Mesh back = test::mesh_of_glb(unpacked);
-        CHECK(same_triangles(back, mesh));
+        CHECK(test::same_triangles(back, mesh));
         if (options.keep_order) CHECK(test::same(back, mesh));
         if (options.fallback) CHECK(test::same(test::mesh_of_glb(without_extension(packed)), back));
         if (same_document) CHECK(placeless(unpacked) == placeless(glb));
@@ -176,14 +148,15 @@ TEST_CASE("primitives without indices, strips and fans come back as triangles") 
                     plain, vertices, strip, vertices, fan);
     const std::string glb = maker.glb_file(test::mesh_of(primitives, test::one_node));
     const Mesh mesh = test::mesh_of_glb(glb);
-    for (const auto& [name, options] : lossless_ways()) {
+    for (const auto& [name, options] : test::lossless_ways()) {
         CAPTURE_COPY(name);
         PackReport report;
         const std::string packed = test::glb_of(test::must_pack(glb, options, &report));
         CHECK(report.primitives == 3);
         const std::string unpacked = test::glb_of(test::must_unpack(packed));
-        CHECK(same_triangles(test::mesh_of_glb(unpacked), mesh));
-        for (const json& primitive : test::document_of(unpacked)["meshes"][0]["primitives"]) {
+        CHECK(test::same_triangles(test::mesh_of_glb(unpacked), mesh));
+        const json document = test::document_of(unpacked);
+        for (const json& primitive : document["meshes"][0]["primitives"]) {
             CHECK(primitive.value("mode", 4) == 4);
             CHECK(primitive.contains("indices"));
         }
@@ -218,7 +191,7 @@ TEST_CASE("a scene with nothing to compress comes back as it was") {
         test::mesh_of(fmt::format(R"({{"attributes":{{"POSITION":{}}},"mode":0}})", positions), test::one_node));
     const std::string empty = test::glb(R"({"asset":{"version":"2.0"},"scenes":[{}],"scene":0})", "");
     for (const std::string& glb : {points, empty}) {
-        for (const auto& [name, options] : lossless_ways()) {
+        for (const auto& [name, options] : test::lossless_ways()) {
             CAPTURE_COPY(name);
             PackReport report;
             const std::string packed = test::glb_of(test::must_pack(glb, options, &report));
@@ -297,7 +270,7 @@ TEST_CASE("a packed scene that lies in files comes back from them") {
     CHECK_FALSE(packed.fallback.empty());  // which is not opened: it is not written
     const auto unpacked = unpack_scene(test::bytes_of(packed.json), path);
     REQUIRE_MESSAGE(unpacked, unpacked.error().message);
-    CHECK(same_triangles(test::mesh_of_glb(test::glb_of(*unpacked)), test::mesh_of_glb(glb)));
+    CHECK(test::same_triangles(test::mesh_of_glb(test::glb_of(*unpacked)), test::mesh_of_glb(glb)));
     // And nothing of the fallback is left in what comes of it.
     options.fallback = false;
     options.json = SceneJson::plain;
