@@ -110,7 +110,13 @@ void strip_accessor(JsonValue& accessor) {
 Result<bool> has_type_of(const JsonValue& accessor, const AttributeView& attribute) {
     const std::uint64_t type = accessor.integer("componentType").value_or(0);
     if (!has_shape(accessor, attribute.components)) return malformed("{}: another type", shown(attribute.name));
-    if (type != 0 && type == gltf_component_type(attribute.type)) return true;
+    if (attribute.v_up) return malformed("{}: v upwards", shown(attribute.name));
+    if (type != 0 && type == gltf_component_type(attribute.type)) {
+        const JsonValue* normalized = accessor.find("normalized");
+        const bool is_normalized = normalized != nullptr && normalized->text == "true";
+        if (attribute.type == ComponentType::f32 || is_normalized == attribute.normalized) return true;
+        return malformed("{}: normalized in the stream or in the accessor, not in both", shown(attribute.name));
+    }
     const bool integers =
         type == kGltfByte || type == kGltfUnsignedByte || type == kGltfShort || type == kGltfUnsignedShort;
     if (attribute.type == ComponentType::f32 && integers) return false;

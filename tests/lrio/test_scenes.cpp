@@ -291,27 +291,39 @@ TEST_CASE("a packed scene that lies in files comes back from them") {
     CHECK_FALSE(refused());
 }
 
-TEST_CASE("a stream and a document that differ about the order are refused") {
+TEST_CASE("a stream and a document that differ are refused") {
     GltfMaker maker;
     const GridScene grid(6, 0);
+    const std::vector<std::uint8_t> colors(108, 9);
     const int positions = test::add_rows(maker, 5126, "VEC3", grid.positions, 3);
+    const int color = test::add_rows(maker, 5121, "VEC3", colors, 3, 4, R"(,"normalized":true)");
     const int list = test::add_rows(maker, 5125, "SCALAR", grid.indices, 1);
     const std::string glb = maker.glb_file(test::mesh_of(
-        fmt::format(R"({{"attributes":{{"POSITION":{}}},"indices":{}}})", positions, list), test::one_node));
+        fmt::format(R"({{"attributes":{{"POSITION":{},"COLOR_0":{}}},"indices":{}}})", positions, color, list),
+        test::one_node));
     for (const bool keep_order : {false, true}) {
         PackOptions options = test::lossless();
         options.keep_order = keep_order;
         options.json = SceneJson::plain;
         const SceneFile packed = test::must_pack(glb, options);
         const std::string bin(reinterpret_cast<const char*>(packed.bin.data()), packed.bin.size());
-        const auto accepted = [&](const json& ordered) {
+        const auto accepted = [&](const char* pointer, const json& value) {
             json document = json::parse(packed.json);
-            document["extensions"]["LACEDRING_mesh_compression"]["streams"][0]["ordered"] = ordered;
+            document[json::json_pointer(pointer)] = value;
             return unpack_scene(test::bytes_of(test::glb(document.dump(), bin)), {}).has_value();
         };
-        CHECK(accepted(keep_order));
-        CHECK_FALSE(accepted(!keep_order));
-        CHECK_FALSE(accepted(1));
-        CHECK_FALSE(accepted("true"));
+        const char* ordered = "/extensions/LACEDRING_mesh_compression/streams/0/ordered";
+        CHECK(accepted(ordered, keep_order));
+        CHECK_FALSE(accepted(ordered, !keep_order));
+        CHECK_FALSE(accepted(ordered, 1));
+        CHECK_FALSE(accepted(ordered, "true"));
+        CHECK(accepted("/accessors/1/normalized", true));
+        CHECK_FALSE(accepted("/accessors/1/normalized", false));
+        CHECK(accepted("/accessors/1/type", "VEC3"));
+        CHECK_FALSE(accepted("/accessors/1/type", "VEC4"));
+        CHECK_FALSE(accepted("/accessors/1/componentType", 5123));
+        CHECK(accepted("/accessors/0/count", 36));
+        CHECK_FALSE(accepted("/accessors/0/count", 35));
+        CHECK_FALSE(accepted("/accessors/2/count", 147));
     }
 }
