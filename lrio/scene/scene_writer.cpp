@@ -187,15 +187,24 @@ std::size_t index_size(const JsonValue& accessor) {
     return type == kGltfUnsignedByte ? 1 : type == kGltfUnsignedShort ? 2 : 4;
 }
 
-void put_indices(const JsonValue& accessor, std::span<const std::uint32_t> indices, std::span<std::byte> out) {
+bool is_index_list(const JsonValue& accessor) {
+    const std::uint64_t type = accessor.integer("componentType").value_or(0);
+    return has_shape(accessor, 1) &&
+           (type == kGltfUnsignedByte || type == kGltfUnsignedShort || type == kGltfUnsignedInt);
+}
+
+bool put_indices(const JsonValue& accessor, std::span<const std::uint32_t> indices, std::span<std::byte> out) {
     const auto put = [&](auto as) {
+        std::uint32_t most = 0;
         for (std::size_t i = 0; i < indices.size(); ++i) {
+            most = std::max(most, indices[i]);
             as = static_cast<decltype(as)>(indices[i]);
             std::memcpy(out.data() + i * sizeof as, &as, sizeof as);
         }
+        return most < std::numeric_limits<decltype(as)>::max();
     };
     const std::size_t size = index_size(accessor);
-    size == 1 ? put(std::uint8_t{}) : size == 2 ? put(std::uint16_t{}) : put(std::uint32_t{});
+    return size == 1 ? put(std::uint8_t{}) : size == 2 ? put(std::uint16_t{}) : put(std::uint32_t{});
 }
 
 JsonValue put_rows(JsonText& json, BinChunk& bin, std::span<const std::byte> bytes, std::size_t stride) {

@@ -48,8 +48,12 @@ void describe_indices(JsonText& json, JsonValue& accessor, std::size_t count, st
 /// Bytes of an index of the accessor.
 std::size_t index_size(const JsonValue& accessor);
 
-/// Writes the indices in the accessor's type: index_size of each.
-void put_indices(const JsonValue& accessor, std::span<const std::uint32_t> indices, std::span<std::byte> out);
+/// Has the accessor a type that indices may have?
+bool is_index_list(const JsonValue& accessor);
+
+/// Writes the indices in the accessor's type: index_size of each. False: it does not hold all of them; its greatest
+/// number is none.
+bool put_indices(const JsonValue& accessor, std::span<const std::uint32_t> indices, std::span<std::byte> out);
 
 /// Puts rows of `stride` bytes, made multiples of 4, into `bin`, or indices, where `stride` is 0; their buffer view.
 JsonValue put_rows(JsonText& json, BinChunk& bin, std::span<const std::byte> bytes, std::size_t stride);

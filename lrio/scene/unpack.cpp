@@ -337,7 +337,9 @@ class Unpacker {
             if (parts[p].apart) {
                 size = to[p].size() * index_size(accessor);
                 at = bin_.add_zeros(size);
-                put_indices(accessor, to[p], bin_.bytes(at, size));
+                if (!put_indices(accessor, to[p], bin_.bytes(at, size))) {
+                    return malformed("part {}: its accessor does not hold its indices", p);
+                }
             }
             accessor.set("bufferView", scene_.json().number(add_view(describe_view(scene_.json(), at, size, 0))));
             report_.triangles += decoder.corners(p) / 3;
@@ -371,8 +373,11 @@ class Unpacker {
         if (accessor.find("count") != nullptr && accessor.integer("count") != corners) {
             return malformed("part {} has {} indices, its accessor another count", number, corners);
         }
+        if (!is_index_list(accessor)) return malformed("part {}: its accessor is not of indices", number);
         strip_accessor(accessor);
-        describe_indices(scene_.json(), accessor, corners, decoder.vertices(part.set));
+        accessor.remove("min");
+        accessor.remove("max");
+        accessor.set("count", scene_.json().number(corners));
         target.size = corners * sizeof(std::uint32_t);
         target.apart = index_size(accessor) != sizeof(std::uint32_t);
         return {};

@@ -325,5 +325,36 @@ TEST_CASE("a stream and a document that differ are refused") {
         CHECK(accepted("/accessors/0/count", 36));
         CHECK_FALSE(accepted("/accessors/0/count", 35));
         CHECK_FALSE(accepted("/accessors/2/count", 147));
+        CHECK_FALSE(accepted("/accessors/2/type", "VEC3"));
+        for (const int type : {5121, 5123, 5125}) CHECK(accepted("/accessors/2/componentType", type));
+        for (const int type : {0, 5120, 5122, 5124, 5126}) CHECK_FALSE(accepted("/accessors/2/componentType", type));
+    }
+}
+
+TEST_CASE("indices have the type that the document says, if it holds them") {
+    for (const std::uint32_t first : {0U, 254U}) {
+        GltfMaker maker;
+        const GridScene grid(20, 0);
+        const int positions = test::add_rows(maker, 5126, "VEC3", grid.positions, 3);
+        const int all = test::add_rows(maker, 5125, "SCALAR", grid.indices, 1);
+        // Of vertices that come first, where the order is kept, or one too many.
+        const int few = test::add_rows(maker, 5125, "SCALAR", std::vector<std::uint32_t>{first, first + 1, 20}, 1);
+        PackOptions options = test::lossless();
+        options.keep_order = true;
+        options.json = SceneJson::plain;
+        const SceneFile packed = test::must_pack(
+            maker.glb_file(test::mesh_of(fmt::format(R"({{"attributes":{{"POSITION":{}}},"indices":{}}},)"
+                                                     R"({{"attributes":{{"POSITION":{}}},"indices":{}}})",
+                                                     positions, all, positions, few),
+                                         test::one_node)),
+            options);
+        json document = json::parse(packed.json);
+        document["accessors"][static_cast<std::size_t>(few)]["componentType"] = 5121;
+        const std::string bin(reinterpret_cast<const char*>(packed.bin.data()), packed.bin.size());
+        const auto unpacked = unpack_scene(test::bytes_of(test::glb(document.dump(), bin)), {});
+        CHECK(unpacked.has_value() == (first == 0));
+        if (!unpacked) continue;
+        CHECK(json::parse(unpacked->json)["accessors"][static_cast<std::size_t>(few)]["componentType"] == 5121);
+        CHECK(test::mesh_of_glb(test::glb_of(*unpacked)).indices.back() == 20);
     }
 }
