@@ -1,7 +1,9 @@
 #include "lrcore/codec/packed/group_layout.h"
 
 #include <algorithm>
+#include <cstring>
 
+#include "lacedring/streams.hpp"
 #include "lrcore/codec/packed/packed_format.h"
 
 namespace lacedring {
@@ -232,6 +234,23 @@ void GroupLayout::write(std::span<const PackedBlockPlan> blocks, std::span<const
     out.insert(out.end(), head.begin(), head.end());
     out.insert(out.end(), bodies.begin(), bodies.end());
     out.resize((out.size() + 3) / 4 * 4, 0);
+}
+
+std::vector<std::uint32_t> begin_packed(std::uint32_t vertices, std::uint32_t triangles) {
+    PackedView view;
+    view.triangles = view.own = triangles;
+    std::vector<std::uint32_t> words(view.groups_word());
+    words[LR_PACKED_WORD_MAGIC] = LR_PACKED_MAGIC;
+    words[LR_PACKED_WORD_VERTICES] = vertices;
+    words[LR_PACKED_WORD_TRIANGLES] = triangles;
+    return words;
+}
+
+void finish_packed(std::vector<std::uint32_t>& words, std::span<const std::uint8_t> groups) {
+    const std::size_t begin = words.size();
+    words.resize(begin + groups.size() / 4);
+    if (!groups.empty()) std::memcpy(words.data() + begin, groups.data(), groups.size());
+    words[LR_PACKED_WORD_CHECKSUM] = packed_checksum(words);
 }
 
 }  // namespace lacedring

@@ -62,4 +62,9 @@ class GroupLayout {
     BitWriter head_;
 };
 
+/// A stream up to its groups: header, turn bits and table, but for the checksum zeros where nothing is known yet.
+std::vector<std::uint32_t> begin_packed(std::uint32_t vertices, std::uint32_t triangles);
+/// Adds the groups and the checksum.
+void finish_packed(std::vector<std::uint32_t>& words, std::span<const std::uint8_t> groups);
+
 }  // namespace lacedring

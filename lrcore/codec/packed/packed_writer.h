@@ -110,26 +110,18 @@ template <class Steps>
 Result<std::vector<std::uint32_t>> write_packed(const Steps& steps, std::uint32_t vertices,
                                                 PackedStatistics& statistics) {
     const std::uint32_t triangles = steps.size(), vertex_bits = packed_vertex_bits(vertices);
-    PackedView view;
-    view.triangles = view.own = triangles;
-    std::vector<std::uint32_t> words;
-    words.assign(view.groups_word(), 0);
+    std::vector<std::uint32_t> words = begin_packed(vertices, triangles);
     Planner<Steps> planner(steps, vertex_bits, words.data() + LR_PACKED_HEADER_WORDS);
     GroupWriter<Steps> writer(planner, triangles, vertex_bits, statistics);
+    const std::size_t blocks = (std::size_t{triangles} + LR_PACKED_BLOCK - 1) / LR_PACKED_BLOCK;
+    const std::size_t table = words.size() - (blocks + LR_PACKED_GROUP - 1) / LR_PACKED_GROUP;  // of group 0: no word
     std::vector<std::uint8_t> groups;
-    for (std::uint32_t block = 0; block < view.blocks(); block += LR_PACKED_GROUP) {
+    for (std::size_t block = 0; block < blocks; block += LR_PACKED_GROUP) {
         if (groups.size() / 4 > UINT32_MAX) return Error{ErrorCode::too_large, "packed stream: groups of 16 GiB"};
-        if (block > 0) {
-            words[view.table_word() + block / LR_PACKED_GROUP - 1] = static_cast<std::uint32_t>(groups.size() / 4);
-        }
-        writer.write(block, groups);
+        if (block > 0) words[table + block / LR_PACKED_GROUP] = static_cast<std::uint32_t>(groups.size() / 4);
+        writer.write(static_cast<std::uint32_t>(block), groups);
     }
-    words.resize(words.size() + groups.size() / 4);
-    std::copy(groups.begin(), groups.end(), reinterpret_cast<std::uint8_t*>(words.data() + view.groups_word()));
-    words[LR_PACKED_WORD_MAGIC] = LR_PACKED_MAGIC;
-    words[LR_PACKED_WORD_VERTICES] = vertices;
-    words[LR_PACKED_WORD_TRIANGLES] = triangles;
-    words[LR_PACKED_WORD_CHECKSUM] = packed_checksum(words);
+    finish_packed(words, groups);
     return words;
 }
 
