@@ -1,0 +1,238 @@
+#pragma once
+// Codes the steps of a packed stream, one after the other: where each is entered, and which vertex is its third.
+// Encoder and decoder run the same code. Internal to lrcore; docs/storage-format.md has it.
+//
+// Steps come depth first: mostly a step is entered across the edge that the one before left open, or across the edge
+// left open last. Its third vertex is mostly the next one on either chain; which of them, the triangles say that the
+// two ends of the edge have so far, those on the ring's other side included.
+
+#include <array>
+#include <vector>
+
+#include "lrcore/codec/storage/packed_steps.h"
+#include "lrcore/codec/storage/rans.h"
+
+namespace lacedring::storage {
+
+template <class Coder>
+class WalkCoder {
+  public:
+    /// `steps` has them all where it encodes, and takes them where it decodes.
+    WalkCoder(Coder& coder, PackedSteps& steps, std::uint32_t vertices, bool has_flips)
+        : coder_(coder),
+          steps_(steps),
+          vertices_(vertices),
+          vertex_bits_(static_cast<std::uint32_t>(std::bit_width(vertices))),
+          has_flips_(has_flips),
+          triangles_(std::size_t{vertices} + 1),
+          ring_(std::size_t{vertices} + 1) {}
+
+    /// False: what is stored is impossible.
+    bool code(std::uint32_t count) {
+        for (std::uint32_t i = 0; i < count; ++i) {
+            Step s{};
+            if constexpr (!Coder::kDecodes) s = of(i);
+            code_entry(i, s);
+            if (s.edge.a >= vertices_ || s.edge.b >= vertices_) return false;
+            if (has_flips_) last_flip_ = s.flip = coder_.bit(flip_[last_flip_], s.flip);
+            code_third(s);
+            if (s.third >= vertices_ || coder_.bad()) return false;
+            if constexpr (Coder::kDecodes) {
+                const std::uint32_t flags =
+                    right_ | s.enters << 1 | s.first_a << 3 | (s.flip != 0 ? std::uint32_t{PackedSteps::kFlipped} : 0U);
+                steps_.add(s.edge, s.third, static_cast<std::uint8_t>(flags));
+            }
+            leave_open(i, s);
+            count_triangle(s);
+        }
+        return true;
+    }
+
+  private:
+    struct Step {
+        PackedEdge edge;
+        std::uint32_t third;
+        std::uint32_t enters, first_a;  ///< CorridorStep's flags: bit 0 (a, x), bit 1 (x, b)
+        std::uint32_t simple;           ///< a turn says all
+        std::uint32_t right, flip;
+    };
+
+    /// An edge across which a later step is expected: of step `from`, (a, x) or (x, b).
+    struct Open {
+        PackedEdge edge;
+        std::uint32_t from;
+        bool is_a;
+    };
+
+    Step of(std::uint32_t i) const {
+        Step s{};
+        s.edge = steps_.edge(i);
+        s.third = steps_.third(i);
+        s.enters = steps_.flags(i) >> 1 & 3;
+        s.first_a = steps_.flags(i) >> 3 & 1;
+        s.right = steps_.on_right(i) ? 1 : 0;
+        s.flip = steps_.flipped(i) ? 1 : 0;
+        const bool enter_a = (s.enters & 1) != 0, enter_b = (s.enters & 2) != 0;
+        const bool next_a = s.third == s.edge.a + 1, next_b = s.third + 1 == s.edge.b;
+        s.simple = (next_a && !enter_a && !(enter_b && next_b)) || (next_b && !enter_b && !(enter_a && next_a));
+        return s;
+    }
+
+    /// Is step i the one across an open edge?
+    bool is_across(std::uint32_t i, const Open& open) const { return steps_.across(open.from, open.is_a) == i; }
+
+    void code_entry(std::uint32_t i, Step& s) {
+        const std::uint32_t context = is_going_on_ ? 2 : open_.empty() ? 0 : 1;
+        std::uint32_t is_new = 1;
+        if (context != 0) {
+            if constexpr (!Coder::kDecodes) is_new = is_reached(i) ? 0 : 1;
+            is_new = coder_.bit(new_[context], is_new);
+        }
+        is_going_on_ = false;
+        if (is_new != 0) return code_root(s);
+        while (!open_.empty()) {
+            const Open open = open_.back();
+            open_.pop_back();
+            std::uint32_t stays = 0;  // closed from elsewhere, as at a handle
+            if constexpr (!Coder::kDecodes) stays = is_across(i, open) ? 0 : 1;
+            if (coder_.bit(stays_, stays) != 0) continue;
+            s.edge = open.edge;
+            if constexpr (Coder::kDecodes) {
+                (open.is_a ? steps_.step(open.from).across_a : steps_.step(open.from).across_b) = i;
+                steps_.flags_of(open.from) |= open.is_a ? CorridorStep::kEnterA : CorridorStep::kEnterB;
+            }
+            return;
+        }
+        s.edge = {vertices_, vertices_};  // nothing was open: impossible
+    }
+
+    /// Is it across an open edge, and are those opened later of no more use?
+    bool is_reached(std::uint32_t i) const {
+        for (std::size_t k = open_.size(); k-- > 0;) {
+            if (is_across(i, open_[k])) return true;
+            const std::uint32_t across = steps_.across(open_[k].from, open_[k].is_a);
+            if (across != UINT32_MAX && across > i) return false;
+        }
+        return false;
+    }
+
+    enum Root : std::uint32_t { kOtherSide, kNext, kAny };
+
+    void code_root(Step& s) {
+        const PackedEdge other = root_, next{seen_, 0};
+        std::uint32_t kind = kAny;
+        if constexpr (!Coder::kDecodes) {
+            if (s.edge == other && s.right != right_) {
+                kind = kOtherSide;
+            } else if (s.edge.a == next.a && s.right == 0) {
+                kind = kNext;
+            }
+        }
+        kind = coder_.symbol(root_kind_, kind);
+        if (kind == kOtherSide) {
+            s.edge = other;
+            right_ ^= 1;
+        } else if (kind == kNext) {
+            s.edge = {next.a, next.a + root_size_.code(coder_, s.edge.b - s.edge.a)};
+            right_ = 0;
+        } else {
+            s.edge.a = coder_.raw(s.edge.a, vertex_bits_);
+            s.edge.b = coder_.raw(s.edge.b, vertex_bits_);
+            right_ = coder_.raw(s.right, 1);
+        }
+        root_ = s.edge;
+    }
+
+    void code_third(Step& s) {
+        const auto [a, b] = s.edge;
+        const std::uint32_t span = b - a, context = context_of(s.edge);
+        s.simple = coder_.bit(simple_[context], s.simple);
+        if (s.simple != 0) {
+            std::uint32_t up = 1;
+            if (span != 2) up = coder_.bit(up_[context], s.third == a + 1 ? 1 : 0);
+            s.third = up != 0 ? a + 1 : b - 1;
+            s.enters = 0;
+            return;
+        }
+        const std::uint32_t size_a = s.third - a, size_b = b - s.third;
+        const bool inside = size_a != 0 && size_a < span;
+        // Of 16: what is entered; is x between a and b; is it nearer to a.
+        const std::uint32_t kind =
+            coder_.symbol(fork_, s.enters | (inside ? 4U : 0U) | (inside && size_a <= size_b ? 8U : 0U));
+        s.enters = kind & 3;
+        if ((kind & 4) != 0) {
+            const bool near_a = (kind & 8) != 0;
+            const std::uint32_t size = size_[s.enters == 3 ? 1 : 0].code(coder_, near_a ? size_a : size_b);
+            s.third = near_a ? a + size : b - size;
+        } else {
+            s.third = coder_.raw(s.third, vertex_bits_);
+        }
+        if (s.enters != 3) {
+            s.first_a = 0;
+            return;
+        }
+        const std::uint32_t x = s.third;  // the smaller part first, as polygons.h has it
+        const std::uint32_t small_a = x > a ? x - a : UINT32_MAX, small_b = b > x ? b - x : UINT32_MAX;
+        const std::uint32_t usual = small_a <= small_b ? 1 : 0;
+        s.first_a = usual ^ coder_.bit(first_, usual ^ s.first_a);
+    }
+
+    /// What is known of an edge's ends: their triangles so far, and whether the ring edges behind them have one.
+    std::uint32_t context_of(PackedEdge e) const {
+        constexpr std::uint32_t kMost = 9;
+        const std::uint32_t side = ring_[e.a] * 2U + ring_[e.b > 0 ? e.b - 1 : 0];
+        const std::uint32_t at_a = std::min<std::uint32_t>(triangles_[e.a], kMost);
+        const std::uint32_t at_b = std::min<std::uint32_t>(triangles_[e.b], kMost);
+        return (side * (kMost + 1) + at_a) * (kMost + 1) + at_b;
+    }
+
+    void leave_open(std::uint32_t i, const Step& s) {
+        const auto [a, b] = s.edge;
+        const Open on_a{{a, s.third}, i, true}, on_b{{s.third, b}, i, false};
+        if (s.simple != 0) {
+            if (b - a == 2) return;
+            open_.push_back(s.third == a + 1 ? on_b : on_a);
+        } else {
+            if (s.enters == 0) return;
+            const bool a_first = s.enters == 3 ? s.first_a != 0 : (s.enters & 1) != 0;
+            if (s.enters == 3) open_.push_back(a_first ? on_b : on_a);
+            open_.push_back(a_first ? on_a : on_b);
+        }
+        is_going_on_ = true;
+    }
+
+    void count_triangle(const Step& s) {
+        for (const std::uint32_t v : {s.edge.a, s.edge.b, s.third}) {
+            if (triangles_[v] < UINT8_MAX) ++triangles_[v];
+            seen_ = std::max(seen_, v + 1);
+        }
+        const auto mark = [&](std::uint32_t p, std::uint32_t q) {
+            if (p + 1 == q) ring_[p] = 1;
+        };
+        mark(s.edge.a, s.third);
+        mark(s.third, s.edge.b);
+        mark(s.edge.a, s.edge.b);
+    }
+
+    static constexpr std::size_t kContexts = 4 * 10 * 10;
+
+    Coder& coder_;
+    PackedSteps& steps_;
+    std::uint32_t vertices_, vertex_bits_;
+    bool has_flips_;
+    std::vector<std::uint8_t> triangles_;  ///< of each vertex so far, at most 255
+    std::vector<std::uint8_t> ring_;       ///< has the edge from v to v + 1 a triangle?
+    std::vector<Open> open_;
+    bool is_going_on_ = false;  ///< the last one was opened by the step before
+    PackedEdge root_{};
+    std::uint32_t right_ = 0, last_flip_ = 0, seen_ = 0;
+    std::array<BitModel, 3> new_;
+    BitModel stays_, first_;
+    std::array<BitModel, 2> flip_;
+    std::array<BitModel, kContexts> simple_, up_;
+    SymbolModel root_kind_, fork_;
+    NumberModel root_size_;
+    std::array<NumberModel, 2> size_;
+};
+
+}  // namespace lacedring::storage
