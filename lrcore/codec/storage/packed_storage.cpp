@@ -45,7 +45,8 @@ bool link(PackedSteps& steps) {
         PackedSteps::Step& s = steps.step(i);
         const std::uint8_t reversed = steps.flags_of(i) & CorridorStep::kRight;
         if (reached[i] == 0) right[i] = reversed;  // a tree's first
-        std::uint8_t flags = right[i];
+        const bool both = (steps.flags_of(i) & CorridorStep::kEnterA) != 0;
+        std::uint8_t flags = right[i] | (steps.flags_of(i) & (CorridorStep::kEnterA | CorridorStep::kEnterB));
         if (right[i] != reversed) flags |= PackedSteps::kFlipped;
         has_flips |= right[i] != reversed;
         const auto reach = [&](std::uint32_t step) {
@@ -57,7 +58,9 @@ bool link(PackedSteps& steps) {
         reach(s.across_b = across({s.third, s.edge.b}, i));
         if (s.across_a != UINT32_MAX) flags |= CorridorStep::kEnterA;
         if (s.across_b != UINT32_MAX) flags |= CorridorStep::kEnterB;
-        if (s.across_a < s.across_b) flags |= CorridorStep::kFirstA;
+        if (both ? (steps.flags_of(i) & CorridorStep::kFirstA) != 0 : s.across_a < s.across_b) {
+            flags |= CorridorStep::kFirstA;
+        }
         steps.flags_of(i) = flags;
     }
     return has_flips;
