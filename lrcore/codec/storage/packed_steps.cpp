@@ -296,10 +296,9 @@ class StepReader {
         const bool both = e.code == LR_PACKED_SPLIT || (e.code == LR_PACKED_JUMP && e.choice == 1);
         const std::uint32_t enters = e.code == LR_PACKED_FAR ? e.choice : both ? 3 : up ? 2 : 1;
         add(i, first, now_.edge, x);
-        if (enters == 3) {
-            out_.flags_of(i) |= CorridorStep::kEnterA | CorridorStep::kEnterB;
-            if (up) out_.flags_of(i) |= CorridorStep::kFirstA;
-        }
+        if ((enters & 1) != 0) out_.flags_of(i) |= CorridorStep::kEnterA;
+        if ((enters & 2) != 0) out_.flags_of(i) |= CorridorStep::kEnterB;
+        if (enters == 3 && up) out_.flags_of(i) |= CorridorStep::kFirstA;
         const Entry rest{up ? PackedEdge{x, b} : PackedEdge{a, x}, now_.reversed};
         const bool along_b = enters == 3 ? !up : enters == 2;
         (along_b ? now_.edge.a : now_.edge.b) = x;

@@ -48,8 +48,8 @@ class PackedSteps {
 };
 
 /// Reads them back from a valid stream, without doubles; what is across the edges is not known yet. Of the flags kRight
-/// says whether the triangle comes out reversed, and the others are set where an event says that both edges are
-/// entered. None: a block is plain, and does not say.
+/// says whether the triangle comes out reversed, and the others are what its event says, if it has one. None: a block
+/// is plain, and does not say.
 std::optional<PackedSteps> read_steps(const PackedView& view);
 
 }  // namespace lacedring::storage

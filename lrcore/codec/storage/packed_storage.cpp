@@ -37,7 +37,8 @@ bool link(PackedSteps& steps) {
     const auto across = [&](PackedEdge edge, std::uint32_t from) {
         const auto found = std::upper_bound(entered.begin(), entered.end(), Entered{edge, from});
         if (found == entered.end() || found->edge != edge || reached[found->step] != 0) return UINT32_MAX;
-        return found->step;
+        // A ring edge is not crossed; where a tree of steps begins at one, that is from elsewhere.
+        return edge.b - edge.a == 1 && found->step != from + 1 ? UINT32_MAX : found->step;
     };
     bool has_flips = false;
     std::vector<std::uint8_t> right(steps.size(), 0);
@@ -45,8 +46,9 @@ bool link(PackedSteps& steps) {
         PackedSteps::Step& s = steps.step(i);
         const std::uint8_t reversed = steps.flags_of(i) & CorridorStep::kRight;
         if (reached[i] == 0) right[i] = reversed;  // a tree's first
-        const bool both = (steps.flags_of(i) & CorridorStep::kEnterA) != 0;
-        std::uint8_t flags = right[i] | (steps.flags_of(i) & (CorridorStep::kEnterA | CorridorStep::kEnterB));
+        constexpr std::uint8_t kBoth = CorridorStep::kEnterA | CorridorStep::kEnterB;
+        const std::uint8_t said = steps.flags_of(i) & (kBoth | CorridorStep::kFirstA);
+        std::uint8_t flags = right[i] | (said & kBoth);
         if (right[i] != reversed) flags |= PackedSteps::kFlipped;
         has_flips |= right[i] != reversed;
         const auto reach = [&](std::uint32_t step) {
@@ -58,9 +60,8 @@ bool link(PackedSteps& steps) {
         reach(s.across_b = across({s.third, s.edge.b}, i));
         if (s.across_a != UINT32_MAX) flags |= CorridorStep::kEnterA;
         if (s.across_b != UINT32_MAX) flags |= CorridorStep::kEnterB;
-        if (both ? (steps.flags_of(i) & CorridorStep::kFirstA) != 0 : s.across_a < s.across_b) {
-            flags |= CorridorStep::kFirstA;
-        }
+        const bool first_a = (said & kBoth) == kBoth ? (said & CorridorStep::kFirstA) != 0 : s.across_a < s.across_b;
+        if ((flags & kBoth) == kBoth && first_a) flags |= CorridorStep::kFirstA;
         steps.flags_of(i) = flags;
     }
     return has_flips;
