@@ -20,30 +20,46 @@ Error malformed(const char* what) {
     return {ErrorCode::malformed, detail::message("stored packed stream: ", what)};
 }
 
-/// Sets the steps across each step's edges, and its flags; where trees of steps begin, on_right is what the triangle
-/// comes out as, and triangles that come out otherwise are flipped. Returns whether any is.
-bool link(PackedSteps& steps) {
-    struct Entered {
-        PackedEdge edge;
-        std::uint32_t step;
-        auto key() const { return std::tuple(edge.a, edge.b, step); }
-        bool operator<(const Entered& other) const { return key() < other.key(); }
-    };
-    std::vector<Entered> entered;
-    entered.reserve(steps.size());
-    for (std::uint32_t i = 0; i < steps.size(); ++i) entered.push_back({steps.edge(i), i});
-    std::sort(entered.begin(), entered.end());
-    std::vector<std::uint8_t> reached(steps.size(), 0);
-    const auto across = [&](PackedEdge edge, std::uint32_t from) {
-        const auto found = std::upper_bound(entered.begin(), entered.end(), Entered{edge, from});
-        if (found == entered.end() || found->edge != edge || reached[found->step] != 0) return UINT32_MAX;
-        // A ring edge is not crossed; where a tree of steps begins at one, that is from elsewhere.
-        return edge.b - edge.a == 1 && found->step != from + 1 ? UINT32_MAX : found->step;
-    };
-    bool has_flips = false;
-    std::vector<std::uint8_t> right(steps.size(), 0);
+/// An edge of a step that a later one may be entered across: (a, x), or (x, b).
+struct Offer {
+    PackedEdge edge;
+    std::uint32_t step;
+    bool is_a;
+
+    auto key() const { return std::tuple(edge.a, edge.b, step, is_a); }
+    bool operator<(const Offer& other) const { return key() < other.key(); }
+};
+
+/// Sets the steps across each step's edges: a step is entered across the edge offered last that is the same.
+void link_across(PackedSteps& steps) {
+    std::vector<Offer> offers;
+    offers.reserve(2 * std::size_t{steps.size()});
     for (std::uint32_t i = 0; i < steps.size(); ++i) {
-        PackedSteps::Step& s = steps.step(i);
+        const auto [a, b] = steps.edge(i);
+        const std::uint32_t x = steps.third(i);
+        offers.push_back({{a, x}, i, true});
+        offers.push_back({{x, b}, i, false});
+    }
+    std::sort(offers.begin(), offers.end());
+    for (std::uint32_t i = 1; i < steps.size(); ++i) {
+        const PackedEdge edge = steps.edge(i);
+        const auto found = std::lower_bound(offers.begin(), offers.end(), Offer{edge, i, false});
+        if (found == offers.begin() || (found - 1)->edge != edge) continue;
+        const Offer& offer = *(found - 1);
+        // A ring edge is not crossed; where a tree of steps begins at one, that is from elsewhere.
+        if (edge.b - edge.a == 1 && offer.step + 1 != i) continue;
+        std::uint32_t& across = offer.is_a ? steps.step(offer.step).across_a : steps.step(offer.step).across_b;
+        if (across == UINT32_MAX) across = i;
+    }
+}
+
+/// Sets the flags. Where trees of steps begin, on_right is what the triangle comes out as, and triangles that come out
+/// otherwise are flipped. Returns whether any is.
+bool set_flags(PackedSteps& steps) {
+    bool has_flips = false;
+    std::vector<std::uint8_t> right(steps.size(), 0), reached(steps.size(), 0);
+    for (std::uint32_t i = 0; i < steps.size(); ++i) {
+        const PackedSteps::Step& s = steps.step(i);
         const std::uint8_t reversed = steps.flags_of(i) & CorridorStep::kRight;
         if (reached[i] == 0) right[i] = reversed;  // a tree's first
         constexpr std::uint8_t kBoth = CorridorStep::kEnterA | CorridorStep::kEnterB;
@@ -51,13 +67,11 @@ bool link(PackedSteps& steps) {
         std::uint8_t flags = right[i] | (said & kBoth);
         if (right[i] != reversed) flags |= PackedSteps::kFlipped;
         has_flips |= right[i] != reversed;
-        const auto reach = [&](std::uint32_t step) {
-            if (step == UINT32_MAX) return;
+        for (const std::uint32_t step : {s.across_a, s.across_b}) {
+            if (step == UINT32_MAX) continue;
             reached[step] = 1;
             right[step] = right[i];
-        };
-        reach(s.across_a = across({s.edge.a, s.third}, i));
-        reach(s.across_b = across({s.third, s.edge.b}, i));
+        }
         if (s.across_a != UINT32_MAX) flags |= CorridorStep::kEnterA;
         if (s.across_b != UINT32_MAX) flags |= CorridorStep::kEnterB;
         const bool first_a = (said & kBoth) == kBoth ? (said & CorridorStep::kFirstA) != 0 : s.across_a < s.across_b;
@@ -72,7 +86,8 @@ bool link(PackedSteps& steps) {
 std::optional<std::vector<std::uint32_t>> store_packed(const PackedView& view) {
     std::optional<PackedSteps> steps = read_steps(view);
     if (!steps) return {};
-    const bool has_flips = link(*steps);
+    link_across(*steps);
+    const bool has_flips = set_flags(*steps);
     std::vector<std::uint32_t> out{view.vertices, view.own, view.runs | (has_flips ? kHasFlips : 0)};
     const auto doubles = view.words.subspan(view.doubles_word(), view.groups_word() - view.doubles_word());
     out.insert(out.end(), doubles.begin(), doubles.end());
