@@ -25,7 +25,8 @@ class WalkCoder {
           vertex_bits_(static_cast<std::uint32_t>(std::bit_width(vertices))),
           has_flips_(has_flips),
           triangles_(std::size_t{vertices} + 1),
-          ring_(std::size_t{vertices} + 1) {}
+          ring_(std::size_t{vertices} + 1),
+          opened_(steps.size(), UINT32_MAX) {}
 
     /// False: what is stored is impossible.
     bool code(std::uint32_t count) {
@@ -57,7 +58,7 @@ class WalkCoder {
         std::uint32_t right, flip;
     };
 
-    /// An edge across which a later step is expected: of step `from`, (a, x) or (x, b).
+    /// An edge across which a later step is expected: of step `from`, (a, x) or (x, b). UINT32_MAX: it has been.
     struct Open {
         PackedEdge edge;
         std::uint32_t from;
@@ -78,42 +79,53 @@ class WalkCoder {
         return s;
     }
 
-    /// Is step i the one across an open edge?
-    bool is_across(std::uint32_t i, const Open& open) const { return steps_.across(open.from, open.is_a) == i; }
-
     void code_entry(std::uint32_t i, Step& s) {
+        while (!open_.empty() && open_.back().from == UINT32_MAX) open_.pop_back();
         const std::uint32_t context = is_going_on_ ? 2 : open_.empty() ? 0 : 1;
-        std::uint32_t is_new = 1;
-        if (context != 0) {
-            if constexpr (!Coder::kDecodes) is_new = is_reached(i) ? 0 : 1;
-            is_new = coder_.bit(new_[context], is_new);
-        }
         is_going_on_ = false;
-        if (is_new != 0) return code_root(s);
-        while (!open_.empty()) {
-            const Open open = open_.back();
-            open_.pop_back();
-            std::uint32_t stays = 0;  // closed from elsewhere, as at a handle
-            if constexpr (!Coder::kDecodes) stays = is_across(i, open) ? 0 : 1;
-            if (coder_.bit(stays_, stays) != 0) continue;
-            s.edge = open.edge;
-            if constexpr (Coder::kDecodes) {
-                (open.is_a ? steps_.step(open.from).across_a : steps_.step(open.from).across_b) = i;
-                steps_.flags_of(open.from) |= open.is_a ? CorridorStep::kEnterA : CorridorStep::kEnterB;
-            }
+        std::uint32_t depth = 0, drop = 1;
+        if constexpr (!Coder::kDecodes) depth = depth_of(i, drop);
+        if (context == 0 || coder_.bit(new_[context], depth == UINT32_MAX ? 1 : 0) != 0) return code_root(s);
+        if (coder_.bit(deeper_[context - 1], depth != 0 ? 1 : 0) == 0) {
+            depth = 0;
+        } else {
+            depth = 1 + depth_.code(coder_, depth - 1);
+            drop = coder_.bit(drop_, drop);
+        }
+        if (depth >= open_.size()) {
+            s.edge = {vertices_, vertices_};  // impossible
             return;
         }
-        s.edge = {vertices_, vertices_};  // nothing was open: impossible
+        const std::size_t at = open_.size() - 1 - depth;
+        const Open open = open_[at];
+        open_[at].from = UINT32_MAX;
+        if (drop != 0) open_.resize(at);  // closed from elsewhere, as at a handle
+        s.edge = open.edge;
+        if (open.from == UINT32_MAX) {
+            s.edge = {vertices_, vertices_};
+            return;
+        }
+        if constexpr (Coder::kDecodes) {
+            (open.is_a ? steps_.step(open.from).across_a : steps_.step(open.from).across_b) = i;
+            steps_.flags_of(open.from) |= open.is_a ? CorridorStep::kEnterA : CorridorStep::kEnterB;
+        }
     }
 
-    /// Is it across an open edge, and are those opened later of no more use?
-    bool is_reached(std::uint32_t i) const {
-        for (std::size_t k = open_.size(); k-- > 0;) {
-            if (is_across(i, open_[k])) return true;
-            const std::uint32_t across = steps_.across(open_[k].from, open_[k].is_a);
-            if (across != UINT32_MAX && across > i) return false;
+    /// How many open edges are above the one across which step i is; UINT32_MAX: it is across none. `drop`: are those
+    /// of no more use?
+    std::uint32_t depth_of(std::uint32_t i, std::uint32_t& drop) const {
+        constexpr std::uint32_t kLooked = 64;
+        const std::uint32_t at = opened_[i];
+        if (at == UINT32_MAX) return UINT32_MAX;
+        const auto depth = static_cast<std::uint32_t>(open_.size() - 1 - at);
+        drop = depth <= kLooked ? 1 : 0;
+        for (std::size_t k = at + 1; k < open_.size() && drop != 0; ++k) {
+            const Open& open = open_[k];
+            if (open.from == UINT32_MAX) continue;
+            const std::uint32_t across = steps_.across(open.from, open.is_a);
+            if (across != UINT32_MAX && across > i) drop = 0;
         }
-        return false;
+        return depth;
     }
 
     enum Root : std::uint32_t { kOtherSide, kNext, kAny };
@@ -191,14 +203,22 @@ class WalkCoder {
         const Open on_a{{a, s.third}, i, true}, on_b{{s.third, b}, i, false};
         if (s.simple != 0) {
             if (b - a == 2) return;
-            open_.push_back(s.third == a + 1 ? on_b : on_a);
+            open(s.third == a + 1 ? on_b : on_a);
         } else {
             if (s.enters == 0) return;
             const bool a_first = s.enters == 3 ? s.first_a != 0 : (s.enters & 1) != 0;
-            if (s.enters == 3) open_.push_back(a_first ? on_b : on_a);
-            open_.push_back(a_first ? on_a : on_b);
+            if (s.enters == 3) open(a_first ? on_b : on_a);
+            open(a_first ? on_a : on_b);
         }
         is_going_on_ = true;
+    }
+
+    void open(const Open& edge) {
+        if constexpr (!Coder::kDecodes) {
+            const std::uint32_t across = steps_.across(edge.from, edge.is_a);
+            if (across != UINT32_MAX) opened_[across] = static_cast<std::uint32_t>(open_.size());
+        }
+        open_.push_back(edge);
     }
 
     void count_triangle(const Step& s) {
@@ -223,15 +243,17 @@ class WalkCoder {
     std::vector<std::uint8_t> triangles_;  ///< of each vertex so far, at most 255
     std::vector<std::uint8_t> ring_;       ///< has the edge from v to v + 1 a triangle?
     std::vector<Open> open_;
-    bool is_going_on_ = false;  ///< the last one was opened by the step before
+    std::vector<std::uint32_t> opened_;  ///< of each step, where it encodes: the place in open_ of the edge entered
+    bool is_going_on_ = false;           ///< the last one was opened by the step before
     PackedEdge root_{};
     std::uint32_t right_ = 0, last_flip_ = 0, seen_ = 0;
     std::array<BitModel, 3> new_;
-    BitModel stays_, first_;
+    std::array<BitModel, 2> deeper_;
+    BitModel drop_, first_;
     std::array<BitModel, 2> flip_;
     std::array<BitModel, kContexts> simple_, up_;
     SymbolModel root_kind_, fork_;
-    NumberModel root_size_;
+    NumberModel root_size_, depth_;
     std::array<NumberModel, 2> size_;
 };
 
