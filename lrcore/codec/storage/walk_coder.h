@@ -63,6 +63,7 @@ class WalkCoder {
         PackedEdge edge;
         std::uint32_t from;
         bool is_a;
+        std::uint8_t right;
     };
 
     Step of(std::uint32_t i) const {
@@ -101,6 +102,7 @@ class WalkCoder {
         open_[at].from = UINT32_MAX;
         if (drop != 0) open_.resize(at);  // closed from elsewhere, as at a handle
         s.edge = open.edge;
+        right_ = open.right;
         if (open.from == UINT32_MAX) {
             s.edge = {vertices_, vertices_};
             return;
@@ -200,7 +202,8 @@ class WalkCoder {
 
     void leave_open(std::uint32_t i, const Step& s) {
         const auto [a, b] = s.edge;
-        const Open on_a{{a, s.third}, i, true}, on_b{{s.third, b}, i, false};
+        const auto right = static_cast<std::uint8_t>(right_);
+        const Open on_a{{a, s.third}, i, true, right}, on_b{{s.third, b}, i, false, right};
         if (s.simple != 0) {
             if (b - a == 2) return;
             open(s.third == a + 1 ? on_b : on_a);
