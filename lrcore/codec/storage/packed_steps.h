@@ -35,8 +35,10 @@ class PackedSteps {
         steps_.reserve(steps);
         flags_.reserve(steps);
     }
-    void add(PackedEdge edge, std::uint32_t third, std::uint8_t flags) {
-        steps_.push_back({edge, third});
+    /// `next`, or UINT32_MAX: the step across the one edge that the flags say is entered.
+    void add(PackedEdge edge, std::uint32_t third, std::uint8_t flags, std::uint32_t next = UINT32_MAX) {
+        const bool is_a = (flags & CorridorStep::kEnterA) != 0;
+        steps_.push_back({edge, third, is_a ? next : UINT32_MAX, is_a ? UINT32_MAX : next});
         flags_.push_back(flags);
     }
     Step& step(std::uint32_t i) { return steps_[i]; }

@@ -28,7 +28,7 @@ struct BitModel {
         seen = static_cast<std::uint16_t>(std::min<std::int32_t>(seen + 1, kSlowest));
         const std::int32_t target = bit != 0 ? 32 : static_cast<std::int32_t>(kScale) - 32;
         const std::int32_t step = kReciprocals[seen];
-        zero = static_cast<std::uint16_t>(zero + ((target - zero) * step) / 65536);
+        zero = static_cast<std::uint16_t>(zero + (((target - zero) * step) >> 16));
     }
 
   private:

@@ -30,23 +30,28 @@ class WalkCoder {
 
     /// False: what is stored is impossible.
     bool code(std::uint32_t count) {
+        Step s{};
         for (std::uint32_t i = 0; i < count; ++i) {
-            Step s{};
+            const bool goes_on = goes_on_;
+            const PackedEdge edge = goes_on_edge_;
             if constexpr (!Coder::kDecodes) s = of(i);
-            code_entry(i, s);
+            if (goes_on) {
+                s.edge = edge;
+            } else {
+                code_entry(i, s);
+            }
             if (s.edge.a >= vertices_ || s.edge.b >= vertices_) return false;
             if (has_flips_) last_flip_ = s.flip = coder_.bit(flip_[last_flip_], s.flip);
-            code_third(s);
+            code_third(i, s);
             if (s.third >= vertices_ || coder_.bad()) return false;
             if constexpr (Coder::kDecodes) {
                 const std::uint32_t flags =
                     right_ | s.enters << 1 | s.first_a << 3 | (s.flip != 0 ? std::uint32_t{PackedSteps::kFlipped} : 0U);
-                steps_.add(s.edge, s.third, static_cast<std::uint8_t>(flags));
+                steps_.add(s.edge, s.third, static_cast<std::uint8_t>(flags), goes_on_ ? i + 1 : UINT32_MAX);
             }
-            leave_open(i, s);
             count_triangle(s);
         }
-        return true;
+        return !goes_on_;
     }
 
   private:
@@ -54,7 +59,7 @@ class WalkCoder {
         PackedEdge edge;
         std::uint32_t third;
         std::uint32_t enters, first_a;  ///< CorridorStep's flags: bit 0 (a, x), bit 1 (x, b)
-        std::uint32_t simple;           ///< a turn says all
+        std::uint32_t simple;           ///< a turn says all, and the next step is across the edge that it leaves open
         std::uint32_t right, flip;
     };
 
@@ -76,14 +81,18 @@ class WalkCoder {
         s.flip = steps_.flipped(i) ? 1 : 0;
         const bool enter_a = (s.enters & 1) != 0, enter_b = (s.enters & 2) != 0;
         const bool next_a = s.third == s.edge.a + 1, next_b = s.third + 1 == s.edge.b;
-        s.simple = (next_a && !enter_a && !(enter_b && next_b)) || (next_b && !enter_b && !(enter_a && next_a));
+        if (next_a && next_b) {
+            s.simple = !enter_a && !enter_b;
+        } else if (next_a || next_b) {
+            s.simple = s.enters == (next_a ? 2U : 1U) && steps_.across(i, next_b) == i + 1;
+        }
         return s;
     }
 
     void code_entry(std::uint32_t i, Step& s) {
         while (!open_.empty() && open_.back().from == UINT32_MAX) open_.pop_back();
-        const std::uint32_t context = is_going_on_ ? 2 : open_.empty() ? 0 : 1;
-        is_going_on_ = false;
+        const std::uint32_t context = is_open_ ? 2 : open_.empty() ? 0 : 1;
+        is_open_ = false;
         std::uint32_t depth = 0, drop = 1;
         if constexpr (!Coder::kDecodes) depth = depth_of(i, drop);
         if (context == 0 || coder_.bit(new_[context], depth == UINT32_MAX ? 1 : 0) != 0) return code_root(s);
@@ -157,19 +166,26 @@ class WalkCoder {
         root_ = s.edge;
     }
 
-    void code_third(Step& s) {
+    void code_third(std::uint32_t i, Step& s) {
         const auto [a, b] = s.edge;
         const std::uint32_t span = b - a, context = context_of(s.edge);
         s.simple = coder_.bit(simple_[context], s.simple);
-        if (s.simple != 0) {
-            std::uint32_t up = 1;
-            if (span != 2) up = coder_.bit(up_[context], s.third == a + 1 ? 1 : 0);
-            s.third = up != 0 ? a + 1 : b - 1;
-            s.enters = 0;
-            return;
-        }
-        const std::uint32_t size_a = s.third - a, size_b = b - s.third;
+        if (s.simple == 0) return code_fork(i, s);
+        goes_on_ = span != 2;
+        std::uint32_t up = 1;
+        if (goes_on_) up = coder_.bit(up_[context], s.third == a + 1 ? 1 : 0);
+        s.third = up != 0 ? a + 1 : b - 1;
+        s.enters = goes_on_ ? 1 + up : 0;
+        s.first_a = 0;
+        goes_on_edge_ = {up != 0 ? s.third : a, up != 0 ? b : s.third};
+    }
+
+    /// A triangle that splits the polygon, or behind which the next step is not.
+    void code_fork(std::uint32_t i, Step& s) {
+        const auto [a, b] = s.edge;
+        const std::uint32_t span = b - a, size_a = s.third - a, size_b = b - s.third;
         const bool inside = size_a != 0 && size_a < span;
+        goes_on_ = false;
         // Of 16: what is entered; is x between a and b; is it nearer to a.
         const std::uint32_t kind =
             coder_.symbol(fork_, s.enters | (inside ? 4U : 0U) | (inside && size_a <= size_b ? 8U : 0U));
@@ -181,14 +197,21 @@ class WalkCoder {
         } else {
             s.third = coder_.raw(s.third, vertex_bits_);
         }
-        if (s.enters != 3) {
+        if (s.enters == 3) {
+            const std::uint32_t x = s.third;  // the smaller part first, as polygons.h has it
+            const std::uint32_t small_a = x > a ? x - a : UINT32_MAX, small_b = b > x ? b - x : UINT32_MAX;
+            const std::uint32_t usual = small_a <= small_b ? 1 : 0;
+            s.first_a = usual ^ coder_.bit(first_, usual ^ s.first_a);
+        } else {
             s.first_a = 0;
-            return;
         }
-        const std::uint32_t x = s.third;  // the smaller part first, as polygons.h has it
-        const std::uint32_t small_a = x > a ? x - a : UINT32_MAX, small_b = b > x ? b - x : UINT32_MAX;
-        const std::uint32_t usual = small_a <= small_b ? 1 : 0;
-        s.first_a = usual ^ coder_.bit(first_, usual ^ s.first_a);
+        if (s.enters == 0) return;
+        const auto right = static_cast<std::uint8_t>(right_);
+        const Open on_a{{a, s.third}, i, true, right}, on_b{{s.third, b}, i, false, right};
+        const bool a_first = s.enters == 3 ? s.first_a != 0 : (s.enters & 1) != 0;
+        if (s.enters == 3) open(a_first ? on_b : on_a);
+        open(a_first ? on_a : on_b);
+        is_open_ = true;
     }
 
     /// What is known of an edge's ends: their triangles so far, and whether the ring edges behind them have one.
@@ -198,22 +221,6 @@ class WalkCoder {
         const std::uint32_t at_a = std::min<std::uint32_t>(triangles_[e.a], kMost);
         const std::uint32_t at_b = std::min<std::uint32_t>(triangles_[e.b], kMost);
         return (side * (kMost + 1) + at_a) * (kMost + 1) + at_b;
-    }
-
-    void leave_open(std::uint32_t i, const Step& s) {
-        const auto [a, b] = s.edge;
-        const auto right = static_cast<std::uint8_t>(right_);
-        const Open on_a{{a, s.third}, i, true, right}, on_b{{s.third, b}, i, false, right};
-        if (s.simple != 0) {
-            if (b - a == 2) return;
-            open(s.third == a + 1 ? on_b : on_a);
-        } else {
-            if (s.enters == 0) return;
-            const bool a_first = s.enters == 3 ? s.first_a != 0 : (s.enters & 1) != 0;
-            if (s.enters == 3) open(a_first ? on_b : on_a);
-            open(a_first ? on_a : on_b);
-        }
-        is_going_on_ = true;
     }
 
     void open(const Open& edge) {
@@ -247,7 +254,9 @@ class WalkCoder {
     std::vector<std::uint8_t> ring_;       ///< has the edge from v to v + 1 a triangle?
     std::vector<Open> open_;
     std::vector<std::uint32_t> opened_;  ///< of each step, where it encodes: the place in open_ of the edge entered
-    bool is_going_on_ = false;           ///< the last one was opened by the step before
+    bool is_open_ = false;               ///< the last one was opened by the step before
+    bool goes_on_ = false;               ///< the next step is across goes_on_edge_
+    PackedEdge goes_on_edge_{};
     PackedEdge root_{};
     std::uint32_t right_ = 0, last_flip_ = 0, seen_ = 0;
     std::array<BitModel, 3> new_;
