@@ -205,7 +205,9 @@ class Decoder {
 
     bool bad() const { return bad_; }
     /// Was all of it used, and do both states end as they began?
-    bool is_at_end() const { return !bad_ && at_ == end_ && raw_at_ == raw_end_ && now_ == kLeast && next_ == kLeast; }
+    bool is_at_end() const {
+        return !bad_ && at_ == end_ && raw_at_ == raw_end_ && window_ == 0 && now_ == kLeast && next_ == kLeast;
+    }
 
   private:
     void take(std::uint32_t at, std::uint32_t begin, std::uint32_t size) {
