@@ -54,7 +54,9 @@ bool round_trips(const Words& words) {
 
 TEST_CASE("packed streams have a storage form that gives them back bit for bit") {
     std::size_t none = 0, all = 0;
-    for (const auto& [name, mesh] : test::named_meshes()) {
+    for (const test::NamedMesh& named : test::named_meshes()) {
+        const auto& name = named.name;
+        const Mesh& mesh = named.mesh;
         CAPTURE(name);
         ++all;
         const bool stored = round_trips(encoded(mesh));
@@ -70,7 +72,9 @@ TEST_CASE("packed streams have a storage form that gives them back bit for bit")
 
 TEST_CASE("streams for the vertex cache, and of random triangles, give themselves back or stay resident") {
     std::size_t stored = 0;
-    for (const auto& [name, mesh] : test::named_meshes()) {
+    for (const test::NamedMesh& named : test::named_meshes()) {
+        const auto& name = named.name;
+        const Mesh& mesh = named.mesh;
         CAPTURE(name);
         if (round_trips(encoded(mesh, PackedProfile::cache))) ++stored;
     }
@@ -97,7 +101,9 @@ TEST_CASE("the storage form of a closed surface takes the bits that it should") 
 
 TEST_CASE("stored packed streams cut short, changed or beyond their limits are refused, or restore to something") {
     std::size_t same = 0, all = 0;
-    for (const auto& [name, mesh] : test::named_meshes()) {
+    for (const test::NamedMesh& named : test::named_meshes()) {
+        const auto& name = named.name;
+        const Mesh& mesh = named.mesh;
         if (mesh.triangle_count() > 300) continue;
         CAPTURE(name);
         const Words words = encoded(mesh);
