@@ -34,6 +34,7 @@ struct EncodeCommand {
     bool no_warts = false;
     bool keep_order = false;
     bool orient = false;
+    bool storage = false, resident = false;
     AttributeBits bits;
 };
 
@@ -43,6 +44,18 @@ std::string errors_of(const std::vector<CompressedAttribute>& attributes) {
     for (const CompressedAttribute& attribute : attributes) {
         if (attribute.largest_error == 0) continue;
         out += fmt::format("{}{} {:.3g}", out.empty() ? "" : ", ", printable(attribute.name), attribute.largest_error);
+    }
+    return out;
+}
+
+/// Of a file: what connectivity and seams take in it.
+std::size_t connectivity_bytes(std::span<const std::byte> file) {
+    std::size_t out = 0;
+    const Result<LrContents> contents = list_lr(file);
+    if (!contents) return out;
+    for (const LrSection& section : contents->sections) {
+        const std::string_view other[] = {"attribute", "vertices", "vertex_order", "corner_order"};
+        if (std::ranges::find(other, section.kind) == std::end(other)) out += section.bytes;
     }
     return out;
 }
@@ -78,7 +91,10 @@ int encode_file(const EncodeCommand& options, const std::string& input, const st
     const Result<WholeFile> whole =
         make_file(mesh, loaded->surface, std::move(*table), how, options.bits, options.keep_order);
     if (!whole) return fail(input, whole.error());
-    const std::span<const std::byte> parts[] = {whole->bytes};
+    const std::vector<std::byte> stored =
+        options.storage ? serialize_lr(whole->file, LrForm::stored) : std::vector<std::byte>();
+    const std::vector<std::byte>& bytes = options.storage ? stored : whole->bytes;
+    const std::span<const std::byte> parts[] = {bytes};
     if (const Result<void> written = write_output(output, parts); !written) {
         return fail(output_name(output), written.error());
     }
@@ -86,18 +102,19 @@ int encode_file(const EncodeCommand& options, const std::string& input, const st
     if (turned > 0) log.note(input_name(input), fmt::format("{} triangles turned round by --orient", turned));
     note_lossless(log, input, whole->attributes);
     const LrFile& file = whole->file;
-    const std::size_t seams = 4 * file.seams.size(), connectivity = 4 * file.words.size() + seams;
+    const std::size_t seams = 4 * file.seams.size(), connectivity = connectivity_bytes(bytes);
     const auto bits = [](std::size_t size, std::size_t of) {
         return 8 * static_cast<double>(size) / static_cast<double>(of);
     };
     const std::string errors = errors_of(whole->attributes);
     log.flush();
     say("{}: {} triangles, {} bytes: {:.2f} bits per triangle, {:.2f} per vertex; connectivity {} bytes, {:.2f} bits "
-        "per triangle{}; {}\n",
-        output_name(output), triangles, whole->bytes.size(), bits(whole->bytes.size(), triangles),
-        bits(whole->bytes.size(), file.vertex_count), connectivity, bits(connectivity, triangles),
+        "per triangle{}; {}{}\n",
+        output_name(output), triangles, bytes.size(), bits(bytes.size(), triangles),
+        bits(bytes.size(), file.vertex_count), connectivity, bits(connectivity, triangles),
         seams == 0 ? "" : fmt::format(", {:.2f} of them for seams", bits(seams, triangles)),
-        errors.empty() ? "lossless" : "largest error: " + errors);
+        errors.empty() ? "lossless" : "largest error: " + errors,
+        options.storage ? fmt::format("; resident {} bytes", whole->bytes.size()) : "");
     return done;
 }
 
@@ -130,11 +147,16 @@ void add_encode(CLI::App& program, Action& action) {
     command->add_flag("--no-warts", options->no_warts, "no wart skipping (lean and lr)");
     command->add_flag("--keep-order", options->keep_order,
                       "store the vertex and triangle permutations, for decode --original-order");
+    CLI::Option* storage = command->add_flag(
+        "--storage", options->storage, "packed streams in storage form: smaller, and unpacked when the file is read");
+    command->add_flag("--resident", options->resident, "as --storage is not given: streams that are read in place")
+        ->excludes(storage);
     command->add_flag("--orient", options->orient,
                       "turn triangles round so that neighbors agree, instead of keeping each as it is");
     auto rules = std::make_shared<OptionRules>(*command);
     const auto is = [options](std::string_view format) { return options->format == format; };
     rules->only_with({"--profile"}, "--format packed", [is] { return is("packed"); });
+    rules->only_with({"--storage"}, "--format packed", [is] { return is("packed"); });
     rules->only_with({"--no-warts"}, "--format lean or lr", [is] { return is("lean") || is("lr"); });
     rules->only_with({"--optimize"}, "--format lean, packed or lr", [is] { return !is("lr-compact"); });
     rules->only_with({"--k"}, "--ring hybrid or --format lr-compact", [options, is] {

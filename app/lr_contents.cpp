@@ -35,7 +35,7 @@ const char* type_name(ComponentType type) {
 nlohmann::ordered_json to_json(const LrContents& lr) {
     nlohmann::ordered_json sections = nlohmann::ordered_json::array();
     for (const LrSection& section : lr.sections) {
-        nlohmann::ordered_json entry = {{"kind", section.kind}, {"bytes", section.bytes}};
+        nlohmann::ordered_json entry = {{"kind", section.kind}, {"bytes", section.bytes}, {"stored", section.stored}};
         if (is_attribute(section)) {
             entry["name"] = section.name;
             entry["type"] = type_name(section.type);
@@ -74,7 +74,7 @@ void print_contents(const LrContents& lr) {
             how +=
                 section.largest_error > 0 ? fmt::format(", largest error {:.3g}", section.largest_error) : ", lossless";
         }
-        print("    {:<30}{:>12} bytes{}\n", what, section.bytes, how);
+        print("    {:<30}{:>12} bytes{}{}\n", what, section.bytes, section.stored ? ", in storage form" : "", how);
     }
 }
 

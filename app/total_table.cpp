@@ -66,6 +66,7 @@ Result<TotalTable> make_total(const std::string& path, const Mesh& mesh, const S
     table.triangles = mesh.triangle_count() - corners->topology.degenerate;
     const Mesh whole{mesh.vertex_count, without_degenerate(mesh.indices), mesh.attributes};
     add_rival(table, whole, "raw", store_raw(whole));
+    TotalEntry stored;
     for (const PackedProfile profile : {PackedProfile::small, PackedProfile::cache}) {
         const bool small = profile == PackedProfile::small;
         EncodeOptions options = encode_options(ring, Format::packed, mesh.triangle_count());
@@ -78,8 +79,10 @@ Result<TotalTable> make_total(const std::string& path, const Mesh& mesh, const S
         if (small) note_lossless(log, path, file->attributes);
         TotalEntry& entry = table.entries.emplace_back(entry_of(small ? "packed" : "packed_cache", file->bytes, true));
         for (const CompressedAttribute& a : file->attributes) entry.errors.emplace_back(a.name, a.largest_error);
+        if (small) stored = entry_of("storage", serialize_lr(file->file, LrForm::stored), false);
     }
-    table.absent.emplace_back("storage", "not in this version");
+    stored.errors = table.entries[table.entries.size() - 2].errors;
+    table.entries.push_back(std::move(stored));
     add_rival(table, whole, "meshopt", encode_meshopt_mesh(whole, bits));
     add_rival(table, whole, "draco", encode_draco_mesh(whole, bits));
     if (!table.entries.front().zstd) table.absent.emplace_back("bytes_zstd", "built without libzstd");
@@ -130,7 +133,7 @@ void print_total(const std::string& path, const TotalTable& table) {
 
 void print_medians(std::span<const TotalTable> tables) {
     std::string line;
-    for (const char* name : {"raw", "packed", "packed_cache", "meshopt", "draco"}) {
+    for (const char* name : {"raw", "packed", "packed_cache", "storage", "meshopt", "draco"}) {
         const std::optional<double> bits = median_of(tables, [&](const TotalTable& table) -> std::optional<double> {
             const TotalEntry* entry = table.find(name);
             if (entry == nullptr) return {};

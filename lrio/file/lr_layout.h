@@ -33,6 +33,12 @@ enum Kind : std::uint16_t {
 constexpr const char* kKindNames[] = {"",   "lean",       "attribute", "vertex_order", "corner_order",
                                       "lr", "lr_compact", "packed",    "vertices",     "seams"};
 
+/// How a section's contents are coded.
+enum Coding : std::uint16_t {
+    kResident = 0,  // as they lie in memory
+    kStored = 1,    // in storage form: packed streams and vertex streams (docs/storage-format.md)
+};
+
 struct FileHeader {
     std::uint32_t magic, version, sections, vertices, input_triangles, copies;
     std::uint32_t table_crc;   // of the section table
@@ -48,7 +54,7 @@ constexpr std::uint32_t kNormalized = 1U << 16, kVUp = 1U << 17, kPerCopy = 1U <
 
 struct Section {
     std::uint16_t kind;
-    std::uint16_t coding;  // of the contents; 0: as they lie in memory
+    std::uint16_t coding;  // of the contents
     std::uint32_t crc;     // of the contents
     std::uint64_t offset, size;
     std::uint32_t layout;       // type | components << 8 | the bits above
@@ -119,7 +125,9 @@ Result<FileHeader> visit_sections(std::span<const std::byte> bytes, Visit visit)
         if (!named && (section.layout != 0 || section.name_length != 0)) {
             return malformed_lr(fmt::format("section {}: it has no layout and no name", i));
         }
-        if (section.coding != 0) return malformed_lr(fmt::format("section {}: unknown coding {}", i, section.coding));
+        if (section.coding > kStored || (section.coding == kStored && section.kind != kPacked)) {
+            return malformed_lr(fmt::format("section {}: unknown coding {}", i, section.coding));
+        }
         if (std::string why = visit(header, section, bytes.subspan(section.offset, section.size)); !why.empty()) {
             return malformed_lr(fmt::format("section {}: {}", i, why));
         }
@@ -161,7 +169,7 @@ Result<DecodedLr> decode_connectivity(const LrFileView& file, bool untrusted);
 Result<Mesh> decode_mesh(const LrFile& file, DecodedLr& decoded, Surface* surface);
 
 /// parse_lr, and the connectivity that it decoded to check it.
-Result<LrFile> parse_lr(std::span<const std::byte> bytes, DecodedLr& decoded);
+Result<LrFile> parse_lr(std::span<const std::byte> bytes, std::uint64_t max_bytes, DecodedLr& decoded);
 
 /// The attribute with its values. Of a stream, which is valid, they are decoded.
 Attribute decode_attribute(const LrAttribute& attribute);

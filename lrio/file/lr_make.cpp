@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "lacedring/file.hpp"
+#include "lacedring/streams.hpp"
+#include "lrcore/codec/storage/packed_storage.h"
 #include "lrio/file/lr_layout.h"
 
 namespace lacedring {
@@ -74,16 +76,25 @@ LrFile make_lr_file(const Mesh& mesh, Encoded encoded, bool keep_order) {
     return make_file(mesh, {mesh.vertex_count, {}}, std::move(encoded), {}, keep_order);
 }
 
-std::vector<std::byte> serialize_lr(const LrFile& file) {
+std::vector<std::byte> serialize_lr(const LrFile& file, LrForm form) {
+    std::vector<std::uint32_t> stored;
+    if (form == LrForm::stored && file.format == Format::packed) {
+        if (const Result<PackedView> view = view_packed(file.words)) {
+            if (auto made = storage::store_packed(*view); made && made->size() < file.words.size()) {
+                stored = std::move(*made);
+            }
+        }
+    }
     std::vector<Section> sections;
     std::vector<std::vector<std::byte>> names;  // beside sections; empty but for attributes
     std::vector<std::span<const std::byte>> contents;
     const auto add = [&](Kind kind, std::span<const std::byte> data) {
-        sections.push_back({kind, 0, 0, 0, 0, 0, 0});
+        sections.push_back({kind, kResident, 0, 0, 0, 0, 0});
         names.emplace_back();
         contents.push_back(data);
     };
-    add(kind_of(file.format), std::as_bytes(std::span(file.words)));
+    add(kind_of(file.format), std::as_bytes(std::span(stored.empty() ? file.words : stored)));
+    if (!stored.empty()) sections.back().coding = kStored;
     if (!file.seams.empty()) add(kSeams, std::as_bytes(std::span(file.seams)));
     for (const LrAttribute& attribute : file.attributes) {
         const bool stream = !attribute.words.empty();
@@ -125,8 +136,8 @@ std::vector<std::byte> serialize_lr(const LrFile& file) {
     return out;
 }
 
-Result<void> write_lr(const LrFile& file, const std::filesystem::path& path) {
-    const std::vector<std::byte> bytes = serialize_lr(file);
+Result<void> write_lr(const LrFile& file, const std::filesystem::path& path, LrForm form) {
+    const std::vector<std::byte> bytes = serialize_lr(file, form);
     const std::span<const std::byte> parts[] = {bytes};
     return write_file(path, parts);
 }

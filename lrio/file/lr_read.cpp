@@ -1,9 +1,11 @@
 // Reads .lr files and checks all that is in them.
 
 #include <algorithm>
+#include <optional>
 
 #include "lacedring/file.hpp"
 #include "lrcore/base/bits.h"
+#include "lrcore/codec/storage/packed_storage.h"
 #include "lrio/file/lr_layout.h"
 
 namespace lacedring {
@@ -13,6 +15,10 @@ using namespace detail;  // lr_layout.h's
 
 class Reader {
   public:
+    explicit Reader(std::span<const std::byte> bytes, std::uint64_t max_bytes)
+        : max_bytes_(max_bytes != 0 ? max_bytes
+                                    : std::max<std::uint64_t>(512 << 20, std::uint64_t{128} * bytes.size())) {}
+
     Result<LrFile> read(std::span<const std::byte> bytes) {
         const Result<FileHeader> header = visit_sections(
             bytes,
@@ -23,6 +29,7 @@ class Reader {
                 if (section.crc != crc32(contents)) return "is damaged";
                 return read_section(h, section, contents);
             });
+        if (limit_) return *limit_;
         if (!header) return header.error();
         if (auto good = check(); !good) return good.error();
         return std::move(file_);
@@ -40,7 +47,7 @@ class Reader {
                 if (has_connectivity_) return "occurs twice";
                 has_connectivity_ = true;
                 file_.format = format_of(section.kind);
-                return read_words(contents, file_.words);
+                return section.coding == kStored ? restore(header, contents) : read_words(contents, file_.words);
             case kVertexOrder:
                 return read_words(contents, file_.vertex_order);
             case kCornerOrder:
@@ -54,6 +61,22 @@ class Reader {
             default:
                 return fmt::format("unknown kind {}", section.kind);
         }
+    }
+
+    std::string restore(const FileHeader& header, std::span<const std::byte> contents) {
+        constexpr double kTriangle = 60, kVertex = 8;  // bytes, while it is restored
+        if (kTriangle * header.input_triangles + kVertex * header.vertices > static_cast<double>(max_bytes_)) {
+            limit_ = Error{ErrorCode::memory_limit,
+                           fmt::format("lr file: {} triangles in storage form would take more than {} MiB",
+                                       header.input_triangles, max_bytes_ >> 20)};
+            return "too large";
+        }
+        std::vector<std::uint32_t> words;
+        if (std::string why = read_words(contents, words); !why.empty()) return why;
+        auto restored = storage::restore_packed(words, {header.vertices, header.input_triangles});
+        if (!restored) return restored.error().message;
+        file_.words = std::move(*restored);
+        return {};
     }
 
     static std::string read_words(std::span<const std::byte> contents, std::vector<std::uint32_t>& words) {
@@ -142,6 +165,8 @@ class Reader {
         return true;
     }
 
+    std::uint64_t max_bytes_;
+    std::optional<Error> limit_;  ///< what was more than may be
     LrFile file_;
     DecodedLr decoded_;
     bool has_connectivity_ = false;
@@ -149,15 +174,15 @@ class Reader {
 
 }  // namespace
 
-Result<LrFile> detail::parse_lr(std::span<const std::byte> bytes, DecodedLr& decoded) {
-    Reader reader;
+Result<LrFile> detail::parse_lr(std::span<const std::byte> bytes, std::uint64_t max_bytes, DecodedLr& decoded) {
+    Reader reader(bytes, max_bytes);
     Result<LrFile> file = reader.read(bytes);
     if (file) decoded = reader.take_decoded();
     return file;
 }
 
-Result<LrFile> parse_lr(std::span<const std::byte> bytes) {
-    return Reader().read(bytes);
+Result<LrFile> parse_lr(std::span<const std::byte> bytes, std::uint64_t max_bytes) {
+    return Reader(bytes, max_bytes).read(bytes);
 }
 
 Result<LrFile> read_lr(const std::filesystem::path& path) {

@@ -47,6 +47,7 @@ Result<LrContents> list_lr(std::span<const std::byte> bytes) {
             listed.kind = kKindNames[section.kind];
             listed.bytes = section.size;
             listed.per_copy = (section.layout & kPerCopy) != 0;
+            listed.stored = section.coding == kStored;
             if (section.kind == kVertices) return list_stream(section, contents, listed);
             if (section.kind != kAttribute) return {};
             if (section.name_length > contents.size()) return "attribute of the wrong size";
@@ -87,6 +88,7 @@ namespace {
 
 Result<LrFileView> view_sections(std::span<const std::byte> bytes, bool checksums) {
     LrFileView out;
+    bool stored = false;
     if (reinterpret_cast<std::uintptr_t>(bytes.data()) % 8 != 0) {  // words are read where they lie
         if (std::string why = not_an_lr_file(bytes); !why.empty()) return Error{ErrorCode::malformed, std::move(why)};
         return Error{ErrorCode::invalid_argument, "the file does not begin at a multiple of eight bytes"};
@@ -100,6 +102,10 @@ Result<LrFileView> view_sections(std::span<const std::byte> bytes, bool checksum
     const Result<FileHeader> header = visit_sections(
         bytes, [&](const FileHeader& h, const Section& section, std::span<const std::byte> contents) -> std::string {
             if (checksums && section.crc != crc32(contents)) return "is damaged";
+            if (section.coding == kStored) {
+                stored = true;
+                return {};
+            }
             switch (section.kind) {
                 case kLean:
                 case kLr:
@@ -123,6 +129,7 @@ Result<LrFileView> view_sections(std::span<const std::byte> bytes, bool checksum
             }
         });
     if (!header) return header.error();
+    if (stored) return Error{ErrorCode::unsupported, "lr file: in storage form, which is not read in place"};
     if (out.words.data() == nullptr) return malformed_lr("no connectivity");
     if (out.seams.empty() != (header->copies == 0))
         return malformed_lr("seams without copies, or copies without seams");

@@ -51,7 +51,7 @@ Result<void> StreamDecoder::read(std::span<const std::byte> file) {
 /// Of files whose vertices or triangles do not come as they are stored.
 Result<void> StreamDecoder::read_mesh(std::span<const std::byte> file) {
     DecodedLr connectivity;
-    const Result<LrFile> whole = parse_lr(file, connectivity);
+    const Result<LrFile> whole = parse_lr(file, 0, connectivity);
     if (!whole) return whole.error();
     in_order_ = !whole->vertex_order.empty() && !whole->corner_order.empty();
     Result<Mesh> mesh = in_order_ ? decode_lr_original_order(*whole) : decode_mesh(*whole, connectivity, nullptr);

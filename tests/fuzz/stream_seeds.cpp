@@ -35,6 +35,10 @@ void write(const char* target, const std::string& name, std::span<const std::byt
 
 void write_stream(const char* target, const std::string& name, const Mesh& mesh, const Encoded& encoded) {
     write(target, name, encoded.bytes());
+    if (encoded.format == Format::packed && mesh.triangle_count() > 150) {  // fewer stay resident
+        const LrFile file = make_lr_file(mesh, encoded, false);
+        write("lr_file", std::string(target) + "-" + name + "-stored", serialize_lr(file, LrForm::stored));
+    }
     if (mesh.triangle_count() > 60) return;
     LrFile file = make_lr_file(mesh, encoded, mesh.triangle_count() % 2 == 0);
     write("lr_file", std::string(target) + "-" + name, serialize_lr(file));

@@ -1,6 +1,6 @@
 #pragma once
-// From the steps of walk_corridors to turn bits, events and warts. The planner keeps the state that a reader of the
-// record has, and says in events whatever the next triangle needs and that state does not give.
+// From the steps of a walk to turn bits, events and warts. The planner keeps the state that a reader of the record has,
+// and says in events whatever the next triangle needs and that state does not give.
 
 #include <algorithm>
 #include <array>
@@ -13,22 +13,51 @@
 
 namespace lacedring {
 
-/// Turns steps into records, and sets their turn bits.
+/// Steps of walk_corridors or walk_pieces, by the numbers that a stream has.
+class CorridorSteps {
+  public:
+    CorridorSteps(const CornerTable& table, const Corridors& corridors)
+        : table_(table), corridors_(corridors), number_(table.vertex_count), step_(table.triangle_count(), UINT32_MAX) {
+        for (std::uint32_t v = 0; v < table.vertex_count; ++v) number_[corridors.vertex_order[v]] = v;
+        for (std::uint32_t i = 0; i < size(); ++i) step_[triangle(corridors.corners[i]).value] = i;
+    }
+
+    std::uint32_t size() const { return static_cast<std::uint32_t>(corridors_.corners.size()); }
+    std::uint8_t flags(std::uint32_t i) const { return corridors_.flags[i]; }  ///< CorridorStep's
+    bool on_right(std::uint32_t i) const { return (flags(i) & CorridorStep::kRight) != 0; }
+    bool flipped(std::uint32_t i) const { return table_.flipped(triangle(corridors_.corners[i])); }
+    PackedEdge edge(std::uint32_t i) const { return {number(facing(i, true)), number(facing(i, false))}; }
+    std::uint32_t third(std::uint32_t i) const { return number(corridors_.corners[i]); }
+
+    /// The step that enters what lies across (x, b) of triangle i, or across (a, x); UINT32_MAX: none does.
+    std::uint32_t across(std::uint32_t i, bool a) const {
+        const CornerId o = table_.opposite(facing(i, !a));
+        if (o.is_null()) return UINT32_MAX;
+        const std::uint32_t step = step_[triangle(o).value];
+        return step != UINT32_MAX && step > i && corridors_.corners[step] == o ? step : UINT32_MAX;
+    }
+
+  private:
+    std::uint32_t number(CornerId c) const { return number_[table_.vertex(c).value]; }
+    CornerId facing(std::uint32_t i, bool a) const {  // the corner at a, or at b
+        const CornerId c = corridors_.corners[i];
+        return on_right(i) == a ? previous(c) : next(c);
+    }
+
+    const CornerTable& table_;
+    const Corridors& corridors_;
+    std::vector<std::uint32_t> number_, step_;
+};
+
+/// Turns steps into records, and sets their turn bits. Steps is CorridorSteps, or has its functions.
+template <class Steps>
 class Planner {
     using Edge = PackedEdge;
     static constexpr std::uint32_t kSplitOrder = 2;  // a guess: a group's order is known only when its events are
 
   public:
-    Planner(const CornerTable& table, const Corridors& corridors, std::uint32_t vertex_bits, std::uint32_t* turns)
-        : table_(table),
-          corridors_(corridors),
-          number_(table.vertex_count),
-          step_(table.triangle_count(), UINT32_MAX),
-          vertex_bits_(vertex_bits),
-          turns_(turns) {
-        for (std::uint32_t v = 0; v < table.vertex_count; ++v) number_[corridors.vertex_order[v]] = v;
-        for (std::uint32_t i = 0; i < corridors.corners.size(); ++i) step_[triangle(corridors.corners[i]).value] = i;
-    }
+    Planner(const Steps& steps, std::uint32_t vertex_bits, std::uint32_t* turns)
+        : steps_(steps), vertex_bits_(vertex_bits), turns_(turns) {}
 
     /// The record of triangles [first, end), and their turns. `reversed`: the orientation that its reader begins with,
     /// where that is said elsewhere.
@@ -51,8 +80,8 @@ class Planner {
         for (std::uint32_t i = first; i < end; ++i) turns_[i / 32] &= ~(1U << (i % 32));
     }
 
-    Edge edge(std::uint32_t i) const { return {number(facing(i, true)), number(facing(i, false))}; }
-    std::uint32_t third(std::uint32_t i) const { return number(corridors_.corners[i]); }
+    Edge edge(std::uint32_t i) const { return steps_.edge(i); }
+    std::uint32_t third(std::uint32_t i) const { return steps_.third(i); }
     /// Does the triangle come out as (a, x, b), not (a, b, x)?
     bool comes_reversed(std::uint32_t i) const { return on_right(i) != flipped(i); }
 
@@ -92,26 +121,13 @@ class Planner {
         return out;
     }
 
-    std::uint32_t number(CornerId c) const { return number_[table_.vertex(c).value]; }
-    std::uint8_t flags(std::uint32_t i) const { return corridors_.flags[i]; }
-    bool on_right(std::uint32_t i) const { return (flags(i) & CorridorStep::kRight) != 0; }
-    bool flipped(std::uint32_t i) const { return table_.flipped(triangle(corridors_.corners[i])); }
-    CornerId facing(std::uint32_t i, bool a) const {  // the corner at a, or at b
-        const CornerId c = corridors_.corners[i];
-        return on_right(i) == a ? previous(c) : next(c);
-    }
+    std::uint8_t flags(std::uint32_t i) const { return steps_.flags(i); }
+    bool on_right(std::uint32_t i) const { return steps_.on_right(i); }
+    bool flipped(std::uint32_t i) const { return steps_.flipped(i); }
     /// The orientation that events have to say: flips, too, where no bitmap says these.
     bool reversed(std::uint32_t i) const { return on_right(i) != (bitmap_ ? base_ : flipped(i)); }
     bool turn(std::uint32_t i) const { return (turns_[i / 32] >> (i % 32) & 1) != 0; }
     void set_turn(std::uint32_t i, bool bit) { turns_[i / 32] |= (bit ? 1U : 0U) << (i % 32); }
-
-    /// The step that enters what lies across (x, b) of triangle i, or across (a, x); UINT32_MAX: none does.
-    std::uint32_t step_across(std::uint32_t i, bool a) const {
-        const CornerId o = table_.opposite(facing(i, !a));
-        if (o.is_null()) return UINT32_MAX;
-        const std::uint32_t step = step_[triangle(o).value];
-        return step != UINT32_MAX && step > i && corridors_.corners[step] == o ? step : UINT32_MAX;
-    }
 
     PackedEvent& event(std::uint32_t i, std::uint32_t code) {
         out_->events.push_back(
@@ -218,7 +234,7 @@ class Planner {
             return 2;
         }
         // The triangle at which the walk returns to the rest; end_ if that is behind the record.
-        const std::uint32_t back = std::min(step_across(i, !first_a), end_);
+        const std::uint32_t back = std::min(steps_.across(i, !first_a), end_);
         if (back == i + 1) {
             one_way(i, x, !first_a);
             return 1;
@@ -267,7 +283,7 @@ class Planner {
 
     /// Is the smaller part of T0 i one triangle that is next and turned the same way, with more behind it?
     bool is_wart(std::uint32_t i, std::uint32_t outer) const {
-        if (i + 1 == corridors_.corners.size() || (i + 1 < end_ && i + 1 >= outer)) return false;
+        if (i + 1 == steps_.size() || (i + 1 < end_ && i + 1 >= outer)) return false;
         const bool first_a = (flags(i) & CorridorStep::kFirstA) != 0;
         const std::uint32_t x = third(i);
         const Edge inner = first_a ? Edge{now_.a, x} : Edge{x, now_.b};
@@ -298,9 +314,7 @@ class Planner {
         }
     }
 
-    const CornerTable& table_;
-    const Corridors& corridors_;
-    std::vector<std::uint32_t> number_, step_;
+    const Steps& steps_;
     std::uint32_t vertex_bits_;
     std::uint32_t* turns_;
     bool bitmap_ = false;                    // does FLIPS say which triangles are flipped?

@@ -78,14 +78,22 @@ struct CompressedAttribute {
 /// invalid_argument (bits), too_large.
 Result<std::vector<CompressedAttribute>> compress_attributes(LrFile& file, const AttributeBits& bits = {});
 
-/// The file's bytes. Cost: O(file).
-std::vector<std::byte> serialize_lr(const LrFile& file);
+/// How a file holds its streams.
+enum class LrForm : std::uint8_t {
+    resident,  ///< as a program or a GPU reads them at random: in a mapped file, in place
+    stored,  ///< coded through and through, smaller, for disks and networks: parse_lr makes the resident streams of it,
+             ///< bit for bit. Streams that have no storage form, or one that is not smaller, stay resident
+};
 
-/// Reads and checks everything: structure, checksums, stream, permutations, finite positions.
-/// Errors: malformed, too_large. Untrusted input: safe. Cost: O(file).
-Result<LrFile> parse_lr(std::span<const std::byte> bytes);
+/// The file's bytes. Cost: O(file); stored, about a microsecond a triangle.
+std::vector<std::byte> serialize_lr(const LrFile& file, LrForm form = LrForm::resident);
 
-Result<void> write_lr(const LrFile& file, const std::filesystem::path& path);
+/// Reads and checks everything: structure, checksums, stream, permutations, finite positions. Streams in storage form
+/// may be many times as large as what is stored: `max_bytes` is what they may take, or, where it is 0, 512 MiB or 128
+/// times the file, whichever is more. Errors: malformed, too_large, memory_limit. Untrusted input: safe. Cost: O(file).
+Result<LrFile> parse_lr(std::span<const std::byte> bytes, std::uint64_t max_bytes = 0);
+
+Result<void> write_lr(const LrFile& file, const std::filesystem::path& path, LrForm form = LrForm::resident);
 Result<LrFile> read_lr(const std::filesystem::path& path);
 
 /// Do the bytes begin as an .lr file does?
@@ -99,6 +107,7 @@ struct LrSection {
     ComponentType type = ComponentType::f32;
     std::uint8_t components = 0;
     bool per_copy = false;    ///< of an attribute
+    bool stored = false;      ///< in storage form
     std::uint64_t bytes = 0;  ///< of its contents
     std::string mapping;  ///< of a vertex stream: "integers", "lattice", "octahedral", "floats", "decimals", "doubles"
     float largest_error = 0;  ///< of a vertex stream
@@ -141,7 +150,8 @@ struct LrFileView {
 
 /// A file in memory, for one that is mapped (MappedFile, file.hpp) above all: `bytes` begin at a multiple of 8. Checks
 /// the structure of the file and the sizes of all sections, not what is in them: call validate() or trust the words;
-/// the orders' entries may be any numbers. Errors: malformed, invalid_argument (the address). Untrusted input: safe.
+/// the orders' entries may be any numbers. Errors: malformed, invalid_argument (the address), unsupported (streams in
+/// storage form, which parse_lr reads). Untrusted input: safe.
 /// Cost: O(1) in the size of the mesh.
 Result<LrFileView> view_lr_file(std::span<const std::byte> bytes);
 

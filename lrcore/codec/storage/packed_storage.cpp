@@ -1,0 +1,128 @@
+#include "lrcore/codec/storage/packed_storage.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "lrcore/base/message.h"
+#include "lrcore/codec/packed/packed_writer.h"
+#include "lrcore/codec/storage/packed_steps.h"
+#include "lrcore/codec/storage/walk_coder.h"
+
+namespace lacedring::storage {
+namespace {
+
+// Words before the coded steps: vertices, own triangles, runs of doubles and whether triangles are flipped. Then, if
+// there are runs, the words of the doubles as the stream has them.
+constexpr std::size_t kHeaderWords = 3;
+constexpr std::uint32_t kHasFlips = 0x80000000U;
+
+Error malformed(const char* what) {
+    return {ErrorCode::malformed, detail::message("stored packed stream: ", what)};
+}
+
+/// An edge of a step that a later one may be entered across: (a, x), or (x, b).
+struct Offer {
+    PackedEdge edge;
+    std::uint32_t step;
+    bool is_a;
+
+    auto key() const { return std::tuple(edge.a, edge.b, step, is_a); }
+    bool operator<(const Offer& other) const { return key() < other.key(); }
+};
+
+/// Sets the steps across each step's edges: a step is entered across the edge offered last that is the same.
+void link_across(PackedSteps& steps) {
+    std::vector<Offer> offers;
+    offers.reserve(2 * std::size_t{steps.size()});
+    for (std::uint32_t i = 0; i < steps.size(); ++i) {
+        const auto [a, b] = steps.edge(i);
+        const std::uint32_t x = steps.third(i);
+        offers.push_back({{a, x}, i, true});
+        offers.push_back({{x, b}, i, false});
+    }
+    std::sort(offers.begin(), offers.end());
+    for (std::uint32_t i = 1; i < steps.size(); ++i) {
+        const PackedEdge edge = steps.edge(i);
+        const auto found = std::lower_bound(offers.begin(), offers.end(), Offer{edge, i, false});
+        if (found == offers.begin() || (found - 1)->edge != edge) continue;
+        const Offer& offer = *(found - 1);
+        // A ring edge is not crossed; where a tree of steps begins at one, that is from elsewhere.
+        if (edge.b - edge.a == 1 && offer.step + 1 != i) continue;
+        std::uint32_t& across = offer.is_a ? steps.step(offer.step).across_a : steps.step(offer.step).across_b;
+        if (across == UINT32_MAX) across = i;
+    }
+}
+
+/// Sets the flags. Where trees of steps begin, on_right is what the triangle comes out as, and triangles that come out
+/// otherwise are flipped. Returns whether any is.
+bool set_flags(PackedSteps& steps) {
+    bool has_flips = false;
+    std::vector<std::uint8_t> right(steps.size(), 0), reached(steps.size(), 0);
+    for (std::uint32_t i = 0; i < steps.size(); ++i) {
+        const PackedSteps::Step& s = steps.step(i);
+        const std::uint8_t reversed = steps.flags_of(i) & CorridorStep::kRight;
+        if (reached[i] == 0) right[i] = reversed;  // a tree's first
+        constexpr std::uint8_t kBoth = CorridorStep::kEnterA | CorridorStep::kEnterB;
+        const std::uint8_t said = steps.flags_of(i) & (kBoth | CorridorStep::kFirstA);
+        std::uint8_t flags = right[i] | (said & kBoth);
+        if (right[i] != reversed) flags |= PackedSteps::kFlipped;
+        has_flips |= right[i] != reversed;
+        for (const std::uint32_t step : {s.across_a, s.across_b}) {
+            if (step == UINT32_MAX) continue;
+            reached[step] = 1;
+            right[step] = right[i];
+        }
+        if (s.across_a != UINT32_MAX) flags |= CorridorStep::kEnterA;
+        if (s.across_b != UINT32_MAX) flags |= CorridorStep::kEnterB;
+        const bool first_a = (said & kBoth) == kBoth ? (said & CorridorStep::kFirstA) != 0 : s.across_a < s.across_b;
+        if ((flags & kBoth) == kBoth && first_a) flags |= CorridorStep::kFirstA;
+        steps.flags_of(i) = flags;
+    }
+    return has_flips;
+}
+
+}  // namespace
+
+std::optional<std::vector<std::uint32_t>> store_packed(const PackedView& view) {
+    std::optional<PackedSteps> steps = read_steps(view);
+    if (!steps) return {};
+    link_across(*steps);
+    const bool has_flips = set_flags(*steps);
+    std::vector<std::uint32_t> out{view.vertices, view.own, view.runs | (has_flips ? kHasFlips : 0)};
+    const auto doubles = view.words.subspan(view.doubles_word(), view.groups_word() - view.doubles_word());
+    out.insert(out.end(), doubles.begin(), doubles.end());
+    Encoder coder;
+    WalkCoder<Encoder>(coder, *steps, view.vertices, has_flips).code(view.own);
+    const std::vector<std::uint32_t> coded = coder.finish();
+    out.insert(out.end(), coded.begin(), coded.end());
+    const auto restored = restore_packed(out, {view.vertices, view.triangles});
+    if (!restored || !std::ranges::equal(*restored, view.words)) return {};
+    return out;
+}
+
+Result<std::vector<std::uint32_t>> restore_packed(std::span<const std::uint32_t> stored, const PackedLimits& limits) {
+    if (stored.size() < kHeaderWords) return malformed("shorter than its header");
+    const std::uint32_t vertices = stored[0], own = stored[1], runs = stored[2] & ~kHasFlips;
+    if (vertices > limits.vertices || own > limits.triangles) return malformed("more than its file has");
+    std::size_t at = kHeaderWords;
+    const std::size_t doubles = runs == 0 ? 0 : LR_PACKED_DOUBLES_WORDS + LR_PACKED_RUN_WORDS * std::size_t{runs};
+    if (doubles > stored.size() - at) return malformed("doubles beyond its end");
+    at += doubles;
+    Decoder coder(stored.subspan(at));
+    PackedSteps steps;
+    if (!WalkCoder<Decoder>(coder, steps, vertices, (stored[2] & kHasFlips) != 0).code(own) || !coder.is_at_end()) {
+        return malformed("its steps say something impossible");
+    }
+    PackedStatistics statistics;
+    Result<std::vector<std::uint32_t>> words = write_packed(steps, vertices, statistics);
+    if (!words || runs == 0) return words;
+    PackedView view;
+    view.triangles = view.own = own;
+    words->insert(words->begin() + static_cast<std::ptrdiff_t>(view.doubles_word()), stored.begin() + kHeaderWords,
+                  stored.begin() + static_cast<std::ptrdiff_t>(at));
+    (*words)[LR_PACKED_WORD_VERTICES] |= LR_PACKED_DOUBLES;
+    (*words)[LR_PACKED_WORD_CHECKSUM] = packed_checksum(*words);
+    return words;
+}
+
+}  // namespace lacedring::storage

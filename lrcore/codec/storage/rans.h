@@ -1,0 +1,257 @@
+#pragma once
+// The entropy coder of the storage form: range asymmetric numeral systems (rANS) over adaptive models, two states by
+// turns, and raw bits beside them. Internal to lrcore.
+//
+// What is coded is written once, as a template over the coder: Encoder and Decoder have the same functions, of which
+// the encoder's take a value and return it, and the decoder's ignore it and return what was encoded.
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lacedring::storage {
+
+constexpr std::uint32_t kScaleBits = 15, kScale = 1U << kScaleBits;
+constexpr std::uint64_t kLeast = std::uint64_t{1} << 31;  ///< of a state between symbols
+
+/// A bit whose probability is learnt: quickly at first, then from the last fifty or so.
+struct BitModel {
+    std::uint16_t zero = kScale / 2;  ///< of kScale
+    std::uint16_t seen = 0;
+
+    void update(std::uint32_t bit) {
+        constexpr std::int32_t kSlowest = 48;
+        seen = static_cast<std::uint16_t>(std::min<std::int32_t>(seen + 1, kSlowest));
+        const std::int32_t target = bit != 0 ? 32 : static_cast<std::int32_t>(kScale) - 32;
+        const std::int32_t step = kReciprocals[seen];
+        zero = static_cast<std::uint16_t>(zero + (((target - zero) * step) >> 16));
+    }
+
+  private:
+    /// 65536 / (n + 1.5).
+    static constexpr std::array<std::int32_t, 64> kReciprocals = [] {
+        std::array<std::int32_t, 64> out{};
+        for (std::int32_t n = 0; n < 64; ++n) out[static_cast<std::size_t>(n)] = 131072 / (2 * n + 3);
+        return out;
+    }();
+};
+
+/// One of 16 symbols. Frequencies follow what was coded, in steps: often at first, then every 64 symbols.
+struct SymbolModel {
+    static constexpr std::uint32_t kSymbols = 16;
+
+    std::array<std::uint16_t, kSymbols + 1> begin;  ///< of each symbol's range, and kScale
+    std::array<std::uint16_t, kSymbols> count;
+    std::uint16_t total = kSymbols, left = kFirst, cycle = kFirst;
+
+    SymbolModel() {
+        count.fill(1);
+        rebuild();
+    }
+
+    /// The symbol whose range `at` is in.
+    std::uint32_t find(std::uint32_t at) const {
+        std::uint16_t n = 0;
+        for (std::uint32_t i = 0; i < kSymbols; ++i) n = static_cast<std::uint16_t>(n + (begin[i] <= at ? 1 : 0));
+        return n - 1U;
+    }
+
+    void update(std::uint32_t symbol) {
+        count[symbol] = static_cast<std::uint16_t>(count[symbol] + kStep);
+        total = static_cast<std::uint16_t>(total + kStep);
+        if (--left == 0) renew();
+    }
+
+  private:
+    static constexpr std::uint16_t kFirst = 6, kLongest = 64, kStep = 4, kMost = 2048;
+
+    void renew() {
+        if (total > kMost) {
+            total = 0;
+            for (std::uint16_t& n : count) {
+                n = static_cast<std::uint16_t>((n + 1) / 2);
+                total = static_cast<std::uint16_t>(total + n);
+            }
+        }
+        rebuild();
+        cycle = static_cast<std::uint16_t>(std::min<std::uint32_t>(cycle + cycle / 2U, kLongest));
+        left = cycle;
+    }
+    void rebuild() {
+        const std::uint32_t scale = ((kScale - kSymbols) << 16) / total;
+        std::uint32_t sum = 0;
+        for (std::uint32_t i = 0; i < kSymbols; ++i) {
+            begin[i] = static_cast<std::uint16_t>(i + ((sum * static_cast<std::uint64_t>(scale)) >> 16));
+            sum += count[i];
+        }
+        begin[kSymbols] = kScale;
+    }
+};
+
+/// Records what is coded; finish() writes it, since rANS is written from its end.
+class Encoder {
+  public:
+    static constexpr bool kDecodes = false;
+
+    std::uint32_t bit(BitModel& model, std::uint32_t value) {
+        put(value != 0 ? model.zero : 0U, value != 0 ? kScale - model.zero : model.zero);
+        model.update(value);
+        return value;
+    }
+    std::uint32_t symbol(SymbolModel& model, std::uint32_t value) {
+        put(model.begin[value], model.begin[value + 1] - model.begin[value]);
+        model.update(value);
+        return value;
+    }
+    /// The lowest `count` bits, at most 32.
+    std::uint32_t raw(std::uint32_t value, std::uint32_t count) {
+        if (count == 0) return 0;
+        value &= UINT32_MAX >> (32 - count);
+        window_ |= static_cast<std::uint64_t>(value) << fill_;
+        fill_ += count;
+        if (fill_ >= 32) {
+            raw_.push_back(static_cast<std::uint32_t>(window_));
+            window_ >>= 32;
+            fill_ -= 32;
+        }
+        return value;
+    }
+    bool bad() const { return false; }
+
+    /// Words: how many words of symbols, those, and the raw bits'.
+    std::vector<std::uint32_t> finish() {
+        if (fill_ > 0) raw_.push_back(static_cast<std::uint32_t>(window_));
+        std::array<std::uint64_t, 2> states{kLeast, kLeast};
+        std::vector<std::uint32_t> words;  // from the last one to the first
+        for (std::size_t i = symbols_.size(); i-- > 0;) {
+            std::uint64_t& x = states[i % 2];
+            const std::uint32_t begin = symbols_[i] & 0xffff, size = symbols_[i] >> 16;
+            if (x >= (kLeast >> kScaleBits << 32) * size) {
+                words.push_back(static_cast<std::uint32_t>(x));
+                x >>= 32;
+            }
+            x = ((x / size) << kScaleBits) + x % size + begin;
+        }
+        for (std::size_t i = 2; i-- > 0;) {
+            words.push_back(static_cast<std::uint32_t>(states[i] >> 32));
+            words.push_back(static_cast<std::uint32_t>(states[i]));
+        }
+        std::vector<std::uint32_t> out{static_cast<std::uint32_t>(words.size())};
+        out.insert(out.end(), words.rbegin(), words.rend());
+        out.insert(out.end(), raw_.begin(), raw_.end());
+        return out;
+    }
+
+  private:
+    void put(std::uint32_t begin, std::uint32_t size) { symbols_.push_back(begin | size << 16); }
+
+    std::vector<std::uint32_t> symbols_, raw_;
+    std::uint64_t window_ = 0;
+    std::uint32_t fill_ = 0;
+};
+
+/// Any words: safe. What they say beyond their end is of no use, and bad() then says so.
+class Decoder {
+  public:
+    static constexpr bool kDecodes = true;
+
+    explicit Decoder(std::span<const std::uint32_t> words) {
+        if (words.empty() || words[0] > words.size() - 1 || words[0] < 4) {
+            bad_ = true;
+            return;
+        }
+        at_ = words.data() + 1;
+        end_ = at_ + words[0];
+        raw_at_ = end_;
+        raw_end_ = words.data() + words.size();
+        for (std::uint64_t* x : {&now_, &next_}) {
+            *x = at_[0] | static_cast<std::uint64_t>(at_[1]) << 32;
+            at_ += 2;
+        }
+    }
+
+    std::uint32_t bit(BitModel& model, std::uint32_t /*value*/ = 0) {
+        const std::uint32_t at = now_ & (kScale - 1), zero = model.zero;
+        const std::uint32_t value = at >= zero ? 1 : 0;
+        take(at, value != 0 ? zero : 0, value != 0 ? kScale - zero : zero);
+        model.update(value);
+        return value;
+    }
+    std::uint32_t symbol(SymbolModel& model, std::uint32_t /*value*/ = 0) {
+        const std::uint32_t at = now_ & (kScale - 1), value = model.find(at);
+        take(at, model.begin[value], model.begin[value + 1] - model.begin[value]);
+        model.update(value);
+        return value;
+    }
+    std::uint32_t raw(std::uint32_t /*value*/, std::uint32_t count) {
+        if (count == 0) return 0;
+        if (fill_ < count) {
+            if (raw_at_ != raw_end_) {
+                window_ |= static_cast<std::uint64_t>(*raw_at_++) << fill_;
+            } else {
+                bad_ = true;
+            }
+            fill_ += 32;
+        }
+        const auto value = static_cast<std::uint32_t>(window_) & (UINT32_MAX >> (32 - count));
+        window_ >>= count;
+        fill_ -= count;
+        return value;
+    }
+
+    bool bad() const { return bad_; }
+    /// Was all of it used, and do both states end as they began?
+    bool is_at_end() const {
+        return !bad_ && at_ == end_ && raw_at_ == raw_end_ && window_ == 0 && now_ == kLeast && next_ == kLeast;
+    }
+
+  private:
+    void take(std::uint32_t at, std::uint32_t begin, std::uint32_t size) {
+        std::uint64_t x = size * (now_ >> kScaleBits) + at - begin;
+        if (x < kLeast) {
+            if (at_ != end_) {
+                x = x << 32 | *at_++;
+            } else {
+                bad_ = true;
+                x |= kLeast;
+            }
+        }
+        now_ = next_;
+        next_ = x;
+    }
+
+    const std::uint32_t *at_ = nullptr, *end_ = nullptr, *raw_at_ = nullptr, *raw_end_ = nullptr;
+    std::uint64_t now_ = kLeast, next_ = kLeast, window_ = 0;
+    std::uint32_t fill_ = 0;
+    bool bad_ = false;
+};
+
+/// A number of any size: the number of its bits by a model, those below the highest as they are. 2^15 and more take an
+/// escape.
+struct NumberModel {
+    SymbolModel bits;
+
+    template <class Coder>
+    std::uint32_t code(Coder& coder, std::uint32_t value) {
+        const auto width = static_cast<std::uint32_t>(std::bit_width(value));
+        std::uint32_t bits_of = coder.symbol(bits, std::min(width, 15U));
+        if (bits_of == 15) bits_of = 15 + coder.raw(width - 15, 5);
+        if (bits_of > 32) return 0;  // of a decoder alone: nothing writes it
+        if (bits_of < 2) return bits_of;
+        return 1U << (bits_of - 1) | coder.raw(value, bits_of - 1);
+    }
+};
+
+/// 0, -1, 1, -2 ... as 0, 1, 2, 3 ...
+constexpr std::uint32_t fold(std::uint32_t x) {
+    return x << 1 ^ (0U - (x >> 31));
+}
+constexpr std::uint32_t unfold(std::uint32_t code) {
+    return code >> 1 ^ (0U - (code & 1));
+}
+
+}  // namespace lacedring::storage

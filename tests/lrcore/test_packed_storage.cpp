@@ -1,0 +1,182 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <memory>
+#include <random>
+
+#include "lacedring/lacedring.hpp"
+#include "lacedring/streams.hpp"
+#include "lrcore/codec/storage/packed_storage.h"
+#include "lrcore/codec/storage/rans.h"
+#include "lrlab/generate/generate.h"
+#include "tests/support/meshes.h"
+
+using namespace lacedring;
+using storage::restore_packed;
+using storage::store_packed;
+
+namespace {
+
+using Words = std::vector<std::uint32_t>;
+
+Words encoded(const Mesh& mesh, PackedProfile profile = PackedProfile::small) {
+    EncodeOptions options;
+    options.profile = profile;
+    Result<Encoded> out = encode(mesh.indices, mesh.vertex_count, options);
+    REQUIRE_MESSAGE(out, out.error().message);
+    return std::move(out->words);
+}
+
+storage::PackedLimits limits_of(const PackedView& view) {
+    return {view.vertices, view.triangles};
+}
+
+/// Restores from a buffer of exactly the size.
+Result<Words> restored(const Words& stored, const storage::PackedLimits& limits) {
+    const auto exact = std::make_unique<std::uint32_t[]>(stored.size());
+    std::ranges::copy(stored, exact.get());
+    return restore_packed({exact.get(), stored.size()}, limits);
+}
+
+/// Does the stream have a storage form? If so, it gives the stream back.
+bool round_trips(const Words& words) {
+    const Result<PackedView> view = validate_packed(words);
+    REQUIRE(view);
+    const std::optional<Words> stored = store_packed(*view);
+    if (!stored) return false;
+    const Result<Words> back = restored(*stored, limits_of(*view));
+    REQUIRE_MESSAGE(back, back.error().message);
+    CHECK(*back == words);
+    return true;
+}
+
+}  // namespace
+
+TEST_CASE("packed streams have a storage form that gives them back bit for bit") {
+    std::size_t none = 0, all = 0;
+    for (const test::NamedMesh& named : test::named_meshes()) {
+        const auto& name = named.name;
+        const Mesh& mesh = named.mesh;
+        CAPTURE(name);
+        ++all;
+        const bool stored = round_trips(encoded(mesh));
+        if (!stored) ++none;
+        const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
+        REQUIRE(table);
+        // Which way round triangles are that do not agree with their neighbors, a stream may say in other words.
+        if (table->topology.flipped == 0 && table->topology.nonmanifold_edges == 0) CHECK(stored);
+    }
+    MESSAGE(none << " of " << all << " streams stay resident");
+    CHECK(5 * none <= all);
+}
+
+TEST_CASE("streams for the vertex cache, and of random triangles, give themselves back or stay resident") {
+    std::size_t stored = 0;
+    for (const test::NamedMesh& named : test::named_meshes()) {
+        const auto& name = named.name;
+        const Mesh& mesh = named.mesh;
+        CAPTURE(name);
+        if (round_trips(encoded(mesh, PackedProfile::cache))) ++stored;
+    }
+    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+        CAPTURE(seed);
+        for (const std::uint32_t size : {4U, 40U, 400U}) {
+            if (round_trips(encoded(test::random_soup(size, 2 * size, seed)))) ++stored;
+            if (round_trips(encoded(test::random_gluing(size, 2 * size, seed)))) ++stored;
+        }
+    }
+    CHECK(stored > 0);
+}
+
+TEST_CASE("the storage form of a closed surface takes the bits that it should") {
+    const Mesh blob = generate("blob", 20000, 7).value();
+    const Words words = encoded(blob);
+    const std::optional<Words> stored = store_packed(*validate_packed(words));
+    REQUIRE(stored);
+    const double before = 32.0 * static_cast<double>(words.size()) / static_cast<double>(blob.triangle_count());
+    const double after = 32.0 * static_cast<double>(stored->size()) / static_cast<double>(blob.triangle_count());
+    MESSAGE("bits a triangle: " << before << " resident, " << after << " stored");
+    CHECK(after < 0.9 * before);
+}
+
+TEST_CASE("stored packed streams cut short, changed or beyond their limits are refused, or restore to something") {
+    std::size_t same = 0, all = 0;
+    for (const test::NamedMesh& named : test::named_meshes()) {
+        const auto& name = named.name;
+        const Mesh& mesh = named.mesh;
+        if (mesh.triangle_count() > 300) continue;
+        CAPTURE(name);
+        const Words words = encoded(mesh);
+        const Result<PackedView> view = validate_packed(words);
+        REQUIRE(view);
+        const std::optional<Words> stored = store_packed(*view);
+        if (!stored) continue;
+        for (std::size_t size = 0; size < stored->size(); ++size) {
+            CHECK_FALSE(
+                restored({stored->begin(), stored->begin() + static_cast<std::ptrdiff_t>(size)}, limits_of(*view)));
+        }
+        if (view->vertices > 0) CHECK_FALSE(restored(*stored, {view->vertices - 1, view->triangles}));
+        if (view->own > 0) CHECK_FALSE(restored(*stored, {view->vertices, view->own - 1}));
+        for (std::size_t bit = 0; bit < 32 * stored->size(); bit += test::kSanitized ? 7 : 1) {
+            Words changed = *stored;
+            changed[bit / 32] ^= 1U << bit % 32;
+            const Result<Words> back = restored(changed, limits_of(*view));
+            if (back) (void)validate_packed(*back);
+            ++all;
+            if (back && *back == words) ++same;  // of steps that have nothing across an edge it says what is entered
+        }
+    }
+    MESSAGE(same << " of " << all << " changed bits make no difference");
+    CHECK(50 * same < all);
+}
+
+TEST_CASE("random words are no stored packed stream, or restore to something") {
+    const auto seed = std::random_device()();
+    CAPTURE(seed);
+    std::mt19937 engine(seed);
+    const auto random = [&] { return static_cast<std::uint32_t>(engine()); };
+    for (int round = 0; round < (test::kSanitized ? 2000 : 20000); ++round) {
+        Words words(random() % 40);
+        for (std::uint32_t& w : words) w = random();
+        if (words.size() > 7) {
+            words[0] = random() % 1000;
+            words[1] = random() % 1000;
+            words[2] = random() % 4 == 0 ? random() : 0;
+            words[3] = 4 + random() % static_cast<std::uint32_t>(words.size() - 7);
+        }
+        const Result<Words> back = restored(words, {1000, 1000});
+        if (back) (void)validate_packed(*back);
+        if (!back) CHECK_FALSE(back.error().message.empty());
+    }
+}
+
+TEST_CASE("numbers, symbols and bits come back from the entropy coder, and nothing is left") {
+    const auto seed = std::random_device()();
+    CAPTURE(seed);
+    std::mt19937 engine(seed);
+    const auto random = [&] { return static_cast<std::uint32_t>(engine()); };
+    for (const std::size_t count : {0, 1, 2, 3, 1000, 30000}) {
+        Words values(count);
+        for (std::uint32_t& v : values) v = random() >> random() % 32;
+        // The same calls on either side: an encoder returns what it is given, a decoder what was.
+        const auto code = [&](auto& coder) {
+            storage::NumberModel number;
+            storage::SymbolModel symbol;
+            storage::BitModel bit;
+            Words out;
+            for (const std::uint32_t v : values) {
+                const std::uint32_t given = std::decay_t<decltype(coder)>::kDecodes ? 0 : v;
+                out.push_back(number.code(coder, given));
+                out.push_back(coder.symbol(symbol, given % 16));
+                out.push_back(coder.bit(bit, given % 7 == 1 ? 1 : 0));
+                out.push_back(coder.raw(given, v % 33));
+            }
+            return out;
+        };
+        storage::Encoder encoder;
+        const Words put = code(encoder), words = encoder.finish();
+        storage::Decoder decoder(words);
+        CHECK(code(decoder) == put);
+        CHECK(decoder.is_at_end());
+    }
+}
