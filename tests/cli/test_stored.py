@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""test_storage.py LACEDRING: encode --storage, and what reads its files."""
+"""test_stored.py LACEDRING: encode --storage, and what reads its files."""
 
 import os
 import struct
