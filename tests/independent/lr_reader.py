@@ -11,9 +11,12 @@ from lr_tables_reader import Tables, decode_tables
 from mesh_readers import TYPES, Attribute, BadFile, Mesh, split_keys
 from packed_reader import decode_packed
 from seams_reader import read_seams
+from storage_reader import read_stored_packed
 from vertex_reader import read_vertices
 
 ATTRIBUTE, VERTEX_ORDER, CORNER_ORDER, VERTEX_STREAM, SEAMS = 2, 3, 4, 8, 9
+STORAGE = 1 << 16  # added here to the kind of a section in storage form
+STORED_PACKED = STORAGE + 7
 NORMALIZED, V_UP, PER_COPY = 1 << 16, 1 << 17, 1 << 18  # bits of an attribute's layout
 LAYOUT_BITS = {ATTRIBUTE: 0x7FFFF, VERTEX_STREAM: V_UP | PER_COPY}  # that may be set
 
@@ -37,11 +40,12 @@ def packed_in(words):
 # Each takes all words of a stream and returns its vertices, the triangle of each slot, () where there is none, and a dict
 # from the extra vertices of LR tables to their originals, which triangles name.
 DECODERS = {1: lambda words: (*decode_lean_slots(words), {}), 5: lambda words: tables_in(words, False),
-            6: lambda words: tables_in(words, True), 7: packed_in}
+            6: lambda words: tables_in(words, True), 7: packed_in,
+            STORED_PACKED: lambda words: (*read_stored_packed(words), {})}
 
 
 def sections(data):
-    """(kind, contents, layout, length of the name) of each section."""
+    """(kind, contents, layout, length of the name) of each section; with STORAGE in kind if it is in storage form."""
     magic, version, count, vertices, _, copies, table_crc, header_crc = struct.unpack_from("<8I", data)
     if magic != 0x4C46524C or version != 4:
         raise BadFile("not an .lr file of version 4")
@@ -58,7 +62,8 @@ def sections(data):
             raise BadFile(f"section {i} of the .lr file is damaged")
         if offset != end + -end % 8 or any(data[end:offset]):
             raise BadFile(f"section {i} of the .lr file is not where it should be")
-        if kind not in DECODERS and kind not in (*LAYOUT_BITS, VERTEX_ORDER, CORNER_ORDER, SEAMS) or coding != 0:
+        kind += STORAGE * coding
+        if kind not in DECODERS and kind not in (*LAYOUT_BITS, VERTEX_ORDER, CORNER_ORDER, SEAMS):
             raise BadFile(f"section {i} of the .lr file has an unknown kind or coding")
         if layout & ~LAYOUT_BITS.get(kind, 0) or name_length and kind not in LAYOUT_BITS:
             raise BadFile(f"section {i} of the .lr file has bits set that should be 0")

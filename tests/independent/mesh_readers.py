@@ -17,7 +17,7 @@ from polygons import cut
 assert sys.byteorder == "little"
 
 
-class BadFile(Exception):
+class BadFile(ValueError):
     pass
 
 
