@@ -68,6 +68,9 @@ Result<void> write_mesh(const Mesh& mesh, const std::filesystem::path& path, Wri
 /// The same to an open descriptor: GLB (MeshFormat::gltf), PLY or OBJ.
 Result<void> write_mesh(const Mesh& mesh, MeshFormat format, int descriptor, WriteNotes* notes = nullptr);
 
+/// The bytes of such a file.
+Result<std::vector<std::byte>> mesh_file_bytes(const Mesh& mesh, MeshFormat format, WriteNotes* notes = nullptr);
+
 /// The format that write_mesh takes for a path; any: none.
 MeshFormat writable_format(const std::filesystem::path& path);
 
