@@ -128,10 +128,10 @@ Result<std::vector<std::byte>> values_as(const JsonValue& accessor, const Attrib
     return out;
 }
 
-void describe_attribute(JsonText& json, JsonValue& accessor, const AttributeView& attribute, std::uint32_t vertices) {
+void describe_attribute(JsonText& json, JsonValue& accessor, const AttributeView& attribute, std::uint32_t vertices,
+                        bool position) {
     accessor.set("count", json.number(vertices));
-    const bool is_position = attribute.name.starts_with("POSITION") && attribute.components == 3;
-    if (!is_position || vertices == 0) {
+    if (!position || attribute.components != 3 || vertices == 0) {
         accessor.remove("min");
         accessor.remove("max");
         return;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <iterator>
+#include <set>
 
 #include "lacedring/scene.hpp"
 #include "lrio/gltf/gltf_file.h"
@@ -28,6 +29,7 @@ class Unpacker {
         auto plan = plan_unpacking(scene_, images);
         if (!plan) return plan.error();
         report_.primitives = plan->primitives;
+        positions_ = std::move(plan->positions);
         if (auto good = keep_views(plan->kept); !good) return good.error();
         for (std::size_t i = 0; i < plan->streams.size(); ++i) {
             if (auto good = unpack(plan->streams[i]); !good) {
@@ -233,7 +235,7 @@ class Unpacker {
             AttributeView attribute = decoder.attributes()[a];
             attribute.data = bytes_of(targets[a]);
             strip_accessor(accessor);
-            describe_attribute(scene_.json(), accessor, attribute, vertices);
+            describe_attribute(scene_.json(), accessor, attribute, vertices, positions_.contains(numbers[a]));
             JsonValue view;
             if (!targets[a].apart) {
                 view = describe_view(scene_.json(), targets[a].at, targets[a].size,
@@ -286,6 +288,7 @@ class Unpacker {
     const Reading& reading_;
     UnpackReport& report_;
     std::span<JsonValue::Member> accessors_;
+    std::set<std::uint32_t> positions_;  ///< UnpackPlan's
     std::vector<JsonValue> views_;
     std::vector<bool> free_;  ///< views that nothing refers to
     std::size_t next_free_ = 0;

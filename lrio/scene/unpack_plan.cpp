@@ -102,14 +102,14 @@ class UnpackPlanner {
         if (stream.sets.empty()) return malformed("no sets");
         if (const JsonValue* ordered = value.find("ordered")) {
             stream.ordered = ordered->text == "true";
-            if (!stream.ordered && ordered->text != "false") return malformed("ordered is no truth value");
+            if (!stream.ordered && ordered->text != "false") return malformed("ordered is neither true nor false");
         }
         out_.streams.push_back(std::move(stream));
         return {};
     }
 
     /// The stream and set of a primitive's attributes. None: it has no stream. Errors: malformed (not of one set).
-    Result<std::optional<std::pair<std::uint32_t, std::uint32_t>>> set_of(const JsonValue& primitive) const {
+    Result<std::optional<std::pair<std::uint32_t, std::uint32_t>>> set_of(const JsonValue& primitive) {
         std::optional<std::pair<std::uint32_t, std::uint32_t>> out;
         bool first = true;
         const auto visit = [&](const std::string& name, std::uint32_t accessor) -> Result<void> {
@@ -119,6 +119,7 @@ class UnpackPlanner {
                 return malformed("{}: not of one set with the attributes before", shown(name));
             }
             if (has) out = found->second;
+            if (has && (name == "POSITION" || name.starts_with("POSITION@"))) out_.positions.insert(accessor);
             first = false;
             return {};
         };

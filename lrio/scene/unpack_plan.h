@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "lacedring/base.hpp"
@@ -24,8 +25,9 @@ struct StreamPlan {
 
 struct UnpackPlan {
     std::vector<StreamPlan> streams;
-    std::vector<bool> kept;      ///< of each buffer view: its contents are part of the plain scene
-    std::size_t primitives = 0;  ///< that are compressed
+    std::set<std::uint32_t> positions;  ///< accessors of sets that primitives, or morph targets, have as POSITION
+    std::vector<bool> kept;             ///< of each buffer view: its contents are part of the plain scene
+    std::size_t primitives = 0;         ///< that are compressed
 };
 
 /// Numbers of accessors and views exist, each stream has a primitive for every part, and nothing else refers to views
