@@ -19,7 +19,9 @@ class UnpackPlanner {
         : scene_(scene), images_(images), root_(scene.json().root), accessors_(root_.list("accessors")) {}
 
     Result<UnpackPlan> run() {
-        if (auto good = check_extensions(); !good) return good.error();
+        if (extension_of(root_) != nullptr) {
+            if (auto good = check_extensions(); !good) return good.error();
+        }
         if (auto good = check_buffers(); !good) return good.error();
         if (auto good = plan(); !good) return good.error();
         if (auto good = choose_views(); !good) return good.error();
@@ -169,8 +171,9 @@ class UnpackPlanner {
     Result<void> check_extensions() {
         for (const auto& member : std::as_const(root_).list("extensionsUsed")) {
             const std::string name = member.value.is_string() ? plain_string(member.value) : "";
-            if (name.ends_with("_meshopt_compression") || name == "KHR_draco_mesh_compression") {
-                return malformed("glTF: {} beside {}", shown(name), kExtension);
+            for (const char* other :
+                 {"EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_draco_mesh_compression"}) {
+                if (name == other) return malformed("glTF: {} beside {}", other, kExtension);
             }
         }
         return {};
@@ -257,7 +260,7 @@ class UnpackPlanner {
         for (const auto& image : std::as_const(root_).list("images")) {
             if (auto good = use(&image.value, "image", number++, of_images); !good) return good;
         }
-        const bool all = has_unknown_extensions();
+        const bool all = extension_of(root_) == nullptr || has_unknown_extensions();
         for (std::size_t i = 0; i < count; ++i) {
             if (of_images[i] ? images_ : all && !hollow[i] && !fallback[i]) out_.kept[i] = true;
         }
