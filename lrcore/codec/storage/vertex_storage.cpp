@@ -202,30 +202,29 @@ Result<Words> assemble(const StoredStream& stream, const BlockBits& data, std::s
 /// A walk, recorded.
 class WalkRecord {
   public:
-    void start(std::uint32_t v, std::uint32_t from) { steps_.push_back({v, 0, from}); }
-    void predicted(std::uint32_t v, std::span<const Parallelogram> all) {
-        steps_.push_back({v, static_cast<std::uint32_t>(all.size()), kNone});
-        parallelograms_.insert(parallelograms_.end(), all.begin(), all.end());
+    void start(std::uint32_t v, std::uint32_t from) { steps_.push_back({v, from, kStart, {}}); }
+    void predicted(std::uint32_t v, const Parallelograms& by, bool two) {
+        steps_.push_back({v, kNone, two ? kTwo : kOne, by});
     }
     template <class Visitor>
     void run(Visitor& visitor) const {
-        const Parallelogram* at = parallelograms_.data();
         for (const Step& step : steps_) {
-            if (step.count == 0) {
+            if (step.kind == kStart) {
                 visitor.start(step.v, step.from);
             } else {
-                visitor.predicted(step.v, std::span(at, step.count));
-                at += step.count;
+                visitor.predicted(step.v, step.by, step.kind == kTwo);
             }
         }
     }
 
   private:
+    enum Kind : std::uint8_t { kStart, kOne, kTwo };
     struct Step {
-        std::uint32_t v, count, from;
+        std::uint32_t v, from;
+        Kind kind;
+        Parallelograms by;
     };
     std::vector<Step> steps_;
-    std::vector<Parallelogram> parallelograms_;
 };
 
 /// Chooses how integers are predicted: by trial.

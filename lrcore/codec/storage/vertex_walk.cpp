@@ -3,47 +3,83 @@
 #include <algorithm>
 
 namespace lacedring::storage {
+namespace {
+
+bool is_degenerate(const std::uint32_t* v) {
+    return (v[0] == v[1]) | (v[1] == v[2]) | (v[2] == v[0]);
+}
+
+/// Which of three vertices are among three others: a bit each.
+std::uint32_t shared(const std::uint32_t* of, const std::uint32_t* with) {
+    std::uint32_t out = 0;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+        const bool is = (of[k] == with[0]) | (of[k] == with[1]) | (of[k] == with[2]);
+        out |= (is ? 1U : 0U) << k;
+    }
+    return out;
+}
+
+/// Makes triangles that follow each other neighbors.
+void join_successive(std::span<const std::uint32_t> triangles, std::vector<std::uint32_t>& opposite) {
+    constexpr std::uint8_t kAlone[8] = {3, 3, 3, 2, 3, 1, 0, 3};  // the one of three whose bit is 0
+    for (std::size_t c = 3; c < opposite.size(); c += 3) {
+        const std::uint32_t *now = triangles.data() + c, *before = now - 3;
+        const std::uint32_t k = kAlone[shared(now, before)], j = kAlone[shared(before, now)];
+        if (k == 3 || j == 3 || is_degenerate(now) || is_degenerate(before) || opposite[c - 3 + j] != kNone) continue;
+        opposite[c + k] = static_cast<std::uint32_t>(c - 3 + j);
+        opposite[c - 3 + j] = static_cast<std::uint32_t>(c + k);
+    }
+}
+
+/// An edge, and the corner that faces it.
+struct Facing {
+    std::uint32_t corner, smaller, larger;
+};
+
+/// The corners without an opposite one, in their order, but those of degenerate triangles.
+std::vector<Facing> open_corners(std::span<const std::uint32_t> triangles, std::span<const std::uint32_t> opposite) {
+    std::vector<Facing> out(opposite.size() / 2 + 3);
+    std::size_t size = 0;
+    for (std::size_t c = 0; c < opposite.size(); c += 3) {
+        const std::uint32_t* v = triangles.data() + c;
+        if (is_degenerate(v)) continue;
+        if (out.size() - size < 3) out.resize(2 * out.size());
+        const auto corner = static_cast<std::uint32_t>(c);
+        const auto add = [&](std::uint32_t k, std::uint32_t x, std::uint32_t y) {  // without a branch
+            out[size] = {corner + k, std::min(x, y), std::max(x, y)};
+            size += opposite[c + k] == kNone ? 1 : 0;
+        };
+        add(0, v[1], v[2]);
+        add(1, v[2], v[0]);
+        add(2, v[0], v[1]);
+    }
+    out.resize(size);
+    return out;
+}
+
+}  // namespace
 
 std::vector<std::uint32_t> opposite_corners(std::span<const std::uint32_t> triangles, std::uint32_t vertices) {
-    const std::size_t corners = triangles.size() / 3 * 3;
-    std::vector<std::uint32_t> out(corners, kNone);
-    // The corners whose edge has v as its smaller end are by_end[begin[v] to begin[v + 1]), in their order.
-    struct Facing {
-        std::uint32_t corner, larger;
-    };
-    std::vector<std::uint32_t> begin(std::size_t{vertices} + 2, 0);
-    const auto each_edge = [&](auto&& visit) {
-        for (std::size_t c = 0; c < corners; c += 3) {
-            const std::uint32_t x = triangles[c], y = triangles[c + 1], z = triangles[c + 2];
-            if (x == y || y == z || z == x) continue;
-            const auto corner = static_cast<std::uint32_t>(c);
-            visit(corner, std::min(y, z), std::max(y, z));
-            visit(corner + 1, std::min(z, x), std::max(z, x));
-            visit(corner + 2, std::min(x, y), std::max(x, y));
-        }
-    };
-    each_edge([&](std::uint32_t, std::uint32_t smaller, std::uint32_t) { ++begin[std::size_t{smaller} + 2]; });
-    for (std::size_t v = 2; v < begin.size(); ++v) begin[v] += begin[v - 1];
-    std::vector<Facing> by_end(begin.back());
-    each_edge([&](std::uint32_t corner, std::uint32_t smaller, std::uint32_t larger) {
-        by_end[begin[std::size_t{smaller} + 1]++] = {corner, larger};
-    });
+    std::vector<std::uint32_t> out(triangles.size() / 3 * 3, kNone);
+    join_successive(triangles, out);
+    const std::vector<Facing> corners = open_corners(triangles, out);
+    // In the order of the smaller ends of their edges.
+    std::vector<std::uint32_t> begin(std::size_t{vertices} + 1, 0);
+    for (const Facing& of : corners) ++begin[std::size_t{of.smaller} + 1];
+    for (std::size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];
+    std::vector<Facing> sorted(corners.size());
+    for (const Facing& of : corners) sorted[begin[of.smaller]++] = of;
     struct Open {
         std::uint32_t smaller = kNone, corner = 0;
     };
     std::vector<Open> open(vertices);  // by the larger end: an edge whose other triangle was not met yet
-    for (std::uint32_t v = 0; v < vertices; ++v) {
-        for (std::uint32_t i = begin[v]; i < begin[std::size_t{v} + 1]; ++i) {
-            const auto [corner, larger] = by_end[i];
-            Open& edge = open[larger];
-            if (edge.smaller == v) {
-                out[corner] = edge.corner;
-                out[edge.corner] = corner;
-                edge.smaller = kNone;
-            } else {
-                edge = {v, corner};
-            }
-        }
+    for (const auto& [corner, smaller, larger] : sorted) {
+        Open& edge = open[larger];
+        const std::uint32_t found = edge.smaller == smaller ? UINT32_MAX : 0;  // masks: whether is hard to predict
+        const std::uint32_t other = corner ^ ((corner ^ edge.corner) & found);
+        out[corner] = edge.corner | ~found;
+        out[other] = corner | ~found;
+        edge = {smaller | found, corner};
     }
     return out;
 }

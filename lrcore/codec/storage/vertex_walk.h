@@ -4,8 +4,8 @@
 //
 // A region grows from a triangle of each component. A triangle is complete when its vertices are known and it is the
 // component's first or shares an edge with a complete one. Where a complete triangle (x, y, z) and one that is not,
-// (x, y, v), share an edge, x + y - z predicts v. The next vertex is one with two or more such parallelograms, if there
-// is one, else one with a single parallelogram; of these the one that has been waiting longest.
+// (x, y, v), share an edge, x + y - z predicts v. The next vertex is one with two such parallelograms, if there is one,
+// else one with a single parallelogram; of these the one that has been waiting longest.
 
 #include <array>
 #include <cstdint>
@@ -19,10 +19,13 @@ struct Parallelogram {
     std::uint32_t x, y, z;
 };
 
-constexpr std::uint32_t kMostParallelograms = 8;  ///< that predict one vertex; more are not looked at
+/// Of a vertex that has a single one, both are that one.
+using Parallelograms = std::array<Parallelogram, 2>;
+
 constexpr std::uint32_t kNone = UINT32_MAX;
 
-/// For each corner the one that faces the same edge in another triangle, or kNone. Of more than two triangles at an
+/// For each corner the one that faces the same edge in another triangle, or kNone. Triangles that follow each other
+/// and share two vertices are neighbors, unless the earlier one has a neighbor there. Of the other triangles at an
 /// edge, the first and the second are neighbors, the third and the fourth, and so on. A triangle with a vertex twice
 /// has no neighbors. Cost: O(T + V).
 std::vector<std::uint32_t> opposite_corners(std::span<const std::uint32_t> triangles, std::uint32_t vertices);
@@ -33,14 +36,16 @@ class VertexWalk {
     VertexWalk(std::span<const std::uint32_t> triangles, std::uint32_t vertices)
         : triangles_(triangles), opposite_(opposite_corners(triangles, vertices)), vertices_(vertices) {}
 
-    /// Visits each vertex once: visitor.predicted(v, parallelograms), or visitor.start(v, from), where `from` is a
-    /// known vertex of a triangle of v, or kNone. Once only.
+    /// Visits each vertex once: visitor.predicted(v, parallelograms, are there two), or visitor.start(v, from), where
+    /// `from` is a known vertex of a triangle of v, or kNone. Once only.
     template <class Visitor>
     void run(Visitor& visitor) {
         const auto count = static_cast<std::uint32_t>(triangles_.size() / 3);
         complete_.assign(count, 0);
         state_.assign(vertices_, 0);
-        first_.assign(vertices_, kNone);
+        corner_.resize(vertices_);
+        for (auto& queue : waiting_) queue.resize(vertices_);
+        head_ = tail_ = {};
         for (std::uint32_t t = 0; t < count; ++t) {
             const std::uint32_t* v = triangles_.data() + std::size_t{3} * t;
             if (complete_[t] != 0 || v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
@@ -55,7 +60,7 @@ class VertexWalk {
     }
 
   private:
-    static constexpr std::uint8_t kKnown = 3;  // else 0 to 2: parallelograms, two or more being 2
+    static constexpr std::uint8_t kKnown = 3;  // else the number of parallelograms, 2 at most
 
     /// The vertices of a component's first triangle.
     template <class Visitor>
@@ -76,65 +81,77 @@ class VertexWalk {
     void grow(Visitor& visitor) {
         while (true) {
             while (!pending_.empty()) {
-                const std::uint32_t t = pending_.back();
+                const std::uint32_t c = 3 * pending_.back();
                 pending_.pop_back();
-                open(t);
+                for (std::uint32_t k = 0; k < 3; ++k) look_across(c + k);
             }
             const std::uint32_t v = next();
             if (v == kNone) return;
-            std::array<Parallelogram, kMostParallelograms> found;
-            std::uint32_t count = 0;
-            for (std::uint32_t c = first_[v]; c != kNone;) {
-                const std::uint32_t t = c / 3, k = c - 3 * t, across = opposite_[c];
-                if (count < kMostParallelograms) {
-                    const std::uint32_t* at = triangles_.data() + std::size_t{3} * t;
-                    found[count++] = {at[k == 2 ? 0 : k + 1], at[k == 0 ? 2 : k - 1], triangles_[across]};
-                }
-                complete_[t] = 1;
-                pending_.push_back(t);
-                c = opposite_[across];
-            }
-            visitor.predicted(v, std::span<const Parallelogram>(found.data(), count));
+            std::uint32_t c = corner_[v], next = before(c);
+            const bool two = next != kNone;
+            visitor.predicted(v, {parallelogram(c), parallelogram(two ? next : c)}, two);
             state_[v] = kKnown;
+            complete_[c / 3] = 1;
+            for (std::uint32_t i = next; i != kNone; i = before(i)) complete_[i / 3] = 1;
+            while (true) {
+                const std::uint32_t first = c - c % 3;
+                look_across(first + kNext[c - first]);
+                look_across(first + kBefore[c - first]);
+                if (next == kNone) break;
+                c = next;
+                next = before(c);
+            }
         }
     }
 
-    /// The neighbors of a triangle that just became complete are complete, too, or get a parallelogram.
-    void open(std::uint32_t t) {
-        for (std::uint32_t c = 3 * t; c < 3 * t + 3; ++c) {
-            const std::uint32_t across = opposite_[c];
-            if (across == kNone || complete_[across / 3] != 0) continue;
-            const std::uint32_t v = triangles_[across];
-            if (state_[v] == kKnown) {
-                complete_[across / 3] = 1;
-                pending_.push_back(across / 3);
-                continue;
-            }
-            opposite_[c] = first_[v];  // of no use any more: links the corners of v that have parallelograms
-            first_[v] = across;
-            if (state_[v] < 2) waiting_[state_[v]++].push_back(v);
+    /// The corner of a vertex that got a parallelogram before this one, or kNone. The corner across from this one is
+    /// that of a complete triangle, whose own opposite corner is of no use any more.
+    std::uint32_t before(std::uint32_t corner) const { return opposite_[opposite_[corner]]; }
+
+    Parallelogram parallelogram(std::uint32_t corner) const {
+        const std::uint32_t k = corner % 3;
+        const std::uint32_t* v = triangles_.data() + (corner - k);
+        return {v[kNext[k]], v[kBefore[k]], triangles_[opposite_[corner]]};
+    }
+
+    /// The neighbor of a complete triangle across from its corner is complete, too, or its vertex gets a parallelogram.
+    void look_across(std::uint32_t corner) {
+        const std::uint32_t across = opposite_[corner];
+        if (across == kNone || complete_[across / 3] != 0) return;
+        const std::uint32_t v = triangles_[across], found = state_[v];
+        if (found == kKnown) {
+            complete_[across / 3] = 1;
+            pending_.push_back(across / 3);
+            return;
         }
+        const std::uint32_t more = found < 2 ? 1 : 0, queue = found != 0 ? 1 : 0;
+        opposite_[corner] = found == 0 ? kNone : corner_[v];
+        corner_[v] = across;
+        waiting_[queue][tail_[queue]] = v;
+        tail_[queue] += more;
+        state_[v] = static_cast<std::uint8_t>(found + more);
     }
 
     /// The vertex to visit now, or kNone.
     std::uint32_t next() {
-        for (std::uint32_t i = 2; i-- > 0;) {
-            while (head_[i] < waiting_[i].size()) {
-                const std::uint32_t v = waiting_[i][head_[i]++];
-                if (state_[v] != kKnown) return v;
-            }
+        if (head_[1] < tail_[1]) return waiting_[1][head_[1]++];
+        while (head_[0] < tail_[0]) {
+            const std::uint32_t v = waiting_[0][head_[0]++];
+            if (state_[v] != kKnown) return v;
         }
         return kNone;
     }
+
+    static constexpr std::array<std::uint32_t, 3> kNext{1, 2, 0}, kBefore{2, 0, 1};
 
     std::span<const std::uint32_t> triangles_;
     std::vector<std::uint32_t> opposite_;
     std::uint32_t vertices_;
     std::vector<std::uint8_t> complete_, state_;
-    std::vector<std::uint32_t> first_;                   // a corner of each vertex that has a parallelogram
+    std::vector<std::uint32_t> corner_;                  // of vertices, at the last parallelogram
     std::vector<std::uint32_t> pending_;                 // complete triangles whose neighbors were not looked at
-    std::array<std::vector<std::uint32_t>, 2> waiting_;  // vertices with one parallelogram, and with more
-    std::array<std::size_t, 2> head_{};
+    std::array<std::vector<std::uint32_t>, 2> waiting_;  // vertices with one parallelogram, and with two
+    std::array<std::uint32_t, 2> head_{}, tail_{};
 };
 
 }  // namespace lacedring::storage
