@@ -90,6 +90,7 @@ bool code_header(Coder& coder, StoredStream& stream, bool& has_usual_ranges) {
     p.has_normal = coder.raw(p.has_normal ? 1 : 0, 1) != 0;
     p.error = coder.raw(p.error, 4);
     p.smooth = coder.raw(p.smooth, 5);
+    p.fine = coder.raw(p.fine, 4);
     return p.smooth <= 16 && !(p.has_normal && n != 3);
 }
 
@@ -235,9 +236,6 @@ class ParameterSearch {
 
     VertexParameters best() {
         find_rules();
-        if (std::all_of(parameters_.rules.begin(), parameters_.rules.begin() + n_,
-                        [](VertexRule rule) { return rule != VertexRule::parallelograms; }))
-            return parameters_;
         least_ = words(parameters_, n_, values_);
         if (n_ == 3) {
             VertexParameters with = parameters_;
@@ -245,6 +243,10 @@ class ParameterSearch {
             with.has_normal = true;
             offer(with);
         }
+        vary(&VertexParameters::fine, {5, 3});
+        if (parameters_.fine == 7) vary(&VertexParameters::fine, {9, 11});
+        const auto end = parameters_.rules.begin() + n_;
+        if (std::find(parameters_.rules.begin(), end, VertexRule::parallelograms) == end) return parameters_;
         vary(&VertexParameters::smooth, {2, 4, 6, 9});
         vary(&VertexParameters::error, {3, 6, 9});
         if (parameters_.error != 0) vary(&VertexParameters::smooth, {0, 2, 4});

@@ -26,6 +26,7 @@ struct VertexParameters {
     std::array<VertexRule, 16> rules{};  ///< of each component
     bool has_normal = false;             ///< 3 components by parallelograms, the steepest one by the surface's normal
     std::uint32_t error = 0;             ///< sixteenths of the base vertices' mean error that are added
+    std::uint32_t fine = 7;              ///< halves of a bit of a residual's expected size that a symbol has
     std::uint32_t smooth = 0;            ///< sixteenths of the way from there to the base vertices' mean
 };
 
@@ -44,16 +45,37 @@ constexpr std::uint8_t size_of_residual(std::uint32_t residual) {
 constexpr std::int32_t kLongest = (1 << 20) - 1;
 
 /// The models of one component: of the kinds of vertices, and of steps of the size that the residual may be expected to
-/// have.
+/// have, in halves of a bit.
 class SizedModels {
   public:
-    static constexpr std::uint32_t kSteps = 24;
-    enum Kind : std::uint32_t { one, two, begin, beside, kKinds };  // parallelograms; those of a walk's start
+    enum Kind : std::uint32_t { one, two, begin, beside };  // parallelograms; those of a walk's start
 
-    NumberModel& at(Kind kind, std::uint32_t step) { return models_[kind * kSteps + std::min(step, kSteps - 1)]; }
+    /// A residual, folded. What is left of it without its lowest bits is a symbol: up to 3 itself, then a range of
+    /// numbers. Those bits and the place in the range follow as they are.
+    template <class Coder>
+    std::uint32_t code(Coder& coder, Kind kind, std::uint32_t step, std::uint32_t fine, std::uint32_t value) {
+        if (kind >= begin) return others_[kind - begin].code(coder, value);
+        step = std::min(step, kSteps - 1);
+        const std::uint32_t low = step > fine ? (step - fine + 1) / 2 : 0;
+        const std::uint32_t symbol = coder.symbol(models_[kind * kSteps + step], symbol_of(value >> low));
+        if (symbol == kEscape) return others_[2].code(coder, value);
+        const std::uint32_t from = static_cast<std::uint32_t>(kBegin[symbol]) << low;
+        return from + coder.raw(value - from, kBits[symbol] + low);
+    }
 
   private:
-    std::array<NumberModel, kKinds * kSteps> models_;
+    static constexpr std::uint32_t kSteps = 32, kEscape = 15;
+    static constexpr std::array<std::uint16_t, 16> kBegin{0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 64, 128, 256, 512, 1024};
+    static constexpr std::array<std::uint8_t, 16> kBits{0, 0, 0, 0, 1, 1, 2, 2, 3, 3, 5, 6, 7, 8, 9, 0};
+
+    static std::uint32_t symbol_of(std::uint32_t value) {
+        std::uint32_t symbol = kEscape;
+        while (kBegin[symbol] > value) --symbol;
+        return symbol;
+    }
+
+    std::array<SymbolModel, 2 * kSteps> models_;
+    std::array<NumberModel, 3> others_;  // at starts, and of what no symbol has a range for
 };
 
 /// A visitor of VertexWalk. `N` is the number of components, or 0 for any number.
@@ -99,7 +121,7 @@ class VertexValueCoder {
         for (std::uint32_t c = 0; c < n; ++c) {
             const std::uint32_t first = xa.value[c] + ya.value[c] - za.value[c];
             const std::uint32_t difference = xb.value[c] + yb.value[c] - zb.value[c] - first;
-            plain[c] = first + static_cast<std::uint32_t>(as_signed(difference) >> 1);
+            plain[c] = first + static_cast<std::uint32_t>(rounded(as_signed(difference), 1));
             std::int64_t smooth = 0, error = 0;
             for (const Known* of : {&xa, &ya, &xb, &yb}) {
                 smooth += as_signed(of->value[c] - plain[c]);
@@ -156,7 +178,7 @@ class VertexValueCoder {
     std::uint32_t* values_of(std::uint32_t v) { return values_.data() + std::size_t{v} * count(); }
 
     std::uint32_t code(std::uint32_t role, SizedModels::Kind kind, std::uint32_t step, std::uint32_t residual) {
-        return unfold(models_[role].at(kind, step).code(coder_, fold(residual)));
+        return unfold(models_[role].code(coder_, kind, step, parameters_.fine, fold(residual)));
     }
 
     static void add_normal(const Known& x, const Known& y, const Known& z, std::array<std::int64_t, 3>& normal) {
