@@ -165,50 +165,50 @@ class BlockCoder {
         return true;
     }
 
-    /// What a change of a width by one would save in a run: the context of its code.
-    struct Saving {
-        std::int32_t more = 0, less = 0;
-        bool zero = false;
-    };
-    Saving saving(const std::uint32_t* residuals, std::uint32_t count, std::uint32_t width) const {
-        std::uint64_t here = 0, above = 0, below = 0;
-        std::uint32_t all = 0;
-        const std::uint32_t up = std::min(width + 1, 31U), down = width == 0 ? 0 : width - 1;
-        for (std::uint32_t i = 0; i < count; ++i) {
-            const std::uint32_t code = fold(residuals[i]);
-            all |= code;
-            here += code >> width;
-            above += code >> up;
-            below += code >> down;
-        }
-        const auto cut = [](std::uint64_t x) { return static_cast<std::int32_t>(std::min<std::uint64_t>(x, 1000000)); };
-        const auto n = static_cast<std::int32_t>(count);
-        return {cut(here - above) - n, n - cut(below - here), all == 0};
-    }
-    static std::uint32_t context(const Saving& now, const Saving& then) {
-        if (now.zero) return 0;
-        const auto level = [](std::int32_t x) -> std::uint32_t {
-            return x <= -4 ? 0 : x <= -1 ? 1 : x <= 1 ? 2 : x <= 3 ? 3 : x <= 5 ? 4 : x <= 9 ? 5 : 6;
+    /// The context of a run's width: how large its residuals are beside the width before, and those of the next run.
+    static std::uint32_t context(std::uint64_t sum, std::uint64_t next, std::uint32_t width, std::uint32_t size) {
+        if (sum == 0) return 0;
+        // Eighths of the mean of what the width's bits leave.
+        const auto rest = [&](std::uint64_t of) {
+            return static_cast<std::uint32_t>(std::min<std::uint64_t>((of >> width) * 2 >> size, 32));
         };
-        const std::uint32_t next = then.more > 1 ? 1 : then.less > 1 ? 2 : 0;
-        const bool up = now.more >= now.less;
-        return 1 + ((up ? level(now.more) : 7 + level(now.less)) * 3 + next);
+        const std::uint32_t then = rest(next);
+        return 1 + kLevels[rest(sum)] * 3U + (then > 15 ? 2 : then > 5 ? 1 : 0);
+    }
+    static constexpr std::array<std::uint8_t, 33> kLevels{0,  0,  0,  1,  1,  2,  3,  4,  5,  5,  6,
+                                                          6,  7,  7,  8,  8,  9,  9,  10, 10, 11, 11,
+                                                          11, 11, 12, 12, 12, 12, 12, 12, 12, 12, 13};
+
+    /// The sums of a component's folded residuals in each run, and 0 behind the last one.
+    void find_sums(std::uint32_t count, std::uint32_t length) {
+        for (std::uint32_t c = 0; c < n_; ++c) {
+            std::uint32_t run = 0;
+            for (std::uint32_t begin = 0; begin + 1 < count; begin += length, ++run) {
+                const std::uint32_t end = std::min(count - 1, begin + length);
+                std::uint64_t sum = 0;
+                for (std::uint32_t i = begin; i < end; ++i) sum += fold(residuals_[c][i]);
+                sums_[c][run] = sum;
+            }
+            sums_[c][run] = 0;
+        }
     }
 
     bool code_runs(std::uint32_t count, BlockChoices& choices) {
         const std::uint32_t length = 4U << choices.size;
         std::array<std::uint32_t, kMostComponents> width;
         for (std::uint32_t c = 0; c < n_; ++c) width[c] = components_[c].width;
+        find_sums(count, length);
         for (std::uint32_t begin = 0, run = 0; begin + 1 < count; begin += length, ++run) {
-            const std::uint32_t end = std::min(count - 1, begin + length), after = std::min(count - 1, end + length);
+            const std::uint32_t end = std::min(count - 1, begin + length);
             if (n_ == 3 && begin % kPlaneRun == 0) write_plane(choices.planes[begin / kPlaneRun]);
             std::uint32_t present = 0;  // a bit of each component
             for (std::uint32_t c = 0; c < n_; ++c) {
-                const Saving now = saving(residuals_[c].data() + begin, end - begin, width[c]);
-                const Saving then = saving(residuals_[c].data() + end, after - end, width[c]);
+                const std::uint64_t sum = sums_[c][run];
                 BlockChoices::Width& w = choices.widths[c][run];
-                if (!code_width(models_[choices.size][context(now, then)], w, width[c])) return false;
-                if (w.code == kAllZero && !now.zero) return false;
+                if (!code_width(models_[choices.size][context(sum, sums_[c][run + 1], width[c], choices.size)], w,
+                                width[c]))
+                    return false;
+                if (w.code == kAllZero && sum != 0) return false;
                 if (w.code != kAllZero) present |= 1U << c;
                 constexpr std::uint8_t kCodes[][2] = {{0, 1}, {1, 2}, {3, 3}, {7, 4}, {15, 4}};  // bits, how many
                 out_.put(kCodes[w.code][0], kCodes[w.code][1]);
@@ -273,6 +273,7 @@ class BlockCoder {
     std::uint32_t n_;
     BlockBits& out_;
     std::array<Residuals, kMostComponents> residuals_;
+    std::array<std::array<std::uint64_t, kVertexBlock / 4 + 1>, kMostComponents> sums_;
     std::array<BitModel, 3> own_predictor_, size_;
     SymbolModel predictor_low_, predictor_high_;
     std::array<std::array<BitModel, 8>, 16> has_plane_;

@@ -53,7 +53,8 @@ class SizedModels {
     /// A residual, folded. What is left of it without its lowest bits is a symbol: up to 3 itself, then a range of
     /// numbers. Those bits and the place in the range follow as they are.
     template <class Coder>
-    std::uint32_t code(Coder& coder, Kind kind, std::uint32_t step, std::uint32_t fine, std::uint32_t value) {
+    LACEDRING_INLINE std::uint32_t code(Coder& coder, Kind kind, std::uint32_t step, std::uint32_t fine,
+                                        std::uint32_t value) {
         if (kind >= begin) return others_[kind - begin].code(coder, value);
         step = std::min(step, kSteps - 1);
         const std::uint32_t low = step > fine ? (step - fine + 1) / 2 : 0;
@@ -107,7 +108,7 @@ class VertexValueCoder {
         last_ = v;
     }
 
-    void predicted(std::uint32_t v, const Parallelograms& by, bool two) {
+    LACEDRING_INLINE void predicted(std::uint32_t v, const Parallelograms& by, bool two) {
         const auto kind = two ? SizedModels::two : SizedModels::one;
         last_ = v;
         const Known& xa = known_[by[0].x];
@@ -177,7 +178,8 @@ class VertexValueCoder {
     std::uint32_t count() const { return N != 0 ? N : components_; }
     std::uint32_t* values_of(std::uint32_t v) { return values_.data() + std::size_t{v} * count(); }
 
-    std::uint32_t code(std::uint32_t role, SizedModels::Kind kind, std::uint32_t step, std::uint32_t residual) {
+    LACEDRING_INLINE std::uint32_t code(std::uint32_t role, SizedModels::Kind kind, std::uint32_t step,
+                                        std::uint32_t residual) {
         return unfold(models_[role].code(coder_, kind, step, parameters_.fine, fold(residual)));
     }
 
@@ -192,9 +194,10 @@ class VertexValueCoder {
         normal[2] += a[0] * b[1] - a[1] * b[0];
     }
 
-    void code_by_normal(SizedModels::Kind kind, std::uint32_t across, std::uint32_t along,
-                        const std::array<std::int64_t, 3>& normal, const std::array<std::uint32_t, kN>& moved,
-                        Known& now, std::uint32_t* values) {
+    LACEDRING_INLINE void code_by_normal(SizedModels::Kind kind, std::uint32_t across, std::uint32_t along,
+                                         const std::array<std::int64_t, 3>& normal,
+                                         const std::array<std::uint32_t, kN>& moved, Known& now,
+                                         std::uint32_t* values) {
         std::uint32_t k = std::abs(normal[1]) > std::abs(normal[0]) ? 1 : 0;
         if (std::abs(normal[2]) > std::abs(normal[k])) k = 2;
         const std::uint32_t u = k == 2 ? 0 : k + 1, w = k == 0 ? 2 : k - 1;

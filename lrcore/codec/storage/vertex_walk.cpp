@@ -9,25 +9,27 @@ bool is_degenerate(const std::uint32_t* v) {
     return (v[0] == v[1]) | (v[1] == v[2]) | (v[2] == v[0]);
 }
 
-/// Which of three vertices are among three others: a bit each.
-std::uint32_t shared(const std::uint32_t* of, const std::uint32_t* with) {
-    std::uint32_t out = 0;
-    for (std::uint32_t k = 0; k < 3; ++k) {
-        const bool is = (of[k] == with[0]) | (of[k] == with[1]) | (of[k] == with[2]);
-        out |= (is ? 1U : 0U) << k;
-    }
-    return out;
-}
-
 /// Makes triangles that follow each other neighbors.
 void join_successive(std::span<const std::uint32_t> triangles, std::vector<std::uint32_t>& opposite) {
     constexpr std::uint8_t kAlone[8] = {3, 3, 3, 2, 3, 1, 0, 3};  // the one of three whose bit is 0
-    for (std::size_t c = 3; c < opposite.size(); c += 3) {
-        const std::uint32_t *now = triangles.data() + c, *before = now - 3;
-        const std::uint32_t k = kAlone[shared(now, before)], j = kAlone[shared(before, now)];
-        if (k == 3 || j == 3 || is_degenerate(now) || is_degenerate(before) || opposite[c - 3 + j] != kNone) continue;
-        opposite[c + k] = static_cast<std::uint32_t>(c - 3 + j);
-        opposite[c - 3 + j] = static_cast<std::uint32_t>(c + k);
+    bool before_is_good = false;
+    for (std::size_t c = 0; c < opposite.size(); c += 3) {
+        const std::uint32_t* v = triangles.data() + c;
+        const bool is_good = !is_degenerate(v), both = is_good && before_is_good;
+        before_is_good = is_good;
+        if (!both) continue;
+        const std::uint32_t p = v[-3], q = v[-2], r = v[-1];
+        std::uint32_t shared = 0;  // a bit of each vertex that is among the three before
+        for (std::uint32_t i = 0; i < 3; ++i) {
+            shared |= static_cast<std::uint32_t>((v[i] == p) | (v[i] == q) | (v[i] == r)) << i;
+        }
+        const std::uint32_t k = kAlone[shared];
+        if (k == 3) continue;
+        const std::uint32_t other = p ^ q ^ r ^ v[0] ^ v[1] ^ v[2] ^ v[k];  // the one before that is not shared
+        const std::size_t from = c - 3 + (other == q ? 1 : 0) + (other == r ? 2 : 0);
+        if (opposite[from] != kNone) continue;
+        opposite[c + k] = static_cast<std::uint32_t>(from);
+        opposite[from] = static_cast<std::uint32_t>(c + k);
     }
 }
 

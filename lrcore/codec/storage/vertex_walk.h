@@ -12,6 +12,8 @@
 #include <span>
 #include <vector>
 
+#include "lrcore/base/compiler.h"
+
 namespace lacedring::storage {
 
 /// Predicts the vertex opposite to z across the edge (x, y).
@@ -108,14 +110,14 @@ class VertexWalk {
     /// that of a complete triangle, whose own opposite corner is of no use any more.
     std::uint32_t before(std::uint32_t corner) const { return opposite_[opposite_[corner]]; }
 
-    Parallelogram parallelogram(std::uint32_t corner) const {
+    LACEDRING_INLINE Parallelogram parallelogram(std::uint32_t corner) const {
         const std::uint32_t k = corner % 3;
         const std::uint32_t* v = triangles_.data() + (corner - k);
         return {v[kNext[k]], v[kBefore[k]], triangles_[opposite_[corner]]};
     }
 
     /// The neighbor of a complete triangle across from its corner is complete, too, or its vertex gets a parallelogram.
-    void look_across(std::uint32_t corner) {
+    LACEDRING_INLINE void look_across(std::uint32_t corner) {
         const std::uint32_t across = opposite_[corner];
         if (across == kNone || complete_[across / 3] != 0) return;
         const std::uint32_t v = triangles_[across], found = state_[v];
