@@ -3,6 +3,13 @@
 
 #include <cstdint>
 
+// Inlined whatever its size: for the few functions whose calls would cost more than they do.
+#if (defined(__GNUC__) || defined(__clang__)) && !defined(LACEDRING_PLAIN)
+#define LACEDRING_INLINE inline __attribute__((always_inline))
+#else
+#define LACEDRING_INLINE inline
+#endif
+
 namespace lacedring::detail {
 
 #if (defined(__GNUC__) || defined(__clang__)) && !defined(LACEDRING_PLAIN)
