@@ -1,6 +1,7 @@
 #include "lrcore/codec/storage/vertex_storage.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cstring>
 
@@ -349,6 +350,27 @@ std::optional<std::vector<std::uint32_t>> store_vertices(const VertexView& view,
     std::vector<std::uint32_t> out = coder.finish();
     const auto restored = restore_vertices(out, triangles, view.vertices, view.words.size());
     if (!restored || !std::ranges::equal(*restored, view.words)) return {};
+    return out;
+}
+
+Result<VertexView> view_stored_vertices(std::span<const std::uint32_t> stored) {
+    Decoder coder(stored);
+    StoredStream stream;
+    bool has_usual_ranges = false;
+    const Error error = malformed_vertices("its header says something impossible");
+    if (coder.bad() || !code_header(coder, stream, has_usual_ranges) || coder.bad()) return error;
+    const std::uint32_t n = stream.components(), type = stream.choices.layout >> 8 & 15;
+    if (type > static_cast<std::uint32_t>(ComponentType::f64) || stream.mapping() > 5) return error;
+    VertexView out;
+    out.mapping = static_cast<VertexMapping>(stream.mapping());
+    out.type = static_cast<ComponentType>(type);
+    out.normalized = (stream.choices.layout >> 12 & 1) != 0;
+    out.integers = static_cast<std::uint8_t>(n);
+    const std::uint32_t values = out.mapping == VertexMapping::octahedral ? n + 1
+                                 : out.mapping == VertexMapping::doubles  ? n / 2
+                                                                          : n;
+    out.components = static_cast<std::uint8_t>(values);
+    out.largest_error = std::bit_cast<float>(stream.choices.error);
     return out;
 }
 
