@@ -33,29 +33,27 @@ void join_successive(std::span<const std::uint32_t> triangles, std::vector<std::
     }
 }
 
-/// The ends of the edge that a corner faces.
-struct Ends {
-    std::uint32_t smaller, larger;
+/// An edge, and the corner that faces it.
+struct Facing {
+    std::uint32_t corner, smaller, larger;
 };
-Ends ends_across(std::span<const std::uint32_t> triangles, std::uint32_t corner) {
-    const std::uint32_t k = corner % 3;
-    const std::uint32_t x = triangles[k == 2 ? corner - 2 : corner + 1],
-                        y = triangles[k == 0 ? corner + 2 : corner - 1];
-    return {std::min(x, y), std::max(x, y)};
-}
 
 /// The corners without an opposite one, in their order, but those of degenerate triangles.
-std::vector<std::uint32_t> open_corners(std::span<const std::uint32_t> triangles,
-                                        std::span<const std::uint32_t> opposite) {
-    std::vector<std::uint32_t> out(opposite.size() / 2 + 3);
+std::vector<Facing> open_corners(std::span<const std::uint32_t> triangles, std::span<const std::uint32_t> opposite) {
+    std::vector<Facing> out(opposite.size() / 2 + 3);
     std::size_t size = 0;
     for (std::size_t c = 0; c < opposite.size(); c += 3) {
-        if (is_degenerate(triangles.data() + c)) continue;
+        const std::uint32_t* v = triangles.data() + c;
+        if (is_degenerate(v)) continue;
         if (out.size() - size < 3) out.resize(2 * out.size());
-        for (std::size_t k = 0; k < 3; ++k) {  // without a branch
-            out[size] = static_cast<std::uint32_t>(c + k);
+        const auto corner = static_cast<std::uint32_t>(c);
+        const auto add = [&](std::uint32_t k, std::uint32_t x, std::uint32_t y) {  // without a branch
+            out[size] = {corner + k, std::min(x, y), std::max(x, y)};
             size += opposite[c + k] == kNone ? 1 : 0;
-        }
+        };
+        add(0, v[1], v[2]);
+        add(1, v[2], v[0]);
+        add(2, v[0], v[1]);
     }
     out.resize(size);
     return out;
@@ -66,19 +64,18 @@ std::vector<std::uint32_t> open_corners(std::span<const std::uint32_t> triangles
 std::vector<std::uint32_t> opposite_corners(std::span<const std::uint32_t> triangles, std::uint32_t vertices) {
     std::vector<std::uint32_t> out(triangles.size() / 3 * 3, kNone);
     join_successive(triangles, out);
-    const std::vector<std::uint32_t> corners = open_corners(triangles, out);
+    const std::vector<Facing> corners = open_corners(triangles, out);
     // In the order of the smaller ends of their edges.
     std::vector<std::uint32_t> begin(std::size_t{vertices} + 1, 0);
-    for (const std::uint32_t c : corners) ++begin[std::size_t{ends_across(triangles, c).smaller} + 1];
+    for (const Facing& of : corners) ++begin[std::size_t{of.smaller} + 1];
     for (std::size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];
-    std::vector<std::uint32_t> sorted(corners.size());
-    for (const std::uint32_t c : corners) sorted[begin[ends_across(triangles, c).smaller]++] = c;
+    std::vector<Facing> sorted(corners.size());
+    for (const Facing& of : corners) sorted[begin[of.smaller]++] = of;
     struct Open {
         std::uint32_t smaller = kNone, corner = 0;
     };
     std::vector<Open> open(vertices);  // by the larger end: an edge whose other triangle was not met yet
-    for (const std::uint32_t corner : sorted) {
-        const auto [smaller, larger] = ends_across(triangles, corner);
+    for (const auto& [corner, smaller, larger] : sorted) {
         Open& edge = open[larger];
         const std::uint32_t found = edge.smaller == smaller ? UINT32_MAX : 0;  // masks: whether is hard to predict
         const std::uint32_t other = corner ^ ((corner ^ edge.corner) & found);
