@@ -219,7 +219,7 @@ class BlockCoder {
         return true;
     }
 
-    using WidthModels = std::array<BitModel, 5>;
+    using WidthModels = std::array<BitModel, 4>;
 
     /// Also makes `width` the run's.
     bool code_width(WidthModels& models, BlockChoices::Width& w, std::uint32_t& width) {

@@ -57,11 +57,7 @@ struct SymbolModel {
     }
 
     /// The symbol whose range `at` is in.
-    LACEDRING_INLINE std::uint32_t find(std::uint32_t at) const {
-        std::uint16_t n = 0;
-        for (std::uint32_t i = 0; i < kSymbols; ++i) n = static_cast<std::uint16_t>(n + (begin[i] <= at ? 1 : 0));
-        return n - 1U;
-    }
+    LACEDRING_INLINE std::uint32_t find(std::uint32_t at) const { return detail::count_up_to(begin.data(), at) - 1; }
 
     void update(std::uint32_t symbol) {
         count[symbol] = static_cast<std::uint16_t>(count[symbol] + kStep);

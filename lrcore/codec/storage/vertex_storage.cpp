@@ -388,9 +388,11 @@ Result<std::vector<std::uint32_t>> restore_vertices(std::span<const std::uint32_
     if (coder.bad() || !code_header(coder, stream, has_usual_ranges) || coder.bad())
         return malformed_vertices("its header says something impossible");
     const std::uint32_t n = stream.components();
-    stream.values.resize(std::size_t{vertices} * n);
-    with_values(coder, stream.parameters, n, stream.values,
-                [&](auto& visitor) { VertexWalk(triangles, vertices).run(visitor); });
+    {
+        VertexWalk walk(triangles, vertices);  // first: making it takes more memory than having it
+        stream.values.resize(std::size_t{vertices} * n);
+        with_values(coder, stream.parameters, n, stream.values, [&](auto& visitor) { walk.run(visitor); });
+    }
     if (coder.bad()) return malformed_vertices("its integers end early");
     if (!code_exceptions(coder, stream)) return malformed_vertices("an exception is impossible");
     if (has_usual_ranges) {

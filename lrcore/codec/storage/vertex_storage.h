@@ -20,7 +20,8 @@ std::optional<std::vector<std::uint32_t>> store_vertices(const VertexView& view,
 Result<VertexView> view_stored_vertices(std::span<const std::uint32_t> stored);
 
 /// The vertex stream, bit for bit. It is not validated: what is stored may say anything. Cost: O(T + V + what is
-/// stored), time and memory; at most `most_words` words. Errors: malformed, memory_limit. Untrusted input: safe.
+/// stored) time; some 50 bytes a triangle, for a few components; at most `most_words` words. Errors: malformed,
+/// memory_limit. Untrusted input: safe.
 Result<std::vector<std::uint32_t>> restore_vertices(std::span<const std::uint32_t> stored,
                                                     std::span<const std::uint32_t> triangles, std::uint32_t vertices,
                                                     std::uint64_t most_words);

@@ -6,7 +6,6 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 #include <vector>
 
@@ -36,6 +35,9 @@ constexpr std::int64_t rounded(std::int64_t x, std::uint32_t count) {
 }
 constexpr std::int32_t as_signed(std::uint32_t x) {
     return static_cast<std::int32_t>(x);
+}
+constexpr std::int64_t magnitude(std::int64_t x) {
+    return x < 0 ? -x : x;
 }
 constexpr std::uint8_t size_of_residual(std::uint32_t residual) {
     return static_cast<std::uint8_t>(std::bit_width(fold(residual)));
@@ -90,6 +92,9 @@ class VertexValueCoder {
           parameters_(parameters),
           components_(components),
           values_(values),
+          is_plain_(parameters.error == 0 && parameters.smooth == 0 &&
+                    std::all_of(parameters.rules.begin(), parameters.rules.begin() + components,
+                                [](VertexRule rule) { return rule == VertexRule::parallelograms; })),
           known_(values.size() / components),
           models_(components) {}
 
@@ -123,17 +128,25 @@ class VertexValueCoder {
             const std::uint32_t first = xa.value[c] + ya.value[c] - za.value[c];
             const std::uint32_t difference = xb.value[c] + yb.value[c] - zb.value[c] - first;
             plain[c] = first + static_cast<std::uint32_t>(rounded(as_signed(difference), 1));
+            moved[c] = plain[c];
+            if (is_plain_) continue;
             std::int64_t smooth = 0, error = 0;
-            for (const Known* of : {&xa, &ya, &xb, &yb}) {
-                smooth += as_signed(of->value[c] - plain[c]);
-                error += of->error[c];
+            for (const Known* of : {&xa, &ya, &xb, &yb}) smooth += as_signed(of->value[c] - plain[c]);
+            if (parameters_.error != 0) {
+                for (const Known* of : {&xa, &ya, &xb, &yb}) error += of->error[c];
             }
-            const std::int64_t move = error * parameters_.error + smooth * parameters_.smooth;
-            moved[c] = plain[c] + static_cast<std::uint32_t>(rounded(move, 6));
-            if (parameters_.rules[c] == VertexRule::parallelograms) continue;
-            moved[c] = parameters_.rules[c] == VertexRule::neighbor
-                           ? xa.value[c]
-                           : plain[c] + static_cast<std::uint32_t>(rounded(smooth, 2));
+            switch (parameters_.rules[c]) {
+                case VertexRule::parallelograms:
+                    error = error * parameters_.error + smooth * parameters_.smooth;
+                    moved[c] += static_cast<std::uint32_t>(rounded(error, 6));
+                    break;
+                case VertexRule::mean:
+                    moved[c] += static_cast<std::uint32_t>(rounded(smooth, 2));
+                    break;
+                case VertexRule::neighbor:
+                    moved[c] = xa.value[c];
+                    break;
+            }
         }
         Known& now = known_[v];
         std::uint32_t* values = values_of(v);
@@ -198,15 +211,15 @@ class VertexValueCoder {
                                          const std::array<std::int64_t, 3>& normal,
                                          const std::array<std::uint32_t, kN>& moved, Known& now,
                                          std::uint32_t* values) {
-        std::uint32_t k = std::abs(normal[1]) > std::abs(normal[0]) ? 1 : 0;
-        if (std::abs(normal[2]) > std::abs(normal[k])) k = 2;
+        std::uint32_t k = magnitude(normal[1]) > magnitude(normal[0]) ? 1 : 0;
+        if (magnitude(normal[2]) > magnitude(normal[k])) k = 2;
         const std::uint32_t u = k == 2 ? 0 : k + 1, w = k == 0 ? 2 : k - 1;
         const std::uint32_t ru = code(0, kind, across / 6, values[u] - moved[u]);
         const std::uint32_t su = size_of_residual(ru);
         const std::uint32_t rw = code(1, kind, across / 12 + su, values[w] - moved[w]);
         const std::uint32_t sw = size_of_residual(rw);
         // The steepest component, where the plane through the prediction is.
-        const auto width = static_cast<std::uint32_t>(std::bit_width(static_cast<std::uint64_t>(std::abs(normal[k]))));
+        const auto width = static_cast<std::uint32_t>(std::bit_width(static_cast<std::uint64_t>(magnitude(normal[k]))));
         const std::uint32_t shift = width > 14 ? width - 14 : 0;
         const auto part = [&](std::uint32_t c, std::uint32_t r) {
             return static_cast<std::int32_t>(normal[c] >> shift) * std::clamp(as_signed(r), -32767, 32767);
@@ -226,6 +239,7 @@ class VertexValueCoder {
     const VertexParameters parameters_;
     std::uint32_t components_;
     std::span<std::uint32_t> values_;
+    bool is_plain_;  // predictions are the means of parallelograms
     std::vector<Known> known_;
     std::vector<SizedModels> models_;
     std::uint32_t last_ = kNone;
