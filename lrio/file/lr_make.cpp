@@ -135,7 +135,8 @@ std::vector<std::byte> serialize_lr(const LrFile& file, LrForm form) {
     for (const LrAttribute& attribute : file.attributes) {
         const bool stream = !attribute.words.empty();
         add(stream ? kVertices : kAttribute, stream ? std::as_bytes(std::span(attribute.words)) : attribute.data);
-        if (!stored.attributes.empty()) set_stored(stored.attributes[&attribute - file.attributes.data()]);
+        if (!stored.attributes.empty())
+            set_stored(stored.attributes[static_cast<std::size_t>(&attribute - file.attributes.data())]);
         sections.back().layout = (attribute.v_up ? kVUp : 0U) | (attribute.per_copy ? kPerCopy : 0U);
         if (!stream) {
             sections.back().layout |= static_cast<std::uint32_t>(attribute.type) |

@@ -136,7 +136,9 @@ Words grid_triangles(std::uint32_t width, std::uint32_t height) {
 }  // namespace
 
 TEST_CASE("vertex storage: opposite corners are those of the edges") {
-    for (const auto& [name, mesh] : test::named_meshes()) {
+    for (const test::NamedMesh& named : test::named_meshes()) {
+        const auto& name = named.name;
+        const Mesh& mesh = named.mesh;
         CAPTURE(name);
         const auto& t = mesh.indices;
         const Words opposite = storage::opposite_corners(t, mesh.vertex_count);
@@ -204,7 +206,9 @@ TEST_CASE("vertex storage: a walk visits each vertex once, by vertices that are 
             ++predictions;
         }
     };
-    for (const auto& [name, mesh] : test::named_meshes()) {
+    for (const test::NamedMesh& named : test::named_meshes()) {
+        const auto& name = named.name;
+        const Mesh& mesh = named.mesh;
         CAPTURE(name);
         Visitor visitor{mesh, std::vector<bool>(mesh.vertex_count)};
         storage::VertexWalk(mesh.indices, mesh.vertex_count).run(visitor);
@@ -216,7 +220,9 @@ TEST_CASE("vertex storage: round trip of every mapping on every topology") {
     const std::uint32_t seed = std::random_device{}();
     CAPTURE(seed);
     std::uint32_t i = 0;
-    for (const auto& [name, mesh] : test::named_meshes()) {
+    for (const test::NamedMesh& named : test::named_meshes()) {
+        const auto& name = named.name;
+        const Mesh& mesh = named.mesh;
         if (mesh.vertex_count > 1200 && i % 8 != 0 && test::kSanitized) continue;
         CAPTURE(name);
         stored(stream_of(kAttributes[0], mesh.vertex_count, seed + i), mesh.indices);
