@@ -12,6 +12,7 @@
 
 #include "app/bench_operators.h"
 #include "app/bench_resident.h"
+#include "app/bench_unpack.h"
 #include "app/bench_vertices.h"
 #include "app/commands.h"
 #include "app/measure.h"
@@ -243,6 +244,13 @@ int bench(const BenchOptions& options, const std::string& path, Json& meshes, [[
     }
     measure(decode, options.rounds * 3);
 
+    UnpackBench unpacking = unpack_candidates(loaded->mesh);
+    for (const auto& [name, reason] : unpacking.absent) absent[name] = reason;
+    Section unpack{"unpack", std::move(unpacking.candidates)};
+    measure(unpack, options.rounds * 3);
+    Json unpack_json = to_json(unpack, counts);
+    for (const auto& [name, bytes] : unpacking.bytes) unpack_json[name]["bytes"] = bytes;
+
     std::vector<OperatorFigures> operators;
     Json operators_json = Json::object();
     if (options.operators) {
@@ -300,6 +308,7 @@ int bench(const BenchOptions& options, const std::string& path, Json& meshes, [[
     }
     const Json construct_ratio = construct.ratio("strips", "lean"),
                decode_cpu_ratio = decode.ratio("meshopt_vertex_codec", "vertices"),
+               unpack_ratio = unpack.ratio("draco", "lacedring"),
                decode_gpu_ratio = decode_gpu.ratio("packed_vertices", "packed");
     if (options.json) {
         meshes.push_back({{"file", path},
@@ -309,6 +318,8 @@ int bench(const BenchOptions& options, const std::string& path, Json& meshes, [[
                           {"position_bits", options.positions},
                           {"decode_cpu", to_json(decode, counts)},
                           {"decode_cpu_ratio", decode_cpu_ratio},
+                          {"unpack", unpack_json},
+                          {"unpack_ratio", unpack_ratio},
                           {"decode_gpu", to_json(decode_gpu, counts)},
                           {"decode_gpu_ratio", decode_gpu_ratio},
                           {"draw", draw},
@@ -321,7 +332,7 @@ int bench(const BenchOptions& options, const std::string& path, Json& meshes, [[
         return done;
     }
     print("{}: {} triangles; medians of {} rounds\n", path, mesh->triangle_count(), options.rounds);
-    for (const Section& section : {construct, decode, decode_gpu}) {
+    for (const Section& section : {construct, decode, unpack, decode_gpu}) {
         if (section.candidates.empty()) continue;
         print("  {}\n", section.name);
         for (const Candidate& c : section.candidates) {
@@ -350,6 +361,7 @@ int bench(const BenchOptions& options, const std::string& path, Json& meshes, [[
     print_ratio(construct_ratio, "lean is built", "times as fast as strips");
     print_ratio(decode_cpu_ratio, fmt::format("positions of {} bits decode", options.positions),
                 "times as fast as by meshoptimizer's vertex codec");
+    print_ratio(unpack_ratio, "the whole mesh is unpacked", "times as fast as by Draco");
     print_ratio(decode_gpu_ratio, "on the device, indices and positions take", "times as long as indices alone");
     for (const auto& [name, reason] : absent.items()) {
         print("  {} absent: {}\n", name, reason.get<std::string>());

@@ -147,8 +147,8 @@ void add_encode(CLI::App& program, Action& action) {
     command->add_flag("--no-warts", options->no_warts, "no wart skipping (lean and lr)");
     command->add_flag("--keep-order", options->keep_order,
                       "store the vertex and triangle permutations, for decode --original-order");
-    CLI::Option* storage = command->add_flag(
-        "--storage", options->storage, "packed streams in storage form: smaller, and unpacked when the file is read");
+    CLI::Option* storage = command->add_flag("--storage", options->storage,
+                                             "streams in storage form: smaller, and unpacked when the file is read");
     command->add_flag("--resident", options->resident, "as --storage is not given: streams that are read in place")
         ->excludes(storage);
     command->add_flag("--orient", options->orient,

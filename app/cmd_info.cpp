@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "app/commands.h"
 #include "app/lr_contents.h"
@@ -43,6 +44,10 @@ std::string describe(const Solid& solid, bool all_closed) {
     if (solid.inside_out > 0) text += fmt::format("; {} inside out, or hollows", solid.inside_out);
     if (solid.flat > 0) text += fmt::format("; {} flat", solid.flat);
     return text;
+}
+
+std::uint64_t total_bytes(const std::vector<std::uint64_t>& bytes) {
+    return std::accumulate(bytes.begin(), bytes.end(), std::uint64_t{0});
 }
 
 int run_info(const InfoOptions& options, RunLog& log) {
@@ -98,6 +103,9 @@ int run_info(const InfoOptions& options, RunLog& log) {
                                       {"volume", has_volume ? nlohmann::ordered_json(solid.volume) : nullptr},
                                       {"attributes", attributes}};
         if (loaded->lr) out["lr"] = to_json(*loaded->lr);
+        if (!loaded->streams.empty()) {
+            out["packed"] = {{"streams", loaded->streams}, {"bytes", total_bytes(loaded->streams)}};
+        }
         if (!scene->primitives.empty()) {
             out["primitives"] = primitives_to_json(*scene);
             out["sum"] = sum_to_json(*scene);
@@ -108,6 +116,10 @@ int run_info(const InfoOptions& options, RunLog& log) {
     print("{}\n", input_name(options.input.path));
     const auto line = [](const char* name, const std::string& value) { print("  {:<22} {}\n", name, value); };
     if (loaded->lr) print_contents(*loaded->lr);
+    if (!loaded->streams.empty()) {
+        line("packed scene", fmt::format("{} stream{} of {} bytes", loaded->streams.size(),
+                                         loaded->streams.size() == 1 ? "" : "s", total_bytes(loaded->streams)));
+    }
     line("triangles", fmt::format("{}{}", mesh->triangle_count(),
                                   t.degenerate > 0 ? fmt::format(", {} of them degenerate", t.degenerate) : ""));
     const std::uint32_t unused = vertices - r.used_vertices;

@@ -66,7 +66,8 @@ bool verify_primitives(const VerifyOptions& options, const LoadedScene& scene, J
 int run_verify(const VerifyOptions& options, RunLog& log) {
     const Result<LoadedScene> scene = load_scene(options.input, log);
     if (!scene) return fail(options.input.path, scene.error());
-    const auto& [mesh, surface, lr] = scene->joined;
+    const Mesh& mesh = scene->joined.mesh;
+    const Surface& surface = scene->joined.surface;
     bool all = true;
     Json formats = Json::object(), absent = Json::object(), primitives = Json::array();
     const auto tell = [&](const std::string& name, const std::string& why) {

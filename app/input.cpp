@@ -57,7 +57,7 @@ Result<LoadedMesh> read(const MeshInput& input, RunLog& log, PrimitiveList* list
         Surface surface;
         Result<Mesh> mesh = decode_lr(*file, &surface);
         if (!mesh) return mesh.error();
-        LoadedMesh out{std::move(*mesh), std::move(surface), std::move(*contents)};
+        LoadedMesh out{std::move(*mesh), std::move(surface), std::move(*contents), {}};
         if (const Result<void> room = check_memory(out.mesh, options); !room) return room.error();
         return out;
     }
@@ -79,7 +79,7 @@ Result<LoadedMesh> read(const MeshInput& input, RunLog& log, PrimitiveList* list
         if (!primitives) return primitives.error();
         *list = std::move(*primitives);
     }
-    return LoadedMesh{std::move(*mesh), {}, {}};
+    return LoadedMesh{std::move(*mesh), {}, {}, std::move(report.streams)};
 }
 
 /// Joins what seams cut, unless the file had its surface.

@@ -43,6 +43,7 @@ struct LoadedMesh {
     Mesh mesh;
     Surface surface;
     std::optional<LrContents> lr;
+    std::vector<std::uint64_t> streams = {};  ///< ReadReport's
 };
 
 /// The corner table of the surface. Errors: build_corner_table's.

@@ -2,6 +2,14 @@
 // Compiler extensions, each with a plain fallback. LACEDRING_PLAIN chooses the fallbacks (scripts/portability plain).
 
 #include <cstdint>
+#include <cstring>
+
+// Inlined whatever its size: for the few functions whose calls would cost more than they do.
+#if (defined(__GNUC__) || defined(__clang__)) && !defined(LACEDRING_PLAIN)
+#define LACEDRING_INLINE inline __attribute__((always_inline))
+#else
+#define LACEDRING_INLINE inline
+#endif
 
 namespace lacedring::detail {
 
@@ -13,8 +21,28 @@ inline void prefetch(const void* object) {
 
 /// Four words that are added and masked at once.
 using Lanes = std::uint32_t __attribute__((vector_size(16)));
+
+/// How many of 16 numbers below 2^15 are at most `most`.
+LACEDRING_INLINE std::uint32_t count_up_to(const std::uint16_t* numbers, std::uint32_t most) {
+    using Shorts = std::int16_t __attribute__((vector_size(16)));
+    const auto all = static_cast<std::int16_t>(most);
+    const Shorts limit{all, all, all, all, all, all, all, all};
+    Shorts low, high;
+    std::memcpy(&low, numbers, sizeof low);
+    std::memcpy(&high, numbers + 8, sizeof high);
+    const Shorts counts = -((low <= limit) + (high <= limit));  // a comparison that holds is -1
+    std::uint64_t halves[2];
+    std::memcpy(halves, &counts, sizeof halves);
+    return static_cast<std::uint32_t>((halves[0] + halves[1]) * 0x0001000100010001U >> 48);
+}
 #else
 inline void prefetch(const void*) {}
+
+inline std::uint32_t count_up_to(const std::uint16_t* numbers, std::uint32_t most) {
+    std::uint32_t count = 0;
+    for (std::uint32_t i = 0; i < 16; ++i) count += numbers[i] <= most ? 1 : 0;
+    return count;
+}
 
 struct alignas(16) Lanes {
     std::uint32_t lane[4];

@@ -68,6 +68,14 @@ Result<DecodedLr> decode_connectivity(const LrFileView& file, bool untrusted) {
     return out;
 }
 
+std::vector<std::uint32_t> triangles_of(const DecodedLr& decoded, bool per_copy) {
+    std::vector<std::uint32_t> out = decoded.indices;
+    if (!per_copy && !decoded.vertex_of.empty()) {
+        for (std::uint32_t& v : out) v = decoded.vertex_of[v];
+    }
+    return out;
+}
+
 Attribute decode_attribute(const LrAttribute& attribute) {
     if (attribute.words.empty()) return attribute;
     Attribute out{attribute.name, attribute.type, attribute.components, attribute.normalized, {}, attribute.v_up};

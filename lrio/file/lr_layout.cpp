@@ -66,12 +66,18 @@ std::string view_attribute(const FileHeader& header, const Section& section, std
     return {};
 }
 
-std::string view_stream_of(const FileHeader& header, const Section& section, std::span<const std::byte> contents,
+std::string view_stored_of(const FileHeader& header, const Section& section, std::span<const std::byte> contents,
                            AttributeView& out) {
     if ((section.layout & 0x1ffff) != 0) return "unknown attribute layout";
     if (std::string why = view_layout(header, section, contents, out); !why.empty()) return why;
     if (contents.size() % 4 != 0) return "no whole number of words";
     out.words = {reinterpret_cast<const std::uint32_t*>(contents.data()), contents.size() / 4};
+    return {};
+}
+
+std::string view_stream_of(const FileHeader& header, const Section& section, std::span<const std::byte> contents,
+                           AttributeView& out) {
+    if (std::string why = view_stored_of(header, section, contents, out); !why.empty()) return why;
     const Result<VertexView> view = view_vertices(out.words);
     if (!view) return view.error().message;
     if (view->vertices != header.values(out.per_copy)) return "a vertex stream of another number of vertices";

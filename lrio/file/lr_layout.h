@@ -87,6 +87,11 @@ std::string view_name(const Section& section, std::span<const std::byte>& conten
 std::string view_attribute(const FileHeader& header, const Section& section, std::span<const std::byte> contents,
                            AttributeView& out);
 
+/// The same of an attribute that is a vertex stream in storage form: `words`, which say what its values are, are not
+/// looked at. `contents` may lie anywhere.
+std::string view_stored_of(const FileHeader& header, const Section& section, std::span<const std::byte> contents,
+                           AttributeView& out);
+
 /// The same of an attribute that is a vertex stream. Reads no more of it than its header; `contents` may lie anywhere.
 std::string view_stream_of(const FileHeader& header, const Section& section, std::span<const std::byte> contents,
                            AttributeView& out);
@@ -125,7 +130,8 @@ Result<FileHeader> visit_sections(std::span<const std::byte> bytes, Visit visit)
         if (!named && (section.layout != 0 || section.name_length != 0)) {
             return malformed_lr(fmt::format("section {}: it has no layout and no name", i));
         }
-        if (section.coding > kStored || (section.coding == kStored && section.kind != kPacked)) {
+        if (section.coding > kStored ||
+            (section.coding == kStored && section.kind != kPacked && section.kind != kVertices)) {
             return malformed_lr(fmt::format("section {}: unknown coding {}", i, section.coding));
         }
         if (std::string why = visit(header, section, bytes.subspan(section.offset, section.size)); !why.empty()) {
@@ -170,6 +176,10 @@ Result<Mesh> decode_mesh(const LrFile& file, DecodedLr& decoded, Surface* surfac
 
 /// parse_lr, and the connectivity that it decoded to check it.
 Result<LrFile> parse_lr(std::span<const std::byte> bytes, std::uint64_t max_bytes, DecodedLr& decoded);
+
+/// Three vertices of each triangle that an attribute's stream goes with: copies, if it has a value for each, or if
+/// there are no seams, else vertices.
+std::vector<std::uint32_t> triangles_of(const DecodedLr& decoded, bool per_copy);
 
 /// The attribute with its values. Of a stream, which is valid, they are decoded.
 Attribute decode_attribute(const LrAttribute& attribute);

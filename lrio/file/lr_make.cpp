@@ -5,6 +5,7 @@
 #include "lacedring/file.hpp"
 #include "lacedring/streams.hpp"
 #include "lrcore/codec/storage/packed_storage.h"
+#include "lrcore/codec/storage/vertex_storage.h"
 #include "lrio/file/lr_layout.h"
 
 namespace lacedring {
@@ -76,15 +77,45 @@ LrFile make_lr_file(const Mesh& mesh, Encoded encoded, bool keep_order) {
     return make_file(mesh, {mesh.vertex_count, {}}, std::move(encoded), {}, keep_order);
 }
 
-std::vector<std::byte> serialize_lr(const LrFile& file, LrForm form) {
-    std::vector<std::uint32_t> stored;
-    if (form == LrForm::stored && file.format == Format::packed) {
+namespace {
+
+/// The streams of a file in storage form, where they have one that is smaller; else empty.
+struct StoredStreams {
+    std::vector<std::uint32_t> connectivity;
+    std::vector<std::vector<std::uint32_t>> attributes;  ///< one for each, or none at all
+};
+
+StoredStreams store_streams(const LrFile& file) {
+    StoredStreams out;
+    const auto take = [](std::optional<std::vector<std::uint32_t>> made, std::size_t before) {
+        return made && made->size() < before ? std::move(*made) : std::vector<std::uint32_t>();
+    };
+    if (file.format == Format::packed) {
         if (const Result<PackedView> view = view_packed(file.words)) {
-            if (auto made = storage::store_packed(*view); made && made->size() < file.words.size()) {
-                stored = std::move(*made);
-            }
+            out.connectivity = take(storage::store_packed(*view), file.words.size());
         }
     }
+    const Result<DecodedLr> decoded = decode_connectivity(view_of(file), false);
+    if (!decoded) return out;
+    std::vector<std::uint32_t> triangles;
+    bool of_copies = false;
+    for (const LrAttribute& attribute : file.attributes) {
+        std::vector<std::uint32_t>& stored = out.attributes.emplace_back();
+        if (attribute.words.empty()) continue;
+        if (triangles.empty() || of_copies != attribute.per_copy)
+            triangles = triangles_of(*decoded, attribute.per_copy);
+        of_copies = attribute.per_copy;
+        const Result<VertexView> view = view_vertices(attribute.words);
+        if (view) stored = take(storage::store_vertices(*view, triangles), attribute.words.size());
+    }
+    return out;
+}
+
+}  // namespace
+
+std::vector<std::byte> serialize_lr(const LrFile& file, LrForm form) {
+    StoredStreams stored;
+    if (form == LrForm::stored) stored = store_streams(file);
     std::vector<Section> sections;
     std::vector<std::vector<std::byte>> names;  // beside sections; empty but for attributes
     std::vector<std::span<const std::byte>> contents;
@@ -93,12 +124,19 @@ std::vector<std::byte> serialize_lr(const LrFile& file, LrForm form) {
         names.emplace_back();
         contents.push_back(data);
     };
-    add(kind_of(file.format), std::as_bytes(std::span(stored.empty() ? file.words : stored)));
-    if (!stored.empty()) sections.back().coding = kStored;
+    const auto set_stored = [&](std::span<const std::uint32_t> words) {
+        if (words.empty()) return;
+        sections.back().coding = kStored;
+        contents.back() = std::as_bytes(words);
+    };
+    add(kind_of(file.format), std::as_bytes(std::span(file.words)));
+    set_stored(stored.connectivity);
     if (!file.seams.empty()) add(kSeams, std::as_bytes(std::span(file.seams)));
     for (const LrAttribute& attribute : file.attributes) {
         const bool stream = !attribute.words.empty();
         add(stream ? kVertices : kAttribute, stream ? std::as_bytes(std::span(attribute.words)) : attribute.data);
+        if (!stored.attributes.empty())
+            set_stored(stored.attributes[static_cast<std::size_t>(&attribute - file.attributes.data())]);
         sections.back().layout = (attribute.v_up ? kVUp : 0U) | (attribute.per_copy ? kPerCopy : 0U);
         if (!stream) {
             sections.back().layout |= static_cast<std::uint32_t>(attribute.type) |

@@ -6,6 +6,7 @@
 #include "lacedring/file.hpp"
 #include "lrcore/base/bits.h"
 #include "lrcore/codec/storage/packed_storage.h"
+#include "lrcore/codec/storage/vertex_storage.h"
 #include "lrio/file/lr_layout.h"
 
 namespace lacedring {
@@ -107,6 +108,14 @@ class Reader {
         if (!words.empty()) std::memcpy(words.data(), contents.data(), contents.size());
         AttributeView view;
         const auto copy = std::as_bytes(std::span(words)).first(contents.size());
+        if (section.coding == kStored) {
+            if (std::string why = view_stored_of(header, section, copy, view); !why.empty()) return why;
+            stored_.push_back(file_.attributes.size());
+            file_.attributes.push_back({{std::string(view.name), ComponentType::f32, 1, false, {}, view.v_up},
+                                        {view.words.begin(), view.words.end()},
+                                        view.per_copy});
+            return {};
+        }
         if (std::string why = view_stream_of(header, section, copy, view); !why.empty()) return why;
         if (const Result<VertexView> valid = validate_vertices(view.words); !valid) return valid.error().message;
         file_.attributes.push_back(
@@ -116,14 +125,38 @@ class Reader {
         return {};
     }
 
+    /// Vertices are predicted from their neighbors: the triangles are needed first.
+    Result<void> restore_attribute(LrAttribute& attribute, const DecodedLr& decoded) const {
+        const std::uint32_t values = attribute.per_copy ? file_.copy_count : file_.vertex_count;
+        constexpr std::uint64_t kValue = 128;  // bytes, while it is restored
+        if (kValue * values > max_bytes_) {
+            return Error{ErrorCode::memory_limit,
+                         fmt::format("lr file: {} values in storage form would take more than {} MiB", values,
+                                     max_bytes_ >> 20)};
+        }
+        auto words = storage::restore_vertices(attribute.words, triangles_of(decoded, attribute.per_copy), values,
+                                               max_bytes_ / sizeof(std::uint32_t));
+        if (!words) return words.error();
+        attribute.words = std::move(*words);
+        const Result<VertexView> view = validate_vertices(attribute.words);
+        if (!view) return view.error();
+        if (view->vertices != values) return malformed_lr("a vertex stream of another number of vertices");
+        attribute.type = view->type;
+        attribute.components = view->components;
+        attribute.normalized = view->normalized;
+        return {};
+    }
+
     Result<void> check() {
         if (file_.seams.empty() != (file_.copy_count == 0)) {
             return malformed_lr("seams without copies, or copies without seams");
         }
-        const LrFileView view = view_of(file_);
-        if (auto good = check_position(view); !good) return good;
-        Result<DecodedLr> decoded = decode_connectivity(view, true);
+        Result<DecodedLr> decoded = decode_connectivity(view_of(file_), true);
         if (!decoded) return decoded.error();
+        for (const std::size_t i : stored_) {
+            if (auto good = restore_attribute(file_.attributes[i], *decoded); !good) return good;
+        }
+        if (auto good = check_position(view_of(file_)); !good) return good;
         const std::size_t triangles = decoded->indices.size() / 3;
         if (triangles > file_.input_triangles) return malformed_lr("more triangles than the input had");
         const Attribute position = decode_attribute(file_.attributes[0]);
@@ -166,7 +199,8 @@ class Reader {
     }
 
     std::uint64_t max_bytes_;
-    std::optional<Error> limit_;  ///< what was more than may be
+    std::optional<Error> limit_;       ///< what was more than may be
+    std::vector<std::size_t> stored_;  ///< attributes in storage form
     LrFile file_;
     DecodedLr decoded_;
     bool has_connectivity_ = false;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lrcore/codec/storage/vertex_storage.h"
 #include "lrio/file/lr_layout.h"
 
 namespace lacedring {
@@ -19,7 +20,9 @@ std::string list_stream(const Section& section, std::span<const std::byte> conte
     AttributeView view;
     if (std::string why = view_name(section, contents, view); !why.empty()) return why;
     listed.name = view.name;
-    const Result<VertexView> stream = view_vertices(std::span(words).subspan(align8(section.name_length) / 4));
+    const std::span<const std::uint32_t> behind = std::span(words).subspan(align8(section.name_length) / 4);
+    const Result<VertexView> stream =
+        section.coding == kStored ? storage::view_stored_vertices(behind) : view_vertices(behind);
     if (!stream) return stream.error().message;
     listed.type = stream->type;
     listed.components = stream->components;

@@ -281,10 +281,14 @@ Result<void> check_json(std::string_view text) {
 Result<GltfFile> load_gltf(std::span<const std::byte> bytes, Reading& reading, GltfUse use) {
     const auto chunks = split_gltf(bytes);
     if (!chunks) return chunks.error();
-    if (nests_too_deep(chunks->json)) return malformed("glTF: values are nested more than {} deep", kDeepest);
+    return load_gltf(*chunks, bytes.size(), reading, use);
+}
+
+Result<GltfFile> load_gltf(const GltfChunks& chunks, std::size_t file_bytes, Reading& reading, GltfUse use) {
+    if (nests_too_deep(chunks.json)) return malformed("glTF: values are nested more than {} deep", kDeepest);
     nlohmann::json document;
     try {
-        document = nlohmann::json::parse(chunks->json);
+        document = nlohmann::json::parse(chunks.json);
     } catch (const nlohmann::json::exception& exception) {
         return Error{ErrorCode::malformed, one_line(exception.what())};
     }
@@ -296,8 +300,8 @@ Result<GltfFile> load_gltf(std::span<const std::byte> bytes, Reading& reading, G
     if (!model) return model.error();
     tell_what_is_left_out(document, reading);
 
-    GltfFile file{chunks->json, std::move(document), std::move(*model), {}, &reading, bytes.size()};
-    auto buffers = GltfBuffers::make(file.document, chunks->bin, reading);
+    GltfFile file{chunks.json, std::move(document), std::move(*model), {}, &reading, file_bytes};
+    auto buffers = GltfBuffers::make(file.document, chunks.bin, reading);
     if (!buffers) return buffers.error();
     file.buffers = std::move(*buffers);
     if (auto good = find_draco_primitives(file); !good) return good.error();

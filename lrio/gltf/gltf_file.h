@@ -74,4 +74,8 @@ enum class GltfUse : std::uint8_t {
 /// Errors: malformed, unsupported (a version or an extension without which the geometry cannot be read), too_large.
 Result<GltfFile> load_gltf(std::span<const std::byte> bytes, Reading& reading, GltfUse use = GltfUse::triangles);
 
+/// The same of a file that is split. `file_bytes`: of the file as it was read.
+Result<GltfFile> load_gltf(const GltfChunks& chunks, std::size_t file_bytes, Reading& reading,
+                           GltfUse use = GltfUse::triangles);
+
 }  // namespace lacedring::detail

@@ -28,6 +28,9 @@ void append_floats(const std::byte* packed, const Attribute& from, std::size_t c
         if (turns) {
             Vector3 xyz{value[0], value[1], value[2]};
             if (to.name == "POSITION") {
+                if (from.normalized) {  // floats first, as a primitive alone has them
+                    for (double& x : xyz) x = static_cast<float>(x);
+                }
                 xyz = transform_point(transform, xyz);
             } else if (to.name == "NORMAL") {
                 xyz = normalized(transform_normal(cofactors, mirrors, xyz));

@@ -13,6 +13,7 @@
 #include "lrio/gltf/gltf_scene.h"
 #include "lrio/gltf/gltf_values.h"
 #include "lrio/mesh/read_formats.h"
+#include "lrio/scene/plain_scene.h"
 
 namespace lacedring::detail {
 namespace {
@@ -202,9 +203,13 @@ class GltfJoiner {
 }  // namespace
 
 Result<Mesh> read_gltf(std::span<const std::byte> bytes, Reading& reading) {
-    auto file = load_gltf(bytes, reading);
+    const auto source = PlainScene::open(bytes, reading);
+    if (!source) return source.error();
+    const auto chunks = source->chunks();
+    if (!chunks) return chunks.error();
+    auto file = load_gltf(*chunks, source->file_bytes, reading);
     if (!file) return file.error();
-    return GltfJoiner(*file, reading, bytes.size()).read();
+    return GltfJoiner(*file, reading, source->file_bytes).read();
 }
 
 }  // namespace lacedring::detail

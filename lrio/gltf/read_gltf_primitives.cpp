@@ -10,6 +10,7 @@
 #include "lrio/gltf/gltf_scene.h"
 #include "lrio/gltf/gltf_values.h"
 #include "lrio/mesh/read_formats.h"
+#include "lrio/scene/plain_scene.h"
 
 namespace lacedring::detail {
 namespace {
@@ -107,13 +108,17 @@ Result<void> read_mesh_primitives(const MeshPlan& plan, std::size_t mesh, std::v
 }  // namespace
 
 Result<PrimitiveList> read_gltf_primitives(std::span<const std::byte> bytes, Reading& reading) {
-    Result<GltfFile> file = load_gltf(bytes, reading);
+    const auto source = PlainScene::open(bytes, reading);
+    if (!source) return source.error();
+    const auto chunks = source->chunks();
+    if (!chunks) return chunks.error();
+    Result<GltfFile> file = load_gltf(*chunks, source->file_bytes, reading);
     if (!file) return file.error();
-    const Result<std::vector<MeshInstance>> instances = place_meshes(*file, reading, bytes.size());
+    const Result<std::vector<MeshInstance>> instances = place_meshes(*file, reading, source->file_bytes);
     if (!instances) return instances.error();
     MeshPlans plans(*file, reading);
     if (auto good = plans.make(*instances); !good) return good.error();
-    if (auto good = check_room(plans, *file, reading, bytes.size()); !good) return good.error();
+    if (auto good = check_room(plans, *file, reading, source->file_bytes); !good) return good.error();
     PrimitiveList out;
     out.primitives.reserve(plans.primitive_count());
     for (std::size_t mesh = 0; mesh < plans.meshes().size(); ++mesh) {

@@ -176,7 +176,7 @@ Result<Mesh> read_mesh(std::span<const std::byte> bytes, const std::filesystem::
     detail::Reading reading{options, report != nullptr ? *report : unwanted, name};
     return detail::caught([&]() -> Result<Mesh> {
         Result<Mesh> mesh = detail::read_bytes(bytes, reading);
-        if (!mesh) return mesh;
+        if (!mesh || reading.report.format == MeshFormat::gltf) return mesh;  // read_gltf knows of all its files
         double stride = 0;
         for (const Attribute& attribute : mesh->attributes) stride += static_cast<double>(attribute.stride());
         const auto good = reading.check_memory(mesh->vertex_count, stride, static_cast<double>(mesh->triangle_count()),

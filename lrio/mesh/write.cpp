@@ -81,4 +81,11 @@ Result<void> write_mesh(const Mesh& mesh, MeshFormat format, int descriptor, Wri
     return write_descriptor(descriptor, parts);
 }
 
+Result<std::vector<std::byte>> mesh_file_bytes(const Mesh& mesh, MeshFormat format, WriteNotes* notes) {
+    Result<File> file = make_file(mesh, format, notes);
+    if (!file) return file.error();
+    detail::append(file->head, file->body);
+    return std::move(file->head);
+}
+
 }  // namespace lacedring

@@ -301,7 +301,7 @@ class Packer {
         strip_accessor(accessor);
         const AttributeView decoded{attribute.name, attribute.type, attribute.components, attribute.normalized,
                                     attribute.v_up, false,          attribute.data,       {}};
-        describe_attribute(json_, accessor, decoded, vertices);
+        describe_attribute(json_, accessor, decoded, vertices, decoded.name.starts_with("POSITION"));
         auto values = values_as(accessor, decoded);
         if (!values) return values.error();
         const std::size_t stride = values->size() / vertices;

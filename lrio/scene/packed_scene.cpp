@@ -76,10 +76,15 @@ bool SceneViews::is_placeholder(std::uint64_t index) const {
            extension_of(buffer_list_[static_cast<std::size_t>(*buffer)].value) != nullptr;
 }
 
+bool SceneViews::is_coded(std::uint64_t index) const {
+    return index < views_.size() && extension_of(views_[static_cast<std::size_t>(index)].value) != nullptr;
+}
+
 Result<PackedScene> PackedScene::load(std::span<const std::byte> bytes, Reading& reading) {
     const auto chunks = split_gltf(bytes);
     if (!chunks) return chunks.error();
     PackedScene out;
+    out.has_bin_chunk_ = chunks->bin.has_value();
     const auto open = [&](std::string_view text) -> Result<void> {
         if (auto good = check_json(text); !good) return good;
         out.json_ = std::make_unique<JsonText>(text);

@@ -27,6 +27,8 @@ class SceneViews {
     Result<std::vector<std::byte>> contents(std::uint64_t index) const;
     /// Does the view stand for nothing, its buffer being a placeholder?
     bool is_placeholder(std::uint64_t index) const;
+    /// Are its bytes coded?
+    bool is_coded(std::uint64_t index) const;
 
   private:
     Result<std::span<const std::byte>> range(const JsonValue& place) const;
@@ -46,11 +48,13 @@ class PackedScene {
     SceneViews views() { return {json_->root, *buffers_}; }
     /// Was the document in a buffer view? What its streams say as well is then left out of it.
     bool is_document_packed() const { return text_ != nullptr; }
+    bool has_bin_chunk() const { return has_bin_chunk_; }
     /// Of the file, and of those that were opened beside it.
     double bytes() const { return file_bytes_ + static_cast<double>(buffers_->loaded_bytes()); }
 
   private:
     double file_bytes_ = 0;
+    bool has_bin_chunk_ = false;
     std::unique_ptr<std::string> text_;  ///< of a packed document
     std::unique_ptr<JsonText> json_;
     std::unique_ptr<nlohmann::json> buffer_list_;

@@ -137,14 +137,14 @@ Result<std::vector<std::byte>> values_as(const JsonValue& accessor, const Attrib
     return out;
 }
 
-void describe_attribute(JsonText& json, JsonValue& accessor, const AttributeView& attribute, std::uint32_t vertices) {
+void describe_attribute(JsonText& json, JsonValue& accessor, const AttributeView& attribute, std::uint32_t vertices,
+                        bool position) {
     accessor.set("count", json.number(vertices));
-    const bool is_position = attribute.name.starts_with("POSITION") && attribute.components == 3;
     const auto say_nothing = [&] {
         accessor.remove("min");
         accessor.remove("max");
     };
-    if (!is_position || vertices == 0) return say_nothing();
+    if (!position || attribute.components != 3 || vertices == 0) return say_nothing();
     std::vector<std::byte> floats;
     std::span<const std::byte> positions = attribute.data;
     if (attribute.type != ComponentType::f32) {

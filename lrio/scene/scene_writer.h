@@ -41,8 +41,9 @@ Result<bool> has_type_of(const JsonValue& accessor, const AttributeView& attribu
 /// positions). Errors: malformed (a position that the type does not hold).
 Result<std::vector<std::byte>> values_as(const JsonValue& accessor, const AttributeView& attribute);
 
-/// Sets count, and the bounds of positions, of `data`; texts that say the same already stay.
-void describe_attribute(JsonText& json, JsonValue& accessor, const AttributeView& attribute, std::uint32_t vertices);
+/// Sets count, and with `position` the bounds, of `data`; texts that say the same already stay.
+void describe_attribute(JsonText& json, JsonValue& accessor, const AttributeView& attribute, std::uint32_t vertices,
+                        bool position);
 void describe_indices(JsonText& json, JsonValue& accessor, std::size_t count, std::uint32_t vertices);
 
 /// Bytes of an index of the accessor.

@@ -2,44 +2,37 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <set>
 
 #include "lacedring/scene.hpp"
 #include "lrio/gltf/gltf_file.h"
 #include "lrio/gltf/gltf_names.h"
 #include "lrio/scene/packed_scene.h"
-#include "lrio/scene/scene_plan.h"
+#include "lrio/scene/plain_scene.h"
 #include "lrio/scene/scene_writer.h"
 #include "lrio/scene/stream_decoder.h"
+#include "lrio/scene/unpack_plan.h"
 
 namespace lacedring {
 namespace {
 
 using namespace detail;
 
-/// What the document says of a stream.
-struct StreamPlan {
-    std::uint64_t view = 0;
-    std::optional<std::uint64_t> parts_view;
-    std::vector<std::vector<std::uint32_t>> sets;  ///< accessors
-    bool ordered = false;
-    struct Part {
-        std::uint32_t set = UINT32_MAX;
-        std::optional<std::uint32_t> indices;
-    };
-    std::vector<Part> parts;
-};
-
 class Unpacker {
   public:
-    Unpacker(PackedScene scene, const Reading& reading, UnpackReport& report)
-        : scene_(std::move(scene)), reading_(reading), report_(report), accessors_(root().list("accessors")) {}
+    Unpacker(PackedScene& scene, const Reading& reading, UnpackReport& report)
+        : scene_(scene), reading_(reading), report_(report), accessors_(scene.json().root.list("accessors")) {}
 
-    Result<SceneFile> run(const std::string& bin_uri) {
-        if (auto good = plan(); !good) return good.error();
-        if (auto good = keep_views(); !good) return good.error();
-        for (std::size_t i = 0; i < streams_.size(); ++i) {
-            if (auto good = unpack(streams_[i]); !good) {
+    /// `images`: without them, their buffer views have no contents.
+    Result<SceneFile> run(const std::string& bin_uri, bool images) {
+        auto plan = plan_unpacking(scene_, images);
+        if (!plan) return plan.error();
+        report_.primitives = plan->primitives;
+        positions_ = std::move(plan->positions);
+        if (auto good = keep_views(plan->kept); !good) return good.error();
+        for (std::size_t i = 0; i < plan->streams.size(); ++i) {
+            if (auto good = unpack(plan->streams[i]); !good) {
                 return Error{good.error().code, fmt::format("stream {}: {}", i, good.error().message)};
             }
         }
@@ -49,181 +42,15 @@ class Unpacker {
   private:
     JsonValue& root() { return scene_.json().root; }
 
-    Result<std::uint32_t> accessor_number(const JsonValue* value) {
-        const auto number = value == nullptr ? std::nullopt : value->integer();
-        if (!number || *number >= accessors_.size()) return malformed("an accessor that does not exist");
-        const JsonValue& accessor = accessors_[static_cast<std::size_t>(*number)].value;
-        if (!accessor.is_object() || (!scene_.is_document_packed() && !accessor.integer("count"))) {
-            return malformed("accessor {}: no count", *number);
-        }
-        return static_cast<std::uint32_t>(*number);
-    }
-
-    Result<void> take_once(std::uint32_t accessor, std::uint32_t stream, std::uint32_t set) {
-        if (!set_of_.try_emplace(accessor, stream, set).second)
-            return malformed("accessor {} has two values", accessor);
-        return {};
-    }
-
-    Result<void> plan() {
-        const JsonValue* extension = extension_of(root());
-        if (extension != nullptr) {
-            std::set<std::uint64_t> views;
-            for (const auto& member : extension->list("streams")) {
-                if (auto good = plan_stream(member.value, views); !good) {
-                    return Error{good.error().code, fmt::format("glTF: {}: stream {}: {}", kExtension, streams_.size(),
-                                                                good.error().message)};
-                }
-            }
-        }
-        std::uint32_t mesh = 0;
-        for (auto& member : root().list("meshes")) parts_left_ += member.value.list("primitives").size();
-        for (auto& member : root().list("meshes")) {
-            std::uint32_t number = 0;
-            for (auto& primitive : member.value.list("primitives")) {
-                if (auto good = plan_primitive(primitive.value); !good) {
-                    return Error{good.error().code,
-                                 fmt::format("glTF: mesh {}: primitive {}: {}", mesh, number, good.error().message)};
-                }
-                ++number;
-            }
-            ++mesh;
-        }
-        for (std::size_t i = 0; i < streams_.size(); ++i) {
-            const auto& parts = streams_[i].parts;
-            if (parts.empty() ||
-                std::any_of(parts.begin(), parts.end(), [](const auto& p) { return p.set == UINT32_MAX; })) {
-                return malformed("glTF: {}: stream {}: parts without a primitive", kExtension, i);
-            }
-        }
-        return {};
-    }
-
-    Result<void> plan_stream(const JsonValue& value, std::set<std::uint64_t>& views) {
-        StreamPlan stream;
-        const auto view = value.integer("bufferView");
-        if (!view || !views.insert(*view).second) return malformed("no buffer view of its own");
-        stream.view = *view;
-        if (value.find("parts") != nullptr) {
-            stream.parts_view = value.integer("parts");
-            if (!stream.parts_view || !views.insert(*stream.parts_view).second) {
-                return malformed("no buffer view of its own for parts");
-            }
-        }
-        for (const auto& set : value.list("sets")) {
-            std::vector<std::uint32_t>& to = stream.sets.emplace_back();
-            for (const auto& number : set.value.members) {
-                const auto accessor = accessor_number(&number.value);
-                if (!accessor) return accessor.error();
-                const auto at = static_cast<std::uint32_t>(stream.sets.size() - 1);
-                if (auto good = take_once(*accessor, static_cast<std::uint32_t>(streams_.size()), at); !good)
-                    return good;
-                to.push_back(*accessor);
-            }
-        }
-        if (stream.sets.empty()) return malformed("no sets");
-        if (const JsonValue* ordered = value.find("ordered")) {
-            if (ordered->text != "true" && ordered->text != "false")
-                return malformed("ordered: neither true nor false");
-            stream.ordered = ordered->text == "true";
-        }
-        streams_.push_back(std::move(stream));
-        return {};
-    }
-
-    /// The stream and set of a primitive's attributes. None: it has no stream. Errors: malformed (not of one set).
-    Result<std::optional<std::pair<std::uint32_t, std::uint32_t>>> set_of(const JsonValue& primitive) const {
-        std::optional<std::pair<std::uint32_t, std::uint32_t>> out;
-        bool first = true;
-        const auto visit = [&](const std::string& name, std::uint32_t accessor) -> Result<void> {
-            const auto found = set_of_.find(accessor);
-            const bool has = found != set_of_.end() && found->second.first != UINT32_MAX;
-            if (!first && (has != out.has_value() || (has && *out != found->second))) {
-                return malformed("{}: not of one set with the attributes before", shown(name));
-            }
-            if (has) out = found->second;
-            first = false;
-            return {};
-        };
-        if (auto good = visit_attributes(primitive, visit); !good) return good.error();
-        return out;
-    }
-
-    Result<void> plan_primitive(const JsonValue& primitive) {
-        const JsonValue* extension = extension_of(primitive);
-        const bool triangles = primitive.integer("mode").value_or(4) == 4;
-        // Lines may read the vertices of a set, too, beside attributes of their own.
-        if (extension == nullptr && (!scene_.is_document_packed() || !triangles)) return {};
-        const auto set = set_of(primitive);
-        if (!set) return set.error();
-        if (!*set) return extension == nullptr ? Result<void>() : malformed("its attributes have no stream");
-        const auto [number, of_stream] = **set;
-        StreamPlan& stream = streams_[number];
-        if (!triangles) return malformed("parts are triangles");
-        const auto indices = accessor_number(primitive.find("indices"));
-        if (!indices) return indices.error();
-        std::optional<std::uint64_t> part;
-        if (extension != nullptr) {
-            if (extension->integer("stream") != number) return malformed("its attributes are of stream {}", number);
-            part = extension->integer("part");
-        } else {  // parts are numbered in the document's order
-            part = part_of_.try_emplace({number, *indices}, stream.parts.size()).first->second;
-        }
-        if (!part) return malformed("no part");
-        if (*part >= stream.parts.size()) {
-            const std::uint64_t skipped = *part - stream.parts.size();
-            if (skipped >= parts_left_) return malformed("part {}, of fewer primitives", *part);
-            parts_left_ -= skipped + 1;
-            stream.parts.resize(static_cast<std::size_t>(*part) + 1);
-        }
-        StreamPlan::Part& at = stream.parts[static_cast<std::size_t>(*part)];
-        if (at.set == UINT32_MAX) {
-            at = {of_stream, *indices};
-            if (auto good = take_once(*indices, UINT32_MAX, 0); !good) return good;
-        } else if (at.set != of_stream || at.indices != *indices) {
-            return malformed("another set or other indices than part {} has elsewhere", *part);
-        }
-        ++report_.primitives;
-        return {};
-    }
-
-    /// Counts how often each view is referred to, by extensions, too, which call the member so.
-    static void count_uses(const JsonValue& value, std::span<std::size_t> uses) {
-        const auto view = value.integer("bufferView");
-        if (view && *view < uses.size()) ++uses[static_cast<std::size_t>(*view)];
-        for (const auto& member : value.members) count_uses(member.value, uses);
-    }
-
-    /// The views of a fallback are free: nothing else refers to them, and streams have their values. Their buffer,
-    /// which may be another file, is then not opened.
-    void free_fallback() {
-        std::vector<std::size_t> uses(free_.size(), 0), fallback(free_.size(), 0);
-        count_uses(root(), uses);
-        for (const auto& [accessor, place] : set_of_) {
-            const auto view = accessors_[accessor].value.integer("bufferView");
-            if (view && *view < fallback.size()) ++fallback[static_cast<std::size_t>(*view)];
-        }
-        for (std::size_t i = 0; i < free_.size(); ++i)
-            free_[i] = free_[i] || (fallback[i] > 0 && fallback[i] == uses[i]);
-    }
-
-    /// Moves the views that stay into the new buffer; those of streams, fallbacks and placeholders are free for
-    /// what comes.
-    Result<void> keep_views() {
+    /// Moves the views that stay into the new buffer; the others' numbers are free for what comes.
+    Result<void> keep_views(const std::vector<bool>& keep) {
         auto views = root().list("bufferViews");
         const SceneViews source = scene_.views();
-        free_.assign(views.size(), false);
-        for (const StreamPlan& stream : streams_) {
-            for (const std::uint64_t view : {stream.view, stream.parts_view.value_or(stream.view)}) {
-                if (view >= views.size()) return malformed("buffer view {} does not exist", view);
-                free_[static_cast<std::size_t>(view)] = true;
-            }
-        }
-        free_fallback();
+        free_.assign(views.size(), true);
         std::vector<JsonValue> kept(views.size());
         for (std::size_t i = 0; i < views.size(); ++i) {
-            if (source.is_placeholder(i)) free_[i] = true;
-            if (free_[i]) continue;
+            if (!keep[i]) continue;
+            free_[i] = false;
             const auto contents = open_view(source, i);
             if (!contents) return contents.error();
             JsonValue view = views[i].value;
@@ -266,6 +93,7 @@ class Unpacker {
             if (!contents) return contents.error();
             parts = std::move(*contents);
         }
+        report_.read.streams.push_back(file->size() + parts.size());
         StreamDecoder::Said said;
         for (const StreamPlan::Part& part : stream.parts) said.set_of_part.push_back(part.set);
         for (const auto& set : stream.sets) {
@@ -284,14 +112,15 @@ class Unpacker {
     /// Before it is decoded: does each of its attributes have an accessor, and is there room? A few bytes may hold many
     /// equal vertices.
     Result<void> check_stream(const StreamPlan& stream, const LrFileView& contents) {
-        if (stream.ordered == (contents.vertex_order.empty() || contents.corner_order.empty())) {
-            return malformed("it has an order, or the document says so, but not both");
-        }
         std::size_t stride = 0;
         for (const AttributeView& a : contents.attributes) stride += size_of(a.type) * a.components;
         for (const auto& set : stream.sets) {
             if (set.size() == contents.attributes.size()) continue;
             return malformed("{} accessors for {} attributes", set.size(), contents.attributes.size());
+        }
+        if (stream.ordered != (!contents.vertex_order.empty() && !contents.corner_order.empty())) {
+            return malformed("ordered is {}, and the file's order is {}kept", stream.ordered,
+                             stream.ordered ? "not " : "");
         }
         const double vertices = std::max(contents.vertex_count, contents.copy_count);
         return take_memory(vertices * static_cast<double>(stride), contents.input_triangles);
@@ -411,7 +240,7 @@ class Unpacker {
             AttributeView attribute = decoder.attributes()[a];
             attribute.data = bytes_of(targets[a]);
             strip_accessor(accessor);
-            describe_attribute(scene_.json(), accessor, attribute, vertices);
+            describe_attribute(scene_.json(), accessor, attribute, vertices, positions_.contains(numbers[a]));
             JsonValue view;
             if (!targets[a].apart) {
                 view = describe_view(scene_.json(), targets[a].at, targets[a].size,
@@ -460,19 +289,16 @@ class Unpacker {
         return out;
     }
 
-    PackedScene scene_;
+    PackedScene& scene_;
     const Reading& reading_;
     UnpackReport& report_;
     std::span<JsonValue::Member> accessors_;
-    std::vector<StreamPlan> streams_;
-    std::map<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>> set_of_;  ///< stream and set of an accessor
+    std::set<std::uint32_t> positions_;  ///< UnpackPlan's
     std::vector<JsonValue> views_;
     std::vector<bool> free_;  ///< views that nothing refers to
     std::size_t next_free_ = 0;
     BinChunk bin_;
     std::vector<std::byte> apart_;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint64_t> part_of_;  ///< by stream and indices
-    std::uint64_t parts_left_ = 0;  ///< that all streams together may still have
     double taken_bytes_ = 0, taken_triangles_ = 0;
 };
 
@@ -486,9 +312,37 @@ Result<SceneFile> unpack_scene(std::span<const std::byte> bytes, const std::file
     return caught([&]() -> Result<SceneFile> {
         auto scene = PackedScene::load(bytes, reading);
         if (!scene) return scene.error();
-        return Unpacker(std::move(*scene), reading, told).run(bin_uri);
+        return Unpacker(*scene, reading, told).run(bin_uri, true);
     });
 }
+
+namespace detail {
+
+Result<PlainScene> PlainScene::open(std::span<const std::byte> bytes, Reading& reading) {
+    PlainScene out;
+    out.bytes_ = bytes;
+    out.file_bytes = bytes.size();
+    if (!is_packed_scene(bytes)) return out;
+    ReadOptions options = reading.options;
+    options.triangle_bytes = 0;  // the caller works on the mesh that is read, when this is gone
+    UnpackReport report;
+    Reading unpacking{options, report.read, reading.name};
+    auto scene = PackedScene::load(bytes, unpacking);
+    Result<SceneFile> plain = scene ? Unpacker(*scene, unpacking, report).run("", false) : scene.error();
+    std::ranges::move(report.read.files, std::back_inserter(reading.report.files));
+    if (!plain) return plain.error();
+    reading.report.streams = std::move(report.read.streams);
+    out.file_bytes = static_cast<std::size_t>(scene->bytes());
+    out.unpacked_ = std::move(*plain);
+    return out;
+}
+
+Result<GltfChunks> PlainScene::chunks() const {
+    if (!unpacked_) return split_gltf(bytes_);
+    return GltfChunks{unpacked_->json, std::span<const std::byte>(unpacked_->bin)};
+}
+
+}  // namespace detail
 
 bool is_packed_scene(std::span<const std::byte> bytes) {
     const auto chunks = split_gltf(bytes);

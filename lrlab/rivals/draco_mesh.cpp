@@ -109,18 +109,27 @@ struct Coded {
     std::unique_ptr<draco::Mesh> decoded;
 };
 
-Result<Coded> encode_draco(const draco::Mesh& mesh, const std::vector<DracoInput>& inputs) {
+/// `level`: of Draco's tools, 10 the smallest.
+Result<draco::EncoderBuffer> encode_draco_at(const draco::Mesh& mesh, const std::vector<DracoInput>& inputs,
+                                             int level) {
     draco::ExpertEncoder encoder(mesh);
-    encoder.SetSpeedOptions(0, 0);
+    encoder.SetSpeedOptions(10 - level, 10 - level);
     encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
     for (std::size_t i = 0; i < inputs.size(); ++i) {
         if (inputs[i].bits != 0)
             encoder.SetAttributeQuantization(static_cast<int>(i), static_cast<int>(inputs[i].bits));
     }
-    Coded out;
-    if (const draco::Status status = encoder.EncodeToBuffer(&out.bytes); !status.ok()) {
+    draco::EncoderBuffer out;
+    if (const draco::Status status = encoder.EncodeToBuffer(&out); !status.ok()) {
         return Error{ErrorCode::unsupported, "Draco: " + status.error_msg_string()};
     }
+    return out;
+}
+
+Result<Coded> encode_draco(const draco::Mesh& mesh, const std::vector<DracoInput>& inputs) {
+    Result<draco::EncoderBuffer> bytes = encode_draco_at(mesh, inputs, 10);
+    if (!bytes) return bytes.error();
+    Coded out{std::move(*bytes), nullptr};
     draco::DecoderBuffer buffer;
     buffer.Init(out.bytes.data(), out.bytes.size());
     draco::Decoder decoder;
@@ -190,6 +199,43 @@ Result<RivalMesh> encode_draco_mesh(const Mesh& mesh, const AttributeBits& bits)
     return out;
 }
 
+Result<std::vector<std::byte>> draco_bytes(const Mesh& mesh, const AttributeBits& bits, int level) {
+    std::vector<DracoInput> inputs;
+    for (const Attribute& attribute : mesh.attributes) inputs.push_back(input_of(attribute, bits));
+    const Result<draco::EncoderBuffer> coded = encode_draco_at(*draco_mesh(mesh, inputs, false), inputs, level);
+    if (!coded) return coded.error();
+    const auto* const begin = reinterpret_cast<const std::byte*>(coded->data());
+    return std::vector<std::byte>(begin, begin + coded->size());
+}
+
+Result<DecodedRival> decode_draco(std::span<const std::byte> bytes) {
+    draco::DecoderBuffer buffer;
+    buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    draco::Decoder decoder;
+    const auto mesh = decoder.DecodeMeshFromBuffer(&buffer);
+    if (!mesh.ok()) return Error{ErrorCode::malformed, "Draco: " + mesh.status().error_msg_string()};
+    const draco::Mesh& decoded = *mesh.value();
+    DecodedRival out;
+    out.indices.resize(std::size_t{3} * decoded.num_faces());
+    for (std::uint32_t f = 0; f < decoded.num_faces(); ++f) {
+        const draco::Mesh::Face& face = decoded.face(draco::FaceIndex(f));
+        for (std::size_t k = 0; k < 3; ++k) out.indices[3 * std::size_t{f} + k] = face[k].value();
+    }
+    for (int i = 0; i < decoded.num_attributes(); ++i) {
+        const draco::PointAttribute& from = *decoded.attribute(i);
+        const auto stride = static_cast<std::size_t>(from.byte_stride());
+        std::vector<std::byte>& to = out.attributes.emplace_back(decoded.num_points() * stride);
+        if (from.is_mapping_identity()) {
+            std::memcpy(to.data(), from.GetAddress(draco::AttributeValueIndex(0)), to.size());
+            continue;
+        }
+        for (std::uint32_t p = 0; p < decoded.num_points(); ++p) {
+            std::memcpy(to.data() + p * stride, from.GetAddressOfMappedIndex(draco::PointIndex(p)), stride);
+        }
+    }
+    return out;
+}
+
 std::string draco_version() {
     return draco::kDracoVersion;
 }
@@ -197,6 +243,14 @@ std::string draco_version() {
 #else
 
 Result<RivalMesh> encode_draco_mesh(const Mesh& /*mesh*/, const AttributeBits& /*bits*/) {
+    return Error{ErrorCode::unsupported, "built without libdraco"};
+}
+
+Result<std::vector<std::byte>> draco_bytes(const Mesh& /*mesh*/, const AttributeBits& /*bits*/, int /*level*/) {
+    return Error{ErrorCode::unsupported, "built without libdraco"};
+}
+
+Result<DecodedRival> decode_draco(std::span<const std::byte> /*bytes*/) {
     return Error{ErrorCode::unsupported, "built without libdraco"};
 }
 

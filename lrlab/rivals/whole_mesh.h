@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,18 @@ Result<RivalMesh> encode_meshopt_mesh(const Mesh& mesh, const AttributeBits& bit
 /// lost. Encodes a second time, with the vertices numbered, to compare triangles and values.
 /// Errors: unsupported (built without Draco; Draco drops triangles, or refuses the mesh).
 Result<RivalMesh> encode_draco_mesh(const Mesh& mesh, const AttributeBits& bits);
+
+/// Draco's edgebreaker alone, at a compression level of its tools: 0 to 10, the smallest; 7 is their default. It may
+/// drop triangles. Errors: unsupported (built without Draco; Draco refuses the mesh).
+Result<std::vector<std::byte>> draco_bytes(const Mesh& mesh, const AttributeBits& bits, int level);
+
+/// A mesh as a program takes it from a decoder: an index list, and each attribute's values vertex by vertex.
+struct DecodedRival {
+    std::vector<std::uint32_t> indices;
+    std::vector<std::vector<std::byte>> attributes;
+};
+/// Errors: malformed; unsupported (built without Draco). Cost: O(mesh).
+Result<DecodedRival> decode_draco(std::span<const std::byte> bytes);
 
 /// "0.18, index codec 1, vertex codec 0": versions of the libraries that the program was built with; "" of one that it
 /// lacks.

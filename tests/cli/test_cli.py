@@ -302,9 +302,9 @@ class Json(CliTest):
         mesh = document["meshes"][0]
         self.assertEqual(mesh["file"], path)
         self.assertEqual(mesh["triangles"], 2000)
-        for key in ("construct", "decode_cpu", "decode_gpu", "draw", "operators", "peak_bytes"):
+        for key in ("construct", "decode_cpu", "unpack", "decode_gpu", "draw", "operators", "peak_bytes"):
             self.assertIsInstance(mesh[key], dict, key)
-        for key in ("construct", "decode_cpu"):
+        for key in ("construct", "decode_cpu", "unpack"):
             self.assertTrue(mesh[key])
             for name, entry in mesh[key].items():
                 self.assertGreater(entry["seconds"], 0, name)
@@ -319,6 +319,10 @@ class Json(CliTest):
             self.assertGreater(mesh["decode_cpu"][name]["mvert_per_s"], 0, name)
         self.assertGreater(mesh["decode_cpu_ratio"]["meshopt_vertex_codec_over_vertices"], 0)
         self.assertEqual(mesh["position_bits"], 14)
+        rivals = {"draco", "draco_smallest"} - set(mesh["absent"])  # a build may lack Draco
+        self.assertEqual(set(mesh["unpack"]), {"lacedring"} | rivals)
+        self.assertTrue(all(entry["bytes"] > 0 for entry in mesh["unpack"].values()))
+        self.assertEqual("draco" in rivals, mesh["unpack_ratio"]["draco_over_lacedring"] is not None)
         if mesh["decode_gpu"]:
             self.assertGreater(mesh["decode_gpu"]["vertices"]["mvert_per_s"], 0)
             self.assertGreater(mesh["decode_gpu_ratio"]["packed_vertices_over_packed"], 0)

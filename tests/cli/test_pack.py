@@ -5,10 +5,11 @@ import base64
 import json
 import os
 import struct
+import subprocess
 import sys
 
 import cli_support
-from cli_support import HERE, CliTest, in_parallel, main
+from cli_support import DONE, HERE, NO_DEVICE, CliTest, in_parallel, main, run
 
 sys.path.insert(0, os.path.join(os.path.dirname(HERE), "scene"))
 from compare_scenes import compare, geometry_differences, other_differences
@@ -87,6 +88,67 @@ class Pack(CliTest):
             self.assertEqual(binary[matrices["byteOffset"]:matrices["byteOffset"] + matrices["byteLength"]], parts[5])
             lines = out["bufferViews"][out["accessors"][0]["bufferView"]]
             self.assertEqual(binary[lines["byteOffset"]:lines["byteOffset"] + lines["byteLength"]], parts[0])
+
+    def test_other_commands(self):
+        """Commands that read meshes say of a packed scene what they say of the unpacked one, wherever it comes from."""
+        commands = [["info"], ["stats"], ["verify"]]
+        if self.has_command("compare"):
+            commands.append(["compare", "--path", "compute", "--size", "96x64"])
+
+        def said(command, path):
+            outcome = run(*command, path, "--json")
+            if command[0] == "compare" and outcome.code == NO_DEVICE:
+                return None
+            self.assertEqual(outcome.code, DONE, str(outcome))
+            report = json.loads(outcome.out)
+            for mesh in [report, *report.get("meshes", [])]:
+                mesh.pop("file", None)
+            return report, outcome.err.replace(path, "")
+
+        def one(case):
+            extension, *options = case
+            name = "-".join(case)
+            _, packed, unpacked = self.pack(name, self.path("scene.glb"), *options, extension=extension)
+            if "--fallback" in options and extension == "gltf":
+                os.remove(self.path(f"{name}-packed.fallback.bin"))  # a reader of the streams does not open it
+            for command in commands[:None if case == ("glb",) else 3]:
+                of_packed, of_unpacked = said(command, packed), said(command, unpacked)
+                if command == ["info"]:
+                    streams = of_packed[0].pop("packed")
+                    self.assertEqual(sum(streams["streams"]), streams["bytes"])
+                    self.assertLess(0, streams["bytes"])
+                self.assertEqual(of_packed, of_unpacked, f"{command} {case}")
+
+        in_parallel(one, [("glb",), ("glb", "--document", "packed"), ("glb", "--fallback"), ("glb", "--keep-order"), ("gltf",),
+                          ("gltf", "--fallback")])
+        with open(self.path("glb-packed.glb"), "rb") as file:
+            piped = json.loads(subprocess.run([cli_support.program, "info", "-", "--json"], stdin=file, capture_output=True, check=True).stdout)
+        named = self.json("info", self.path("glb-packed.glb"), "--json")
+        self.assertEqual({**piped, "file": ""}, {**named, "file": ""})
+        self.assertIn("packed scene", self.ok("info", self.path("glb-packed.glb")).out)
+        self.ok("encode", self.path("glb-packed.glb"), "-o", self.path("x.lr"))
+        self.ok("encode", self.path("glb-unpacked.glb"), "-o", self.path("y.lr"))
+        with open(self.path("x.lr"), "rb") as x, open(self.path("y.lr"), "rb") as y:
+            self.assertEqual(x.read(), y.read())
+
+    def test_outside(self):
+        """A packed scene's buffers lie in its folder, or are allowed to lie elsewhere."""
+        os.mkdir(self.path("in"))
+        self.ok("pack", self.path("scene.glb"), "-o", self.path("in/s.gltf"))
+        os.rename(self.path("in/s.bin"), self.path("s.bin"))
+        with open(self.path("in/s.gltf"), encoding="utf-8") as file:
+            document = json.load(file)
+        document["buffers"][0]["uri"] = "../s.bin"
+        self.write("in/s.gltf", json.dumps(document).encode())
+        self.fails("info", self.path("in/s.gltf"), mentions=["../s.bin"])
+        self.ok("info", self.path("in/s.gltf"), "--allow-outside")
+
+    def test_memory(self):
+        """A packed scene takes no more than a plain one may."""
+        self.ok("generate", "genus", "-o", self.path("g.glb"), "--triangles", "20000")
+        self.ok("pack", self.path("g.glb"), "-o", self.path("p.glb"))
+        self.fails("info", self.path("p.glb"), "--max-memory", "1", mentions=["MiB"])
+        self.ok("info", self.path("p.glb"), "--max-memory", "16")
 
 
 if __name__ == "__main__":

@@ -155,6 +155,58 @@ class PackBad(CliTest):
         self.check_all(cases)
         self.fails("unpack", self.write("deep.glb", cases[6][2]), "-o", self.path("x.glb"), mentions=["packed document"])
 
+    def test_rules(self):
+        """Rules that a change of one field breaks, or of two."""
+        def refused(says, change, *options):
+            packed = Packed(self.packed("--document", "plain", *options))
+            document = copy.deepcopy(packed.document)
+            change(document, document["extensions"][EXTENSION]["streams"][0])
+            source = self.write("rule.glb", packed.with_document(document))
+            self.fails("unpack", source, "-o", self.path("x.glb"), mentions=[says])
+            self.fails("info", source, mentions=[says])
+
+        def placeholder(document):
+            return next(b for b in document["buffers"] if EXTENSION in b.get("extensions", {}))
+
+        refused("ordered", lambda d, s: s.update(ordered=True))
+        refused("ordered", lambda d, s: s.update(ordered=0))
+        refused("ordered", lambda d, s: s.pop("ordered"), "--keep-order")
+        refused("ordered", lambda d, s: s.update(ordered=False), "--keep-order")
+        refused("placeholder", lambda d, s: placeholder(d).update(uri="data:application/octet-stream;base64,AAAA"))
+        refused("placeholder", lambda d, s: placeholder(d)["extensions"][EXTENSION].update(placeholder=False))
+        refused("placeholder", lambda d, s: d["buffers"][0].update(extensions={EXTENSION: {"placeholder": True}}))
+        refused("placeholder", lambda d, s: placeholder(d).update(byteLength=3))
+        refused("KHR_draco", lambda d, s: d["extensionsUsed"].append("KHR_draco_mesh_compression"))
+        refused("is coded", lambda d, s: d["bufferViews"][s["bufferView"]].update(
+            extensions={EXTENSION: {"buffer": 0, "byteLength": 8, "coding": "deflate"}}))
+        plain = next(i for i, a in enumerate(Packed(self.packed("--document", "plain")).document["accessors"]) if "bufferView" in a)
+        refused(f"accessor {plain}", lambda d, s: d["accessors"][plain].update(bufferView=s["bufferView"]))
+        refused("image 0", lambda d, s: d.update(images=[{"bufferView": s["bufferView"], "mimeType": "image/png"}]))
+        # Names in a stream are for tools: the document's need not be the same.
+        packed = Packed(self.packed("--document", "plain"))
+        for mesh in packed.document["meshes"]:
+            for primitive in mesh["primitives"]:
+                if "NORMAL" in primitive["attributes"]:
+                    primitive["attributes"]["_RENAMED"] = primitive["attributes"].pop("NORMAL")
+        self.ok("unpack", self.write("renamed.glb", packed.with_document(packed.document)), "-o", self.path("fine.glb"))
+
+    def test_commands(self):
+        """Damaged packed scenes in commands that read meshes."""
+        good = self.packed()
+        cases = []
+        for at in range(0, len(good), len(good) // (3 if SANITIZED else 12)):
+            for data in (good[:at], good[:at] + bytes([good[at] ^ 0x41]) + good[at + 1:]):
+                cases += [(command, self.write(f"d{len(cases)}.glb", data)) for command in ("info", "verify", "stats")]
+
+        def check(case):
+            outcome = run(*case)
+            self.assertIn(outcome.code, (DONE, BAD_INPUT), str(outcome))
+            if outcome.code == BAD_INPUT:
+                self.check_error(outcome)
+            return outcome.code
+
+        self.assertGreater(sum(code == BAD_INPUT for code in in_parallel(check, cases)), len(cases) // 2)
+
     def test_sources(self):
         """Scenes that pack cannot read."""
         with open(self.path("scene.glb"), "rb") as file:

@@ -155,7 +155,7 @@ TEST_CASE("numbers, symbols and bits come back from the entropy coder, and nothi
     CAPTURE(seed);
     std::mt19937 engine(seed);
     const auto random = [&] { return static_cast<std::uint32_t>(engine()); };
-    for (const std::size_t count : {0, 1, 2, 3, 1000, 30000}) {
+    for (const std::size_t count : {0U, 1U, 2U, 3U, 1000U, 30000U}) {
         Words values(count);
         for (std::uint32_t& v : values) v = random() >> random() % 32;
         // The same calls on either side: an encoder returns what it is given, a decoder what was.

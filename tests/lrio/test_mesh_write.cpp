@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "lacedring/file.hpp"
 #include "lacedring/mesh_files.hpp"
 #include "lrio/mesh/distinct.h"
 #include "tests/lrio/mesh_files.h"
@@ -36,6 +37,9 @@ Mesh square_mesh() {
 Mesh round_trip(const Mesh& mesh, const std::string& name) {
     const auto written = write_mesh(mesh, folder() / name);
     REQUIRE(written.has_value());
+    const auto in_memory = mesh_file_bytes(mesh, writable_format(name));
+    REQUIRE(in_memory.has_value());
+    CHECK(*in_memory == *read_file(folder() / name));
     auto back = read_mesh(folder() / name);
     const std::string message = back ? "" : back.error().message;
     CAPTURE(message);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <optional>
 
 #include "lrcore/codec/bit_writer.h"
@@ -300,18 +301,23 @@ class Planner {
 
     /// Warts are counted among the triangles whose turn is that of the next one.
     void write_warts() {
-        std::uint32_t gap = 0;
-        auto wart = warts_.begin();
-        for (std::uint32_t i = first_; i < end_ && wart != warts_.end(); ++i) {
-            if (i + 1 < end_ && turn(i) != turn(i + 1)) continue;
-            if (i == *wart) {
-                out_->wart_gaps.push_back(gap);
-                gap = 0;
-                ++wart;
-            } else {
-                ++gap;
-            }
+        std::uint32_t from = first_;
+        for (const std::uint32_t wart : warts_) {
+            out_->wart_gaps.push_back(candidates(from, wart));
+            from = wart + 1;
         }
+    }
+
+    /// How many of triangles [from, to) have the turn of the next one, which is of the record, too.
+    std::uint32_t candidates(std::uint32_t from, std::uint32_t to) const {
+        std::uint32_t count = 0;
+        for (std::uint32_t i = from; i < to; i = (i / 32 + 1) * 32) {
+            const std::uint32_t word = turns_[i / 32], next = i / 32 * 32 + 32 <= to ? turns_[i / 32 + 1] : 0;
+            const std::uint32_t same = ~(word ^ (word >> 1 | next << 31)) >> (i % 32);
+            const std::uint32_t left = std::min(to - i, 32 - i % 32);
+            count += static_cast<std::uint32_t>(std::popcount(left == 32 ? same : same & ((1U << left) - 1)));
+        }
+        return count;
     }
 
     const Steps& steps_;

@@ -10,8 +10,11 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
+
+#include "lrcore/base/compiler.h"
 
 namespace lacedring::storage {
 
@@ -54,11 +57,7 @@ struct SymbolModel {
     }
 
     /// The symbol whose range `at` is in.
-    std::uint32_t find(std::uint32_t at) const {
-        std::uint16_t n = 0;
-        for (std::uint32_t i = 0; i < kSymbols; ++i) n = static_cast<std::uint16_t>(n + (begin[i] <= at ? 1 : 0));
-        return n - 1U;
-    }
+    LACEDRING_INLINE std::uint32_t find(std::uint32_t at) const { return detail::count_up_to(begin.data(), at) - 1; }
 
     void update(std::uint32_t symbol) {
         count[symbol] = static_cast<std::uint16_t>(count[symbol] + kStep);
@@ -166,51 +165,52 @@ class Decoder {
         }
         at_ = words.data() + 1;
         end_ = at_ + words[0];
-        raw_at_ = end_;
-        raw_end_ = words.data() + words.size();
+        bytes_ = reinterpret_cast<const unsigned char*>(words.data());
+        last_byte_ = 4 * words.size() - 8;
+        raw_bit_ = 32 * (1 + std::uint64_t{words[0]});
+        raw_end_ = 32 * std::uint64_t{words.size()};
         for (std::uint64_t* x : {&now_, &next_}) {
             *x = at_[0] | static_cast<std::uint64_t>(at_[1]) << 32;
             at_ += 2;
         }
     }
 
-    std::uint32_t bit(BitModel& model, std::uint32_t /*value*/ = 0) {
+    LACEDRING_INLINE std::uint32_t bit(BitModel& model, std::uint32_t /*value*/ = 0) {
         const std::uint32_t at = now_ & (kScale - 1), zero = model.zero;
         const std::uint32_t value = at >= zero ? 1 : 0;
         take(at, value != 0 ? zero : 0, value != 0 ? kScale - zero : zero);
         model.update(value);
         return value;
     }
-    std::uint32_t symbol(SymbolModel& model, std::uint32_t /*value*/ = 0) {
+    LACEDRING_INLINE std::uint32_t symbol(SymbolModel& model, std::uint32_t /*value*/ = 0) {
         const std::uint32_t at = now_ & (kScale - 1), value = model.find(at);
         take(at, model.begin[value], model.begin[value + 1] - model.begin[value]);
         model.update(value);
         return value;
     }
-    std::uint32_t raw(std::uint32_t /*value*/, std::uint32_t count) {
-        if (count == 0) return 0;
-        if (fill_ < count) {
-            if (raw_at_ != raw_end_) {
-                window_ |= static_cast<std::uint64_t>(*raw_at_++) << fill_;
-            } else {
-                bad_ = true;
-            }
-            fill_ += 32;
-        }
-        const auto value = static_cast<std::uint32_t>(window_) & (UINT32_MAX >> (32 - count));
-        window_ >>= count;
-        fill_ -= count;
-        return value;
+    LACEDRING_INLINE std::uint32_t raw(std::uint32_t /*value*/, std::uint32_t count) {
+        // Without a branch; behind the end, any bits of the last ones.
+        const std::uint64_t byte = std::min(raw_bit_ >> 3, last_byte_);
+        std::uint64_t window;
+        std::memcpy(&window, bytes_ + byte, sizeof window);
+        window >>= std::min<std::uint64_t>(raw_bit_ - 8 * byte, 63);
+        raw_bit_ += count;
+        return static_cast<std::uint32_t>(window & ((std::uint64_t{1} << count) - 1));
     }
 
-    bool bad() const { return bad_; }
+    bool bad() const { return bad_ || raw_bit_ > raw_end_; }
     /// Was all of it used, and do both states end as they began?
     bool is_at_end() const {
-        return !bad_ && at_ == end_ && raw_at_ == raw_end_ && window_ == 0 && now_ == kLeast && next_ == kLeast;
+        const auto left = static_cast<std::uint32_t>(raw_end_ - raw_bit_);  // bits of the last word
+        if (bad() || left >= 32) return false;
+        std::uint32_t last = 0;
+        if (left > 0) std::memcpy(&last, bytes_ + (raw_end_ / 8 - sizeof last), sizeof last);
+        const bool is_clear = left == 0 || last >> (32 - left) == 0;
+        return is_clear && at_ == end_ && now_ == kLeast && next_ == kLeast;
     }
 
   private:
-    void take(std::uint32_t at, std::uint32_t begin, std::uint32_t size) {
+    LACEDRING_INLINE void take(std::uint32_t at, std::uint32_t begin, std::uint32_t size) {
         std::uint64_t x = size * (now_ >> kScaleBits) + at - begin;
         if (x < kLeast) {
             if (at_ != end_) {
@@ -224,9 +224,13 @@ class Decoder {
         next_ = x;
     }
 
-    const std::uint32_t *at_ = nullptr, *end_ = nullptr, *raw_at_ = nullptr, *raw_end_ = nullptr;
-    std::uint64_t now_ = kLeast, next_ = kLeast, window_ = 0;
-    std::uint32_t fill_ = 0;
+    static constexpr unsigned char kNothing[8] = {};
+
+    const std::uint32_t *at_ = nullptr, *end_ = nullptr;
+    const unsigned char* bytes_ = kNothing;  // of all words
+    std::uint64_t last_byte_ = 0;            // from which on there are eight
+    std::uint64_t raw_bit_ = 0, raw_end_ = 0;
+    std::uint64_t now_ = kLeast, next_ = kLeast;
     bool bad_ = false;
 };
 

@@ -38,14 +38,15 @@ struct ReadReport {
     MeshFormat format = MeshFormat::any;       ///< the file's
     std::size_t primitives = 1;                ///< of triangles, that the mesh was joined of
     std::vector<std::filesystem::path> files;  ///< opened beside the file
+    std::vector<std::uint64_t> streams;        ///< bytes of each stream of a packed scene, its part codes included
 };
 
-/// Reads glTF/GLB, OBJ, PLY, OFF/COFF or STL. Several meshes or primitives become one list of all triangles, node
-/// transforms applied, attributes kept where every primitive has them; NORMAL where any has it, made from the triangles
-/// of the others (read_primitives, primitives.hpp, gives each primitive with all it has). Polygons are cut into
-/// triangles that cover them (docs/formats-read.md). STL vertices at one position are merged. `report`, if given, is
-/// filled even on an error. Errors: cannot_open, malformed, unsupported, too_large, memory_limit. Untrusted input:
-/// safe. Cost: O(what is read).
+/// Reads glTF/GLB (packed scenes, too: scene.hpp), OBJ, PLY, OFF/COFF or STL. Several meshes or primitives become one
+/// list of all triangles, node transforms applied, attributes kept where every primitive has them; NORMAL where any has
+/// it, made from the triangles of the others (read_primitives, primitives.hpp, gives each primitive with all it has).
+/// Polygons are cut into triangles that cover them (docs/formats-read.md). STL vertices at one position are merged.
+/// `report`, if given, is filled even on an error. Errors: cannot_open, malformed, unsupported, too_large,
+/// memory_limit. Untrusted input: safe. Cost: O(what is read).
 Result<Mesh> read_mesh(const std::filesystem::path& path, const ReadOptions& options = {},
                        ReadReport* report = nullptr);
 
@@ -66,6 +67,9 @@ Result<void> write_mesh(const Mesh& mesh, const std::filesystem::path& path, Wri
 
 /// The same to an open descriptor: GLB (MeshFormat::gltf), PLY or OBJ.
 Result<void> write_mesh(const Mesh& mesh, MeshFormat format, int descriptor, WriteNotes* notes = nullptr);
+
+/// The bytes of such a file.
+Result<std::vector<std::byte>> mesh_file_bytes(const Mesh& mesh, MeshFormat format, WriteNotes* notes = nullptr);
 
 /// The format that write_mesh takes for a path; any: none.
 MeshFormat writable_format(const std::filesystem::path& path);

@@ -1,0 +1,417 @@
+#include "lrcore/codec/storage/vertex_storage.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cstring>
+
+#include "lrcore/base/crc32.h"
+#include "lrcore/base/message.h"
+#include "lrcore/base/signature.h"
+#include "lrcore/codec/storage/block_coder.h"
+#include "lrcore/codec/storage/vertex_values.h"
+
+namespace lacedring::storage {
+namespace {
+
+using Words = std::vector<std::uint32_t>;
+
+constexpr std::uint32_t kGroupBlocks = 16;  // of the table
+constexpr std::uint32_t kHeaderWords = LACEDRING_VERTICES_HEADER_WORDS;
+constexpr std::uint32_t kLayoutBits = 23;
+
+/// All of a stream.
+struct StoredStream {
+    std::uint32_t vertices = 0;
+    StreamChoices choices;
+    VertexParameters parameters;
+    Words exceptions;  // two words each
+    Words values;
+    std::vector<BlockChoices> blocks;  // of an encoder alone
+
+    std::uint32_t components() const { return choices.layout & 31; }
+    std::uint32_t mapping() const { return choices.layout >> 5 & 7; }
+};
+
+Error malformed_vertices(const char* what) {
+    return {ErrorCode::malformed, detail::message("stored vertex stream: ", what)};
+}
+
+/// Low and first_bits of each component, as the stream's encoder chooses them.
+void find_ranges(const StoredStream& of, std::vector<StreamChoices::Component>& out) {
+    const std::uint32_t n = of.components();
+    const auto mapping = static_cast<VertexMapping>(of.mapping());
+    const bool is_signed = mapping != VertexMapping::floats && mapping != VertexMapping::doubles;
+    const std::uint32_t flip = is_signed ? 0x80000000U : 0;
+    std::array<std::uint32_t, kMostComponents> low, high;
+    low.fill(UINT32_MAX);
+    high.fill(0);
+    for (std::size_t i = 0; i < of.values.size(); i += n) {
+        for (std::uint32_t c = 0; c < n; ++c) {
+            const std::uint32_t value = of.values[i + c] ^ flip;
+            low[c] = std::min(low[c], value);
+            high[c] = std::max(high[c], value);
+        }
+    }
+    for (std::uint32_t c = 0; c < n && !of.values.empty(); ++c) {
+        out[c].low = low[c] ^ flip;
+        out[c].first_bits = static_cast<std::uint32_t>(std::bit_width(high[c] - low[c]));
+    }
+}
+
+/// Codes what a stream says before its integers, which a Decoder does not know yet: `has_usual_ranges` then says
+/// whether find_ranges gives the ranges.
+template <class Coder>
+bool code_header(Coder& coder, StoredStream& stream, bool& has_usual_ranges) {
+    StreamChoices& choices = stream.choices;
+    choices.layout = coder.raw(choices.layout, kLayoutBits);
+    const std::uint32_t n = stream.components();
+    if (n == 0 || n > kMostComponents) return false;
+    const auto mapping = static_cast<VertexMapping>(stream.mapping());
+    if (mapping == VertexMapping::lattice) choices.lattice = coder.raw(choices.lattice, 32);
+    if (mapping == VertexMapping::decimals) choices.lattice = coder.raw(choices.lattice, 4);
+    if (mapping == VertexMapping::lattice || mapping == VertexMapping::octahedral)
+        choices.error = coder.raw(choices.error, 32);
+    has_usual_ranges = coder.raw(has_usual_ranges ? 1 : 0, 1) != 0;
+    choices.components.resize(n);
+    for (StreamChoices::Component& c : choices.components) {
+        c.width = coder.raw(c.width, 5);
+        c.predictor = coder.raw(c.predictor, 5);
+        if (has_usual_ranges) continue;
+        c.low = coder.raw(c.low, 32);
+        c.first_bits = coder.raw(c.first_bits, 6);
+        if (c.first_bits > 32) return false;
+    }
+    VertexParameters& p = stream.parameters;
+    for (std::uint32_t c = 0; c < n; ++c) {
+        const std::uint32_t rule = coder.raw(static_cast<std::uint32_t>(p.rules[c]), 2);
+        if (rule > 2) return false;
+        p.rules[c] = static_cast<VertexRule>(rule);
+    }
+    p.has_normal = coder.raw(p.has_normal ? 1 : 0, 1) != 0;
+    p.error = coder.raw(p.error, 4);
+    p.smooth = coder.raw(p.smooth, 5);
+    p.fine = coder.raw(p.fine, 4);
+    return p.smooth <= 16 && !(p.has_normal && n != 3);
+}
+
+template <class Coder>
+bool code_exceptions(Coder& coder, StoredStream& stream) {
+    if (static_cast<VertexMapping>(stream.mapping()) != VertexMapping::decimals) return true;
+    const std::uint32_t count = coder.raw(static_cast<std::uint32_t>(stream.exceptions.size() / 2), 32);
+    NumberModel distance;
+    BitModel same;
+    std::uint64_t next = 0;            // the least number that the exception may have
+    std::uint32_t last = 0x80000000U;  // -0, the usual one
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if constexpr (Coder::kDecodes) stream.exceptions.resize(2 * std::size_t{i} + 2);
+        std::uint32_t* at = stream.exceptions.data() + 2 * std::size_t{i};
+        const std::uint64_t number = next + distance.code(coder, at[0] - static_cast<std::uint32_t>(next));
+        if (number >= stream.values.size() || number > UINT32_MAX || coder.bad()) return false;
+        at[0] = static_cast<std::uint32_t>(number);
+        if (coder.bit(same, at[1] != last ? 1 : 0) != 0) last = coder.raw(at[1], 32);
+        at[1] = last;
+        next = number + 1;
+    }
+    return true;
+}
+
+/// Calls what(coder) with a VertexValueCoder for the number of components.
+template <class Coder, class What>
+void with_values(Coder& coder, const VertexParameters& parameters, std::uint32_t n, std::span<std::uint32_t> values,
+                 What&& what) {
+    const auto run = [&]<std::uint32_t N>() {
+        VertexValueCoder<Coder, N> visitor(coder, parameters, n, values);
+        what(visitor);
+    };
+    switch (n) {
+        case 1:
+            return run.template operator()<1>();
+        case 2:
+            return run.template operator()<2>();
+        case 3:
+            return run.template operator()<3>();
+        case 4:
+            return run.template operator()<4>();
+        default:
+            return run.template operator()<0>();
+    }
+}
+
+/// Codes and writes the blocks; `begins` gets the bit where each begins.
+template <class Coder>
+bool code_blocks(Coder& coder, StoredStream& stream, std::uint64_t most_words, BlockBits& out,
+                 std::vector<std::uint64_t>& begins) {
+    BlockCoder<Coder> blocks(coder, stream.choices.components, out);
+    const std::uint32_t n = stream.components();
+    for (std::uint32_t first = 0; first < stream.vertices;) {
+        if (begins.size() % kGroupBlocks == 0) out.align();
+        if (out.words() > most_words || coder.bad()) return false;
+        const std::uint32_t count = std::min(stream.vertices - first, kVertexBlock);
+        BlockChoices own;
+        BlockChoices& choices = Coder::kDecodes ? own : stream.blocks[begins.size()];
+        begins.push_back(out.bits());
+        if (!blocks.code(stream.values.data() + std::size_t{first} * n, count, choices)) return false;
+        first += count;
+    }
+    out.align();
+    return true;
+}
+
+/// The resident stream of its parts.
+Result<Words> assemble(const StoredStream& stream, const BlockBits& data, std::span<const std::uint64_t> begins,
+                       std::uint64_t most_words) {
+    const std::uint32_t n = stream.components(), field = stream.choices.field_bits();
+    const std::size_t groups = (begins.size() + kGroupBlocks - 1) / kGroupBlocks, group = 1 + (15 * field + 31) / 32;
+    const std::uint64_t table = kHeaderWords + 2 * n + stream.exceptions.size(), size = table + group * groups;
+    if (size + data.words() + 2 > most_words) return Error{ErrorCode::memory_limit, "stored vertex stream: too large"};
+    if (data.words() > UINT32_MAX) return malformed_vertices("more than its table numbers");
+    Words out;
+    out.reserve(size + data.words() + 2);
+    out = {magic::kVertices,
+           stream.vertices,
+           stream.choices.layout,
+           0,
+           stream.choices.lattice,
+           stream.choices.error,
+           static_cast<std::uint32_t>(stream.exceptions.size() / 2)};
+    for (const StreamChoices::Component& c : stream.choices.components) {
+        out.push_back(c.low);
+        out.push_back(c.first_bits | c.width << 6 | c.predictor << 11);
+    }
+    out.insert(out.end(), stream.exceptions.begin(), stream.exceptions.end());
+    out.resize(size, 0);
+    for (std::size_t b = 0; b < begins.size(); ++b) {
+        std::uint32_t* at = out.data() + table + b / kGroupBlocks * group;
+        const std::uint64_t origin = begins[b / kGroupBlocks * kGroupBlocks], distance = begins[b] - origin;
+        if (b % kGroupBlocks == 0) {
+            at[0] = static_cast<std::uint32_t>(origin / 32);
+            continue;
+        }
+        if (distance >> field != 0) return malformed_vertices("a block is farther than its table says");
+        const std::size_t bit = (b % kGroupBlocks - 1) * field;
+        at[1 + bit / 32] |= static_cast<std::uint32_t>(distance << bit % 32);
+        if (bit % 32 + field > 32) at[2 + bit / 32] |= static_cast<std::uint32_t>(distance >> (32 - bit % 32));
+    }
+    const auto blocks = data.finished();
+    out.insert(out.end(), blocks.begin(), blocks.end());
+    out.insert(out.end(), {0, 0});  // loads of 64 bits end within the stream
+    const std::uint32_t header = crc32(std::as_bytes(std::span(out).first(3)));
+    out[3] = crc32(std::as_bytes(std::span(out).subspan(4)), header);
+    return out;
+}
+
+/// A walk, recorded.
+class WalkRecord {
+  public:
+    void start(std::uint32_t v, std::uint32_t from) { steps_.push_back({v, from, kStart, {}}); }
+    void predicted(std::uint32_t v, const Parallelograms& by, bool two) {
+        steps_.push_back({v, kNone, two ? kTwo : kOne, by});
+    }
+    template <class Visitor>
+    void run(Visitor& visitor) const {
+        for (const Step& step : steps_) {
+            if (step.kind == kStart) {
+                visitor.start(step.v, step.from);
+            } else {
+                visitor.predicted(step.v, step.by, step.kind == kTwo);
+            }
+        }
+    }
+
+  private:
+    enum Kind : std::uint8_t { kStart, kOne, kTwo };
+    struct Step {
+        std::uint32_t v, from;
+        Kind kind;
+        Parallelograms by;
+    };
+    std::vector<Step> steps_;
+};
+
+/// Chooses how integers are predicted: by trial.
+class ParameterSearch {
+  public:
+    ParameterSearch(const WalkRecord& walk, std::uint32_t n, std::span<std::uint32_t> values)
+        : walk_(walk), n_(n), values_(values) {}
+
+    VertexParameters best() {
+        find_rules();
+        least_ = words(parameters_, n_, values_);
+        if (n_ == 3) {
+            VertexParameters with = parameters_;
+            with.rules.fill(VertexRule::parallelograms);
+            with.has_normal = true;
+            offer(with);
+        }
+        vary(&VertexParameters::fine, {5, 3});
+        if (parameters_.fine == 7) vary(&VertexParameters::fine, {9, 11});
+        const auto end = parameters_.rules.begin() + n_;
+        if (std::find(parameters_.rules.begin(), end, VertexRule::parallelograms) == end) return parameters_;
+        vary(&VertexParameters::smooth, {2, 4, 6, 9});
+        vary(&VertexParameters::error, {3, 6, 9});
+        if (parameters_.error != 0) vary(&VertexParameters::smooth, {0, 2, 4});
+        return parameters_;
+    }
+
+  private:
+    std::size_t words(const VertexParameters& parameters, std::uint32_t n, std::span<std::uint32_t> values) const {
+        Encoder coder;
+        with_values(coder, parameters, n, values, [&](auto& visitor) { walk_.run(visitor); });
+        return coder.finish().size();
+    }
+
+    /// The best rule of each component alone.
+    void find_rules() {
+        Words alone(values_.size() / n_);
+        for (std::uint32_t c = 0; c < n_; ++c) {
+            for (std::size_t i = 0; i < alone.size(); ++i) alone[i] = values_[i * n_ + c];
+            std::size_t least = SIZE_MAX;
+            for (const VertexRule rule : {VertexRule::parallelograms, VertexRule::mean, VertexRule::neighbor}) {
+                VertexParameters parameters;
+                parameters.rules[0] = rule;
+                const std::size_t now = words(parameters, 1, alone);
+                if (now >= least) continue;
+                least = now;
+                parameters_.rules[c] = rule;
+            }
+        }
+    }
+
+    void offer(const VertexParameters& parameters) {
+        const std::size_t now = words(parameters, n_, values_);
+        if (now >= least_) return;
+        least_ = now;
+        parameters_ = parameters;
+    }
+    /// Tries some values, rising, until one is worse than the one before.
+    void vary(std::uint32_t VertexParameters::*which, std::initializer_list<std::uint32_t> tries) {
+        for (const std::uint32_t value : tries) {
+            VertexParameters with = parameters_;
+            if (with.*which == value) continue;
+            with.*which = value;
+            const std::size_t before = least_;
+            offer(with);
+            if (least_ == before) return;
+        }
+    }
+
+    const WalkRecord& walk_;
+    std::uint32_t n_;
+    std::span<std::uint32_t> values_;
+    VertexParameters parameters_;
+    std::size_t least_ = SIZE_MAX;
+};
+
+StoredStream parts_of(const VertexView& view) {
+    lacedring_vertices stream;
+    [[maybe_unused]] const lacedring_status status =
+        lacedring_vertices_open(view.words.data(), view.words.size(), &stream, nullptr);
+    assert(status == LACEDRING_STATUS_OK);
+    StoredStream out;
+    out.vertices = view.vertices;
+    out.choices.layout = view.words[2];
+    out.choices.lattice = view.words[4];
+    out.choices.error = view.words[5];
+    for (std::uint32_t c = 0; c < view.integers; ++c) {
+        const std::uint32_t said = stream.parameters[2 * c + 1];
+        out.choices.components.push_back({stream.parameters[2 * c], said & 63, said >> 6 & 31, said >> 11 & 31});
+    }
+    out.exceptions.assign(stream.exceptions, stream.exceptions + std::size_t{2} * view.exceptions);
+    out.values.resize(std::size_t{view.vertices} * view.integers);
+    if (view.vertices > 0) lacedring_vertices_blocks(&stream, 0, view.blocks(), out.values.data());
+    out.blocks = read_choices(stream);
+    return out;
+}
+
+}  // namespace
+
+std::optional<std::vector<std::uint32_t>> store_vertices(const VertexView& view,
+                                                         std::span<const std::uint32_t> triangles) {
+    StoredStream stream = parts_of(view);
+    const std::uint32_t n = stream.components();
+    WalkRecord walk;
+    VertexWalk(triangles, view.vertices).run(walk);
+    stream.parameters = ParameterSearch(walk, n, stream.values).best();
+    std::vector<StreamChoices::Component> usual(n);
+    find_ranges(stream, usual);
+    bool has_usual_ranges = true;
+    for (std::uint32_t c = 0; c < n; ++c) {
+        const StreamChoices::Component& own = stream.choices.components[c];
+        has_usual_ranges &= own.low == usual[c].low && own.first_bits == usual[c].first_bits;
+    }
+    Encoder coder;
+    if (!code_header(coder, stream, has_usual_ranges)) return {};
+    with_values(coder, stream.parameters, n, stream.values, [&](auto& visitor) { walk.run(visitor); });
+    if (!code_exceptions(coder, stream)) return {};
+    BlockBits bits;
+    std::vector<std::uint64_t> begins;
+    if (!code_blocks(coder, stream, UINT64_MAX, bits, begins)) return {};
+    std::vector<std::uint32_t> out = coder.finish();
+    const auto restored = restore_vertices(out, triangles, view.vertices, view.words.size());
+    if (!restored || !std::ranges::equal(*restored, view.words)) return {};
+    return out;
+}
+
+Result<VertexView> view_stored_vertices(std::span<const std::uint32_t> stored) {
+    Decoder coder(stored);
+    StoredStream stream;
+    bool has_usual_ranges = false;
+    const Error error = malformed_vertices("its header says something impossible");
+    if (coder.bad() || !code_header(coder, stream, has_usual_ranges) || coder.bad()) return error;
+    const std::uint32_t n = stream.components(), type = stream.choices.layout >> 8 & 15;
+    if (type > static_cast<std::uint32_t>(ComponentType::f64) || stream.mapping() > 5) return error;
+    VertexView out;
+    out.mapping = static_cast<VertexMapping>(stream.mapping());
+    out.type = static_cast<ComponentType>(type);
+    out.normalized = (stream.choices.layout >> 12 & 1) != 0;
+    out.integers = static_cast<std::uint8_t>(n);
+    const std::uint32_t values = out.mapping == VertexMapping::octahedral ? n + 1
+                                 : out.mapping == VertexMapping::doubles  ? n / 2
+                                                                          : n;
+    out.components = static_cast<std::uint8_t>(values);
+    out.largest_error = std::bit_cast<float>(stream.choices.error);
+    return out;
+}
+
+Result<std::vector<std::uint32_t>> restore_vertices(std::span<const std::uint32_t> stored,
+                                                    std::span<const std::uint32_t> triangles, std::uint32_t vertices,
+                                                    std::uint64_t most_words) {
+    if (triangles.size() > UINT32_MAX || triangles.size() % 3 != 0) return malformed_vertices("no triangles");
+    for (const std::uint32_t v : triangles) {
+        if (v >= vertices) return malformed_vertices("a triangle of a vertex that it does not have");
+    }
+    Decoder coder(stored);
+    StoredStream stream;
+    stream.vertices = vertices;
+    bool has_usual_ranges = false;
+    if (coder.bad() || !code_header(coder, stream, has_usual_ranges) || coder.bad())
+        return malformed_vertices("its header says something impossible");
+    const std::uint32_t n = stream.components();
+    {
+        VertexWalk walk(triangles, vertices);  // first: making it takes more memory than having it
+        stream.values.resize(std::size_t{vertices} * n);
+        with_values(coder, stream.parameters, n, stream.values, [&](auto& visitor) { walk.run(visitor); });
+    }
+    if (coder.bad()) return malformed_vertices("its integers end early");
+    if (!code_exceptions(coder, stream)) return malformed_vertices("an exception is impossible");
+    if (has_usual_ranges) {
+        find_ranges(stream, stream.choices.components);
+    } else {
+        for (std::size_t i = 0; i < stream.values.size(); ++i) {
+            const StreamChoices::Component& c = stream.choices.components[i % n];
+            if (static_cast<std::uint64_t>(stream.values[i] - c.low) >> c.first_bits != 0)
+                return malformed_vertices("an integer is out of its range");
+        }
+    }
+    BlockBits bits;
+    std::vector<std::uint64_t> begins;
+    if (!code_blocks(coder, stream, most_words, bits, begins)) {
+        if (bits.words() > most_words) return Error{ErrorCode::memory_limit, "stored vertex stream: too large"};
+        return malformed_vertices("a block says something impossible");
+    }
+    if (!coder.is_at_end()) return malformed_vertices("it does not end where its parts do");
+    return assemble(stream, bits, begins, most_words);
+}
+
+}  // namespace lacedring::storage
