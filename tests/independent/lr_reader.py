@@ -16,9 +16,9 @@ from vertex_reader import read_vertices
 
 ATTRIBUTE, VERTEX_ORDER, CORNER_ORDER, VERTEX_STREAM, SEAMS = 2, 3, 4, 8, 9
 STORAGE = 1 << 16  # added here to the kind of a section in storage form
-STORED_PACKED = STORAGE + 7
+STORED_PACKED, STORED_VERTICES = STORAGE + 7, STORAGE + VERTEX_STREAM
 NORMALIZED, V_UP, PER_COPY = 1 << 16, 1 << 17, 1 << 18  # bits of an attribute's layout
-LAYOUT_BITS = {ATTRIBUTE: 0x7FFFF, VERTEX_STREAM: V_UP | PER_COPY}  # that may be set
+LAYOUT_BITS = {ATTRIBUTE: 0x7FFFF, VERTEX_STREAM: V_UP | PER_COPY, STORED_VERTICES: V_UP | PER_COPY}  # that may be set
 
 
 def tables_in(words, compact):
@@ -83,6 +83,8 @@ def attribute(vertices, copies, kind, contents, layout, name_length):
     if len(contents) < begin or any(contents[name_length:begin]):
         raise BadFile("the name of an attribute is not followed by zeros")
     name, values = contents[:name_length].decode("latin-1"), contents[begin:]
+    if kind == STORED_VERTICES:
+        raise BadFile("vertex streams in storage form are not read here")
     if kind == VERTEX_STREAM:
         stream = read_vertices(values)
         if stream.vertices != vertices:

@@ -171,7 +171,7 @@ class Steps:
         return self.root
 
     def turn_model(self, letter, a, b):
-        r, s = a in self.ring_edges, b - 1 in self.ring_edges
+        r, s = a in self.ring_edges, max(b - 1, 0) in self.ring_edges
         p, q = (min(self.triangles_of[v], 9) for v in (a, b))
         return self.turn_models[letter, r, s, p, q]
 
@@ -227,6 +227,7 @@ def read_stored_packed(words):
     coded = Coded(words[begin:])
     steps = Steps(coded, vertices, words[2] >= HIGH)
     triangles = [steps.step() for _ in range(own)]
+    require(steps.on is None, "the last step goes on")
     coded.finish()
     if runs:
         read_doubles(words[3:begin], own, triangles)
