@@ -126,7 +126,7 @@ class PackBad(CliTest):
             for path in extension_paths(packed.document):
                 for wrong in WRONG:
                     cases.append((f"f{len(cases)}", "unpack", packed.with_document(mutated(packed.document, path, wrong))))
-            cases = cases[::40 if SANITIZED else 12]
+            cases = cases[::80 if SANITIZED else 12]
             refused = self.check_all(cases)
             print(f"{' '.join(options)}: {refused} of {len(cases)} refused")
             self.assertGreater(refused, len(cases) // 2)
@@ -196,7 +196,7 @@ class PackBad(CliTest):
         cases = []
         for at in range(0, len(good), len(good) // (3 if SANITIZED else 12)):
             for data in (good[:at], good[:at] + bytes([good[at] ^ 0x41]) + good[at + 1:]):
-                cases += [(command, self.write(f"d{len(cases)}.glb", data)) for command in ("info", "verify", "stats")]
+                cases += [(command, self.write(f"d{len(cases)}.glb", data)) for command in ("info", "verify", "stats")[:1 if SANITIZED else 3]]
 
         def check(case):
             outcome = run(*case)
