@@ -48,7 +48,7 @@ std::string errors_of(const std::vector<CompressedAttribute>& attributes) {
     return out;
 }
 
-/// Of a file: what connectivity and seams take in it.
+/// The bytes that connectivity and seams take in a file.
 std::size_t connectivity_bytes(std::span<const std::byte> file) {
     std::size_t out = 0;
     const Result<LrContents> contents = list_lr(file);

@@ -22,7 +22,7 @@ inline void prefetch(const void* object) {
 /// Four words that are added and masked at once.
 using Lanes = std::uint32_t __attribute__((vector_size(16)));
 
-/// How many of 16 numbers below 2^15 are at most `most`.
+/// Counts those of 16 numbers that are `most` or less. All are below 2^15.
 LACEDRING_INLINE std::uint32_t count_up_to(const std::uint16_t* numbers, std::uint32_t most) {
     using Shorts = std::int16_t __attribute__((vector_size(16)));
     const auto all = static_cast<std::int16_t>(most);

@@ -18,7 +18,7 @@ struct GroupCodes {
     bool operator==(const GroupCodes&) const = default;
 };
 
-/// Those with which the records take the fewest bits. A code of low bits has one at least.
+/// The widths and orders with which the records take the fewest bits. gap_bits and wart_bits are 1 or more.
 GroupCodes choose_codes(std::span<const PackedRecordPlan> records);
 
 /// Writes a record. `has_entry`: it says its own entry, as all parts of a block but the first do. What its events and
@@ -44,8 +44,8 @@ class GroupLayout {
                std::vector<std::uint8_t>& out);
 
   private:
-    /// How the head says a block's entry: in full (own), or as a step. The step is added to the a that the block would
-    /// have if half of all turns since the last entry in full were 1.
+    /// A block's entry in the head: in full (own), or as a step from the last one that is in full. A step of 0 means
+    /// that half of the turns since then are 1.
     struct Entry {
         bool own = true;
         std::int32_t step = 0;

@@ -308,7 +308,7 @@ class Planner {
         }
     }
 
-    /// How many of triangles [from, to) have the turn of the next one, which is of the record, too.
+    /// Counts the triangles of [from, to) whose turn equals that of the next triangle. Triangle `to` is of the record.
     std::uint32_t candidates(std::uint32_t from, std::uint32_t to) const {
         std::uint32_t count = 0;
         for (std::uint32_t i = from; i < to; i = (i / 32 + 1) * 32) {

@@ -2,54 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 
+#include "lrcore/codec/bit_reader.h"
 #include "lrcore/codec/packed/packed_format.h"
 
 namespace lacedring::storage {
 namespace {
-
-/// Bits of the groups, the lowest first; behind `end` come ones. Of a valid stream.
-class BitReader {
-  public:
-    BitReader(std::span<const std::uint32_t> words, std::uint64_t at, std::uint64_t end)
-        : words_(words), at_(at), end_(end) {}
-
-    std::uint32_t take(std::uint32_t count) {
-        std::uint32_t out = 0;
-        for (std::uint32_t done = 0; done < count;) {
-            if (at_ >= end_) return out | (done < 32 ? UINT32_MAX << done : 0);
-            const auto in_word = static_cast<std::uint32_t>(at_ % 32);
-            const auto some =
-                static_cast<std::uint32_t>(std::min<std::uint64_t>({count - done, 32 - in_word, end_ - at_}));
-            const std::uint64_t bits = words_[static_cast<std::size_t>(at_ / 32)] >> in_word;
-            out |= static_cast<std::uint32_t>(bits & ((std::uint64_t{1} << some) - 1)) << done;
-            done += some;
-            at_ += some;
-        }
-        return out;
-    }
-    std::uint32_t unary(std::uint32_t limit) {
-        std::uint32_t ones = 0;
-        while (ones < limit && take(1) != 0) ++ones;
-        return ones;
-    }
-    std::uint32_t golomb(std::uint32_t order) {
-        const std::uint32_t low = unary(31 - order) + order;
-        return (take(low) | 1U << low) - (1U << order);
-    }
-    /// UINT32_MAX: more ones than a number has.
-    std::uint32_t rice(std::uint32_t low) {
-        const std::uint32_t ones = unary(32);
-        return ones == 32 ? UINT32_MAX : (ones << low) + take(low);
-    }
-    std::uint64_t at() const { return at_; }
-    bool is_at_end() const { return at_ >= end_; }
-
-  private:
-    std::span<const std::uint32_t> words_;
-    std::uint64_t at_, end_;
-};
 
 struct Entry {
     PackedEdge edge{};

@@ -10,7 +10,7 @@
 
 namespace lacedring::storage {
 
-/// What a restored stream may have at most: its caller knows, or has room for no more.
+/// The most that a restored stream may have. The caller takes them from the file, or from the memory that it allows.
 struct PackedLimits {
     std::uint32_t vertices = 0, triangles = 0;
 };

@@ -1,5 +1,6 @@
 #pragma once
-// How planes fit the residuals of a run of vertices, in integers: what a vertex stream's encoder is likely to choose.
+// Fits planes to the residuals of a run of vertices, in integers. They are what the encoder of a vertex stream is
+// likely to have chosen.
 // Internal to lrcore.
 
 #include <array>

@@ -2,8 +2,9 @@
 // The entropy coder of the storage form: range asymmetric numeral systems (rANS) over adaptive models, two states by
 // turns, and raw bits beside them. Internal to lrcore.
 //
-// What is coded is written once, as a template over the coder: Encoder and Decoder have the same functions, of which
-// the encoder's take a value and return it, and the decoder's ignore it and return what was encoded.
+// Encoder and Decoder have the same functions, so that a format is written once, as a template over the coder. An
+// encoder's function codes the value that it is given, and returns it. A decoder's function ignores the value that it
+// is given, and returns the one that was encoded.
 
 #include <algorithm>
 #include <array>

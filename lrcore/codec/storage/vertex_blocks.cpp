@@ -2,33 +2,17 @@
 
 #include <algorithm>
 
+#include "lrcore/codec/bit_reader.h"
+
 namespace lacedring::storage {
 namespace {
 
-class BlockReader {
-  public:
-    explicit BlockReader(const std::uint32_t* words) : words_(words) {}
+/// Behind so many ones, with whatever zeros come before each.
+void skip_unary(BitReader& bits, std::uint32_t numbers) {
+    while (numbers > 0) numbers -= bits.take(1);
+}
 
-    std::uint32_t take(std::uint32_t count) {
-        if (count == 0) return 0;
-        const std::uint32_t* at = words_ + bit_ / 32;
-        const std::uint64_t window = at[0] | static_cast<std::uint64_t>(at[1]) << 32;  // two words of 0 end the stream
-        const auto value = static_cast<std::uint32_t>(window >> (bit_ % 32)) & (UINT32_MAX >> (32 - count));
-        bit_ += count;
-        return value;
-    }
-    void skip(std::uint64_t bits) { bit_ += bits; }
-    void skip_unary(std::uint32_t numbers) {
-        while (numbers > 0) numbers -= take(1);
-    }
-    void align() { bit_ = (bit_ + 31) / 32 * 32; }
-
-  private:
-    const std::uint32_t* words_;
-    std::uint64_t bit_ = 0;
-};
-
-PlaneChoice read_plane(BlockReader& bits) {
+PlaneChoice read_plane(BitReader& bits) {
     PlaneChoice out;
     if (bits.take(1) == 0) return out;
     out.kind = bits.take(1) == 0 ? PlaneChoice::last : PlaneChoice::given;
@@ -38,7 +22,7 @@ PlaneChoice read_plane(BlockReader& bits) {
     return out;
 }
 
-BlockChoices read_block(const lacedring_vertices& stream, BlockReader& bits, std::uint32_t count) {
+BlockChoices read_block(const lacedring_vertices& stream, BitReader& bits, std::uint32_t count) {
     const std::uint32_t n = stream.components;
     BlockChoices out;
     std::array<std::uint32_t, kMostComponents> width{};
@@ -57,8 +41,7 @@ BlockChoices read_block(const lacedring_vertices& stream, BlockReader& bits, std
         const std::uint32_t here = std::min(length, count - 1 - i);
         std::uint32_t low = 0, present = 0;
         for (std::uint32_t c = 0; c < n; ++c) {
-            std::uint8_t code = 0;
-            while (code < kGiven && bits.take(1) != 0) ++code;
+            const auto code = static_cast<std::uint8_t>(bits.unary(kGiven));
             if (code == kGiven) width[c] = bits.take(5);
             if (code == kOneMore) ++width[c];
             if (code == kOneLess) --width[c];
@@ -68,7 +51,7 @@ BlockChoices read_block(const lacedring_vertices& stream, BlockReader& bits, std
             ++present;
         }
         bits.skip(std::uint64_t{low} * here);
-        bits.skip_unary(present * here);
+        skip_unary(bits, present * here);
     }
     return out;
 }
@@ -77,9 +60,9 @@ BlockChoices read_block(const lacedring_vertices& stream, BlockReader& bits, std
 
 std::vector<BlockChoices> read_choices(const lacedring_vertices& stream) {
     std::vector<BlockChoices> out;
-    BlockReader bits(stream.data);
+    BitReader bits({stream.data, stream.data_words}, 0, std::uint64_t{32} * stream.data_words);
     for (std::uint32_t first = 0; first < stream.vertices;) {
-        if (out.size() % 16 == 0) bits.align();
+        if (out.size() % 16 == 0) bits.align_to_word();
         const std::uint32_t count = std::min(stream.vertices - first, kVertexBlock);
         out.push_back(read_block(stream, bits, count));
         first += count;

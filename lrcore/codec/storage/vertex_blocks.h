@@ -1,5 +1,5 @@
 #pragma once
-// What a vertex stream says beside its integers: how each block codes them. Internal to lrcore.
+// The choices that an encoder made for each block of a vertex stream: predictors, planes, widths. Internal to lrcore.
 
 #include <array>
 #include <cstdint>
@@ -43,7 +43,7 @@ struct BlockChoices {
     std::array<std::array<Width, kVertexBlock / 4>, kMostComponents> widths{};  // of each run
 };
 
-/// What a whole stream says but its integers, exceptions and blocks: the words of its header and of its components.
+/// The choices that an encoder made for a whole stream: words of its header, and the parameters of its components.
 struct StreamChoices {
     std::uint32_t layout = 0, lattice = 0, error = 0;  // words 2, 4 and 5
     struct Component {

@@ -15,8 +15,8 @@ namespace lacedring::storage {
 std::optional<std::vector<std::uint32_t>> store_vertices(const VertexView& view,
                                                          std::span<const std::uint32_t> triangles);
 
-/// What the stream's header will say of its attribute: mapping, type, normalized, components, integers, largest error;
-/// no words, and no vertices, whose number is not stored. Cost: O(1). Errors: malformed. Untrusted input: safe.
+/// Describes the attribute: mapping, type, normalized, components, integers, largest error. The view has no words, and
+/// 0 vertices, since their number is not stored. Cost: O(1). Errors: malformed. Untrusted input: safe.
 Result<VertexView> view_stored_vertices(std::span<const std::uint32_t> stored);
 
 /// The vertex stream, bit for bit. It is not validated: what is stored may say anything. Cost: O(T + V + what is

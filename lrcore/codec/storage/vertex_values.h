@@ -14,7 +14,7 @@
 
 namespace lacedring::storage {
 
-/// How the integers of a vertex are predicted where parallelograms are known.
+/// The rule that predicts the integers of a vertex with known parallelograms.
 enum class VertexRule : std::uint8_t {
     parallelograms,  ///< their mean, moved by `error` and `smooth`
     mean,            ///< the mean of their base vertices

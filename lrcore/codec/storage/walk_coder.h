@@ -2,9 +2,9 @@
 // Codes the steps of a packed stream, one after the other: where each is entered, and which vertex is its third.
 // Encoder and decoder run the same code. Internal to lrcore; docs/storage-format.md has it.
 //
-// Steps come depth first: mostly a step is entered across the edge that the one before left open, or across the edge
-// left open last. Its third vertex is mostly the next one on either chain; which of them, the triangles say that the
-// two ends of the edge have so far, those on the ring's other side included.
+// Steps come depth first: most are entered across the edge that the step before left open, or across the edge that was
+// left open last. Most third vertices are the next one on one of the two chains. How many triangles the two ends of the
+// edge have so far, on both sides of the ring, tells which chain is likely.
 
 #include <array>
 #include <vector>
@@ -32,11 +32,9 @@ class WalkCoder {
     bool code(std::uint32_t count) {
         Step s{};
         for (std::uint32_t i = 0; i < count; ++i) {
-            const bool goes_on = goes_on_;
-            const PackedEdge edge = goes_on_edge_;
             if constexpr (!Coder::kDecodes) s = of(i);
-            if (goes_on) {
-                s.edge = edge;
+            if (goes_on_) {
+                s.edge = goes_on_edge_;
             } else {
                 code_entry(i, s);
             }
@@ -79,10 +77,9 @@ class WalkCoder {
         s.first_a = steps_.flags(i) >> 3 & 1;
         s.right = steps_.on_right(i) ? 1 : 0;
         s.flip = steps_.flipped(i) ? 1 : 0;
-        const bool enter_a = (s.enters & 1) != 0, enter_b = (s.enters & 2) != 0;
         const bool next_a = s.third == s.edge.a + 1, next_b = s.third + 1 == s.edge.b;
         if (next_a && next_b) {
-            s.simple = !enter_a && !enter_b;
+            s.simple = s.enters == 0;
         } else if (next_a || next_b) {
             s.simple = s.enters == (next_a ? 2U : 1U) && steps_.across(i, next_b) == i + 1;
         }
@@ -102,20 +99,15 @@ class WalkCoder {
             depth = 1 + depth_.code(coder_, depth - 1);
             drop = coder_.bit(drop_, drop);
         }
-        if (depth >= open_.size()) {
-            s.edge = {vertices_, vertices_};  // impossible
-            return;
-        }
+        s.edge = {vertices_, vertices_};  // impossible, unless an edge is open there
+        if (depth >= open_.size()) return;
         const std::size_t at = open_.size() - 1 - depth;
         const Open open = open_[at];
         open_[at].from = UINT32_MAX;
         if (drop != 0) open_.resize(at);  // closed from elsewhere, as at a handle
+        if (open.from == UINT32_MAX) return;
         s.edge = open.edge;
         right_ = open.right;
-        if (open.from == UINT32_MAX) {
-            s.edge = {vertices_, vertices_};
-            return;
-        }
         if constexpr (Coder::kDecodes) {
             (open.is_a ? steps_.step(open.from).across_a : steps_.step(open.from).across_b) = i;
             steps_.flags_of(open.from) |= open.is_a ? CorridorStep::kEnterA : CorridorStep::kEnterB;
