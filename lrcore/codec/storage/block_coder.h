@@ -47,7 +47,7 @@ class BlockBits {
 template <class Coder>
 class BlockCoder {
   public:
-    BlockCoder(Coder& coder, std::span<const StreamChoices::Component> components, BlockBits& out)
+    BlockCoder(Coder& coder, std::span<const VertexComponent> components, BlockBits& out)
         : coder_(coder), components_(components), n_(static_cast<std::uint32_t>(components.size())), out_(out) {}
 
     /// Codes a block's choices, which a Decoder fills in, and writes the block. `values`: the integers of `count`
@@ -269,7 +269,7 @@ class BlockCoder {
     }
 
     Coder& coder_;
-    std::span<const StreamChoices::Component> components_;
+    std::span<const VertexComponent> components_;
     std::uint32_t n_;
     BlockBits& out_;
     std::array<Residuals, kMostComponents> residuals_;

@@ -8,12 +8,13 @@
 
 #include "lacedring/lacedring_vertices.h"
 #include "lacedring/vertices.hpp"
+#include "lrcore/codec/vertices/vertex_layout.h"
 
 namespace lacedring::storage {
 
 constexpr std::uint32_t kMostComponents = LACEDRING_VERTICES_MAX_COMPONENTS;
-constexpr std::uint32_t kPlaneRun = 16;   ///< vertices with a common plane, at least
-constexpr std::uint32_t kMostZeros = 24;  ///< of a unary number
+constexpr std::uint32_t kPlaneRun = kVertexPlaneRun;
+constexpr std::uint32_t kMostZeros = kVertexMostZeros;
 
 /// The code of a width, by how many ones it begins with.
 enum WidthCode : std::uint8_t { kUnchanged, kAllZero, kOneMore, kOneLess, kGiven };
@@ -46,12 +47,7 @@ struct BlockChoices {
 /// The choices that an encoder made for a whole stream: words of its header, and the parameters of its components.
 struct StreamChoices {
     std::uint32_t layout = 0, lattice = 0, error = 0;  // words 2, 4 and 5
-    struct Component {
-        std::uint32_t low = 0, first_bits = 0, width = 0, predictor = 0;
-    };
-    std::vector<Component> components;
-
-    std::uint32_t field_bits() const { return layout >> 18 & 31; }
+    std::vector<VertexComponent> components;
 };
 
 /// The choices of a valid stream's blocks, in their order. Cost: O(V).

@@ -5,9 +5,7 @@
 #include <cassert>
 #include <cstring>
 
-#include "lrcore/base/crc32.h"
 #include "lrcore/base/message.h"
-#include "lrcore/base/signature.h"
 #include "lrcore/codec/storage/block_coder.h"
 #include "lrcore/codec/storage/vertex_values.h"
 
@@ -16,8 +14,6 @@ namespace {
 
 using Words = std::vector<std::uint32_t>;
 
-constexpr std::uint32_t kGroupBlocks = 16;  // of the table
-constexpr std::uint32_t kHeaderWords = LACEDRING_VERTICES_HEADER_WORDS;
 constexpr std::uint32_t kLayoutBits = 23;
 
 /// All of a stream.
@@ -37,30 +33,8 @@ Error malformed_vertices(const char* what) {
     return {ErrorCode::malformed, detail::message("stored vertex stream: ", what)};
 }
 
-/// Low and first_bits of each component, as the stream's encoder chooses them.
-void find_ranges(const StoredStream& of, std::vector<StreamChoices::Component>& out) {
-    const std::uint32_t n = of.components();
-    const auto mapping = static_cast<VertexMapping>(of.mapping());
-    const bool is_signed = mapping != VertexMapping::floats && mapping != VertexMapping::doubles;
-    const std::uint32_t flip = is_signed ? 0x80000000U : 0;
-    std::array<std::uint32_t, kMostComponents> low, high;
-    low.fill(UINT32_MAX);
-    high.fill(0);
-    for (std::size_t i = 0; i < of.values.size(); i += n) {
-        for (std::uint32_t c = 0; c < n; ++c) {
-            const std::uint32_t value = of.values[i + c] ^ flip;
-            low[c] = std::min(low[c], value);
-            high[c] = std::max(high[c], value);
-        }
-    }
-    for (std::uint32_t c = 0; c < n && !of.values.empty(); ++c) {
-        out[c].low = low[c] ^ flip;
-        out[c].first_bits = static_cast<std::uint32_t>(std::bit_width(high[c] - low[c]));
-    }
-}
-
 /// Codes what a stream says before its integers, which a Decoder does not know yet: `has_usual_ranges` then says
-/// whether find_ranges gives the ranges.
+/// whether find_vertex_ranges gives the ranges.
 template <class Coder>
 bool code_header(Coder& coder, StoredStream& stream, bool& has_usual_ranges) {
     StreamChoices& choices = stream.choices;
@@ -74,7 +48,7 @@ bool code_header(Coder& coder, StoredStream& stream, bool& has_usual_ranges) {
         choices.error = coder.raw(choices.error, 32);
     has_usual_ranges = coder.raw(has_usual_ranges ? 1 : 0, 1) != 0;
     choices.components.resize(n);
-    for (StreamChoices::Component& c : choices.components) {
+    for (VertexComponent& c : choices.components) {
         c.width = coder.raw(c.width, 5);
         c.predictor = coder.raw(c.predictor, 5);
         if (has_usual_ranges) continue;
@@ -145,7 +119,7 @@ bool code_blocks(Coder& coder, StoredStream& stream, std::uint64_t most_words, B
     BlockCoder<Coder> blocks(coder, stream.choices.components, out);
     const std::uint32_t n = stream.components();
     for (std::uint32_t first = 0; first < stream.vertices;) {
-        if (begins.size() % kGroupBlocks == 0) out.align();
+        if (begins.size() % kVertexGroup == 0) out.align();
         if (out.words() > most_words || coder.bad()) return false;
         const std::uint32_t count = std::min(stream.vertices - first, kVertexBlock);
         BlockChoices own;
@@ -161,44 +135,22 @@ bool code_blocks(Coder& coder, StoredStream& stream, std::uint64_t most_words, B
 /// The resident stream of its parts.
 Result<Words> assemble(const StoredStream& stream, const BlockBits& data, std::span<const std::uint64_t> begins,
                        std::uint64_t most_words) {
-    const std::uint32_t n = stream.components(), field = stream.choices.field_bits();
-    const std::size_t groups = (begins.size() + kGroupBlocks - 1) / kGroupBlocks, group = 1 + (15 * field + 31) / 32;
-    const std::uint64_t table = kHeaderWords + 2 * n + stream.exceptions.size(), size = table + group * groups;
-    if (size + data.words() + 2 > most_words) return Error{ErrorCode::memory_limit, "stored vertex stream: too large"};
+    VertexStreamParts parts;
+    parts.vertices = stream.vertices;
+    parts.layout = stream.choices.layout;
+    parts.parameter = stream.choices.lattice;
+    parts.largest_error = stream.choices.error;
+    parts.components = stream.choices.components;
+    parts.exceptions = stream.exceptions;
+    parts.begins = begins;
+    parts.data = data.finished();
+    if (parts.size() > most_words) return Error{ErrorCode::memory_limit, "stored vertex stream: too large"};
     if (data.words() > UINT32_MAX) return malformed_vertices("more than its table numbers");
-    Words out;
-    out.reserve(size + data.words() + 2);
-    out = {magic::kVertices,
-           stream.vertices,
-           stream.choices.layout,
-           0,
-           stream.choices.lattice,
-           stream.choices.error,
-           static_cast<std::uint32_t>(stream.exceptions.size() / 2)};
-    for (const StreamChoices::Component& c : stream.choices.components) {
-        out.push_back(c.low);
-        out.push_back(c.first_bits | c.width << 6 | c.predictor << 11);
-    }
-    out.insert(out.end(), stream.exceptions.begin(), stream.exceptions.end());
-    out.resize(size, 0);
     for (std::size_t b = 0; b < begins.size(); ++b) {
-        std::uint32_t* at = out.data() + table + b / kGroupBlocks * group;
-        const std::uint64_t origin = begins[b / kGroupBlocks * kGroupBlocks], distance = begins[b] - origin;
-        if (b % kGroupBlocks == 0) {
-            at[0] = static_cast<std::uint32_t>(origin / 32);
-            continue;
-        }
-        if (distance >> field != 0) return malformed_vertices("a block is farther than its table says");
-        const std::size_t bit = (b % kGroupBlocks - 1) * field;
-        at[1 + bit / 32] |= static_cast<std::uint32_t>(distance << bit % 32);
-        if (bit % 32 + field > 32) at[2 + bit / 32] |= static_cast<std::uint32_t>(distance >> (32 - bit % 32));
+        if ((begins[b] - begins[b / kVertexGroup * kVertexGroup]) >> parts.field_bits() == 0) continue;
+        return malformed_vertices("a block is farther than its table says");
     }
-    const auto blocks = data.finished();
-    out.insert(out.end(), blocks.begin(), blocks.end());
-    out.insert(out.end(), {0, 0});  // loads of 64 bits end within the stream
-    const std::uint32_t header = crc32(std::as_bytes(std::span(out).first(3)));
-    out[3] = crc32(std::as_bytes(std::span(out).subspan(4)), header);
-    return out;
+    return make_vertex_stream(parts);
 }
 
 /// A walk, recorded.
@@ -333,11 +285,11 @@ std::optional<std::vector<std::uint32_t>> store_vertices(const VertexView& view,
     WalkRecord walk;
     VertexWalk(triangles, view.vertices).run(walk);
     stream.parameters = ParameterSearch(walk, n, stream.values).best();
-    std::vector<StreamChoices::Component> usual(n);
-    find_ranges(stream, usual);
+    std::vector<VertexComponent> usual(n);
+    find_vertex_ranges(stream.values, static_cast<VertexMapping>(stream.mapping()), usual);
     bool has_usual_ranges = true;
     for (std::uint32_t c = 0; c < n; ++c) {
-        const StreamChoices::Component& own = stream.choices.components[c];
+        const VertexComponent& own = stream.choices.components[c];
         has_usual_ranges &= own.low == usual[c].low && own.first_bits == usual[c].first_bits;
     }
     Encoder coder;
@@ -396,10 +348,10 @@ Result<std::vector<std::uint32_t>> restore_vertices(std::span<const std::uint32_
     if (coder.bad()) return malformed_vertices("its integers end early");
     if (!code_exceptions(coder, stream)) return malformed_vertices("an exception is impossible");
     if (has_usual_ranges) {
-        find_ranges(stream, stream.choices.components);
+        find_vertex_ranges(stream.values, static_cast<VertexMapping>(stream.mapping()), stream.choices.components);
     } else {
         for (std::size_t i = 0; i < stream.values.size(); ++i) {
-            const StreamChoices::Component& c = stream.choices.components[i % n];
+            const VertexComponent& c = stream.choices.components[i % n];
             if (static_cast<std::uint64_t>(stream.values[i] - c.low) >> c.first_bits != 0)
                 return malformed_vertices("an integer is out of its range");
         }

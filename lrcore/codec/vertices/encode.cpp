@@ -13,19 +13,18 @@
 
 #include "lacedring/lacedring_vertices.h"
 #include "lacedring/vertices.hpp"
-#include "lrcore/base/crc32.h"
 #include "lrcore/base/parallel.h"
-#include "lrcore/base/signature.h"
 #include "lrcore/codec/bit_writer.h"
 #include "lrcore/codec/vertices/quantize.h"
+#include "lrcore/codec/vertices/vertex_layout.h"
 
 namespace lacedring {
 namespace {
 
-constexpr std::uint32_t kMost = 24;         // zeros of a unary number
-constexpr std::uint32_t kGroupBlocks = 16;  // blocks of a group of the table
-constexpr std::uint32_t kSizes = 4;         // of a run of vertices with common widths: 4, 8, 16 or 32
-constexpr std::uint32_t kPlaneRun = 16;     // vertices with a common plane, at least
+constexpr std::uint32_t kMost = kVertexMostZeros;
+constexpr std::uint32_t kGroupBlocks = kVertexGroup;
+constexpr std::uint32_t kSizes = 4;  // of a run of vertices with common widths: 4, 8, 16 or 32
+constexpr std::uint32_t kPlaneRun = kVertexPlaneRun;
 constexpr std::uint32_t kWidths = 32;
 constexpr std::uint32_t kSame = 6 + 8 * 2;  // the predictor that repeats the last difference
 constexpr std::uint32_t kLast = 2 + 8 * 2;  // the predictor that repeats the last vertex
@@ -37,12 +36,6 @@ std::uint32_t quarter(std::uint32_t x) {
 std::uint32_t zigzag(std::uint32_t residual) {
     return (residual << 1) ^ static_cast<std::uint32_t>(static_cast<std::int32_t>(residual) >> 31);
 }
-
-/// A component as the whole stream has it.
-struct Component {
-    std::uint32_t low = 0, first_bits = 0;
-    std::uint32_t width = 0, predictor = kLast;  // where a block begins, and of most blocks
-};
 
 using Residuals = std::array<std::uint32_t, kVertexBlock>;  // of a component; those of the block but its first vertex
 
@@ -167,7 +160,7 @@ struct BlockPlan {
 
 class BlockEncoder {
   public:
-    BlockEncoder(const VertexIntegers& of, std::span<const Component> components)
+    BlockEncoder(const VertexIntegers& of, std::span<const VertexComponent> components)
         : of_(of), n_(of.components), components_(components) {}
 
     /// The best predictor of each component alone.
@@ -207,7 +200,7 @@ class BlockEncoder {
                 tries.push_back(std::move(predictors));
         };
         std::vector<std::uint32_t> usual;
-        for (const Component& component : components_) usual.push_back(component.predictor);
+        for (const VertexComponent& component : components_) usual.push_back(component.predictor);
         add(usual);
         add(std::vector<std::uint32_t>(n_, kLast));
         add(std::vector<std::uint32_t>(n_, kSame));
@@ -384,23 +377,14 @@ class BlockEncoder {
 
     const VertexIntegers& of_;
     std::uint32_t n_;
-    std::span<const Component> components_;
+    std::span<const VertexComponent> components_;
 };
 
-std::vector<Component> find_components(const VertexIntegers& of, std::uint32_t vertices) {
+std::vector<VertexComponent> find_components(const VertexIntegers& of, std::uint32_t vertices) {
     const std::uint32_t n = of.components;
-    std::vector<Component> out(n);
-    const bool is_signed = of.mapping != VertexMapping::floats && of.mapping != VertexMapping::doubles;
-    const std::uint32_t flip = is_signed ? 0x80000000U : 0;
-    for (std::uint32_t c = 0; c < n && vertices > 0; ++c) {
-        std::uint32_t low = UINT32_MAX, high = 0;
-        for (std::size_t i = c; i < of.values.size(); i += n) {
-            low = std::min(low, of.values[i] ^ flip);
-            high = std::max(high, of.values[i] ^ flip);
-        }
-        out[c].low = low ^ flip;
-        out[c].first_bits = static_cast<std::uint32_t>(std::bit_width(high - low));
-    }
+    std::vector<VertexComponent> out(n);
+    for (VertexComponent& component : out) component.predictor = kLast;
+    find_vertex_ranges(of.values, of.mapping, out);
     // The usual predictor and first width: those of most blocks, by some hundred samples.
     const std::uint32_t blocks = (vertices + kVertexBlock - 1) / kVertexBlock, step = std::max(1U, blocks / 128);
     const BlockEncoder encoder(of, out);
@@ -433,7 +417,7 @@ struct Group {
 
 Result<EncodedVertices> encode_integers(const VertexIntegers& integers, const VertexValues& values, unsigned threads) {
     const auto vertices = static_cast<std::uint32_t>(values.data.size() / values.stride());
-    const std::vector<Component> components = find_components(integers, vertices);
+    const std::vector<VertexComponent> components = find_components(integers, vertices);
     const BlockEncoder encoder(integers, components);
     const std::uint32_t blocks = (vertices + kVertexBlock - 1) / kVertexBlock;
     std::vector<Group> groups((blocks + kGroupBlocks - 1) / kGroupBlocks);
@@ -461,42 +445,31 @@ Result<EncodedVertices> encode_integers(const VertexIntegers& integers, const Ve
             error = std::bit_cast<float>(std::bit_cast<std::uint32_t>(error) + 1);
         return error;
     }();
+    std::vector<std::uint32_t> data;
+    std::vector<std::uint64_t> begins;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        if (data.size() > UINT32_MAX) return Error{ErrorCode::too_large, "more than 16 GiB of vertices"};
+        const std::size_t here = std::min<std::size_t>(kGroupBlocks, blocks - g * kGroupBlocks);
+        for (std::size_t k = 0; k < here; ++k) begins.push_back(std::uint64_t{32} * data.size() + groups[g].begins[k]);
+        data.insert(data.end(), groups[g].words.begin(), groups[g].words.end());
+        groups[g].words = {};
+    }
+    const auto type = integers.mapping == VertexMapping::lattice ? ComponentType::f32 : values.type;
+    VertexStreamParts parts;
+    parts.vertices = vertices;
+    parts.layout = integers.components | static_cast<std::uint32_t>(integers.mapping) << 5 |
+                   static_cast<std::uint32_t>(type) << 8 | static_cast<std::uint32_t>(values.normalized) << 12 |
+                   integers.bits << 13 | field << 18;
+    parts.parameter =
+        integers.mapping == VertexMapping::decimals ? integers.digits : std::bit_cast<std::uint32_t>(integers.step);
+    parts.largest_error = std::bit_cast<std::uint32_t>(largest_error);
+    parts.components = components;
+    parts.exceptions = integers.exceptions;
+    parts.begins = begins;
+    parts.data = data;
     EncodedVertices out;
     out.largest_error = integers.largest_error;
-    const auto type = integers.mapping == VertexMapping::lattice ? ComponentType::f32 : values.type;
-    out.words = {
-        magic::kVertices,
-        vertices,
-        integers.components | static_cast<std::uint32_t>(integers.mapping) << 5 |
-            static_cast<std::uint32_t>(type) << 8 | static_cast<std::uint32_t>(values.normalized) << 12 |
-            integers.bits << 13 | field << 18,
-        0,
-        integers.mapping == VertexMapping::decimals ? integers.digits : std::bit_cast<std::uint32_t>(integers.step),
-        std::bit_cast<std::uint32_t>(largest_error),
-        static_cast<std::uint32_t>(integers.exceptions.size() / 2)};
-    for (const Component& component : components) {
-        out.words.push_back(component.low);
-        out.words.push_back(component.first_bits | component.width << 6 | component.predictor << 11);
-    }
-    out.words.insert(out.words.end(), integers.exceptions.begin(), integers.exceptions.end());
-    std::uint64_t words = 0;
-    for (std::size_t g = 0; g < groups.size(); ++g) {
-        if (words > UINT32_MAX) return Error{ErrorCode::too_large, "more than 16 GiB of vertices"};
-        out.words.push_back(static_cast<std::uint32_t>(words));
-        words += groups[g].words.size();
-        const std::size_t here = std::min<std::size_t>(kGroupBlocks, blocks - g * kGroupBlocks);
-        BitWriter fields;
-        for (std::size_t k = 1; k < kGroupBlocks; ++k) fields.put(k < here ? groups[g].begins[k] : 0, field);
-        while (fields.bits() % 32 != 0) fields.put(0, 1);
-        const std::vector<std::uint8_t>& bytes = fields.finish();
-        const std::size_t end = out.words.size();
-        out.words.resize(end + bytes.size() / 4);
-        if (!bytes.empty()) std::memcpy(out.words.data() + end, bytes.data(), bytes.size());
-    }
-    for (const Group& group : groups) out.words.insert(out.words.end(), group.words.begin(), group.words.end());
-    out.words.insert(out.words.end(), {0, 0});  // loads of 64 bits end within the stream
-    const std::uint32_t header = crc32(std::as_bytes(std::span(out.words).first(3)));
-    out.words[3] = crc32(std::as_bytes(std::span(out.words).subspan(4)), header);
+    out.words = make_vertex_stream(parts);
     return out;
 }
 
