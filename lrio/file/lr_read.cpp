@@ -5,6 +5,7 @@
 
 #include "lacedring/file.hpp"
 #include "lrcore/base/bits.h"
+#include "lrcore/base/parallel.h"
 #include "lrcore/codec/storage/packed_storage.h"
 #include "lrcore/codec/storage/vertex_storage.h"
 #include "lrio/file/lr_layout.h"
@@ -16,9 +17,10 @@ using namespace detail;  // lr_layout.h's
 
 class Reader {
   public:
-    explicit Reader(std::span<const std::byte> bytes, std::uint64_t max_bytes)
+    Reader(std::span<const std::byte> bytes, std::uint64_t max_bytes, unsigned threads)
         : max_bytes_(max_bytes != 0 ? max_bytes
-                                    : std::max<std::uint64_t>(512 << 20, std::uint64_t{128} * bytes.size())) {}
+                                    : std::max<std::uint64_t>(512 << 20, std::uint64_t{128} * bytes.size())),
+          threads_(threads) {}
 
     Result<LrFile> read(std::span<const std::byte> bytes) {
         const Result<FileHeader> header = visit_sections(
@@ -48,7 +50,7 @@ class Reader {
                 if (has_connectivity_) return "occurs twice";
                 has_connectivity_ = true;
                 file_.format = format_of(section.kind);
-                return section.coding == kStored ? restore(header, contents) : read_words(contents, file_.words);
+                return section.coding == kStored ? read_stored(header, contents) : read_words(contents, file_.words);
             case kVertexOrder:
                 return read_words(contents, file_.vertex_order);
             case kCornerOrder:
@@ -64,7 +66,7 @@ class Reader {
         }
     }
 
-    std::string restore(const FileHeader& header, std::span<const std::byte> contents) {
+    std::string read_stored(const FileHeader& header, std::span<const std::byte> contents) {
         constexpr double kTriangle = 60, kVertex = 8;  // bytes, while it is restored
         if (kTriangle * header.input_triangles + kVertex * header.vertices > static_cast<double>(max_bytes_)) {
             limit_ = Error{ErrorCode::memory_limit,
@@ -72,12 +74,8 @@ class Reader {
                                        header.input_triangles, max_bytes_ >> 20)};
             return "too large";
         }
-        std::vector<std::uint32_t> words;
-        if (std::string why = read_words(contents, words); !why.empty()) return why;
-        auto restored = storage::restore_packed(words, {header.vertices, header.input_triangles});
-        if (!restored) return restored.error().message;
-        file_.words = std::move(*restored);
-        return {};
+        is_stored_ = true;
+        return read_words(contents, file_.words);
     }
 
     static std::string read_words(std::span<const std::byte> contents, std::vector<std::uint32_t>& words) {
@@ -125,25 +123,67 @@ class Reader {
         return {};
     }
 
-    /// Vertices are predicted from their neighbors: the triangles are needed first.
-    Result<void> restore_attribute(LrAttribute& attribute, const DecodedLr& decoded) const {
-        const std::uint32_t values = attribute.per_copy ? file_.copy_count : file_.vertex_count;
-        constexpr std::uint64_t kValue = 128;  // bytes, while it is restored
-        if (kValue * values > max_bytes_) {
+    std::uint32_t values_of(const LrAttribute& attribute) const {
+        return attribute.per_copy ? file_.copy_count : file_.vertex_count;
+    }
+
+    /// What can be had without triangles: connectivity, and the residuals of vertex streams.
+    Result<void> restore_alone() {
+        for (const std::size_t i : stored_) {
+            constexpr std::uint64_t kValue = 128;  // bytes, while it is restored
+            const std::uint32_t values = values_of(file_.attributes[i]);
+            if (kValue * values <= max_bytes_) continue;
             return Error{ErrorCode::memory_limit,
                          fmt::format("lr file: {} values in storage form would take more than {} MiB", values,
                                      max_bytes_ >> 20)};
         }
-        auto words = storage::restore_vertices(attribute.words, triangles_of(decoded, attribute.per_copy), values,
-                                               max_bytes_ / sizeof(std::uint32_t));
+        residuals_.resize(stored_.size());
+        std::vector<std::optional<Error>> errors(1 + stored_.size());
+        in_parallel(threads_, static_cast<std::uint32_t>(errors.size()), [&](std::uint32_t part) {
+            if (part == 0) {
+                if (!is_stored_) return;
+                auto words = storage::restore_packed(file_.words, {file_.vertex_count, file_.input_triangles});
+                if (!words) errors[0] = words.error();
+                if (words) file_.words = std::move(*words);
+                return;
+            }
+            const LrAttribute& attribute = file_.attributes[stored_[part - 1]];
+            auto read = storage::StoredVertices::read(attribute.words, values_of(attribute));
+            if (!read) errors[part] = read.error();
+            if (read) residuals_[part - 1] = std::move(*read);
+        });
+        for (const std::optional<Error>& error : errors) {
+            if (error) return *error;
+        }
+        return {};
+    }
+
+    /// Vertices are predicted from their neighbors: the triangles are needed first.
+    Result<void> restore_attribute(std::size_t number, const DecodedLr& decoded, unsigned threads) {
+        LrAttribute& attribute = file_.attributes[stored_[number]];
+        auto words =
+            std::move(*residuals_[number])
+                .restore(triangles_of(decoded, attribute.per_copy), max_bytes_ / sizeof(std::uint32_t), threads);
         if (!words) return words.error();
         attribute.words = std::move(*words);
         const Result<VertexView> view = validate_vertices(attribute.words);
         if (!view) return view.error();
-        if (view->vertices != values) return malformed_lr("a vertex stream of another number of vertices");
+        if (view->vertices != values_of(attribute))
+            return malformed_lr("a vertex stream of another number of vertices");
         attribute.type = view->type;
         attribute.components = view->components;
         attribute.normalized = view->normalized;
+        return {};
+    }
+
+    Result<void> restore_attributes(const DecodedLr& decoded) {
+        const unsigned inner = stored_.size() == 1 ? threads_ : 1;
+        std::vector<Result<void>> good(stored_.size());
+        in_parallel(threads_, static_cast<std::uint32_t>(stored_.size()),
+                    [&](std::uint32_t i) { good[i] = restore_attribute(i, decoded, inner); });
+        for (const Result<void>& one : good) {
+            if (!one) return one;
+        }
         return {};
     }
 
@@ -151,11 +191,10 @@ class Reader {
         if (file_.seams.empty() != (file_.copy_count == 0)) {
             return malformed_lr("seams without copies, or copies without seams");
         }
+        if (auto good = restore_alone(); !good) return good;
         Result<DecodedLr> decoded = decode_connectivity(view_of(file_), true);
         if (!decoded) return decoded.error();
-        for (const std::size_t i : stored_) {
-            if (auto good = restore_attribute(file_.attributes[i], *decoded); !good) return good;
-        }
+        if (auto good = restore_attributes(*decoded); !good) return good;
         if (auto good = check_position(view_of(file_)); !good) return good;
         const std::size_t triangles = decoded->indices.size() / 3;
         if (triangles > file_.input_triangles) return malformed_lr("more triangles than the input had");
@@ -199,8 +238,11 @@ class Reader {
     }
 
     std::uint64_t max_bytes_;
-    std::optional<Error> limit_;       ///< what was more than may be
-    std::vector<std::size_t> stored_;  ///< attributes in storage form
+    std::optional<Error> limit_;  ///< what was more than may be
+    unsigned threads_;
+    bool is_stored_ = false;                                         ///< connectivity is in storage form
+    std::vector<std::size_t> stored_;                                ///< attributes in storage form
+    std::vector<std::optional<storage::StoredVertices>> residuals_;  ///< of those
     LrFile file_;
     DecodedLr decoded_;
     bool has_connectivity_ = false;
@@ -209,14 +251,14 @@ class Reader {
 }  // namespace
 
 Result<LrFile> detail::parse_lr(std::span<const std::byte> bytes, std::uint64_t max_bytes, DecodedLr& decoded) {
-    Reader reader(bytes, max_bytes);
+    Reader reader(bytes, max_bytes, 1);
     Result<LrFile> file = reader.read(bytes);
     if (file) decoded = reader.take_decoded();
     return file;
 }
 
-Result<LrFile> parse_lr(std::span<const std::byte> bytes, std::uint64_t max_bytes) {
-    return Reader(bytes, max_bytes).read(bytes);
+Result<LrFile> parse_lr(std::span<const std::byte> bytes, std::uint64_t max_bytes, unsigned threads) {
+    return Reader(bytes, max_bytes, threads).read(bytes);
 }
 
 Result<LrFile> read_lr(const std::filesystem::path& path) {

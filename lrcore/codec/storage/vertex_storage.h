@@ -2,6 +2,7 @@
 // The storage form of vertex streams. Internal to lrcore; docs/storage-format.md has it.
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -19,9 +20,31 @@ std::optional<std::vector<std::uint32_t>> store_vertices(const VertexView& view,
 /// 0 vertices, since their number is not stored. Cost: O(1). Errors: malformed. Untrusted input: safe.
 Result<VertexView> view_stored_vertices(std::span<const std::uint32_t> stored);
 
-/// The vertex stream, bit for bit. It is not validated: what is stored may say anything. Cost: O(T + V + what is
-/// stored) time; some 50 bytes a triangle, for a few components; at most `most_words` words. Errors: malformed,
-/// memory_limit. Untrusted input: safe.
+/// A stored vertex stream on the way to the vertex stream, in two steps: its residuals can be read before the triangles
+/// are known.
+class StoredVertices {
+  public:
+    /// `stored` has to outlive this. Cost: O(vertices); the integers' size in memory. Errors: malformed. Untrusted
+    /// input: safe.
+    static Result<StoredVertices> read(std::span<const std::uint32_t> stored, std::uint32_t vertices);
+
+    /// The vertex stream, bit for bit. It is not validated: what is stored may say anything. At most `most_words`
+    /// words. `triangles`: three numbers of vertices each. Cost: O(T + V) time; some 45 bytes a triangle, for three
+    /// integers a vertex. Errors: malformed, memory_limit. Untrusted input: safe.
+    Result<std::vector<std::uint32_t>> restore(std::span<const std::uint32_t> triangles, std::uint64_t most_words,
+                                               unsigned threads) &&;
+
+    StoredVertices(StoredVertices&&) noexcept;
+    StoredVertices& operator=(StoredVertices&&) noexcept;
+    ~StoredVertices();
+
+  private:
+    struct State;
+    explicit StoredVertices(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+/// Both steps on one thread.
 Result<std::vector<std::uint32_t>> restore_vertices(std::span<const std::uint32_t> stored,
                                                     std::span<const std::uint32_t> triangles, std::uint32_t vertices,
                                                     std::uint64_t most_words);

@@ -90,8 +90,9 @@ std::vector<std::byte> serialize_lr(const LrFile& file, LrForm form = LrForm::re
 
 /// Reads and checks everything: structure, checksums, stream, permutations, finite positions. Streams in storage form
 /// may be many times as large as what is stored: `max_bytes` is what they may take, or, where it is 0, 512 MiB or 128
-/// times the file, whichever is more. Errors: malformed, too_large, memory_limit. Untrusted input: safe. Cost: O(file).
-Result<LrFile> parse_lr(std::span<const std::byte> bytes, std::uint64_t max_bytes = 0);
+/// times the file, whichever is more. `threads`: at most so many restore them. Errors: malformed, too_large,
+/// memory_limit. Untrusted input: safe. Cost: O(file).
+Result<LrFile> parse_lr(std::span<const std::byte> bytes, std::uint64_t max_bytes = 0, unsigned threads = 1);
 
 Result<void> write_lr(const LrFile& file, const std::filesystem::path& path, LrForm form = LrForm::resident);
 Result<LrFile> read_lr(const std::filesystem::path& path);
