@@ -41,6 +41,12 @@ class PackedSteps {
         steps_.push_back({edge, third, is_a ? next : UINT32_MAX, is_a ? UINT32_MAX : next});
         flags_.push_back(flags);
     }
+    /// Step i, across one of whose edges the next step is: by `up` (x, b), else (a, x).
+    void add_simple(std::uint32_t i, PackedEdge edge, std::uint32_t third, std::uint32_t right, std::uint32_t up) {
+        const std::uint32_t next = i + 1;
+        steps_.push_back({edge, third, next | (0 - up), next | (up - 1)});
+        flags_.push_back(static_cast<std::uint8_t>(right | (1 + up) << 1));
+    }
     Step& step(std::uint32_t i) { return steps_[i]; }
     std::uint8_t& flags_of(std::uint32_t i) { return flags_[i]; }
 

@@ -110,6 +110,7 @@ Result<std::vector<std::uint32_t>> restore_packed(std::span<const std::uint32_t>
     at += doubles;
     Decoder coder(stored.subspan(at));
     PackedSteps steps;
+    steps.reserve(own);
     if (!WalkCoder<Decoder>(coder, steps, vertices, (stored[2] & kHasFlips) != 0).code(own) || !coder.is_at_end()) {
         return malformed("its steps say something impossible");
     }

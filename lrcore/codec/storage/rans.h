@@ -179,13 +179,22 @@ class Decoder {
     LACEDRING_INLINE std::uint32_t bit(BitModel& model, std::uint32_t /*value*/ = 0) {
         const std::uint32_t at = now_ & (kScale - 1), zero = model.zero;
         const std::uint32_t value = at >= zero ? 1 : 0;
-        take(at, value != 0 ? zero : 0, value != 0 ? kScale - zero : zero);
+        std::uint64_t x = after(at, value != 0 ? zero : 0, value != 0 ? kScale - zero : zero);
+        if (x < kLeast) {  // rare: a bit's information is small
+            x = x << 32 | next_word();
+            ++used_;
+        }
+        go_on(x);
         model.update(value);
         return value;
     }
     LACEDRING_INLINE std::uint32_t symbol(SymbolModel& model, std::uint32_t /*value*/ = 0) {
         const std::uint32_t at = now_ & (kScale - 1), value = model.find(at);
-        take(at, model.begin[value], model.begin[value + 1] - model.begin[value]);
+        std::uint64_t x = after(at, model.begin[value], model.begin[value + 1] - model.begin[value]);
+        const std::uint64_t takes = x < kLeast ? 1 : 0;  // without a branch, which would be hard to predict
+        x = x << (32 * takes) | (next_word() & (0 - takes));
+        used_ += takes;
+        go_on(x);
         model.update(value);
         return value;
     }
@@ -211,12 +220,12 @@ class Decoder {
     }
 
   private:
-    LACEDRING_INLINE void take(std::uint32_t at, std::uint32_t begin, std::uint32_t size) {
-        // Without a branch; behind the end, the last word again.
-        std::uint64_t x = size * (now_ >> kScaleBits) + at - begin;
-        const std::uint64_t takes = x < kLeast ? 1 : 0;
-        x = x << (32 * takes) | (at_[std::min(used_, last_)] & (0 - takes));
-        used_ += takes;
+    LACEDRING_INLINE std::uint64_t after(std::uint32_t at, std::uint32_t begin, std::uint32_t size) const {
+        return size * (now_ >> kScaleBits) + at - begin;
+    }
+    /// Behind the end, the last word again.
+    std::uint32_t next_word() const { return at_[std::min(used_, last_)]; }
+    LACEDRING_INLINE void go_on(std::uint64_t x) {
         now_ = next_;
         next_ = x;
     }

@@ -101,7 +101,8 @@ bool code_exceptions(Coder& coder, StoredStream& stream) {
         if constexpr (Coder::kDecodes) stream.exceptions.resize(2 * std::size_t{i} + 2);
         std::uint32_t* at = stream.exceptions.data() + 2 * std::size_t{i};
         const std::uint64_t number = next + distance.code(coder, at[0] - static_cast<std::uint32_t>(next));
-        if (number >= std::uint64_t{stream.vertices} * stream.components() || number > UINT32_MAX || coder.bad()) return false;
+        if (number >= std::uint64_t{stream.vertices} * stream.components() || number > UINT32_MAX || coder.bad())
+            return false;
         at[0] = static_cast<std::uint32_t>(number);
         if (coder.bit(same, at[1] != last ? 1 : 0) != 0) last = coder.raw(at[1], 32);
         at[1] = last;
