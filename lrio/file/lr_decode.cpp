@@ -68,12 +68,14 @@ Result<DecodedLr> decode_connectivity(const LrFileView& file, bool untrusted) {
     return out;
 }
 
-std::vector<std::uint32_t> triangles_of(const DecodedLr& decoded, bool per_copy) {
-    std::vector<std::uint32_t> out = decoded.indices;
-    if (!per_copy && !decoded.vertex_of.empty()) {
-        for (std::uint32_t& v : out) v = decoded.vertex_of[v];
+std::span<const std::uint32_t> triangles_of(const DecodedLr& decoded, bool per_copy,
+                                            std::vector<std::uint32_t>& of_vertices) {
+    if (per_copy || decoded.vertex_of.empty()) return decoded.indices;
+    if (of_vertices.empty()) {
+        of_vertices.reserve(decoded.indices.size());
+        for (const std::uint32_t copy : decoded.indices) of_vertices.push_back(decoded.vertex_of[copy]);
     }
-    return out;
+    return of_vertices;
 }
 
 Attribute decode_attribute(const LrAttribute& attribute) {

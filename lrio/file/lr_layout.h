@@ -178,8 +178,9 @@ Result<Mesh> decode_mesh(const LrFile& file, DecodedLr& decoded, Surface* surfac
 Result<LrFile> parse_lr(std::span<const std::byte> bytes, std::uint64_t max_bytes, DecodedLr& decoded);
 
 /// Three vertices of each triangle that an attribute's stream goes with: copies, if it has a value for each, or if
-/// there are no seams, else vertices.
-std::vector<std::uint32_t> triangles_of(const DecodedLr& decoded, bool per_copy);
+/// there are no seams, else vertices, which go into `of_vertices` unless they are there.
+std::span<const std::uint32_t> triangles_of(const DecodedLr& decoded, bool per_copy,
+                                            std::vector<std::uint32_t>& of_vertices);
 
 /// The attribute with its values. Of a stream, which is valid, they are decoded.
 Attribute decode_attribute(const LrAttribute& attribute);

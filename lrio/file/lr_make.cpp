@@ -97,16 +97,14 @@ StoredStreams store_streams(const LrFile& file) {
     }
     const Result<DecodedLr> decoded = decode_connectivity(view_of(file), false);
     if (!decoded) return out;
-    std::vector<std::uint32_t> triangles;
-    bool of_copies = false;
+    std::vector<std::uint32_t> of_vertices;
     for (const LrAttribute& attribute : file.attributes) {
         std::vector<std::uint32_t>& stored = out.attributes.emplace_back();
         if (attribute.words.empty()) continue;
-        if (triangles.empty() || of_copies != attribute.per_copy)
-            triangles = triangles_of(*decoded, attribute.per_copy);
-        of_copies = attribute.per_copy;
         const Result<VertexView> view = view_vertices(attribute.words);
-        if (view) stored = take(storage::store_vertices(*view, triangles), attribute.words.size());
+        if (!view) continue;
+        const auto triangles = triangles_of(*decoded, attribute.per_copy, of_vertices);
+        stored = take(storage::store_vertices(*view, triangles), attribute.words.size());
     }
     return out;
 }

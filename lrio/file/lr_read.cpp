@@ -161,9 +161,9 @@ class Reader {
     /// Vertices are predicted from their neighbors: the triangles are needed first.
     Result<void> restore_attribute(std::size_t number, const DecodedLr& decoded, unsigned threads) {
         LrAttribute& attribute = file_.attributes[stored_[number]];
-        auto words =
-            std::move(*residuals_[number])
-                .restore(triangles_of(decoded, attribute.per_copy), max_bytes_ / sizeof(std::uint32_t), threads);
+        std::vector<std::uint32_t> of_vertices;
+        const auto triangles = triangles_of(decoded, attribute.per_copy, of_vertices);
+        auto words = std::move(*residuals_[number]).restore(triangles, max_bytes_ / sizeof(std::uint32_t), threads);
         if (!words) return words.error();
         attribute.words = std::move(*words);
         const Result<VertexView> view = validate_vertices(attribute.words);

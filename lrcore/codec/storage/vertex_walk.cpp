@@ -9,44 +9,48 @@ bool is_degenerate(const std::uint32_t* v) {
     return (v[0] == v[1]) | (v[1] == v[2]) | (v[2] == v[0]);
 }
 
-/// Where triangle t, whose corners are from c on, shares two vertices with the one before, makes them neighbors.
-LACEDRING_INLINE void join_successive(const std::uint32_t* v, std::uint32_t c, std::uint32_t* opposite) {
-    constexpr std::uint8_t kAlone[8] = {3, 3, 3, 2, 3, 1, 0, 3};  // the one of three whose bit is 0
-    const std::uint32_t p = v[-3], q = v[-2], r = v[-1];
-    std::uint32_t shared = 0;  // a bit of each vertex that is among the three before
-    for (std::uint32_t i = 0; i < 3; ++i) {
-        shared |= static_cast<std::uint32_t>((v[i] == p) | (v[i] == q) | (v[i] == r)) << i;
-    }
-    const std::uint32_t k = kAlone[shared];
-    if (k == 3) return;
-    const std::uint32_t other = p ^ q ^ r ^ v[0] ^ v[1] ^ v[2] ^ v[k];  // the one before that is not shared
-    const std::uint32_t from = c - 3 + (other == q ? 1 : 0) + (other == r ? 2 : 0);
-    if (opposite[from] != kNone) return;
-    opposite[c + k] = from;
-    opposite[from] = c + k;
-}
-
-/// Pairs corners that face the same edge of two vertices that follow each other.
-class RingEdges {
+/// Pairs corners of triangle after triangle: of two that follow each other, and at edges of two vertices that follow
+/// each other.
+class NearPairs {
   public:
-    /// `opposite` has room for one more.
-    RingEdges(std::uint32_t vertices, std::span<std::uint32_t> opposite)
-        : open_(std::size_t{vertices} + 1, kNone), opposite_(opposite) {}
+    NearPairs(std::uint32_t vertices, std::uint32_t* opposite) : open_(vertices, kNone), opposite_(opposite) {}
 
-    /// Returns whether the edge is another one. Without a branch: what is hard to predict are masks.
-    LACEDRING_INLINE bool add(std::uint32_t corner, std::uint32_t x, std::uint32_t y) {
-        const bool is_open = opposite_[corner] == kNone, is_ring = x - y == 1 || y - x == 1;
-        std::uint32_t& open = open_[is_open && is_ring ? std::min(x, y) : open_.size() - 1];
-        const std::uint32_t found = is_open && is_ring && open != kNone ? UINT32_MAX : 0, other = open;
-        opposite_[corner] = (other & found) | (opposite_[corner] & ~found);
-        opposite_[found != 0 ? other : opposite_.size() - 1] = corner;
-        open = corner | found;
-        return is_open && !is_ring;
+    /// Where the triangle of corner c, whose vertices are v[0] to v[2], shares two vertices with the one before, pairs
+    /// the corners of both.
+    LACEDRING_INLINE void join_successive(const std::uint32_t* v, std::uint32_t c) {
+        constexpr std::uint8_t kAlone[8] = {3, 3, 3, 2, 3, 1, 0, 3};  // the one of three whose bit is 0
+        const std::uint32_t p = v[-3], q = v[-2], r = v[-1];
+        std::uint32_t shared = 0;  // a bit of each vertex that is among the three before
+        for (std::uint32_t i = 0; i < 3; ++i) {
+            shared |= static_cast<std::uint32_t>((v[i] == p) | (v[i] == q) | (v[i] == r)) << i;
+        }
+        const std::uint32_t k = kAlone[shared];
+        if (k == 3) return;
+        const std::uint32_t other = p ^ q ^ r ^ v[0] ^ v[1] ^ v[2] ^ v[k];  // the one before that is not shared
+        const std::uint32_t from = c - 3 + (other == q ? 1 : 0) + (other == r ? 2 : 0);
+        if (opposite_[from] != kNone) return;
+        opposite_[c + k] = from;
+        opposite_[from] = c + k;
+    }
+
+    /// Pairs an open corner that faces the edge (x, y), if that is a ring edge. Returns whether it is another one.
+    LACEDRING_INLINE bool join_ring_edge(std::uint32_t corner, std::uint32_t x, std::uint32_t y) {
+        if (opposite_[corner] != kNone) return false;
+        if (x - y != 1 && y - x != 1) return true;
+        std::uint32_t& open = open_[std::min(x, y)];
+        if (open == kNone) {
+            open = corner;
+            return false;
+        }
+        opposite_[corner] = open;
+        opposite_[open] = corner;
+        open = kNone;
+        return false;
     }
 
   private:
-    std::vector<std::uint32_t> open_;  // of each vertex, a corner that faces the edge to the next one; and one more
-    std::span<std::uint32_t> opposite_;
+    std::vector<std::uint32_t> open_;  // of each vertex, a corner that faces the edge to the next one
+    std::uint32_t* opposite_;
 };
 
 /// An edge, and the corner that faces it.
@@ -89,32 +93,28 @@ void join_others(std::span<const std::uint32_t> triangles, std::uint32_t vertice
 
 std::vector<std::uint32_t> opposite_corners(std::span<const std::uint32_t> triangles, std::uint32_t vertices) {
     const auto size = static_cast<std::uint32_t>(triangles.size() / 3 * 3);
-    std::vector<std::uint32_t> out(std::size_t{size} + 1, kNone);
-    RingEdges ring(vertices, out);
+    std::vector<std::uint32_t> out(size, kNone);
+    NearPairs pairs(vertices, out.data());
     std::vector<std::uint32_t> others(size / 4 + 3);
     std::size_t count = 0;
     bool before_is_good = false;
-    for (std::uint32_t c = 0; c <= size; c += 3) {  // the triangle before is complete when this one is joined to it
+    for (std::uint32_t c = 0; c <= size; c += 3) {
         const std::uint32_t* v = triangles.data() + c;
         const bool is_good = c < size && !is_degenerate(v);
         if (before_is_good) {
-            if (is_good) join_successive(v, c, out.data());
+            if (is_good) pairs.join_successive(v, c);
             if (others.size() - count < 3) others.resize(2 * others.size());
-            for (std::uint32_t k = 0; k < 3; ++k) {
-                others[count] = c - 3 + k;
-                count += ring.add(c - 3 + k, v[static_cast<int>((k + 1) % 3) - 3], v[static_cast<int>((k + 2) % 3) - 3])
-                             ? 1
-                             : 0;
-            }
+            const auto join = [&](std::uint32_t corner, std::uint32_t x, std::uint32_t y) {  // of the triangle before
+                others[count] = corner;
+                count += pairs.join_ring_edge(corner, x, y) ? 1 : 0;
+            };
+            join(c - 3, v[-2], v[-1]);
+            join(c - 2, v[-1], v[-3]);
+            join(c - 1, v[-3], v[-2]);
         }
         before_is_good = is_good;
     }
-#ifdef SHOWO
-    static int x = 0;
-    if (!x++) printf("others %.3f ", double(count) / (size / 3));
-#endif
     others.resize(count);
-    out.pop_back();
     join_others(triangles, vertices, others, out);
     return out;
 }
