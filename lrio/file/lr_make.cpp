@@ -99,6 +99,7 @@ StoredStreams store_streams(const LrFile& file) {
     if (!decoded) return out;
     std::vector<std::uint32_t> triangles;
     bool of_copies = false;
+    const std::vector<std::uint32_t> positions = position_integers(file);
     for (const LrAttribute& attribute : file.attributes) {
         std::vector<std::uint32_t>& stored = out.attributes.emplace_back();
         if (attribute.words.empty()) continue;
@@ -106,7 +107,8 @@ StoredStreams store_streams(const LrFile& file) {
             triangles = triangles_of(*decoded, attribute.per_copy);
         of_copies = attribute.per_copy;
         const Result<VertexView> view = view_vertices(attribute.words);
-        if (view) stored = take(storage::store_vertices(*view, triangles), attribute.words.size());
+        const storage::VertexPlaces places = places_of(positions, *decoded, attribute.per_copy);
+        if (view) stored = take(storage::store_vertices(*view, triangles, places), attribute.words.size());
     }
     return out;
 }

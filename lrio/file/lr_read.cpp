@@ -125,8 +125,9 @@ class Reader {
         return {};
     }
 
-    /// Vertices are predicted from their neighbors: the triangles are needed first.
-    Result<void> restore_attribute(LrAttribute& attribute, const DecodedLr& decoded) const {
+    /// Vertices are predicted from their neighbors, and normals from positions, too: the triangles are needed first,
+    /// and then the first attribute.
+    Result<void> restore_attribute(LrAttribute& attribute, const DecodedLr& decoded) {
         const std::uint32_t values = attribute.per_copy ? file_.copy_count : file_.vertex_count;
         constexpr std::uint64_t kValue = 128;  // bytes, while it is restored
         if (kValue * values > max_bytes_) {
@@ -134,8 +135,13 @@ class Reader {
                          fmt::format("lr file: {} values in storage form would take more than {} MiB", values,
                                      max_bytes_ >> 20)};
         }
+        const Result<VertexView> stored = storage::view_stored_vertices(attribute.words);
+        const bool is_first = &attribute == file_.attributes.data();
+        if (!is_first && stored && stored->mapping == VertexMapping::octahedral && positions_.empty())
+            positions_ = position_integers(file_);
         auto words = storage::restore_vertices(attribute.words, triangles_of(decoded, attribute.per_copy), values,
-                                               max_bytes_ / sizeof(std::uint32_t));
+                                               max_bytes_ / sizeof(std::uint32_t),
+                                               places_of(positions_, decoded, attribute.per_copy));
         if (!words) return words.error();
         attribute.words = std::move(*words);
         const Result<VertexView> view = validate_vertices(attribute.words);
@@ -199,8 +205,9 @@ class Reader {
     }
 
     std::uint64_t max_bytes_;
-    std::optional<Error> limit_;       ///< what was more than may be
-    std::vector<std::size_t> stored_;  ///< attributes in storage form
+    std::optional<Error> limit_;            ///< what was more than may be
+    std::vector<std::size_t> stored_;       ///< attributes in storage form, the first one of the file first
+    std::vector<std::uint32_t> positions_;  ///< their integers, once normals need them
     LrFile file_;
     DecodedLr decoded_;
     bool has_connectivity_ = false;

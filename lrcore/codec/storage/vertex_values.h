@@ -19,6 +19,7 @@ enum class VertexRule : std::uint8_t {
     parallelograms,  ///< their mean, moved by `error` and `smooth`
     mean,            ///< the mean of their base vertices
     neighbor,        ///< the first base vertex
+    none,            ///< no prediction: 0
 };
 
 struct VertexParameters {
@@ -145,6 +146,9 @@ class VertexValueCoder {
                     break;
                 case VertexRule::neighbor:
                     moved[c] = xa.value[c];
+                    break;
+                case VertexRule::none:
+                    moved[c] = 0;
                     break;
             }
         }
