@@ -14,6 +14,7 @@
 #include "lacedring/lr_file.hpp"
 #include "lrcore/base/crc32.h"
 #include "lrcore/base/signature.h"
+#include "lrcore/codec/storage/normal_base.h"
 
 namespace lacedring::detail {
 
@@ -181,6 +182,13 @@ Result<LrFile> parse_lr(std::span<const std::byte> bytes, std::uint64_t max_byte
 /// there are no seams, else vertices, which go into `of_vertices` unless they are there.
 std::span<const std::uint32_t> triangles_of(const DecodedLr& decoded, bool per_copy,
                                             std::vector<std::uint32_t>& of_vertices);
+
+/// The integers of the positions' stream, three a vertex, if it has such of a common scale: a lattice's, or decimals;
+/// else none. The stream is valid.
+std::vector<std::uint32_t> position_integers(const LrFile& file);
+
+/// Where the values of an attribute are, by position_integers.
+storage::VertexPlaces places_of(std::span<const std::uint32_t> positions, const DecodedLr& decoded, bool per_copy);
 
 /// The attribute with its values. Of a stream, which is valid, they are decoded.
 Attribute decode_attribute(const LrAttribute& attribute);

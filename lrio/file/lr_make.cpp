@@ -98,13 +98,15 @@ StoredStreams store_streams(const LrFile& file) {
     const Result<DecodedLr> decoded = decode_connectivity(view_of(file), false);
     if (!decoded) return out;
     std::vector<std::uint32_t> of_vertices;
+    const std::vector<std::uint32_t> positions = position_integers(file);
     for (const LrAttribute& attribute : file.attributes) {
         std::vector<std::uint32_t>& stored = out.attributes.emplace_back();
         if (attribute.words.empty()) continue;
         const Result<VertexView> view = view_vertices(attribute.words);
         if (!view) continue;
         const auto triangles = triangles_of(*decoded, attribute.per_copy, of_vertices);
-        stored = take(storage::store_vertices(*view, triangles), attribute.words.size());
+        const storage::VertexPlaces places = places_of(positions, *decoded, attribute.per_copy);
+        stored = take(storage::store_vertices(*view, triangles, places), attribute.words.size());
     }
     return out;
 }

@@ -127,8 +127,8 @@ class Reader {
         return attribute.per_copy ? file_.copy_count : file_.vertex_count;
     }
 
-    /// What can be had without triangles: connectivity, and the residuals of vertex streams.
-    Result<void> restore_alone() {
+    /// What needs nothing else: the steps of the connectivity, and the residuals of vertex streams.
+    Result<void> read_parts() {
         for (const std::size_t i : stored_) {
             constexpr std::uint64_t kValue = 128;  // bytes, while it is restored
             const std::uint32_t values = values_of(file_.attributes[i]);
@@ -137,33 +137,29 @@ class Reader {
                          fmt::format("lr file: {} values in storage form would take more than {} MiB", values,
                                      max_bytes_ >> 20)};
         }
-        residuals_.resize(stored_.size());
-        std::vector<std::optional<Error>> errors(1 + stored_.size());
-        in_parallel(threads_, static_cast<std::uint32_t>(errors.size()), [&](std::uint32_t part) {
+        residuals_.resize(file_.attributes.size());
+        return in_parts(1 + stored_.size(), [&](std::size_t part) -> Result<void> {
             if (part == 0) {
-                if (!is_stored_) return;
-                auto words = storage::restore_packed(file_.words, {file_.vertex_count, file_.input_triangles});
-                if (!words) errors[0] = words.error();
-                if (words) file_.words = std::move(*words);
-                return;
+                if (!is_stored_) return {};
+                auto read = storage::StoredPacked::read(file_.words, {file_.vertex_count, file_.input_triangles});
+                if (!read) return read.error();
+                steps_ = std::move(*read);
+                return {};
             }
-            const LrAttribute& attribute = file_.attributes[stored_[part - 1]];
-            auto read = storage::StoredVertices::read(attribute.words, values_of(attribute));
-            if (!read) errors[part] = read.error();
-            if (read) residuals_[part - 1] = std::move(*read);
+            const std::size_t i = stored_[part - 1];
+            auto read = storage::StoredVertices::read(file_.attributes[i].words, values_of(file_.attributes[i]));
+            if (!read) return read.error();
+            residuals_[i] = std::move(*read);
+            return {};
         });
-        for (const std::optional<Error>& error : errors) {
-            if (error) return *error;
-        }
-        return {};
     }
 
     /// Vertices are predicted from their neighbors: the triangles are needed first.
-    Result<void> restore_attribute(std::size_t number, const DecodedLr& decoded, unsigned threads) {
-        LrAttribute& attribute = file_.attributes[stored_[number]];
-        std::vector<std::uint32_t> of_vertices;
-        const auto triangles = triangles_of(decoded, attribute.per_copy, of_vertices);
-        auto words = std::move(*residuals_[number]).restore(triangles, max_bytes_ / sizeof(std::uint32_t), threads);
+    Result<void> restore_attribute(std::size_t i, std::span<const std::uint32_t> triangles,
+                                   const storage::VertexPlaces& places, unsigned threads) {
+        LrAttribute& attribute = file_.attributes[i];
+        auto words = std::move(*residuals_[i]).restore(triangles, max_bytes_ / sizeof(std::uint32_t), places, threads);
+        residuals_[i].reset();
         if (!words) return words.error();
         attribute.words = std::move(*words);
         const Result<VertexView> view = validate_vertices(attribute.words);
@@ -176,11 +172,70 @@ class Reader {
         return {};
     }
 
-    Result<void> restore_attributes(const DecodedLr& decoded) {
-        const unsigned inner = stored_.size() == 1 ? threads_ : 1;
-        std::vector<Result<void>> good(stored_.size());
-        in_parallel(threads_, static_cast<std::uint32_t>(stored_.size()),
-                    [&](std::uint32_t i) { good[i] = restore_attribute(i, decoded, inner); });
+    /// The connectivity's stream, and what it decodes to. With several threads, beside that, the streams of vertices:
+    /// their triangles are known from the steps, which takes more memory.
+    Result<void> restore_connectivity() {
+        std::vector<std::uint32_t> triangles;
+        if (steps_ && threads_ > 1) triangles = steps_->triangles();
+        std::vector<std::size_t> beside;
+        for (const std::size_t i : stored_) {
+            if (!triangles.empty() && !file_.attributes[i].per_copy && !residuals_[i]->needs_places())
+                beside.push_back(i);
+        }
+        const unsigned inner = beside.size() == 1 ? threads_ : 1;
+        auto good = in_parts(1 + beside.size(), [&](std::size_t part) -> Result<void> {
+            if (part > 0) return restore_attribute(beside[part - 1], triangles, {}, inner);
+            if (steps_) {
+                auto words = steps_->write();
+                steps_.reset();
+                if (!words) return words.error();
+                file_.words = std::move(*words);
+            }
+            LrFileView connectivity;  // not view_of(file_), whose attributes are being restored
+            connectivity.format = file_.format;
+            connectivity.vertex_count = file_.vertex_count;
+            connectivity.copy_count = file_.copy_count;
+            connectivity.words = file_.words;
+            connectivity.seams = file_.seams;
+            auto decoded = decode_connectivity(connectivity, true);
+            if (!decoded) return decoded.error();
+            decoded_ = std::move(*decoded);
+            return {};
+        });
+        if (!good || beside.empty()) return good;
+        std::vector<std::uint32_t> of_vertices;
+        if (!std::ranges::equal(triangles, triangles_of(decoded_, false, of_vertices)))
+            return malformed_lr("steps that no stream is written as");
+        return {};
+    }
+
+    /// The streams that are not restored yet: normals behind the positions that they are predicted from.
+    Result<void> restore_attributes() {
+        std::vector<std::uint32_t> of_vertices, positions;
+        for (const bool with_places : {false, true}) {
+            std::vector<std::size_t> now;
+            for (const std::size_t i : stored_) {
+                if (residuals_[i] && residuals_[i]->needs_places() == with_places) now.push_back(i);
+            }
+            if (now.empty()) continue;
+            for (const std::size_t i : now) triangles_of(decoded_, file_.attributes[i].per_copy, of_vertices);
+            if (with_places) positions = position_integers(file_);
+            const unsigned inner = now.size() == 1 ? threads_ : 1;
+            auto good = in_parts(now.size(), [&](std::size_t part) {
+                const bool per_copy = file_.attributes[now[part]].per_copy;
+                return restore_attribute(now[part], triangles_of(decoded_, per_copy, of_vertices),
+                                         places_of(positions, decoded_, per_copy), inner);
+            });
+            if (!good) return good;
+        }
+        return {};
+    }
+
+    /// Does work(i) for each i below `parts`, on several threads; the first error, if any.
+    template <class Work>
+    Result<void> in_parts(std::size_t parts, Work work) {
+        std::vector<Result<void>> good(parts);
+        in_parallel(threads_, static_cast<std::uint32_t>(parts), [&](std::uint32_t i) { good[i] = work(i); });
         for (const Result<void>& one : good) {
             if (!one) return one;
         }
@@ -191,12 +246,11 @@ class Reader {
         if (file_.seams.empty() != (file_.copy_count == 0)) {
             return malformed_lr("seams without copies, or copies without seams");
         }
-        if (auto good = restore_alone(); !good) return good;
-        Result<DecodedLr> decoded = decode_connectivity(view_of(file_), true);
-        if (!decoded) return decoded.error();
-        if (auto good = restore_attributes(*decoded); !good) return good;
+        if (auto good = read_parts(); !good) return good;
+        if (auto good = restore_connectivity(); !good) return good;
+        if (auto good = restore_attributes(); !good) return good;
         if (auto good = check_position(view_of(file_)); !good) return good;
-        const std::size_t triangles = decoded->indices.size() / 3;
+        const std::size_t triangles = decoded_.indices.size() / 3;
         if (triangles > file_.input_triangles) return malformed_lr("more triangles than the input had");
         const Attribute position = decode_attribute(file_.attributes[0]);
         if (auto good = check_finite(position.type, position.data); !good) return good;
@@ -205,7 +259,7 @@ class Reader {
                 return malformed_lr("the vertex order has another size");
             }
             std::vector<std::uint32_t> order = file_.vertex_order;
-            decoded->remove_extra(order);
+            decoded_.remove_extra(order);
             const auto kept = static_cast<std::uint32_t>(order.size());
             if (!permutation_into(order, kept, kept)) return malformed_lr("the vertex order is no permutation");
         }
@@ -216,7 +270,6 @@ class Reader {
                 return malformed_lr("the corner order is no permutation");
             }
         }
-        decoded_ = std::move(*decoded);
         return {};
     }
 
@@ -242,7 +295,8 @@ class Reader {
     unsigned threads_;
     bool is_stored_ = false;                                         ///< connectivity is in storage form
     std::vector<std::size_t> stored_;                                ///< attributes in storage form
-    std::vector<std::optional<storage::StoredVertices>> residuals_;  ///< of those
+    std::vector<std::optional<storage::StoredVertices>> residuals_;  ///< of each attribute, until it is restored
+    std::optional<storage::StoredPacked> steps_;
     LrFile file_;
     DecodedLr decoded_;
     bool has_connectivity_ = false;

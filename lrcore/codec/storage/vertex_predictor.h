@@ -20,6 +20,7 @@ enum class VertexRule : std::uint8_t {
     parallelograms,  ///< their mean, moved by `error` and `smooth`
     mean,            ///< the mean of their base vertices
     neighbor,        ///< the first base vertex
+    none,            ///< no prediction: 0
 };
 
 struct VertexParameters {
@@ -81,6 +82,7 @@ class VertexPredictor {
                 const std::int32_t to_mean = as_signed(xa[c] + ya[c] + xb[c] + yb[c] - 4 * plain[c]);
                 if (rule == VertexRule::mean) moved[c] += static_cast<std::uint32_t>(rounded(to_mean, 2));
                 if (rule == VertexRule::neighbor) moved[c] = xa[c];
+                if (rule == VertexRule::none) moved[c] = 0;
             }
         } else if (parameters_.smooth != 0 || parameters_.error != 0) {
             for (std::uint32_t c = 0; c < n; ++c) {

@@ -26,12 +26,18 @@ struct StoredStream {
     std::uint32_t vertices = 0;
     StreamChoices choices;
     VertexParameters parameters;
-    Words exceptions;  // two words each
+    std::optional<NormalBase> base;  // from which the integers are differences
+    Words exceptions;                // two words each
     Words values;
     std::vector<BlockChoices> blocks;  // of an encoder alone
 
     std::uint32_t components() const { return choices.layout & 31; }
     std::uint32_t mapping() const { return choices.layout >> 5 & 7; }
+    std::uint32_t bits() const { return choices.layout >> 13 & 31; }
+    bool may_have_base() const {
+        return static_cast<VertexMapping>(mapping()) == VertexMapping::octahedral && components() == 2 && bits() >= 2 &&
+               bits() <= 16;
+    }
 };
 
 Error malformed_vertices(const char* what) {
@@ -51,6 +57,14 @@ std::span<const std::uint32_t> take_part(std::span<const std::uint32_t>& rest) {
     const auto part = rest.subspan(1, rest[0]);
     rest = rest.subspan(1 + part.size());
     return part;
+}
+
+template <class Coder>
+void code_base(Coder& coder, std::optional<NormalBase>& base) {
+    if (coder.raw(base ? 1 : 0, 1) == 0) return;
+    if (!base) base.emplace();
+    for (bool NormalBase::*flag : {&NormalBase::by_angle, &NormalBase::by_area, &NormalBase::of_vertex})
+        (*base).*flag = coder.raw((*base).*flag ? 1 : 0, 1) != 0;
 }
 
 /// Codes what a stream says before its integers, which a Decoder does not know yet: `has_usual_ranges` then says
@@ -77,15 +91,13 @@ bool code_header(Coder& coder, StoredStream& stream, bool& has_usual_ranges) {
         if (c.first_bits > 32) return false;
     }
     VertexParameters& p = stream.parameters;
-    for (std::uint32_t c = 0; c < n; ++c) {
-        const std::uint32_t rule = coder.raw(static_cast<std::uint32_t>(p.rules[c]), 2);
-        if (rule > 2) return false;
-        p.rules[c] = static_cast<VertexRule>(rule);
-    }
+    for (std::uint32_t c = 0; c < n; ++c)
+        p.rules[c] = static_cast<VertexRule>(coder.raw(static_cast<std::uint32_t>(p.rules[c]), 2));
     p.has_normal = coder.raw(p.has_normal ? 1 : 0, 1) != 0;
     p.error = coder.raw(p.error, 4);
     p.smooth = coder.raw(p.smooth, 5);
     p.fine = coder.raw(p.fine, 4);
+    if (stream.may_have_base()) code_base(coder, stream.base);
     return p.smooth <= 16 && !(p.has_normal && n != 3);
 }
 
@@ -209,11 +221,14 @@ class WalkRecord {
     std::vector<Step> steps_;
 };
 
+constexpr VertexRule kRules[] = {VertexRule::parallelograms, VertexRule::mean, VertexRule::neighbor, VertexRule::none};
+
 /// Chooses how integers are predicted: by trial.
 class ParameterSearch {
   public:
-    ParameterSearch(const WalkRecord& walk, std::uint32_t n, std::span<std::uint32_t> values)
-        : walk_(walk), n_(n), values_(values) {}
+    /// `has_base`: the values are differences, which may need no prediction.
+    ParameterSearch(const WalkRecord& walk, std::uint32_t n, std::span<std::uint32_t> values, bool has_base)
+        : walk_(walk), n_(n), values_(values), rules_(std::span(kRules).first(has_base ? 4 : 3)) {}
 
     VertexParameters best() {
         find_rules();
@@ -233,6 +248,8 @@ class ParameterSearch {
         if (parameters_.error != 0) vary(&VertexParameters::smooth, {0, 2, 4});
         return parameters_;
     }
+    /// Words that the values take by the best parameters.
+    std::size_t least() const { return least_; }
 
   private:
     std::size_t words(const VertexParameters& parameters, std::uint32_t n, std::span<std::uint32_t> values) const {
@@ -249,7 +266,7 @@ class ParameterSearch {
         for (std::uint32_t c = 0; c < n_; ++c) {
             for (std::size_t i = 0; i < alone.size(); ++i) alone[i] = values_[i * n_ + c];
             std::size_t least = SIZE_MAX;
-            for (const VertexRule rule : {VertexRule::parallelograms, VertexRule::mean, VertexRule::neighbor}) {
+            for (const VertexRule rule : rules_) {
                 VertexParameters parameters;
                 parameters.rules[0] = rule;
                 const std::size_t now = words(parameters, 1, alone);
@@ -281,6 +298,7 @@ class ParameterSearch {
     const WalkRecord& walk_;
     std::uint32_t n_;
     std::span<std::uint32_t> values_;
+    std::span<const VertexRule> rules_;
     VertexParameters parameters_;
     std::size_t least_ = SIZE_MAX;
 };
@@ -306,15 +324,36 @@ StoredStream parts_of(const VertexView& view) {
     return out;
 }
 
+/// Finds the parameters and, for normals of a surface, the base. Returns the integers as they are coded.
+Words choose_prediction(StoredStream& stream, const WalkRecord& walk, std::span<const std::uint32_t> triangles,
+                        const VertexPlaces& places) {
+    const std::uint32_t n = stream.components();
+    ParameterSearch plain(walk, n, stream.values, false);
+    stream.parameters = plain.best();
+    if (!stream.may_have_base() || places.positions.empty() || !has_places(places, stream.vertices))
+        return stream.values;
+    const NormalBase base = nearest_base(places, triangles, stream.values, stream.bits());
+    Words differences = stream.values;
+    subtract_normals(differences, surface_normals(places, triangles, stream.vertices, base, stream.bits()),
+                     stream.bits());
+    ParameterSearch with(walk, n, differences, true);
+    const VertexParameters parameters = with.best();
+    if (with.least() >= plain.least()) return stream.values;
+    stream.parameters = parameters;
+    stream.base = base;
+    return differences;
+}
+
 }  // namespace
 
 std::optional<std::vector<std::uint32_t>> store_vertices(const VertexView& view,
-                                                         std::span<const std::uint32_t> triangles) {
+                                                         std::span<const std::uint32_t> triangles,
+                                                         const VertexPlaces& places) {
     StoredStream stream = parts_of(view);
     const std::uint32_t n = stream.components();
     WalkRecord walk;
     VertexWalk(triangles, view.vertices).run(walk);
-    stream.parameters = ParameterSearch(walk, n, stream.values).best();
+    Words integers = choose_prediction(stream, walk, triangles, places);
     std::vector<VertexComponent> usual(n);
     find_vertex_ranges(stream.values, static_cast<VertexMapping>(stream.mapping()), usual);
     bool has_usual_ranges = true;
@@ -325,7 +364,7 @@ std::optional<std::vector<std::uint32_t>> store_vertices(const VertexView& view,
     Encoder coder;
     if (!code_header(coder, stream, has_usual_ranges)) return {};
     Words residuals(stream.values.size());
-    predict<false>(walk, stream.parameters, n, stream.values, residuals);
+    predict<false>(walk, stream.parameters, n, integers, residuals);
     code_residuals(coder, n, stream.parameters.fine, residuals);
     if (!code_exceptions(coder, stream)) return {};
     Words out;
@@ -337,7 +376,7 @@ std::optional<std::vector<std::uint32_t>> store_vertices(const VertexView& view,
         if (!code_blocks(blocks, stream, first, end, UINT64_MAX, written)) return {};
         add_part(blocks, out);
     }
-    const auto restored = restore_vertices(out, triangles, view.vertices, view.words.size());
+    const auto restored = restore_vertices(out, triangles, view.vertices, view.words.size(), places);
     if (!restored || !std::ranges::equal(*restored, view.words)) return {};
     return out;
 }
@@ -384,6 +423,10 @@ StoredVertices::StoredVertices(StoredVertices&&) noexcept = default;
 StoredVertices& StoredVertices::operator=(StoredVertices&&) noexcept = default;
 StoredVertices::~StoredVertices() = default;
 
+bool StoredVertices::needs_places() const {
+    return state_->stream.base.has_value();
+}
+
 Result<StoredVertices> StoredVertices::read(std::span<const std::uint32_t> stored, std::uint32_t vertices) {
     std::span<const std::uint32_t> rest = stored;
     Decoder coder(take_part(rest));
@@ -407,12 +450,15 @@ Result<StoredVertices> StoredVertices::read(std::span<const std::uint32_t> store
 }
 
 Result<std::vector<std::uint32_t>> StoredVertices::restore(std::span<const std::uint32_t> triangles,
-                                                           std::uint64_t most_words, unsigned threads) && {
+                                                           std::uint64_t most_words, const VertexPlaces& places,
+                                                           unsigned threads) && {
     StoredStream& stream = state_->stream;
     if (triangles.size() > UINT32_MAX || triangles.size() % 3 != 0) return malformed_vertices("no triangles");
     for (const std::uint32_t v : triangles) {
         if (v >= stream.vertices) return malformed_vertices("a triangle of a vertex that it does not have");
     }
+    if (stream.base && (places.positions.empty() || !has_places(places, stream.vertices)))
+        return malformed_vertices("its normals are differences from the surface's, whose positions are no integers");
     const std::uint32_t n = stream.components();
     {
         VertexWalk walk(triangles, stream.vertices);  // first: making it takes more memory than having it
@@ -420,6 +466,9 @@ Result<std::vector<std::uint32_t>> StoredVertices::restore(std::span<const std::
         predict<true>(walk, stream.parameters, n, stream.values, state_->residuals);
         state_->residuals = {};
     }
+    if (stream.base)
+        add_normals(stream.values, surface_normals(places, triangles, stream.vertices, *stream.base, stream.bits()),
+                    stream.bits());
     if (state_->has_usual_ranges) {
         find_vertex_ranges(stream.values, static_cast<VertexMapping>(stream.mapping()), stream.choices.components);
     } else {
@@ -445,10 +494,10 @@ Result<std::vector<std::uint32_t>> StoredVertices::restore(std::span<const std::
 
 Result<std::vector<std::uint32_t>> restore_vertices(std::span<const std::uint32_t> stored,
                                                     std::span<const std::uint32_t> triangles, std::uint32_t vertices,
-                                                    std::uint64_t most_words) {
+                                                    std::uint64_t most_words, const VertexPlaces& places) {
     Result<StoredVertices> read = StoredVertices::read(stored, vertices);
     if (!read) return read.error();
-    return std::move(*read).restore(triangles, most_words, 1);
+    return std::move(*read).restore(triangles, most_words, places, 1);
 }
 
 }  // namespace lacedring::storage

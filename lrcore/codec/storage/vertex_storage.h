@@ -8,13 +8,16 @@
 #include <vector>
 
 #include "lacedring/vertices.hpp"
+#include "lrcore/codec/storage/normal_base.h"
 
 namespace lacedring::storage {
 
 /// The storage form of a vertex stream, which is valid; none: it has none that gives it back bit for bit. `triangles`:
-/// three numbers below view.vertices each, in any order. Cost: O(V + T), a few microseconds a vertex.
+/// three numbers below view.vertices each, in any order. With `places`, normals may be stored as differences from the
+/// surface's. Cost: O(V + T), a few microseconds a vertex.
 std::optional<std::vector<std::uint32_t>> store_vertices(const VertexView& view,
-                                                         std::span<const std::uint32_t> triangles);
+                                                         std::span<const std::uint32_t> triangles,
+                                                         const VertexPlaces& places = {});
 
 /// Describes the attribute: mapping, type, normalized, components, integers, largest error. The view has no words, and
 /// 0 vertices, since their number is not stored. Cost: O(1). Errors: malformed. Untrusted input: safe.
@@ -28,11 +31,15 @@ class StoredVertices {
     /// input: safe.
     static Result<StoredVertices> read(std::span<const std::uint32_t> stored, std::uint32_t vertices);
 
+    /// Are these normals that restore needs places for?
+    bool needs_places() const;
+
     /// The vertex stream, bit for bit. It is not validated: what is stored may say anything. At most `most_words`
-    /// words. `triangles`: three numbers of vertices each. Cost: O(T + V) time; some 45 bytes a triangle, for three
-    /// integers a vertex. Errors: malformed, memory_limit. Untrusted input: safe.
+    /// words. `triangles`: three numbers of vertices each. `places`: those of store_vertices; where they are needed and
+    /// there are none, it is an error. Cost: O(T + V) time; some 35 bytes a triangle, for three integers a vertex.
+    /// Errors: malformed, memory_limit. Untrusted input: safe.
     Result<std::vector<std::uint32_t>> restore(std::span<const std::uint32_t> triangles, std::uint64_t most_words,
-                                               unsigned threads) &&;
+                                               const VertexPlaces& places, unsigned threads) &&;
 
     StoredVertices(StoredVertices&&) noexcept;
     StoredVertices& operator=(StoredVertices&&) noexcept;
@@ -47,6 +54,6 @@ class StoredVertices {
 /// Both steps on one thread.
 Result<std::vector<std::uint32_t>> restore_vertices(std::span<const std::uint32_t> stored,
                                                     std::span<const std::uint32_t> triangles, std::uint32_t vertices,
-                                                    std::uint64_t most_words);
+                                                    std::uint64_t most_words, const VertexPlaces& places = {});
 
 }  // namespace lacedring::storage
