@@ -34,8 +34,11 @@ struct EncodeCommand {
     bool no_warts = false;
     bool keep_order = false;
     bool orient = false;
-    bool storage = false, resident = false;
+    bool storage = false, resident = false;  ///< as they were given
     AttributeBits bits;
+
+    /// Packed streams have a storage form; the other formats are for programs that map their files.
+    LrForm form() const { return format == "packed" && !resident ? LrForm::stored : LrForm::resident; }
 };
 
 /// "POSITION 4.8e-06": the largest error of each attribute that has one; "" if all is lossless.
@@ -91,9 +94,9 @@ int encode_file(const EncodeCommand& options, const std::string& input, const st
     const Result<WholeFile> whole =
         make_file(mesh, loaded->surface, std::move(*table), how, options.bits, options.keep_order);
     if (!whole) return fail(input, whole.error());
-    const std::vector<std::byte> stored =
-        options.storage ? serialize_lr(whole->file, LrForm::stored) : std::vector<std::byte>();
-    const std::vector<std::byte>& bytes = options.storage ? stored : whole->bytes;
+    const bool stores = options.form() == LrForm::stored;
+    const std::vector<std::byte> stored = stores ? serialize_lr(whole->file, LrForm::stored) : std::vector<std::byte>();
+    const std::vector<std::byte>& bytes = stores ? stored : whole->bytes;
     const std::span<const std::byte> parts[] = {bytes};
     if (const Result<void> written = write_output(output, parts); !written) {
         return fail(output_name(output), written.error());
@@ -114,7 +117,7 @@ int encode_file(const EncodeCommand& options, const std::string& input, const st
         bits(bytes.size(), file.vertex_count), connectivity, bits(connectivity, triangles),
         seams == 0 ? "" : fmt::format(", {:.2f} of them for seams", bits(seams, triangles)),
         errors.empty() ? "lossless" : "largest error: " + errors,
-        options.storage ? fmt::format("; resident {} bytes", whole->bytes.size()) : "");
+        stores ? fmt::format("; resident {} bytes", whole->bytes.size()) : "");
     return done;
 }
 
@@ -147,9 +150,12 @@ void add_encode(CLI::App& program, Action& action) {
     command->add_flag("--no-warts", options->no_warts, "no wart skipping (lean and lr)");
     command->add_flag("--keep-order", options->keep_order,
                       "store the vertex and triangle permutations, for decode --original-order");
-    CLI::Option* storage = command->add_flag("--storage", options->storage,
-                                             "streams in storage form: smaller, and unpacked when the file is read");
-    command->add_flag("--resident", options->resident, "as --storage is not given: streams that are read in place")
+    CLI::Option* storage = command->add_flag(
+        "--storage", options->storage,
+        "streams in storage form: smaller, and unpacked when the file is read; the default of packed");
+    command
+        ->add_flag("--resident", options->resident,
+                   "streams that a program reads in place, in a mapped file above all; the only way of lean and lr")
         ->excludes(storage);
     command->add_flag("--orient", options->orient,
                       "turn triangles round so that neighbors agree, instead of keeping each as it is");

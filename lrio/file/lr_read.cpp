@@ -17,8 +17,7 @@ using namespace detail;  // lr_layout.h's
 class Reader {
   public:
     explicit Reader(std::span<const std::byte> bytes, std::uint64_t max_bytes)
-        : max_bytes_(max_bytes != 0 ? max_bytes
-                                    : std::max<std::uint64_t>(512 << 20, std::uint64_t{128} * bytes.size())) {}
+        : max_bytes_(max_bytes != 0 ? max_bytes : default_memory(bytes.size())) {}
 
     Result<LrFile> read(std::span<const std::byte> bytes) {
         const Result<FileHeader> header = visit_sections(
@@ -65,8 +64,7 @@ class Reader {
     }
 
     std::string restore(const FileHeader& header, std::span<const std::byte> contents) {
-        constexpr double kTriangle = 60, kVertex = 8;  // bytes, while it is restored
-        if (kTriangle * header.input_triangles + kVertex * header.vertices > static_cast<double>(max_bytes_)) {
+        if (memory_to_restore(header.input_triangles, header.vertices) > max_bytes_) {
             limit_ = Error{ErrorCode::memory_limit,
                            fmt::format("lr file: {} triangles in storage form would take more than {} MiB",
                                        header.input_triangles, max_bytes_ >> 20)};
@@ -128,8 +126,7 @@ class Reader {
     /// Vertices are predicted from their neighbors: the triangles are needed first.
     Result<void> restore_attribute(LrAttribute& attribute, const DecodedLr& decoded) const {
         const std::uint32_t values = attribute.per_copy ? file_.copy_count : file_.vertex_count;
-        constexpr std::uint64_t kValue = 128;  // bytes, while it is restored
-        if (kValue * values > max_bytes_) {
+        if (memory_to_restore(values) > max_bytes_) {
             return Error{ErrorCode::memory_limit,
                          fmt::format("lr file: {} values in storage form would take more than {} MiB", values,
                                      max_bytes_ >> 20)};
