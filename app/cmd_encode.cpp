@@ -51,14 +51,19 @@ std::string errors_of(const std::vector<CompressedAttribute>& attributes) {
     return out;
 }
 
-/// The bytes that connectivity and seams take in a file.
-std::size_t connectivity_bytes(std::span<const std::byte> file) {
-    std::size_t out = 0;
+/// Bytes in a file.
+struct Connectivity {
+    std::size_t bytes = 0, seams = 0;  ///< the former with seams
+};
+
+Connectivity connectivity_of(std::span<const std::byte> file) {
+    Connectivity out;
     const Result<LrContents> contents = list_lr(file);
     if (!contents) return out;
     for (const LrSection& section : contents->sections) {
         const std::string_view other[] = {"attribute", "vertices", "vertex_order", "corner_order"};
-        if (std::ranges::find(other, section.kind) == std::end(other)) out += section.bytes;
+        if (std::ranges::find(other, section.kind) == std::end(other)) out.bytes += section.bytes;
+        if (section.kind == "seams") out.seams += section.bytes;
     }
     return out;
 }
@@ -105,7 +110,7 @@ int encode_file(const EncodeCommand& options, const std::string& input, const st
     if (turned > 0) log.note(input_name(input), fmt::format("{} triangles turned round by --orient", turned));
     note_lossless(log, input, whole->attributes);
     const LrFile& file = whole->file;
-    const std::size_t seams = 4 * file.seams.size(), connectivity = connectivity_bytes(bytes);
+    const Connectivity connectivity = connectivity_of(bytes);
     const auto bits = [](std::size_t size, std::size_t of) {
         return 8 * static_cast<double>(size) / static_cast<double>(of);
     };
@@ -114,8 +119,8 @@ int encode_file(const EncodeCommand& options, const std::string& input, const st
     say("{}: {} triangles, {} bytes: {:.2f} bits per triangle, {:.2f} per vertex; connectivity {} bytes, {:.2f} bits "
         "per triangle{}; {}{}\n",
         output_name(output), triangles, bytes.size(), bits(bytes.size(), triangles),
-        bits(bytes.size(), file.vertex_count), connectivity, bits(connectivity, triangles),
-        seams == 0 ? "" : fmt::format(", {:.2f} of them for seams", bits(seams, triangles)),
+        bits(bytes.size(), file.vertex_count), connectivity.bytes, bits(connectivity.bytes, triangles),
+        connectivity.seams == 0 ? "" : fmt::format(", {:.2f} of them for seams", bits(connectivity.seams, triangles)),
         errors.empty() ? "lossless" : "largest error: " + errors,
         stores ? fmt::format("; resident {} bytes", whole->bytes.size()) : "");
     return done;
