@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -65,6 +66,19 @@ static_assert(sizeof(Section) == 32);
 
 constexpr std::size_t align8(std::size_t size) {
     return (size + 7) / 8 * 8;
+}
+
+/// Bytes that packed streams and attributes in storage form may take while they are restored, unless parse_lr is told.
+constexpr std::uint64_t default_memory(std::uint64_t file_bytes) {
+    return std::max<std::uint64_t>(512 << 20, 128 * file_bytes);
+}
+/// Bytes that a packed stream takes while it is restored.
+constexpr std::uint64_t memory_to_restore(std::uint32_t triangles, std::uint32_t vertices) {
+    return std::uint64_t{60} * triangles + std::uint64_t{8} * vertices;
+}
+/// The same of an attribute of so many values.
+constexpr std::uint64_t memory_to_restore(std::uint32_t values) {
+    return std::uint64_t{128} * values;
 }
 
 /// The section kind of a format's words.

@@ -157,6 +157,10 @@ std::vector<std::byte> serialize_lr(const LrFile& file, LrForm form) {
         sections[i].crc = crc32(contents[i], crc32(names[i]));
         end = sections[i].offset + sections[i].size;
     }
+    // parse_lr has to read the file without being told that it may take more memory.
+    const std::uint64_t memory = std::max(memory_to_restore(file.input_triangles, file.vertex_count),
+                                          memory_to_restore(std::max(file.vertex_count, file.copy_count)));
+    if (form == LrForm::stored && memory > default_memory(end)) return serialize_lr(file, LrForm::resident);
     FileHeader header{
         magic::kLrFile,       kLrVersion,      static_cast<std::uint32_t>(sections.size()), file.vertex_count,
         file.input_triangles, file.copy_count, crc32(std::as_bytes(std::span(sections))),   0};

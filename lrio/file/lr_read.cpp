@@ -18,9 +18,7 @@ using namespace detail;  // lr_layout.h's
 class Reader {
   public:
     Reader(std::span<const std::byte> bytes, std::uint64_t max_bytes, unsigned threads)
-        : max_bytes_(max_bytes != 0 ? max_bytes
-                                    : std::max<std::uint64_t>(512 << 20, std::uint64_t{128} * bytes.size())),
-          threads_(threads) {}
+        : max_bytes_(max_bytes != 0 ? max_bytes : default_memory(bytes.size())), threads_(threads) {}
 
     Result<LrFile> read(std::span<const std::byte> bytes) {
         const Result<FileHeader> header = visit_sections(
@@ -67,8 +65,7 @@ class Reader {
     }
 
     std::string read_stored(const FileHeader& header, std::span<const std::byte> contents) {
-        constexpr double kTriangle = 60, kVertex = 8;  // bytes, while it is restored
-        if (kTriangle * header.input_triangles + kVertex * header.vertices > static_cast<double>(max_bytes_)) {
+        if (memory_to_restore(header.input_triangles, header.vertices) > max_bytes_) {
             limit_ = Error{ErrorCode::memory_limit,
                            fmt::format("lr file: {} triangles in storage form would take more than {} MiB",
                                        header.input_triangles, max_bytes_ >> 20)};
@@ -130,9 +127,8 @@ class Reader {
     /// What needs nothing else: the steps of the connectivity, and the residuals of vertex streams.
     Result<void> read_parts() {
         for (const std::size_t i : stored_) {
-            constexpr std::uint64_t kValue = 128;  // bytes, while it is restored
             const std::uint32_t values = values_of(file_.attributes[i]);
-            if (kValue * values <= max_bytes_) continue;
+            if (memory_to_restore(values) <= max_bytes_) continue;
             return Error{ErrorCode::memory_limit,
                          fmt::format("lr file: {} values in storage form would take more than {} MiB", values,
                                      max_bytes_ >> 20)};

@@ -82,7 +82,8 @@ Result<std::vector<CompressedAttribute>> compress_attributes(LrFile& file, const
 enum class LrForm : std::uint8_t {
     resident,  ///< as a program or a GPU reads them at random: in a mapped file, in place
     stored,  ///< coded through and through, smaller, for disks and networks: parse_lr makes the resident streams of it,
-             ///< bit for bit. Streams that have no storage form, or one that is not smaller, stay resident
+             ///< bit for bit. Streams that have no storage form, or one that is not smaller, stay resident; so do all
+             ///< where restoring them would take more memory than parse_lr takes unless it is told
 };
 
 /// The file's bytes. Cost: O(file); stored, about a microsecond a triangle.
