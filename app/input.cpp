@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <thread>
 #include <utility>
 
 #include "lacedring/file.hpp"
