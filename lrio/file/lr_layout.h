@@ -190,7 +190,8 @@ Result<DecodedLr> decode_connectivity(const LrFileView& file, bool untrusted);
 Result<Mesh> decode_mesh(const LrFile& file, DecodedLr& decoded, Surface* surface);
 
 /// parse_lr, and the connectivity that it decoded to check it.
-Result<LrFile> parse_lr(std::span<const std::byte> bytes, std::uint64_t max_bytes, DecodedLr& decoded);
+Result<LrFile> parse_lr(std::span<const std::byte> bytes, std::uint64_t max_bytes, DecodedLr& decoded,
+                        unsigned threads);
 
 /// Three vertices of each triangle that an attribute's stream goes with: copies, if it has a value for each, or if
 /// there are no seams, else vertices, which go into `of_vertices` unless they are there.

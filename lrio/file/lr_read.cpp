@@ -300,8 +300,9 @@ class Reader {
 
 }  // namespace
 
-Result<LrFile> detail::parse_lr(std::span<const std::byte> bytes, std::uint64_t max_bytes, DecodedLr& decoded) {
-    Reader reader(bytes, max_bytes, 1);
+Result<LrFile> detail::parse_lr(std::span<const std::byte> bytes, std::uint64_t max_bytes, DecodedLr& decoded,
+                                unsigned threads) {
+    Reader reader(bytes, max_bytes, threads);
     Result<LrFile> file = reader.read(bytes);
     if (file) decoded = reader.take_decoded();
     return file;
