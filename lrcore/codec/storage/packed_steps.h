@@ -3,7 +3,6 @@
 // other edges. Internal to lrcore.
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "lacedring/streams.hpp"
@@ -56,8 +55,8 @@ class PackedSteps {
 };
 
 /// Reads them back from a valid stream, without doubles; what is across the edges is not known yet. Of the flags kRight
-/// says whether the triangle comes out reversed, and the others are what its event says, if it has one. None: a block
-/// is plain, and does not say.
-std::optional<PackedSteps> read_steps(const PackedView& view);
+/// says whether the triangle comes out reversed, and the others are what its event says, if it has one. Those of plain
+/// blocks are a guess.
+PackedSteps read_steps(const PackedView& view);
 
 }  // namespace lacedring::storage

@@ -84,15 +84,14 @@ bool set_flags(PackedSteps& steps) {
 }  // namespace
 
 std::optional<std::vector<std::uint32_t>> store_packed(const PackedView& view) {
-    std::optional<PackedSteps> steps = read_steps(view);
-    if (!steps) return {};
-    link_across(*steps);
-    const bool has_flips = set_flags(*steps);
+    PackedSteps steps = read_steps(view);
+    link_across(steps);
+    const bool has_flips = set_flags(steps);
     std::vector<std::uint32_t> out{view.vertices, view.own, view.runs | (has_flips ? kHasFlips : 0)};
     const auto doubles = view.words.subspan(view.doubles_word(), view.groups_word() - view.doubles_word());
     out.insert(out.end(), doubles.begin(), doubles.end());
     Encoder coder;
-    WalkCoder<Encoder>(coder, *steps, view.vertices, has_flips).code(view.own);
+    WalkCoder<Encoder>(coder, steps, view.vertices, has_flips).code(view.own);
     const std::vector<std::uint32_t> coded = coder.finish();
     out.insert(out.end(), coded.begin(), coded.end());
     const auto restored = restore_packed(out, {view.vertices, view.triangles});
