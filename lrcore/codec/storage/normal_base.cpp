@@ -113,8 +113,9 @@ struct TriangleBatch {
         }
         for (std::size_t k = 0; k < 3; ++k) {
             for (std::size_t i = 0; i < kBatch; ++i) {
-                const double l = length[i], x = std::abs(cosine[k][i]);
-                tangent[k][i] = static_cast<std::int32_t>(kTangents * (x < l ? x : l) / (x < l ? l : x) + 0.5);
+                const double x = std::abs(cosine[k][i]);
+                const double shorter = std::min(x, length[i]), longer = std::max(x, length[i]);
+                tangent[k][i] = static_cast<std::int32_t>(kTangents * shorter / longer + 0.5);
             }
         }
     }
