@@ -137,8 +137,7 @@ class Reader {
         }
         const Result<VertexView> stored = storage::view_stored_vertices(attribute.words);
         const bool is_first = &attribute == file_.attributes.data();
-        if (!is_first && stored && stored->mapping == VertexMapping::octahedral && positions_.empty())
-            positions_ = position_integers(file_);
+        if (!is_first && stored && stored->integers == 2 && positions_.empty()) positions_ = position_integers(file_);
         auto words = storage::restore_vertices(attribute.words, triangles_of(decoded, attribute.per_copy), values,
                                                max_bytes_ / sizeof(std::uint32_t),
                                                places_of(positions_, decoded, attribute.per_copy));

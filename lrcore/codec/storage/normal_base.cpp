@@ -16,7 +16,6 @@ namespace {
 
 using Sums = std::array<std::uint64_t, 3>;  // modulo 2^64: nothing overflows, whatever is stored
 
-constexpr std::uint32_t kPlaceBits = 20;     // of a coordinate
 constexpr std::int32_t kHalfTurn = 1 << 14;  // of angles
 constexpr std::int32_t kTangents = 1 << 12;  // of the table of angles: steps of a tangent of 1
 constexpr double kUnit = 1 << 15;            // the length of a normal whose weight is not its triangle's area
@@ -33,42 +32,6 @@ constexpr auto kAngles = [] {
     }
     return out;
 }();
-
-/// The places of vertices from their least coordinates, in kPlaceBits bits.
-class ScaledPlaces {
-  public:
-    explicit ScaledPlaces(std::span<const std::uint32_t> positions) : positions_(positions) {
-        std::array<std::int32_t, 3> low, high;
-        low.fill(INT32_MAX);
-        high.fill(INT32_MIN);
-        for (std::size_t i = 0; i + 3 <= positions.size(); i += 3) {
-            for (std::size_t c = 0; c < 3; ++c) {
-                const auto x = static_cast<std::int32_t>(positions[i + c]);
-                low[c] = std::min(low[c], x);
-                high[c] = std::max(high[c], x);
-            }
-        }
-        std::uint32_t extent = 0;
-        for (std::size_t c = 0; c < 3; ++c) {
-            low_[c] = static_cast<std::uint32_t>(low[c]);
-            extent |= static_cast<std::uint32_t>(high[c]) - low_[c];
-        }
-        const auto width = static_cast<std::uint32_t>(std::bit_width(extent));
-        shift_ = width > kPlaceBits ? width - kPlaceBits : 0;
-    }
-
-    LACEDRING_INLINE std::array<std::int32_t, 3> operator[](std::uint32_t v) const {
-        const std::uint32_t* p = positions_.data() + std::size_t{3} * v;
-        std::array<std::int32_t, 3> out;
-        for (std::size_t c = 0; c < 3; ++c) out[c] = static_cast<std::int32_t>((p[c] - low_[c]) >> shift_);
-        return out;
-    }
-
-  private:
-    std::span<const std::uint32_t> positions_;
-    std::array<std::uint32_t, 3> low_;
-    std::uint32_t shift_;
-};
 
 /// Some triangles (p, q, r), one number of each behind the other: the compiler computes several at once.
 struct TriangleBatch {
@@ -97,9 +60,7 @@ struct TriangleBatch {
     }
     void find_lengths() {
         for (std::size_t i = 0; i < kBatch; ++i) {
-            // Squares of numbers of 24 bits are exact.
-            const double x = static_cast<float>(normal[0][i]), y = static_cast<float>(normal[1][i]),
-                         z = static_cast<float>(normal[2][i]), square = x * x + y * y + z * z;
+            const double square = rounded_square(normal[0][i], normal[1][i], normal[2][i]);
             length[i] = square < 1 ? 1 : square;
         }
         for (double& l : length) l = std::sqrt(l);
@@ -138,14 +99,13 @@ template <bool kByAngle, bool kByArea>
 void add_triangles(const VertexPlaces& places, std::span<const std::uint32_t> triangles, bool of_vertex,
                    std::span<Sums> sums) {
     const ScaledPlaces scaled(places.positions);
-    const bool has_copies = !places.vertex_of.empty();
-    const auto vertex = [&](std::uint32_t copy) { return has_copies ? places.vertex_of[copy] : copy; };
     TriangleBatch batch{};
     for (std::size_t first = 0; first < triangles.size(); first += 3 * kBatch) {
         const std::uint32_t* v = triangles.data() + first;
         const std::size_t count = std::min(kBatch, (triangles.size() - first) / 3);
         for (std::size_t i = 0; i < count; ++i)
-            batch.set(i, scaled[vertex(v[3 * i])], scaled[vertex(v[3 * i + 1])], scaled[vertex(v[3 * i + 2])]);
+            batch.set(i, scaled[places.vertex(v[3 * i])], scaled[places.vertex(v[3 * i + 1])],
+                      scaled[places.vertex(v[3 * i + 2])]);
         batch.find_normals();
         if (kByAngle || !kByArea) batch.find_lengths();
         if (kByAngle) batch.find_angles();
@@ -155,7 +115,7 @@ void add_triangles(const VertexPlaces& places, std::span<const std::uint32_t> tr
             for (std::size_t c = 0; c < 3; ++c) normal[c] = static_cast<std::int64_t>(batch.normal[c][i]);
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::int64_t weight = kByAngle ? batch.angle(k, i) : 1;
-                Sums& sum = sums[of_vertex ? vertex(v[3 * i + k]) : v[3 * i + k]];
+                Sums& sum = sums[of_vertex ? places.vertex(v[3 * i + k]) : v[3 * i + k]];
                 for (std::size_t c = 0; c < 3; ++c) sum[c] += static_cast<std::uint64_t>(normal[c] * weight);
             }
         }
@@ -200,12 +160,6 @@ std::uint32_t largest_octahedral(std::uint32_t bits) {
 }
 
 }  // namespace
-
-bool has_places(const VertexPlaces& places, std::uint32_t copies) {
-    if (places.vertex_of.empty()) return places.positions.size() == std::size_t{3} * copies;
-    return places.vertex_of.size() == copies &&
-           std::ranges::all_of(places.vertex_of, [&](std::uint32_t v) { return v < places.positions.size() / 3; });
-}
 
 std::vector<std::uint32_t> surface_normals(const VertexPlaces& places, std::span<const std::uint32_t> triangles,
                                            std::uint32_t copies, const NormalBase& base, std::uint32_t bits) {

@@ -7,6 +7,8 @@
 
 #include "lrcore/base/message.h"
 #include "lrcore/codec/storage/block_coder.h"
+#include "lrcore/codec/storage/normal_base.h"
+#include "lrcore/codec/storage/place_prediction.h"
 #include "lrcore/codec/storage/vertex_values.h"
 
 namespace lacedring::storage {
@@ -21,30 +23,31 @@ struct StoredStream {
     std::uint32_t vertices = 0;
     StreamChoices choices;
     VertexParameters parameters;
-    std::optional<NormalBase> base;  // from which the integers are differences
-    Words exceptions;                // two words each
+    bool by_places = false;  // the integers are differences from what the positions lead one to expect
+    NormalBase base;         // of normals
+    Words exceptions;        // two words each
     Words values;
     std::vector<BlockChoices> blocks;  // of an encoder alone
 
     std::uint32_t components() const { return choices.layout & 31; }
     std::uint32_t mapping() const { return choices.layout >> 5 & 7; }
     std::uint32_t bits() const { return choices.layout >> 13 & 31; }
-    bool may_have_base() const {
-        return static_cast<VertexMapping>(mapping()) == VertexMapping::octahedral && components() == 2 && bits() >= 2 &&
-               bits() <= 16;
-    }
+    bool is_octahedral() const { return static_cast<VertexMapping>(mapping()) == VertexMapping::octahedral; }
 };
 
 Error malformed_vertices(const char* what) {
     return {ErrorCode::malformed, detail::message("stored vertex stream: ", what)};
 }
 
+/// Codes how two integers a vertex are predicted by positions.
 template <class Coder>
-void code_base(Coder& coder, std::optional<NormalBase>& base) {
-    if (coder.raw(base ? 1 : 0, 1) == 0) return;
-    if (!base) base.emplace();
+bool code_places(Coder& coder, StoredStream& stream) {
+    if (stream.components() != 2) return true;
+    stream.by_places = coder.raw(stream.by_places ? 1 : 0, 1) != 0;
+    if (!stream.by_places || !stream.is_octahedral()) return true;
     for (bool NormalBase::*flag : {&NormalBase::by_angle, &NormalBase::by_area, &NormalBase::of_vertex})
-        (*base).*flag = coder.raw((*base).*flag ? 1 : 0, 1) != 0;
+        stream.base.*flag = coder.raw(stream.base.*flag ? 1 : 0, 1) != 0;
+    return stream.bits() >= 2 && stream.bits() <= 16;
 }
 
 /// Codes what a stream says before its integers, which a Decoder does not know yet: `has_usual_ranges` then says
@@ -77,8 +80,7 @@ bool code_header(Coder& coder, StoredStream& stream, bool& has_usual_ranges) {
     p.error = coder.raw(p.error, 4);
     p.smooth = coder.raw(p.smooth, 5);
     p.fine = coder.raw(p.fine, 4);
-    if (stream.may_have_base()) code_base(coder, stream.base);
-    return p.smooth <= 16 && !(p.has_normal && n != 3);
+    return code_places(coder, stream) && p.smooth <= 16 && !(p.has_normal && n != 3);
 }
 
 template <class Coder>
@@ -294,24 +296,62 @@ StoredStream parts_of(const VertexView& view) {
     return out;
 }
 
-/// Finds the parameters and, for normals of a surface, the base. Returns the integers as they are coded.
+/// The integers as differences from what the positions lead one to expect, two a vertex.
+Words differences_of(StoredStream& stream, const WalkRecord& walk, std::span<const std::uint32_t> triangles,
+                     const VertexPlaces& places) {
+    Words out = stream.values;
+    if (stream.is_octahedral()) {
+        stream.base = nearest_base(places, triangles, stream.values, stream.bits());
+        subtract_normals(out, surface_normals(places, triangles, stream.vertices, stream.base, stream.bits()),
+                         stream.bits());
+        return out;
+    }
+    struct Nothing {
+        void start(std::uint32_t, std::uint32_t) {}
+        void predicted(std::uint32_t, const Parallelograms&, bool) {}
+    } nothing;
+    const PlacePrediction prediction(places);
+    PlaceVisitor<false, Nothing> visitor(prediction, stream.values, out, nothing);
+    walk.run(visitor);
+    return out;
+}
+
+/// Finds the parameters. Returns the integers as they are coded.
 Words choose_prediction(StoredStream& stream, const WalkRecord& walk, std::span<const std::uint32_t> triangles,
                         const VertexPlaces& places) {
     const std::uint32_t n = stream.components();
     ParameterSearch plain(walk, n, stream.values, false);
     stream.parameters = plain.best();
-    if (!stream.may_have_base() || places.positions.empty() || !has_places(places, stream.vertices))
-        return stream.values;
-    const NormalBase base = nearest_base(places, triangles, stream.values, stream.bits());
-    Words differences = stream.values;
-    subtract_normals(differences, surface_normals(places, triangles, stream.vertices, base, stream.bits()),
-                     stream.bits());
+    if (n != 2 || places.positions.empty() || !has_places(places, stream.vertices)) return stream.values;
+    Words differences = differences_of(stream, walk, triangles, places);
     ParameterSearch with(walk, n, differences, true);
     const VertexParameters parameters = with.best();
     if (with.least() >= plain.least()) return stream.values;
     stream.parameters = parameters;
-    stream.base = base;
+    stream.by_places = true;
     return differences;
+}
+
+/// Decodes the integers.
+void restore_values(Decoder& coder, StoredStream& stream, std::span<const std::uint32_t> triangles,
+                    const VertexPlaces& places) {
+    const std::uint32_t n = stream.components();
+    const bool by_map = stream.by_places && !stream.is_octahedral();
+    {
+        VertexWalk walk(triangles, stream.vertices);  // first: making it takes more memory than having it
+        stream.values.resize(std::size_t{stream.vertices} * n);
+        Words differences(by_map ? stream.values.size() : 0);
+        with_values(coder, stream.parameters, n, by_map ? differences : stream.values, [&](auto& visitor) {
+            if (!by_map) return walk.run(visitor);
+            const PlacePrediction prediction(places);
+            PlaceVisitor<true, std::remove_reference_t<decltype(visitor)>> with(prediction, stream.values, differences,
+                                                                                visitor);
+            walk.run(with);
+        });
+    }
+    if (!stream.by_places || !stream.is_octahedral()) return;
+    add_normals(stream.values, surface_normals(places, triangles, stream.vertices, stream.base, stream.bits()),
+                stream.bits());
 }
 
 }  // namespace
@@ -378,18 +418,11 @@ Result<std::vector<std::uint32_t>> restore_vertices(std::span<const std::uint32_
     bool has_usual_ranges = false;
     if (coder.bad() || !code_header(coder, stream, has_usual_ranges) || coder.bad())
         return malformed_vertices("its header says something impossible");
-    if (stream.base && (places.positions.empty() || !has_places(places, vertices)))
-        return malformed_vertices("its normals are differences from the surface's, whose positions are no integers");
+    if (stream.by_places && (places.positions.empty() || !has_places(places, vertices)))
+        return malformed_vertices("it is predicted by the mesh's positions, and these are no integers");
     const std::uint32_t n = stream.components();
-    {
-        VertexWalk walk(triangles, vertices);  // first: making it takes more memory than having it
-        stream.values.resize(std::size_t{vertices} * n);
-        with_values(coder, stream.parameters, n, stream.values, [&](auto& visitor) { walk.run(visitor); });
-    }
+    restore_values(coder, stream, triangles, places);
     if (coder.bad()) return malformed_vertices("its integers end early");
-    if (stream.base)
-        add_normals(stream.values, surface_normals(places, triangles, vertices, *stream.base, stream.bits()),
-                    stream.bits());
     if (!code_exceptions(coder, stream)) return malformed_vertices("an exception is impossible");
     if (has_usual_ranges) {
         find_vertex_ranges(stream.values, static_cast<VertexMapping>(stream.mapping()), stream.choices.components);
