@@ -131,6 +131,10 @@ class VertexValueCoder {
             plain[c] = first + static_cast<std::uint32_t>(rounded(as_signed(difference), 1));
             moved[c] = plain[c];
             if (is_plain_) continue;
+            if (parameters_.rules[c] == VertexRule::none) {
+                moved[c] = 0;
+                continue;
+            }
             std::int64_t smooth = 0, error = 0;
             for (const Known* of : {&xa, &ya, &xb, &yb}) smooth += as_signed(of->value[c] - plain[c]);
             if (parameters_.error != 0) {
@@ -148,7 +152,6 @@ class VertexValueCoder {
                     moved[c] = xa.value[c];
                     break;
                 case VertexRule::none:
-                    moved[c] = 0;
                     break;
             }
         }
