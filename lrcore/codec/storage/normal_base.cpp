@@ -33,25 +33,33 @@ constexpr auto kAngles = [] {
     return out;
 }();
 
+using PaddedPlace = std::array<std::int32_t, 4>;
+
 /// Some triangles (p, q, r), one number of each behind the other: the compiler computes several at once.
 struct TriangleBatch {
     using Numbers = std::array<double, kBatch>;
     using Integers = std::array<std::int32_t, kBatch>;
 
+    std::array<Integers, 3> from_p, from_q;
     std::array<Numbers, 3> a, b;      // q - p and r - q
     std::array<Numbers, 3> normal;    // a x b, then what is added to sums, but for the angle
     Numbers length;                   // of the normal
     std::array<Numbers, 3> cosine;    // of the angles at p, q and r, on the scale where `length` is their sine
     std::array<Integers, 3> tangent;  // of the angle, or of what is left of it to a right one
 
-    LACEDRING_INLINE void set(std::size_t i, const std::array<std::int32_t, 3>& p, const std::array<std::int32_t, 3>& q,
-                              const std::array<std::int32_t, 3>& r) {
+    LACEDRING_INLINE void set(std::size_t i, const PaddedPlace& p, const PaddedPlace& q, const PaddedPlace& r) {
         for (std::size_t c = 0; c < 3; ++c) {
-            a[c][i] = q[c] - p[c];
-            b[c][i] = r[c] - q[c];
+            from_p[c][i] = q[c] - p[c];
+            from_q[c][i] = r[c] - q[c];
         }
     }
     void find_normals() {
+        for (std::size_t c = 0; c < 3; ++c) {
+            for (std::size_t i = 0; i < kBatch; ++i) {
+                a[c][i] = from_p[c][i];
+                b[c][i] = from_q[c][i];
+            }
+        }
         for (std::size_t i = 0; i < kBatch; ++i) {
             normal[0][i] = a[1][i] * b[2][i] - a[2][i] * b[1][i];
             normal[1][i] = a[2][i] * b[0][i] - a[0][i] * b[2][i];
@@ -96,16 +104,20 @@ struct TriangleBatch {
 
 /// Adds the normals of triangles to the sums of their corners.
 template <bool kByAngle, bool kByArea>
-void add_triangles(const VertexPlaces& places, std::span<const std::uint32_t> triangles, bool of_vertex,
-                   std::span<Sums> sums) {
+void add_triangles(const VertexPlaces& places, std::span<const std::uint32_t> triangles, std::uint32_t copies,
+                   bool of_vertex, std::span<Sums> sums) {
     const ScaledPlaces scaled(places.positions);
+    std::vector<PaddedPlace> place_of(copies);
+    for (std::uint32_t i = 0; i < copies; ++i) {
+        const Place place = scaled[places.vertex(i)];
+        place_of[i] = {place[0], place[1], place[2], 0};
+    }
     TriangleBatch batch{};
     for (std::size_t first = 0; first < triangles.size(); first += 3 * kBatch) {
         const std::uint32_t* v = triangles.data() + first;
         const std::size_t count = std::min(kBatch, (triangles.size() - first) / 3);
         for (std::size_t i = 0; i < count; ++i)
-            batch.set(i, scaled[places.vertex(v[3 * i])], scaled[places.vertex(v[3 * i + 1])],
-                      scaled[places.vertex(v[3 * i + 2])]);
+            batch.set(i, place_of[v[3 * i]], place_of[v[3 * i + 1]], place_of[v[3 * i + 2]]);
         batch.find_normals();
         if (kByAngle || !kByArea) batch.find_lengths();
         if (kByAngle) batch.find_angles();
@@ -168,7 +180,7 @@ std::vector<std::uint32_t> surface_normals(const VertexPlaces& places, std::span
     const auto add = base.by_angle  ? base.by_area ? add_triangles<true, true> : add_triangles<true, false>
                       : base.by_area ? add_triangles<false, true>
                                     : add_triangles<false, false>;
-    add(places, triangles, of_vertex, sums);
+    add(places, triangles, copies, of_vertex, sums);
     std::vector<std::uint32_t> out(std::size_t{2} * copies);
     const auto most = static_cast<std::int32_t>(largest_octahedral(bits));
     for (std::size_t i = 0; i < copies; ++i) {
