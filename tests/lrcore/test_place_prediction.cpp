@@ -31,19 +31,19 @@ std::uint32_t documented_prediction(const std::int32_t (&p)[4][3], const std::ui
         fe += f[c] * e[c];
         ge += g[c] * e[c];
     }
-    const auto length = [&](const std::int64_t(&b)[3]) {
+    const auto square = [&](const std::int64_t(&b)[3]) {
         double sum = 0;
         for (std::size_t c = 0; c < 3; ++c) {
             const std::size_t u = (c + 1) % 3, w = (c + 2) % 3;
             const double n = static_cast<float>(e[u] * b[w] - e[w] * b[u]);
             sum += n * n;
         }
-        return std::sqrt(sum);
+        return sum;
     };
-    const double height = length(g), most = 1 << 20;
+    const double height = square(g), most = 1 << 20;
     std::int64_t a = 65536, across = 65536;
     if (height > 0) {
-        across = static_cast<std::int64_t>(std::min(std::floor(65536 * length(f) / height + 0.5), most));
+        across = static_cast<std::int64_t>(std::min(std::floor(65536 * std::sqrt(square(f) / height) + 0.5), most));
         const auto along = static_cast<double>(65536 * fe + across * ge) / static_cast<double>(ee);
         a = static_cast<std::int64_t>(std::max(-most, std::min(std::trunc(along), most)));
     }

@@ -36,9 +36,8 @@ class PlacePrediction {
   private:
     LACEDRING_INLINE Place place(std::uint32_t v) const { return scaled_[places_.vertex(v)]; }
 
-    static LACEDRING_INLINE double length_of_product(const Place& a, const std::array<double, 3>& b) {
-        return std::sqrt(
-            rounded_square(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]));
+    static LACEDRING_INLINE double square_of_product(const Place& a, const std::array<double, 3>& b) {
+        return rounded_square(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
     }
 
     /// Folds the triangle (x, y, v) into the plane of (x, y, z): v = x + along (y - x) - across (z - x) there.
@@ -55,10 +54,11 @@ class PlacePrediction {
             v_along += edge[c] * to_v[c];
             z_along += edge[c] * to_z[c];
         }
-        const double z_height = length_of_product(edge, to_z);
-        std::int64_t along = kOne, across = kOne;  // a parallelogram, where there is no plane
+        const double z_height = square_of_product(edge, to_z);  // squared
+        std::int64_t along = kOne, across = kOne;               // a parallelogram, where there is no plane
         if (z_height > 0) {
-            across = static_cast<std::int64_t>(std::min(kOne * length_of_product(edge, to_v) / z_height + 0.5, kMost));
+            const double heights = std::sqrt(square_of_product(edge, to_v) / z_height);
+            across = static_cast<std::int64_t>(std::min(kOne * heights + 0.5, kMost));
             // The sum is exact: an integer below 2^63, rounded once.
             const std::int64_t sum =
                 kOne * static_cast<std::int64_t>(v_along) + across * static_cast<std::int64_t>(z_along);
