@@ -15,7 +15,7 @@
 #include "lacedring/lr_file.hpp"
 #include "lrcore/base/crc32.h"
 #include "lrcore/base/signature.h"
-#include "lrcore/codec/storage/normal_base.h"
+#include "lrcore/codec/storage/vertex_places.h"
 
 namespace lacedring::detail {
 

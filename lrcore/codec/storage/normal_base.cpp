@@ -11,118 +11,125 @@
 namespace lacedring::storage {
 namespace {
 
-// All is defined on integers, and so the same on every machine. Quotients and roots are computed as doubles and cut:
-// exact, because both operands are doubles, and no quotient is nearer to the next integer than doubles tell apart.
+// Every machine has to find the same. All numbers are integers but for lengths and quotients, which are those of IEEE
+// doubles; no sum is of a rounded product, so that fused operations change nothing.
 
-using Vector = std::array<std::int64_t, 3>;
 using Sums = std::array<std::uint64_t, 3>;  // modulo 2^64: nothing overflows, whatever is stored
 
-constexpr std::uint32_t kPlaceBits = 18;           // of a coordinate
-constexpr std::int32_t kNormalBits = 24;           // of a normal's largest component
-constexpr std::int64_t kHalfTurn = 1 << 14;        // of angles
-constexpr double kMostExact = 4503599627370496.0;  // 2^52
+constexpr std::int32_t kHalfTurn = 1 << 14;  // of angles
+constexpr std::int32_t kTangents = 1 << 12;  // of the table of angles: steps of a tangent of 1
+constexpr double kUnit = 1 << 15;            // the length of a normal whose weight is not its triangle's area
+constexpr std::size_t kBatch = 64;           // triangles
 
-/// floor(x / y) of integers: x from 0 to 2^49, y from 1 to 2^52.
-std::int64_t quotient(double x, double y) {
-    return static_cast<std::int64_t>(x / y);
-}
+/// The angles whose tangents are i / kTangents, rounded.
+constexpr auto kAngles = [] {
+    std::array<std::uint16_t, kTangents + 1> out{};
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const double x = static_cast<double>(i) / kTangents, y = x * x / (1 + x * x);
+        double term = x / (1 + x * x), sum = term;  // Euler's series
+        for (int k = 1; k < 60; ++k) sum += term *= y * (2 * k) / (2 * k + 1);
+        out[i] = static_cast<std::uint16_t>(sum * kHalfTurn / 3.14159265358979323846 + 0.5);
+    }
+    return out;
+}();
 
-/// The places of vertices from their least coordinates, in kPlaceBits bits.
-class ScaledPlaces {
-  public:
-    explicit ScaledPlaces(std::span<const std::uint32_t> positions) : positions_(positions) {
-        std::array<std::int32_t, 3> high;
-        low_.fill(INT32_MAX);
-        high.fill(INT32_MIN);
-        for (std::size_t i = 0; i + 3 <= positions.size(); i += 3) {
-            for (std::size_t c = 0; c < 3; ++c) {
-                const auto x = static_cast<std::int32_t>(positions[i + c]);
-                low_[c] = std::min(low_[c], x);
-                high[c] = std::max(high[c], x);
+using PaddedPlace = std::array<std::int32_t, 4>;
+
+/// Some triangles (p, q, r), one number of each behind the other: the compiler computes several at once.
+struct TriangleBatch {
+    using Numbers = std::array<double, kBatch>;
+    using Integers = std::array<std::int32_t, kBatch>;
+
+    std::array<Integers, 3> from_p, from_q;
+    std::array<Numbers, 3> a, b;      // q - p and r - q
+    std::array<Numbers, 3> normal;    // a x b, then what is added to sums, but for the angle
+    Numbers length;                   // of the normal
+    std::array<Numbers, 3> cosine;    // of the angles at p, q and r, on the scale where `length` is their sine
+    std::array<Integers, 3> tangent;  // of the angle, or of what is left of it to a right one
+
+    LACEDRING_INLINE void set(std::size_t i, const PaddedPlace& p, const PaddedPlace& q, const PaddedPlace& r) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            from_p[c][i] = q[c] - p[c];
+            from_q[c][i] = r[c] - q[c];
+        }
+    }
+    void find_normals() {
+        for (std::size_t c = 0; c < 3; ++c) {
+            for (std::size_t i = 0; i < kBatch; ++i) {
+                a[c][i] = from_p[c][i];
+                b[c][i] = from_q[c][i];
             }
         }
-        std::uint32_t extent = 0;
-        for (std::size_t c = 0; c < 3; ++c)
-            extent |= static_cast<std::uint32_t>(high[c]) - static_cast<std::uint32_t>(low_[c]);
-        const auto width = static_cast<std::uint32_t>(std::bit_width(extent));
-        shift_ = width > kPlaceBits ? width - kPlaceBits : 0;
+        for (std::size_t i = 0; i < kBatch; ++i) {
+            normal[0][i] = a[1][i] * b[2][i] - a[2][i] * b[1][i];
+            normal[1][i] = a[2][i] * b[0][i] - a[0][i] * b[2][i];
+            normal[2][i] = a[0][i] * b[1][i] - a[1][i] * b[0][i];
+        }
     }
-
-    LACEDRING_INLINE Vector operator[](std::uint32_t v) const {
-        const std::uint32_t* p = positions_.data() + std::size_t{3} * v;
-        Vector out;
-        for (std::size_t c = 0; c < 3; ++c) out[c] = (p[c] - static_cast<std::uint32_t>(low_[c])) >> shift_;
-        return out;
+    void find_lengths() {
+        for (std::size_t i = 0; i < kBatch; ++i) {
+            const double square = rounded_square(normal[0][i], normal[1][i], normal[2][i]);
+            length[i] = square < 1 ? 1 : square;
+        }
+        for (double& l : length) l = std::sqrt(l);
     }
-
-  private:
-    std::span<const std::uint32_t> positions_;
-    std::array<std::int32_t, 3> low_;
-    std::uint32_t shift_;
+    void find_angles() {
+        for (std::size_t i = 0; i < kBatch; ++i) {
+            const double ab = a[0][i] * b[0][i] + a[1][i] * b[1][i] + a[2][i] * b[2][i];
+            cosine[0][i] = a[0][i] * a[0][i] + a[1][i] * a[1][i] + a[2][i] * a[2][i] + ab;
+            cosine[1][i] = -ab;
+            cosine[2][i] = b[0][i] * b[0][i] + b[1][i] * b[1][i] + b[2][i] * b[2][i] + ab;
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+            for (std::size_t i = 0; i < kBatch; ++i) {
+                const double x = std::abs(cosine[k][i]);
+                const double shorter = std::min(x, length[i]), longer = std::max(x, length[i]);
+                tangent[k][i] = static_cast<std::int32_t>(kTangents * shorter / longer + 0.5);
+            }
+        }
+    }
+    LACEDRING_INLINE std::int32_t angle(std::size_t k, std::size_t i) const {
+        const std::int32_t arc = kAngles[static_cast<std::size_t>(tangent[k][i])];
+        const std::int32_t acute = std::abs(cosine[k][i]) < length[i] ? kHalfTurn / 2 - arc : arc;
+        return cosine[k][i] < 0 ? kHalfTurn - acute : acute;
+    }
+    void scale_normals() {
+        for (std::size_t i = 0; i < kBatch; ++i) {
+            const double by = kUnit / length[i];
+            for (std::size_t c = 0; c < 3; ++c)
+                normal[c][i] = static_cast<double>(static_cast<std::int32_t>(normal[c][i] * by));
+        }
+    }
 };
-
-LACEDRING_INLINE Vector minus(const Vector& a, const Vector& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-LACEDRING_INLINE std::int64_t dot(const Vector& a, const Vector& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-LACEDRING_INLINE Vector cross(const Vector& a, const Vector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-LACEDRING_INLINE std::int64_t shifted(std::int64_t x, std::int32_t left) {
-    return left >= 0 ? static_cast<std::int64_t>(static_cast<std::uint64_t>(x) << left) : x >> -left;
-}
-
-/// The angle whose sine and cosine are as `sine`, positive, and `cosine`.
-LACEDRING_INLINE std::int64_t angle_of(std::int64_t sine, std::int64_t cosine) {
-    const auto y = static_cast<double>(sine),
-               x = std::min(static_cast<double>(cosine < 0 ? -cosine : cosine), kMostExact);
-    const std::int64_t q = quotient(65536 * std::min(x, y), std::max(x, y)), square = q * q >> 16;
-    // The arc tangent of q / 65536, an eighth of a turn being 65536.
-    std::int64_t t = 1738;
-    for (const std::int64_t next : {7105, 15032, 27562, 83432}) t = next - (square * t >> 16);
-    const std::int64_t arc = (q * t + 524288) >> 20;
-    const std::int64_t acute = y > x ? kHalfTurn / 2 - arc : arc;
-    return cosine < 0 ? kHalfTurn - acute : acute;
-}
 
 /// Adds the normals of triangles to the sums of their corners.
 template <bool kByAngle, bool kByArea>
-void add_triangles(const VertexPlaces& places, std::span<const std::uint32_t> triangles, bool of_vertex,
-                   std::span<Sums> sums) {
+void add_triangles(const VertexPlaces& places, std::span<const std::uint32_t> triangles, std::uint32_t copies,
+                   bool of_vertex, std::span<Sums> sums) {
     const ScaledPlaces scaled(places.positions);
-    for (std::size_t t = 0; t < triangles.size(); t += 3) {
-        std::array<std::uint32_t, 3> at{triangles[t], triangles[t + 1], triangles[t + 2]}, v = at;
-        if (!places.vertex_of.empty()) {
-            for (std::uint32_t& i : v) i = places.vertex_of[i];
-            if (of_vertex) at = v;
-        }
-        const Vector p = scaled[v[0]], q = scaled[v[1]], r = scaled[v[2]];
-        const Vector a = minus(q, p), b = minus(r, q), c = minus(p, r);
-        Vector normal = cross(c, a);
-        const auto largest =
-            static_cast<std::uint64_t>(std::max({std::abs(normal[0]), std::abs(normal[1]), std::abs(normal[2])}));
-        if (largest == 0) continue;
-        std::array<std::int64_t, 3> weight{1, 1, 1};
-        if constexpr (kByAngle || !kByArea) {
-            const std::int32_t up = kNormalBits - static_cast<std::int32_t>(std::bit_width(largest));
-            Vector scaled_normal;
-            for (std::size_t k = 0; k < 3; ++k) scaled_normal[k] = shifted(normal[k], up);
-            const auto length =
-                static_cast<std::int64_t>(std::sqrt(static_cast<double>(dot(scaled_normal, scaled_normal))));
-            if constexpr (kByAngle) {
-                weight = {angle_of(length, shifted(-dot(c, a), up)), angle_of(length, shifted(-dot(a, b), up)),
-                          angle_of(length, shifted(-dot(b, c), up))};
+    std::vector<PaddedPlace> place_of(copies);
+    for (std::uint32_t i = 0; i < copies; ++i) {
+        const Place place = scaled[places.vertex(i)];
+        place_of[i] = {place[0], place[1], place[2], 0};
+    }
+    TriangleBatch batch{};
+    for (std::size_t first = 0; first < triangles.size(); first += 3 * kBatch) {
+        const std::uint32_t* v = triangles.data() + first;
+        const std::size_t count = std::min(kBatch, (triangles.size() - first) / 3);
+        for (std::size_t i = 0; i < count; ++i)
+            batch.set(i, place_of[v[3 * i]], place_of[v[3 * i + 1]], place_of[v[3 * i + 2]]);
+        batch.find_normals();
+        if (kByAngle || !kByArea) batch.find_lengths();
+        if (kByAngle) batch.find_angles();
+        if (!kByArea) batch.scale_normals();
+        for (std::size_t i = 0; i < count; ++i) {
+            std::array<std::int64_t, 3> normal;
+            for (std::size_t c = 0; c < 3; ++c) normal[c] = static_cast<std::int64_t>(batch.normal[c][i]);
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::int64_t weight = kByAngle ? batch.angle(k, i) : 1;
+                Sums& sum = sums[of_vertex ? places.vertex(v[3 * i + k]) : v[3 * i + k]];
+                for (std::size_t c = 0; c < 3; ++c) sum[c] += static_cast<std::uint64_t>(normal[c] * weight);
             }
-            if constexpr (!kByArea) {
-                const std::int64_t by = quotient(0x1p39, static_cast<double>(length));
-                for (std::size_t k = 0; k < 3; ++k) normal[k] = scaled_normal[k] * by >> 24;
-            }
-        }
-        for (std::size_t k = 0; k < 3; ++k) {
-            Sums& sum = sums[at[k]];
-            for (std::size_t i = 0; i < 3; ++i) sum[i] += static_cast<std::uint64_t>(normal[i] * weight[k]);
         }
     }
 }
@@ -133,12 +140,12 @@ LACEDRING_INLINE std::array<std::int32_t, 2> octahedral(const Sums& sum, std::in
     for (std::size_t i = 0; i < 3; ++i) size[i] = sum[i] >> 63 != 0 ? 0 - sum[i] : sum[i];
     const auto width = static_cast<std::uint32_t>(std::bit_width(size[0] | size[1] | size[2]));
     for (std::uint64_t& s : size) s >>= width > 32 ? width - 32 : 0;
-    const auto all = static_cast<double>(size[0] + size[1] + size[2]);
+    const auto all = static_cast<double>(static_cast<std::int64_t>(size[0] + size[1] + size[2]));
     if (all == 0) return {0, 0};
     std::array<std::int32_t, 2> out;
     for (std::size_t i = 0; i < 2; ++i) {
-        const double twice = 2 * static_cast<double>(most) * static_cast<double>(size[i]);
-        out[i] = static_cast<std::int32_t>(quotient(twice + all, 2 * all));
+        const double part = most * static_cast<double>(static_cast<std::int64_t>(size[i]));
+        out[i] = static_cast<std::int32_t>(part / all + 0.5);
     }
     if (sum[2] >> 63 != 0) out = {most - out[1], most - out[0]};
     for (std::size_t i = 0; i < 2; ++i) {
@@ -166,12 +173,6 @@ std::uint32_t largest_octahedral(std::uint32_t bits) {
 
 }  // namespace
 
-bool has_places(const VertexPlaces& places, std::uint32_t copies) {
-    if (places.vertex_of.empty()) return places.positions.size() == std::size_t{3} * copies;
-    return places.vertex_of.size() == copies &&
-           std::ranges::all_of(places.vertex_of, [&](std::uint32_t v) { return v < places.positions.size() / 3; });
-}
-
 std::vector<std::uint32_t> surface_normals(const VertexPlaces& places, std::span<const std::uint32_t> triangles,
                                            std::uint32_t copies, const NormalBase& base, std::uint32_t bits) {
     const bool of_vertex = base.of_vertex && !places.vertex_of.empty();
@@ -179,7 +180,7 @@ std::vector<std::uint32_t> surface_normals(const VertexPlaces& places, std::span
     const auto add = base.by_angle  ? base.by_area ? add_triangles<true, true> : add_triangles<true, false>
                       : base.by_area ? add_triangles<false, true>
                                     : add_triangles<false, false>;
-    add(places, triangles, of_vertex, sums);
+    add(places, triangles, copies, of_vertex, sums);
     std::vector<std::uint32_t> out(std::size_t{2} * copies);
     const auto most = static_cast<std::int32_t>(largest_octahedral(bits));
     for (std::size_t i = 0; i < copies; ++i) {

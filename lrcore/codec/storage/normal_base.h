@@ -6,13 +6,9 @@
 #include <span>
 #include <vector>
 
-namespace lacedring::storage {
+#include "lrcore/codec/storage/vertex_places.h"
 
-/// Where the vertices of an attribute are.
-struct VertexPlaces {
-    std::span<const std::uint32_t> positions;  ///< three integers a vertex, of a common scale; empty: there are none
-    std::span<const std::uint32_t> vertex_of;  ///< the vertex of each copy; empty: the attribute is of vertices
-};
+namespace lacedring::storage {
 
 /// How the triangles at a copy are weighted, and which they are.
 struct NormalBase {
@@ -20,9 +16,6 @@ struct NormalBase {
     bool by_area = false;    ///< by their area
     bool of_vertex = false;  ///< those of all copies of the vertex
 };
-
-/// Has each of `copies` a place? Cost: O(copies).
-bool has_places(const VertexPlaces& places, std::uint32_t copies);
 
 /// Two octahedral integers of `bits` bits, 2 to 16, for each of `copies`, which have places. `triangles` name copies.
 /// Cost: O(triangles + copies); some 50 bytes a copy.

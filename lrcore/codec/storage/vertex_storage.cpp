@@ -9,6 +9,8 @@
 #include "lrcore/base/message.h"
 #include "lrcore/base/parallel.h"
 #include "lrcore/codec/storage/block_coder.h"
+#include "lrcore/codec/storage/normal_base.h"
+#include "lrcore/codec/storage/place_prediction.h"
 #include "lrcore/codec/storage/residual_coder.h"
 #include "lrcore/codec/storage/vertex_predictor.h"
 
@@ -26,18 +28,16 @@ struct StoredStream {
     std::uint32_t vertices = 0;
     StreamChoices choices;
     VertexParameters parameters;
-    std::optional<NormalBase> base;  // from which the integers are differences
-    Words exceptions;                // two words each
+    bool by_places = false;  // the integers are differences from what the positions lead one to expect
+    NormalBase base;         // of normals
+    Words exceptions;        // two words each
     Words values;
     std::vector<BlockChoices> blocks;  // of an encoder alone
 
     std::uint32_t components() const { return choices.layout & 31; }
     std::uint32_t mapping() const { return choices.layout >> 5 & 7; }
     std::uint32_t bits() const { return choices.layout >> 13 & 31; }
-    bool may_have_base() const {
-        return static_cast<VertexMapping>(mapping()) == VertexMapping::octahedral && components() == 2 && bits() >= 2 &&
-               bits() <= 16;
-    }
+    bool is_octahedral() const { return static_cast<VertexMapping>(mapping()) == VertexMapping::octahedral; }
 };
 
 Error malformed_vertices(const char* what) {
@@ -59,12 +59,15 @@ std::span<const std::uint32_t> take_part(std::span<const std::uint32_t>& rest) {
     return part;
 }
 
+/// Codes how two integers a vertex are predicted by positions.
 template <class Coder>
-void code_base(Coder& coder, std::optional<NormalBase>& base) {
-    if (coder.raw(base ? 1 : 0, 1) == 0) return;
-    if (!base) base.emplace();
+bool code_places(Coder& coder, StoredStream& stream) {
+    if (stream.components() != 2) return true;
+    stream.by_places = coder.raw(stream.by_places ? 1 : 0, 1) != 0;
+    if (!stream.by_places || !stream.is_octahedral()) return true;
     for (bool NormalBase::*flag : {&NormalBase::by_angle, &NormalBase::by_area, &NormalBase::of_vertex})
-        (*base).*flag = coder.raw((*base).*flag ? 1 : 0, 1) != 0;
+        stream.base.*flag = coder.raw(stream.base.*flag ? 1 : 0, 1) != 0;
+    return stream.bits() >= 2 && stream.bits() <= 16;
 }
 
 /// Codes what a stream says before its integers, which a Decoder does not know yet: `has_usual_ranges` then says
@@ -97,8 +100,7 @@ bool code_header(Coder& coder, StoredStream& stream, bool& has_usual_ranges) {
     p.error = coder.raw(p.error, 4);
     p.smooth = coder.raw(p.smooth, 5);
     p.fine = coder.raw(p.fine, 4);
-    if (stream.may_have_base()) code_base(coder, stream.base);
-    return p.smooth <= 16 && !(p.has_normal && n != 3);
+    return code_places(coder, stream) && p.smooth <= 16 && !(p.has_normal && n != 3);
 }
 
 template <class Coder>
@@ -324,24 +326,60 @@ StoredStream parts_of(const VertexView& view) {
     return out;
 }
 
-/// Finds the parameters and, for normals of a surface, the base. Returns the integers as they are coded.
+/// The integers as differences from what the positions lead one to expect, two a vertex.
+Words differences_of(StoredStream& stream, const WalkRecord& walk, std::span<const std::uint32_t> triangles,
+                     const VertexPlaces& places) {
+    Words out = stream.values;
+    if (stream.is_octahedral()) {
+        stream.base = nearest_base(places, triangles, stream.values, stream.bits());
+        subtract_normals(out, surface_normals(places, triangles, stream.vertices, stream.base, stream.bits()),
+                         stream.bits());
+        return out;
+    }
+    struct Nothing {
+        void start(std::uint32_t, std::uint32_t) {}
+        void predicted(std::uint32_t, const Parallelograms&) {}
+    } nothing;
+    const PlacePrediction prediction(places);
+    PlaceVisitor<false, Nothing> visitor(prediction, stream.values, out, nothing);
+    walk.run(visitor);
+    return out;
+}
+
+/// Finds the parameters. Returns the integers as they are coded.
 Words choose_prediction(StoredStream& stream, const WalkRecord& walk, std::span<const std::uint32_t> triangles,
                         const VertexPlaces& places) {
     const std::uint32_t n = stream.components();
     ParameterSearch plain(walk, n, stream.values, false);
     stream.parameters = plain.best();
-    if (!stream.may_have_base() || places.positions.empty() || !has_places(places, stream.vertices))
-        return stream.values;
-    const NormalBase base = nearest_base(places, triangles, stream.values, stream.bits());
-    Words differences = stream.values;
-    subtract_normals(differences, surface_normals(places, triangles, stream.vertices, base, stream.bits()),
-                     stream.bits());
+    if (n != 2 || places.positions.empty() || !has_places(places, stream.vertices)) return stream.values;
+    Words differences = differences_of(stream, walk, triangles, places);
     ParameterSearch with(walk, n, differences, true);
     const VertexParameters parameters = with.best();
     if (with.least() >= plain.least()) return stream.values;
     stream.parameters = parameters;
-    stream.base = base;
+    stream.by_places = true;
     return differences;
+}
+
+/// Makes values of the residuals.
+void restore_values(StoredStream& stream, std::span<std::uint32_t> residuals, std::span<const std::uint32_t> triangles,
+                    const VertexPlaces& places) {
+    VertexWalk walk(triangles, stream.vertices);  // first: making it takes more memory than having it
+    stream.values.resize(residuals.size());
+    if (stream.by_places && !stream.is_octahedral()) {
+        Words differences(residuals.size());
+        VertexPredictor<2, true> predictor(stream.parameters, 2, differences, residuals);
+        const PlacePrediction prediction(places);
+        PlaceVisitor<true, VertexPredictor<2, true>> visitor(prediction, stream.values, differences, predictor);
+        walk.run(visitor);
+        return;
+    }
+    predict<true>(walk, stream.parameters, stream.components(), stream.values, residuals);
+    if (!stream.by_places) return;
+    walk = VertexWalk({}, 0);  // its memory
+    add_normals(stream.values, surface_normals(places, triangles, stream.vertices, stream.base, stream.bits()),
+                stream.bits());
 }
 
 }  // namespace
@@ -424,7 +462,7 @@ StoredVertices& StoredVertices::operator=(StoredVertices&&) noexcept = default;
 StoredVertices::~StoredVertices() = default;
 
 bool StoredVertices::needs_places() const {
-    return state_->stream.base.has_value();
+    return state_->stream.by_places;
 }
 
 Result<StoredVertices> StoredVertices::read(std::span<const std::uint32_t> stored, std::uint32_t vertices) {
@@ -457,18 +495,11 @@ Result<std::vector<std::uint32_t>> StoredVertices::restore(std::span<const std::
     for (const std::uint32_t v : triangles) {
         if (v >= stream.vertices) return malformed_vertices("a triangle of a vertex that it does not have");
     }
-    if (stream.base && (places.positions.empty() || !has_places(places, stream.vertices)))
-        return malformed_vertices("its normals are differences from the surface's, whose positions are no integers");
+    if (stream.by_places && (places.positions.empty() || !has_places(places, stream.vertices)))
+        return malformed_vertices("it is predicted by the mesh's positions, and these are no integers");
     const std::uint32_t n = stream.components();
-    {
-        VertexWalk walk(triangles, stream.vertices);  // first: making it takes more memory than having it
-        stream.values.resize(state_->residuals.size());
-        predict<true>(walk, stream.parameters, n, stream.values, state_->residuals);
-        state_->residuals = {};
-    }
-    if (stream.base)
-        add_normals(stream.values, surface_normals(places, triangles, stream.vertices, *stream.base, stream.bits()),
-                    stream.bits());
+    restore_values(stream, state_->residuals, triangles, places);
+    state_->residuals = {};
     if (state_->has_usual_ranges) {
         find_vertex_ranges(stream.values, static_cast<VertexMapping>(stream.mapping()), stream.choices.components);
     } else {

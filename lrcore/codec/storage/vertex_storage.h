@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lacedring/vertices.hpp"
-#include "lrcore/codec/storage/normal_base.h"
+#include "lrcore/codec/storage/vertex_places.h"
 
 namespace lacedring::storage {
 

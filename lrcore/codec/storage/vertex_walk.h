@@ -19,6 +19,7 @@ namespace lacedring::storage {
 /// Predicts the vertex opposite to z across the edge (x, y).
 struct Parallelogram {
     std::uint32_t x, y, z;
+    bool operator==(const Parallelogram&) const = default;
 };
 
 /// Of a vertex that has a single one, both are that one.
