@@ -54,6 +54,7 @@ class Reader {
             case kCornerOrder:
                 return read_words(contents, file_.corner_order);
             case kSeams:
+                has_stored_seams_ |= section.coding == kStored && !contents.empty();
                 return read_words(contents, file_.seams);
             case kAttribute:
                 return read_attribute(header, section, contents);
@@ -151,7 +152,8 @@ class Reader {
         if (file_.seams.empty() != (file_.copy_count == 0)) {
             return malformed_lr("seams without copies, or copies without seams");
         }
-        Result<DecodedLr> decoded = decode_connectivity(view_of(file_), true);
+        const StoredSeams seams{file_.seams, max_bytes_};
+        Result<DecodedLr> decoded = decode_connectivity(view_of(file_), true, has_stored_seams_ ? &seams : nullptr);
         if (!decoded) return decoded.error();
         for (const std::size_t i : stored_) {
             if (auto good = restore_attribute(file_.attributes[i], *decoded); !good) return good;
@@ -203,7 +205,7 @@ class Reader {
     std::vector<std::size_t> stored_;  ///< attributes in storage form
     LrFile file_;
     DecodedLr decoded_;
-    bool has_connectivity_ = false;
+    bool has_connectivity_ = false, has_stored_seams_ = false;
 };
 
 }  // namespace
