@@ -10,40 +10,44 @@ namespace lacedring {
 namespace detail {
 namespace {
 
-/// Makes the resident section of stored seams.
-Result<void> restore(const StoredSeams& stored, std::span<const std::uint32_t> slots, std::uint32_t vertices) {
+/// Makes the resident section of stored seams, and what it decodes to.
+Result<storage::RestoredSeams> restore(const StoredSeams& stored, std::span<const std::uint32_t> slots,
+                                       std::uint32_t vertices) {
     constexpr std::uint64_t kCorner = 50, kVertex = 50;  // bytes, while they are restored
     if (kCorner * slots.size() + kVertex * vertices > stored.max_bytes) {
         return Error{ErrorCode::memory_limit, fmt::format("lr file: seams of {} triangles in storage form would take "
                                                           "more than {} MiB",
                                                           slots.size() / 3, stored.max_bytes >> 20)};
     }
-    auto restored = storage::restore_seams(stored.words, slots, vertices);
-    if (!restored) return restored.error();
-    stored.words = std::move(*restored);
-    return {};
+    return storage::restore_seams(stored.words, slots, vertices);
 }
 
 /// The copies of the slots' corners, and the vertex of each copy.
 Result<void> decode_copies(const LrFileView& file, const StreamView& stream, bool untrusted, const StoredSeams* stored,
                            DecodedLr& out) {
     const std::vector<std::uint32_t> slots = slot_triangles(stream);
-    std::vector<std::uint32_t> copies(slots.size());
-    std::span<const std::uint32_t> words = file.seams;
+    std::vector<std::uint32_t> copies;
     if (stored != nullptr) {
-        if (auto good = restore(*stored, slots, stream.vertices()); !good) return good;
-        words = stored->words;
-    }
-    const Result<SeamView> seams = view_seams(words, stream.slots(), stream.vertices());
-    if (!seams) return seams.error();
-    if (seams->copies != file.copy_count) return malformed_lr("seams and file have different numbers of copies");
-    if (untrusted) {
-        const auto checked = decode_seams_checked(words, slots, stream.vertices(), copies, out.vertex_of);
-        if (!checked) return checked.error();
+        Result<storage::RestoredSeams> restored = restore(*stored, slots, stream.vertices());
+        if (!restored) return restored.error();
+        stored->words = std::move(restored->words);
+        copies = std::move(restored->copies);
+        out.vertex_of = std::move(restored->vertices);
     } else {
-        decode_seams(*seams, slots, copies);
-        out.vertex_of.resize(seams->copies);
-        copy_vertices(*seams, slots, out.vertex_of);
+        const Result<SeamView> seams = view_seams(file.seams, stream.slots(), stream.vertices());
+        if (!seams) return seams.error();
+        copies.resize(slots.size());
+        if (untrusted) {
+            const auto checked = decode_seams_checked(file.seams, slots, stream.vertices(), copies, out.vertex_of);
+            if (!checked) return checked.error();
+        } else {
+            decode_seams(*seams, slots, copies);
+            out.vertex_of.resize(seams->copies);
+            copy_vertices(*seams, slots, out.vertex_of);
+        }
+    }
+    if (out.vertex_of.size() != file.copy_count) {
+        return malformed_lr("seams and file have different numbers of copies");
     }
     std::erase(copies, UINT32_MAX);
     out.indices = std::move(copies);

@@ -2,6 +2,7 @@
 // the answers. Questions and codes: docs/seams-format.md.
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 #include "lacedring/lacedring.hpp"
@@ -53,7 +54,7 @@ class CornerEncoder {
     /// All answers; none of blocks whose vertices have one copy each, if `skip_plain`.
     SeamAnswers run(bool skip_plain) {
         const auto count = static_cast<std::uint32_t>(triangles_.size() / 3);
-        state_.resize(triangles_.size());
+        out_.all.reserve(std::size_t{2} * count);
         sides_.resize(count);
         for (first_ = 0; first_ < count; first_ = end_) {
             end_ = std::min(count - first_, kSeamBlock) + first_;
@@ -86,6 +87,9 @@ class CornerEncoder {
         const auto corners = triangles_.subspan(std::size_t{3} * first, std::size_t{3} * (end - first));
         return std::ranges::all_of(corners, [&](std::uint32_t v) { return v == kNone || homes_.single[v] != 0; });
     }
+
+    std::uint32_t& state(std::uint32_t c) { return state_[c - 3 * first_]; }
+    std::uint32_t state(std::uint32_t c) const { return state_[c - 3 * first_]; }
 
     bool is_home(std::uint32_t c) const { return homes_.index[copies_[c]] != kNone; }
     bool has_state(std::uint32_t c, std::uint32_t state) const {
@@ -133,7 +137,7 @@ class CornerEncoder {
         std::uint32_t more = 1;
         while (more < 3 && (i + more >= end_ || lacedring_seam_corner(&triangles_[std::size_t{3} * (i + more)], v) < 3))
             ++more;
-        End e{c, state_[3 * parent + in_parent], (sides_[i] == 0) == precedes ? 0 : steps, 0, more == 1};
+        End e{c, state(3 * parent + in_parent), (sides_[i] == 0) == precedes ? 0 : steps, 0, more == 1};
         if (sides_[i] == 0) {
             const std::uint32_t distance =
                 e.state >= kPrivate ? 0 : std::max(e.far, e.state) - std::min(e.far, e.state);
@@ -183,8 +187,8 @@ class CornerEncoder {
                 out_.bits(b_changes ? 0 : 1, 1);
             }
         }
-        state_[a.corner] = a_changes ? change(sides_[i], a) : a.state;
-        state_[b.corner] = b_changes ? change(sides_[i], b) : b.state;
+        state(a.corner) = a_changes ? change(sides_[i], a) : a.state;
+        state(b.corner) = b_changes ? change(sides_[i], b) : b.state;
     }
 
     void encode_start(std::uint32_t i, std::uint32_t j, bool has_parent) {
@@ -204,7 +208,7 @@ class CornerEncoder {
                 if (neighbors[n] == 3) continue;
                 const std::uint32_t other = t[neighbors[n]];
                 const std::uint32_t end = homes_.copy_at(other, n == 0 ? homes_.steps(other) : 0);
-                if (homes_.copy_at(other, state_[3 * i + neighbors[n]]) == end) {
+                if (homes_.copy_at(other, state(3 * i + neighbors[n])) == end) {
                     q = {n == 0 ? 0 : steps, LACEDRING_SEAM_PLAIN, LACEDRING_SEAM_NEW_R};
                     break;
                 }
@@ -212,7 +216,7 @@ class CornerEncoder {
                      steps > 0 ? LACEDRING_SEAM_SEAMED2 : LACEDRING_SEAM_SEAMED, true};
             }
         }
-        state_[c] = choose(c, kNone, q);
+        state(c) = choose(c, kNone, q);
     }
 
     /// The same as below, of three vertices with one copy each.
@@ -221,7 +225,7 @@ class CornerEncoder {
         const bool has_parent = pair[0] < 3;
         if (has_parent) out_.flag(sides_[i] == 0 ? LACEDRING_SEAM_LONE : LACEDRING_SEAM_RIGHT1, false);
         for (std::uint32_t j = 0; j < 3; ++j) {
-            state_[3 * i + j] = 0;
+            state(3 * i + j) = 0;
             if (j == pair[0] || j == pair[1]) continue;
             const bool by_ring = lacedring_seam_corner(t, t[j] - 1) < 3 || lacedring_seam_corner(t, t[j] + 1) < 3;
             out_.flag(sides_[i] == 0          ? LACEDRING_SEAM_START_L
@@ -247,9 +251,9 @@ class CornerEncoder {
     Triangles triangles_;
     std::span<const std::uint32_t> copies_;
     const SeamHomes& homes_;
-    std::vector<std::uint32_t> private_;  // number of each copy that is no home
-    std::vector<std::uint32_t> order_;    // copy of each number
-    std::vector<std::uint32_t> state_;    // of each corner
+    std::vector<std::uint32_t> private_;                              // number of each copy that is no home
+    std::vector<std::uint32_t> order_;                                // copy of each number
+    std::array<std::uint32_t, std::size_t{3} * kSeamBlock> state_{};  // of the block's corners
     std::vector<std::uint8_t> sides_;
     std::uint32_t first_ = 0, end_ = 0;  // triangles of the block
     SeamAnswers out_;
@@ -268,14 +272,13 @@ Error invalid_seams(std::string message) {
 
 SeamWords write_seams(const SeamCopies& copies, const VertexCorners& corners, const SeamTableChoice& choose,
                       bool skip_plain) {
-    const SeamHomes homes = find_homes(copies.triangles, copies.vertices, copies.copies, copies.count, corners);
+    SeamHomes homes = find_homes(copies.triangles, copies.vertices, copies.copies, copies.count, corners);
     SeamAnswers of_vertices = answer_vertices(homes, copies.vertices, skip_plain);
-    SeamWords out;
+    std::vector<std::uint32_t> made;  // private copies
     const auto answer_corners = [&](bool skip) {
         CornerEncoder encoder(copies.triangles, copies.copies, homes);
         SeamAnswers answers = encoder.run(skip);
-        out.order = homes.copy;
-        out.order.insert(out.order.end(), encoder.order().begin(), encoder.order().end());
+        made = encoder.order();
         return answers;
     };
     SeamAnswers of_corners = answer_corners(skip_plain);
@@ -284,7 +287,8 @@ SeamWords write_seams(const SeamCopies& copies, const VertexCorners& corners, co
         of_vertices = answer_vertices(homes, copies.vertices, false);
         of_corners = answer_corners(false);
     }
-    out.words = write_section(homes.first.back(), of_vertices, of_corners, table);
+    SeamWords out{write_section(homes.first.back(), of_vertices, of_corners, table), std::move(homes.copy)};
+    out.order.insert(out.order.end(), made.begin(), made.end());
     return out;
 }
 

@@ -125,11 +125,16 @@ SeamHomes find_homes(std::span<const std::uint32_t> triangles, std::uint32_t ver
     for (std::uint32_t v = 0; v < vertices; ++v) {
         const std::span<const std::uint32_t> own = corners.of(v);
         out.first.push_back(static_cast<std::uint32_t>(out.copy.size()));
-        homes.assign(1, own.empty() ? kNone : copies[own.front()]);
-        if (std::ranges::any_of(own, [&](std::uint32_t c) { return copies[c] != homes.front(); })) out.single[v] = 0;
-        if (out.single[v] == 0) out.wrap[v] = finder.find(v, own, homes) ? 1 : 0;
+        const std::uint32_t copy = own.empty() ? kNone : copies[own.front()];
+        if (std::ranges::all_of(own, [&](std::uint32_t c) { return copies[c] == copy; })) {
+            if (copy != kNone) out.index[copy] = 0;
+            out.copy.push_back(copy);
+            continue;
+        }
+        out.single[v] = 0;
+        out.wrap[v] = finder.find(v, own, homes) ? 1 : 0;
         for (std::uint32_t i = 0; i < homes.size(); ++i) {
-            if (homes[i] != kNone) out.index[homes[i]] = i;
+            out.index[homes[i]] = i;
         }
         out.copy.insert(out.copy.end(), homes.begin(), homes.end());
     }

@@ -49,6 +49,24 @@ SeamTable table_of(std::span<const std::uint32_t> section) {
     return out;
 }
 
+/// Gives the walk's copies their numbers in the section, and names their vertices.
+void number_copies(std::span<const std::uint32_t> order, std::span<const std::uint32_t> triangles, std::uint32_t count,
+                   RestoredSeams& seams) {
+    std::vector<std::uint32_t> number(count);
+    for (std::uint32_t i = 0; i < order.size(); ++i) {
+        if (order[i] != UINT32_MAX) number[order[i]] = i;
+    }
+    seams.vertices.resize(order.size());
+    for (std::size_t c = 0; c < triangles.size(); ++c) {
+        if (triangles[c] == UINT32_MAX) continue;
+        seams.copies[c] = number[seams.copies[c]];
+        seams.vertices[seams.copies[c]] = triangles[c];
+    }
+    for (std::size_t i = 0; i < order.size(); ++i) {  // vertices without corners, each behind a home of the one before
+        if (order[i] == UINT32_MAX) seams.vertices[i] = i == 0 ? 0 : seams.vertices[i - 1] + 1;
+    }
+}
+
 Error malformed_seams(const char* what) {
     return {ErrorCode::malformed, detail::message("stored seam section: ", what)};
 }
@@ -69,12 +87,12 @@ std::optional<std::vector<std::uint32_t>> store_seams(const SeamView& view, std:
     std::vector<std::uint32_t> out = coder.finish();
     if (!std::ranges::equal(made.words, view.words)) return {};
     const auto restored = restore_seams(out, triangles, view.vertices);
-    if (!restored || *restored != made.words) return {};
+    if (!restored || restored->words != made.words) return {};
     return out;
 }
 
-Result<std::vector<std::uint32_t>> restore_seams(std::span<const std::uint32_t> stored,
-                                                 std::span<const std::uint32_t> triangles, std::uint32_t vertices) {
+Result<RestoredSeams> restore_seams(std::span<const std::uint32_t> stored, std::span<const std::uint32_t> triangles,
+                                    std::uint32_t vertices) {
     constexpr std::uint32_t kNone = UINT32_MAX;
     const Error too_large{ErrorCode::too_large, "stored seam section: more than 2^30 copies, or 4 GiB"};
     if (triangles.size() % 3 != 0) return malformed_seams("no triangles");
@@ -97,7 +115,9 @@ Result<std::vector<std::uint32_t>> restore_seams(std::span<const std::uint32_t> 
     SeamWords made = write_seams({triangles, vertices, walk.copies(), walk.count()}, corners, choose, true);
     if (!coder.is_at_end()) return malformed_seams("it does not end where its copies do");
     if (made.words.empty()) return too_large;
-    return std::move(made.words);
+    RestoredSeams out{std::move(made.words), walk.take_copies(), {}};
+    number_copies(made.order, triangles, walk.count(), out);
+    return out;
 }
 
 }  // namespace lacedring::storage

@@ -14,10 +14,17 @@ namespace lacedring::storage {
 /// bit. Cost: O(T log T), under a microsecond a triangle.
 std::optional<std::vector<std::uint32_t>> store_seams(const SeamView& view, std::span<const std::uint32_t> triangles);
 
-/// The section, bit for bit. It is not validated: what is stored may say anything. `triangles`: slots of a connectivity
+/// A section, and what decode_seams and copy_vertices make of it.
+struct RestoredSeams {
+    std::vector<std::uint32_t> words;
+    std::vector<std::uint32_t> copies;    ///< of each corner
+    std::vector<std::uint32_t> vertices;  ///< of each copy
+};
+
+/// The section, bit for bit. Whatever is stored: it is valid for the triangles, which are the slots of a connectivity
 /// (slot_triangles). Cost: O(T log T) time, O(T) where vertices have few triangles; some 150 bytes a triangle. Errors:
 /// malformed, too_large. Untrusted input, triangles included: safe.
-Result<std::vector<std::uint32_t>> restore_seams(std::span<const std::uint32_t> stored,
-                                                 std::span<const std::uint32_t> triangles, std::uint32_t vertices);
+Result<RestoredSeams> restore_seams(std::span<const std::uint32_t> stored, std::span<const std::uint32_t> triangles,
+                                    std::uint32_t vertices);
 
 }  // namespace lacedring::storage

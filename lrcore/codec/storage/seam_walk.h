@@ -51,6 +51,7 @@ class SeamWalk {
 
     /// The copy of each corner: of vertex v, v or a number that is not below the vertices.
     const std::vector<std::uint32_t>& copies() const { return copies_; }
+    std::vector<std::uint32_t> take_copies() { return std::move(copies_); }
     /// All copies are below.
     std::uint32_t count() const { return count_; }
 
