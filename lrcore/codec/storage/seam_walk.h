@@ -67,18 +67,17 @@ class SeamWalk {
     /// (s = 0) or to the one before it.
     using Side = std::uint32_t;
 
+    /// Edges of a vertex that is done.
+    enum Kind : std::uint32_t { kInner, kSeam, kBorder };
+    /// The other end of an edge.
+    struct Far {
+        std::uint32_t vertex, corner;
+    };
     /// Another corner of the vertex across an edge.
     struct Link {
         std::uint32_t end;   ///< of the edge
         std::uint32_t copy;  ///< of the corner
     };
-
-    /// The corner of the edge's other end.
-    std::uint32_t far_corner(Side side) const {
-        const std::uint32_t c = own_[side / 2];
-        return side % 2 == 0 ? corner_next(c) : corner_previous(c);
-    }
-    std::uint32_t far_vertex(Side side) const { return triangles_[far_corner(side)]; }
 
     void decide(std::uint32_t v, BitModel& model) {
         if (status_[v] != kUndecided) return;
@@ -112,10 +111,17 @@ class SeamWalk {
         visit_neighbors();
     }
 
-    /// Sets mate_: of each side, that of another corner at the same edge, or kNone.
+    /// Sets far_, and mate_: of each side, that of another corner at the same edge, or kNone.
     void link_corners() {
         edges_.clear();
-        for (Side s = 0; s < 2 * own_.size(); ++s) edges_.emplace_back(far_vertex(s), s);
+        far_.clear();
+        for (const std::uint32_t c : own_) {
+            const std::uint32_t place = c % 3;
+            for (const std::uint32_t corner : {place == 2 ? c - 2 : c + 1, place == 0 ? c + 2 : c - 1}) {
+                edges_.emplace_back(triangles_[corner], static_cast<Side>(far_.size()));
+                far_.push_back({triangles_[corner], corner});
+            }
+        }
         std::ranges::sort(edges_);
         mate_.assign(edges_.size(), kNone);
         for (std::size_t i = 1; i < edges_.size(); ++i) {
@@ -128,14 +134,11 @@ class SeamWalk {
 
     /// What is known of the edge's other end.
     std::uint32_t end_of(Side side) const {
-        const Status status = status_[far_vertex(side)];
+        const Status status = status_[far_[side].vertex];
         if (status != kDone) return status;
         const Side mate = mate_[side];
-        return mate != kNone && copies_[far_corner(side)] != copies_[far_corner(mate)] ? kDone + 1 : kDone;
+        return mate != kNone && copies_[far_[side].corner] != copies_[far_[mate].corner] ? kDone + 1 : kDone;
     }
-    /// Is there another corner across the edge, of another copy?
-    bool is_seam(Side side) const { return mate_[side] != kNone && copy_[side / 2] != copy_[mate_[side] / 2]; }
-
     /// The corners from a side's corner on, away from the side, and then those on the other side of it.
     void code_fan(Side start, bool at_seam) {
         at_seam_ = at_seam;
@@ -209,20 +212,19 @@ class SeamWalk {
 
     void visit_neighbors() {
         const auto sides = static_cast<Side>(mate_.size());
+        edges_.clear();
         for (Side s = 0; s < sides; ++s) {
-            std::uint8_t& seams = seams_[far_vertex(s)];
-            if (s < mate_[s] && is_seam(s)) seams = static_cast<std::uint8_t>(std::min(seams + 1, 2));
+            const Side mate = mate_[s];
+            if (mate < s) continue;  // the edge is that of the mate
+            const std::uint32_t kind = mate == kNone ? kBorder : copy_[s / 2] != copy_[mate / 2] ? kSeam : kInner;
+            edges_.emplace_back(far_[s].vertex, kind);
+            std::uint8_t& seams = seams_[far_[s].vertex];
+            if (kind == kSeam && seams < 2) ++seams;
         }
-        for (Side s = 0; s < sides; ++s) {
-            const std::uint32_t v = far_vertex(s), kind = mate_[s] == kNone ? 2 : is_seam(s) ? 1 : 0;
-            decide(v, neighbor_[kind][seams_[v]]);
-        }
+        for (const auto& [v, kind] : edges_) decide(v, neighbor_[kind][seams_[v]]);
         for (const bool seams : {false, true}) {  // those across seams are the next ones
-            for (Side s = 0; s < sides; ++s) {
-                const bool is_first = mate_[s] == kNone || s < mate_[s];
-                if (is_first && is_seam(s) == seams && status_[far_vertex(s)] == kSeveral) {
-                    stack_.push_back(far_vertex(s));
-                }
+            for (const auto& [v, kind] : edges_) {
+                if ((kind == kSeam) == seams && status_[v] == kSeveral) stack_.push_back(v);
             }
         }
     }
@@ -241,9 +243,10 @@ class SeamWalk {
 
     // Of the vertex that is coded.
     std::span<const std::uint32_t> own_;
-    std::vector<std::pair<std::uint32_t, Side>> edges_;
-    std::vector<Side> mate_;
-    std::vector<std::uint32_t> copy_;  // of each corner, from 0; kNone: not coded yet
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges_;  // other end and side, or kind
+    std::vector<Far> far_;                                        // of each side
+    std::vector<Side> mate_;                                      // of each side
+    std::vector<std::uint32_t> copy_;                             // of each corner, from 0; kNone: not coded yet
     std::uint32_t known_ = 0, left_ = 0, since_ = 0;
     bool at_seam_ = false;
 
