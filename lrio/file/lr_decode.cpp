@@ -3,26 +3,51 @@
 #include <algorithm>
 #include <numeric>
 
+#include "lrcore/codec/storage/seam_storage.h"
 #include "lrio/file/lr_layout.h"
 
 namespace lacedring {
 namespace detail {
 namespace {
 
+/// Makes the resident section of stored seams, and what it decodes to.
+Result<storage::RestoredSeams> restore(const StoredSeams& stored, std::span<const std::uint32_t> slots,
+                                       std::uint32_t vertices) {
+    constexpr std::uint64_t kCorner = 50, kVertex = 50;  // bytes, while they are restored
+    if (kCorner * slots.size() + kVertex * vertices > stored.max_bytes) {
+        return Error{ErrorCode::memory_limit, fmt::format("lr file: seams of {} triangles in storage form would take "
+                                                          "more than {} MiB",
+                                                          slots.size() / 3, stored.max_bytes >> 20)};
+    }
+    return storage::restore_seams(stored.words, slots, vertices);
+}
+
 /// The copies of the slots' corners, and the vertex of each copy.
-Result<void> decode_copies(const LrFileView& file, const StreamView& stream, bool untrusted, DecodedLr& out) {
+Result<void> decode_copies(const LrFileView& file, const StreamView& stream, bool untrusted, const StoredSeams* stored,
+                           DecodedLr& out) {
     const std::vector<std::uint32_t> slots = slot_triangles(stream);
-    std::vector<std::uint32_t> copies(slots.size());
-    const Result<SeamView> seams = view_seams(file.seams, stream.slots(), stream.vertices());
-    if (!seams) return seams.error();
-    if (seams->copies != file.copy_count) return malformed_lr("seams and file have different numbers of copies");
-    if (untrusted) {
-        const auto checked = decode_seams_checked(file.seams, slots, stream.vertices(), copies, out.vertex_of);
-        if (!checked) return checked.error();
+    std::vector<std::uint32_t> copies;
+    if (stored != nullptr) {
+        Result<storage::RestoredSeams> restored = restore(*stored, slots, stream.vertices());
+        if (!restored) return restored.error();
+        stored->words = std::move(restored->words);
+        copies = std::move(restored->copies);
+        out.vertex_of = std::move(restored->vertices);
     } else {
-        decode_seams(*seams, slots, copies);
-        out.vertex_of.resize(seams->copies);
-        copy_vertices(*seams, slots, out.vertex_of);
+        const Result<SeamView> seams = view_seams(file.seams, stream.slots(), stream.vertices());
+        if (!seams) return seams.error();
+        copies.resize(slots.size());
+        if (untrusted) {
+            const auto checked = decode_seams_checked(file.seams, slots, stream.vertices(), copies, out.vertex_of);
+            if (!checked) return checked.error();
+        } else {
+            decode_seams(*seams, slots, copies);
+            out.vertex_of.resize(seams->copies);
+            copy_vertices(*seams, slots, out.vertex_of);
+        }
+    }
+    if (out.vertex_of.size() != file.copy_count) {
+        return malformed_lr("seams and file have different numbers of copies");
     }
     std::erase(copies, UINT32_MAX);
     out.indices = std::move(copies);
@@ -40,7 +65,7 @@ void DecodedLr::remove_extra(std::vector<std::uint32_t>& values) const {
     values.resize(kept);
 }
 
-Result<DecodedLr> decode_connectivity(const LrFileView& file, bool untrusted) {
+Result<DecodedLr> decode_connectivity(const LrFileView& file, bool untrusted, const StoredSeams* stored) {
     const Result<StreamView> view = untrusted ? validate(file.words) : view_stream(file.words);
     if (!view) return view.error();
     if (view->format() != file.format) return malformed_lr("the stream is of another format than its section");
@@ -51,7 +76,7 @@ Result<DecodedLr> decode_connectivity(const LrFileView& file, bool untrusted) {
     out.vertices = view->vertices();
     if (file.seams.empty()) {
         out.indices = decode(*view);
-    } else if (const Result<void> decoded = decode_copies(file, *view, untrusted, out); !decoded) {
+    } else if (const Result<void> decoded = decode_copies(file, *view, untrusted, stored, out); !decoded) {
         return decoded.error();
     }
     const auto mark_extra = [&](const auto* stream) {

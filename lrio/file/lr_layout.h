@@ -38,7 +38,7 @@ constexpr const char* kKindNames[] = {"",   "lean",       "attribute", "vertex_o
 /// How a section's contents are coded.
 enum Coding : std::uint16_t {
     kResident = 0,  // as they lie in memory
-    kStored = 1,    // in storage form: packed streams and vertex streams (docs/storage-format.md)
+    kStored = 1,    // in storage form: packed streams, vertex streams and seams (docs/storage-format.md)
 };
 
 struct FileHeader {
@@ -145,8 +145,8 @@ Result<FileHeader> visit_sections(std::span<const std::byte> bytes, Visit visit)
         if (!named && (section.layout != 0 || section.name_length != 0)) {
             return malformed_lr(fmt::format("section {}: it has no layout and no name", i));
         }
-        if (section.coding > kStored ||
-            (section.coding == kStored && section.kind != kPacked && section.kind != kVertices)) {
+        const bool has_stored = section.kind == kPacked || section.kind == kVertices || section.kind == kSeams;
+        if (section.coding > kStored || (section.coding == kStored && !has_stored)) {
             return malformed_lr(fmt::format("section {}: unknown coding {}", i, section.coding));
         }
         if (std::string why = visit(header, section, bytes.subspan(section.offset, section.size)); !why.empty()) {
@@ -183,8 +183,16 @@ Result<void> check_position(const LrFileView& file);
 /// Errors: malformed (a coordinate that is not finite as a float: what draws or exports a mesh has no other).
 Result<void> check_finite(ComponentType type, std::span<const std::byte> coordinates);
 
-/// Decodes the connectivity and the seams. Errors: malformed; of files that are valid none, if `untrusted` is false.
-Result<DecodedLr> decode_connectivity(const LrFileView& file, bool untrusted);
+/// A file's seams that are in storage form: their words, which become the resident section's, and the bytes of memory
+/// that this may take.
+struct StoredSeams {
+    std::vector<std::uint32_t>& words;
+    std::uint64_t max_bytes;
+};
+
+/// Decodes the connectivity and the seams: `stored`, if that is not null, which it restores, else the file's. Errors:
+/// malformed; of files that are valid none, if `untrusted` is false; memory_limit of stored seams.
+Result<DecodedLr> decode_connectivity(const LrFileView& file, bool untrusted, const StoredSeams* stored = nullptr);
 
 /// Mesh and surface in stream order, as decode_lr's; takes what is decoded.
 Result<Mesh> decode_mesh(const LrFile& file, DecodedLr& decoded, Surface* surface);

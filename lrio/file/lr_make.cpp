@@ -5,6 +5,7 @@
 #include "lacedring/file.hpp"
 #include "lacedring/streams.hpp"
 #include "lrcore/codec/storage/packed_storage.h"
+#include "lrcore/codec/storage/seam_storage.h"
 #include "lrcore/codec/storage/vertex_storage.h"
 #include "lrio/file/lr_layout.h"
 
@@ -81,7 +82,7 @@ namespace {
 
 /// The streams of a file in storage form, where they have one that is smaller; else empty.
 struct StoredStreams {
-    std::vector<std::uint32_t> connectivity;
+    std::vector<std::uint32_t> connectivity, seams;
     std::vector<std::vector<std::uint32_t>> attributes;  ///< one for each, or none at all
 };
 
@@ -97,6 +98,10 @@ StoredStreams store_streams(const LrFile& file) {
     }
     const Result<DecodedLr> decoded = decode_connectivity(view_of(file), false);
     if (!decoded) return out;
+    if (const Result<StreamView> stream = view_stream(file.words); stream && !file.seams.empty()) {
+        const Result<SeamView> seams = view_seams(file.seams, stream->slots(), stream->vertices());
+        if (seams) out.seams = take(storage::store_seams(*seams, slot_triangles(*stream)), file.seams.size());
+    }
     std::vector<std::uint32_t> of_vertices;
     const std::vector<std::uint32_t> positions = position_integers(file);
     for (const LrAttribute& attribute : file.attributes) {
@@ -131,7 +136,10 @@ std::vector<std::byte> serialize_lr(const LrFile& file, LrForm form) {
     };
     add(kind_of(file.format), std::as_bytes(std::span(file.words)));
     set_stored(stored.connectivity);
-    if (!file.seams.empty()) add(kSeams, std::as_bytes(std::span(file.seams)));
+    if (!file.seams.empty()) {
+        add(kSeams, std::as_bytes(std::span(file.seams)));
+        set_stored(stored.seams);
+    }
     for (const LrAttribute& attribute : file.attributes) {
         const bool stream = !attribute.words.empty();
         add(stream ? kVertices : kAttribute, stream ? std::as_bytes(std::span(attribute.words)) : attribute.data);

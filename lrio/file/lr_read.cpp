@@ -54,6 +54,7 @@ class Reader {
             case kCornerOrder:
                 return read_words(contents, file_.corner_order);
             case kSeams:
+                has_stored_seams_ |= section.coding == kStored && !contents.empty();
                 return read_words(contents, file_.seams);
             case kAttribute:
                 return read_attribute(header, section, contents);
@@ -193,7 +194,8 @@ class Reader {
             connectivity.copy_count = file_.copy_count;
             connectivity.words = file_.words;
             connectivity.seams = file_.seams;
-            auto decoded = decode_connectivity(connectivity, true);
+            const StoredSeams seams{file_.seams, max_bytes_};
+            auto decoded = decode_connectivity(connectivity, true, has_stored_seams_ ? &seams : nullptr);
             if (!decoded) return decoded.error();
             decoded_ = std::move(*decoded);
             return {};
@@ -295,7 +297,7 @@ class Reader {
     std::optional<storage::StoredPacked> steps_;
     LrFile file_;
     DecodedLr decoded_;
-    bool has_connectivity_ = false;
+    bool has_connectivity_ = false, has_stored_seams_ = false;
 };
 
 }  // namespace

@@ -4,197 +4,65 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <limits>
 
 #include "lacedring/lacedring.hpp"
 #include "lacedring/lacedring_seams.h"
 #include "lacedring/seams.hpp"
-#include "lrcore/base/bits.h"
-#include "lrcore/base/crc32.h"
 #include "lrcore/base/message.h"
-#include "lrcore/base/signature.h"
-#include "lrcore/codec/bit_writer.h"
-#include "lrcore/codec/seams/seam_codes.h"
+#include "lrcore/codec/seams/seam_encoder.h"
 
 namespace lacedring {
 namespace {
 
 constexpr std::uint32_t kNone = UINT32_MAX;
 constexpr std::uint32_t kPrivate = LACEDRING_SEAMS_PRIVATE;
-constexpr std::uint32_t kMostHomes = LACEDRING_SEAMS_MAX_STEPS;  // of a vertex: one step fewer, or as many with a wrap
 
 using Triangles = std::span<const std::uint32_t>;
 
-std::uint32_t corner_next(std::uint32_t c) {
-    return c % 3 == 2 ? c - 2 : c + 1;
-}
-std::uint32_t corner_previous(std::uint32_t c) {
-    return c % 3 == 0 ? c + 2 : c - 1;
-}
+/// What the vertices and corners of blocks without copies answer.
+constexpr SeamAnswer kPlainAnswers[] = {{0, LACEDRING_SEAM_V0, 1},     {0, LACEDRING_SEAM_LONE, 1},
+                                        {0, LACEDRING_SEAM_RIGHT1, 1}, {1, LACEDRING_SEAM_START_L, 1},
+                                        {1, LACEDRING_SEAM_MID_R, 1},  {1, LACEDRING_SEAM_PLAIN, 1}};
 
-/// Home copies of the vertices, by the copies' numbers.
-struct Homes {
-    std::vector<std::uint32_t> first;  ///< of vertex v in `copy`: first[v] to first[v + 1]
-    std::vector<std::uint32_t> copy;   ///< UINT32_MAX of a vertex without corners
-    std::vector<std::uint8_t> wrap;    ///< of each vertex: its last position is its first copy again
-    std::vector<std::uint32_t> index;  ///< of each copy among its vertex's homes, or UINT32_MAX
-
-    std::uint32_t steps(std::uint32_t v) const { return first[v + 1] - first[v] - 1 + wrap[v]; }
-    std::uint32_t count(std::uint32_t v) const { return first[v + 1] - first[v]; }
-    /// The home copy at a position; private states are left as they are.
-    std::uint32_t copy_at(std::uint32_t v, std::uint32_t state) const {
-        return wrap[v] != 0 && state == steps(v) ? 0 : state;
-    }
-};
-
-/// The side of each triangle: that of its ring edge, or its parent's.
-std::vector<std::uint8_t> find_sides(Triangles triangles) {
-    std::vector<std::uint8_t> out(triangles.size() / 3);
-    for (std::uint32_t i = 0; i < out.size(); ++i) {
-        const std::uint32_t in_block = i % kSeamBlock, side = lacedring_seam_side(&triangles[std::size_t{3} * i]);
-        std::uint32_t pair[2];
-        out[i] = static_cast<std::uint8_t>(side);
-        if (side < 2 || lacedring_seam_is_empty(&triangles[std::size_t{3} * i])) continue;
-        const std::uint32_t back = lacedring_seam_parent(&triangles[std::size_t{3} * (i - in_block)], in_block, pair);
-        out[i] = back > 0 ? out[i - back] : 0;
-    }
-    return out;
-}
-
-/// Chooses the home copies of vertices: those of the fan on the left, in its order.
-class HomeFinder {
-  public:
-    HomeFinder(Triangles triangles, std::span<const std::uint32_t> copies, std::span<const std::uint8_t> sides)
-        : triangles_(triangles), copies_(copies), sides_(sides), visited_(triangles.size()) {}
-
-    /// The home copies of vertex v, which has these corners, in increasing order. True: its fan wraps.
-    bool find(std::uint32_t v, std::span<const std::uint32_t> corners, std::vector<std::uint32_t>& homes) {
-        find_fan(v, corners);
-        homes.clear();
-        const auto add = [&](std::uint32_t copy) {
-            if (homes.size() < kMostHomes - 2 && std::ranges::find(homes, copy) == homes.end()) homes.push_back(copy);
-        };
-        std::uint32_t ends[2] = {kNone, kNone};  // copies at the ring edges to v - 1 and v + 1
-        for (const std::uint32_t c : fan_) add(copies_[c]);
-        for (const std::uint32_t c : corners) {
-            if (sides_[c / 3] != 0) continue;
-            add(copies_[c]);
-            const std::uint32_t a = triangles_[corner_next(c)], b = triangles_[corner_previous(c)];
-            if (ends[0] == kNone && (a == v - 1 || b == v - 1)) ends[0] = copies_[c];
-            if (ends[1] == kNone && (a == v + 1 || b == v + 1)) ends[1] = copies_[c];
-        }
-        if (homes.empty()) homes.push_back(corners.empty() ? kNone : copies_[corners.front()]);
-        if (homes.size() > 1) {
-            if (ends[1] != kNone && ends[1] != ends[0]) {
-                std::erase(homes, ends[1]);
-                homes.push_back(ends[1]);
-            }
-            if (ends[0] != kNone) {
-                std::erase(homes, ends[0]);
-                homes.insert(homes.begin(), ends[0]);
-            }
-        }
-        std::size_t changes = 0;
-        for (std::size_t i = 1; i < fan_.size(); ++i) changes += copies_[fan_[i - 1]] != copies_[fan_[i]] ? 1U : 0U;
-        return homes.size() > 1 && changes == homes.size() && copies_[fan_.front()] == copies_[fan_.back()];
-    }
-
-  private:
-    /// The left corners of v from its ring edge (v - 1, v) to (v, v + 1), or as far as the triangles go from there.
-    void find_fan(std::uint32_t v, std::span<const std::uint32_t> corners) {
-        walk(corners, v + 1, v - 1, corner_next, corner_previous);
-        std::ranges::reverse(fan_);
-        if (fan_.empty()) walk(corners, v - 1, v + 1, corner_previous, corner_next);
-        std::erase_if(fan_, [&](std::uint32_t c) { return sides_[c / 3] != 0; });
-    }
-
-    template <class Corner>
-    void walk(std::span<const std::uint32_t> corners, std::uint32_t start, std::uint32_t stop, Corner from, Corner to) {
-        fan_.clear();
-        by_.clear();
-        for (const std::uint32_t c : corners) by_.emplace_back(triangles_[from(c)], c);
-        std::ranges::sort(by_);
-        for (std::uint32_t at = start; fan_.empty() || at != stop; at = triangles_[to(fan_.back())]) {
-            const auto found = std::ranges::lower_bound(by_, std::pair(at, 0U));
-            if (found == by_.end() || found->first != at || visited_.test(found->second)) break;
-            visited_.set(found->second);
-            fan_.push_back(found->second);
-        }
-        for (const std::uint32_t c : fan_) visited_.clear(c);
-    }
-
-    Triangles triangles_;
-    std::span<const std::uint32_t> copies_;
-    std::span<const std::uint8_t> sides_;
-    BitVector visited_;
-    std::vector<std::uint32_t> fan_;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> by_;  // vertex, corner
-};
-
-Homes find_homes(Triangles triangles, std::uint32_t vertices, std::span<const std::uint32_t> copies,
-                 std::uint32_t copy_count) {
-    std::vector<std::uint32_t> begin(std::size_t{vertices} + 2), corners(triangles.size());
-    for (const std::uint32_t v : triangles) {
-        if (v != kNone) ++begin[v + 2];
-    }
-    for (std::size_t v = 2; v < begin.size(); ++v) begin[v] += begin[v - 1];
-    for (std::uint32_t c = 0; c < triangles.size(); ++c) {
-        if (triangles[c] != kNone) corners[begin[triangles[c] + 1]++] = c;
-    }
-    const std::vector<std::uint8_t> sides = find_sides(triangles);
-    HomeFinder finder(triangles, copies, sides);
-    Homes out;
-    out.index.assign(copy_count, kNone);
-    out.first.reserve(std::size_t{vertices} + 1);
-    out.wrap.reserve(vertices);
-    std::vector<std::uint32_t> homes;
-    for (std::uint32_t v = 0; v < vertices; ++v) {
-        const auto own = std::span(corners).subspan(begin[v], begin[v + 1] - begin[v]);
-        out.first.push_back(static_cast<std::uint32_t>(out.copy.size()));
-        out.wrap.push_back(finder.find(v, own, homes) ? 1 : 0);
-        for (std::uint32_t i = 0; i < homes.size(); ++i) {
-            if (homes[i] != kNone) out.index[homes[i]] = i;
-        }
-        out.copy.insert(out.copy.end(), homes.begin(), homes.end());
-    }
-    out.first.push_back(static_cast<std::uint32_t>(out.copy.size()));
-    return out;
-}
-
-SeamAnswers answer_vertices(const Homes& homes, std::uint32_t vertices) {
+/// All answers; none of blocks whose vertices have one home copy each, if `skip_plain`.
+SeamAnswers answer_vertices(const SeamHomes& homes, std::uint32_t vertices, bool skip_plain) {
     SeamAnswers out;
-    for (std::uint32_t v = 0, before = 0; v < vertices; ++v) {
-        if (v % kSeamBlock == 0) {
-            out.begin.push_back(out.all.size());
-            out.copies.push_back(0);
-            before = 0;
+    for (std::uint32_t first = 0, end = 0; first < vertices; first = end) {
+        end = first + std::min(vertices - first, kSeamBlock);
+        out.begin.push_back(out.all.size());
+        out.copies.push_back(homes.first[end] - homes.first[first] - (end - first));
+        if (skip_plain && out.copies.back() == 0) continue;
+        for (std::uint32_t v = first, before = 0; v < end; ++v) {
+            const std::uint32_t steps = homes.steps(v);
+            if (out.flag(LACEDRING_SEAM_V0 + before, steps > 0) && out.flag(LACEDRING_SEAM_MORE, steps > 1)) {
+                std::uint32_t n = 2;
+                while (n < LACEDRING_SEAMS_MAX_STEPS && out.flag(LACEDRING_SEAM_MANY, steps > n)) ++n;
+                out.flag(LACEDRING_SEAM_WRAP, homes.wrap[v] != 0);
+            }
+            before = std::min(steps, 2U);
         }
-        const std::uint32_t steps = homes.steps(v);
-        if (out.flag(LACEDRING_SEAM_V0 + before, steps > 0) && out.flag(LACEDRING_SEAM_MORE, steps > 1)) {
-            for (std::uint32_t n = 2; n < LACEDRING_SEAMS_MAX_STEPS && out.flag(LACEDRING_SEAM_MANY, steps > n);) ++n;
-            out.flag(LACEDRING_SEAM_WRAP, homes.wrap[v] != 0);
-        }
-        out.copies.back() += homes.count(v) - 1;
-        before = std::min(steps, 2U);
     }
     return out;
 }
 
-/// SeamAnswers what decoders ask about the triangles' corners, as lacedring_seams.h asks it.
+/// Answers what decoders ask about the triangles' corners, as lacedring_seams.h asks it.
 class CornerEncoder {
   public:
-    CornerEncoder(Triangles triangles, std::span<const std::uint32_t> copies, const Homes& homes)
+    CornerEncoder(Triangles triangles, std::span<const std::uint32_t> copies, const SeamHomes& homes)
         : triangles_(triangles), copies_(copies), homes_(homes), private_(homes.index.size(), kNone) {}
 
-    SeamAnswers run() {
+    /// All answers; none of blocks whose vertices have one copy each, if `skip_plain`.
+    SeamAnswers run(bool skip_plain) {
         const auto count = static_cast<std::uint32_t>(triangles_.size() / 3);
-        state_.resize(triangles_.size());
+        out_.all.reserve(std::size_t{2} * count);
         sides_.resize(count);
         for (first_ = 0; first_ < count; first_ = end_) {
             end_ = std::min(count - first_, kSeamBlock) + first_;
             out_.begin.push_back(out_.all.size());
             const std::size_t before = order_.size();
-            for (std::uint32_t i = first_; i < end_; ++i) encode(i);
+            if (!skip_plain || !is_plain(first_, end_)) {
+                for (std::uint32_t i = first_; i < end_; ++i) encode(i);
+            }
             out_.copies.push_back(static_cast<std::uint32_t>(order_.size() - before));
         }
         return std::move(out_);
@@ -213,6 +81,15 @@ class CornerEncoder {
         std::uint32_t corner, state, far, type;
         bool is_last;
     };
+
+    /// Do all vertices of triangles `first` to `end` have one copy? Empty ones have no vertices.
+    bool is_plain(std::uint32_t first, std::uint32_t end) const {
+        const auto corners = triangles_.subspan(std::size_t{3} * first, std::size_t{3} * (end - first));
+        return std::ranges::all_of(corners, [&](std::uint32_t v) { return v == kNone || homes_.single[v] != 0; });
+    }
+
+    std::uint32_t& state(std::uint32_t c) { return state_[c - 3 * first_]; }
+    std::uint32_t state(std::uint32_t c) const { return state_[c - 3 * first_]; }
 
     bool is_home(std::uint32_t c) const { return homes_.index[copies_[c]] != kNone; }
     bool has_state(std::uint32_t c, std::uint32_t state) const {
@@ -260,7 +137,7 @@ class CornerEncoder {
         std::uint32_t more = 1;
         while (more < 3 && (i + more >= end_ || lacedring_seam_corner(&triangles_[std::size_t{3} * (i + more)], v) < 3))
             ++more;
-        End e{c, state_[3 * parent + in_parent], (sides_[i] == 0) == precedes ? 0 : steps, 0, more == 1};
+        End e{c, state(3 * parent + in_parent), (sides_[i] == 0) == precedes ? 0 : steps, 0, more == 1};
         if (sides_[i] == 0) {
             const std::uint32_t distance =
                 e.state >= kPrivate ? 0 : std::max(e.far, e.state) - std::min(e.far, e.state);
@@ -310,8 +187,8 @@ class CornerEncoder {
                 out_.bits(b_changes ? 0 : 1, 1);
             }
         }
-        state_[a.corner] = a_changes ? change(sides_[i], a) : a.state;
-        state_[b.corner] = b_changes ? change(sides_[i], b) : b.state;
+        state(a.corner) = a_changes ? change(sides_[i], a) : a.state;
+        state(b.corner) = b_changes ? change(sides_[i], b) : b.state;
     }
 
     void encode_start(std::uint32_t i, std::uint32_t j, bool has_parent) {
@@ -331,7 +208,7 @@ class CornerEncoder {
                 if (neighbors[n] == 3) continue;
                 const std::uint32_t other = t[neighbors[n]];
                 const std::uint32_t end = homes_.copy_at(other, n == 0 ? homes_.steps(other) : 0);
-                if (homes_.copy_at(other, state_[3 * i + neighbors[n]]) == end) {
+                if (homes_.copy_at(other, state(3 * i + neighbors[n])) == end) {
                     q = {n == 0 ? 0 : steps, LACEDRING_SEAM_PLAIN, LACEDRING_SEAM_NEW_R};
                     break;
                 }
@@ -339,7 +216,23 @@ class CornerEncoder {
                      steps > 0 ? LACEDRING_SEAM_SEAMED2 : LACEDRING_SEAM_SEAMED, true};
             }
         }
-        state_[c] = choose(c, kNone, q);
+        state(c) = choose(c, kNone, q);
+    }
+
+    /// The same as below, of three vertices with one copy each.
+    void encode_plain(std::uint32_t i, const std::uint32_t (&pair)[2]) {
+        const std::uint32_t* t = &triangles_[std::size_t{3} * i];
+        const bool has_parent = pair[0] < 3;
+        if (has_parent) out_.flag(sides_[i] == 0 ? LACEDRING_SEAM_LONE : LACEDRING_SEAM_RIGHT1, false);
+        for (std::uint32_t j = 0; j < 3; ++j) {
+            state(3 * i + j) = 0;
+            if (j == pair[0] || j == pair[1]) continue;
+            const bool by_ring = lacedring_seam_corner(t, t[j] - 1) < 3 || lacedring_seam_corner(t, t[j] + 1) < 3;
+            out_.flag(sides_[i] == 0          ? LACEDRING_SEAM_START_L
+                      : has_parent && by_ring ? LACEDRING_SEAM_PLAIN
+                                              : LACEDRING_SEAM_MID_R,
+                      true);
+        }
     }
 
     void encode(std::uint32_t i) {
@@ -348,6 +241,7 @@ class CornerEncoder {
         const std::uint32_t back = lacedring_seam_parent(&triangles_[std::size_t{3} * first_], i - first_, pair);
         const std::uint32_t side = lacedring_seam_side(&triangles_[std::size_t{3} * i]);
         sides_[i] = static_cast<std::uint8_t>(side < 2 ? side : back > 0 ? sides_[i - back] : 0U);
+        if (is_plain(i, i + 1)) return encode_plain(i, pair);
         if (back > 0) encode_spoke(i, i - back, pair);
         for (std::uint32_t j = 0; j < 3; ++j) {
             if (j != pair[0] && j != pair[1]) encode_start(i, j, back > 0);
@@ -356,68 +250,18 @@ class CornerEncoder {
 
     Triangles triangles_;
     std::span<const std::uint32_t> copies_;
-    const Homes& homes_;
-    std::vector<std::uint32_t> private_;  // number of each copy that is no home
-    std::vector<std::uint32_t> order_;    // copy of each number
-    std::vector<std::uint32_t> state_;    // of each corner
+    const SeamHomes& homes_;
+    std::vector<std::uint32_t> private_;                              // number of each copy that is no home
+    std::vector<std::uint32_t> order_;                                // copy of each number
+    std::array<std::uint32_t, std::size_t{3} * kSeamBlock> state_{};  // of the block's corners
     std::vector<std::uint8_t> sides_;
     std::uint32_t first_ = 0, end_ = 0;  // triangles of the block
     SeamAnswers out_;
 };
 
-/// A directory: lengths of blocks, copies that they make, and sums of both where groups begin. Returns its field widths
-/// as the header has them.
-std::uint32_t write_directory(BitWriter& out, std::span<const std::uint32_t> lengths,
-                              std::span<const std::uint32_t> copies) {
-    if (lengths.empty()) return 0;
-    const auto length_bits = static_cast<std::uint32_t>(std::bit_width(std::ranges::max(lengths)));
-    const auto copy_bits = static_cast<std::uint32_t>(std::bit_width(std::ranges::max(copies)));
-    std::uint32_t length_sum = 0, copy_sum = 0;
-    for (std::size_t b = 0; b < lengths.size(); ++b) {
-        if (b > 0 && b % LACEDRING_SEAMS_GROUP == 0) {
-            out.put(length_sum, 32);
-            out.put(copy_sum, 32);
-        }
-        out.put(lengths[b], length_bits);
-        out.put(copies[b], copy_bits);
-        length_sum += lengths[b];
-        copy_sum += copies[b];
-    }
-    return length_bits | copy_bits << 8;
-}
-
-/// The section's words; none if it would be too large.
-std::vector<std::uint32_t> write_section(std::uint32_t homes, const SeamAnswers& vertices, const SeamAnswers& corners) {
-    const SeamTable table = best_table(vertices, corners);
-    std::vector<std::uint32_t> words{magic::kSeams, 0, homes, 0, 0, 0, 0, 0};
-    for (std::uint32_t c = 0; c < kSeamContexts; ++c) {
-        words[4 + c / 8] |= (table.likely[c] | std::uint32_t{table.run_class[c]} << 1) << 4 * (c % 8);
-    }
-    BitWriter out, blocks;
-    for (const SeamAnswers* answers : {&vertices, &corners}) {
-        const std::size_t before = blocks.bits();
-        std::vector<std::uint32_t> lengths;
-        for (std::size_t b = 0; b < answers->begin.size(); ++b) {
-            const std::size_t begin = blocks.bits();
-            write_block(blocks, answers->block(b), table);
-            lengths.push_back(static_cast<std::uint32_t>(blocks.bits() - begin));
-        }
-        if (blocks.bits() - before > UINT32_MAX) return {};
-        words[3] |= write_directory(out, lengths, answers->copies) << (answers == &vertices ? 0 : 16);
-    }
-    const std::size_t bits = blocks.bits();
-    const std::vector<std::uint8_t>& bytes = blocks.finish();
-    for (std::size_t i = 0; i < bits; i += 8) {
-        out.put(bytes[i / 8], static_cast<std::uint32_t>(std::min<std::size_t>(bits - i, 8)));
-    }
-    if (out.bits() % 32 != 0) out.put(0, 32 - static_cast<std::uint32_t>(out.bits() % 32));
-    const std::vector<std::uint8_t>& string = out.finish();
-    for (std::size_t i = 0; i < string.size(); i += 4) {
-        words.push_back(string[i] | std::uint32_t{string[i + 1]} << 8 | std::uint32_t{string[i + 2]} << 16 |
-                        std::uint32_t{string[i + 3]} << 24);
-    }
-    words[1] = crc32(std::as_bytes(std::span(words).subspan(2)));
-    return words;
+/// Does a block without copies take no bits?
+bool is_plain_free(const SeamTable& table) {
+    return std::ranges::all_of(kPlainAnswers, [&](const SeamAnswer& a) { return table.likely[a.context] == a.value; });
 }
 
 Error invalid_seams(std::string message) {
@@ -425,6 +269,28 @@ Error invalid_seams(std::string message) {
 }
 
 }  // namespace
+
+SeamWords write_seams(const SeamCopies& copies, const VertexCorners& corners, const SeamTableChoice& choose,
+                      bool skip_plain) {
+    SeamHomes homes = find_homes(copies.triangles, copies.vertices, copies.copies, copies.count, corners);
+    SeamAnswers of_vertices = answer_vertices(homes, copies.vertices, skip_plain);
+    std::vector<std::uint32_t> made;  // private copies
+    const auto answer_corners = [&](bool skip) {
+        CornerEncoder encoder(copies.triangles, copies.copies, homes);
+        SeamAnswers answers = encoder.run(skip);
+        made = encoder.order();
+        return answers;
+    };
+    SeamAnswers of_corners = answer_corners(skip_plain);
+    const SeamTable table = choose(of_vertices, of_corners);
+    if (skip_plain && !is_plain_free(table)) {
+        of_vertices = answer_vertices(homes, copies.vertices, false);
+        of_corners = answer_corners(false);
+    }
+    SeamWords out{write_section(homes.first.back(), of_vertices, of_corners, table), std::move(homes.copy)};
+    out.order.insert(out.order.end(), made.begin(), made.end());
+    return out;
+}
 
 Result<EncodedSeams> encode_seams(std::span<const std::uint32_t> triangles, std::uint32_t vertices,
                                   std::span<const std::uint32_t> copies) {
@@ -460,15 +326,11 @@ Result<EncodedSeams> encode_seams(std::span<const std::uint32_t> triangles, std:
         }
     }
     if (numbers.size() + vertices > LACEDRING_SEAMS_MAX_COPIES) return too_large;
-    const Homes homes = find_homes(triangles, vertices, own, static_cast<std::uint32_t>(numbers.size()));
-    CornerEncoder corners(triangles, own, homes);
-    const SeamAnswers answers = corners.run();
-    EncodedSeams out;
-    out.words = write_section(homes.first.back(), answer_vertices(homes, vertices), answers);
-    if (out.words.empty()) return too_large;
-    out.copy_order.reserve(numbers.size());
-    for (const std::uint32_t copy : homes.copy) out.copy_order.push_back(copy == kNone ? kNone : numbers[copy]);
-    for (const std::uint32_t copy : corners.order()) out.copy_order.push_back(numbers[copy]);
+    const SeamCopies sound{triangles, vertices, own, static_cast<std::uint32_t>(numbers.size())};
+    SeamWords made = write_seams(sound, VertexCorners(triangles, vertices), best_table, false);
+    if (made.words.empty()) return too_large;
+    EncodedSeams out{std::move(made.words), std::move(made.order)};
+    for (std::uint32_t& copy : out.copy_order) copy = copy == kNone ? kNone : numbers[copy];
     return out;
 }
 

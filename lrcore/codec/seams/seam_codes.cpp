@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "lrcore/base/crc32.h"
+#include "lrcore/base/signature.h"
+#include "lrcore/codec/bit_writer.h"
+
 namespace lacedring {
 namespace {
 
@@ -196,12 +200,7 @@ class TableSearch {
     std::uint64_t bits_ = std::numeric_limits<std::uint64_t>::max();
 };
 
-}  // namespace
-
-SeamTable best_table(const SeamAnswers& vertices, const SeamAnswers& corners) {
-    return TableSearch(vertices, corners).best();
-}
-
+/// Writes the codes of a block.
 void write_block(BitWriter& out, std::span<const SeamAnswer> answers, const SeamTable& table) {
     struct Run {
         std::uint32_t length = kNoRun;
@@ -226,6 +225,66 @@ void write_block(BitWriter& out, std::span<const SeamAnswer> answers, const Seam
             out.put_rice(runs[i].last ? last_run(runs[i].length, k) : runs[i].length, k - 1);
         }
     }
+}
+
+/// A directory: lengths of blocks, copies that they make, and sums of both where groups begin. Returns its field widths
+/// as the header has them.
+std::uint32_t write_directory(BitWriter& out, std::span<const std::uint32_t> lengths,
+                              std::span<const std::uint32_t> copies) {
+    if (lengths.empty()) return 0;
+    const auto length_bits = static_cast<std::uint32_t>(std::bit_width(std::ranges::max(lengths)));
+    const auto copy_bits = static_cast<std::uint32_t>(std::bit_width(std::ranges::max(copies)));
+    std::uint32_t length_sum = 0, copy_sum = 0;
+    for (std::size_t b = 0; b < lengths.size(); ++b) {
+        if (b > 0 && b % LACEDRING_SEAMS_GROUP == 0) {
+            out.put(length_sum, 32);
+            out.put(copy_sum, 32);
+        }
+        out.put(lengths[b], length_bits);
+        out.put(copies[b], copy_bits);
+        length_sum += lengths[b];
+        copy_sum += copies[b];
+    }
+    return length_bits | copy_bits << 8;
+}
+
+}  // namespace
+
+SeamTable best_table(const SeamAnswers& vertices, const SeamAnswers& corners) {
+    return TableSearch(vertices, corners).best();
+}
+
+std::vector<std::uint32_t> write_section(std::uint32_t homes, const SeamAnswers& vertices, const SeamAnswers& corners,
+                                         const SeamTable& table) {
+    std::vector<std::uint32_t> words{magic::kSeams, 0, homes, 0, 0, 0, 0, 0};
+    for (std::uint32_t c = 0; c < kSeamContexts; ++c) {
+        words[4 + c / 8] |= (table.likely[c] | std::uint32_t{table.run_class[c]} << 1) << 4 * (c % 8);
+    }
+    BitWriter out, blocks;
+    for (const SeamAnswers* answers : {&vertices, &corners}) {
+        const std::size_t before = blocks.bits();
+        std::vector<std::uint32_t> lengths;
+        for (std::size_t b = 0; b < answers->begin.size(); ++b) {
+            const std::size_t begin = blocks.bits();
+            write_block(blocks, answers->block(b), table);
+            lengths.push_back(static_cast<std::uint32_t>(blocks.bits() - begin));
+        }
+        if (blocks.bits() - before > UINT32_MAX) return {};
+        words[3] |= write_directory(out, lengths, answers->copies) << (answers == &vertices ? 0 : 16);
+    }
+    const std::size_t bits = blocks.bits();
+    const std::vector<std::uint8_t>& bytes = blocks.finish();
+    for (std::size_t i = 0; i < bits; i += 8) {
+        out.put(bytes[i / 8], static_cast<std::uint32_t>(std::min<std::size_t>(bits - i, 8)));
+    }
+    if (out.bits() % 32 != 0) out.put(0, 32 - static_cast<std::uint32_t>(out.bits() % 32));
+    const std::vector<std::uint8_t>& string = out.finish();
+    for (std::size_t i = 0; i < string.size(); i += 4) {
+        words.push_back(string[i] | std::uint32_t{string[i + 1]} << 8 | std::uint32_t{string[i + 2]} << 16 |
+                        std::uint32_t{string[i + 3]} << 24);
+    }
+    words[1] = crc32(std::as_bytes(std::span(words).subspan(2)));
+    return words;
 }
 
 }  // namespace lacedring

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "lacedring/lacedring_seams.h"
-#include "lrcore/codec/bit_writer.h"
 
 namespace lacedring {
 
@@ -56,7 +55,8 @@ struct SeamTable {
 /// The table that makes the sections' blocks, or a sample of them, smallest.
 SeamTable best_table(const SeamAnswers& vertices, const SeamAnswers& corners);
 
-/// Writes the codes of a block.
-void write_block(BitWriter& out, std::span<const SeamAnswer> answers, const SeamTable& table);
+/// The section's words; none if it would be too large.
+std::vector<std::uint32_t> write_section(std::uint32_t homes, const SeamAnswers& vertices, const SeamAnswers& corners,
+                                         const SeamTable& table);
 
 }  // namespace lacedring

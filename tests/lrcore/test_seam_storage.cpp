@@ -1,0 +1,194 @@
+// The storage form of seams gives back every section bit for bit, and no words do harm.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <memory>
+#include <random>
+
+#include "lacedring/lacedring.hpp"
+#include "lacedring/lacedring_seams.h"
+#include "lacedring/seams.hpp"
+#include "lrcore/base/crc32.h"
+#include "lrcore/codec/storage/seam_storage.h"
+#include "lrlab/generate/generate.h"
+#include "tests/support/cuts.h"
+#include "tests/support/meshes.h"
+#include "tests/support/shapes.h"
+
+using namespace lacedring;
+using test::cut;
+using test::CutSurface;
+using test::kCuts;
+
+namespace {
+
+using Words = std::vector<std::uint32_t>;
+
+Words section_of(const CutSurface& mesh) {
+    Result<EncodedSeams> out = encode_seams(mesh.triangles, mesh.vertices, mesh.copies);
+    REQUIRE_MESSAGE(out, out.error().message);
+    return std::move(out->words);
+}
+
+SeamView view_of(const Words& section, const CutSurface& mesh) {
+    const Result<SeamView> view = validate_seams(section, mesh.triangles, mesh.vertices);
+    REQUIRE_MESSAGE(view, view.error().message);
+    return *view;
+}
+
+/// Restores from a buffer of exactly the size. Whatever is restored is a valid section, and decodes to what is said.
+Result<Words> restored_seams(std::span<const std::uint32_t> stored, const CutSurface& mesh) {
+    const auto exact = std::make_unique<std::uint32_t[]>(stored.size());
+    std::ranges::copy(stored, exact.get());
+    auto out = storage::restore_seams({exact.get(), stored.size()}, mesh.triangles, mesh.vertices);
+    if (!out) {
+        CHECK_FALSE(out.error().message.empty());
+        return out.error();
+    }
+    Words copies(mesh.triangles.size()), vertices;
+    const auto view = decode_seams_checked(out->words, mesh.triangles, mesh.vertices, copies, vertices);
+    REQUIRE_MESSAGE(view, view.error().message);
+    REQUIRE(out->copies == copies);
+    REQUIRE(out->vertices == vertices);
+    return std::move(out->words);
+}
+
+/// The stored form, which gives the section back.
+Words stored_seams(const Words& section, const CutSurface& mesh) {
+    const auto stored = storage::store_seams(view_of(section, mesh), mesh.triangles);
+    REQUIRE(stored);
+    const Result<Words> back = restored_seams(*stored, mesh);
+    REQUIRE_MESSAGE(back, back.error().message);
+    CHECK(*back == section);
+    return *stored;
+}
+
+CutSurface in_packed_order(const Mesh& mesh, std::uint32_t how, std::uint64_t seed) {
+    const Result<Encoded> encoded = encode(mesh.indices, mesh.vertex_count, {.effort = 0});
+    REQUIRE_MESSAGE(encoded, encoded.error().message);
+    const StreamView view = view_stream(encoded->words).value();
+    return cut(slot_triangles(view), view.vertices(), how, seed);
+}
+
+}  // namespace
+
+TEST_CASE("seams of every small mesh, cut in every way, have a storage form that gives them back") {
+    std::size_t resident = 0, stored = 0;
+    for (const test::NamedMesh& named : test::named_meshes()) {
+        const auto& name = named.name;
+        CAPTURE(name);
+        for (std::uint32_t how = 0; how < kCuts; ++how) {
+            CAPTURE(how);
+            const CutSurface mesh = in_packed_order(named.mesh, how, 5);
+            const Words section = section_of(mesh);
+            resident += section.size();
+            stored += stored_seams(section, mesh).size();
+        }
+    }
+    MESSAGE(4 * resident << " bytes resident, " << 4 * stored << " stored");
+    CHECK(10 * stored < 6 * resident);
+}
+
+TEST_CASE("stored seams of slots without triangles, of any order, and of blocks without copies") {
+    for (const Format format : {Format::lean, Format::lr, Format::lr_compact}) {
+        const Mesh mesh = generate("parts", 900).value();
+        const Encoded encoded = encode(mesh.indices, mesh.vertex_count, {.format = format, .effort = 0}).value();
+        const StreamView view = view_stream(encoded.words).value();
+        for (std::uint32_t how = 0; how < kCuts; ++how) {
+            const CutSurface surface = cut(slot_triangles(view), view.vertices(), how, 3);
+            stored_seams(section_of(surface), surface);
+        }
+    }
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+        CAPTURE(seed);
+        const Mesh soup = test::random_soup(200, 300, seed), gluing = test::random_gluing(100, 150, seed);
+        for (const Mesh* mesh : {&soup, &gluing}) {
+            const CutSurface surface = in_packed_order(*mesh, static_cast<std::uint32_t>(seed) % kCuts, seed);
+            stored_seams(section_of(surface), surface);
+        }
+    }
+    const Mesh blob = generate("blob", 20000).value();
+    CutSurface surface = in_packed_order(blob, 0, 1);
+    const std::size_t none = stored_seams(section_of(surface), surface).size();
+    CHECK(none <= 12);
+    for (std::size_t c = 0; c < 900; ++c)
+        surface.copies[c] += surface.vertices * (1 + static_cast<std::uint32_t>(c / 3 % 2));
+    CHECK(stored_seams(section_of(surface), surface).size() > none);
+}
+
+TEST_CASE("seams of vertices with many triangles are stored in time about linear in these") {
+    CutSurface fan;  // and every triangle a copy of its own
+    const std::uint32_t count = test::kSanitized ? 20000 : 200000;
+    fan.vertices = count + 2;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        fan.triangles.insert(fan.triangles.end(), {0, i + 1, i + 2});
+        fan.copies.insert(fan.copies.end(), {fan.vertices + i, i + 1, i + 2});
+    }
+    stored_seams(section_of(fan), fan);
+}
+
+TEST_CASE("a section with another table is stored, too, and one that the encoder does not write stays resident") {
+    const CutSurface mesh = in_packed_order(generate("blob", 2000).value(), 1, 2);
+    const Words section = section_of(mesh);
+    std::size_t stored = 0, resident = 0;
+    for (std::uint32_t bit = 0; bit < 128; ++bit) {  // of the table; most make the section invalid
+        Words other = section;
+        other[4 + bit / 32] ^= 1U << bit % 32;
+        other[1] = crc32(std::as_bytes(std::span(other).subspan(2)));
+        const Result<SeamView> view = validate_seams(other, mesh.triangles, mesh.vertices);
+        if (!view) continue;
+        const auto made = storage::store_seams(*view, mesh.triangles);
+        ++(made ? stored : resident);
+        if (!made) continue;
+        const Result<Words> back = restored_seams(*made, mesh);
+        CHECK((back && *back == other));
+    }
+    CAPTURE(resident);
+    CHECK(stored > 0);
+}
+
+TEST_CASE("stored seams cut short, of other triangles, or with more behind them") {
+    const Mesh blob = generate("blob", 1500).value();
+    const CutSurface mesh = in_packed_order(blob, 1, 4), other = in_packed_order(generate("genus", 1400).value(), 1, 4);
+    const Words section = section_of(mesh), stored = stored_seams(section, mesh);
+    for (std::size_t size = 0; size < stored.size(); ++size) {
+        CAPTURE(size);
+        const Result<Words> back = restored_seams(std::span(stored).first(size), mesh);
+        CHECK_FALSE((back && *back == section));
+    }
+    Words longer = stored;
+    longer.push_back(0);
+    CHECK_FALSE(restored_seams(longer, mesh));
+    (void)restored_seams(stored, other);
+    CHECK_FALSE(storage::restore_seams(stored, std::span(mesh.triangles).first(4), mesh.vertices));
+    CHECK_FALSE(storage::restore_seams(stored, mesh.triangles, mesh.vertices - 1));
+    CHECK_FALSE(storage::restore_seams(stored, mesh.triangles, UINT32_MAX));
+    const Words twice{1, 2, 1};
+    CHECK_FALSE(storage::restore_seams(stored, twice, 3));
+}
+
+TEST_CASE("damaged and random words are no stored seams, or restore to a valid section") {
+    const auto seed = std::random_device()();
+    CAPTURE(seed);
+    std::mt19937 engine(seed);
+    const auto random = [&] { return static_cast<std::uint32_t>(engine()); };
+    const std::uint32_t rounds = test::kSanitized ? 40 : 300;
+    for (const test::NamedMesh& named : test::named_meshes()) {
+        if (named.mesh.triangle_count() > 200) continue;
+        const auto& name = named.name;
+        CAPTURE(name);
+        const CutSurface mesh = in_packed_order(named.mesh, 1 + random() % (kCuts - 1), random());
+        const Words stored = stored_seams(section_of(mesh), mesh);
+        for (std::uint32_t round = 0; round < rounds; ++round) {
+            Words words = stored;
+            if (round % 3 == 0) {
+                words.resize(1 + random() % (2 * stored.size()));
+                for (std::uint32_t& w : words) w = random() % 4 == 0 ? UINT32_MAX * (random() % 2) : random();
+            } else {
+                for (std::uint32_t k = random() % 3 + 1; k > 0; --k)
+                    words[random() % words.size()] ^= 1U << random() % 32;
+            }
+            (void)restored_seams(words, mesh);
+        }
+    }
+}
