@@ -125,8 +125,8 @@ class Reader {
         return {};
     }
 
-    /// Vertices are predicted from their neighbors, and normals from positions, too: the triangles are needed first,
-    /// and then the first attribute.
+    /// Values are predicted from neighbors', normals and texture coordinates from positions, too: the triangles are
+    /// needed first, and then POSITION, the first attribute.
     Result<void> restore_attribute(LrAttribute& attribute, const DecodedLr& decoded) {
         const std::uint32_t values = attribute.per_copy ? file_.copy_count : file_.vertex_count;
         constexpr std::uint64_t kValue = 128;  // bytes, while it is restored
@@ -206,7 +206,7 @@ class Reader {
     std::uint64_t max_bytes_;
     std::optional<Error> limit_;            ///< what was more than may be
     std::vector<std::size_t> stored_;       ///< attributes in storage form, the first one of the file first
-    std::vector<std::uint32_t> positions_;  ///< their integers, once normals need them
+    std::vector<std::uint32_t> positions_;  ///< of POSITION, once others may need them
     LrFile file_;
     DecodedLr decoded_;
     bool has_connectivity_ = false;
