@@ -5,6 +5,7 @@
 #include <bit>
 #include <cassert>
 #include <cstring>
+#include <type_traits>
 
 #include "lrcore/base/message.h"
 #include "lrcore/base/parallel.h"
@@ -228,9 +229,9 @@ constexpr VertexRule kRules[] = {VertexRule::parallelograms, VertexRule::mean, V
 /// Chooses how integers are predicted: by trial.
 class ParameterSearch {
   public:
-    /// `has_base`: the values are differences, which may need no prediction.
-    ParameterSearch(const WalkRecord& walk, std::uint32_t n, std::span<std::uint32_t> values, bool has_base)
-        : walk_(walk), n_(n), values_(values), rules_(std::span(kRules).first(has_base ? 4 : 3)) {}
+    /// `are_differences`: the values may need no prediction any more.
+    ParameterSearch(const WalkRecord& walk, std::uint32_t n, std::span<std::uint32_t> values, bool are_differences)
+        : walk_(walk), n_(n), values_(values), rules_(std::span(kRules).first(are_differences ? 4 : 3)) {}
 
     VertexParameters best() {
         find_rules();
