@@ -8,7 +8,7 @@ endif()
 if(LACEDRING_SANITIZE)
     target_compile_options(lacedring_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all
                                                        -fno-omit-frame-pointer)
-    # At a fixed address: a quarter of a program's start would be relocations of the tables of coverage.
+    # At a fixed address: a third of a program's start would be relocations of the tables of coverage.
     target_link_options(lacedring_options INTERFACE -fsanitize=address,undefined -no-pie)
     target_compile_definitions(lacedring_options INTERFACE LACEDRING_SANITIZE)
 endif()
