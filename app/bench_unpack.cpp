@@ -24,6 +24,7 @@ Result<Bytes> packed_glb(const Mesh& mesh) {
     if (!plain) return plain.error();
     PackOptions options;
     options.bits.threads = std::max(1U, std::thread::hardware_concurrency());
+    options.form = LrForm::resident;  // `restore` times the other one
     const Result<SceneFile> packed = pack_scene(*plain, {}, options, kNoLimit);
     if (!packed) return packed.error();
     return make_glb_file(*packed);
