@@ -9,7 +9,7 @@
 namespace lacedring {
 namespace {
 
-constexpr std::uint32_t kNone = UINT32_MAX;
+constexpr std::uint32_t kNoState = UINT32_MAX;
 constexpr std::uint32_t kMostHomes = LACEDRING_SEAMS_MAX_STEPS;  // of a vertex: one step fewer, or as many with a wrap
 
 using Triangles = std::span<const std::uint32_t>;
@@ -41,22 +41,22 @@ class HomeFinder {
         const auto add = [&](std::uint32_t copy) {
             if (homes.size() < kMostHomes - 2 && std::ranges::find(homes, copy) == homes.end()) homes.push_back(copy);
         };
-        std::uint32_t ends[2] = {kNone, kNone};  // copies at the ring edges to v - 1 and v + 1
+        std::uint32_t ends[2] = {kNoState, kNoState};  // copies at the ring edges to v - 1 and v + 1
         for (const std::uint32_t c : fan_) add(copies_[c]);
         for (const std::uint32_t c : corners) {
             if (sides_[c / 3] != 0) continue;
             add(copies_[c]);
             const std::uint32_t a = triangles_[corner_next(c)], b = triangles_[corner_previous(c)];
-            if (ends[0] == kNone && (a == v - 1 || b == v - 1)) ends[0] = copies_[c];
-            if (ends[1] == kNone && (a == v + 1 || b == v + 1)) ends[1] = copies_[c];
+            if (ends[0] == kNoState && (a == v - 1 || b == v - 1)) ends[0] = copies_[c];
+            if (ends[1] == kNoState && (a == v + 1 || b == v + 1)) ends[1] = copies_[c];
         }
-        if (homes.empty()) homes.push_back(corners.empty() ? kNone : copies_[corners.front()]);
+        if (homes.empty()) homes.push_back(corners.empty() ? kNoState : copies_[corners.front()]);
         if (homes.size() > 1) {
-            if (ends[1] != kNone && ends[1] != ends[0]) {
+            if (ends[1] != kNoState && ends[1] != ends[0]) {
                 std::erase(homes, ends[1]);
                 homes.push_back(ends[1]);
             }
-            if (ends[0] != kNone) {
+            if (ends[0] != kNoState) {
                 std::erase(homes, ends[0]);
                 homes.insert(homes.begin(), ends[0]);
             }
@@ -103,11 +103,11 @@ class HomeFinder {
 VertexCorners::VertexCorners(std::span<const std::uint32_t> triangles, std::uint32_t vertices)
     : begin_(std::size_t{vertices} + 2), corners_(triangles.size()) {
     for (const std::uint32_t v : triangles) {
-        if (v != kNone) ++begin_[v + 2];
+        if (v != kNoState) ++begin_[v + 2];
     }
     for (std::size_t v = 2; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
     for (std::uint32_t c = 0; c < triangles.size(); ++c) {
-        if (triangles[c] != kNone) corners_[begin_[triangles[c] + 1]++] = c;
+        if (triangles[c] != kNoState) corners_[begin_[triangles[c] + 1]++] = c;
     }
 }
 
@@ -116,7 +116,7 @@ SeamHomes find_homes(std::span<const std::uint32_t> triangles, std::uint32_t ver
     const std::vector<std::uint8_t> sides = find_sides(triangles);
     HomeFinder finder(triangles, copies, sides);
     SeamHomes out;
-    out.index.assign(copy_count, kNone);
+    out.index.assign(copy_count, kNoState);
     out.first.reserve(std::size_t{vertices} + 1);
     out.copy.reserve(vertices);
     out.wrap.assign(vertices, 0);
@@ -125,9 +125,9 @@ SeamHomes find_homes(std::span<const std::uint32_t> triangles, std::uint32_t ver
     for (std::uint32_t v = 0; v < vertices; ++v) {
         const std::span<const std::uint32_t> own = corners.of(v);
         out.first.push_back(static_cast<std::uint32_t>(out.copy.size()));
-        const std::uint32_t copy = own.empty() ? kNone : copies[own.front()];
+        const std::uint32_t copy = own.empty() ? kNoState : copies[own.front()];
         if (std::ranges::all_of(own, [&](std::uint32_t c) { return copies[c] == copy; })) {
-            if (copy != kNone) out.index[copy] = 0;
+            if (copy != kNoState) out.index[copy] = 0;
             out.copy.push_back(copy);
             continue;
         }
