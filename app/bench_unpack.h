@@ -1,5 +1,5 @@
 #pragma once
-// Unpacking of a whole mesh, a packed scene in memory, beside Draco's decoder.
+// Whole meshes, bytes in memory to arrays in memory, beside Draco's decoder.
 
 #include <cstdint>
 #include <map>
@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "app/measure.h"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/lr_file.hpp"
 #include "lacedring/mesh.hpp"
 
 namespace lacedring::app {
@@ -22,5 +24,11 @@ struct UnpackBench {
 /// "draco_smallest": the same mesh with the same bits by Draco at its tools' level 7, their default, and 10, to
 /// attributes and an index list. All from bytes in memory to vectors of their own, on one thread.
 UnpackBench unpack_candidates(const Mesh& mesh);
+
+/// "lacedring": an .lr file in storage form to resident streams (parse_lr), which have blocks that decode alone;
+/// "lacedring_decoded": from there to positions and an index list, too (decode_lr); "draco": the same positions with
+/// the same bits by Draco at level 10, its smallest, to positions and an index list. `encoded` is the mesh's, as
+/// packed; of its attributes only POSITION is taken. All from bytes in memory, on one thread.
+UnpackBench restore_candidates(const Mesh& mesh, Encoded encoded, const AttributeBits& bits);
 
 }  // namespace lacedring::app

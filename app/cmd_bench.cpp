@@ -12,6 +12,7 @@
 
 #include "app/bench_operators.h"
 #include "app/bench_resident.h"
+#include "app/bench_section.h"
 #include "app/bench_unpack.h"
 #include "app/bench_vertices.h"
 #include "app/commands.h"
@@ -54,45 +55,6 @@ struct BenchOptions {
 };
 
 constexpr std::uint32_t kHybridPeriod = 32;  // of Figure 8's middle picture
-
-struct Section {
-    std::string name;
-    std::vector<Candidate> candidates;
-
-    /// Median seconds of the named candidate; 0 if it is missing.
-    double median(std::string_view candidate) const {
-        const auto found = std::ranges::find(candidates, candidate, &Candidate::name);
-        return found == candidates.end() ? 0 : found->median();
-    }
-    /// {"a_over_b": seconds of a over seconds of b}; null where either is missing.
-    Json ratio(const std::string& a, const std::string& b) const {
-        const double over = median(a), under = median(b);
-        return {{a + "_over_" + b, over > 0 && under > 0 ? Json(over / under) : Json(nullptr)}};
-    }
-};
-
-void measure(Section& section, int rounds) {
-    ProgressBar bar(section.name, section.candidates.size() * static_cast<std::uint64_t>(rounds));
-    run_interleaved(section.candidates, rounds, [&] { bar.step(); });
-}
-
-/// The sizes of a mesh, for rates per second.
-struct Counts {
-    double triangles = 0, vertices = 0;
-};
-
-Json to_json(const Section& section, const Counts& counts) {
-    Json out = Json::object();
-    for (const Candidate& c : section.candidates) {
-        out[c.name] = {{"seconds", c.median()},
-                       {"mtri_per_s", counts.triangles / c.median() / 1e6},
-                       {"seconds_min", *std::min_element(c.seconds.begin(), c.seconds.end())},
-                       {"seconds_max", *std::max_element(c.seconds.begin(), c.seconds.end())}};
-        if (c.vertices) out[c.name]["mvert_per_s"] = counts.vertices / c.median() / 1e6;
-        if (!c.gpu_seconds.empty()) out[c.name]["gpu_seconds"] = median(c.gpu_seconds);
-    }
-    return out;
-}
 
 #ifdef LACEDRING_GPU
 void add_costs(Json& draw, const GpuFigures& figures) {
@@ -244,12 +206,10 @@ int bench(const BenchOptions& options, const std::string& path, Json& meshes, [[
     }
     measure(decode, options.rounds * 3);
 
-    UnpackBench unpacking = unpack_candidates(loaded->mesh);
-    for (const auto& [name, reason] : unpacking.absent) absent[name] = reason;
-    Section unpack{"unpack", std::move(unpacking.candidates)};
-    measure(unpack, options.rounds * 3);
-    Json unpack_json = to_json(unpack, counts);
-    for (const auto& [name, bytes] : unpacking.bytes) unpack_json[name]["bytes"] = bytes;
+    const Section unpack = measure_unpacking("unpack", unpack_candidates(loaded->mesh), options.rounds * 3, absent, "");
+    const Section restore = measure_unpacking(
+        "restore", restore_candidates(*mesh, as_encoded(EncodedPacked(*small)), {.positions = options.positions}),
+        options.rounds * 3, absent, "_restore");
 
     std::vector<OperatorFigures> operators;
     Json operators_json = Json::object();
@@ -308,7 +268,7 @@ int bench(const BenchOptions& options, const std::string& path, Json& meshes, [[
     }
     const Json construct_ratio = construct.ratio("strips", "lean"),
                decode_cpu_ratio = decode.ratio("meshopt_vertex_codec", "vertices"),
-               unpack_ratio = unpack.ratio("draco", "lacedring"),
+               unpack_ratio = unpack.ratio("draco", "lacedring"), restore_ratio = restore.ratio("draco", "lacedring"),
                decode_gpu_ratio = decode_gpu.ratio("packed_vertices", "packed");
     if (options.json) {
         meshes.push_back({{"file", path},
@@ -318,8 +278,10 @@ int bench(const BenchOptions& options, const std::string& path, Json& meshes, [[
                           {"position_bits", options.positions},
                           {"decode_cpu", to_json(decode, counts)},
                           {"decode_cpu_ratio", decode_cpu_ratio},
-                          {"unpack", unpack_json},
+                          {"unpack", to_json(unpack, counts)},
                           {"unpack_ratio", unpack_ratio},
+                          {"restore", to_json(restore, counts)},
+                          {"restore_ratio", restore_ratio},
                           {"decode_gpu", to_json(decode_gpu, counts)},
                           {"decode_gpu_ratio", decode_gpu_ratio},
                           {"draw", draw},
@@ -332,7 +294,7 @@ int bench(const BenchOptions& options, const std::string& path, Json& meshes, [[
         return done;
     }
     print("{}: {} triangles; medians of {} rounds\n", path, mesh->triangle_count(), options.rounds);
-    for (const Section& section : {construct, decode, unpack, decode_gpu}) {
+    for (const Section& section : {construct, decode, unpack, restore, decode_gpu}) {
         if (section.candidates.empty()) continue;
         print("  {}\n", section.name);
         for (const Candidate& c : section.candidates) {
@@ -362,6 +324,10 @@ int bench(const BenchOptions& options, const std::string& path, Json& meshes, [[
     print_ratio(decode_cpu_ratio, fmt::format("positions of {} bits decode", options.positions),
                 "times as fast as by meshoptimizer's vertex codec");
     print_ratio(unpack_ratio, "the whole mesh is unpacked", "times as fast as by Draco");
+    print_ratio(restore_ratio,
+                fmt::format("a file in storage form takes {:.0f} ns a triangle to restore,",
+                            1e9 * restore.median("lacedring") / triangles),
+                "times as fast as Draco decodes its smallest");
     print_ratio(decode_gpu_ratio, "on the device, indices and positions take", "times as long as indices alone");
     for (const auto& [name, reason] : absent.items()) {
         print("  {} absent: {}\n", name, reason.get<std::string>());

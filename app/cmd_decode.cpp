@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
+#include <thread>
 
 #include "app/commands.h"
 #include "app/output.h"
@@ -43,7 +44,7 @@ bool has_skin(const Mesh& mesh) {
 int decode(const DecodeOptions& options, const std::string& input, const fs::path& output, RunLog& log) {
     const auto bytes = read_input(input, options.input, log);
     if (!bytes) return fail(input, bytes.error());
-    const Result<LrFile> file = parse_lr(*bytes);
+    const Result<LrFile> file = parse_lr(*bytes, options.input.max_memory << 20, std::thread::hardware_concurrency());
     if (!file) return fail(input, file.error());
     constexpr std::string_view kExtensions[] = {".glb", ".ply", ".obj"};
     if (const auto good = check_output(output, options.output, log, kExtensions); !good) {

@@ -34,8 +34,11 @@ struct EncodeCommand {
     bool no_warts = false;
     bool keep_order = false;
     bool orient = false;
-    bool storage = false, resident = false;
+    bool storage = false, resident = false;  ///< as they were given
     AttributeBits bits;
+
+    /// Packed streams have a storage form; the other formats are for programs that map their files.
+    LrForm form() const { return format == "packed" && !resident ? LrForm::stored : LrForm::resident; }
 };
 
 /// "POSITION 4.8e-06": the largest error of each attribute that has one; "" if all is lossless.
@@ -48,14 +51,19 @@ std::string errors_of(const std::vector<CompressedAttribute>& attributes) {
     return out;
 }
 
-/// The bytes that connectivity and seams take in a file.
-std::size_t connectivity_bytes(std::span<const std::byte> file) {
-    std::size_t out = 0;
+/// Bytes in a file.
+struct Connectivity {
+    std::size_t bytes = 0, seams = 0;  ///< the former with seams
+};
+
+Connectivity connectivity_of(std::span<const std::byte> file) {
+    Connectivity out;
     const Result<LrContents> contents = list_lr(file);
     if (!contents) return out;
     for (const LrSection& section : contents->sections) {
         const std::string_view other[] = {"attribute", "vertices", "vertex_order", "corner_order"};
-        if (std::ranges::find(other, section.kind) == std::end(other)) out += section.bytes;
+        if (std::ranges::find(other, section.kind) == std::end(other)) out.bytes += section.bytes;
+        if (section.kind == "seams") out.seams += section.bytes;
     }
     return out;
 }
@@ -91,9 +99,9 @@ int encode_file(const EncodeCommand& options, const std::string& input, const st
     const Result<WholeFile> whole =
         make_file(mesh, loaded->surface, std::move(*table), how, options.bits, options.keep_order);
     if (!whole) return fail(input, whole.error());
-    const std::vector<std::byte> stored =
-        options.storage ? serialize_lr(whole->file, LrForm::stored) : std::vector<std::byte>();
-    const std::vector<std::byte>& bytes = options.storage ? stored : whole->bytes;
+    const bool stores = options.form() == LrForm::stored;
+    const std::vector<std::byte> stored = stores ? serialize_lr(whole->file, LrForm::stored) : std::vector<std::byte>();
+    const std::vector<std::byte>& bytes = stores ? stored : whole->bytes;
     const std::span<const std::byte> parts[] = {bytes};
     if (const Result<void> written = write_output(output, parts); !written) {
         return fail(output_name(output), written.error());
@@ -102,7 +110,7 @@ int encode_file(const EncodeCommand& options, const std::string& input, const st
     if (turned > 0) log.note(input_name(input), fmt::format("{} triangles turned round by --orient", turned));
     note_lossless(log, input, whole->attributes);
     const LrFile& file = whole->file;
-    const std::size_t seams = 4 * file.seams.size(), connectivity = connectivity_bytes(bytes);
+    const Connectivity connectivity = connectivity_of(bytes);
     const auto bits = [](std::size_t size, std::size_t of) {
         return 8 * static_cast<double>(size) / static_cast<double>(of);
     };
@@ -111,10 +119,10 @@ int encode_file(const EncodeCommand& options, const std::string& input, const st
     say("{}: {} triangles, {} bytes: {:.2f} bits per triangle, {:.2f} per vertex; connectivity {} bytes, {:.2f} bits "
         "per triangle{}; {}{}\n",
         output_name(output), triangles, bytes.size(), bits(bytes.size(), triangles),
-        bits(bytes.size(), file.vertex_count), connectivity, bits(connectivity, triangles),
-        seams == 0 ? "" : fmt::format(", {:.2f} of them for seams", bits(seams, triangles)),
+        bits(bytes.size(), file.vertex_count), connectivity.bytes, bits(connectivity.bytes, triangles),
+        connectivity.seams == 0 ? "" : fmt::format(", {:.2f} of them for seams", bits(connectivity.seams, triangles)),
         errors.empty() ? "lossless" : "largest error: " + errors,
-        options.storage ? fmt::format("; resident {} bytes", whole->bytes.size()) : "");
+        stores ? fmt::format("; resident {} bytes", whole->bytes.size()) : "");
     return done;
 }
 
@@ -147,9 +155,12 @@ void add_encode(CLI::App& program, Action& action) {
     command->add_flag("--no-warts", options->no_warts, "no wart skipping (lean and lr)");
     command->add_flag("--keep-order", options->keep_order,
                       "store the vertex and triangle permutations, for decode --original-order");
-    CLI::Option* storage = command->add_flag("--storage", options->storage,
-                                             "streams in storage form: smaller, and unpacked when the file is read");
-    command->add_flag("--resident", options->resident, "as --storage is not given: streams that are read in place")
+    CLI::Option* storage = command->add_flag(
+        "--storage", options->storage,
+        "streams in storage form: smaller, and unpacked when the file is read; the default of packed");
+    command
+        ->add_flag("--resident", options->resident,
+                   "streams that a program reads in place, in a mapped file above all; the only way of lean and lr")
         ->excludes(storage);
     command->add_flag("--orient", options->orient,
                       "turn triangles round so that neighbors agree, instead of keeping each as it is");

@@ -24,7 +24,7 @@ struct PackCommand {
     OutputOptions output;
     PackOptions pack;
     std::string document;
-    bool lossless = false;
+    bool lossless = false, resident = false;
     bool json = false;
 };
 
@@ -116,6 +116,8 @@ void add_pack(CLI::App& program, Action& action) {
     }
     command->add_flag("--keep-order", options->pack.keep_order,
                       "unpack gives vertices and triangles in the order that they have now");
+    command->add_flag("--resident", options->resident,
+                      "streams that a GPU can draw from and that unpack several times as fast, not in storage form");
     command->add_flag("--fallback", options->pack.fallback,
                       "plain buffers beside the streams, for loaders that do not know the extension");
     command
@@ -134,6 +136,7 @@ void add_pack(CLI::App& program, Action& action) {
     command->callback([options, rules, &action] {
         rules->check();
         if (options->lossless) options->pack.bits = {};
+        if (options->resident) options->pack.form = LrForm::resident;
         options->pack.json = options->document == "plain"    ? SceneJson::plain
                              : options->document == "packed" ? SceneJson::packed
                                                              : SceneJson::automatic;

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <thread>
 #include <utility>
 
 #include "lacedring/file.hpp"
@@ -35,7 +36,7 @@ double bytes_of(const Mesh& mesh, std::uint32_t triangle_bytes) {
     return bytes;
 }
 
-/// Checks the limit after decoding: an .lr file does not state the size of its mesh.
+/// Checks the limit once a mesh is decoded: what parse_lr was allowed is for its streams alone.
 Result<void> check_memory(const Mesh& mesh, const InputOptions& options) {
     const double bytes = bytes_of(mesh, options.triangle_bytes);
     constexpr double kMebibyte = 1 << 20;
@@ -52,7 +53,7 @@ Result<LoadedMesh> read(const MeshInput& input, RunLog& log, PrimitiveList* list
     if (is_lr(*bytes) && options.format.empty()) {
         Result<LrContents> contents = list_lr(*bytes);
         if (!contents) return contents.error();
-        const Result<LrFile> file = parse_lr(*bytes);
+        const Result<LrFile> file = parse_lr(*bytes, options.max_memory << 20, std::thread::hardware_concurrency());
         if (!file) return file.error();
         Surface surface;
         Result<Mesh> mesh = decode_lr(*file, &surface);

@@ -93,7 +93,7 @@ std::string check_file(const Mesh& mesh, const Surface& surface) {
     how.threads = std::max(std::thread::hardware_concurrency(), 1U);
     const Result<WholeFile> whole = make_file(mesh, surface, std::move(*table), how, {}, true);
     if (!whole) return whole.error().message;
-    const Result<LrFile> file = parse_lr(whole->bytes);
+    const Result<LrFile> file = parse_lr(serialize_lr(whole->file, LrForm::stored));
     if (!file) return file.error().message;
     const Result<Mesh> decoded = decode_lr_original_order(*file);
     if (!decoded) return decoded.error().message;

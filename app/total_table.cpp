@@ -79,7 +79,11 @@ Result<TotalTable> make_total(const std::string& path, const Mesh& mesh, const S
         if (small) note_lossless(log, path, file->attributes);
         TotalEntry& entry = table.entries.emplace_back(entry_of(small ? "packed" : "packed_cache", file->bytes, true));
         for (const CompressedAttribute& a : file->attributes) entry.errors.emplace_back(a.name, a.largest_error);
-        if (small) stored = entry_of("storage", serialize_lr(file->file, LrForm::stored), false);
+        if (!small) continue;
+        const std::vector<std::byte> bytes = serialize_lr(file->file, LrForm::stored);
+        stored = entry_of("storage", bytes, false);
+        const Result<LrFile> restored = parse_lr(bytes);
+        if (!restored || serialize_lr(*restored) != file->bytes) table.invalid = "storage: restored as something else";
     }
     stored.errors = table.entries[table.entries.size() - 2].errors;
     table.entries.push_back(std::move(stored));

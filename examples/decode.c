@@ -1,4 +1,4 @@
-/* Prints the surface of an .lr file (docs/lr-file.md) as OBJ: what lacedring encode MESH -o FILE.lr writes. */
+/* Prints the surface of an .lr file (docs/lr-file.md) of lacedring encode --resident MESH -o FILE.lr as OBJ. */
 #define LACEDRING_DECODE_IMPLEMENTATION
 #include <stdio.h>
 #include <stdlib.h>

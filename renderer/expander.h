@@ -25,12 +25,16 @@ struct Drawable {
     std::optional<Adjacency> adjacency;  ///< View::silhouette
 };
 
+/// The pipelines of a stream's decoder are made by the first upload that needs them: a driver may take half a second
+/// for all. One thread uploads while another records what was uploaded.
 class Expander {
   public:
     static Result<Expander> create(Context& context);
+    /// Another one with the same pipelines, of the shaders as they are now.
+    Result<Expander> again() const;
 
     /// Uploads a source of the model and plans the passes over its index buffer; Drawable::draw is left to who draws.
-    Result<Drawable> upload(Transfer& transfer, const Model& model, Source source, const UploadOptions& options) const;
+    Result<Drawable> upload(Transfer& transfer, const Model& model, Source source, const UploadOptions& options);
 
     /// Records the decoding of its streams, if that has not been done, and what makes it visible (`barrier`).
     void decode(VkCommandBuffer commands, Drawable& drawable, bool barrier = true) const;
@@ -40,11 +44,15 @@ class Expander {
     void rotate(VkCommandBuffer commands, Drawable& drawable) const;
 
   private:
+    /// Records the decoding of vertices; of the seams' copies as well, or of their positions alone.
+    void record_vertices(VkCommandBuffer commands, const Drawable& drawable, bool seams) const;
+
     Context* context_ = nullptr;
-    LeanDecoder lean_;
-    PackedDecoder packed_;
-    VertexDecoder vertices_;
-    SeamDecoder seams_;
+    /// A drawable with a plan for one of these has it; a thread that records may not ask whether the others are there.
+    std::optional<LeanDecoder> lean_;
+    std::optional<PackedDecoder> packed_;
+    std::optional<VertexDecoder> vertices_;
+    std::optional<SeamDecoder> seams_;
     Rotator rotator_;
 };
 

@@ -134,7 +134,7 @@ Result<void> Scene::set_outlines(const EncodedLr* tables) {
 
 Result<void> Scene::reload() {
     uploader_->finish();  // it knows the expander
-    LR_ASSIGN(gpu::Expander expander, gpu::Expander::create(*context_));
+    LR_ASSIGN(gpu::Expander expander, expander_->again());
     decltype(compose_) compose;
     for (const auto& [constants, pipeline] : compose_) {
         LR_ASSIGN(compose[constants],

@@ -42,7 +42,7 @@ bool Uploader::stop(std::chrono::milliseconds patience) {
     return changed_.wait_for(lock, patience, [this] { return !working_; });
 }
 
-void Uploader::ask(Job job, const gpu::Expander& expander) {
+void Uploader::ask(Job job, gpu::Expander& expander) {
     {
         const std::lock_guard lock(mutex_);
         expander_ = &expander;
@@ -71,7 +71,7 @@ void Uploader::finish() {
     changed_.wait(lock, [&] { return !working_ && !next_; });
 }
 
-Result<void> Uploader::upload(Done& done, const gpu::Expander& expander) {
+Result<void> Uploader::upload(Done& done, gpu::Expander& expander) {
     try {
         for (const UploadKey& key : done.job.keys) {
             LR_ASSIGN(gpu::Drawable drawable, expander.upload(transfer_, *done.job.model, key.source, options_of(key)));
@@ -89,7 +89,7 @@ void Uploader::run() {
         changed_.wait(lock, [&] { return quit_ || next_.has_value(); });
         if (quit_) return;
         Done done{*std::exchange(next_, std::nullopt), {}, std::nullopt};
-        const gpu::Expander& expander = *expander_;
+        gpu::Expander& expander = *expander_;
         working_ = true;
         stop_ = false;
         lock.unlock();

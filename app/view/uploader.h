@@ -52,7 +52,7 @@ class Uploader {
 
     /// Queues the job, in the place of the one before it: that one is stopped if it has begun. `expander` must outlive
     /// the job.
-    void ask(Job job, const gpu::Expander& expander);
+    void ask(Job job, gpu::Expander& expander);
     /// Asked for last, and not taken yet.
     bool asked(const Job& job) const;
     /// What was asked for last, once it is done.
@@ -66,13 +66,13 @@ class Uploader {
     Uploader(gpu::Transfer transfer, std::function<void()> wake)
         : transfer_(std::move(transfer)), wake_(std::move(wake)) {}
     void run();
-    Result<void> upload(Done& done, const gpu::Expander& expander);
+    Result<void> upload(Done& done, gpu::Expander& expander);
 
     gpu::Transfer transfer_;
     std::function<void()> wake_;
     mutable std::mutex mutex_;
     std::condition_variable changed_;
-    const gpu::Expander* expander_ = nullptr;
+    gpu::Expander* expander_ = nullptr;
     std::optional<Job> next_, last_;  // not begun; asked for and not taken
     std::optional<Done> done_;
     std::atomic<bool> stop_ = false;  // what is being done

@@ -3,12 +3,17 @@
 
 #include <cstdint>
 #include <cstring>
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 // Inlined whatever its size: for the few functions whose calls would cost more than they do.
 #if (defined(__GNUC__) || defined(__clang__)) && !defined(LACEDRING_PLAIN)
 #define LACEDRING_INLINE inline __attribute__((always_inline))
+#define LACEDRING_NOINLINE __attribute__((noinline))
 #else
 #define LACEDRING_INLINE inline
+#define LACEDRING_NOINLINE
 #endif
 
 namespace lacedring::detail {
@@ -22,7 +27,17 @@ inline void prefetch(const void* object) {
 /// Four words that are added and masked at once.
 using Lanes = std::uint32_t __attribute__((vector_size(16)));
 
-/// Counts those of 16 numbers that are `most` or less. All are below 2^15.
+#ifdef __SSE2__
+/// How many of 16 numbers, which rise, are `most` or less. All are below 2^15, and the first is such a one.
+LACEDRING_INLINE std::uint32_t count_up_to(const std::uint16_t* numbers, std::uint32_t most) {
+    const __m128i limit = _mm_set1_epi16(static_cast<short>(most));
+    const __m128i low = _mm_loadu_si128(reinterpret_cast<const __m128i*>(numbers));
+    const __m128i high = _mm_loadu_si128(reinterpret_cast<const __m128i*>(numbers + 8));
+    const __m128i above = _mm_packs_epi16(_mm_cmpgt_epi16(low, limit), _mm_cmpgt_epi16(high, limit));
+    const auto mask = static_cast<std::uint32_t>(_mm_movemask_epi8(above));
+    return static_cast<std::uint32_t>(__builtin_ctz(mask | 0x10000U));
+}
+#else
 LACEDRING_INLINE std::uint32_t count_up_to(const std::uint16_t* numbers, std::uint32_t most) {
     using Shorts = std::int16_t __attribute__((vector_size(16)));
     const auto all = static_cast<std::int16_t>(most);
@@ -35,6 +50,7 @@ LACEDRING_INLINE std::uint32_t count_up_to(const std::uint16_t* numbers, std::ui
     std::memcpy(halves, &counts, sizeof halves);
     return static_cast<std::uint32_t>((halves[0] + halves[1]) * 0x0001000100010001U >> 48);
 }
+#endif
 #else
 inline void prefetch(const void*) {}
 

@@ -93,12 +93,31 @@ Result<DecodedLr> decode_connectivity(const LrFileView& file, bool untrusted, co
     return out;
 }
 
-std::vector<std::uint32_t> triangles_of(const DecodedLr& decoded, bool per_copy) {
-    std::vector<std::uint32_t> out = decoded.indices;
-    if (!per_copy && !decoded.vertex_of.empty()) {
-        for (std::uint32_t& v : out) v = decoded.vertex_of[v];
+std::span<const std::uint32_t> triangles_of(const DecodedLr& decoded, bool per_copy,
+                                            std::vector<std::uint32_t>& of_vertices) {
+    if (per_copy || decoded.vertex_of.empty()) return decoded.indices;
+    if (of_vertices.empty()) {
+        of_vertices.reserve(decoded.indices.size());
+        for (const std::uint32_t copy : decoded.indices) of_vertices.push_back(decoded.vertex_of[copy]);
     }
+    return of_vertices;
+}
+
+std::vector<std::uint32_t> position_integers(const LrFile& file) {
+    if (file.attributes.empty() || file.attributes[0].name != "POSITION") return {};
+    const Result<VertexView> view = view_vertices(file.attributes[0].words);
+    if (!view || view->integers != 3 || view->vertices != file.vertex_count ||
+        (view->mapping != VertexMapping::lattice && view->mapping != VertexMapping::decimals))
+        return {};
+    std::vector<std::uint32_t> out(std::size_t{3} * view->vertices);
+    for (std::uint32_t b = 0; b < view->blocks(); ++b)
+        decode_vertex_block(*view, b, std::span(out).subspan(std::size_t{3} * kVertexBlock * b));
     return out;
+}
+
+storage::VertexPlaces places_of(std::span<const std::uint32_t> positions, const DecodedLr& decoded, bool per_copy) {
+    if (!per_copy) return {positions, {}};
+    return {positions, decoded.vertex_of};
 }
 
 Attribute decode_attribute(const LrAttribute& attribute) {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -14,6 +15,7 @@
 #include "lacedring/lr_file.hpp"
 #include "lrcore/base/crc32.h"
 #include "lrcore/base/signature.h"
+#include "lrcore/codec/storage/vertex_places.h"
 
 namespace lacedring::detail {
 
@@ -64,6 +66,19 @@ static_assert(sizeof(Section) == 32);
 
 constexpr std::size_t align8(std::size_t size) {
     return (size + 7) / 8 * 8;
+}
+
+/// Bytes that packed streams and attributes in storage form may take while they are restored, unless parse_lr is told.
+constexpr std::uint64_t default_memory(std::uint64_t file_bytes) {
+    return std::max<std::uint64_t>(512 << 20, 128 * file_bytes);
+}
+/// Bytes that a packed stream takes while it is restored.
+constexpr std::uint64_t memory_to_restore(std::uint32_t triangles, std::uint32_t vertices) {
+    return std::uint64_t{60} * triangles + std::uint64_t{8} * vertices;
+}
+/// The same of an attribute of so many values.
+constexpr std::uint64_t memory_to_restore(std::uint32_t values) {
+    return std::uint64_t{128} * values;
 }
 
 /// The section kind of a format's words.
@@ -183,11 +198,20 @@ Result<DecodedLr> decode_connectivity(const LrFileView& file, bool untrusted, co
 Result<Mesh> decode_mesh(const LrFile& file, DecodedLr& decoded, Surface* surface);
 
 /// parse_lr, and the connectivity that it decoded to check it.
-Result<LrFile> parse_lr(std::span<const std::byte> bytes, std::uint64_t max_bytes, DecodedLr& decoded);
+Result<LrFile> parse_lr(std::span<const std::byte> bytes, std::uint64_t max_bytes, DecodedLr& decoded,
+                        unsigned threads);
 
 /// Three vertices of each triangle that an attribute's stream goes with: copies, if it has a value for each, or if
-/// there are no seams, else vertices.
-std::vector<std::uint32_t> triangles_of(const DecodedLr& decoded, bool per_copy);
+/// there are no seams, else vertices, which go into `of_vertices` unless they are there.
+std::span<const std::uint32_t> triangles_of(const DecodedLr& decoded, bool per_copy,
+                                            std::vector<std::uint32_t>& of_vertices);
+
+/// The integers of the positions' stream, three a vertex, if it has such of a common scale: a lattice's, or decimals;
+/// else none. The stream is valid.
+std::vector<std::uint32_t> position_integers(const LrFile& file);
+
+/// Where the values of an attribute are, by position_integers.
+storage::VertexPlaces places_of(std::span<const std::uint32_t> positions, const DecodedLr& decoded, bool per_copy);
 
 /// The attribute with its values. Of a stream, which is valid, they are decoded.
 Attribute decode_attribute(const LrAttribute& attribute);

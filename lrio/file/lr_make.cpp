@@ -102,16 +102,16 @@ StoredStreams store_streams(const LrFile& file) {
         const Result<SeamView> seams = view_seams(file.seams, stream->slots(), stream->vertices());
         if (seams) out.seams = take(storage::store_seams(*seams, slot_triangles(*stream)), file.seams.size());
     }
-    std::vector<std::uint32_t> triangles;
-    bool of_copies = false;
+    std::vector<std::uint32_t> of_vertices;
+    const std::vector<std::uint32_t> positions = position_integers(file);
     for (const LrAttribute& attribute : file.attributes) {
         std::vector<std::uint32_t>& stored = out.attributes.emplace_back();
         if (attribute.words.empty()) continue;
-        if (triangles.empty() || of_copies != attribute.per_copy)
-            triangles = triangles_of(*decoded, attribute.per_copy);
-        of_copies = attribute.per_copy;
         const Result<VertexView> view = view_vertices(attribute.words);
-        if (view) stored = take(storage::store_vertices(*view, triangles), attribute.words.size());
+        if (!view) continue;
+        const auto triangles = triangles_of(*decoded, attribute.per_copy, of_vertices);
+        const storage::VertexPlaces places = places_of(positions, *decoded, attribute.per_copy);
+        stored = take(storage::store_vertices(*view, triangles, places), attribute.words.size());
     }
     return out;
 }
@@ -165,6 +165,10 @@ std::vector<std::byte> serialize_lr(const LrFile& file, LrForm form) {
         sections[i].crc = crc32(contents[i], crc32(names[i]));
         end = sections[i].offset + sections[i].size;
     }
+    // parse_lr has to read the file without being told that it may take more memory.
+    const std::uint64_t memory = std::max(memory_to_restore(file.input_triangles, file.vertex_count),
+                                          memory_to_restore(std::max(file.vertex_count, file.copy_count)));
+    if (form == LrForm::stored && memory > default_memory(end)) return serialize_lr(file, LrForm::resident);
     FileHeader header{
         magic::kLrFile,       kLrVersion,      static_cast<std::uint32_t>(sections.size()), file.vertex_count,
         file.input_triangles, file.copy_count, crc32(std::as_bytes(std::span(sections))),   0};

@@ -5,6 +5,7 @@
 
 #include "lacedring/file.hpp"
 #include "lrcore/base/bits.h"
+#include "lrcore/base/parallel.h"
 #include "lrcore/codec/storage/packed_storage.h"
 #include "lrcore/codec/storage/vertex_storage.h"
 #include "lrio/file/lr_layout.h"
@@ -16,9 +17,8 @@ using namespace detail;  // lr_layout.h's
 
 class Reader {
   public:
-    explicit Reader(std::span<const std::byte> bytes, std::uint64_t max_bytes)
-        : max_bytes_(max_bytes != 0 ? max_bytes
-                                    : std::max<std::uint64_t>(512 << 20, std::uint64_t{128} * bytes.size())) {}
+    Reader(std::span<const std::byte> bytes, std::uint64_t max_bytes, unsigned threads)
+        : max_bytes_(max_bytes != 0 ? max_bytes : default_memory(bytes.size())), threads_(threads) {}
 
     Result<LrFile> read(std::span<const std::byte> bytes) {
         const Result<FileHeader> header = visit_sections(
@@ -48,7 +48,7 @@ class Reader {
                 if (has_connectivity_) return "occurs twice";
                 has_connectivity_ = true;
                 file_.format = format_of(section.kind);
-                return section.coding == kStored ? restore(header, contents) : read_words(contents, file_.words);
+                return section.coding == kStored ? read_stored(header, contents) : read_words(contents, file_.words);
             case kVertexOrder:
                 return read_words(contents, file_.vertex_order);
             case kCornerOrder:
@@ -65,20 +65,15 @@ class Reader {
         }
     }
 
-    std::string restore(const FileHeader& header, std::span<const std::byte> contents) {
-        constexpr double kTriangle = 60, kVertex = 8;  // bytes, while it is restored
-        if (kTriangle * header.input_triangles + kVertex * header.vertices > static_cast<double>(max_bytes_)) {
+    std::string read_stored(const FileHeader& header, std::span<const std::byte> contents) {
+        if (memory_to_restore(header.input_triangles, header.vertices) > max_bytes_) {
             limit_ = Error{ErrorCode::memory_limit,
                            fmt::format("lr file: {} triangles in storage form would take more than {} MiB",
                                        header.input_triangles, max_bytes_ >> 20)};
             return "too large";
         }
-        std::vector<std::uint32_t> words;
-        if (std::string why = read_words(contents, words); !why.empty()) return why;
-        auto restored = storage::restore_packed(words, {header.vertices, header.input_triangles});
-        if (!restored) return restored.error().message;
-        file_.words = std::move(*restored);
-        return {};
+        is_stored_ = true;
+        return read_words(contents, file_.words);
     }
 
     static std::string read_words(std::span<const std::byte> contents, std::vector<std::uint32_t>& words) {
@@ -126,25 +121,122 @@ class Reader {
         return {};
     }
 
-    /// Vertices are predicted from their neighbors: the triangles are needed first.
-    Result<void> restore_attribute(LrAttribute& attribute, const DecodedLr& decoded) const {
-        const std::uint32_t values = attribute.per_copy ? file_.copy_count : file_.vertex_count;
-        constexpr std::uint64_t kValue = 128;  // bytes, while it is restored
-        if (kValue * values > max_bytes_) {
+    std::uint32_t values_of(const LrAttribute& attribute) const {
+        return attribute.per_copy ? file_.copy_count : file_.vertex_count;
+    }
+
+    /// What needs nothing else: the steps of the connectivity, and the residuals of vertex streams.
+    Result<void> read_parts() {
+        for (const std::size_t i : stored_) {
+            const std::uint32_t values = values_of(file_.attributes[i]);
+            if (memory_to_restore(values) <= max_bytes_) continue;
             return Error{ErrorCode::memory_limit,
                          fmt::format("lr file: {} values in storage form would take more than {} MiB", values,
                                      max_bytes_ >> 20)};
         }
-        auto words = storage::restore_vertices(attribute.words, triangles_of(decoded, attribute.per_copy), values,
-                                               max_bytes_ / sizeof(std::uint32_t));
+        residuals_.resize(file_.attributes.size());
+        return in_parts(1 + stored_.size(), [&](std::size_t part) -> Result<void> {
+            if (part == 0) {
+                if (!is_stored_) return {};
+                auto read = storage::StoredPacked::read(file_.words, {file_.vertex_count, file_.input_triangles});
+                if (!read) return read.error();
+                steps_ = std::move(*read);
+                return {};
+            }
+            const std::size_t i = stored_[part - 1];
+            auto read = storage::StoredVertices::read(file_.attributes[i].words, values_of(file_.attributes[i]));
+            if (!read) return read.error();
+            residuals_[i] = std::move(*read);
+            return {};
+        });
+    }
+
+    /// Vertices are predicted from their neighbors: the triangles are needed first.
+    Result<void> restore_attribute(std::size_t i, std::span<const std::uint32_t> triangles,
+                                   const storage::VertexPlaces& places, unsigned threads) {
+        LrAttribute& attribute = file_.attributes[i];
+        auto words = std::move(*residuals_[i]).restore(triangles, max_bytes_ / sizeof(std::uint32_t), places, threads);
+        residuals_[i].reset();
         if (!words) return words.error();
         attribute.words = std::move(*words);
         const Result<VertexView> view = validate_vertices(attribute.words);
         if (!view) return view.error();
-        if (view->vertices != values) return malformed_lr("a vertex stream of another number of vertices");
+        if (view->vertices != values_of(attribute))
+            return malformed_lr("a vertex stream of another number of vertices");
         attribute.type = view->type;
         attribute.components = view->components;
         attribute.normalized = view->normalized;
+        return {};
+    }
+
+    /// The connectivity's stream, and what it decodes to. With several threads, beside that, the streams of vertices:
+    /// their triangles are known from the steps, which takes more memory.
+    Result<void> restore_connectivity() {
+        std::vector<std::uint32_t> triangles;
+        if (steps_ && threads_ > 1) triangles = steps_->triangles();
+        std::vector<std::size_t> beside;
+        for (const std::size_t i : stored_) {
+            if (!triangles.empty() && !file_.attributes[i].per_copy && !residuals_[i]->needs_places())
+                beside.push_back(i);
+        }
+        const unsigned inner = beside.size() == 1 ? threads_ : 1;
+        auto good = in_parts(1 + beside.size(), [&](std::size_t part) -> Result<void> {
+            if (part > 0) return restore_attribute(beside[part - 1], triangles, {}, inner);
+            if (steps_) {
+                auto words = steps_->write();
+                steps_.reset();
+                if (!words) return words.error();
+                file_.words = std::move(*words);
+            }
+            LrFileView connectivity;  // not view_of(file_), whose attributes are being restored
+            connectivity.format = file_.format;
+            connectivity.vertex_count = file_.vertex_count;
+            connectivity.copy_count = file_.copy_count;
+            connectivity.words = file_.words;
+            connectivity.seams = file_.seams;
+            const StoredSeams seams{file_.seams, max_bytes_};
+            auto decoded = decode_connectivity(connectivity, true, has_stored_seams_ ? &seams : nullptr);
+            if (!decoded) return decoded.error();
+            decoded_ = std::move(*decoded);
+            return {};
+        });
+        if (!good || beside.empty()) return good;
+        std::vector<std::uint32_t> of_vertices;
+        if (!std::ranges::equal(triangles, triangles_of(decoded_, false, of_vertices)))
+            return malformed_lr("steps that no stream is written as");
+        return {};
+    }
+
+    /// The streams that are not restored yet: normals behind the positions that they are predicted from.
+    Result<void> restore_attributes() {
+        std::vector<std::uint32_t> of_vertices, positions;
+        for (const bool with_places : {false, true}) {
+            std::vector<std::size_t> now;
+            for (const std::size_t i : stored_) {
+                if (residuals_[i] && residuals_[i]->needs_places() == with_places) now.push_back(i);
+            }
+            if (now.empty()) continue;
+            for (const std::size_t i : now) triangles_of(decoded_, file_.attributes[i].per_copy, of_vertices);
+            if (with_places) positions = position_integers(file_);
+            const unsigned inner = now.size() == 1 ? threads_ : 1;
+            auto good = in_parts(now.size(), [&](std::size_t part) {
+                const bool per_copy = file_.attributes[now[part]].per_copy;
+                return restore_attribute(now[part], triangles_of(decoded_, per_copy, of_vertices),
+                                         places_of(positions, decoded_, per_copy), inner);
+            });
+            if (!good) return good;
+        }
+        return {};
+    }
+
+    /// Does work(i) for each i below `parts`, on several threads; the first error, if any.
+    template <class Work>
+    Result<void> in_parts(std::size_t parts, Work work) {
+        std::vector<Result<void>> good(parts);
+        in_parallel(threads_, static_cast<std::uint32_t>(parts), [&](std::uint32_t i) { good[i] = work(i); });
+        for (const Result<void>& one : good) {
+            if (!one) return one;
+        }
         return {};
     }
 
@@ -152,14 +244,11 @@ class Reader {
         if (file_.seams.empty() != (file_.copy_count == 0)) {
             return malformed_lr("seams without copies, or copies without seams");
         }
-        const StoredSeams seams{file_.seams, max_bytes_};
-        Result<DecodedLr> decoded = decode_connectivity(view_of(file_), true, has_stored_seams_ ? &seams : nullptr);
-        if (!decoded) return decoded.error();
-        for (const std::size_t i : stored_) {
-            if (auto good = restore_attribute(file_.attributes[i], *decoded); !good) return good;
-        }
+        if (auto good = read_parts(); !good) return good;
+        if (auto good = restore_connectivity(); !good) return good;
+        if (auto good = restore_attributes(); !good) return good;
         if (auto good = check_position(view_of(file_)); !good) return good;
-        const std::size_t triangles = decoded->indices.size() / 3;
+        const std::size_t triangles = decoded_.indices.size() / 3;
         if (triangles > file_.input_triangles) return malformed_lr("more triangles than the input had");
         const Attribute position = decode_attribute(file_.attributes[0]);
         if (auto good = check_finite(position.type, position.data); !good) return good;
@@ -168,7 +257,7 @@ class Reader {
                 return malformed_lr("the vertex order has another size");
             }
             std::vector<std::uint32_t> order = file_.vertex_order;
-            decoded->remove_extra(order);
+            decoded_.remove_extra(order);
             const auto kept = static_cast<std::uint32_t>(order.size());
             if (!permutation_into(order, kept, kept)) return malformed_lr("the vertex order is no permutation");
         }
@@ -179,7 +268,6 @@ class Reader {
                 return malformed_lr("the corner order is no permutation");
             }
         }
-        decoded_ = std::move(*decoded);
         return {};
     }
 
@@ -201,8 +289,12 @@ class Reader {
     }
 
     std::uint64_t max_bytes_;
-    std::optional<Error> limit_;       ///< what was more than may be
-    std::vector<std::size_t> stored_;  ///< attributes in storage form
+    std::optional<Error> limit_;  ///< what was more than may be
+    unsigned threads_;
+    bool is_stored_ = false;                                         ///< connectivity is in storage form
+    std::vector<std::size_t> stored_;                                ///< attributes in storage form
+    std::vector<std::optional<storage::StoredVertices>> residuals_;  ///< of each attribute, until it is restored
+    std::optional<storage::StoredPacked> steps_;
     LrFile file_;
     DecodedLr decoded_;
     bool has_connectivity_ = false, has_stored_seams_ = false;
@@ -210,15 +302,16 @@ class Reader {
 
 }  // namespace
 
-Result<LrFile> detail::parse_lr(std::span<const std::byte> bytes, std::uint64_t max_bytes, DecodedLr& decoded) {
-    Reader reader(bytes, max_bytes);
+Result<LrFile> detail::parse_lr(std::span<const std::byte> bytes, std::uint64_t max_bytes, DecodedLr& decoded,
+                                unsigned threads) {
+    Reader reader(bytes, max_bytes, threads);
     Result<LrFile> file = reader.read(bytes);
     if (file) decoded = reader.take_decoded();
     return file;
 }
 
-Result<LrFile> parse_lr(std::span<const std::byte> bytes, std::uint64_t max_bytes) {
-    return Reader(bytes, max_bytes).read(bytes);
+Result<LrFile> parse_lr(std::span<const std::byte> bytes, std::uint64_t max_bytes, unsigned threads) {
+    return Reader(bytes, max_bytes, threads).read(bytes);
 }
 
 Result<LrFile> read_lr(const std::filesystem::path& path) {

@@ -217,7 +217,7 @@ class Packer {
             vertices.push_back(group.keep_order ? coded.set.mesh.vertex_count : UINT32_MAX);
         }
         carry_errors(sets);
-        auto stream = encode_scene_stream(std::move(sets), group.keep_order, options_.bits.threads);
+        auto stream = encode_scene_stream(std::move(sets), group.keep_order, options_.form, options_.bits.threads);
         if (!stream) return stream.error();
         degenerate_ += stream->degenerate;
         // Counts, bounds and the fallback are those of the decoded stream: a reader sees the same.

@@ -79,7 +79,7 @@ struct StreamChoice {
 };
 
 Result<StreamChoice> make_choice(const Mesh& mesh, const Surface& surface, const std::vector<VertexOptions>& options,
-                                 bool keep_order, unsigned threads) {
+                                 bool keep_order, LrForm form, unsigned threads) {
     const Mesh bare = surface_mesh(mesh, surface);
     EncodeOptions how;
     how.threads = threads;
@@ -92,17 +92,17 @@ Result<StreamChoice> make_choice(const Mesh& mesh, const Surface& surface, const
     if (!file) return file.error();
     out.file = std::move(*file);
     if (auto good = compress(out.file, options, threads); !good) return good.error();
-    out.bytes = serialize_lr(out.file);
+    out.bytes = serialize_lr(out.file, form);
     return out;
 }
 
 }  // namespace
 
-Result<SceneStream> encode_scene_stream(std::vector<CodedSet> sets, bool keep_order, unsigned threads) {
+Result<SceneStream> encode_scene_stream(std::vector<CodedSet> sets, bool keep_order, LrForm form, unsigned threads) {
     const std::vector<VertexOptions> options = sets.front().options;
     const bool several = sets.size() > 1;
     Joined joined = join_sets(sets, keep_order);
-    Result<StreamChoice> best = make_choice(joined.mesh, joined.surface, options, keep_order, threads);
+    Result<StreamChoice> best = make_choice(joined.mesh, joined.surface, options, keep_order, form, threads);
     if (!best) return best.error();
     if (several) {
         // Parts of one model often meet: their positions are then there once. Where they do not, as of many alike that
@@ -111,7 +111,7 @@ Result<SceneStream> encode_scene_stream(std::vector<CodedSet> sets, bool keep_or
         if (across.vertex_count < joined.surface.vertex_count - joined.surface.vertex_count / 20) {
             Mesh moved = joined.mesh;
             move_to_surface(moved, across);
-            Result<StreamChoice> other = make_choice(moved, across, options, keep_order, threads);
+            Result<StreamChoice> other = make_choice(moved, across, options, keep_order, form, threads);
             if (other && other->bytes.size() < best->bytes.size()) best = std::move(other);
         }
     }

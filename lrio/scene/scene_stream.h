@@ -28,6 +28,6 @@ struct CodedSet {
 
 /// Sets whose attributes are alike and coded alike as one stream; they are taken over. Positions of different sets are
 /// joined where that makes the stream smaller. Cost: O(T). Errors: too_large.
-Result<SceneStream> encode_scene_stream(std::vector<CodedSet> sets, bool keep_order, unsigned threads);
+Result<SceneStream> encode_scene_stream(std::vector<CodedSet> sets, bool keep_order, LrForm form, unsigned threads);
 
 }  // namespace lacedring::detail

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <numeric>
+#include <thread>
 
 #include "lrio/mesh/read_formats.h"
 #include "lrio/scene/part_codes.h"
@@ -11,7 +12,15 @@ namespace lacedring::detail {
 
 Result<StreamDecoder> StreamDecoder::open(std::span<const std::byte> file, std::span<const std::byte> parts, Said said,
                                           const Check& check) {
+    std::unique_ptr<LrFile> restored;
+    DecodedLr decoded;
     Result<LrFileView> view = view_checked_lr(file);
+    if (!view && view.error().code == ErrorCode::unsupported) {  // in storage form
+        Result<LrFile> whole = parse_lr(file, 0, decoded, std::thread::hardware_concurrency());
+        if (!whole) return whole.error();
+        restored = std::make_unique<LrFile>(std::move(*whole));
+        view = view_of(*restored);
+    }
     if (!view) return view.error();
     if (auto good = check_position(*view); !good) return good.error();
     if (check) {
@@ -20,6 +29,8 @@ Result<StreamDecoder> StreamDecoder::open(std::span<const std::byte> file, std::
     StreamDecoder out;
     out.said_ = std::move(said);
     out.view_ = std::move(*view);
+    out.restored_ = std::move(restored);
+    out.decoded_ = std::move(decoded);
     out.corners_.assign(out.said_.set_of_part.size(), 0);
     if (auto good = out.read(file); !good) return good.error();
     if (auto good = out.read_parts(parts); !good) return good.error();
@@ -30,18 +41,22 @@ Result<StreamDecoder> StreamDecoder::open(std::span<const std::byte> file, std::
 Result<void> StreamDecoder::read(std::span<const std::byte> file) {
     const bool plain = view_.format == Format::packed || view_.format == Format::lean;
     if (!plain || !view_.vertex_order.empty() || !view_.corner_order.empty()) return read_mesh(file);
-    if (view_.format == Format::packed && view_.seams.empty() && corners_.size() == 1 && said_.vertices.size() == 1) {
+    if (view_.format == Format::packed && view_.seams.empty() && corners_.size() == 1 && said_.vertices.size() == 1 &&
+        !restored_) {
         Result<StreamView> stream = view_.validate();
         if (!stream) return stream.error();
         vertex_count_ = stream->vertices();
         triangle_count_ = stream->triangles();
         stream_ = *stream;
     } else {
-        Result<DecodedLr> decoded = decode_connectivity(view_, true);
-        if (!decoded) return decoded.error();
-        vertex_count_ = view_.seams.empty() ? decoded->vertices : view_.copy_count;
-        indices_ = std::move(decoded->indices);
-        row_of_ = std::move(decoded->vertex_of);
+        if (!restored_) {
+            Result<DecodedLr> decoded = decode_connectivity(view_, true);
+            if (!decoded) return decoded.error();
+            decoded_ = std::move(*decoded);
+        }
+        vertex_count_ = view_.seams.empty() ? decoded_.vertices : view_.copy_count;
+        indices_ = std::move(decoded_.indices);
+        row_of_ = std::move(decoded_.vertex_of);
         triangle_count_ = indices_.size() / 3;
     }
     if (triangle_count_ > view_.input_triangles) return malformed_lr("more triangles than the input had");
@@ -50,11 +65,14 @@ Result<void> StreamDecoder::read(std::span<const std::byte> file) {
 
 /// Of files whose vertices or triangles do not come as they are stored.
 Result<void> StreamDecoder::read_mesh(std::span<const std::byte> file) {
-    DecodedLr connectivity;
-    const Result<LrFile> whole = parse_lr(file, 0, connectivity);
-    if (!whole) return whole.error();
+    if (!restored_) {
+        Result<LrFile> whole = parse_lr(file, 0, decoded_, 1);
+        if (!whole) return whole.error();
+        restored_ = std::make_unique<LrFile>(std::move(*whole));
+    }
+    const LrFile* whole = restored_.get();
     in_order_ = !whole->vertex_order.empty() && !whole->corner_order.empty();
-    Result<Mesh> mesh = in_order_ ? decode_lr_original_order(*whole) : decode_mesh(*whole, connectivity, nullptr);
+    Result<Mesh> mesh = in_order_ ? decode_lr_original_order(*whole) : decode_mesh(*whole, decoded_, nullptr);
     if (!mesh) return mesh.error();
     vertex_count_ = mesh->vertex_count;
     indices_ = std::move(mesh->indices);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -52,6 +53,8 @@ class StreamDecoder {
 
     Said said_;
     LrFileView view_;
+    std::unique_ptr<LrFile> restored_;    ///< whose view it is, if the file is in storage form
+    DecodedLr decoded_;                   ///< what indices_ and row_of_ are made of
     std::optional<StreamView> stream_;    ///< decodes to the index list, if indices_ has it not
     std::optional<Mesh> mesh_;            ///< has the attributes' values, if they are not decoded where they are to lie
     std::vector<std::uint32_t> indices_;  ///< of the stream's vertices, or copies

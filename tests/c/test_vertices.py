@@ -107,7 +107,7 @@ def main():
         streams = []
         for i, bits in enumerate(([], ["--positions", "12", "--normals", "9", "--texcoords", "11", "--colors", "6"])):
             out = folder / f"{i}.lr"
-            subprocess.run([lacedring, "encode", mesh, "-o", out, *bits], check=True, capture_output=True)
+            subprocess.run([lacedring, "encode", "--resident", mesh, "-o", out, *bits], check=True, capture_output=True)
             streams += streams_of(out)
         kinds = {(words[2] & 31, words[2] >> 5 & 7) for words in streams}
         if not {1, 2, 3, 4} <= {n for n, _ in kinds} or not {0, 1, 2, 3} <= {mapping for _, mapping in kinds}:

@@ -110,12 +110,18 @@ class CliTest(unittest.TestCase):
         return outcome
 
     def same_triangles(self, source, *targets, options=()):
-        """By the independent checker. Targets ending in .lr are decoded by it, too."""
+        """By the independent checker. Targets ending in .lr are decoded by it, too: resident() makes them."""
         script = os.path.join(INDEPENDENT, "check_decode.py")
         for target in targets:
             option = ["--lr", target] if target.endswith(".lr") else [target]
             result = subprocess.run([sys.executable, "-B", script, source, *option, *options], capture_output=True, text=True)
             self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+
+    def resident(self, source, *options):
+        """The path of an .lr file without vertex streams in storage form, which the independent checker does not read."""
+        path = self.path(os.path.basename(source) + "-resident.lr")
+        self.ok("encode", source, "-o", path, "--resident", *options)
+        return path
 
     def generate(self, kind, triangles, seed=1, extension=".ply"):
         path = self.path(f"{kind}-{triangles}-{seed}{extension}")

@@ -109,19 +109,22 @@ class Damage(CliTest):
             if code == DONE:
                 self.ok("verify", target)
 
-    def make_lr(self, form):
-        source = self.generate("soup", 300, 2)
-        lr = self.path(f"good-{form}.lr")
-        self.ok("encode", source, "-o", lr, "--format", form)
+    def make_lr(self, form, *options):
+        stored = form == "packed" and not options  # a soup's stream has no storage form
+        source = self.generate("blob" if stored else "soup", 300, 2)
+        lr = self.path("-".join(("good", form, *options)) + ".lr")
+        self.ok("encode", source, "-o", lr, "--format", form, *options)
         with open(lr, "rb") as file:
             return lr, file.read()
 
     def test_lr_truncated_and_flipped(self):
-        for form in ("lean", "packed", "lr"):  # the last has its attributes as they lie in memory
-            self.truncate_and_flip(form)
+        # The last has its attributes as they lie in memory.
+        for form in (("lean",), ("packed",), ("packed", "--resident"), ("lr",)):
+            self.truncate_and_flip(*form)
 
-    def truncate_and_flip(self, form):
-        lr, data = self.make_lr(form)
+    def truncate_and_flip(self, form, *options):
+        lr, data = self.make_lr(form, *options)
+        form = "-".join((form, *options))
         clean = self.path(f"clean-{form}.ply")
         self.ok("decode", lr, "-o", clean)
         with open(clean, "rb") as file:

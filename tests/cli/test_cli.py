@@ -87,7 +87,7 @@ class RoundTrip(CliTest):
         for output in outputs:
             self.ok("decode", lr, "-o", output)
         if not weld:
-            self.same_triangles(source, *outputs, lr)
+            self.same_triangles(source, *outputs, self.resident(source, *options))
         self.ok("verify", lr)
         return lr
 
@@ -186,7 +186,7 @@ class RoundTrip(CliTest):
                 lr = self.path("out.lr")
                 self.ok("encode", source, "-o", lr)
                 self.ok("decode", lr, "-o", self.path("out.ply"))
-                self.same_triangles(source, self.path("out.ply"), lr)
+                self.same_triangles(source, self.path("out.ply"), self.resident(source))
 
     def test_wrong_extension(self):
         for name, data in {"a.obj": write.ply(POINTS, FACES), "b.ply": write.gltf(POINTS, [(4, write.flat(TRIANGLES))]),
@@ -203,7 +203,7 @@ class RoundTrip(CliTest):
             self.assertEqual(self.json("info", source, *options, "--json")["components"], 1)
             lr = self.round_trip(source, *options)
             self.assertEqual(self.json("info", lr, "--json")["vertices"], 5)
-            self.same_triangles(source, lr)
+            self.same_triangles(source, self.resident(source, *options))
 
 
 class Json(CliTest):
@@ -302,9 +302,9 @@ class Json(CliTest):
         mesh = document["meshes"][0]
         self.assertEqual(mesh["file"], path)
         self.assertEqual(mesh["triangles"], 2000)
-        for key in ("construct", "decode_cpu", "unpack", "decode_gpu", "draw", "operators", "peak_bytes"):
+        for key in ("construct", "decode_cpu", "unpack", "restore", "decode_gpu", "draw", "operators", "peak_bytes"):
             self.assertIsInstance(mesh[key], dict, key)
-        for key in ("construct", "decode_cpu", "unpack"):
+        for key in ("construct", "decode_cpu", "unpack", "restore"):
             self.assertTrue(mesh[key])
             for name, entry in mesh[key].items():
                 self.assertGreater(entry["seconds"], 0, name)
@@ -321,8 +321,12 @@ class Json(CliTest):
         self.assertEqual(mesh["position_bits"], 14)
         rivals = {"draco", "draco_smallest"} - set(mesh["absent"])  # a build may lack Draco
         self.assertEqual(set(mesh["unpack"]), {"lacedring"} | rivals)
-        self.assertTrue(all(entry["bytes"] > 0 for entry in mesh["unpack"].values()))
-        self.assertEqual("draco" in rivals, mesh["unpack_ratio"]["draco_over_lacedring"] is not None)
+        self.assertEqual(set(mesh["restore"]), {"lacedring", "lacedring_decoded"} | (rivals & {"draco"}))
+        self.assertTrue(all(entry["bytes"] > 0 for entry in (*mesh["unpack"].values(), *mesh["restore"].values())))
+        for entry in mesh["restore"].values():
+            self.assertAlmostEqual(entry["ns_per_triangle"], 1e9 * entry["seconds"] / 2000)
+        for key in ("unpack_ratio", "restore_ratio"):
+            self.assertEqual("draco" in rivals, mesh[key]["draco_over_lacedring"] is not None)
         if mesh["decode_gpu"]:
             self.assertGreater(mesh["decode_gpu"]["vertices"]["mvert_per_s"], 0)
             self.assertGreater(mesh["decode_gpu_ratio"]["packed_vertices_over_packed"], 0)

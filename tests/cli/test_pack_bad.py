@@ -122,11 +122,8 @@ class PackBad(CliTest):
     def test_fields(self):
         for options in (["--document", "plain"], ["--document", "packed"], ["--document", "plain", "--keep-order"]):
             packed = Packed(self.packed(*options))
-            cases = []
-            for path in extension_paths(packed.document):
-                for wrong in WRONG:
-                    cases.append((f"f{len(cases)}", "unpack", packed.with_document(mutated(packed.document, path, wrong))))
-            cases = cases[::80 if SANITIZED else 12]
+            changes = [(path, wrong) for path in extension_paths(packed.document) for wrong in WRONG][::80 if SANITIZED else 12]
+            cases = [(f"f{i}", "unpack", packed.with_document(mutated(packed.document, *change))) for i, change in enumerate(changes)]
             refused = self.check_all(cases)
             print(f"{' '.join(options)}: {refused} of {len(cases)} refused")
             self.assertGreater(refused, len(cases) // 2)
@@ -211,14 +208,15 @@ class PackBad(CliTest):
         """Scenes that pack cannot read."""
         with open(self.path("scene.glb"), "rb") as file:
             document, binary = split(file.read())
-        cases = []
+        changes = []
         for path in paths_below(document):
             wanted = (path[:1] == ("accessors",) and len(path) <= 3) or (path[:1] == ("bufferViews",) and len(path) <= 3) or (
                 path[:1] == ("meshes",) and 4 <= len(path) <= 6)
             if wanted:
-                for wrong in WRONG:
-                    cases.append((f"s{len(cases)}", "pack", join(mutated(document, path, wrong), binary)))
-        self.assertGreater(self.check_all(cases[::60 if SANITIZED else 30]), 10)
+                changes += [(path, wrong) for wrong in WRONG]
+        cases = [(f"s{i}", "pack", join(mutated(document, *change), binary))
+                 for i, change in enumerate(changes[::60 if SANITIZED else 30])]
+        self.assertGreater(self.check_all(cases), 10)
         lost = {**document, "buffers": [{"byteLength": 12, "uri": "missing.bin"}]}
         self.fails("pack", self.write("lost.glb", join(lost, b"")), "-o", self.path("x.glb"), mentions=["missing.bin"])
         self.packed()

@@ -319,7 +319,7 @@ class Notes(CliTest):
         self.assertIn("2 degenerate triangles dropped", outcome.err)
         size = os.path.getsize(lr)
         self.assertRegex(outcome.err, rf"2 triangles, {size} bytes: {8 * size / 2:.2f} bits per triangle, {8 * size / 4:.2f} per "
-                                      r"vertex; connectivity (\d+) bytes, .*; lossless\n")
+                                      r"vertex; connectivity (\d+) bytes, .*; lossless; resident \d+ bytes\n")
         words = outcome.err.split()
         connectivity = int(words[words.index("connectivity") + 1])
         self.assertIn(f"{8 * connectivity / 2:.2f} bits per triangle", outcome.err)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""test_stored.py LACEDRING: encode --storage, and what reads its files."""
+"""test_stored.py LACEDRING: files in storage form, which encode writes unless told otherwise, and what reads them."""
 
 import os
 import struct
@@ -24,27 +24,36 @@ class Storage(CliTest):
     def test_same_mesh(self):
         for mesh in (self.generate("blob", 3000), self.generate("genus", 2000), self.generate("soup", 300)):
             with self.subTest(mesh):
-                resident, plain = self.encode(mesh, "--positions", "14")
+                resident, plain = self.encode(mesh, "--positions", "14", "--resident")
                 want = self.decoded(resident)
-                stored, small = self.encode(mesh, "--positions", "14", "--storage")
-                self.assertLessEqual(len(small), len(plain))
+                stored, small = self.encode(mesh, "--positions", "14")
+                (self.assertLessEqual if "soup" in mesh else self.assertLess)(len(small), len(plain))
+                self.assertEqual(self.encode(mesh, "--positions", "14", "--storage")[1], small)
                 self.assertEqual(self.decoded(stored), want)
-                self.ok("verify", stored)
-                self.ok("info", stored)
+                for command in ("verify", "info", "stats"):
+                    self.ok(command, stored)
+                self.assertEqual(self.encode(stored, "--resident")[1], self.encode(self.path("out.ply"), "--resident")[1])
 
     def test_said(self):
         mesh = self.generate("blob", 3000)
-        path, _ = self.encode(mesh, "--storage")
+        path, small = self.encode(mesh)
         sections = self.json("info", "--json", path)["lr"]["sections"]
         self.assertTrue(sections[0]["stored"])
         self.assertIn("in storage form", self.ok("info", path).out)
-        path, _ = self.encode(mesh, "--resident")
-        self.assertFalse(any(s["stored"] for s in self.json("info", "--json", path)["lr"]["sections"]))
+        said = self.ok("encode", mesh, "-o", path, "--force").err
+        for options in ([], ["--format", "lean"], ["--format", "lr"], ["--format", "lr-compact"]):
+            path, plain = self.encode(mesh, "--resident", *options)
+            self.assertFalse(any(s["stored"] for s in self.json("info", "--json", path)["lr"]["sections"]))
+            if options:
+                self.assertEqual(self.encode(mesh, *options)[1], plain)
+            else:
+                self.assertIn(f"{len(small)} bytes:", said)
+                self.assertIn(f"; resident {len(plain)} bytes\n", said)
         for options in (["--storage", "--resident"], ["--storage", "--format", "lean"]):
             self.fails("encode", mesh, "-o", path, "--force", *options, codes=(WRONG_USAGE,))
 
     def test_damage(self):
-        path, good = self.encode(self.generate("blob", 2000), "--storage")
+        path, good = self.encode(self.generate("blob", 2000))
         for size in range(0, len(good), 211):
             self.refused(path, good[:size])
         for at in range(0, len(good), 173):
@@ -52,11 +61,17 @@ class Storage(CliTest):
 
     def test_bomb(self):
         """A small file that says it has more triangles than a computer holds."""
-        path, good = self.encode(self.generate("blob", 2000), "--storage")
+        path, good = self.encode(self.generate("blob", 2000))
         words = list(struct.unpack_from("<8I", good))
         words[4] = 0xF0000000
         words[7] = zlib.crc32(struct.pack("<7I", *words[:7]))
         self.refused(path, struct.pack("<8I", *words) + good[32:], "would take more than")
+
+    def test_max_memory(self):
+        path, _ = self.encode(self.generate("blob", 20000))
+        for command in (["decode", path, "-o", self.path("y.ply")], ["info", path]):
+            self.fails(*command, "--max-memory", "1", mentions=["--max-memory"])
+            self.ok(*command, "--max-memory", "100")
 
     def refused(self, path, data, *mentions):
         with open(path, "wb") as file:

@@ -44,9 +44,9 @@ class Total(CliTest):
                     stride = sum(a["components"] * {"f32": 4, "f64": 8, "u8": 1, "u16": 2}[a["type"]] for a in attributes)
                     self.assertEqual(mesh["total"]["raw"]["bytes"], 6 * mesh["triangles"] + stride * mesh["copies"])
                     for name, how in (
-                        ("packed", []),
-                        ("packed_cache", ["--profile", "cache"]),
-                        ("storage", ["--storage"]),
+                        ("packed", ["--resident"]),
+                        ("packed_cache", ["--resident", "--profile", "cache"]),
+                        ("storage", []),
                     ):
                         lr = self.path("x.lr")
                         self.ok("encode", path, "-o", lr, "--force", *how, *options)

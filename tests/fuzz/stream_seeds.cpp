@@ -49,6 +49,8 @@ void write_stream(const char* target, const std::string& name, const Mesh& mesh,
     const Result<LrFile> seams = make_lr_file(cut, surface, encoded, mesh.triangle_count() % 3 == 0);
     all_written = seams.has_value() && all_written;
     if (seams) write("lr_file", std::string(target) + "-" + name + "-seams", serialize_lr(*seams));
+    if (seams)
+        write("lr_file", std::string(target) + "-" + name + "-stored-seams", serialize_lr(*seams, LrForm::stored));
 }
 
 /// The section of a mesh that is cut into charts: those triangles apart that are so many apart.
@@ -154,6 +156,18 @@ void write_vertex_seeds() {
                            [&](auto v, auto c) { return std::round(wave(v, c) * 4096) / 4096; });
 }
 
+/// A file in storage form whose normals are differences from the surface's.
+void write_stored_normals() {
+    Mesh mesh = generate("sphere", 600).value();
+    mesh.attributes.push_back({"NORMAL", ComponentType::f32, 3, false, mesh.attributes[0].data});
+    Result<Encoded> encoded = encode(mesh.indices, mesh.vertex_count, {.format = Format::packed, .effort = 0});
+    all_written = encoded.has_value() && all_written;
+    if (!encoded) return;
+    LrFile file = make_lr_file(mesh, std::move(*encoded), false);
+    all_written = compress_attributes(file, {.positions = 12, .normals = 9}).has_value() && all_written;
+    write("lr_file", "normals-stored", serialize_lr(file, LrForm::stored));
+}
+
 /// Packs the scene in every way: FOLDER/scene/NAME-... .
 void write_packed_scenes(const std::filesystem::path& source) {
     const auto file = MappedFile::open(source);
@@ -191,6 +205,7 @@ int main(int argc, char** argv) {
         write_seeds(std::string(kind) + "-4600", generate(kind, 4600).value(), number++);
     }
     write_vertex_seeds();
+    write_stored_normals();
     if (!all_written) std::fprintf(stderr, "%s: cannot be written\n", argv[1]);
     return all_written ? 0 : 1;
 }

@@ -70,7 +70,8 @@ gpu::Drawable draw(gpu::Renderer& renderer, const gpu::Model& model, const gpu::
 
 }  // namespace
 
-TEST_CASE("GPU-assisted validation is clean on every source and path") {
+TEST_CASE("GPU-assisted validation is clean on every source and path, and sees a vertex fetched past the last") {
+    // One renderer for all: where drivers have not cached them, its pipelines take lavapipe minutes.
     const auto context = assisted();
     gpu::RendererOptions options;
     options.width = options.height = kPicture;
@@ -94,25 +95,23 @@ TEST_CASE("GPU-assisted validation is clean on every source and path") {
             }
         }
     }
-}
 
-TEST_CASE("GPU-assisted validation is clean on meshes with seams") {
-    const auto context = assisted();
-    gpu::RendererOptions options;
-    options.width = options.height = kPicture;
-    options.max_range = kSmallRange;
-    auto renderer = gpu::Renderer::create(*context, options);
-    REQUIRE(renderer);
-    const CutMesh cut = cut_mesh(generated("parts", 1000), 1, 3);
+    const CutMesh cut = cut_mesh(generated("parts", 1000), 1, 3);  // with seams
     gpu::ModelOptions all{.packed = true, .vertices = VertexOptions{}};
     all.surface = cut.surface;
-    const gpu::Model model = gpu::make_model(cut.mesh, all).value();
+    const gpu::Model with_seams = gpu::make_model(cut.mesh, all).value();
     for (const gpu::Path path : {gpu::Path::compute, gpu::Path::pull}) {
         for (const gpu::Source source : {gpu::Source::lean, gpu::Source::packed_vertices}) {
-            const gpu::Drawable drawable = draw(*renderer, model, {source, path});
+            const gpu::Drawable drawable = draw(*renderer, with_seams, {source, path});
             CHECK(messages(*context, ranges_of(drawable)) == 0);
         }
     }
+
+    const Mesh sphere = generated("sphere", 200);
+    gpu::Model bad = model_of(sphere);
+    bad.lean.words[LR_LEAN_HEADER_WORDS + 20] = sphere.vertex_count;  // a tip; validate_lean would refuse it
+    const gpu::Drawable drawable = draw(*renderer, bad, {gpu::Source::lean, gpu::Path::pull});
+    CHECK(messages(*context, ranges_of(drawable)) > 0);
 }
 
 TEST_CASE("GPU-assisted validation is clean where shaders ask for neighbours") {
@@ -126,17 +125,4 @@ TEST_CASE("GPU-assisted validation is clean where shaders ask for neighbours") {
     REQUIRE(renderer);
     const gpu::Drawable drawable = draw(*renderer, model, {gpu::Source::lean, gpu::Path::compute});
     CHECK(messages(*context, ranges_of(drawable)) == 0);
-}
-
-TEST_CASE("GPU-assisted validation sees a vertex fetched past the last") {
-    const auto context = assisted();
-    const Mesh mesh = generated("sphere", 200);
-    gpu::Model model = model_of(mesh);
-    model.lean.words[LR_LEAN_HEADER_WORDS + 20] = mesh.vertex_count;  // a tip; validate_lean would refuse it
-    gpu::RendererOptions options;
-    options.width = options.height = kPicture;
-    auto renderer = gpu::Renderer::create(*context, options);
-    REQUIRE(renderer);
-    const gpu::Drawable drawable = draw(*renderer, model, {gpu::Source::lean, gpu::Path::pull});
-    CHECK(messages(*context, ranges_of(drawable)) > 0);
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
+#include <optional>
 
 #include "lacedring/mesh_files.hpp"
 #include "tests/gpu/gpu_test.h"
@@ -37,7 +39,7 @@ double share_of_others(const gpu::Picture& a, const gpu::Picture& b) {
     return static_cast<double>(others) / static_cast<double>(a.pixels());
 }
 
-gpu::Picture drawn(gpu::Context& context, const gpu::Model& model, gpu::View view, gpu::Source source) {
+gpu::Renderer renderer_of(gpu::Context& context, gpu::View view) {
     gpu::RendererOptions options;
     options.view = view;
     options.width = kWidth * kSamples;
@@ -45,11 +47,15 @@ gpu::Picture drawn(gpu::Context& context, const gpu::Model& model, gpu::View vie
     options.samples = kSamples;
     Result<gpu::Renderer> renderer = gpu::Renderer::create(context, options);
     REQUIRE_MESSAGE(renderer, renderer.error().message);
-    Result<gpu::Drawable> drawable = renderer->upload(model, source);
+    return std::move(renderer).value();
+}
+
+gpu::Picture drawn(gpu::Renderer& renderer, const gpu::Model& model, gpu::Source source) {
+    Result<gpu::Drawable> drawable = renderer.upload(model, source);
     REQUIRE_MESSAGE(drawable, drawable.error().message);
-    const auto camera = gpu::make_camera(model, {}, options.width, options.height);
+    const auto camera = gpu::make_camera(model, {}, kWidth * kSamples, kHeight * kSamples);
     REQUIRE(camera);
-    Result<gpu::Picture> picture = renderer->draw(*drawable, model, *camera, true);
+    Result<gpu::Picture> picture = renderer.draw(*drawable, model, *camera, true);
     REQUIRE_MESSAGE(picture, picture.error().message);
     return std::move(picture).value();
 }
@@ -85,17 +91,21 @@ Mesh mesh_of(const Golden& golden) {
 
 TEST_CASE_FIXTURE(GpuTest, "golden pictures") {
     const bool update = std::getenv("LACEDRING_UPDATE_GOLDEN") != nullptr;
+    std::map<gpu::View, std::optional<gpu::Renderer>> renderers;  // pipelines take lavapipe long to make
     std::vector<gpu::Picture> goldens;
     for (const Golden& golden : kGoldens) {
         CAPTURE(std::string(golden.name));
         const Mesh mesh = mesh_of(golden);  // the model looks at it
         const gpu::Model model = model_of(mesh);
-        const gpu::Picture lean = drawn(*context, model, golden.view, gpu::Source::lean);
-        const gpu::Picture plain = drawn(*context, model, golden.view, gpu::Source::plain);
+        const auto [at, made] = renderers.try_emplace(golden.view);
+        if (made) at->second.emplace(renderer_of(*context, golden.view));
+        gpu::Renderer& renderer = *at->second;
+        const gpu::Picture lean = drawn(renderer, model, gpu::Source::lean);
+        const gpu::Picture plain = drawn(renderer, model, gpu::Source::plain);
         const gpu::Difference d = gpu::difference(plain, lean);
         CHECK(d.pixels == 0);
         CHECK(d.triangles == 0);
-        const gpu::Difference packed = gpu::difference(plain, drawn(*context, model, golden.view, gpu::Source::packed));
+        const gpu::Difference packed = gpu::difference(plain, drawn(renderer, model, gpu::Source::packed));
         CHECK(packed.pixels == 0);
         CHECK(packed.triangles == 0);
         CHECK(d.covered * 20 > plain.pixels());

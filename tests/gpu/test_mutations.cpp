@@ -13,13 +13,22 @@ using namespace lacedring::test;
 
 namespace {
 
-gpu::Comparison compared(gpu::Context& context, const gpu::Model& model, gpu::Source source = gpu::Source::lean) {
-    gpu::CompareOptions options;
+/// One renderer for all mutations of a mesh: pipelines take lavapipe long to make.
+gpu::Renderer mutation_renderer(gpu::Context& context) {
+    gpu::RendererOptions options;
     options.width = 320;
     options.height = 240;
-    Result<gpu::Comparison> out = gpu::compare(context, model, {source}, options);
+    Result<gpu::Renderer> renderer = gpu::Renderer::create(context, options);
+    REQUIRE_MESSAGE(renderer, renderer.error().message);
+    return std::move(renderer).value();
+}
+
+gpu::Comparison comparison_of(gpu::Renderer& renderer, const gpu::Model& model,
+                              gpu::Source source = gpu::Source::lean) {
+    const gpu::Subject subject{source};
+    Result<std::vector<gpu::Comparison>> out = gpu::compare(renderer, model, std::span(&subject, 1));
     REQUIRE_MESSAGE(out, out.error().message);
-    return std::move(out).value();
+    return std::move(out->front());
 }
 
 /// Payload slots whose word fits, spread over the stream.
@@ -37,8 +46,8 @@ std::vector<std::uint32_t> slots_where(const gpu::Model& model, std::size_t coun
     return out;
 }
 
-void check_found(gpu::Context& context, const gpu::Model& model, gpu::Source source = gpu::Source::lean) {
-    const gpu::Comparison c = compared(context, model, source);
+void check_found(gpu::Renderer& renderer, const gpu::Model& model, gpu::Source source = gpu::Source::lean) {
+    const gpu::Comparison c = comparison_of(renderer, model, source);
     CHECK(!c.same());
     CHECK(c.indices_equal_cpu);  // both decode the wrong stream alike: it is the picture that tells
     CHECK(c.pixels_different > 0);
@@ -48,11 +57,14 @@ void check_found(gpu::Context& context, const gpu::Model& model, gpu::Source sou
 }  // namespace
 
 TEST_CASE_FIXTURE(GpuTest, "one wrong word of the stream is seen") {
+    gpu::Renderer renderer = mutation_renderer(*context);
+
     const Mesh mesh = generated("blob", 3000, 5);
     const gpu::Model good = model_of(mesh);
-    REQUIRE(compared(*context, good).same());
+    REQUIRE(comparison_of(renderer, good).same());
 
-    SUBCASE("a tip") {
+    {
+        INFO("a tip");
         for (const std::uint32_t slot : slots_where(good, 4, [](const LeanView&view, std::uint32_t i) {
                  return i < view.ring_slots() && (view.payload[i] & ~LR_LEAN_TIP_MASK) == 0;
              })) {
@@ -60,29 +72,32 @@ TEST_CASE_FIXTURE(GpuTest, "one wrong word of the stream is seen") {
             gpu::Model bad = model_of(mesh);
             std::uint32_t& word = bad.lean.words[LR_LEAN_HEADER_WORDS + slot];
             word = (word + mesh.vertex_count / 2) % mesh.vertex_count;
-            check_found(*context, bad);
+            check_found(renderer, bad);
         }
     }
-    SUBCASE("a tip, by one") {
+    {
+        INFO("a tip, by one");
         gpu::Model bad = model_of(mesh);
         const auto slots = slots_where(good, 1, [](const LeanView& view, std::uint32_t i) {
             return i > 500 && i < view.ring_slots() && (view.payload[i] & ~LR_LEAN_TIP_MASK) == 0 &&
                    view.payload[i] > 10;
         });
         --bad.lean.words[LR_LEAN_HEADER_WORDS + slots[0]];
-        check_found(*context, bad);
+        check_found(renderer, bad);
     }
-    SUBCASE("a wart bit") {
+    {
+        INFO("a wart bit");
         for (const std::uint32_t slot : slots_where(good, 4, [](const LeanView&view, std::uint32_t i) {
                  return i < view.ring_slots() && (view.payload[i] & LR_LEAN_WART_FLAG) != 0;
              })) {
             CAPTURE(slot);
             gpu::Model bad = model_of(mesh);
             bad.lean.words[LR_LEAN_HEADER_WORDS + slot] ^= LR_LEAN_WART_FLAG;
-            check_found(*context, bad);
+            check_found(renderer, bad);
         }
     }
-    SUBCASE("a vertex of a T0") {
+    {
+        INFO("a vertex of a T0");
         const Result<LeanView> view = view_lean(good.lean.words);
         REQUIRE(view);
         REQUIRE(view->verbatim >= 3);
@@ -90,29 +105,32 @@ TEST_CASE_FIXTURE(GpuTest, "one wrong word of the stream is seen") {
             gpu::Model bad = model_of(mesh);
             std::uint32_t& word = bad.lean.words[LR_LEAN_HEADER_WORDS + view->ring_slots() + 3 * k + k];
             word = (word + mesh.vertex_count / 2) % mesh.vertex_count;
-            check_found(*context, bad);
+            check_found(renderer, bad);
         }
     }
-    SUBCASE("a flip bit") {
+    {
+        INFO("a flip bit");
         gpu::Model bad = model_of(mesh);
         const auto slots = slots_where(good, 1, [](const LeanView& view, std::uint32_t i) {
             return i > 700 && i < view.ring_slots() && (view.payload[i] & ~LR_LEAN_TIP_MASK) == 0;
         });
         bad.lean.words[LR_LEAN_HEADER_WORDS + slots[0]] ^= LR_LEAN_FLIP_FLAG;
-        const gpu::Comparison c = compared(*context, bad);
+        const gpu::Comparison c = comparison_of(renderer, bad);
         CHECK(c.triangle_ids_different > 0);  // its other side is seen; its colours are the same
         CHECK(!c.same());
     }
-    SUBCASE("the order of the vertices") {
+    {
+        INFO("the order of the vertices");
         gpu::Model bad = model_of(mesh);
         std::swap(bad.lean.vertex_order[100], bad.lean.vertex_order[900]);
-        CHECK(!compared(*context, bad).same());
+        CHECK(!comparison_of(renderer, bad).same());
     }
-    SUBCASE("the triangles of two slots") {
+    {
+        INFO("the triangles of two slots");
         gpu::Model bad = model_of(mesh);
         const auto slots = slots_where(good, 2, [](const LeanView&, std::uint32_t) { return true; });
         std::swap(bad.lean.slot_triangle[slots[0]], bad.lean.slot_triangle[slots[1]]);
-        CHECK(!compared(*context, bad).same());
+        CHECK(!comparison_of(renderer, bad).same());
     }
 }
 
@@ -129,7 +147,7 @@ std::vector<std::uint32_t> decoded(const gpu::Model& model) {
 /// Flips single bits in words [begin, end) of the packed stream that leave it valid, as some other mesh: `flips` of
 /// them, spread over those words. Each must be seen. `one_index`: only bits that change a single vertex of a single
 /// triangle.
-void check_flips_found(gpu::Context& context, const Mesh& mesh, std::size_t begin, std::size_t end, std::size_t flips,
+void check_flips_found(gpu::Renderer& renderer, const Mesh& mesh, std::size_t begin, std::size_t end, std::size_t flips,
                        bool one_index = false) {
     gpu::Model model = model_of(mesh);
     const std::vector<std::uint32_t> good = decoded(model);
@@ -142,11 +160,6 @@ void check_flips_found(gpu::Context& context, const Mesh& mesh, std::size_t begi
         for (std::size_t i = 0; i < good.size(); ++i) different += good[i] != bad[i] ? 1 : 0;
         return one_index ? different == 1 : different > 0;
     };
-    gpu::RendererOptions options;  // one for all: pipelines take lavapipe long to make
-    options.width = 320;
-    options.height = 240;
-    Result<gpu::Renderer> renderer = gpu::Renderer::create(context, options);
-    REQUIRE_MESSAGE(renderer, renderer.error().message);
     const gpu::Subject subject{gpu::Source::packed};
     std::size_t found = 0, bit = 0;
     for (std::size_t part = 0; part < flips; ++part) {
@@ -155,7 +168,7 @@ void check_flips_found(gpu::Context& context, const Mesh& mesh, std::size_t begi
             words[bit / 32] ^= 1U << (bit % 32);
             const bool chosen = fits();
             if (chosen) {
-                const auto all = gpu::compare(*renderer, model, std::span(&subject, 1));
+                const auto all = gpu::compare(renderer, model, std::span(&subject, 1));
                 REQUIRE_MESSAGE(all, all.error().message);
                 const gpu::Comparison& c = all->front();
                 CHECK(!c.same());
@@ -173,20 +186,25 @@ void check_flips_found(gpu::Context& context, const Mesh& mesh, std::size_t begi
 }  // namespace
 
 TEST_CASE_FIXTURE(GpuTest, "one wrong bit of the packed stream is seen") {
+    gpu::Renderer renderer = mutation_renderer(*context);
+
     const Mesh mesh = generated("blob", 6000, 5);
     const gpu::Model good = model_of(mesh);
-    REQUIRE(compared(*context, good, gpu::Source::packed).same());
+    REQUIRE(comparison_of(renderer, good, gpu::Source::packed).same());
     const Result<PackedView> view = view_packed(good.packed.words);
     REQUIRE(view);
     const std::size_t turns = LR_PACKED_HEADER_WORDS, groups = view->groups_word();
 
-    SUBCASE("a turn") {
-        check_flips_found(*context, mesh, turns, view->table_word(), 5);
+    {
+        INFO("a turn");
+        check_flips_found(renderer, mesh, turns, view->table_word(), 5);
     }
-    SUBCASE("an event") {  // gaps, sizes, starts: whatever leaves a record valid
-        check_flips_found(*context, mesh, groups, view->words.size(), 12);
+    {  // gaps, sizes, starts: whatever leaves a record valid
+        INFO("an event");
+        check_flips_found(renderer, mesh, groups, view->words.size(), 12);
     }
-    SUBCASE("a record's first edge") {
+    {
+        INFO("a record's first edge");
         gpu::Model bad = model_of(mesh);
         std::uint32_t* head = bad.packed.words.data() + groups;
         std::uint64_t bits = 0;
@@ -194,41 +212,42 @@ TEST_CASE_FIXTURE(GpuTest, "one wrong bit of the packed stream is seen") {
         // Both vertices by one: behind a word, and a bit for each block of the group but the first.
         bits += (1 + (std::uint64_t{1} << view->vertex_bits)) << (LR_PACKED_HEAD_BITS + LR_PACKED_GROUP - 1);
         std::memcpy(head, &bits, sizeof bits);
-        check_found(*context, bad, gpu::Source::packed);
+        check_found(renderer, bad, gpu::Source::packed);
     }
-    SUBCASE("the table") {  // the second group is the first: vertices may be anything then, so nothing is drawn
+    {  // the second group is the first: vertices may be anything then, so nothing is drawn
+        INFO("the table");
         gpu::Model bad = model_of(mesh);
         bad.packed.words[view->table_word()] = 0;
-        gpu::RendererOptions options;
-        options.width = options.height = 8;
-        Result<gpu::Renderer> renderer = gpu::Renderer::create(*context, options);
-        REQUIRE(renderer);
-        Result<gpu::Drawable> drawable = renderer->upload(bad, gpu::Source::packed);
+        Result<gpu::Drawable> drawable = renderer.upload(bad, gpu::Source::packed);
         REQUIRE_MESSAGE(drawable, drawable.error().message);
-        const auto indices = renderer->read_indices(*drawable);
+        const auto indices = renderer.read_indices(*drawable);
         REQUIRE(indices);
         CHECK(*indices != decoded(good));
     }
-    SUBCASE("the order of the vertices") {
+    {
+        INFO("the order of the vertices");
         gpu::Model bad = model_of(mesh);
         std::swap(bad.packed.vertex_order[100], bad.packed.vertex_order[900]);
-        CHECK(!compared(*context, bad, gpu::Source::packed).same());
+        CHECK(!comparison_of(renderer, bad, gpu::Source::packed).same());
     }
-    SUBCASE("the order of the triangles") {
+    {
+        INFO("the order of the triangles");
         gpu::Model bad = model_of(mesh);
         std::swap(bad.packed.triangle_order[1000], bad.packed.triangle_order[4000]);
-        CHECK(!compared(*context, bad, gpu::Source::packed).same());
+        CHECK(!comparison_of(renderer, bad, gpu::Source::packed).same());
     }
 }
 
 TEST_CASE_FIXTURE(GpuTest, "a wrong far vertex of a packed stream is seen") {
+    gpu::Renderer renderer = mutation_renderer(*context);
+
     const Mesh mesh = generated("terrain", 6000, 5);
     const gpu::Model good = model_of(mesh);
     REQUIRE(good.packed.statistics.events[LR_PACKED_FAR] > 10);
-    REQUIRE(compared(*context, good, gpu::Source::packed).same());
+    REQUIRE(comparison_of(renderer, good, gpu::Source::packed).same());
     const Result<PackedView> view = view_packed(good.packed.words);
     REQUIRE(view);
-    check_flips_found(*context, mesh, view->groups_word(), view->words.size(), 3, true);
+    check_flips_found(renderer, mesh, view->groups_word(), view->words.size(), 3, true);
 }
 
 TEST_CASE_FIXTURE(GpuTest, "damaged packed streams neither hang nor write beyond their triangles") {

@@ -453,7 +453,8 @@ class WithProgram(unittest.TestCase):
             return file.read()
 
     def encode(self, name, *options, mesh=None):
-        self.run_lacedring("encode", mesh or self.path("m.ply"), "-o", self.path("m.lr"), "--format", name, *options)
+        self.run_lacedring("encode", mesh or self.path("m.ply"), "-o", self.path("m.lr"), "--format", name, "--resident",
+                           *options)
         return self.read("m.lr")
 
 

@@ -4,12 +4,16 @@
 #include <doctest/doctest.h>
 
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <string>
 
 #include "lacedring/lacedring.hpp"
 #include "lacedring/lr_file.hpp"
+#include "lrcore/base/crc32.h"
+#include "lrio/file/lr_layout.h"
 #include "tests/support/meshes.h"
 
 namespace lacedring::test {
@@ -53,6 +57,39 @@ inline std::vector<std::byte> check_golden(const std::string& path, std::span<co
     for (std::size_t i = 0; i + 1 < golden.size(); i += golden[i + 2] == '\n' ? 3 : 2) {
         out.push_back(static_cast<std::byte>(std::stoi(golden.substr(i, 2), nullptr, 16)));
     }
+    return out;
+}
+
+/// The sections of a file, to be changed and put together again with right checksums.
+struct Part {
+    detail::Section entry;
+    std::vector<std::byte> contents;
+};
+inline std::vector<std::byte> with_parts(std::span<const std::byte> file,
+                                         const std::function<void(detail::FileHeader&, std::vector<Part>&)>& change) {
+    detail::FileHeader header;
+    std::memcpy(&header, file.data(), sizeof header);
+    std::vector<Part> parts(header.sections);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        std::memcpy(&parts[i].entry, file.data() + sizeof header + i * sizeof(detail::Section),
+                    sizeof(detail::Section));
+        const auto contents = file.subspan(parts[i].entry.offset, parts[i].entry.size);
+        parts[i].contents.assign(contents.begin(), contents.end());
+    }
+    change(header, parts);
+    header.sections = static_cast<std::uint32_t>(parts.size());
+    std::vector<std::byte> out(sizeof header + parts.size() * sizeof(detail::Section));
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        out.resize(detail::align8(out.size()));
+        parts[i].entry.offset = out.size();
+        parts[i].entry.size = parts[i].contents.size();
+        parts[i].entry.crc = crc32(parts[i].contents);
+        out.insert(out.end(), parts[i].contents.begin(), parts[i].contents.end());
+        std::memcpy(out.data() + sizeof header + i * sizeof(detail::Section), &parts[i].entry, sizeof(detail::Section));
+    }
+    header.table_crc = crc32(std::span(out).subspan(sizeof header, parts.size() * sizeof(detail::Section)));
+    header.header_crc = crc32(std::as_bytes(std::span(&header, 1)).first(28));
+    std::memcpy(out.data(), &header, sizeof header);
     return out;
 }
 

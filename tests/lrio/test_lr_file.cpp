@@ -4,6 +4,7 @@
 #include <cstring>
 #include <memory>
 
+#include "lrlab/generate/generate.h"
 #include "tests/lrio/lr_files.h"
 #include "tests/support/capture.h"
 
@@ -230,4 +231,22 @@ TEST_CASE("hostile lr files with matching checksums") {
         file.format = Format::lr;
     }
     CHECK_FALSE(parse_lr(serialize_lr(file)));
+}
+
+TEST_CASE("files in storage form give back the resident ones, and stay resident where parse_lr would refuse them") {
+    LrFile file = make(generate("blob", 2000).value(), true, Format::packed);
+    REQUIRE(compress_attributes(file, {.positions = 14}));
+    const std::vector<std::byte> resident = serialize_lr(file), stored = serialize_lr(file, LrForm::stored);
+    CHECK(stored.size() < resident.size());
+    CHECK(view_lr_file(resident));
+    CHECK(view_lr_file(stored).error().code == ErrorCode::unsupported);
+    CHECK(serialize_lr(parse_lr(stored).value()) == resident);
+    CHECK(parse_lr(stored, 1000).error().code == ErrorCode::memory_limit);
+
+    file.input_triangles = 10'000'000;  // of which most were degenerate
+    CHECK(serialize_lr(file, LrForm::stored) == serialize_lr(file));
+    CHECK(parse_lr(serialize_lr(file, LrForm::stored)));
+    file.input_triangles = 8'000'000;
+    CHECK(parse_lr(serialize_lr(file, LrForm::stored)));
+    CHECK(serialize_lr(file, LrForm::stored).size() == stored.size());
 }

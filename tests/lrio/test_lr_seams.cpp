@@ -8,7 +8,6 @@
 
 #include "lacedring/seams.hpp"
 #include "lrcore/base/crc32.h"
-#include "lrio/file/lr_layout.h"
 #include "lrlab/generate/generate.h"
 #include "tests/lrio/lr_files.h"
 #include "tests/support/capture.h"
@@ -18,7 +17,9 @@
 
 using namespace lacedring;
 using test::CutMesh;
+using test::Part;
 using test::random_below;
+using test::with_parts;
 
 namespace {
 
@@ -92,39 +93,6 @@ void check_file(const CutMesh& cut, const LrFile& file) {
 
 CutMesh small_cut() {
     return test::cut_mesh(test::random_gluing(40, 80, 5), 2, 1);
-}
-
-/// The sections of a file, to be changed and put together again with right checksums.
-struct Part {
-    detail::Section entry;
-    std::vector<std::byte> contents;
-};
-std::vector<std::byte> with_parts(std::span<const std::byte> file,
-                                  const std::function<void(detail::FileHeader&, std::vector<Part>&)>& change) {
-    detail::FileHeader header;
-    std::memcpy(&header, file.data(), sizeof header);
-    std::vector<Part> parts(header.sections);
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        std::memcpy(&parts[i].entry, file.data() + sizeof header + i * sizeof(detail::Section),
-                    sizeof(detail::Section));
-        const auto contents = file.subspan(parts[i].entry.offset, parts[i].entry.size);
-        parts[i].contents.assign(contents.begin(), contents.end());
-    }
-    change(header, parts);
-    header.sections = static_cast<std::uint32_t>(parts.size());
-    std::vector<std::byte> out(sizeof header + parts.size() * sizeof(detail::Section));
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        out.resize(detail::align8(out.size()));
-        parts[i].entry.offset = out.size();
-        parts[i].entry.size = parts[i].contents.size();
-        parts[i].entry.crc = crc32(parts[i].contents);
-        out.insert(out.end(), parts[i].contents.begin(), parts[i].contents.end());
-        std::memcpy(out.data() + sizeof header + i * sizeof(detail::Section), &parts[i].entry, sizeof(detail::Section));
-    }
-    header.table_crc = crc32(std::span(out).subspan(sizeof header, parts.size() * sizeof(detail::Section)));
-    header.header_crc = crc32(std::as_bytes(std::span(&header, 1)).first(28));
-    std::memcpy(out.data(), &header, sizeof header);
-    return out;
 }
 
 void mend(std::vector<std::uint32_t>& seams) {

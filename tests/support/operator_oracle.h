@@ -8,6 +8,7 @@
 
 #include "lacedring/streams.hpp"
 #include "lacedring/topology.hpp"
+#include "tests/support/fast_require.h"
 
 namespace lacedring::test {
 
@@ -18,25 +19,25 @@ void check_operators(const CornerTable& table, const Operators& ops, const LrMap
     // The bijection: every triangle that is not degenerate has one canonical number, every vertex one number.
     std::vector<std::uint32_t> number(table.triangle_count(), UINT32_MAX);
     for (std::uint32_t t = 0; t < map.triangle.size(); ++t) {
-        REQUIRE(ops.is_canonical(TriangleId{t}) == !map.triangle[t].is_null());
+        REQUIRE_FAST(ops.is_canonical(TriangleId{t}) == !map.triangle[t].is_null());
         if (map.triangle[t].is_null()) continue;
-        REQUIRE(number[map.triangle[t].value] == UINT32_MAX);
+        REQUIRE_FAST(number[map.triangle[t].value] == UINT32_MAX);
         number[map.triangle[t].value] = t;
     }
     for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
-        REQUIRE((number[t] == UINT32_MAX) == table.degenerate(TriangleId{t}));
+        REQUIRE_FAST((number[t] == UINT32_MAX) == table.degenerate(TriangleId{t}));
     }
     std::vector<std::uint32_t> vertex_number(table.vertex_count, UINT32_MAX);
-    REQUIRE(map.vertex.size() == table.vertex_count);
+    REQUIRE_FAST(map.vertex.size() == table.vertex_count);
     for (std::uint32_t v = 0; v < map.vertex.size(); ++v) {
-        REQUIRE(vertex_number[map.vertex[v].value] == UINT32_MAX);
+        REQUIRE_FAST(vertex_number[map.vertex[v].value] == UINT32_MAX);
         vertex_number[map.vertex[v].value] = v;
     }
     const auto there = [&](CornerId c) -> CornerId {  // the corner table's corner of a canonical corner
         if (c.is_null()) return c;
         const std::uint32_t t = c.value / stride;
-        REQUIRE(t < map.triangle.size());
-        REQUIRE_FALSE(map.triangle[t].is_null());
+        REQUIRE_FAST(t < map.triangle.size());
+        REQUIRE_FAST(!map.triangle[t].is_null());
         return corner(map.triangle[t], (map.start[t] + c.value % stride) % 3);
     };
     // A laced ring's corners of no triangle lie at an edge with a border; others may not be asked about at all.
@@ -45,29 +46,29 @@ void check_operators(const CornerTable& table, const Operators& ops, const LrMap
     };
 
     for (std::uint32_t t = 0; t < map.triangle.size(); ++t) {
-        REQUIRE(ops.corner(TriangleId{t}).value == stride * t);
+        REQUIRE_FAST(ops.corner(TriangleId{t}).value == stride * t);
         for (std::uint32_t k = 0; k < 3; ++k) {
             const CornerId c{stride * t + k};
             CAPTURE(c.value);
-            REQUIRE(ops.triangle(c).value == t);
-            REQUIRE(ops.next(c).value == stride * t + (k + 1) % 3);
-            REQUIRE(ops.previous(c).value == stride * t + (k + 2) % 3);
+            REQUIRE_FAST(ops.triangle(c).value == t);
+            REQUIRE_FAST(ops.next(c).value == stride * t + (k + 1) % 3);
+            REQUIRE_FAST(ops.previous(c).value == stride * t + (k + 2) % 3);
             const CornerId canonical = ops.canonical(c);
             if (canonical.is_null()) {
-                if (border_slots) REQUIRE(ops.opposite(c).is_null());
+                if (border_slots) REQUIRE_FAST(ops.opposite(c).is_null());
                 continue;
             }
             const CornerId x = there(canonical);
-            if (ops.is_canonical(TriangleId{t})) REQUIRE(canonical == c);
-            REQUIRE(map.vertex[ops.vertex(c).value] == table.vertex(x));  // of a T2's first copy as well
-            REQUIRE(there(ops.next(canonical)) == next(x));
-            REQUIRE(there(ops.canonical(ops.next(c))) == next(x));
-            REQUIRE(there(ops.opposite(c)) == table.opposite(x));
-            REQUIRE(there(ops.left(c)) == table.left(x));
-            REQUIRE(there(ops.right(c)) == table.right(x));
-            REQUIRE(there(ops.swing(c)) == table.swing(x));
+            if (ops.is_canonical(TriangleId{t})) REQUIRE_FAST(canonical == c);
+            REQUIRE_FAST(map.vertex[ops.vertex(c).value] == table.vertex(x));  // of a T2's first copy as well
+            REQUIRE_FAST(there(ops.next(canonical)) == next(x));
+            REQUIRE_FAST(there(ops.canonical(ops.next(c))) == next(x));
+            REQUIRE_FAST(there(ops.opposite(c)) == table.opposite(x));
+            REQUIRE_FAST(there(ops.left(c)) == table.left(x));
+            REQUIRE_FAST(there(ops.right(c)) == table.right(x));
+            REQUIRE_FAST(there(ops.swing(c)) == table.swing(x));
             const CornerId back = table.right(x);
-            REQUIRE(there(ops.swing_back(c)) == (back.is_null() ? back : previous(back)));
+            REQUIRE_FAST(there(ops.swing_back(c)) == (back.is_null() ? back : previous(back)));
         }
     }
 
@@ -81,27 +82,27 @@ void check_operators(const CornerTable& table, const Operators& ops, const LrMap
         CAPTURE(v);
         const std::uint32_t there_v = map.vertex[v].value;
         const CornerId c = ops.corner(VertexId{v});
-        REQUIRE(c.is_null() == (triangles_at[there_v] == 0));
+        REQUIRE_FAST(c.is_null() == (triangles_at[there_v] == 0));
         if (c.is_null()) {
             CHECK(ops.valence(VertexId{v}) == 0);
             continue;
         }
-        REQUIRE(ops.vertex(c).value == v);
-        REQUIRE(ops.canonical(c) == c);
-        REQUIRE(border_starts[there_v] <= 1);  // a pseudo-manifold
-        REQUIRE(ops.is_border(VertexId{v}) == (border_starts[there_v] == 1));
-        REQUIRE(ops.valence(VertexId{v}) == triangles_at[there_v] + border_starts[there_v]);
+        REQUIRE_FAST(ops.vertex(c).value == v);
+        REQUIRE_FAST(ops.canonical(c) == c);
+        REQUIRE_FAST(border_starts[there_v] <= 1);  // a pseudo-manifold
+        REQUIRE_FAST(ops.is_border(VertexId{v}) == (border_starts[there_v] == 1));
+        REQUIRE_FAST(ops.valence(VertexId{v}) == triangles_at[there_v] + border_starts[there_v]);
         std::vector<std::uint32_t> star;
         ops.star(VertexId{v}, [&](CornerId x) {
-            REQUIRE(ops.vertex(x).value == v);
+            REQUIRE_FAST(ops.vertex(x).value == v);
             star.push_back(there(x).value);
         });
-        REQUIRE(star.size() == triangles_at[there_v]);
+        REQUIRE_FAST(star.size() == triangles_at[there_v]);
         std::sort(star.begin(), star.end());
-        REQUIRE(std::adjacent_find(star.begin(), star.end()) == star.end());
+        REQUIRE_FAST(std::adjacent_find(star.begin(), star.end()) == star.end());
         std::vector<std::uint32_t> neighbours, expected;
         ops.neighbors(VertexId{v}, [&](VertexId u) { neighbours.push_back(map.vertex[u.value].value); });
-        REQUIRE(neighbours.size() == ops.valence(VertexId{v}));
+        REQUIRE_FAST(neighbours.size() == ops.valence(VertexId{v}));
         const CornerId begin = there(c);
         CornerId x = begin;
         do {  // around an interior vertex, the order is that of swing
@@ -117,7 +118,7 @@ void check_operators(const CornerTable& table, const Operators& ops, const LrMap
             std::sort(expected.begin(), expected.end());
             std::sort(neighbours.begin(), neighbours.end());
         }
-        REQUIRE(neighbours == expected);
+        REQUIRE_FAST(neighbours == expected);
     }
 }
 

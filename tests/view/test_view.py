@@ -27,7 +27,7 @@ class View(driver.Scripted):
                 self.assertNotIn(library, done.stderr, arguments)
         # Vulkan drivers may load a window system's libraries; nobody loads ours.
         for arguments in (["render", torus, "-o", os.path.join(driver.folder, "t.png"), "--size", "64x64"],
-                          ["compare", torus, "--size", "64x64"]):
+                          ["compare", torus, "--size", "64x64", "--path", "compute", "--source", "lean"]):
             done = run(*arguments, environment=trace)
             self.assertEqual(done.returncode, 0, done.stderr[-500:])
             self.assertNotIn("libglfw", done.stderr)

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <unordered_map>
+#include <utility>
 
 #include "lrcore/codec/bit_reader.h"
 #include "lrcore/codec/packed/packed_format.h"
@@ -24,17 +26,18 @@ class StepReader {
     explicit StepReader(const PackedView& view)
         : view_(view), groups_(view.words.subspan(view.groups_word())), bits_(view.vertex_bits) {}
 
-    std::optional<PackedSteps> read() {
+    PackedSteps read() {
         out_.reserve(view_.own);
         const std::uint32_t blocks = (view_.own + LR_PACKED_BLOCK - 1) / LR_PACKED_BLOCK;
         for (std::uint32_t block = 0; block < blocks; block += LR_PACKED_GROUP) {
-            if (!read_group(block, std::min(LR_PACKED_GROUP, blocks - block))) return {};
+            read_group(block, std::min(LR_PACKED_GROUP, blocks - block));
         }
+        if (!plain_.empty()) find_plain();
         return std::move(out_);
     }
 
   private:
-    bool read_group(std::uint32_t first, std::uint32_t blocks) {
+    void read_group(std::uint32_t first, std::uint32_t blocks) {
         const std::uint32_t group = first / LR_PACKED_GROUP;
         const std::uint64_t begin = group == 0 ? 0 : std::uint64_t{32} * view_.words[view_.table_word() + group - 1];
         BitReader head(groups_, begin, std::uint64_t{32} * groups_.size());
@@ -69,18 +72,56 @@ class StepReader {
         }
         const std::uint64_t records = 8 * ((head.at() + 7) / 8);
         for (std::uint32_t k = 0; k < blocks; ++k) {
-            if (kinds[k] == LR_PACKED_PLAIN) return false;
             const std::uint64_t at = records + (k == 0 ? 0 : std::uint64_t{8} * ends[k - 1]);
             const std::uint32_t triangle = (first + k) * LR_PACKED_BLOCK;
             const std::uint32_t end = std::min(triangle + LR_PACKED_BLOCK, view_.own);
-            if (kinds[k] == LR_PACKED_RECORD) {
+            if (kinds[k] == LR_PACKED_PLAIN) {
+                read_plain(at, triangle, end);
+            } else if (kinds[k] == LR_PACKED_RECORD) {
                 BitReader bits(groups_, at, records + std::uint64_t{8} * ends[k]);
                 read_record(bits, entries[k], triangle, end, false);
             } else {
                 read_parts(at, entries[k], triangle, end);
             }
         }
-        return true;
+    }
+
+    /// Triangles that say their vertices alone: (a, x, b), or (a, b, x). For now all are taken as the latter.
+    void read_plain(std::uint64_t at, std::uint32_t triangle, std::uint32_t end) {
+        plain_.push_back({triangle, end});
+        BitReader bits(groups_, at, at + std::uint64_t{3} * (end - triangle) * bits_);
+        for (; triangle < end; ++triangle) {
+            const std::uint32_t a = bits.take(bits_), second = bits.take(bits_);
+            out_.add({a, second}, bits.take(bits_), 0);
+        }
+    }
+
+    /// Which of the two the triangles of plain blocks are: they come across an edge that a step before left open, the
+    /// one that was left last. Where there is none, they are as the triangle before. It is a guess: who stores a stream
+    /// compares.
+    void find_plain() {
+        const auto key = [](std::uint32_t a, std::uint32_t b) { return std::uint64_t{a} << 32 | b; };
+        std::unordered_map<std::uint64_t, std::uint32_t> open;  // the step that left an edge, plus 1
+        open.reserve(view_.own);
+        const auto left_by = [&](std::uint32_t a, std::uint32_t b) {
+            const auto found = open.find(key(a, b));
+            return found == open.end() ? 0 : found->second;
+        };
+        auto plain = plain_.begin();
+        for (std::uint32_t i = 0; i < out_.size(); ++i) {
+            PackedSteps::Step& s = out_.step(i);
+            if (plain != plain_.end() && i == plain->end) ++plain;
+            if (plain != plain_.end() && i >= plain->first) {
+                const std::uint32_t by_x = left_by(s.edge.a, s.third), by_b = left_by(s.edge.a, s.edge.b);
+                const bool as_before = i > 0 && out_.on_right(i - 1);
+                if (by_x > by_b || (by_x == by_b && as_before)) {
+                    std::swap(s.edge.b, s.third);
+                    out_.flags_of(i) = CorridorStep::kRight;
+                }
+            }
+            open.erase(key(s.edge.a, s.edge.b));
+            open[key(s.edge.a, s.third)] = open[key(s.third, s.edge.b)] = i + 1;
+        }
     }
 
     void read_parts(std::uint64_t at, Entry entry, std::uint32_t triangle, std::uint32_t end) {
@@ -286,12 +327,16 @@ class StepReader {
     Entry now_, begun_;
     bool finished_ = false;
     std::vector<Scope> scopes_;
+    struct Plain {
+        std::uint32_t first, end;
+    };
+    std::vector<Plain> plain_;
     PackedSteps out_;
 };
 
 }  // namespace
 
-std::optional<PackedSteps> read_steps(const PackedView& view) {
+PackedSteps read_steps(const PackedView& view) {
     return StepReader(view).read();
 }
 

@@ -3,7 +3,6 @@
 // other edges. Internal to lrcore.
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "lacedring/streams.hpp"
@@ -41,6 +40,12 @@ class PackedSteps {
         steps_.push_back({edge, third, is_a ? next : UINT32_MAX, is_a ? UINT32_MAX : next});
         flags_.push_back(flags);
     }
+    /// Step i, across one of whose edges the next step is: by `up` (x, b), else (a, x).
+    void add_simple(std::uint32_t i, PackedEdge edge, std::uint32_t third, std::uint32_t right, std::uint32_t up) {
+        const std::uint32_t next = i + 1;
+        steps_.push_back({edge, third, next | (0 - up), next | (up - 1)});
+        flags_.push_back(static_cast<std::uint8_t>(right | (1 + up) << 1));
+    }
     Step& step(std::uint32_t i) { return steps_[i]; }
     std::uint8_t& flags_of(std::uint32_t i) { return flags_[i]; }
 
@@ -50,8 +55,8 @@ class PackedSteps {
 };
 
 /// Reads them back from a valid stream, without doubles; what is across the edges is not known yet. Of the flags kRight
-/// says whether the triangle comes out reversed, and the others are what its event says, if it has one. None: a block
-/// is plain, and does not say.
-std::optional<PackedSteps> read_steps(const PackedView& view);
+/// says whether the triangle comes out reversed, and the others are what its event says, if it has one. Those of plain
+/// blocks are a guess.
+PackedSteps read_steps(const PackedView& view);
 
 }  // namespace lacedring::storage

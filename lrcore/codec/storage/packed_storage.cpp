@@ -84,15 +84,14 @@ bool set_flags(PackedSteps& steps) {
 }  // namespace
 
 std::optional<std::vector<std::uint32_t>> store_packed(const PackedView& view) {
-    std::optional<PackedSteps> steps = read_steps(view);
-    if (!steps) return {};
-    link_across(*steps);
-    const bool has_flips = set_flags(*steps);
+    PackedSteps steps = read_steps(view);
+    link_across(steps);
+    const bool has_flips = set_flags(steps);
     std::vector<std::uint32_t> out{view.vertices, view.own, view.runs | (has_flips ? kHasFlips : 0)};
     const auto doubles = view.words.subspan(view.doubles_word(), view.groups_word() - view.doubles_word());
     out.insert(out.end(), doubles.begin(), doubles.end());
     Encoder coder;
-    WalkCoder<Encoder>(coder, *steps, view.vertices, has_flips).code(view.own);
+    WalkCoder<Encoder>(coder, steps, view.vertices, has_flips).code(view.own);
     const std::vector<std::uint32_t> coded = coder.finish();
     out.insert(out.end(), coded.begin(), coded.end());
     const auto restored = restore_packed(out, {view.vertices, view.triangles});
@@ -100,29 +99,52 @@ std::optional<std::vector<std::uint32_t>> store_packed(const PackedView& view) {
     return out;
 }
 
-Result<std::vector<std::uint32_t>> restore_packed(std::span<const std::uint32_t> stored, const PackedLimits& limits) {
+Result<StoredPacked> StoredPacked::read(std::span<const std::uint32_t> stored, const PackedLimits& limits) {
     if (stored.size() < kHeaderWords) return malformed("shorter than its header");
     const std::uint32_t vertices = stored[0], own = stored[1], runs = stored[2] & ~kHasFlips;
     if (vertices > limits.vertices || own > limits.triangles) return malformed("more than its file has");
-    std::size_t at = kHeaderWords;
     const std::size_t doubles = runs == 0 ? 0 : LR_PACKED_DOUBLES_WORDS + LR_PACKED_RUN_WORDS * std::size_t{runs};
-    if (doubles > stored.size() - at) return malformed("doubles beyond its end");
-    at += doubles;
-    Decoder coder(stored.subspan(at));
-    PackedSteps steps;
-    if (!WalkCoder<Decoder>(coder, steps, vertices, (stored[2] & kHasFlips) != 0).code(own) || !coder.is_at_end()) {
-        return malformed("its steps say something impossible");
+    if (doubles > stored.size() - kHeaderWords) return malformed("doubles beyond its end");
+    StoredPacked out;
+    out.vertices_ = vertices;
+    out.runs_ = runs;
+    out.doubles_ = stored.subspan(kHeaderWords, doubles);
+    out.steps_.reserve(own);
+    Decoder coder(stored.subspan(kHeaderWords + doubles));
+    WalkCoder<Decoder> walk(coder, out.steps_, vertices, (stored[2] & kHasFlips) != 0);
+    if (!walk.code(own) || !coder.is_at_end()) return malformed("its steps say something impossible");
+    return out;
+}
+
+std::vector<std::uint32_t> StoredPacked::triangles() const {
+    std::vector<std::uint32_t> out;
+    if (runs_ != 0) return out;
+    out.reserve(std::size_t{3} * steps_.size());
+    for (std::uint32_t i = 0; i < steps_.size(); ++i) {
+        const auto [a, b] = steps_.edge(i);
+        const std::uint32_t x = steps_.third(i);
+        const bool reversed = steps_.on_right(i) != steps_.flipped(i);
+        for (const std::uint32_t v : {a, reversed ? x : b, reversed ? b : x}) out.push_back(v);
     }
+    return out;
+}
+
+Result<std::vector<std::uint32_t>> StoredPacked::write() const {
     PackedStatistics statistics;
-    Result<std::vector<std::uint32_t>> words = write_packed(steps, vertices, statistics);
-    if (!words || runs == 0) return words;
+    Result<std::vector<std::uint32_t>> words = write_packed(steps_, vertices_, statistics);
+    if (!words || runs_ == 0) return words;
     PackedView view;
-    view.triangles = view.own = own;
-    words->insert(words->begin() + static_cast<std::ptrdiff_t>(view.doubles_word()), stored.begin() + kHeaderWords,
-                  stored.begin() + static_cast<std::ptrdiff_t>(at));
+    view.triangles = view.own = steps_.size();
+    words->insert(words->begin() + static_cast<std::ptrdiff_t>(view.doubles_word()), doubles_.begin(), doubles_.end());
     (*words)[LR_PACKED_WORD_VERTICES] |= LR_PACKED_DOUBLES;
     (*words)[LR_PACKED_WORD_CHECKSUM] = packed_checksum(*words);
     return words;
+}
+
+Result<std::vector<std::uint32_t>> restore_packed(std::span<const std::uint32_t> stored, const PackedLimits& limits) {
+    const Result<StoredPacked> read = StoredPacked::read(stored, limits);
+    if (!read) return read.error();
+    return read->write();
 }
 
 }  // namespace lacedring::storage

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lacedring/streams.hpp"
+#include "lrcore/codec/storage/packed_steps.h"
 
 namespace lacedring::storage {
 
@@ -19,8 +20,26 @@ struct PackedLimits {
 /// T).
 std::optional<std::vector<std::uint32_t>> store_packed(const PackedView& view);
 
-/// The packed stream, bit for bit. It is not validated: what is stored may say anything. Cost: O(T); 33 bytes a
-/// triangle and 2 a vertex beside the stream. Errors: malformed, too_large. Untrusted input: safe.
+/// A stored packed stream on the way to the packed stream, in two steps: triangles are known before it is written.
+class StoredPacked {
+  public:
+    /// `stored` has to outlive this. Cost: O(T); 25 bytes a triangle and 1 a vertex. Errors: malformed. Untrusted
+    /// input: safe.
+    static Result<StoredPacked> read(std::span<const std::uint32_t> stored, const PackedLimits& limits);
+
+    /// The triangles, where these are the steps' alone, without doubles; else none.
+    std::vector<std::uint32_t> triangles() const;
+
+    /// The packed stream, bit for bit. It is not validated: what is stored may say anything. Errors: too_large.
+    Result<std::vector<std::uint32_t>> write() const;
+
+  private:
+    PackedSteps steps_;
+    std::uint32_t vertices_ = 0, runs_ = 0;
+    std::span<const std::uint32_t> doubles_;
+};
+
+/// Both steps.
 Result<std::vector<std::uint32_t>> restore_packed(std::span<const std::uint32_t> stored, const PackedLimits& limits);
 
 }  // namespace lacedring::storage

@@ -69,7 +69,7 @@ struct SymbolModel {
   private:
     static constexpr std::uint16_t kFirst = 6, kLongest = 64, kStep = 4, kMost = 2048;
 
-    void renew() {
+    LACEDRING_NOINLINE void renew() {
         if (total > kMost) {
             total = 0;
             for (std::uint16_t& n : count) {
@@ -165,27 +165,36 @@ class Decoder {
             return;
         }
         at_ = words.data() + 1;
-        end_ = at_ + words[0];
+        last_ = words[0] - 1;
         bytes_ = reinterpret_cast<const unsigned char*>(words.data());
         last_byte_ = 4 * words.size() - 8;
         raw_bit_ = 32 * (1 + std::uint64_t{words[0]});
         raw_end_ = 32 * std::uint64_t{words.size()};
         for (std::uint64_t* x : {&now_, &next_}) {
-            *x = at_[0] | static_cast<std::uint64_t>(at_[1]) << 32;
-            at_ += 2;
+            *x = at_[used_] | static_cast<std::uint64_t>(at_[used_ + 1]) << 32;
+            used_ += 2;
         }
     }
 
     LACEDRING_INLINE std::uint32_t bit(BitModel& model, std::uint32_t /*value*/ = 0) {
         const std::uint32_t at = now_ & (kScale - 1), zero = model.zero;
         const std::uint32_t value = at >= zero ? 1 : 0;
-        take(at, value != 0 ? zero : 0, value != 0 ? kScale - zero : zero);
+        std::uint64_t x = after(at, value != 0 ? zero : 0, value != 0 ? kScale - zero : zero);
+        if (x < kLeast) {  // rare: a bit's information is small
+            x = x << 32 | next_word();
+            ++used_;
+        }
+        go_on(x);
         model.update(value);
         return value;
     }
     LACEDRING_INLINE std::uint32_t symbol(SymbolModel& model, std::uint32_t /*value*/ = 0) {
         const std::uint32_t at = now_ & (kScale - 1), value = model.find(at);
-        take(at, model.begin[value], model.begin[value + 1] - model.begin[value]);
+        std::uint64_t x = after(at, model.begin[value], model.begin[value + 1] - model.begin[value]);
+        const std::uint64_t takes = x < kLeast ? 1 : 0;  // without a branch, which would be hard to predict
+        x = x << (32 * takes) | (next_word() & (0 - takes));
+        used_ += takes;
+        go_on(x);
         model.update(value);
         return value;
     }
@@ -199,7 +208,7 @@ class Decoder {
         return static_cast<std::uint32_t>(window & ((std::uint64_t{1} << count) - 1));
     }
 
-    bool bad() const { return bad_ || raw_bit_ > raw_end_; }
+    bool bad() const { return bad_ || raw_bit_ > raw_end_ || used_ > last_ + 1; }
     /// Was all of it used, and do both states end as they began?
     bool is_at_end() const {
         const auto left = static_cast<std::uint32_t>(raw_end_ - raw_bit_);  // bits of the last word
@@ -207,27 +216,26 @@ class Decoder {
         std::uint32_t last = 0;
         if (left > 0) std::memcpy(&last, bytes_ + (raw_end_ / 8 - sizeof last), sizeof last);
         const bool is_clear = left == 0 || last >> (32 - left) == 0;
-        return is_clear && at_ == end_ && now_ == kLeast && next_ == kLeast;
+        return is_clear && used_ == last_ + 1 && now_ == kLeast && next_ == kLeast;
     }
 
   private:
-    LACEDRING_INLINE void take(std::uint32_t at, std::uint32_t begin, std::uint32_t size) {
-        std::uint64_t x = size * (now_ >> kScaleBits) + at - begin;
-        if (x < kLeast) {
-            if (at_ != end_) {
-                x = x << 32 | *at_++;
-            } else {
-                bad_ = true;
-                x |= kLeast;
-            }
-        }
+    LACEDRING_INLINE std::uint64_t after(std::uint32_t at, std::uint32_t begin, std::uint32_t size) const {
+        return size * (now_ >> kScaleBits) + at - begin;
+    }
+    /// Behind the end, the last word again.
+    std::uint32_t next_word() const { return at_[std::min(used_, last_)]; }
+    LACEDRING_INLINE void go_on(std::uint64_t x) {
         now_ = next_;
         next_ = x;
     }
 
     static constexpr unsigned char kNothing[8] = {};
 
-    const std::uint32_t *at_ = nullptr, *end_ = nullptr;
+    static constexpr std::uint32_t kZero = 0;
+
+    const std::uint32_t* at_ = &kZero;       // words of symbols
+    std::uint64_t used_ = 0, last_ = 0;      // of them; the number of the last one
     const unsigned char* bytes_ = kNothing;  // of all words
     std::uint64_t last_byte_ = 0;            // from which on there are eight
     std::uint64_t raw_bit_ = 0, raw_end_ = 0;

@@ -1,13 +1,19 @@
 #include "lrcore/codec/storage/vertex_storage.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cassert>
 #include <cstring>
+#include <type_traits>
 
 #include "lrcore/base/message.h"
+#include "lrcore/base/parallel.h"
 #include "lrcore/codec/storage/block_coder.h"
-#include "lrcore/codec/storage/vertex_values.h"
+#include "lrcore/codec/storage/normal_base.h"
+#include "lrcore/codec/storage/place_prediction.h"
+#include "lrcore/codec/storage/residual_coder.h"
+#include "lrcore/codec/storage/vertex_predictor.h"
 
 namespace lacedring::storage {
 namespace {
@@ -15,22 +21,54 @@ namespace {
 using Words = std::vector<std::uint32_t>;
 
 constexpr std::uint32_t kLayoutBits = 23;
+constexpr std::uint32_t kChunk = 1U << 16;  ///< vertices whose blocks are a part of their own
+static_assert(kChunk % (kVertexGroup * kVertexBlock) == 0);
 
 /// All of a stream.
 struct StoredStream {
     std::uint32_t vertices = 0;
     StreamChoices choices;
     VertexParameters parameters;
-    Words exceptions;  // two words each
+    bool by_places = false;  // the integers are differences from what the positions lead one to expect
+    NormalBase base;         // of normals
+    Words exceptions;        // two words each
     Words values;
     std::vector<BlockChoices> blocks;  // of an encoder alone
 
     std::uint32_t components() const { return choices.layout & 31; }
     std::uint32_t mapping() const { return choices.layout >> 5 & 7; }
+    std::uint32_t bits() const { return choices.layout >> 13 & 31; }
+    bool is_octahedral() const { return static_cast<VertexMapping>(mapping()) == VertexMapping::octahedral; }
 };
 
 Error malformed_vertices(const char* what) {
     return {ErrorCode::malformed, detail::message("stored vertex stream: ", what)};
+}
+
+/// A part: its words, and before them how many they are.
+void add_part(Encoder& coder, Words& out) {
+    const Words words = coder.finish();
+    out.push_back(static_cast<std::uint32_t>(words.size()));
+    out.insert(out.end(), words.begin(), words.end());
+}
+
+/// Takes a part from the front; none, which no Decoder likes, if it has not all of its words.
+std::span<const std::uint32_t> take_part(std::span<const std::uint32_t>& rest) {
+    if (rest.empty() || rest[0] > rest.size() - 1) return {};
+    const auto part = rest.subspan(1, rest[0]);
+    rest = rest.subspan(1 + part.size());
+    return part;
+}
+
+/// Codes how two integers a vertex are predicted by positions.
+template <class Coder>
+bool code_places(Coder& coder, StoredStream& stream) {
+    if (stream.components() != 2) return true;
+    stream.by_places = coder.raw(stream.by_places ? 1 : 0, 1) != 0;
+    if (!stream.by_places || !stream.is_octahedral()) return true;
+    for (bool NormalBase::*flag : {&NormalBase::by_angle, &NormalBase::by_area, &NormalBase::of_vertex})
+        stream.base.*flag = coder.raw(stream.base.*flag ? 1 : 0, 1) != 0;
+    return stream.bits() >= 2 && stream.bits() <= 16;
 }
 
 /// Codes what a stream says before its integers, which a Decoder does not know yet: `has_usual_ranges` then says
@@ -57,16 +95,13 @@ bool code_header(Coder& coder, StoredStream& stream, bool& has_usual_ranges) {
         if (c.first_bits > 32) return false;
     }
     VertexParameters& p = stream.parameters;
-    for (std::uint32_t c = 0; c < n; ++c) {
-        const std::uint32_t rule = coder.raw(static_cast<std::uint32_t>(p.rules[c]), 2);
-        if (rule > 2) return false;
-        p.rules[c] = static_cast<VertexRule>(rule);
-    }
+    for (std::uint32_t c = 0; c < n; ++c)
+        p.rules[c] = static_cast<VertexRule>(coder.raw(static_cast<std::uint32_t>(p.rules[c]), 2));
     p.has_normal = coder.raw(p.has_normal ? 1 : 0, 1) != 0;
     p.error = coder.raw(p.error, 4);
     p.smooth = coder.raw(p.smooth, 5);
     p.fine = coder.raw(p.fine, 4);
-    return p.smooth <= 16 && !(p.has_normal && n != 3);
+    return code_places(coder, stream) && p.smooth <= 16 && !(p.has_normal && n != 3);
 }
 
 template <class Coder>
@@ -81,7 +116,8 @@ bool code_exceptions(Coder& coder, StoredStream& stream) {
         if constexpr (Coder::kDecodes) stream.exceptions.resize(2 * std::size_t{i} + 2);
         std::uint32_t* at = stream.exceptions.data() + 2 * std::size_t{i};
         const std::uint64_t number = next + distance.code(coder, at[0] - static_cast<std::uint32_t>(next));
-        if (number >= stream.values.size() || number > UINT32_MAX || coder.bad()) return false;
+        if (number >= std::uint64_t{stream.vertices} * stream.components() || number > UINT32_MAX || coder.bad())
+            return false;
         at[0] = static_cast<std::uint32_t>(number);
         if (coder.bit(same, at[1] != last ? 1 : 0) != 0) last = coder.raw(at[1], 32);
         at[1] = last;
@@ -90,13 +126,13 @@ bool code_exceptions(Coder& coder, StoredStream& stream) {
     return true;
 }
 
-/// Calls what(coder) with a VertexValueCoder for the number of components.
-template <class Coder, class What>
-void with_values(Coder& coder, const VertexParameters& parameters, std::uint32_t n, std::span<std::uint32_t> values,
-                 What&& what) {
+/// Between values and residuals, in the order of a walk: a VertexWalk, or a WalkRecord.
+template <bool kRestores, class Walk>
+void predict(Walk& walk, const VertexParameters& parameters, std::uint32_t n, std::span<std::uint32_t> values,
+             std::span<std::uint32_t> residuals) {
     const auto run = [&]<std::uint32_t N>() {
-        VertexValueCoder<Coder, N> visitor(coder, parameters, n, values);
-        what(visitor);
+        VertexPredictor<N, kRestores> visitor(parameters, n, values, residuals);
+        walk.run(visitor);
     };
     switch (n) {
         case 1:
@@ -105,36 +141,46 @@ void with_values(Coder& coder, const VertexParameters& parameters, std::uint32_t
             return run.template operator()<2>();
         case 3:
             return run.template operator()<3>();
-        case 4:
-            return run.template operator()<4>();
         default:
             return run.template operator()<0>();
     }
 }
 
-/// Codes and writes the blocks; `begins` gets the bit where each begins.
+/// The blocks of some vertices as bits, and the bit where each begins.
+struct BlocksOut {
+    BlockBits bits;
+    std::vector<std::uint64_t> begins;
+};
+
+/// Codes and writes the blocks of vertices [first, end).
 template <class Coder>
-bool code_blocks(Coder& coder, StoredStream& stream, std::uint64_t most_words, BlockBits& out,
-                 std::vector<std::uint64_t>& begins) {
-    BlockCoder<Coder> blocks(coder, stream.choices.components, out);
+bool code_blocks(Coder& coder, StoredStream& stream, std::uint32_t first, std::uint32_t end, std::uint64_t most_words,
+                 BlocksOut& out) {
+    BlockCoder<Coder> blocks(coder, stream.choices.components, out.bits);
     const std::uint32_t n = stream.components();
-    for (std::uint32_t first = 0; first < stream.vertices;) {
-        if (begins.size() % kVertexGroup == 0) out.align();
-        if (out.words() > most_words || coder.bad()) return false;
-        const std::uint32_t count = std::min(stream.vertices - first, kVertexBlock);
+    for (; first < end; first += std::min(end - first, kVertexBlock)) {
+        if (out.begins.size() % kVertexGroup == 0) out.bits.align();
+        if (out.bits.words() > most_words || coder.bad()) return false;
         BlockChoices own;
-        BlockChoices& choices = Coder::kDecodes ? own : stream.blocks[begins.size()];
-        begins.push_back(out.bits());
+        BlockChoices& choices = Coder::kDecodes ? own : stream.blocks[first / kVertexBlock];
+        out.begins.push_back(out.bits.bits());
+        const std::uint32_t count = std::min(end - first, kVertexBlock);
         if (!blocks.code(stream.values.data() + std::size_t{first} * n, count, choices)) return false;
-        first += count;
     }
-    out.align();
+    out.bits.align();
     return true;
 }
 
 /// The resident stream of its parts.
-Result<Words> assemble(const StoredStream& stream, const BlockBits& data, std::span<const std::uint64_t> begins,
-                       std::uint64_t most_words) {
+Result<Words> assemble(const StoredStream& stream, std::span<const BlocksOut> chunks, std::uint64_t most_words) {
+    Words data;
+    std::vector<std::uint64_t> begins;
+    for (const BlocksOut& chunk : chunks) {
+        const std::uint64_t begin = std::uint64_t{32} * data.size();
+        for (const std::uint64_t b : chunk.begins) begins.push_back(begin + b);
+        const auto words = chunk.bits.finished();
+        data.insert(data.end(), words.begin(), words.end());
+    }
     VertexStreamParts parts;
     parts.vertices = stream.vertices;
     parts.layout = stream.choices.layout;
@@ -143,9 +189,9 @@ Result<Words> assemble(const StoredStream& stream, const BlockBits& data, std::s
     parts.components = stream.choices.components;
     parts.exceptions = stream.exceptions;
     parts.begins = begins;
-    parts.data = data.finished();
+    parts.data = data;
     if (parts.size() > most_words) return Error{ErrorCode::memory_limit, "stored vertex stream: too large"};
-    if (data.words() > UINT32_MAX) return malformed_vertices("more than its table numbers");
+    if (data.size() > UINT32_MAX) return malformed_vertices("more than its table numbers");
     for (std::size_t b = 0; b < begins.size(); ++b) {
         if ((begins[b] - begins[b / kVertexGroup * kVertexGroup]) >> parts.field_bits() == 0) continue;
         return malformed_vertices("a block is farther than its table says");
@@ -156,36 +202,36 @@ Result<Words> assemble(const StoredStream& stream, const BlockBits& data, std::s
 /// A walk, recorded.
 class WalkRecord {
   public:
-    void start(std::uint32_t v, std::uint32_t from) { steps_.push_back({v, from, kStart, {}}); }
-    void predicted(std::uint32_t v, const Parallelograms& by, bool two) {
-        steps_.push_back({v, kNone, two ? kTwo : kOne, by});
-    }
+    void start(std::uint32_t v, std::uint32_t from) { steps_.push_back({v, from, true, {}}); }
+    void predicted(std::uint32_t v, const Parallelograms& by) { steps_.push_back({v, kNone, false, by}); }
     template <class Visitor>
     void run(Visitor& visitor) const {
         for (const Step& step : steps_) {
-            if (step.kind == kStart) {
+            if (step.starts) {
                 visitor.start(step.v, step.from);
             } else {
-                visitor.predicted(step.v, step.by, step.kind == kTwo);
+                visitor.predicted(step.v, step.by);
             }
         }
     }
 
   private:
-    enum Kind : std::uint8_t { kStart, kOne, kTwo };
     struct Step {
         std::uint32_t v, from;
-        Kind kind;
+        bool starts;
         Parallelograms by;
     };
     std::vector<Step> steps_;
 };
 
+constexpr VertexRule kRules[] = {VertexRule::parallelograms, VertexRule::mean, VertexRule::neighbor, VertexRule::none};
+
 /// Chooses how integers are predicted: by trial.
 class ParameterSearch {
   public:
-    ParameterSearch(const WalkRecord& walk, std::uint32_t n, std::span<std::uint32_t> values)
-        : walk_(walk), n_(n), values_(values) {}
+    /// `are_differences`: the values may need no prediction any more.
+    ParameterSearch(const WalkRecord& walk, std::uint32_t n, std::span<std::uint32_t> values, bool are_differences)
+        : walk_(walk), n_(n), values_(values), rules_(std::span(kRules).first(are_differences ? 4 : 3)) {}
 
     VertexParameters best() {
         find_rules();
@@ -205,11 +251,15 @@ class ParameterSearch {
         if (parameters_.error != 0) vary(&VertexParameters::smooth, {0, 2, 4});
         return parameters_;
     }
+    /// Words that the values take by the best parameters.
+    std::size_t least() const { return least_; }
 
   private:
     std::size_t words(const VertexParameters& parameters, std::uint32_t n, std::span<std::uint32_t> values) const {
         Encoder coder;
-        with_values(coder, parameters, n, values, [&](auto& visitor) { walk_.run(visitor); });
+        Words residuals(values.size());
+        predict<false>(walk_, parameters, n, values, residuals);
+        code_residuals(coder, n, parameters.fine, residuals);
         return coder.finish().size();
     }
 
@@ -219,7 +269,7 @@ class ParameterSearch {
         for (std::uint32_t c = 0; c < n_; ++c) {
             for (std::size_t i = 0; i < alone.size(); ++i) alone[i] = values_[i * n_ + c];
             std::size_t least = SIZE_MAX;
-            for (const VertexRule rule : {VertexRule::parallelograms, VertexRule::mean, VertexRule::neighbor}) {
+            for (const VertexRule rule : rules_) {
                 VertexParameters parameters;
                 parameters.rules[0] = rule;
                 const std::size_t now = words(parameters, 1, alone);
@@ -251,6 +301,7 @@ class ParameterSearch {
     const WalkRecord& walk_;
     std::uint32_t n_;
     std::span<std::uint32_t> values_;
+    std::span<const VertexRule> rules_;
     VertexParameters parameters_;
     std::size_t least_ = SIZE_MAX;
 };
@@ -276,15 +327,72 @@ StoredStream parts_of(const VertexView& view) {
     return out;
 }
 
+/// The integers as differences from what the positions lead one to expect, two a vertex.
+Words differences_of(StoredStream& stream, const WalkRecord& walk, std::span<const std::uint32_t> triangles,
+                     const VertexPlaces& places) {
+    Words out = stream.values;
+    if (stream.is_octahedral()) {
+        stream.base = nearest_base(places, triangles, stream.values, stream.bits());
+        subtract_normals(out, surface_normals(places, triangles, stream.vertices, stream.base, stream.bits()),
+                         stream.bits());
+        return out;
+    }
+    struct Nothing {
+        void start(std::uint32_t, std::uint32_t) {}
+        void predicted(std::uint32_t, const Parallelograms&) {}
+    } nothing;
+    const PlacePrediction prediction(places);
+    PlaceVisitor<false, Nothing> visitor(prediction, stream.values, out, nothing);
+    walk.run(visitor);
+    return out;
+}
+
+/// Finds the parameters. Returns the integers as they are coded.
+Words choose_prediction(StoredStream& stream, const WalkRecord& walk, std::span<const std::uint32_t> triangles,
+                        const VertexPlaces& places) {
+    const std::uint32_t n = stream.components();
+    ParameterSearch plain(walk, n, stream.values, false);
+    stream.parameters = plain.best();
+    if (n != 2 || places.positions.empty() || !has_places(places, stream.vertices)) return stream.values;
+    Words differences = differences_of(stream, walk, triangles, places);
+    ParameterSearch with(walk, n, differences, true);
+    const VertexParameters parameters = with.best();
+    if (with.least() >= plain.least()) return stream.values;
+    stream.parameters = parameters;
+    stream.by_places = true;
+    return differences;
+}
+
+/// Makes values of the residuals.
+void restore_values(StoredStream& stream, std::span<std::uint32_t> residuals, std::span<const std::uint32_t> triangles,
+                    const VertexPlaces& places) {
+    VertexWalk walk(triangles, stream.vertices);  // first: making it takes more memory than having it
+    stream.values.resize(residuals.size());
+    if (stream.by_places && !stream.is_octahedral()) {
+        Words differences(residuals.size());
+        VertexPredictor<2, true> predictor(stream.parameters, 2, differences, residuals);
+        const PlacePrediction prediction(places);
+        PlaceVisitor<true, VertexPredictor<2, true>> visitor(prediction, stream.values, differences, predictor);
+        walk.run(visitor);
+        return;
+    }
+    predict<true>(walk, stream.parameters, stream.components(), stream.values, residuals);
+    if (!stream.by_places) return;
+    walk = VertexWalk({}, 0);  // its memory
+    add_normals(stream.values, surface_normals(places, triangles, stream.vertices, stream.base, stream.bits()),
+                stream.bits());
+}
+
 }  // namespace
 
 std::optional<std::vector<std::uint32_t>> store_vertices(const VertexView& view,
-                                                         std::span<const std::uint32_t> triangles) {
+                                                         std::span<const std::uint32_t> triangles,
+                                                         const VertexPlaces& places) {
     StoredStream stream = parts_of(view);
     const std::uint32_t n = stream.components();
     WalkRecord walk;
     VertexWalk(triangles, view.vertices).run(walk);
-    stream.parameters = ParameterSearch(walk, n, stream.values).best();
+    Words integers = choose_prediction(stream, walk, triangles, places);
     std::vector<VertexComponent> usual(n);
     find_vertex_ranges(stream.values, static_cast<VertexMapping>(stream.mapping()), usual);
     bool has_usual_ranges = true;
@@ -294,60 +402,106 @@ std::optional<std::vector<std::uint32_t>> store_vertices(const VertexView& view,
     }
     Encoder coder;
     if (!code_header(coder, stream, has_usual_ranges)) return {};
-    with_values(coder, stream.parameters, n, stream.values, [&](auto& visitor) { walk.run(visitor); });
+    Words residuals(stream.values.size());
+    predict<false>(walk, stream.parameters, n, integers, residuals);
+    code_residuals(coder, n, stream.parameters.fine, residuals);
     if (!code_exceptions(coder, stream)) return {};
-    BlockBits bits;
-    std::vector<std::uint64_t> begins;
-    if (!code_blocks(coder, stream, UINT64_MAX, bits, begins)) return {};
-    std::vector<std::uint32_t> out = coder.finish();
-    const auto restored = restore_vertices(out, triangles, view.vertices, view.words.size());
+    Words out;
+    add_part(coder, out);
+    for (std::uint32_t first = 0; first < view.vertices; first += std::min(view.vertices - first, kChunk)) {
+        Encoder blocks;
+        BlocksOut written;
+        const std::uint32_t end = first + std::min(view.vertices - first, kChunk);
+        if (!code_blocks(blocks, stream, first, end, UINT64_MAX, written)) return {};
+        add_part(blocks, out);
+    }
+    const auto restored = restore_vertices(out, triangles, view.vertices, view.words.size(), places);
     if (!restored || !std::ranges::equal(*restored, view.words)) return {};
     return out;
 }
 
-Result<VertexView> view_stored_vertices(std::span<const std::uint32_t> stored) {
-    Decoder coder(stored);
-    StoredStream stream;
-    bool has_usual_ranges = false;
+/// Of the first part alone.
+Result<StoredStream> read_header(Decoder& coder, bool& has_usual_ranges) {
+    StoredStream out;
     const Error error = malformed_vertices("its header says something impossible");
-    if (coder.bad() || !code_header(coder, stream, has_usual_ranges) || coder.bad()) return error;
-    const std::uint32_t n = stream.components(), type = stream.choices.layout >> 8 & 15;
-    if (type > static_cast<std::uint32_t>(ComponentType::f64) || stream.mapping() > 5) return error;
+    if (coder.bad() || !code_header(coder, out, has_usual_ranges) || coder.bad()) return error;
+    const std::uint32_t type = out.choices.layout >> 8 & 15;
+    if (type > static_cast<std::uint32_t>(ComponentType::f64) || out.mapping() > 5) return error;
+    return out;
+}
+
+Result<VertexView> view_stored_vertices(std::span<const std::uint32_t> stored) {
+    std::span<const std::uint32_t> rest = stored;
+    Decoder coder(take_part(rest));
+    bool has_usual_ranges = false;
+    const Result<StoredStream> stream = read_header(coder, has_usual_ranges);
+    if (!stream) return stream.error();
+    const std::uint32_t n = stream->components();
     VertexView out;
-    out.mapping = static_cast<VertexMapping>(stream.mapping());
-    out.type = static_cast<ComponentType>(type);
-    out.normalized = (stream.choices.layout >> 12 & 1) != 0;
+    out.mapping = static_cast<VertexMapping>(stream->mapping());
+    out.type = static_cast<ComponentType>(stream->choices.layout >> 8 & 15);
+    out.normalized = (stream->choices.layout >> 12 & 1) != 0;
     out.integers = static_cast<std::uint8_t>(n);
     const std::uint32_t values = out.mapping == VertexMapping::octahedral ? n + 1
                                  : out.mapping == VertexMapping::doubles  ? n / 2
                                                                           : n;
     out.components = static_cast<std::uint8_t>(values);
-    out.largest_error = std::bit_cast<float>(stream.choices.error);
+    out.largest_error = std::bit_cast<float>(stream->choices.error);
     return out;
 }
 
-Result<std::vector<std::uint32_t>> restore_vertices(std::span<const std::uint32_t> stored,
-                                                    std::span<const std::uint32_t> triangles, std::uint32_t vertices,
-                                                    std::uint64_t most_words) {
-    if (triangles.size() > UINT32_MAX || triangles.size() % 3 != 0) return malformed_vertices("no triangles");
-    for (const std::uint32_t v : triangles) {
-        if (v >= vertices) return malformed_vertices("a triangle of a vertex that it does not have");
-    }
-    Decoder coder(stored);
+struct StoredVertices::State {
     StoredStream stream;
-    stream.vertices = vertices;
     bool has_usual_ranges = false;
-    if (coder.bad() || !code_header(coder, stream, has_usual_ranges) || coder.bad())
-        return malformed_vertices("its header says something impossible");
+    Words residuals;                                     // in the order of the walk
+    std::vector<std::span<const std::uint32_t>> chunks;  // coded parts
+};
+
+StoredVertices::StoredVertices(std::unique_ptr<State> state) : state_(std::move(state)) {}
+StoredVertices::StoredVertices(StoredVertices&&) noexcept = default;
+StoredVertices& StoredVertices::operator=(StoredVertices&&) noexcept = default;
+StoredVertices::~StoredVertices() = default;
+
+bool StoredVertices::needs_places() const {
+    return state_->stream.by_places;
+}
+
+Result<StoredVertices> StoredVertices::read(std::span<const std::uint32_t> stored, std::uint32_t vertices) {
+    std::span<const std::uint32_t> rest = stored;
+    Decoder coder(take_part(rest));
+    auto state = std::make_unique<State>();
+    Result<StoredStream> header = read_header(coder, state->has_usual_ranges);
+    if (!header) return header.error();
+    StoredStream& stream = state->stream = std::move(*header);
+    stream.vertices = vertices;
     const std::uint32_t n = stream.components();
-    {
-        VertexWalk walk(triangles, vertices);  // first: making it takes more memory than having it
-        stream.values.resize(std::size_t{vertices} * n);
-        with_values(coder, stream.parameters, n, stream.values, [&](auto& visitor) { walk.run(visitor); });
-    }
+    state->residuals.resize(std::size_t{vertices} * n);
+    code_residuals(coder, n, stream.parameters.fine, state->residuals);
     if (coder.bad()) return malformed_vertices("its integers end early");
     if (!code_exceptions(coder, stream)) return malformed_vertices("an exception is impossible");
-    if (has_usual_ranges) {
+    const Error error = malformed_vertices("it does not end where its parts do");
+    if (!coder.is_at_end()) return error;
+    for (std::uint32_t first = 0; first < vertices; first += std::min(vertices - first, kChunk)) {
+        state->chunks.push_back(take_part(rest));
+    }
+    if (!rest.empty()) return error;
+    return StoredVertices(std::move(state));
+}
+
+Result<std::vector<std::uint32_t>> StoredVertices::restore(std::span<const std::uint32_t> triangles,
+                                                           std::uint64_t most_words, const VertexPlaces& places,
+                                                           unsigned threads) && {
+    StoredStream& stream = state_->stream;
+    if (triangles.size() > UINT32_MAX || triangles.size() % 3 != 0) return malformed_vertices("no triangles");
+    for (const std::uint32_t v : triangles) {
+        if (v >= stream.vertices) return malformed_vertices("a triangle of a vertex that it does not have");
+    }
+    if (stream.by_places && (places.positions.empty() || !has_places(places, stream.vertices)))
+        return malformed_vertices("it is predicted by the mesh's positions, and these are no integers");
+    const std::uint32_t n = stream.components();
+    restore_values(stream, state_->residuals, triangles, places);
+    state_->residuals = {};
+    if (state_->has_usual_ranges) {
         find_vertex_ranges(stream.values, static_cast<VertexMapping>(stream.mapping()), stream.choices.components);
     } else {
         for (std::size_t i = 0; i < stream.values.size(); ++i) {
@@ -356,14 +510,26 @@ Result<std::vector<std::uint32_t>> restore_vertices(std::span<const std::uint32_
                 return malformed_vertices("an integer is out of its range");
         }
     }
-    BlockBits bits;
-    std::vector<std::uint64_t> begins;
-    if (!code_blocks(coder, stream, most_words, bits, begins)) {
-        if (bits.words() > most_words) return Error{ErrorCode::memory_limit, "stored vertex stream: too large"};
-        return malformed_vertices("a block says something impossible");
-    }
-    if (!coder.is_at_end()) return malformed_vertices("it does not end where its parts do");
-    return assemble(stream, bits, begins, most_words);
+    std::vector<BlocksOut> blocks(state_->chunks.size());
+    std::atomic<bool> is_good = true, is_large = false;
+    detail::in_parallel(threads, static_cast<std::uint32_t>(blocks.size()), [&](std::uint32_t i) {
+        Decoder coder(state_->chunks[i]);
+        const std::uint32_t first = i * kChunk, end = first + std::min(stream.vertices - first, kChunk);
+        if (code_blocks(coder, stream, first, end, most_words, blocks[i]) && coder.is_at_end()) return;
+        is_good = false;
+        if (blocks[i].bits.words() > most_words) is_large = true;
+    });
+    if (is_large) return Error{ErrorCode::memory_limit, "stored vertex stream: too large"};
+    if (!is_good) return malformed_vertices("a block says something impossible");
+    return assemble(stream, blocks, most_words);
+}
+
+Result<std::vector<std::uint32_t>> restore_vertices(std::span<const std::uint32_t> stored,
+                                                    std::span<const std::uint32_t> triangles, std::uint32_t vertices,
+                                                    std::uint64_t most_words, const VertexPlaces& places) {
+    Result<StoredVertices> read = StoredVertices::read(stored, vertices);
+    if (!read) return read.error();
+    return std::move(*read).restore(triangles, most_words, places, 1);
 }
 
 }  // namespace lacedring::storage

@@ -19,6 +19,7 @@ namespace lacedring::storage {
 /// Predicts the vertex opposite to z across the edge (x, y).
 struct Parallelogram {
     std::uint32_t x, y, z;
+    bool operator==(const Parallelogram&) const = default;
 };
 
 /// Of a vertex that has a single one, both are that one.
@@ -38,8 +39,8 @@ class VertexWalk {
     VertexWalk(std::span<const std::uint32_t> triangles, std::uint32_t vertices)
         : triangles_(triangles), opposite_(opposite_corners(triangles, vertices)), vertices_(vertices) {}
 
-    /// Visits each vertex once: visitor.predicted(v, parallelograms, are there two), or visitor.start(v, from), where
-    /// `from` is a known vertex of a triangle of v, or kNone. Once only.
+    /// Visits each vertex once: visitor.predicted(v, parallelograms), or visitor.start(v, from), where `from` is a
+    /// known vertex of a triangle of v, or kNone. Once only.
     template <class Visitor>
     void run(Visitor& visitor) {
         const auto count = static_cast<std::uint32_t>(triangles_.size() / 3);
@@ -90,8 +91,7 @@ class VertexWalk {
             const std::uint32_t v = next();
             if (v == kNone) return;
             std::uint32_t c = corner_[v], next = before(c);
-            const bool two = next != kNone;
-            visitor.predicted(v, {parallelogram(c), parallelogram(two ? next : c)}, two);
+            visitor.predicted(v, {parallelogram(c), parallelogram(next != kNone ? next : c)});
             state_[v] = kKnown;
             complete_[c / 3] = 1;
             for (std::uint32_t i = next; i != kNone; i = before(i)) complete_[i / 3] = 1;
@@ -119,9 +119,10 @@ class VertexWalk {
     /// The neighbor of a complete triangle across from its corner is complete, too, or its vertex gets a parallelogram.
     LACEDRING_INLINE void look_across(std::uint32_t corner) {
         const std::uint32_t across = opposite_[corner];
-        if (across == kNone || complete_[across / 3] != 0) return;
+        if (across == kNone) return;
         const std::uint32_t v = triangles_[across], found = state_[v];
         if (found == kKnown) {
+            if (complete_[across / 3] != 0) return;
             complete_[across / 3] = 1;
             pending_.push_back(across / 3);
             return;

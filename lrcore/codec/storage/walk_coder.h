@@ -24,14 +24,15 @@ class WalkCoder {
           vertices_(vertices),
           vertex_bits_(static_cast<std::uint32_t>(std::bit_width(vertices))),
           has_flips_(has_flips),
-          triangles_(std::size_t{vertices} + 1),
-          ring_(std::size_t{vertices} + 1),
+          around_(std::size_t{vertices} + 1),
           opened_(steps.size(), UINT32_MAX) {}
 
     /// False: what is stored is impossible.
     bool code(std::uint32_t count) {
-        Step s{};
-        for (std::uint32_t i = 0; i < count; ++i) {
+        for (std::uint32_t i = 0; i < count;) {
+            if (goes_on_) i = code_simple(i, count);
+            if (i == count) break;
+            Step s{};
             if constexpr (!Coder::kDecodes) s = of(i);
             if (goes_on_) {
                 s.edge = goes_on_edge_;
@@ -40,7 +41,13 @@ class WalkCoder {
             }
             if (s.edge.a >= vertices_ || s.edge.b >= vertices_) return false;
             if (has_flips_) last_flip_ = s.flip = coder_.bit(flip_[last_flip_], s.flip);
-            code_third(i, s);
+            if (!is_fork_) s.simple = coder_.bit(simple_[context_of(s.edge)], s.simple);
+            is_fork_ = false;
+            if (s.simple != 0) {
+                code_turn(s);
+            } else {
+                code_fork(i, s);
+            }
             if (s.third >= vertices_ || coder_.bad()) return false;
             if constexpr (Coder::kDecodes) {
                 const std::uint32_t flags =
@@ -48,6 +55,7 @@ class WalkCoder {
                 steps_.add(s.edge, s.third, static_cast<std::uint8_t>(flags), goes_on_ ? i + 1 : UINT32_MAX);
             }
             count_triangle(s);
+            ++i;
         }
         return !goes_on_;
     }
@@ -158,12 +166,44 @@ class WalkCoder {
         root_ = s.edge;
     }
 
-    void code_third(std::uint32_t i, Step& s) {
+    /// Steps from i on that go on from the one before, as long as turns say all of them; returns the next one, whose
+    /// first bit says that it is another one (is_fork_), or before which none was read. Most steps are such.
+    std::uint32_t code_simple(std::uint32_t i, std::uint32_t count) {
+        if (has_flips_) return i;
+        Coder coder = std::move(coder_);  // in registers
+        auto [a, b] = goes_on_edge_;
+        for (; i < count && b - a > 2 && a < b && b < vertices_ && !coder.bad(); ++i) {
+            std::uint32_t simple = 0, up = 0;
+            if constexpr (!Coder::kDecodes) {
+                const Step s = of(i);
+                simple = s.simple;
+                up = s.third == a + 1 ? 1 : 0;
+            }
+            const std::uint32_t context = context_of({a, b});
+            if (coder.bit(simple_[context], simple) == 0) {
+                is_fork_ = true;
+                break;
+            }
+            up = coder.bit(up_[context], up);
+            for (const std::uint32_t v : {a, b}) count_at(v);
+            const PackedEdge edge{a, b};
+            a += up;  // without a branch: turns are hard to predict
+            b -= 1 - up;
+            const std::uint32_t x = (a & (0 - up)) | (b & (up - 1));
+            count_at(x);
+            around_[x - up] |= kRingEdge;
+            if constexpr (Coder::kDecodes) steps_.add_simple(i, edge, x, right_, up);
+        }
+        seen_ = std::max(seen_, goes_on_edge_.b + 1);
+        goes_on_edge_ = {a, b};
+        coder_ = std::move(coder);
+        return i;
+    }
+
+    void code_turn(Step& s) {
         const auto [a, b] = s.edge;
-        const std::uint32_t span = b - a, context = context_of(s.edge);
-        s.simple = coder_.bit(simple_[context], s.simple);
-        if (s.simple == 0) return code_fork(i, s);
-        goes_on_ = span != 2;
+        const std::uint32_t context = context_of(s.edge);
+        goes_on_ = b - a != 2;
         std::uint32_t up = 1;
         if (goes_on_) up = coder_.bit(up_[context], s.third == a + 1 ? 1 : 0);
         s.third = up != 0 ? a + 1 : b - 1;
@@ -208,11 +248,9 @@ class WalkCoder {
 
     /// What is known of an edge's ends: their triangles so far, and whether the ring edges behind them have one.
     std::uint32_t context_of(PackedEdge e) const {
-        constexpr std::uint32_t kMost = 9;
-        const std::uint32_t side = ring_[e.a] * 2U + ring_[e.b > 0 ? e.b - 1 : 0];
-        const std::uint32_t at_a = std::min<std::uint32_t>(triangles_[e.a], kMost);
-        const std::uint32_t at_b = std::min<std::uint32_t>(triangles_[e.b], kMost);
-        return (side * (kMost + 1) + at_a) * (kMost + 1) + at_b;
+        const std::uint32_t at_a = around_[e.a], at_b = around_[e.b], behind_b = around_[e.b > 0 ? e.b - 1 : 0];
+        const std::uint32_t side = at_a / kRingEdge * 2 + behind_b / kRingEdge;
+        return (side * (kMostTriangles + 1) + at_a % kRingEdge) * (kMostTriangles + 1) + at_b % kRingEdge;
     }
 
     void open(const Open& edge) {
@@ -225,29 +263,35 @@ class WalkCoder {
 
     void count_triangle(const Step& s) {
         for (const std::uint32_t v : {s.edge.a, s.edge.b, s.third}) {
-            if (triangles_[v] < UINT8_MAX) ++triangles_[v];
+            count_at(v);
             seen_ = std::max(seen_, v + 1);
         }
         const auto mark = [&](std::uint32_t p, std::uint32_t q) {
-            if (p + 1 == q) ring_[p] = 1;
+            if (p + 1 == q) around_[p] |= kRingEdge;
         };
         mark(s.edge.a, s.third);
         mark(s.third, s.edge.b);
         mark(s.edge.a, s.edge.b);
     }
+    void count_at(std::uint32_t v) {
+        const std::uint8_t now = around_[v];
+        around_[v] = static_cast<std::uint8_t>(now + (now % kRingEdge < kMostTriangles ? 1 : 0));
+    }
 
+    /// Of around_: of each vertex the number of triangles so far, and whether the edge to the next vertex has one.
+    static constexpr std::uint8_t kMostTriangles = 9, kRingEdge = 16;
     static constexpr std::size_t kContexts = 4 * 10 * 10;
 
     Coder& coder_;
     PackedSteps& steps_;
     std::uint32_t vertices_, vertex_bits_;
     bool has_flips_;
-    std::vector<std::uint8_t> triangles_;  ///< of each vertex so far, at most 255
-    std::vector<std::uint8_t> ring_;       ///< has the edge from v to v + 1 a triangle?
+    std::vector<std::uint8_t> around_;
     std::vector<Open> open_;
     std::vector<std::uint32_t> opened_;  ///< of each step, where it encodes: the place in open_ of the edge entered
     bool is_open_ = false;               ///< the last one was opened by the step before
     bool goes_on_ = false;               ///< the next step is across goes_on_edge_
+    bool is_fork_ = false;               ///< and it is known that it is not a simple one
     PackedEdge goes_on_edge_{};
     PackedEdge root_{};
     std::uint32_t right_ = 0, last_flip_ = 0, seen_ = 0;

@@ -82,7 +82,8 @@ Result<std::vector<CompressedAttribute>> compress_attributes(LrFile& file, const
 enum class LrForm : std::uint8_t {
     resident,  ///< as a program or a GPU reads them at random: in a mapped file, in place
     stored,  ///< coded through and through, smaller, for disks and networks: parse_lr makes the resident streams of it,
-             ///< bit for bit. Streams that have no storage form, or one that is not smaller, stay resident
+             ///< bit for bit. Streams that have no storage form, or one that is not smaller, stay resident; so do all
+             ///< where restoring them would take more memory than parse_lr takes unless it is told
 };
 
 /// The file's bytes. Cost: O(file); stored, about a microsecond a triangle.
@@ -90,8 +91,9 @@ std::vector<std::byte> serialize_lr(const LrFile& file, LrForm form = LrForm::re
 
 /// Reads and checks everything: structure, checksums, stream, permutations, finite positions. Streams in storage form
 /// may be many times as large as what is stored: `max_bytes` is what they may take, or, where it is 0, 512 MiB or 128
-/// times the file, whichever is more. Errors: malformed, too_large, memory_limit. Untrusted input: safe. Cost: O(file).
-Result<LrFile> parse_lr(std::span<const std::byte> bytes, std::uint64_t max_bytes = 0);
+/// times the file, whichever is more. `threads`: at most so many restore them. Errors: malformed, too_large,
+/// memory_limit. Untrusted input: safe. Cost: O(file).
+Result<LrFile> parse_lr(std::span<const std::byte> bytes, std::uint64_t max_bytes = 0, unsigned threads = 1);
 
 Result<void> write_lr(const LrFile& file, const std::filesystem::path& path, LrForm form = LrForm::resident);
 Result<LrFile> read_lr(const std::filesystem::path& path);

@@ -29,6 +29,7 @@ struct PackOptions {
     bool keep_order = false;  ///< of vertices and triangles: about 8 bytes a vertex more
     bool fallback = false;    ///< plain buffers beside the streams, for loaders without the extension
     SceneJson json = SceneJson::automatic;
+    LrForm form = LrForm::stored;  ///< of the streams
     /// URI of the binary buffer; empty: it is a GLB's. One with a URI has its fallback in a file of its own.
     std::string bin_uri, fallback_uri;
 };

@@ -1,0 +1,174 @@
+// Texture coordinates that go on as they are in the next triangle need few bits, and come back bit for bit.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include "lacedring/vertices.hpp"
+#include "lrcore/codec/storage/place_prediction.h"
+#include "lrcore/codec/storage/vertex_storage.h"
+#include "tests/support/capture.h"
+#include "tests/support/meshes.h"
+
+using namespace lacedring;
+using storage::VertexPlaces;
+
+namespace {
+
+using Words = std::vector<std::uint32_t>;
+
+/// As docs/storage-format.md has it, of places that need no scale: one corner's prediction of one component.
+std::uint32_t documented_prediction(const std::int32_t (&p)[4][3], const std::uint32_t (&values)[3]) {
+    std::int64_t e[3], f[3], g[3], ee = 0, fe = 0, ge = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        e[c] = p[1][c] - p[0][c];
+        f[c] = p[3][c] - p[0][c];
+        g[c] = p[2][c] - p[0][c];
+        ee += e[c] * e[c];
+        fe += f[c] * e[c];
+        ge += g[c] * e[c];
+    }
+    const auto square = [&](const std::int64_t(&b)[3]) {
+        double sum = 0;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::size_t u = (c + 1) % 3, w = (c + 2) % 3;
+            const double n = static_cast<float>(e[u] * b[w] - e[w] * b[u]);
+            sum += n * n;
+        }
+        return sum;
+    };
+    const double height = square(g), most = 1 << 20;
+    std::int64_t a = 65536, across = 65536;
+    if (height > 0) {
+        across = static_cast<std::int64_t>(std::min(std::floor(65536 * std::sqrt(square(f) / height) + 0.5), most));
+        const auto along = static_cast<double>(65536 * fe + across * ge) / static_cast<double>(ee);
+        a = static_cast<std::int64_t>(std::max(-most, std::min(std::trunc(along), most)));
+    }
+    const std::int64_t y = static_cast<std::int32_t>(values[1] - values[0]);
+    const std::int64_t z = static_cast<std::int32_t>(values[2] - values[0]);
+    const std::int64_t moved = a * y - across * z + 32768;
+    return values[0] + static_cast<std::uint32_t>((moved - (moved & 65535)) / 65536);
+}
+
+/// A wavy sheet of unequal triangles; its texture is the sheet seen from above, turned. With a seam, the middle column
+/// has two copies of each vertex.
+struct Sheet {
+    Words triangles, vertex_of, positions, texture;
+
+    explicit Sheet(bool seam) {
+        constexpr std::uint32_t kSide = 50, kMiddle = kSide / 2;
+        std::mt19937 random(3);
+        std::vector<float> coordinates;
+        const auto add = [&](double x, double y) {
+            coordinates.insert(coordinates.end(),
+                               {static_cast<float>(0.004 * (x + 2 * y)), static_cast<float>(0.005 * (3 * y - x))});
+        };
+        std::vector<std::array<double, 2>> places;
+        for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
+            const auto somewhat = [&] { return 0.0008 * static_cast<double>(random() % 1000); };
+            const double x = i % kSide + somewhat(), y = i / kSide + somewhat();
+            places.push_back({x, y});
+            for (const double c : {x, y, 4 * std::sin(0.05 * x)})
+                positions.push_back(static_cast<std::uint32_t>(static_cast<std::int32_t>(300 * c) - 5000));
+            vertex_of.push_back(i);
+            add(x, y);
+        }
+        for (std::uint32_t y = 0; seam && y < kSide; ++y) {
+            vertex_of.push_back(kSide * y + kMiddle);
+            add(places[vertex_of.back()][0] + 100, places[vertex_of.back()][1]);
+        }
+        for (std::uint32_t y = 0; y + 1 < kSide; ++y) {
+            for (std::uint32_t x = 0; x + 1 < kSide; ++x) {
+                const auto copy = [&](std::uint32_t i, std::uint32_t j) {
+                    return seam && x >= kMiddle && i == kMiddle ? kSide * kSide + j : kSide * j + i;
+                };
+                const Words quad{copy(x, y),     copy(x + 1, y),     copy(x, y + 1),
+                                 copy(x + 1, y), copy(x + 1, y + 1), copy(x, y + 1)};
+                triangles.insert(triangles.end(), quad.begin(), quad.end());
+            }
+        }
+        const VertexOptions options{.mapping = VertexMapping::lattice, .bits = 14};
+        texture =
+            encode_vertices({ComponentType::f32, 2, false, std::as_bytes(std::span(coordinates))}, options)->words;
+        if (!seam) vertex_of.clear();
+    }
+    VertexPlaces where() const { return {positions, vertex_of}; }
+};
+
+}  // namespace
+
+TEST_CASE("place prediction: as documented, at any places") {
+    const std::uint32_t seed = std::random_device{}();
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    for (std::uint32_t i = 0; i < 20000; ++i) {
+        std::int32_t p[4][3];
+        Words positions, values;
+        const std::uint32_t bits = 1 + i % 20;
+        for (auto& place : p) {
+            for (std::int32_t& c : place) {
+                c = static_cast<std::int32_t>(random() % (1U << bits));
+                positions.push_back(static_cast<std::uint32_t>(c - 77));
+            }
+            for (int c = 0; c < 2; ++c) values.push_back(static_cast<std::uint32_t>(random()) >> i % 3 * 9);
+        }
+        const storage::PlacePrediction prediction({positions, {}});
+        const storage::Parallelogram by{0, 1, 2};
+        const auto found = prediction.predict(3, {by, by}, values);
+        for (std::size_t c = 0; c < 2; ++c)
+            CHECK(found[c] == documented_prediction(p, {values[c], values[2 + c], values[4 + c]}));
+        const auto both = prediction.predict(3, {by, {1, 0, 2}}, values);
+        const storage::Parallelogram turned{1, 0, 2};
+        const auto other = prediction.predict(3, {turned, turned}, values);
+        for (std::size_t c = 0; c < 2; ++c) {
+            const auto apart = static_cast<std::int32_t>(other[c] - found[c]);
+            CHECK(both[c] == found[c] + static_cast<std::uint32_t>(std::floor((apart + 1.0) / 2)));
+        }
+    }
+}
+
+TEST_CASE("place prediction: texture coordinates become smaller, with seams and without") {
+    for (const bool seam : {false, true}) {
+        CAPTURE(seam);
+        const Sheet sheet(seam);
+        const VertexView view = *validate_vertices(sheet.texture);
+        const Words without = storage::store_vertices(view, sheet.triangles).value();
+        const Words with = storage::store_vertices(view, sheet.triangles, sheet.where()).value();
+        CHECK(4 * with.size() < 3 * without.size());
+        const auto restored = [&](const VertexPlaces& places) {
+            return storage::restore_vertices(with, sheet.triangles, view.vertices, sheet.texture.size(), places);
+        };
+        const auto back = restored(sheet.where());
+        REQUIRE_MESSAGE(back, back.error().message);
+        CHECK(*back == sheet.texture);
+        Words fewer = sheet.positions;
+        fewer.resize(fewer.size() - 3);
+        for (const VertexPlaces& bad : {VertexPlaces{}, VertexPlaces{fewer, sheet.vertex_of}}) {
+            const auto failed = restored(bad);
+            REQUIRE_FALSE(failed);
+            CHECK(failed.error().code == ErrorCode::malformed);
+            CHECK(failed.error().message.find("positions") != std::string::npos);
+        }
+    }
+}
+
+TEST_CASE("place prediction: damage does no harm") {
+    const std::uint32_t seed = std::random_device{}();
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    const Sheet sheet(true);
+    const VertexView view = *validate_vertices(sheet.texture);
+    const Words all = storage::store_vertices(view, sheet.triangles, sheet.where()).value();
+    for (std::uint32_t i = 0; i < (test::kSanitized ? 100U : 400U); ++i) {
+        const auto exact = std::make_unique<std::uint32_t[]>(all.size());
+        std::copy(all.begin(), all.end(), exact.get());
+        const std::size_t header = all[0] + 1;  // raw bits, behind the words of symbols
+        exact[i % 2 == 0 ? random() % all.size() : header + random() % 8] ^= 1U << random() % 32;
+        const auto back =
+            storage::restore_vertices({exact.get(), all.size()}, sheet.triangles, view.vertices, 100000, sheet.where());
+        if (back) CHECK((*back)[1] == view.vertices);
+    }
+}
