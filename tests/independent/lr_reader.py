@@ -16,7 +16,7 @@ from vertex_reader import read_vertices
 
 ATTRIBUTE, VERTEX_ORDER, CORNER_ORDER, VERTEX_STREAM, SEAMS = 2, 3, 4, 8, 9
 STORAGE = 1 << 16  # added here to the kind of a section in storage form
-STORED_PACKED, STORED_VERTICES = STORAGE + 7, STORAGE + VERTEX_STREAM
+STORED_PACKED, STORED_VERTICES, STORED_SEAMS = STORAGE + 7, STORAGE + VERTEX_STREAM, STORAGE + SEAMS
 NORMALIZED, V_UP, PER_COPY = 1 << 16, 1 << 17, 1 << 18  # bits of an attribute's layout
 LAYOUT_BITS = {ATTRIBUTE: 0x7FFFF, VERTEX_STREAM: V_UP | PER_COPY, STORED_VERTICES: V_UP | PER_COPY}  # that may be set
 
@@ -63,7 +63,7 @@ def sections(data):
         if offset != end + -end % 8 or any(data[end:offset]):
             raise BadFile(f"section {i} of the .lr file is not where it should be")
         kind += STORAGE * coding
-        if kind not in DECODERS and kind not in (*LAYOUT_BITS, VERTEX_ORDER, CORNER_ORDER, SEAMS):
+        if kind not in DECODERS and kind not in (*LAYOUT_BITS, VERTEX_ORDER, CORNER_ORDER, SEAMS, STORED_SEAMS):
             raise BadFile(f"section {i} of the .lr file has an unknown kind or coding")
         if layout & ~LAYOUT_BITS.get(kind, 0) or name_length and kind not in LAYOUT_BITS:
             raise BadFile(f"section {i} of the .lr file has bits set that should be 0")
@@ -122,6 +122,8 @@ def order(parts, kind):
 
 def copies_of(data, parts, slots, vertices):
     """The copies of the slots' corners, and the vertex of each copy. Without seams both are of the vertices."""
+    if any(part[0] == STORED_SEAMS for part in parts):
+        raise BadFile("seams in storage form are not read here")
     sections_of_seams = [contents for kind, contents, _, _ in parts if kind == SEAMS and contents]
     copies, = struct.unpack_from("<I", data, 20)
     if len(sections_of_seams) != (copies > 0):
