@@ -12,6 +12,7 @@ from mesh_readers import TYPES, Attribute, BadFile, Mesh, split_keys
 from packed_reader import decode_packed
 from seams_reader import read_seams
 from storage_reader import read_stored_packed
+from stored_seams import read_stored_seams
 from stored_vertices import read_stored_vertices
 from vertex_reader import DECIMALS, LATTICE, read_vertices
 
@@ -45,7 +46,7 @@ DECODERS = {1: lambda words: (*decode_lean_slots(words), {}), 5: lambda words: t
             STORED_PACKED: lambda words: (*read_stored_packed(words), {})}
 
 
-SEAM_READERS = {SEAMS: read_seams}
+SEAM_READERS = {SEAMS: read_seams, STORED_SEAMS: read_stored_seams}
 
 
 def sections(data):
@@ -79,12 +80,13 @@ def sections(data):
 
 
 class Attributes:
-    """Reads the attributes of a file whose connectivity and seams are known. `slots`: triangles of vertices;
-    `copy_slots`: of copies; `vertex_of`: the vertex of each copy, None where there are no copies."""
+    """Reads attributes. Where some may be stored, connectivity and seams have to be known: `slots`, triangles of vertices;
+    `copy_slots`, of copies; `vertex_of`, the vertex of each copy."""
 
-    def __init__(self, vertices, slots, copy_slots, vertex_of):
-        self.vertices, self.vertex_of = vertices, vertex_of
+    def __init__(self, data, slots=(), copy_slots=(), vertex_of=None):
+        self.vertices, _, self.copies = struct.unpack_from("<3I", data, 12)
         self.triangles, self.copy_triangles = ([t for t in all_slots if t] for all_slots in (slots, copy_slots))
+        self.vertex_of = vertex_of
         self.positions = None  # integers, once they are read
 
     def read_all(self, parts):
@@ -102,9 +104,9 @@ class Attributes:
 
     def read(self, kind, contents, layout, name_length):
         per_copy = layout & PER_COPY != 0
-        if per_copy and self.vertex_of is None:
+        if per_copy and self.copies == 0:
             raise BadFile("an attribute of copies where there are none")
-        vertices = len(self.vertex_of) if per_copy else self.vertices
+        vertices = self.copies if per_copy else self.vertices
         begin = (name_length + 7) // 8 * 8
         if len(contents) < begin or any(contents[name_length:begin]):
             raise BadFile("the name of an attribute is not followed by zeros")
@@ -166,7 +168,7 @@ def read_lr(data):
     if numbered != vertices:
         raise BadFile("the .lr file's connectivity has another number of vertices")
     copy_slots, vertex_of = copies_of(data, parts, slots, vertices)
-    all_attributes, per_copy = Attributes(vertices, slots, copy_slots, vertex_of).read_all(parts)
+    all_attributes, per_copy = Attributes(data, slots, copy_slots, vertex_of).read_all(parts)
     slots, vertex_of = copy_slots, range(vertices) if vertex_of is None else vertex_of
     for attribute, own in zip(all_attributes, per_copy):
         if not own:

@@ -64,10 +64,13 @@ class BitModel:
     def read(self, coded):
         bit = int(coded.place() >= self.zero)
         coded.advance(*((self.zero, SCALE) if bit else (0, self.zero)))
+        self.learn(bit)
+        return bit
+
+    def learn(self, bit):
         self.seen = min(self.seen + 1, 48)
         target = 32 if bit else SCALE - 32
         self.zero += (target - self.zero) * ((1 << 17) // (2 * self.seen + 3)) >> 16
-        return bit
 
 
 class SymbolModel:
