@@ -197,8 +197,14 @@ class Homes:
             if first:
                 self.homes.remove(first[0])
                 self.homes = first + self.homes
-        changes = sum(copies[a] != copies[b] for a, b in zip(fan, fan[1:]))
-        self.wraps = len(self.homes) > 1 and copies[fan[0]] == copies[fan[-1]] and changes == len(self.homes) if fan else False
+        changed = sum(copies[a] != copies[b] for a, b in zip(fan, fan[1:]))
+        self.wraps = len(self.homes) > 1 and changed == len(self.homes) and copies[fan[0]] == copies[fan[-1]]
+
+    def steps(self):
+        return len(self.homes) - 1 + self.wraps
+
+    def wrap(self):
+        return int(self.wraps)
 
     def fan(self, a, end, step):
         """From the edge to vertex a on, to that to `end`: corners whose next vertex (step 1) is a, or that before (2)."""
@@ -213,54 +219,54 @@ class Homes:
 
 
 class AnswerWalk(Walk):
-    """The questions of a block's reader, answered by the copies that are known; counts the answers. `private`: the
-    numbers of private copies."""
+    """The questions of a block's reader, answered by the copies that are known: `answers` has both."""
 
     at = end = 0  # as a block's codes, all of which were read
 
-    def __init__(self, block, walk, triangles, homes, private, answers):
-        self.block, self.walk, self.homes, self.private, self.answers = block, walk, homes, private, answers
-        steps, wraps = [len(h.homes) - 1 + h.wraps for h in homes], [int(h.wraps) for h in homes]
+    def __init__(self, copies, triangles, homes, private):
+        """`copies`: of each corner of the block. `private`: the numbers of the private copies so far, which it appends to."""
+        self.copies, self.homes, self.private, self.answers = copies, homes, private, []
+        steps, wraps = ({w: what(homes[w]) for triangle in triangles for w in triangle} for what in (Homes.steps, Homes.wrap))
         super().__init__(self, triangles, steps, wraps, len(private))
+
+    def flag(self, context, answer):
+        self.answers.append((context, answer))
+        return answer
 
     def wanted(self, w):
         """The copy of the triangle's corner."""
         i = len(self.states) - 1
-        return self.walk.copy[3 * (BLOCK * self.block + i) + self.triangles[i].index(w)]
+        return self.copies[i][self.triangles[i].index(w)]
 
-    def copy_of(self, w, state):
+    def is_wanted(self, w, state):
         if isinstance(state, Private):
-            return next(copy for copy, number in self.private.items() if number == state)
-        return w, self.homes[w].homes[self.copy(w, state)]
+            return self.private.get(self.wanted(w)) == state
+        return self.homes[w].homes[self.copy(w, state)] == self.wanted(w)[1]
 
     def changes(self, context, usual, ends):
-        out = tuple(self.copy_of(w, state) != self.wanted(w) for _, w, state, _, _ in ends)
-        self.answers.append((context, any(out)))
-        if any(out):
-            self.answers.append((usual, out == (context != "lone", True)))
+        out = tuple(not self.is_wanted(w, state) for _, w, state, _, _ in ends)
+        if self.flag(context, any(out)):
+            self.flag(usual, out == (context != "lone", True))
         return out
 
     def ask(self, w, questions, current=None):
-        wanted, left = self.wanted(w), list(range(len(self.homes[w].homes)))
+        own, wanted = self.homes[w].homes, self.wanted(w)
+        is_home, left = wanted[1] in own, list(range(len(own)))
         if current is not None and not isinstance(current, Private):
             left.remove(self.copy(w, current))
         for position, context in questions:
             if position is NEW:
-                is_new = wanted[1] not in self.homes[w].homes and wanted not in self.private
-                self.answers.append((context, is_new))
-                if is_new:
+                if self.flag(context, not is_home and wanted not in self.private):
                     self.private[wanted] = self.made
                     self.made += 1
                     return Private(self.made - 1)
             elif self.copy(w, position) in left:
-                self.answers.append((context, self.copy_of(w, position) == wanted))
-                if self.answers[-1][1]:
+                if self.flag(context, self.is_wanted(w, position)):
                     return position
                 left.remove(self.copy(w, position))
-        is_home = wanted[1] in self.homes[w].homes
         if left:
-            self.answers.append(("home", is_home))
-        return self.homes[w].homes.index(wanted[1]) if is_home else Private(self.private[wanted])
+            self.flag("home", is_home)
+        return own.index(wanted[1]) if is_home else Private(self.private[wanted])
 
 
 class SideWalk(Walk):
@@ -282,12 +288,12 @@ def vertex_answers(homes):
     """What the reader of a block of vertices would be asked."""
     out, before = [], 0
     for h in homes:
-        steps = len(h.homes) - 1 + h.wraps
+        steps = h.steps()
         out.append((f"v{min(before, 2)}", steps > 0))
         if steps > 0:
             out.append(("more", steps > 1))
         if steps > 1:
-            out += [("many", True)] * (steps - 2) + [("many", False)] * (steps < 255) + [("wrap", bool(h.wraps))]
+            out += [("many", True)] * (steps - 2) + [("many", False)] * (steps < 255) + [("wrap", h.wraps)]
         before = steps
     return out if any(len(h.homes) > 1 for h in homes) else []
 
@@ -319,17 +325,16 @@ def read_stored_seams(data, slots, vertices):
     blocks = [slots[i:i + BLOCK] for i in range(0, len(slots), BLOCK)]
     sides = [side for block in blocks for side in SideWalk(block).sides]
     homes = [Homes(v, walk.corners[v], walk, slots, sides) for v in range(vertices)]
+    copies = [[walk.copy[3 * t + k] for k in range(len(triangle))] for t, triangle in enumerate(slots)]
     answers, private = [], {}
     for i in range(0, vertices, BLOCK):
         answers += vertex_answers(homes[i:i + BLOCK])
     for i, block in enumerate(blocks):
-        own = []
-        AnswerWalk(i, walk, block, homes, private, own)
+        reader = AnswerWalk(copies[BLOCK * i:BLOCK * (i + 1)], block, homes, private)
         if any(walk.status[v] == DONE for triangle in block for v in triangle):
-            answers += own
+            answers += reader.answers
     read_table(bits, answers)
     bits.finish()
     names = [(v, copy) for v in range(vertices) for copy in homes[v].homes] + list(private)
     number = {copy: i for i, copy in enumerate(names)}
-    copies = [tuple(number[walk.copy[3 * t + k]] for k in range(len(triangle))) for t, triangle in enumerate(slots)]
-    return copies, [v for v, _ in names]
+    return [tuple(number[copy] for copy in of) for of in copies], [v for v, _ in names]
