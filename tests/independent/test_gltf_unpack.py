@@ -52,7 +52,7 @@ class GltfUnpack(unittest.TestCase):
 
     def packed_and_unpacked(self, source, name, *options):
         packed, unpacked = (os.path.join(self.folder, f"{kind}-{name}") for kind in ("packed", "unpacked"))
-        self.run_program("pack", source, "-o", packed, "--resident", *options)
+        self.run_program("pack", source, "-o", packed, *options)
         self.run_program("unpack", packed, "-o", unpacked)
         return packed, unpacked
 

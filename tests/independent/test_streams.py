@@ -670,7 +670,7 @@ class VertexStreams(WithProgram):
                                 capture_output=True, text=True)
         try:
             parts = lr_reader.sections(data)
-            attribute = lr_reader.attributes(data, parts[1:2] + parts[i:i + 1] * (i > 1))[0][-1]
+            attribute = lr_reader.Attributes(data).read_all(parts[1:2] + parts[i:i + 1] * (i > 1))[0][-1]
         except BadFile as error:
             self.assertNotIn("checksum", str(error))
             self.assertEqual(result.returncode, 3, f"the program accepts it, but: {error}")
@@ -764,7 +764,7 @@ class VertexStreams(WithProgram):
             for data in self.check_seams(wanted, indices, self.path("m.ply"), (((), BITS)[i % 2],), formats):
                 parts = lr_reader.sections(data)
                 kinds |= {part[0] for part in parts}
-                per_copy = dict(zip((a.name for a in wanted), lr_reader.attributes(data, parts)[1]))
+                per_copy = dict(zip((a.name for a in wanted), lr_reader.Attributes(data).read_all(parts)[1]))
                 equal = {"POSITION", "NORMAL", "f64"}  # made of positions alone
                 self.assertEqual({name for name in equal if per_copy[name]}, set())
                 self.assertTrue(per_copy["TEXCOORD_0"] and per_copy["COLOR_0"])
