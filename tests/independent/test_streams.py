@@ -24,6 +24,7 @@ from gltf_reader import Gltf
 from lr_corners import check_corners
 from lr_tables_reader import Tables, decode_tables
 from mesh_readers import TYPES, Attribute, BadFile, ply_attributes, unpack
+from mesh_writers import ply_of_attributes
 from packed_reader import decode_packed, read_triangle
 from vertex_reader import LATTICE, OCTAHEDRAL, Vertices
 
@@ -587,20 +588,8 @@ class VertexStreams(WithProgram):
             mesh.indices, copies = cut(mesh.indices, random.Random(triangles))
             mesh.positions = [mesh.positions[v] for v in copies]
         columns = attributes_of([unpack(p) for p in mesh.positions], kind, random.Random(1))
-        head, rows = "ply\nformat binary_little_endian 1.0\n", [b""] * len(mesh.positions)
-        properties = []
-        for name, code, flags, values in columns:
-            head += f"comment lacedring attribute {len(values[0])} {flags} {name}\n"
-            properties += [{"f": "float", "d": "double", "b": "char", "B": "uchar", "h": "short", "H": "ushort",
-                            "i": "int", "I": "uint"}[code]] * len(values[0])
-            rows = [row + struct.pack(f"<{len(v)}{code}", *v) for row, v in zip(rows, values)]
-        names = ["x", "y", "z", *(f"p{i}" for i in range(3, len(properties)))]
-        head += f"element vertex {len(rows)}\n" + "".join(f"property {p} {n}\n" for p, n in zip(properties, names))
-        head += f"element face {len(mesh.indices) // 3}\nproperty list uchar int vertex_indices\nend_header\n"
-        corners = iter(mesh.indices)
         with open(self.path("m.ply"), "wb") as file:
-            file.write(head.encode() + b"".join(rows))
-            file.write(b"".join(struct.pack("<B3i", 3, *t) for t in zip(corners, corners, corners)))
+            file.write(ply_of_attributes(columns, mesh.indices))
         return ply_attributes(self.read("m.ply"))
 
     def streams(self, data):
