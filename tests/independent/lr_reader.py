@@ -87,12 +87,12 @@ class Attributes:
         self.vertices, _, self.copies = struct.unpack_from("<3I", data, 12)
         self.triangles, self.copy_triangles = ([t for t in all_slots if t] for all_slots in (slots, copy_slots))
         self.vertex_of = vertex_of
-        self.positions = None  # integers, once they are read
+        self.positions = None  # integers of the first attribute, once it is read
 
     def read_all(self, parts):
         """In the file's order, and of each whether it has a value for each copy. `parts`: the file's sections."""
         parts = [part for part in parts if part[0] in LAYOUT_BITS]
-        out = [self.read(*part) for part in parts]
+        out = [self.read(*part, is_first=i == 0) for i, part in enumerate(parts)]
         per_copy = [layout & PER_COPY != 0 for _, _, layout, _ in parts]
         if not out or (out[0].name, out[0].components, out[0].normalized) != ("POSITION", 3, False) or out[0].type < 6:
             raise BadFile("the first attribute of the .lr file is not POSITION")
@@ -102,7 +102,7 @@ class Attributes:
             raise BadFile("copies have positions")
         return out, per_copy
 
-    def read(self, kind, contents, layout, name_length):
+    def read(self, kind, contents, layout, name_length, is_first=False):
         per_copy = layout & PER_COPY != 0
         if per_copy and self.copies == 0:
             raise BadFile("an attribute of copies where there are none")
@@ -115,7 +115,7 @@ class Attributes:
             stream = self.stored(values, vertices, per_copy) if kind == STORED_VERTICES else read_vertices(values)
             if stream.vertices != vertices:
                 raise BadFile("a vertex stream of the .lr file has another number of vertices")
-            if name == "POSITION" and stream.n == 3 and stream.mapping in (LATTICE, DECIMALS) and not per_copy:
+            if is_first and stream.n == 3 and stream.mapping in (LATTICE, DECIMALS) and not per_copy:
                 self.positions = stream.integers
             return Attribute(name, stream.type, stream.components, stream.normalized, layout & V_UP != 0, stream.values)
         kind, components = layout & 255, layout >> 8 & 255
