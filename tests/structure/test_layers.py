@@ -23,8 +23,9 @@ DECODERS = {"lacedring/streams.hpp", "lacedring/operators.hpp", "lacedring/base.
 # The standard headers that a freestanding-minded library wants. <thread> is for those who ask for threads.
 STANDARD = {"algorithm", "array", "atomic", "bit", "cassert", "cmath", "compare", "concepts", "cstddef", "cstdint", "cstring",
             "exception", "functional", "iterator", "limits", "memory", "new", "numeric", "optional", "queue", "span", "string", "string_view", "system_error",
-            "tuple", "type_traits", "utility", "variant", "vector"}
+            "tuple", "type_traits", "unordered_map", "utility", "variant", "vector"}
 THREADS = "lrcore/base/parallel.cpp"
+VECTORS = "lrcore/base/compiler.h"  # emmintrin.h, where the compiler has SSE2
 
 
 def includes(path):
@@ -53,7 +54,8 @@ def check_core(name, header, quoted):
     if name.endswith("/lacedring.h"):
         return None if header in ("stddef.h", "stdint.h", "string.h") or header.endswith("lacedring_decode.h") else "C without a library"
     if not quoted:
-        return None if header in STANDARD or (header == "thread" and name == THREADS) else "lrcore needs no such header"
+        allowed = header in STANDARD or (header == "thread" and name == THREADS) or (header == "emmintrin.h" and name == VECTORS)
+        return None if allowed else "lrcore needs no such header"
     folder, included = folder_of(name), folder_of(header)
     if included not in CORE or CORE.index(included) > CORE.index(folder):
         return f"lrcore's {folder} is below {header}"
