@@ -28,7 +28,7 @@ inline void prefetch(const void* object) {
 using Lanes = std::uint32_t __attribute__((vector_size(16)));
 
 #ifdef __SSE2__
-/// How many of 16 numbers, which rise, are `most` or less. All are below 2^15, and the first is such a one.
+/// Counts the leading numbers that are `most` or less, of 16 in rising order below 2^15. The first one has to be.
 LACEDRING_INLINE std::uint32_t count_up_to(const std::uint16_t* numbers, std::uint32_t most) {
     const __m128i limit = _mm_set1_epi16(static_cast<short>(most));
     const __m128i low = _mm_loadu_si128(reinterpret_cast<const __m128i*>(numbers));

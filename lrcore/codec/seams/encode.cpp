@@ -19,7 +19,7 @@ constexpr std::uint32_t kPrivate = LACEDRING_SEAMS_PRIVATE;
 
 using Triangles = std::span<const std::uint32_t>;
 
-/// What the vertices and corners of blocks without copies answer.
+/// The answers that vertices and corners give in blocks without copies.
 constexpr SeamAnswer kPlainAnswers[] = {{0, LACEDRING_SEAM_V0, 1},     {0, LACEDRING_SEAM_LONE, 1},
                                         {0, LACEDRING_SEAM_RIGHT1, 1}, {1, LACEDRING_SEAM_START_L, 1},
                                         {1, LACEDRING_SEAM_MID_R, 1},  {1, LACEDRING_SEAM_PLAIN, 1}};

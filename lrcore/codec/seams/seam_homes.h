@@ -1,5 +1,5 @@
 #pragma once
-// Which copies of a surface's vertices are home copies. Internal to lrcore; docs/seams-format.md.
+// Chooses the home copies of a surface's vertices. Internal to lrcore; docs/seams-format.md.
 
 #include <cstdint>
 #include <span>

@@ -10,7 +10,7 @@
 
 namespace lacedring::storage {
 
-/// How the triangles at a copy are weighted, and which they are.
+/// The weights of the triangles whose normals are summed for a copy, and the set of these triangles.
 struct NormalBase {
     bool by_angle = false;   ///< by the angle at the copy
     bool by_area = false;    ///< by their area

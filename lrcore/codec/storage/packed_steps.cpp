@@ -96,9 +96,9 @@ class StepReader {
         }
     }
 
-    /// Which of the two the triangles of plain blocks are: they come across an edge that a step before left open, the
-    /// one that was left last. Where there is none, they are as the triangle before. It is a guess: who stores a stream
-    /// compares.
+    /// Decides for each triangle of a plain block whether it is (a, x, b) or (a, b, x). It is the one whose edge (a, b)
+    /// an earlier step left open; of two such edges, the one that was left open last counts. Without such an edge the
+    /// triangle is taken as the one before it. This is a guess: store_packed restores the stream and compares.
     void find_plain() {
         const auto key = [](std::uint32_t a, std::uint32_t b) { return std::uint64_t{a} << 32 | b; };
         std::unordered_map<std::uint64_t, std::uint32_t> open;  // the step that left an edge, plus 1

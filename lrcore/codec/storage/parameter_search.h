@@ -1,5 +1,6 @@
 #pragma once
-// How the integers of an attribute are best predicted: found by trial. Internal to lrcore.
+// Tries several predictions of an attribute's integers and keeps the one that takes the fewest bits. Internal to
+// lrcore.
 
 #include <algorithm>
 #include <array>

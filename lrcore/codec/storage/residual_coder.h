@@ -43,7 +43,7 @@ class ResidualCoder {
     static constexpr std::uint32_t kSteps = 32, kEscape = 15;
     static constexpr std::array<std::uint16_t, 16> kBegin{0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 64, 128, 256, 512, 1024};
     static constexpr std::array<std::uint8_t, 16> kBits{0, 0, 0, 0, 1, 1, 2, 2, 3, 3, 5, 6, 7, 8, 9, 0};
-    /// How many bits a symbol's numbers have, in 128ths, and 128.
+    /// The mean size of the numbers that a symbol stands for, in 128ths of a bit, plus 128.
     static constexpr std::array<std::uint16_t, 16> kLevel{0,   256, 352, 400, 464,  512,  576,  640,
                                                           704, 768, 864, 992, 1120, 1248, 1376, 0};
 
@@ -54,8 +54,8 @@ class ResidualCoder {
         NumberModel others;  ///< what no symbol has a range for
     };
 
-    /// What is left of a residual without its lowest bits is a symbol: up to 3 itself, then a range of numbers. Those
-    /// bits and the place in the range follow as they are. `level` becomes the residual's own.
+    /// The lowest bits of a residual are written as they are. A symbol codes the rest: a number up to 3, or a range of
+    /// numbers; the place in the range is written as it is, too. `level` is set to the residual's size.
     LACEDRING_INLINE std::uint32_t code(Coder& coder, Role& role, std::uint32_t step, std::uint32_t value,
                                         std::uint32_t& level) {
         step = std::min(step, kSteps - 1);

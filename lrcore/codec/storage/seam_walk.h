@@ -58,8 +58,8 @@ class SeamWalk {
   private:
     static constexpr std::uint32_t kNone = UINT32_MAX;
 
-    /// Of vertices: have they several copies, and are these known? Edges have the status of their other end, and where
-    /// that is done, two of them.
+    /// Says of a vertex whether it has several copies, and whether they are known. An edge has the status of its other
+    /// end; if that is done, it has kDone, or kDone + 1 if the edge is a seam there.
     enum Status : std::uint8_t { kSingle, kUndecided, kSeveral, kDone };
     static constexpr std::uint32_t kEnds = 5;  ///< the statuses, and kDone + 1: a seam there
 
