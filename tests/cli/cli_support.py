@@ -61,7 +61,8 @@ class CliTest(unittest.TestCase):
         cls.help = run("--help").out
 
     def setUp(self):
-        self._folder = tempfile.TemporaryDirectory(prefix="lacedring-cli-")
+        # No "-" before what tempfile makes up: it would turn "0" into the "-0" that a test says is in no message.
+        self._folder = tempfile.TemporaryDirectory(prefix="lacedring_cli_")
         self.folder = self._folder.name
 
     def tearDown(self):

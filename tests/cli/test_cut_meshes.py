@@ -145,8 +145,8 @@ class Seams(CliTest):
         self.assertEqual([p for p in check_decode.read(self.path("out.ply")).positions],
                          [struct.pack("<3f", *(x + 0.0 for x in p)) for p in points])
         for options in (["--no-weld"], ["--weld"]):
-            self.assertNotIn("-0", self.ok("encode", source, "-o", self.path("a.lr"), "--force", *options).err)
-        self.assertNotIn("-0", self.ok("info", self.path("a.lr")).err)
+            self.assertNotIn("with -0", self.ok("encode", source, "-o", self.path("a.lr"), "--force", *options).err)
+        self.assertNotIn("with -0", self.ok("info", self.path("a.lr")).err)
 
     def test_tolerance(self):
         points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 0.125, 0), (1, 1, 0.25), (0, 2, 0)]

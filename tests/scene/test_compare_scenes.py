@@ -95,7 +95,7 @@ def add(values, element, component=0, bits=1):
 
 class CompareScenes(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="lacedring-scene-")
+        folder = tempfile.TemporaryDirectory(prefix="lacedring_scene_")
         self.addCleanup(folder.cleanup)
         self.path = lambda name: os.path.join(folder.name, name)
         SceneMaker().write(self.path("source.glb"))
