@@ -1,0 +1,1171 @@
+/* Decodes LacedRing's storage form of packed streams and vertex streams straight into triangles and attributes: the
+   resident streams are not made. C99 or C++, one file beside lacedring_decode.h and lacedring_vertices.h, no
+   allocation. docs/storage-format.md has the format.
+
+   LACEDRING_DECODE_IMPLEMENTATION, defined in one .c or .cpp file before it is included, adds the functions there. A
+   program that links lacedring::core has them already.
+
+       struct lacedring_stored_packed mesh;
+       if (lacedring_stored_packed_open(words, count, most_vertices, most_triangles, &mesh, NULL) !=
+           LACEDRING_STATUS_OK) ...
+       void *scratch = malloc(lacedring_stored_packed_scratch(&mesh));
+       uint32_t *triangles = malloc(12 * (size_t)mesh.triangles);
+       if (lacedring_stored_packed_decode(&mesh, scratch, triangles, NULL) != LACEDRING_STATUS_OK) ...
+
+       struct lacedring_stored_vertices stored;
+       if (lacedring_stored_vertices_open(words, count, mesh.vertices, &stored, NULL) != LACEDRING_STATUS_OK) ...
+       void *scratch = malloc(lacedring_stored_vertices_scratch(&stored, mesh.triangles));
+       uint32_t *integers = malloc(4 * (size_t)mesh.vertices * stored.attribute.components);
+       if (lacedring_stored_vertices_decode(&stored, triangles, mesh.triangles, scratch, integers, NULL) !=
+           LACEDRING_STATUS_OK) ...
+       float *positions = malloc(12 * (size_t)mesh.vertices);
+       lacedring_stored_vertices_values(&stored, integers, positions);
+
+   Any words are safe: nothing is read or written beyond what is said, and time is linear in the limits. Scratch memory
+   is aligned as malloc aligns. Stored words are little-endian, and this file is for little-endian machines. */
+#ifndef LACEDRING_STORAGE_H
+#define LACEDRING_STORAGE_H
+
+#include "lacedring_vertices.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define LACEDRING_STORED_HEADER_WORDS 3 /* of a packed stream in storage form */
+
+/* Where a decoder is in a coded part. */
+struct lacedring_coded {
+    const uint32_t* symbols; /* words that are shifted in */
+    const uint8_t* bytes;    /* of the part */
+    uint64_t used, last;     /* words of symbols: how many were taken, and the number of the last one */
+    uint64_t bit, end,
+        last_byte;      /* raw bits: the next one, where they end, and the last byte from which there are eight */
+    uint64_t now, next; /* states: of the next symbol, and of the one after */
+};
+
+/* A packed stream in storage form, its header read. Holds no copy. */
+struct lacedring_stored_packed {
+    struct lacedring_coded steps;
+    const uint32_t* doubles;      /* two words a run */
+    uint32_t vertices, triangles; /* of the mesh */
+    uint32_t own;                 /* the first triangles, each with vertices of its own; the others are their doubles */
+    uint32_t runs;                /* of doubles */
+    uint32_t has_flips;
+};
+
+/* Reads the header and checks sizes. At most so many vertices and triangles are allowed: those of the file, or what
+   memory there is. Linear in the runs of doubles. */
+enum lacedring_status lacedring_stored_packed_open(const uint32_t* words, size_t count, uint32_t most_vertices,
+                                                   uint32_t most_triangles, struct lacedring_stored_packed* stored,
+                                                   uint64_t* where);
+
+/* Bytes of scratch memory that lacedring_stored_packed_decode takes: 16 for each triangle, few of which it ever
+   touches, and 1 for each vertex. SIZE_MAX: more than there can be. */
+size_t lacedring_stored_packed_scratch(const struct lacedring_stored_packed* stored);
+
+/* The triangles of the packed stream, in its order: 3 * stored->triangles indices. Where it finds a fault, they are of
+   no use. 10 KB of stack. */
+enum lacedring_status lacedring_stored_packed_decode(const struct lacedring_stored_packed* stored, void* scratch,
+                                                     uint32_t* triangles, uint64_t* where);
+
+/* A vertex stream in storage form, its header read. Holds no copy. */
+struct lacedring_stored_vertices {
+    struct lacedring_vertices attribute; /* as lacedring_vertices_open reads it, without table and data */
+    struct lacedring_coded residuals;    /* where they begin */
+    struct lacedring_coded exceptions;   /* where they begin: known when the integers are decoded */
+    uint32_t has_ranges;                 /* a range for each component, or any integers of the mapping */
+    uint32_t low[LACEDRING_VERTICES_MAX_COMPONENTS], range_bits[LACEDRING_VERTICES_MAX_COMPONENTS];
+    uint8_t rules[LACEDRING_VERTICES_MAX_COMPONENTS]; /* that predict */
+    uint32_t by_normal, error, smooth, fine;          /* parameters of predictions and residuals */
+};
+
+/* Reads the header, which begins the words, and checks sizes: linear in words / 65,536. `vertices`: values that the
+   attribute has. */
+enum lacedring_status lacedring_stored_vertices_open(const uint32_t* words, size_t count, uint32_t vertices,
+                                                     struct lacedring_stored_vertices* stored, uint64_t* where);
+
+/* Bytes of scratch memory that lacedring_stored_vertices_decode takes with so many triangles: 12 for each triangle, and
+   about 20 for each vertex. SIZE_MAX: more than there can be. */
+size_t lacedring_stored_vertices_scratch(const struct lacedring_stored_vertices* stored, uint32_t triangles);
+
+/* The integers of the vertex stream, stored->attribute.components a vertex. `triangles`: those of the vertices,
+   `triangle_count` times three numbers of vertices, in the order of the file. Where it finds a fault, integers are of
+   no use. 10 KB of stack. */
+enum lacedring_status lacedring_stored_vertices_decode(struct lacedring_stored_vertices* stored,
+                                                       const uint32_t* triangles, uint32_t triangle_count,
+                                                       void* scratch, uint32_t* integers, uint64_t* where);
+
+/* All values of the attribute by the integers decoded, as lacedring_vertices_decode gives them. */
+void lacedring_stored_vertices_values(const struct lacedring_stored_vertices* stored, const uint32_t* integers,
+                                      void* out);
+
+#ifdef __cplusplus
+}
+#endif
+#endif /* LACEDRING_STORAGE_H */
+
+#if defined(LACEDRING_DECODE_IMPLEMENTATION) && !defined(LACEDRING_STORAGE_IMPLEMENTED)
+#define LACEDRING_STORAGE_IMPLEMENTED
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(__GNUC__) && !defined(LACEDRING_PLAIN)
+#define LACEDRING_COLD_ static __attribute__((noinline))
+#else
+#define LACEDRING_COLD_ static
+#endif
+
+#define LACEDRING_SCALE_ 32768u /* the ranges of a model's symbols fill [0, LACEDRING_SCALE_) */
+#define LACEDRING_LEAST_STATE_ (UINT64_C(1) << 31)
+
+/* A bit whose probability is learnt. */
+struct lacedring_bit_model_ {
+    uint16_t zero, seen; /* of LACEDRING_SCALE_; bits so far, at most 48 */
+};
+
+/* One of 16 symbols. */
+struct lacedring_symbol_model_ {
+    uint16_t begin[17], count[16]; /* of each symbol: where its range begins; how often it was seen */
+    uint16_t total, left, cycle;   /* all counts; symbols until the ranges are made anew, and how many those were */
+};
+
+static void lacedring_begin_bits_(struct lacedring_bit_model_* models, size_t count) {
+    size_t i;
+    for (i = 0; i < count; ++i) {
+        models[i].zero = LACEDRING_SCALE_ / 2;
+        models[i].seen = 0;
+    }
+}
+
+static void lacedring_find_ranges_(struct lacedring_symbol_model_* m) {
+    const uint32_t scale = ((LACEDRING_SCALE_ - 16) << 16) / m->total;
+    uint32_t i, sum = 0;
+    for (i = 0; i < 16; ++i) {
+        m->begin[i] = (uint16_t)(i + (((uint64_t)sum * scale) >> 16));
+        sum += m->count[i];
+    }
+    m->begin[16] = LACEDRING_SCALE_;
+}
+
+static void lacedring_begin_symbols_(struct lacedring_symbol_model_* models, size_t count) {
+    size_t i;
+    uint32_t k;
+    for (i = 0; i < count; ++i) {
+        for (k = 0; k < 16; ++k) models[i].count[k] = 1;
+        models[i].total = 16;
+        models[i].left = models[i].cycle = 6;
+        lacedring_find_ranges_(models + i);
+    }
+}
+
+LACEDRING_COLD_ void lacedring_renew_ranges_(struct lacedring_symbol_model_* m) {
+    const uint32_t cycle = m->cycle + m->cycle / 2u;
+    uint32_t i;
+    if (m->total > 2048) {
+        m->total = 0;
+        for (i = 0; i < 16; ++i) {
+            m->count[i] = (uint16_t)((m->count[i] + 1) / 2);
+            m->total = (uint16_t)(m->total + m->count[i]);
+        }
+    }
+    lacedring_find_ranges_(m);
+    m->left = m->cycle = (uint16_t)(cycle < 64 ? cycle : 64);
+}
+
+/* Opens a coded part. 0: it is shorter than it says. */
+static int lacedring_open_coded_(struct lacedring_coded* d, const uint32_t* words, size_t count) {
+    if (count == 0 || words[0] < 4 || words[0] > count - 1) return 0;
+    d->symbols = words + 1;
+    d->bytes = (const uint8_t*)words;
+    d->used = 4;
+    d->last = words[0] - 1;
+    d->bit = 32 * (1 + (uint64_t)words[0]);
+    d->end = 32 * (uint64_t)count;
+    d->last_byte = 4 * (uint64_t)count - 8;
+    d->now = words[1] | (uint64_t)words[2] << 32;
+    d->next = words[3] | (uint64_t)words[4] << 32;
+    return 1;
+}
+
+/* Was all of it used, and do both states end as they began? */
+static int lacedring_coded_ends_(const struct lacedring_coded* d) {
+    uint32_t last = 0, left;
+    if (d->bit > d->end || d->end - d->bit >= 32) return 0;
+    left = (uint32_t)(d->end - d->bit);
+    if (left > 0) memcpy(&last, d->bytes + (size_t)(d->end / 8 - 4), 4);
+    return (left == 0 || last >> (32 - left) == 0) && d->used == d->last + 1 && d->now == LACEDRING_LEAST_STATE_ &&
+           d->next == LACEDRING_LEAST_STATE_;
+}
+
+/* Takes a symbol with this range. Behind the end, the last word is shifted in again. */
+LACEDRING_HOT_ void lacedring_coded_advance_(struct lacedring_coded* d, uint32_t at, uint32_t begin, uint32_t size,
+                                             int is_rare) {
+    uint64_t x = size * (d->now >> 15) + at - begin;
+    const uint32_t word = d->symbols[(size_t)(d->used < d->last ? d->used : d->last)];
+    if (is_rare) {
+        if (x < LACEDRING_LEAST_STATE_) {
+            x = x << 32 | word;
+            ++d->used;
+        }
+    } else { /* without a branch, which would be hard to predict */
+        const uint64_t takes = x < LACEDRING_LEAST_STATE_;
+        x = x << (32 * takes) | (word & (0 - takes));
+        d->used += takes;
+    }
+    d->now = d->next;
+    d->next = x;
+}
+
+LACEDRING_HOT_ uint32_t lacedring_coded_bit_(struct lacedring_coded* d, struct lacedring_bit_model_* m) {
+    static const uint16_t
+        steps[49] = {43690, 26214, 18724, 14563, 11915, 10082, 8738, 7710, 6898, 6241, 5698, 5242, 4854,
+                     4519,  4228,  3971,  3744,  3542,  3360,  3196, 3048, 2912, 2788, 2674, 2570, 2473,
+                     2383,  2299,  2221,  2148,  2080,  2016,  1956, 1899, 1846, 1795, 1747, 1702, 1659,
+                     1618,  1579,  1542,  1506,  1472,  1440,  1409, 1379, 1351, 1323}; /* 131072 / (2 seen + 3) */
+    const uint32_t at = (uint32_t)d->now & (LACEDRING_SCALE_ - 1), zero = m->zero, bit = (uint32_t)(at >= zero);
+    const uint32_t seen = m->seen < 48 ? m->seen + 1u : 48u;
+    const int32_t to = bit ? 32 : (int32_t)LACEDRING_SCALE_ - 32;
+    lacedring_coded_advance_(d, at, bit ? zero : 0, bit ? LACEDRING_SCALE_ - zero : zero, 1);
+    m->seen = (uint16_t)seen;
+    m->zero = (uint16_t)((int32_t)zero + (((to - (int32_t)zero) * (int32_t)steps[seen]) >> 16));
+    return bit;
+}
+
+/* The symbol whose range `at` is in. */
+LACEDRING_HOT_ uint32_t lacedring_find_symbol_(const struct lacedring_symbol_model_* m, uint32_t at) {
+#if defined(__SSE2__) && defined(__GNUC__) && !defined(LACEDRING_PLAIN)
+    const __m128i most = _mm_set1_epi16((short)at);
+    const __m128i low = _mm_loadu_si128((const __m128i*)(const void*)m->begin);
+    const __m128i high = _mm_loadu_si128((const __m128i*)(const void*)(m->begin + 8));
+    const __m128i above = _mm_packs_epi16(_mm_cmpgt_epi16(low, most), _mm_cmpgt_epi16(high, most));
+    return (uint32_t)__builtin_ctz((uint32_t)_mm_movemask_epi8(above) | 0x10000u) - 1;
+#else
+    /* Begins are below 2^15, four in a word: the highest bit of each is left where `at` is not less. */
+    const uint64_t all = (at | LACEDRING_SCALE_) * UINT64_C(0x0001000100010001);
+    uint64_t four[4], sum = 0;
+    uint32_t i;
+    memcpy(four, m->begin, sizeof four);
+    for (i = 0; i < 4; ++i) sum += (all - four[i]) >> 15 & UINT64_C(0x0001000100010001);
+    return (uint32_t)(sum * UINT64_C(0x0001000100010001) >> 48) - 1;
+#endif
+}
+
+LACEDRING_HOT_ uint32_t lacedring_coded_symbol_(struct lacedring_coded* d, struct lacedring_symbol_model_* m) {
+    const uint32_t at = (uint32_t)d->now & (LACEDRING_SCALE_ - 1), symbol = lacedring_find_symbol_(m, at);
+    const uint32_t begin = m->begin[symbol];
+    lacedring_coded_advance_(d, at, begin, m->begin[symbol + 1] - begin, 0);
+    m->count[symbol] = (uint16_t)(m->count[symbol] + 4);
+    m->total = (uint16_t)(m->total + 4);
+    if (--m->left == 0) lacedring_renew_ranges_(m);
+    return symbol;
+}
+
+/* At most 32 bits. Behind the end, any bits of the last ones. */
+LACEDRING_HOT_ uint32_t lacedring_coded_raw_(struct lacedring_coded* d, uint32_t count) {
+    const uint64_t byte = d->bit >> 3 < d->last_byte ? d->bit >> 3 : d->last_byte, skip = d->bit - 8 * byte;
+    uint64_t window;
+    memcpy(&window, d->bytes + (size_t)byte, 8);
+    d->bit += count;
+    return (uint32_t)(window >> (skip < 63 ? skip : 63) & ((UINT64_C(1) << count) - 1));
+}
+
+static uint32_t lacedring_coded_number_(struct lacedring_coded* d, struct lacedring_symbol_model_* m) {
+    uint32_t bits = lacedring_coded_symbol_(d, m);
+    if (bits == 15) bits += lacedring_coded_raw_(d, 5);
+    if (bits > 32) return 0; /* which no encoder writes */
+    return bits < 2 ? bits : UINT32_C(1) << (bits - 1) | lacedring_coded_raw_(d, bits - 1);
+}
+
+/* Adds to a number of bytes; SIZE_MAX: more than there can be. */
+static size_t lacedring_bytes_of_(size_t bytes, uint64_t count, uint32_t each) {
+    return count > (SIZE_MAX - bytes) / each ? SIZE_MAX : bytes + (size_t)count * each;
+}
+
+/* Packed streams. */
+
+/* Of each vertex: its triangles so far, at most 9, and whether the edge to the next vertex has one. */
+#define LACEDRING_RING_EDGE_ 16u
+#define LACEDRING_RIGHT_ 0x80000000u /* of an open edge's first vertex: it is on the right of its ring */
+
+/* The models of a turn: is it one, and which. */
+struct lacedring_turn_models_ {
+    struct lacedring_bit_model_ simple, up;
+};
+
+struct lacedring_steps_ {
+    struct lacedring_coded coded;
+    uint8_t* around;   /* of vertices, and one more */
+    uint32_t* open;    /* edges, two words each; UINT32_MAX: gone */
+    size_t open_count; /* words */
+    uint32_t vertices, bits;
+    uint32_t a, b;                      /* the edge of the next step, if it goes on */
+    uint32_t goes_on, is_fork, entered; /* of the step before; is_fork: the next one's first bit was read, and is 0 */
+    uint32_t root_a, root_b, right, flipped, seen;
+    struct lacedring_bit_model_ begins[2], deeper[2], drop, first, flip[2]; /* [0]: if the step before entered none */
+    struct lacedring_symbol_model_ tree, fork, tree_size, depth, size[2];
+    struct lacedring_turn_models_ turns[1024];
+};
+
+enum lacedring_status lacedring_stored_packed_open(const uint32_t* words, size_t count, uint32_t most_vertices,
+                                                   uint32_t most_triangles, struct lacedring_stored_packed* s,
+                                                   uint64_t* where) {
+    struct lacedring_packed p;
+    if (count < LACEDRING_STORED_HEADER_WORDS) return lacedring_at_(where, 0, LACEDRING_STATUS_SHORT);
+    s->vertices = p.vertices = words[0];
+    s->triangles = s->own = p.own = p.triangles = words[1];
+    s->runs = p.runs = words[2] & 0x7fffffffu;
+    s->has_flips = words[2] >> 31;
+    s->doubles = words + LACEDRING_STORED_HEADER_WORDS;
+    if (s->vertices > most_vertices) return lacedring_at_(where, s->vertices, LACEDRING_STATUS_LIMIT);
+    if (s->own > most_triangles) return lacedring_at_(where, s->own, LACEDRING_STATUS_LIMIT);
+    if (s->vertices > UINT32_C(1) << 29) return lacedring_at_(where, 0, LACEDRING_STATUS_VERTICES);
+    if (s->own > UINT32_MAX / 3) return lacedring_at_(where, 0, LACEDRING_STATUS_SLOTS);
+    count -= LACEDRING_STORED_HEADER_WORDS;
+    if (s->runs > 0) {
+        if (count < 2 || s->runs > (count - 2) / 2) return lacedring_at_(where, 0, LACEDRING_STATUS_SIZE);
+        if (s->doubles[0] > s->own || s->doubles[1] != s->runs)
+            return lacedring_at_(where, 0, LACEDRING_STATUS_DOUBLES);
+        p.triangles = s->triangles = s->own + s->doubles[0];
+        if (s->triangles > most_triangles) return lacedring_at_(where, s->triangles, LACEDRING_STATUS_LIMIT);
+        if (s->triangles > UINT32_MAX / 3) return lacedring_at_(where, 0, LACEDRING_STATUS_SLOTS);
+        s->doubles += 2;
+        count -= 2 + 2 * (size_t)s->runs;
+    }
+    p.doubles = s->doubles;
+    if (lacedring_check_doubles_(&p, where) != LACEDRING_STATUS_OK) return LACEDRING_STATUS_DOUBLES;
+    if (!lacedring_open_coded_(&s->steps, s->doubles + 2 * (size_t)s->runs, count))
+        return lacedring_at_(where, 0, LACEDRING_STATUS_SIZE);
+    return LACEDRING_STATUS_OK;
+}
+
+size_t lacedring_stored_packed_scratch(const struct lacedring_stored_packed* s) {
+    return lacedring_bytes_of_(lacedring_bytes_of_(16, s->own, 16), s->vertices, 1);
+}
+
+/* One triangle more at a vertex. */
+LACEDRING_HOT_ uint32_t lacedring_counted_(uint32_t around) {
+    return around + ((around & 15) < 9);
+}
+
+LACEDRING_HOT_ void lacedring_count_at_(struct lacedring_steps_* w, uint32_t v) {
+    w->around[v] = (uint8_t)lacedring_counted_(w->around[v]);
+}
+
+LACEDRING_HOT_ void lacedring_mark_edge_(struct lacedring_steps_* w, uint32_t a, uint32_t b) {
+    if (a + 1 == b) w->around[a] |= LACEDRING_RING_EDGE_;
+}
+
+/* The models of a turn across (a, b), by what is around a, b and b - 1. */
+LACEDRING_HOT_ struct lacedring_turn_models_* lacedring_turn_models_of_(struct lacedring_steps_* w, uint32_t at_a,
+                                                                        uint32_t at_b, uint32_t behind_b) {
+    return w->turns + (at_a << 4 | (at_b & 15) | (behind_b & LACEDRING_RING_EDGE_) << 5);
+}
+
+/* Triangles from i on that go on from the one before, as long as turns say all of them. Returns the next one. Most
+   triangles are such. */
+static uint32_t lacedring_simple_steps_(struct lacedring_steps_* w, uint32_t i, uint32_t end, uint32_t* out) {
+    struct lacedring_coded d = w->coded; /* in registers */
+    uint8_t* around = w->around;
+    uint32_t a = w->a, b = w->b;
+    uint32_t at_a, at_b, behind_b; /* what is around a, b and b - 1: the first two are written where they are left */
+    const uint32_t right = 0 - w->right;
+    if (w->seen < b + 1) w->seen = b + 1;
+    at_a = around[a];
+    at_b = around[b];
+    behind_b = around[b - 1];
+    for (; i < end && b - a > 2; ++i, out += 3) {
+        struct lacedring_turn_models_* models = lacedring_turn_models_of_(w, at_a, at_b, behind_b);
+        const uint32_t next_a = around[a + 1], next_b = around[b - 2]; /* before it is known which of them is needed */
+        uint32_t up, x, mixed;
+        if (!lacedring_coded_bit_(&d, &models->simple)) {
+            w->is_fork = 1;
+            break;
+        }
+        up = lacedring_coded_bit_(&d, &models->up);
+        at_a = lacedring_counted_(at_a);
+        at_b = lacedring_counted_(at_b);
+        x = up ? a + 1 : b - 1; /* turns are hard to predict: no branches below */
+        around[up ? a : b] = (uint8_t)(up ? at_a | LACEDRING_RING_EDGE_ : at_b);
+        at_a = up ? lacedring_counted_(next_a) : at_a;
+        at_b = up ? at_b : lacedring_counted_(behind_b) | LACEDRING_RING_EDGE_;
+        behind_b = up ? behind_b : next_b;
+        mixed = (x ^ b) & right;
+        out[0] = a;
+        out[1] = b ^ mixed;
+        out[2] = x ^ mixed;
+        a = up ? x : a;
+        b = up ? b : x;
+    }
+    around[a] = (uint8_t)at_a;
+    around[b] = (uint8_t)at_b;
+    w->a = a;
+    w->b = b;
+    w->coded = d;
+    return i;
+}
+
+/* Where a step that does not go on is entered. 0: nowhere. */
+static int lacedring_entry_(struct lacedring_steps_* w) {
+    struct lacedring_coded* d = &w->coded;
+    uint32_t* edge;
+    while (w->open_count > 0 && w->open[w->open_count - 2] == UINT32_MAX) w->open_count -= 2;
+    if (w->open_count == 0 || lacedring_coded_bit_(d, w->begins + w->entered)) {
+        const uint32_t tree = lacedring_coded_symbol_(d, &w->tree);
+        if (tree == 0) {
+            w->right ^= 1;
+        } else if (tree == 1) {
+            w->root_a = w->seen;
+            w->root_b = w->seen + lacedring_coded_number_(d, &w->tree_size);
+            w->right = 0;
+        } else {
+            w->root_a = lacedring_coded_raw_(d, w->bits);
+            w->root_b = lacedring_coded_raw_(d, w->bits);
+            w->right = lacedring_coded_raw_(d, 1);
+        }
+        w->a = w->root_a;
+        w->b = w->root_b;
+        return 1;
+    }
+    if (lacedring_coded_bit_(d, w->deeper + w->entered)) {
+        const uint32_t above = lacedring_coded_number_(d, &w->depth); /* the edge, less 1 */
+        const size_t depth = 4 + 2 * (size_t)above;                   /* words */
+        if (above >= w->open_count / 2 - 1) return 0;
+        edge = w->open + (w->open_count - depth);
+        if (lacedring_coded_bit_(d, &w->drop)) w->open_count -= depth;
+    } else {
+        w->open_count -= 2;
+        edge = w->open + w->open_count;
+    }
+    if (edge[0] == UINT32_MAX) return 0;
+    w->right = edge[0] >> 31;
+    w->a = edge[0] & ~LACEDRING_RIGHT_;
+    w->b = edge[1];
+    edge[0] = UINT32_MAX;
+    return 1;
+}
+
+LACEDRING_HOT_ void lacedring_open_edge_(struct lacedring_steps_* w, uint32_t a, uint32_t b) {
+    w->open[w->open_count++] = a | w->right << 31;
+    w->open[w->open_count++] = b;
+}
+
+/* The third vertex of a triangle that splits a polygon, or behind which the next step is not. */
+static uint32_t lacedring_fork_(struct lacedring_steps_* w, uint32_t a, uint32_t b) {
+    struct lacedring_coded* d = &w->coded;
+    const uint32_t kind = lacedring_coded_symbol_(d, &w->fork), enters = kind & 3;
+    uint32_t x, first_a = enters == 1;
+    if (kind & 4) {
+        const uint32_t size = lacedring_coded_number_(d, w->size + (enters == 3));
+        x = kind & 8 ? a + size : b - size;
+    } else {
+        x = lacedring_coded_raw_(d, w->bits);
+    }
+    if (enters == 3) { /* the smaller part first, usually */
+        const uint32_t p = x > a ? x - a : UINT32_MAX, q = b > x ? b - x : UINT32_MAX;
+        first_a = (p <= q) ^ lacedring_coded_bit_(d, &w->first);
+    }
+    w->entered = enters != 0;
+    if (x >= w->vertices) return x; /* which is refused */
+    if (first_a && enters == 3) lacedring_open_edge_(w, x, b);
+    if (enters & 1) lacedring_open_edge_(w, a, x);
+    if (!first_a && (enters & 2)) lacedring_open_edge_(w, x, b);
+    return x;
+}
+
+/* A step of any kind. Returns 0 if it is impossible. */
+static int lacedring_any_step_(struct lacedring_steps_* w, uint32_t has_flips, uint32_t* out) {
+    struct lacedring_coded* d = &w->coded;
+    struct lacedring_turn_models_* models;
+    uint32_t a, b, x, most;
+    if (!w->goes_on && !lacedring_entry_(w)) return 0;
+    a = w->a;
+    b = w->b;
+    if (a >= w->vertices || b >= w->vertices || a == b) return 0;
+    if (has_flips) w->flipped = lacedring_coded_bit_(d, w->flip + w->flipped);
+    models = lacedring_turn_models_of_(w, w->around[a], w->around[b], w->around[b > 0 ? b - 1 : 0]);
+    if (!w->is_fork && lacedring_coded_bit_(d, &models->simple)) {
+        const uint32_t up = b - a == 2 || lacedring_coded_bit_(d, &models->up);
+        w->goes_on = b - a != 2;
+        w->entered = 0;
+        x = up ? a + 1 : b - 1;
+        w->a = up ? x : a;
+        w->b = up ? b : x;
+    } else {
+        w->goes_on = w->is_fork = 0;
+        x = lacedring_fork_(w, a, b);
+    }
+    if (x >= w->vertices || x == a || x == b) return 0;
+    lacedring_count_at_(w, a);
+    lacedring_count_at_(w, b);
+    lacedring_count_at_(w, x);
+    lacedring_mark_edge_(w, a, x);
+    lacedring_mark_edge_(w, x, b);
+    lacedring_mark_edge_(w, a, b);
+    most = a > b ? a : b;
+    if (x > most) most = x;
+    if (w->seen <= most) w->seen = most + 1;
+    out[0] = a;
+    out[1] = w->right ^ w->flipped ? x : b;
+    out[2] = w->right ^ w->flipped ? b : x;
+    return 1;
+}
+
+enum lacedring_status lacedring_stored_packed_decode(const struct lacedring_stored_packed* s, void* scratch,
+                                                     uint32_t* triangles, uint64_t* where) {
+    struct lacedring_steps_ w;
+    struct lacedring_packed p;
+    uint32_t i, run;
+    memset(&w, 0, sizeof w);
+    memset(&p, 0, sizeof p);
+    w.coded = s->steps;
+    w.open = (uint32_t*)scratch;
+    w.around = (uint8_t*)scratch + 16 * (size_t)s->own;
+    memset(w.around, 0, (size_t)s->vertices + 1);
+    w.vertices = s->vertices;
+    while (w.bits < 32 && s->vertices >> w.bits != 0) ++w.bits;
+    lacedring_begin_bits_(w.begins, 2);
+    lacedring_begin_bits_(w.deeper, 2);
+    lacedring_begin_bits_(&w.drop, 1);
+    lacedring_begin_bits_(&w.first, 1);
+    lacedring_begin_bits_(w.flip, 2);
+    lacedring_begin_bits_(&w.turns[0].simple, 2 * sizeof w.turns / sizeof w.turns[0]);
+    lacedring_begin_symbols_(&w.tree, 1);
+    lacedring_begin_symbols_(&w.fork, 1);
+    lacedring_begin_symbols_(&w.tree_size, 1);
+    lacedring_begin_symbols_(&w.depth, 1);
+    lacedring_begin_symbols_(w.size, 2);
+    for (i = 0; i < s->own; ++i) {
+        if (w.goes_on && !s->has_flips && w.a < w.b && w.b < w.vertices) {
+            i = lacedring_simple_steps_(&w, i, s->own, triangles + 3 * (size_t)i);
+            if (i == s->own) break;
+        }
+        if (!lacedring_any_step_(&w, s->has_flips, triangles + 3 * (size_t)i))
+            return lacedring_at_(where, i, LACEDRING_STATUS_TRIANGLE);
+    }
+    if (w.goes_on || !lacedring_coded_ends_(&w.coded)) return lacedring_at_(where, 0, LACEDRING_STATUS_CODED);
+    p.triangles = s->triangles;
+    p.runs = s->runs;
+    p.doubles = s->doubles;
+    for (run = 0; run < s->runs; ++run) {
+        const uint32_t* r = s->doubles + 2 * (size_t)run;
+        const uint32_t end = lacedring_run_end_(&p, run), from = r[1] & 0x7fffffffu;
+        for (i = r[0]; i < end; ++i)
+            lacedring_double_(triangles + 3 * (size_t)(from + (i - r[0])), r[1] >> 31, triangles + 3 * (size_t)i);
+    }
+    return LACEDRING_STATUS_OK;
+}
+
+/* Vertex streams. */
+
+#define LACEDRING_STORED_PART_ 65536u  /* vertices whose blocks are a coded part */
+#define LACEDRING_STORED_STEPS_ 32u    /* of a residual's expected size, in halves of a bit */
+#define LACEDRING_SOME_RESIDUALS_ 128u /* vertices whose residuals are decoded at once */
+#define LACEDRING_NONE_ UINT32_MAX
+#define LACEDRING_KNOWN_ 3u /* state of a vertex; else how many corners predict it, 2 at most */
+
+enum { LACEDRING_BY_PARALLELOGRAMS_, LACEDRING_BY_MEAN_, LACEDRING_BY_NEIGHBOR_, LACEDRING_BY_NOTHING_ };
+
+static enum lacedring_status lacedring_stored_header_(struct lacedring_stored_vertices* s, struct lacedring_coded* d,
+                                                      uint64_t* where) {
+    const uint32_t layout = lacedring_coded_raw_(d, 23), n = layout & 31, mapping = layout >> 5 & 7;
+    uint32_t step = 0, error = 0, wrong, c;
+    if (mapping == LACEDRING_MAPPING_LATTICE) step = lacedring_coded_raw_(d, 32);
+    if (mapping == LACEDRING_MAPPING_DECIMALS) step = lacedring_coded_raw_(d, 4);
+    if (mapping == LACEDRING_MAPPING_LATTICE || mapping == LACEDRING_MAPPING_OCTAHEDRAL)
+        error = lacedring_coded_raw_(d, 32);
+    wrong = lacedring_vertex_layout_(&s->attribute, layout, step, error);
+    if (wrong != 0) return lacedring_at_(where, wrong, LACEDRING_STATUS_HEADER);
+    s->has_ranges = !lacedring_coded_raw_(d, 1);
+    for (c = 0; c < n; ++c) {
+        lacedring_coded_raw_(d, 10); /* the first width and the usual predictor, of blocks */
+        if (!s->has_ranges) continue;
+        s->low[c] = lacedring_coded_raw_(d, 32);
+        s->range_bits[c] = lacedring_coded_raw_(d, 6);
+        if (s->range_bits[c] > 32)
+            return lacedring_at_(where, LACEDRING_VERTICES_HEADER_WORDS, LACEDRING_STATUS_HEADER);
+    }
+    for (c = 0; c < n; ++c) s->rules[c] = (uint8_t)lacedring_coded_raw_(d, 2);
+    s->by_normal = lacedring_coded_raw_(d, 1);
+    s->error = lacedring_coded_raw_(d, 4);
+    s->smooth = lacedring_coded_raw_(d, 5);
+    s->fine = lacedring_coded_raw_(d, 4);
+    if (n == 2 && lacedring_coded_raw_(d, 1)) return lacedring_at_(where, 0, LACEDRING_STATUS_POSITIONS);
+    if (s->smooth > 16 || (s->by_normal && n != 3))
+        return lacedring_at_(where, LACEDRING_VERTICES_HEADER_WORDS, LACEDRING_STATUS_HEADER);
+    return d->bit <= d->end ? LACEDRING_STATUS_OK : lacedring_at_(where, 0, LACEDRING_STATUS_CODED);
+}
+
+enum lacedring_status lacedring_stored_vertices_open(const uint32_t* words, size_t count, uint32_t vertices,
+                                                     struct lacedring_stored_vertices* s, uint64_t* where) {
+    uint32_t parts = vertices / LACEDRING_STORED_PART_ + (vertices % LACEDRING_STORED_PART_ != 0);
+    size_t at;
+    memset(s, 0, sizeof *s);
+    s->attribute.vertices = vertices;
+    if (count == 0 || words[0] > count - 1 || !lacedring_open_coded_(&s->residuals, words + 1, words[0]))
+        return lacedring_at_(where, 0, LACEDRING_STATUS_SIZE);
+    for (at = 1 + (size_t)words[0]; parts > 0; --parts) { /* of blocks, which are not read */
+        if (at == count || words[at] > count - at - 1) return lacedring_at_(where, at, LACEDRING_STATUS_SIZE);
+        at += 1 + (size_t)words[at];
+    }
+    if (at != count) return lacedring_at_(where, at, LACEDRING_STATUS_SIZE);
+    return lacedring_stored_header_(s, &s->residuals, where);
+}
+
+/* The models of one of a vertex's integers. */
+struct lacedring_residual_models_ {
+    struct lacedring_symbol_model_ steps[LACEDRING_STORED_STEPS_], others;
+    uint32_t level; /* the mean size of the last residuals, in 128ths of a bit */
+};
+
+/* Decodes residuals, in the order of the walk. */
+struct lacedring_residuals_ {
+    struct lacedring_coded coded;
+    struct lacedring_residual_models_* models;
+    uint32_t fine, left; /* vertices */
+    uint32_t some[LACEDRING_SOME_RESIDUALS_ * LACEDRING_VERTICES_MAX_COMPONENTS];
+};
+
+/* The residuals of `count` vertices. */
+LACEDRING_HOT_ void lacedring_some_residuals_(struct lacedring_residuals_* r, uint32_t n, uint32_t count) {
+    /* A symbol is a range of numbers: where it begins, how many bits say which, and a size in 128ths of a bit. */
+    static const uint16_t begin[16] = {0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 64, 128, 256, 512, 0};
+    static const uint8_t bits[16] = {0, 0, 0, 0, 1, 1, 2, 2, 3, 3, 5, 6, 7, 8, 9, 0};
+    static const uint16_t size[16] = {0, 256, 352, 400, 464, 512, 576, 640, 704, 768, 864, 992, 1120, 1248, 1376, 0};
+    struct lacedring_coded d = r->coded; /* in registers */
+    uint32_t i, c, *out = r->some;
+    for (i = 0; i < count; ++i) {
+        uint32_t before = 0, second = 0; /* the levels of the two integers before */
+        for (c = 0; c < n; ++c, ++out) {
+            struct lacedring_residual_models_* m = r->models + c;
+            uint32_t step = c == 0             ? m->level / 64
+                            : c == 2 && n == 3 ? (10 * m->level + 3 * (before + second)) / 1024
+                                               : (m->level + before) / 128;
+            uint32_t low, symbol, level;
+            if (step >= LACEDRING_STORED_STEPS_) step = LACEDRING_STORED_STEPS_ - 1;
+            low = step > r->fine ? (step - r->fine + 1) / 2 : 0;
+            symbol = lacedring_coded_symbol_(&d, m->steps + step);
+            second = before;
+            if (symbol == 15) {
+                before = m->level;
+                r->coded = d;
+                *out = lacedring_coded_number_(&r->coded, &m->others);
+                d = r->coded;
+                continue;
+            }
+            level = size[symbol] + 128 * low;
+            before = level > 128 ? level - 128 : 0;
+            m->level += (uint32_t)((int32_t)(before - m->level) * 3 >> 4);
+            *out = ((uint32_t)begin[symbol] << low) + lacedring_coded_raw_(&d, bits[symbol] + low);
+        }
+    }
+    r->coded = d;
+}
+
+/* The next vertices' residuals, of n components each; 0 stands for any number. */
+LACEDRING_COLD_ uint32_t lacedring_more_residuals_(struct lacedring_residuals_* r, uint32_t n) {
+    const uint32_t count = r->left < LACEDRING_SOME_RESIDUALS_ ? r->left : LACEDRING_SOME_RESIDUALS_;
+    if (n == 1) {
+        lacedring_some_residuals_(r, 1, count);
+    } else if (n == 2) {
+        lacedring_some_residuals_(r, 2, count);
+    } else if (n == 3) {
+        lacedring_some_residuals_(r, 3, count);
+    } else {
+        lacedring_some_residuals_(r, n, count);
+    }
+    r->left -= count;
+    return count;
+}
+
+/* Where the triangle of corner c, whose vertices are v[0] to v[2], shares two vertices with the one before, pairs the
+   corners of both. */
+LACEDRING_HOT_ void lacedring_pair_successive_(const uint32_t* v, uint32_t c, uint32_t* opposite) {
+    static const uint8_t alone[8] = {3, 3, 3, 2, 3, 1, 0, 3}; /* the one of three whose bit is 0 */
+    const uint32_t p = v[-3], q = v[-2], r = v[-1];
+    uint32_t i, k, other, from, shared = 0;
+    for (i = 0; i < 3; ++i) shared |= (uint32_t)((v[i] == p) | (v[i] == q) | (v[i] == r)) << i;
+    k = alone[shared];
+    if (k == 3) return;
+    other = p ^ q ^ r ^ v[0] ^ v[1] ^ v[2] ^ v[k]; /* the one before that is not shared */
+    from = c - 3 + (other == q ? 1u : 0u) + (other == r ? 2u : 0u);
+    if (opposite[from] != LACEDRING_NONE_) return;
+    opposite[c + k] = from;
+    opposite[from] = c + k;
+}
+
+/* Corners that wait for their opposite ones. Those of an edge between vertices that follow each other are in a table;
+   the others in a list for each vertex, which is the smaller one of their edges. */
+struct lacedring_pairs_ {
+    uint32_t* opposite; /* of a corner in a list: the next one, or, of the last one, the first */
+    uint32_t* ring;     /* of each vertex: a corner that faces the edge to the next one */
+    uint32_t* last;     /* of each vertex's list */
+};
+
+LACEDRING_HOT_ void lacedring_pair_corner_(const struct lacedring_pairs_* p, uint32_t corner, uint32_t x, uint32_t y) {
+    const uint32_t smaller = x < y ? x : y;
+    uint32_t* opposite = p->opposite;
+    if (opposite[corner] != LACEDRING_NONE_) return;
+    if (x - y == 1 || y - x == 1) {
+        const uint32_t other = p->ring[smaller];
+        p->ring[smaller] = other == LACEDRING_NONE_ ? corner : LACEDRING_NONE_;
+        if (other == LACEDRING_NONE_) return;
+        opposite[corner] = other;
+        opposite[other] = corner;
+    } else {
+        const uint32_t last = p->last[smaller];
+        p->last[smaller] = corner;
+        if (last == LACEDRING_NONE_) {
+            opposite[corner] = corner;
+        } else {
+            opposite[corner] = opposite[last];
+            opposite[last] = corner;
+        }
+    }
+}
+
+/* Finds for each corner the opposite one, or LACEDRING_NONE_. `scratch`: four words a vertex. */
+LACEDRING_COLD_ void lacedring_find_opposite_(const uint32_t* triangles, uint32_t count, uint32_t vertices,
+                                              uint32_t* opposite, uint32_t* scratch) {
+    struct lacedring_pairs_ p;
+    uint32_t* edges =
+        scratch + 2 * (size_t)vertices; /* by the larger vertex, a corner that waits: the smaller, and it */
+    const uint32_t end = 3 * count;
+    uint32_t c, v, before_is_good = 0;
+    p.opposite = opposite;
+    p.ring = scratch;
+    p.last = scratch + vertices;
+    memset(opposite, 0xff, 12 * (size_t)count);
+    memset(scratch, 0xff, 16 * (size_t)vertices);
+    for (c = 0; c <= end; c += 3) { /* triangles before c */
+        const uint32_t* t = triangles + c;
+        const uint32_t is_good = c < end && !((t[0] == t[1]) | (t[1] == t[2]) | (t[2] == t[0]));
+        if (before_is_good) {
+            if (is_good) lacedring_pair_successive_(t, c, opposite);
+            lacedring_pair_corner_(&p, c - 3, t[-2], t[-1]);
+            lacedring_pair_corner_(&p, c - 2, t[-1], t[-3]);
+            lacedring_pair_corner_(&p, c - 1, t[-3], t[-2]);
+        }
+        before_is_good = is_good;
+    }
+    for (v = 0; v < vertices; ++v) {
+        const uint32_t last = p.last[v];
+        uint32_t next;
+        if (last == LACEDRING_NONE_) continue;
+        for (c = opposite[last];; c = next) {
+            const uint32_t* t = triangles + (c - c % 3);
+            const uint32_t larger = t[0] ^ t[1] ^ t[2] ^ triangles[c] ^ v;
+            uint32_t* edge = edges + 2 * (size_t)larger;
+            const uint32_t other = edge[1], is_pair = edge[0] == v;
+            next = opposite[c];
+            opposite[c] = is_pair ? other : LACEDRING_NONE_;
+            opposite[is_pair ? other : c] = is_pair ? c : LACEDRING_NONE_;
+            edge[0] = is_pair ? LACEDRING_NONE_ : v;
+            edge[1] = c;
+            if (c == last) break;
+        }
+    }
+}
+
+/* Makes vertices known, one by one, and their integers. */
+struct lacedring_walk_ {
+    const struct lacedring_stored_vertices* s;
+    const uint32_t* triangles;
+    uint32_t* opposite;            /* where a corner is looked across from: the one before in the list of its vertex */
+    uint32_t *corner, *waiting[2]; /* the first of a vertex's list; the two queues */
+    uint32_t head[2], tail[2];
+    uint32_t* pending; /* complete triangles that were not looked across */
+    uint32_t pending_count;
+    uint8_t *complete, *state; /* of triangles, of vertices */
+    uint32_t* integers;
+    uint32_t* errors;  /* of each integer, how far it is from what parallelograms predict; null: not needed */
+    uint32_t last;     /* the vertex known last */
+    uint32_t is_plain; /* parallelograms alone predict */
+    struct lacedring_residuals_* residuals;
+    const uint32_t *residual, *residual_end;
+};
+
+LACEDRING_HOT_ const uint32_t* lacedring_residual_(struct lacedring_walk_* w, uint32_t n) {
+    const uint32_t* at = w->residual;
+    if (at == w->residual_end) {
+        const uint32_t count = lacedring_more_residuals_(w->residuals, n);
+        at = w->residuals->some;
+        w->residual_end = at + (size_t)count * n;
+    }
+    w->residual = at + n;
+    return at;
+}
+
+LACEDRING_HOT_ uint32_t lacedring_unfold_(uint32_t code) {
+    return code >> 1 ^ (0u - (code & 1));
+}
+
+/* x / 2^bits, rounded to the nearest integer, halves up: shifts keep the sign. */
+LACEDRING_HOT_ uint32_t lacedring_rounded_(int64_t x, uint32_t bits) {
+    return (uint32_t)((x + ((int64_t)1 << (bits - 1))) >> bits);
+}
+
+LACEDRING_HOT_ void lacedring_start_(struct lacedring_walk_* w, uint32_t n, uint32_t v, uint32_t from) {
+    const uint32_t* residual = lacedring_residual_(w, n);
+    const uint32_t by = from == LACEDRING_NONE_ ? w->last : from;
+    uint32_t c;
+    for (c = 0; c < n; ++c)
+        w->integers[(size_t)v * n + c] =
+            (by == LACEDRING_NONE_ ? 0 : w->integers[(size_t)by * n + c]) + lacedring_unfold_(residual[c]);
+    w->last = v;
+}
+
+/* Adds (y - x) times (z - x) to a normal, modulo 2^64. */
+LACEDRING_HOT_ void lacedring_add_normal_(const uint32_t* x, const uint32_t* y, const uint32_t* z, uint64_t normal[3]) {
+    uint64_t a[3], b[3];
+    uint32_t c;
+    for (c = 0; c < 3; ++c) {
+        a[c] = (uint64_t)(int64_t)(int32_t)(y[c] - x[c]);
+        b[c] = (uint64_t)(int64_t)(int32_t)(z[c] - x[c]);
+    }
+    normal[0] += a[1] * b[2] - a[2] * b[1];
+    normal[1] += a[2] * b[0] - a[0] * b[2];
+    normal[2] += a[0] * b[1] - a[1] * b[0];
+}
+
+/* A component of a normal, divided by 2^shift, times a difference that is cut to 16 bits. */
+LACEDRING_HOT_ int32_t lacedring_slope_(uint64_t normal, uint32_t shift, uint32_t difference) {
+    const int32_t x = (int32_t)difference, cut = x > 32767 ? 32767 : x < -32767 ? -32767 : x;
+    return (int32_t)((int64_t)normal >> shift) * cut;
+}
+
+LACEDRING_HOT_ uint32_t lacedring_width_(uint64_t x) { /* bits, of a number that is not 0 */
+#if defined(__GNUC__) && !defined(LACEDRING_PLAIN)
+    return 64 - (uint32_t)__builtin_clzll(x);
+#else
+    uint32_t n = 0;
+    for (; x != 0; x >>= 1) ++n;
+    return n;
+#endif
+}
+
+/* The steepest component last: it is where the plane through the prediction is. */
+LACEDRING_HOT_ void lacedring_by_normal_(const uint64_t normal[3], const uint32_t* moved, const uint32_t* residual,
+                                         uint32_t* out) {
+    static const uint8_t next[3] = {1, 2, 0};
+    uint64_t size[3];
+    uint32_t c, k, u, w, width, shift, up;
+    int32_t nk;
+    for (c = 0; c < 3; ++c) size[c] = normal[c] >> 63 ? 0 - normal[c] : normal[c];
+    k = size[1] > size[0];
+    k = size[2] > size[k] ? 2 : k;
+    u = next[k];
+    w = next[u];
+    out[u] = moved[u] + lacedring_unfold_(residual[0]);
+    out[w] = moved[w] + lacedring_unfold_(residual[1]);
+    width = lacedring_width_(size[k] | 1);
+    shift = width > 14 ? width - 14 : 0;
+    nk = (int32_t)((int64_t)normal[k] >> shift);
+    up = (uint32_t)((lacedring_slope_(normal[u], shift, out[u] - moved[u]) +
+                     lacedring_slope_(normal[w], shift, out[w] - moved[w])) /
+                    (nk == 0 ? 1 : nk)); /* all are 0 where nk is */
+    out[k] = moved[k] - up + lacedring_unfold_(residual[2]);
+}
+
+/* What predicts a vertex across from a corner: y and x are the two other vertices of its triangle, z is opposite. */
+LACEDRING_HOT_ void lacedring_parallelogram_(const struct lacedring_walk_* w, uint32_t n, uint32_t corner,
+                                             const uint32_t* by[3]) {
+    static const uint8_t next[3] = {1, 2, 0}, before[3] = {2, 0, 1};
+    const uint32_t k = corner % 3, *t = w->triangles + (corner - k);
+    by[0] = w->integers + (size_t)t[next[k]] * n;
+    by[1] = w->integers + (size_t)t[before[k]] * n;
+    by[2] = w->integers + (size_t)w->triangles[w->opposite[corner]] * n;
+}
+
+LACEDRING_HOT_ int64_t lacedring_error_of_(const struct lacedring_walk_* w, const uint32_t* integer) {
+    return (int32_t) * (w->errors + (integer - w->integers));
+}
+
+LACEDRING_HOT_ void lacedring_predict_(struct lacedring_walk_* w, uint32_t n, uint32_t v, uint32_t first,
+                                       uint32_t second) {
+    const uint32_t* residual = lacedring_residual_(w, n);
+    const uint32_t *a[3], *b[3];
+    uint32_t plain[LACEDRING_VERTICES_MAX_COMPONENTS], moved[LACEDRING_VERTICES_MAX_COMPONENTS], c;
+    uint32_t* out = w->integers + (size_t)v * n;
+    lacedring_parallelogram_(w, n, first, a);
+    lacedring_parallelogram_(w, n, second, b);
+    for (c = 0; c < n; ++c) {
+        const uint32_t p = a[0][c] + a[1][c] - a[2][c];
+        plain[c] = moved[c] = p + lacedring_rounded_((int32_t)(b[0][c] + b[1][c] - b[2][c] - p), 1);
+    }
+    if (!w->is_plain) {
+        for (c = 0; c < n; ++c) {
+            const uint32_t rule = w->s->rules[c];
+            const int32_t to_mean = (int32_t)(a[0][c] + a[1][c] + b[0][c] + b[1][c] - 4 * plain[c]);
+            if (rule == LACEDRING_BY_MEAN_) moved[c] += lacedring_rounded_(to_mean, 2);
+            if (rule == LACEDRING_BY_NEIGHBOR_) moved[c] = a[0][c];
+            if (rule == LACEDRING_BY_NOTHING_) moved[c] = 0;
+        }
+    } else if (w->s->smooth != 0 || w->errors != NULL) {
+        for (c = 0; c < n; ++c) {
+            int64_t move = (int32_t)(a[0][c] + a[1][c] + b[0][c] + b[1][c] - 4 * plain[c]);
+            move *= w->s->smooth;
+            if (w->errors != NULL) {
+                const int64_t sum = lacedring_error_of_(w, a[0] + c) + lacedring_error_of_(w, a[1] + c) +
+                                    lacedring_error_of_(w, b[0] + c) + lacedring_error_of_(w, b[1] + c);
+                move += sum * w->s->error;
+            }
+            moved[c] += lacedring_rounded_(move, 6);
+        }
+    }
+    if (n == 3 && w->s->by_normal) {
+        uint64_t normal[3] = {0, 0, 0};
+        lacedring_add_normal_(a[0], a[1], a[2], normal);
+        lacedring_add_normal_(b[0], b[1], b[2], normal);
+        lacedring_by_normal_(normal, moved, residual, out);
+    } else {
+        for (c = 0; c < n; ++c) out[c] = moved[c] + lacedring_unfold_(residual[c]);
+    }
+    for (c = 0; c < n && w->errors != NULL; ++c) w->errors[(size_t)v * n + c] = out[c] - plain[c];
+    w->last = v;
+}
+
+/* The neighbor across from a corner of a complete triangle is complete, too, or its vertex gets the corner. */
+LACEDRING_HOT_ void lacedring_look_across_(struct lacedring_walk_* w, uint32_t corner) {
+    const uint32_t across = w->opposite[corner];
+    uint32_t v, found, more, queue;
+    if (across == LACEDRING_NONE_) return;
+    v = w->triangles[across];
+    found = w->state[v];
+    if (found == LACEDRING_KNOWN_) {
+        if (w->complete[across / 3]) return;
+        w->complete[across / 3] = 1;
+        w->pending[w->pending_count++] = across / 3;
+        return;
+    }
+    more = found < 2;
+    queue = found != 0;
+    w->opposite[corner] = found == 0 ? LACEDRING_NONE_ : w->corner[v];
+    w->corner[v] = across;
+    w->waiting[queue][w->tail[queue]] = v;
+    w->tail[queue] += more;
+    w->state[v] = (uint8_t)(found + more);
+}
+
+/* The corner of a vertex's list behind this one, or LACEDRING_NONE_: the opposite corner says, which is of no use any
+   more. */
+LACEDRING_HOT_ uint32_t lacedring_corner_behind_(const struct lacedring_walk_* w, uint32_t corner) {
+    return w->opposite[w->opposite[corner]];
+}
+
+/* Goes on from complete triangles until nothing is left that they predict. */
+LACEDRING_HOT_ void lacedring_grow_(struct lacedring_walk_* w, uint32_t n) {
+    for (;;) {
+        uint32_t v = LACEDRING_NONE_, c, i, second;
+        while (w->pending_count > 0) {
+            c = 3 * w->pending[--w->pending_count];
+            lacedring_look_across_(w, c);
+            lacedring_look_across_(w, c + 1);
+            lacedring_look_across_(w, c + 2);
+        }
+        if (w->head[1] < w->tail[1]) {
+            v = w->waiting[1][w->head[1]++];
+        } else {
+            while (w->head[0] < w->tail[0] && v == LACEDRING_NONE_) {
+                v = w->waiting[0][w->head[0]++];
+                if (w->state[v] == LACEDRING_KNOWN_) v = LACEDRING_NONE_;
+            }
+            if (v == LACEDRING_NONE_) return;
+        }
+        c = w->corner[v];
+        second = lacedring_corner_behind_(w, c);
+        lacedring_predict_(w, n, v, c, second != LACEDRING_NONE_ ? second : c);
+        w->state[v] = LACEDRING_KNOWN_;
+        w->complete[c / 3] = 1;
+        for (i = second; i != LACEDRING_NONE_; i = lacedring_corner_behind_(w, i)) w->complete[i / 3] = 1;
+        for (;;) {
+            const uint32_t k = c % 3;
+            lacedring_look_across_(w, k == 2 ? c - 2 : c + 1);
+            lacedring_look_across_(w, k == 0 ? c + 2 : c - 1);
+            if (second == LACEDRING_NONE_) break;
+            c = second;
+            second = lacedring_corner_behind_(w, c);
+        }
+    }
+}
+
+LACEDRING_HOT_ void lacedring_walk_n_(const struct lacedring_walk_* begin, uint32_t n, uint32_t triangles,
+                                      uint32_t vertices) {
+    struct lacedring_walk_ walk = *begin, *w = &walk; /* in registers */
+    uint32_t t, k, v;
+    for (t = 0; t < triangles; ++t) {
+        const uint32_t* of = w->triangles + 3 * (size_t)t;
+        uint32_t from = LACEDRING_NONE_;
+        if (w->complete[t] || of[0] == of[1] || of[1] == of[2] || of[2] == of[0]) continue;
+        for (k = 0; k < 3; ++k) {
+            if (w->state[of[k]] == LACEDRING_KNOWN_) from = of[k];
+        }
+        for (k = 0; k < 3; ++k) {
+            if (w->state[of[k]] == LACEDRING_KNOWN_) continue;
+            lacedring_start_(w, n, of[k], from);
+            w->state[of[k]] = LACEDRING_KNOWN_;
+            from = of[k];
+        }
+        w->complete[t] = 1;
+        w->pending[w->pending_count++] = t;
+        lacedring_grow_(w, n);
+    }
+    for (v = 0; v < vertices; ++v) {
+        if (w->state[v] != LACEDRING_KNOWN_) lacedring_start_(w, n, v, LACEDRING_NONE_);
+    }
+}
+
+size_t lacedring_stored_vertices_scratch(const struct lacedring_stored_vertices* s, uint32_t triangles) {
+    const uint32_t n = s->attribute.components, vertices = s->attribute.vertices;
+    const size_t begin = n * sizeof(struct lacedring_residual_models_);
+    const size_t pairs = lacedring_bytes_of_(lacedring_bytes_of_(begin, triangles, 12), vertices, 16);
+    const size_t walk =
+        lacedring_bytes_of_(lacedring_bytes_of_(begin, triangles, 17), vertices, 13 + (s->error != 0 ? 4 * n : 0));
+    return pairs > walk ? pairs : walk;
+}
+
+/* Reads the exceptions and writes them to values of floats, if `out` is not null. Returns 0 if one is impossible. */
+static int lacedring_stored_exceptions_(const struct lacedring_stored_vertices* s, struct lacedring_coded* d,
+                                        uint32_t count, uint8_t* out) {
+    const uint64_t values = (uint64_t)s->attribute.vertices * s->attribute.components;
+    struct lacedring_symbol_model_ distance;
+    struct lacedring_bit_model_ same;
+    uint32_t i, last = 0x80000000u; /* -0, the usual one */
+    uint64_t at = 0;
+    lacedring_begin_symbols_(&distance, 1);
+    lacedring_begin_bits_(&same, 1);
+    for (i = 0; i < count; ++i, ++at) {
+        at += lacedring_coded_number_(d, &distance);
+        if (at >= values || at > UINT32_MAX || d->bit > d->end) return 0;
+        if (lacedring_coded_bit_(d, &same)) last = lacedring_coded_raw_(d, 32);
+        if (out != NULL) memcpy(out + 4 * (size_t)at, &last, 4);
+    }
+    return 1;
+}
+
+/* Checks that integers are in the ranges of their components and of the mapping. */
+static enum lacedring_status lacedring_stored_ranges_(const struct lacedring_stored_vertices* s,
+                                                      const uint32_t* integers, uint64_t* where) {
+    const uint32_t n = s->attribute.components;
+    struct lacedring_ranges_ r;
+    uint32_t c, v, is_any = !s->has_ranges;
+    for (c = 0; c < n; ++c) {
+        lacedring_vertex_range_(&s->attribute, c, r.more + c, r.most + c);
+        r.mask[c] = s->has_ranges ? (uint32_t)((UINT64_C(1) << s->range_bits[c]) - 1) : UINT32_MAX;
+        is_any &= r.most[c] == UINT32_MAX;
+    }
+    for (v = 0; v < s->attribute.vertices && !is_any; ++v) {
+        uint32_t bad = 0;
+        for (c = 0; c < n; ++c, ++integers)
+            bad |=
+                (uint32_t)(((*integers - s->low[c]) & ~r.mask[c]) != 0) | (uint32_t)(*integers + r.more[c] > r.most[c]);
+        if (bad) return lacedring_at_(where, v, LACEDRING_STATUS_INTEGER);
+    }
+    return LACEDRING_STATUS_OK;
+}
+
+enum lacedring_status lacedring_stored_vertices_decode(struct lacedring_stored_vertices* s, const uint32_t* triangles,
+                                                       uint32_t triangle_count, void* scratch, uint32_t* integers,
+                                                       uint64_t* where) {
+    const uint32_t n = s->attribute.components, vertices = s->attribute.vertices;
+    struct lacedring_residuals_ residuals;
+    struct lacedring_walk_ w;
+    struct lacedring_coded d;
+    uint32_t* words;
+    uint32_t c, outside = 0;
+    size_t i;
+    if (triangle_count >= UINT32_MAX / 3) return lacedring_at_(where, triangle_count, LACEDRING_STATUS_TRIANGLES);
+    for (i = 0; i < 3 * (size_t)triangle_count; ++i) outside |= triangles[i] >= vertices;
+    for (i = 0; outside && triangles[i] < vertices;) ++i;
+    if (outside) return lacedring_at_(where, i / 3, LACEDRING_STATUS_TRIANGLE);
+
+    residuals.coded = s->residuals;
+    residuals.models = (struct lacedring_residual_models_*)scratch;
+    residuals.fine = s->fine;
+    residuals.left = vertices;
+    for (c = 0; c < n; ++c) {
+        lacedring_begin_symbols_(residuals.models[c].steps, LACEDRING_STORED_STEPS_);
+        lacedring_begin_symbols_(&residuals.models[c].others, 1);
+        residuals.models[c].level = 0;
+    }
+    memset(&w, 0, sizeof w);
+    w.s = s;
+    w.triangles = triangles;
+    w.opposite = (uint32_t*)(void*)(residuals.models + n);
+    words = w.opposite + 3 * (size_t)triangle_count;
+    lacedring_find_opposite_(triangles, triangle_count, vertices, w.opposite, words);
+    w.corner = words;
+    w.waiting[0] = w.corner + vertices;
+    w.waiting[1] = w.waiting[0] + vertices;
+    w.pending = w.waiting[1] + vertices;
+    words = w.pending + triangle_count;
+    if (s->error != 0) {
+        w.errors = words;
+        memset(words, 0, 4 * (size_t)vertices * n);
+        words += (size_t)vertices * n;
+    }
+    w.complete = (uint8_t*)words;
+    w.state = w.complete + triangle_count;
+    memset(w.complete, 0, (size_t)triangle_count + vertices);
+    w.integers = integers;
+    w.last = LACEDRING_NONE_;
+    w.is_plain = 1;
+    for (c = 0; c < n; ++c) w.is_plain &= s->rules[c] == LACEDRING_BY_PARALLELOGRAMS_;
+    w.residuals = &residuals;
+    if (n == 1) {
+        lacedring_walk_n_(&w, 1, triangle_count, vertices);
+    } else if (n == 2) {
+        lacedring_walk_n_(&w, 2, triangle_count, vertices);
+    } else if (n == 3) {
+        lacedring_walk_n_(&w, 3, triangle_count, vertices);
+    } else {
+        lacedring_walk_n_(&w, n, triangle_count, vertices);
+    }
+
+    d = residuals.coded;
+    if (s->attribute.mapping == LACEDRING_MAPPING_DECIMALS) {
+        s->attribute.exception_count = lacedring_coded_raw_(&d, 32);
+        s->exceptions = d;
+        if (d.bit > d.end || !lacedring_stored_exceptions_(s, &d, s->attribute.exception_count, NULL))
+            return lacedring_at_(where, 0, LACEDRING_STATUS_CODED);
+    }
+    if (!lacedring_coded_ends_(&d)) return lacedring_at_(where, 0, LACEDRING_STATUS_CODED);
+    return lacedring_stored_ranges_(s, integers, where);
+}
+
+void lacedring_stored_vertices_values(const struct lacedring_stored_vertices* s, const uint32_t* integers, void* out) {
+    const uint32_t n = s->attribute.components, vertices = s->attribute.vertices;
+    struct lacedring_vertices plain = s->attribute;
+    struct lacedring_coded exceptions = s->exceptions;
+    uint8_t* to = (uint8_t*)out;
+    uint32_t first;
+    plain.exception_count = 0;
+    for (first = 0; first < vertices; first += LACEDRING_VERTICES_BLOCK) {
+        const uint32_t left = vertices - first;
+        to = lacedring_vertex_values_(&plain, integers + (size_t)first * n, first,
+                                      left < LACEDRING_VERTICES_BLOCK ? left : LACEDRING_VERTICES_BLOCK, to);
+        if (left <= LACEDRING_VERTICES_BLOCK) break;
+    }
+    if (s->attribute.exception_count != 0)
+        lacedring_stored_exceptions_(s, &exceptions, s->attribute.exception_count, (uint8_t*)out);
+}
+
+#undef LACEDRING_SCALE_
+#undef LACEDRING_LEAST_STATE_
+#undef LACEDRING_RING_EDGE_
+#undef LACEDRING_RIGHT_
+#undef LACEDRING_STORED_PART_
+#undef LACEDRING_STORED_STEPS_
+#undef LACEDRING_SOME_RESIDUALS_
+#undef LACEDRING_NONE_
+#undef LACEDRING_KNOWN_
+#ifdef __cplusplus
+}
+#endif
+#endif /* LACEDRING_DECODE_IMPLEMENTATION */
