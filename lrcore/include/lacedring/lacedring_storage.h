@@ -122,6 +122,12 @@ extern "C" {
 #define LACEDRING_COLD_ static
 #endif
 
+#if defined(__GNUC__) && !defined(LACEDRING_PLAIN)
+#define LACEDRING_PREFETCH_(at) __builtin_prefetch(at)
+#else
+#define LACEDRING_PREFETCH_(at) ((void)(at))
+#endif
+
 #define LACEDRING_SCALE_ 32768u /* the ranges of a model's symbols fill [0, LACEDRING_SCALE_) */
 #define LACEDRING_LEAST_STATE_ (UINT64_C(1) << 31)
 
@@ -564,11 +570,12 @@ enum lacedring_status lacedring_stored_packed_decode(const struct lacedring_stor
 
 /* Vertex streams. */
 
-#define LACEDRING_STORED_PART_ 65536u  /* vertices whose blocks are a coded part */
-#define LACEDRING_STORED_STEPS_ 32u    /* of a residual's expected size, in halves of a bit */
-#define LACEDRING_SOME_RESIDUALS_ 128u /* vertices whose residuals are decoded at once */
-#define LACEDRING_NONE_ UINT32_MAX
-#define LACEDRING_KNOWN_ 3u /* state of a vertex; else how many corners predict it, 2 at most */
+#define LACEDRING_STORED_PART_ 65536u /* vertices whose blocks are a coded part */
+#define LACEDRING_STORED_STEPS_ 32u   /* of a residual's expected size, in halves of a bit */
+#define LACEDRING_SOME_VERTICES_ 128u /* vertices that are decoded at once */
+#define LACEDRING_KNOWN_ 0xfffffffeu  /* states of vertices */
+#define LACEDRING_UNSEEN_ UINT32_MAX
+#define LACEDRING_MORE_ 4u
 
 enum { LACEDRING_BY_PARALLELOGRAMS_, LACEDRING_BY_MEAN_, LACEDRING_BY_NEIGHBOR_, LACEDRING_BY_NOTHING_ };
 
@@ -628,8 +635,8 @@ struct lacedring_residual_models_ {
 struct lacedring_residuals_ {
     struct lacedring_coded coded;
     struct lacedring_residual_models_* models;
-    uint32_t fine, left; /* vertices */
-    uint32_t some[LACEDRING_SOME_RESIDUALS_ * LACEDRING_VERTICES_MAX_COMPONENTS];
+    uint32_t fine;
+    uint32_t some[LACEDRING_SOME_VERTICES_ * LACEDRING_VERTICES_MAX_COMPONENTS];
 };
 
 /* The residuals of `count` vertices. */
@@ -668,139 +675,260 @@ LACEDRING_HOT_ void lacedring_some_residuals_(struct lacedring_residuals_* r, ui
     r->coded = d;
 }
 
-/* The next vertices' residuals, of n components each; 0 stands for any number. */
-LACEDRING_COLD_ uint32_t lacedring_more_residuals_(struct lacedring_residuals_* r, uint32_t n) {
-    const uint32_t count = r->left < LACEDRING_SOME_RESIDUALS_ ? r->left : LACEDRING_SOME_RESIDUALS_;
-    if (n == 1) {
-        lacedring_some_residuals_(r, 1, count);
-    } else if (n == 2) {
-        lacedring_some_residuals_(r, 2, count);
-    } else if (n == 3) {
-        lacedring_some_residuals_(r, 3, count);
-    } else {
-        lacedring_some_residuals_(r, n, count);
-    }
-    r->left -= count;
-    return count;
-}
-
-/* Where the triangle of corner c, whose vertices are v[0] to v[2], shares two vertices with the one before, pairs the
-   corners of both. */
-LACEDRING_HOT_ void lacedring_pair_successive_(const uint32_t* v, uint32_t c, uint32_t* opposite) {
-    static const uint8_t alone[8] = {3, 3, 3, 2, 3, 1, 0, 3}; /* the one of three whose bit is 0 */
-    const uint32_t p = v[-3], q = v[-2], r = v[-1];
-    uint32_t i, k, other, from, shared = 0;
-    for (i = 0; i < 3; ++i) shared |= (uint32_t)((v[i] == p) | (v[i] == q) | (v[i] == r)) << i;
-    k = alone[shared];
-    if (k == 3) return;
-    other = p ^ q ^ r ^ v[0] ^ v[1] ^ v[2] ^ v[k]; /* the one before that is not shared */
-    from = c - 3 + (other == q ? 1u : 0u) + (other == r ? 2u : 0u);
-    if (opposite[from] != LACEDRING_NONE_) return;
-    opposite[c + k] = from;
-    opposite[from] = c + k;
-}
+/* The walk has eight words for each triangle, which are in one line of the cache: its vertices, whether it is complete,
+   the opposite corner of each corner, and a link. A corner is the number of its vertex's word. */
+#define LACEDRING_COMPLETE_ 3u /* of a triangle's words */
+#define LACEDRING_LINK_ 7u
+#define LACEDRING_OPPOSITE_ 4u /* words from a vertex to its opposite corner */
+#define LACEDRING_NONE_ UINT32_MAX
 
 /* Corners that wait for their opposite ones. Those of an edge between vertices that follow each other are in a table;
    the others in a list for each vertex, which is the smaller one of their edges. */
 struct lacedring_pairs_ {
-    uint32_t* opposite; /* of a corner in a list: the next one, or, of the last one, the first */
-    uint32_t* ring;     /* of each vertex: a corner that faces the edge to the next one */
-    uint32_t* last;     /* of each vertex's list */
+    uint32_t* corners;
+    uint32_t* ring; /* of each vertex: a corner that faces the edge to the next one */
+    uint32_t* last; /* of each vertex's list, where the opposite corner is the next one; behind the last is the first */
 };
 
-LACEDRING_HOT_ void lacedring_pair_corner_(const struct lacedring_pairs_* p, uint32_t corner, uint32_t x, uint32_t y) {
-    const uint32_t smaller = x < y ? x : y;
-    uint32_t* opposite = p->opposite;
-    if (opposite[corner] != LACEDRING_NONE_) return;
+/* Of a corner without an opposite one. */
+LACEDRING_HOT_ void lacedring_pair_corner_(const struct lacedring_pairs_* p, uint32_t corner) {
+    const uint32_t k = corner & 3, *t = p->corners + (corner - k);
+    const uint32_t x = t[k == 0 ? 1 : 0], y = t[k == 2 ? 1 : 2], smaller = x < y ? x : y;
+    uint32_t* const opposite = p->corners + LACEDRING_OPPOSITE_;
     if (x - y == 1 || y - x == 1) {
-        const uint32_t other = p->ring[smaller];
-        p->ring[smaller] = other == LACEDRING_NONE_ ? corner : LACEDRING_NONE_;
-        if (other == LACEDRING_NONE_) return;
+        const uint32_t other = p->ring[smaller], is_pair = other != LACEDRING_NONE_; /* hard to predict: no branch */
         opposite[corner] = other;
-        opposite[other] = corner;
+        opposite[is_pair ? other : corner] = is_pair ? corner : LACEDRING_NONE_;
+        p->ring[smaller] = is_pair ? LACEDRING_NONE_ : corner;
     } else {
         const uint32_t last = p->last[smaller];
         p->last[smaller] = corner;
-        if (last == LACEDRING_NONE_) {
-            opposite[corner] = corner;
-        } else {
-            opposite[corner] = opposite[last];
-            opposite[last] = corner;
-        }
+        opposite[corner] = last == LACEDRING_NONE_ ? corner : opposite[last];
+        if (last != LACEDRING_NONE_) opposite[last] = corner;
     }
 }
 
-/* Finds for each corner the opposite one, or LACEDRING_NONE_. `scratch`: four words a vertex. */
-LACEDRING_COLD_ void lacedring_find_opposite_(const uint32_t* triangles, uint32_t count, uint32_t vertices,
-                                              uint32_t* opposite, uint32_t* scratch) {
+/* Pairs the corners of two triangles that follow each other and share two vertices, unless the first one's is `paired`.
+   Returns which corners of the first and, times 4, of the second these are; 3: none. */
+LACEDRING_HOT_ uint32_t lacedring_pair_successive_(uint32_t* corners, uint32_t second, uint32_t paired) {
+    static const uint8_t alone[8] = {3, 3, 3, 2, 3, 1, 0, 3}; /* the one of three whose bit is 0 */
+    const uint32_t *v = corners + second, *before = v - 8, p = before[0], q = before[1], r = before[2];
+    uint32_t i, k, other, from, shared = 0;
+    for (i = 0; i < 3; ++i) shared |= (uint32_t)((v[i] == p) | (v[i] == q) | (v[i] == r)) << i;
+    k = alone[shared];
+    if (k == 3) return 15;
+    other = p ^ q ^ r ^ v[0] ^ v[1] ^ v[2] ^ v[k]; /* the vertex before that is not shared */
+    from = other == r ? 2u : other == q ? 1u : 0u;
+    if (from == paired) return 15;
+    corners[second + k + LACEDRING_OPPOSITE_] = second - 8 + from;
+    corners[second - 8 + from + LACEDRING_OPPOSITE_] = second + k;
+    return from | k << 2;
+}
+
+/* Fills the words of triangles, and finds opposite corners. `scratch`: four words a vertex. Returns the number of a
+   triangle that has another vertex, or `count`. */
+LACEDRING_COLD_ uint32_t lacedring_pair_corners_(const uint32_t* triangles, uint32_t count, uint32_t vertices,
+                                                 uint32_t* corners, uint32_t* scratch) {
     struct lacedring_pairs_ p;
     uint32_t* edges =
-        scratch + 2 * (size_t)vertices; /* by the larger vertex, a corner that waits: the smaller, and it */
-    const uint32_t end = 3 * count;
-    uint32_t c, v, before_is_good = 0;
-    p.opposite = opposite;
+        scratch + 2 * (size_t)vertices;           /* by the larger vertex, a corner that waits: the smaller, and it */
+    uint32_t i, c, k, v, paired = 3, is_good = 0; /* of the triangle before */
+    p.corners = corners;
     p.ring = scratch;
     p.last = scratch + vertices;
-    memset(opposite, 0xff, 12 * (size_t)count);
     memset(scratch, 0xff, 16 * (size_t)vertices);
-    for (c = 0; c <= end; c += 3) { /* triangles before c */
-        const uint32_t* t = triangles + c;
-        const uint32_t is_good = c < end && !((t[0] == t[1]) | (t[1] == t[2]) | (t[2] == t[0]));
-        if (before_is_good) {
-            if (is_good) lacedring_pair_successive_(t, c, opposite);
-            lacedring_pair_corner_(&p, c - 3, t[-2], t[-1]);
-            lacedring_pair_corner_(&p, c - 2, t[-1], t[-3]);
-            lacedring_pair_corner_(&p, c - 1, t[-3], t[-2]);
+    for (i = 0; i <= count; ++i, triangles += 3) {
+        uint32_t pair = 15, is_good_now = 0;
+        c = 8 * i;
+        if (i < count) {
+            const uint32_t x = triangles[0], y = triangles[1], z = triangles[2];
+            uint32_t* t = corners + c;
+            if (x >= vertices || y >= vertices || z >= vertices) return i;
+            is_good_now = !((x == y) | (y == z) | (z == x));
+            t[0] = x;
+            t[1] = y;
+            t[2] = z;
+            t[3] = t[7] = 0;
+            t[4] = t[5] = t[6] = LACEDRING_NONE_;
+            if (is_good & is_good_now) pair = lacedring_pair_successive_(corners, c, paired);
         }
-        before_is_good = is_good;
+        if (is_good) { /* what is left of the triangle before: mostly one corner */
+            const uint32_t behind = pair & 3;
+            if (paired + behind <= 3 && paired != 3 && behind != 3) {
+                lacedring_pair_corner_(&p, c - 8 + (3 - paired - behind));
+            } else {
+                for (k = 0; k < 3; ++k) {
+                    if (k != paired && k != behind) lacedring_pair_corner_(&p, c - 8 + k);
+                }
+            }
+        }
+        paired = pair >> 2;
+        is_good = is_good_now;
     }
     for (v = 0; v < vertices; ++v) {
         const uint32_t last = p.last[v];
         uint32_t next;
         if (last == LACEDRING_NONE_) continue;
-        for (c = opposite[last];; c = next) {
-            const uint32_t* t = triangles + (c - c % 3);
-            const uint32_t larger = t[0] ^ t[1] ^ t[2] ^ triangles[c] ^ v;
+        for (c = corners[last + LACEDRING_OPPOSITE_];; c = next) {
+            const uint32_t* t = corners + (c & ~3u);
+            const uint32_t larger = t[0] ^ t[1] ^ t[2] ^ corners[c] ^ v;
             uint32_t* edge = edges + 2 * (size_t)larger;
             const uint32_t other = edge[1], is_pair = edge[0] == v;
-            next = opposite[c];
-            opposite[c] = is_pair ? other : LACEDRING_NONE_;
-            opposite[is_pair ? other : c] = is_pair ? c : LACEDRING_NONE_;
+            next = corners[c + LACEDRING_OPPOSITE_];
+            corners[c + LACEDRING_OPPOSITE_] = is_pair ? other : LACEDRING_NONE_;
+            corners[(is_pair ? other : c) + LACEDRING_OPPOSITE_] = is_pair ? c : LACEDRING_NONE_;
             edge[0] = is_pair ? LACEDRING_NONE_ : v;
             edge[1] = c;
             if (c == last) break;
         }
     }
+    return count;
 }
 
-/* Makes vertices known, one by one, and their integers. */
-struct lacedring_walk_ {
-    const struct lacedring_stored_vertices* s;
-    const uint32_t* triangles;
-    uint32_t* opposite;            /* where a corner is looked across from: the one before in the list of its vertex */
-    uint32_t *corner, *waiting[2]; /* the first of a vertex's list; the two queues */
-    uint32_t head[2], tail[2];
-    uint32_t* pending; /* complete triangles that were not looked across */
-    uint32_t pending_count;
-    uint8_t *complete, *state; /* of triangles, of vertices */
-    uint32_t* integers;
-    uint32_t* errors;  /* of each integer, how far it is from what parallelograms predict; null: not needed */
-    uint32_t last;     /* the vertex known last */
-    uint32_t is_plain; /* parallelograms alone predict */
-    struct lacedring_residuals_* residuals;
-    const uint32_t *residual, *residual_end;
+/* How a vertex becomes known: across from two corners, or from one twice, of whose triangles x and y are the two other
+   vertices and z is opposite. Or as a start: x[0] is LACEDRING_NONE_, and it comes from y[0]. */
+struct lacedring_visit_ {
+    uint32_t v, x[2], y[2], z[2];
 };
 
-LACEDRING_HOT_ const uint32_t* lacedring_residual_(struct lacedring_walk_* w, uint32_t n) {
-    const uint32_t* at = w->residual;
-    if (at == w->residual_end) {
-        const uint32_t count = lacedring_more_residuals_(w->residuals, n);
-        at = w->residuals->some;
-        w->residual_end = at + (size_t)count * n;
-    }
-    w->residual = at + n;
-    return at;
+/* Finds the order of vertices. */
+struct lacedring_walk_ {
+    uint32_t* corners; /* where a corner was looked across from, its opposite one is the next of the vertex's list */
+    uint32_t* state;   /* of each vertex: known, unseen, or the first corner of its list, plus 4 if there are more */
+    const uint32_t *one, *two; /* queues of vertices that wait: with one corner, and with more */
+    uint32_t *one_end, *two_end;
+    uint32_t pending;             /* a stack of complete triangles that were not looked across */
+    uint32_t triangle, triangles; /* the next one that may begin a component, and how many there are */
+    uint32_t vertex, vertices;    /* the next one that may have no triangle */
+    uint32_t last;                /* the vertex known last */
+};
+
+/* A triangle is complete, and is to be looked across. */
+LACEDRING_HOT_ void lacedring_complete_(struct lacedring_walk_* w, uint32_t triangle) {
+    w->corners[triangle + LACEDRING_COMPLETE_] = 1;
+    w->corners[triangle + LACEDRING_LINK_] = w->pending;
+    w->pending = triangle;
 }
+
+/* The neighbor across from a corner of a complete triangle is complete, too, or its vertex gets the corner. */
+LACEDRING_HOT_ void lacedring_look_across_(struct lacedring_walk_* w, uint32_t corner) {
+    uint32_t* corners = w->corners;
+    const uint32_t across = corners[corner + LACEDRING_OPPOSITE_], k = across & 3, triangle = across - k;
+    uint32_t v, state;
+    if (across == LACEDRING_NONE_) return;
+    v = corners[across];
+    state = w->state[v];
+    if (state == LACEDRING_KNOWN_) {
+        if (!corners[triangle + LACEDRING_COMPLETE_]) lacedring_complete_(w, triangle);
+    } else { /* no branches: these are hard to predict */
+        const uint32_t is_first = state == LACEDRING_UNSEEN_, is_second = !(state & LACEDRING_MORE_);
+        const uint32_t* opposite = corners + triangle + LACEDRING_OPPOSITE_;
+        corners[corner + LACEDRING_OPPOSITE_] = is_first ? LACEDRING_NONE_ : state & ~LACEDRING_MORE_;
+        w->state[v] = is_first ? across : across | LACEDRING_MORE_;
+        *(is_first ? w->one_end : w->two_end) = v;
+        w->one_end += is_first;
+        w->two_end += is_second;
+        LACEDRING_PREFETCH_(corners + opposite[k == 2 ? 0 : k + 1]); /* which will be looked at next */
+        LACEDRING_PREFETCH_(corners + opposite[k == 0 ? 2 : k - 1]);
+    }
+}
+
+/* The corner of a vertex's list behind this one, or LACEDRING_NONE_: the opposite corner says, which is of no use any
+   more. */
+LACEDRING_HOT_ uint32_t lacedring_corner_behind_(const struct lacedring_walk_* w, uint32_t corner) {
+    return w->corners[w->corners[corner + LACEDRING_OPPOSITE_] + LACEDRING_OPPOSITE_];
+}
+
+LACEDRING_HOT_ void lacedring_predict_by_(const struct lacedring_walk_* w, uint32_t corner, uint32_t i,
+                                          struct lacedring_visit_* visit) {
+    const uint32_t k = corner & 3, *t = w->corners + (corner - k);
+    visit->x[i] = t[k == 2 ? 0 : k + 1];
+    visit->y[i] = t[k == 0 ? 2 : k - 1];
+    visit->z[i] = w->corners[w->corners[corner + LACEDRING_OPPOSITE_]];
+}
+
+LACEDRING_HOT_ struct lacedring_visit_* lacedring_start_(struct lacedring_walk_* w, uint32_t v, uint32_t from,
+                                                         struct lacedring_visit_* visit) {
+    visit->v = v;
+    visit->x[0] = LACEDRING_NONE_;
+    visit->y[0] = from;
+    w->state[v] = LACEDRING_KNOWN_;
+    return visit + 1;
+}
+
+/* The next vertices, `most` and two more at most, until there are none. */
+LACEDRING_COLD_ uint32_t lacedring_walk_some_(struct lacedring_walk_* begin, struct lacedring_visit_* visits,
+                                              uint32_t most) {
+    struct lacedring_walk_ walk = *begin, *w = &walk; /* in registers */
+    struct lacedring_visit_* visit = visits;
+    uint32_t c, i, k, second;
+    for (;;) {
+        uint32_t v = LACEDRING_NONE_;
+        while (w->pending != LACEDRING_NONE_) {
+            c = w->pending;
+            w->pending = w->corners[c + LACEDRING_LINK_];
+            for (k = 0; k < 3; ++k) lacedring_look_across_(w, c + k);
+        }
+        if (visit >= visits + most) break;
+        if (w->two < w->two_end) {
+            v = *w->two++;
+        } else {
+            while (w->one < w->one_end && v == LACEDRING_NONE_) {
+                v = *w->one++;
+                if (w->state[v] == LACEDRING_KNOWN_) v = LACEDRING_NONE_;
+            }
+        }
+        if (v != LACEDRING_NONE_) {
+            c = w->state[v] & ~LACEDRING_MORE_;
+            second = lacedring_corner_behind_(w, c);
+            visit->v = w->last = v;
+            lacedring_predict_by_(w, c, 0, visit);
+            lacedring_predict_by_(w, second != LACEDRING_NONE_ ? second : c, 1, visit);
+            ++visit;
+            w->state[v] = LACEDRING_KNOWN_;
+            for (i = c; i != LACEDRING_NONE_; i = lacedring_corner_behind_(w, i))
+                w->corners[i | LACEDRING_COMPLETE_] = 1;
+            for (;;) {
+                k = c & 3;
+                lacedring_look_across_(w, k == 2 ? c - 2 : c + 1);
+                lacedring_look_across_(w, k == 0 ? c + 2 : c - 1);
+                if (second == LACEDRING_NONE_) break;
+                c = second;
+                second = lacedring_corner_behind_(w, c);
+            }
+        } else if (w->triangle < w->triangles) { /* does it begin a component? */
+            const uint32_t* t = w->corners + 8 * (size_t)w->triangle++;
+            uint32_t from = LACEDRING_NONE_;
+            if (t[LACEDRING_COMPLETE_] || t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+            for (k = 0; k < 3; ++k) {
+                if (w->state[t[k]] == LACEDRING_KNOWN_) from = t[k];
+            }
+            for (k = 0; k < 3; ++k) {
+                if (w->state[t[k]] == LACEDRING_KNOWN_) continue;
+                visit = lacedring_start_(w, t[k], from == LACEDRING_NONE_ ? w->last : from, visit);
+                w->last = from = t[k];
+            }
+            lacedring_complete_(w, 8 * (w->triangle - 1));
+        } else if (w->vertex < w->vertices) {
+            v = w->vertex++;
+            if (w->state[v] == LACEDRING_KNOWN_) continue;
+            visit = lacedring_start_(w, v, w->last, visit);
+            w->last = v;
+        } else {
+            break;
+        }
+    }
+    *begin = walk;
+    return (uint32_t)(visit - visits);
+}
+
+/* Makes integers of residuals. */
+struct lacedring_predictor_ {
+    const struct lacedring_stored_vertices* s;
+    uint32_t* integers;
+    uint32_t* errors;  /* of each integer, how far it is from what parallelograms predict; null: not needed */
+    uint32_t is_plain; /* parallelograms alone predict */
+};
 
 LACEDRING_HOT_ uint32_t lacedring_unfold_(uint32_t code) {
     return code >> 1 ^ (0u - (code & 1));
@@ -809,16 +937,6 @@ LACEDRING_HOT_ uint32_t lacedring_unfold_(uint32_t code) {
 /* x / 2^bits, rounded to the nearest integer, halves up: shifts keep the sign. */
 LACEDRING_HOT_ uint32_t lacedring_rounded_(int64_t x, uint32_t bits) {
     return (uint32_t)((x + ((int64_t)1 << (bits - 1))) >> bits);
-}
-
-LACEDRING_HOT_ void lacedring_start_(struct lacedring_walk_* w, uint32_t n, uint32_t v, uint32_t from) {
-    const uint32_t* residual = lacedring_residual_(w, n);
-    const uint32_t by = from == LACEDRING_NONE_ ? w->last : from;
-    uint32_t c;
-    for (c = 0; c < n; ++c)
-        w->integers[(size_t)v * n + c] =
-            (by == LACEDRING_NONE_ ? 0 : w->integers[(size_t)by * n + c]) + lacedring_unfold_(residual[c]);
-    w->last = v;
 }
 
 /* Adds (y - x) times (z - x) to a normal, modulo 2^64. */
@@ -873,53 +991,40 @@ LACEDRING_HOT_ void lacedring_by_normal_(const uint64_t normal[3], const uint32_
     out[k] = moved[k] - up + lacedring_unfold_(residual[2]);
 }
 
-/* What predicts a vertex across from a corner: y and x are the two other vertices of its triangle, z is opposite. */
-LACEDRING_HOT_ void lacedring_parallelogram_(const struct lacedring_walk_* w, uint32_t n, uint32_t corner,
-                                             const uint32_t* by[3]) {
-    static const uint8_t next[3] = {1, 2, 0}, before[3] = {2, 0, 1};
-    const uint32_t k = corner % 3, *t = w->triangles + (corner - k);
-    by[0] = w->integers + (size_t)t[next[k]] * n;
-    by[1] = w->integers + (size_t)t[before[k]] * n;
-    by[2] = w->integers + (size_t)w->triangles[w->opposite[corner]] * n;
-}
-
-LACEDRING_HOT_ int64_t lacedring_error_of_(const struct lacedring_walk_* w, const uint32_t* integer) {
-    return (int32_t) * (w->errors + (integer - w->integers));
-}
-
-LACEDRING_HOT_ void lacedring_predict_(struct lacedring_walk_* w, uint32_t n, uint32_t v, uint32_t first,
-                                       uint32_t second) {
-    const uint32_t* residual = lacedring_residual_(w, n);
-    const uint32_t *a[3], *b[3];
+LACEDRING_HOT_ void lacedring_predict_(const struct lacedring_predictor_* p, uint32_t n,
+                                       const struct lacedring_visit_* visit, const uint32_t* residual) {
+    const uint32_t* a[3] = {p->integers + (size_t)visit->x[0] * n, p->integers + (size_t)visit->y[0] * n,
+                            p->integers + (size_t)visit->z[0] * n};
+    const uint32_t* b[3] = {p->integers + (size_t)visit->x[1] * n, p->integers + (size_t)visit->y[1] * n,
+                            p->integers + (size_t)visit->z[1] * n};
+    const size_t at = (size_t)visit->v * n;
     uint32_t plain[LACEDRING_VERTICES_MAX_COMPONENTS], moved[LACEDRING_VERTICES_MAX_COMPONENTS], c;
-    uint32_t* out = w->integers + (size_t)v * n;
-    lacedring_parallelogram_(w, n, first, a);
-    lacedring_parallelogram_(w, n, second, b);
+    uint32_t* out = p->integers + at;
     for (c = 0; c < n; ++c) {
-        const uint32_t p = a[0][c] + a[1][c] - a[2][c];
-        plain[c] = moved[c] = p + lacedring_rounded_((int32_t)(b[0][c] + b[1][c] - b[2][c] - p), 1);
+        const uint32_t first = a[0][c] + a[1][c] - a[2][c];
+        plain[c] = moved[c] = first + lacedring_rounded_((int32_t)(b[0][c] + b[1][c] - b[2][c] - first), 1);
     }
-    if (!w->is_plain) {
+    if (!p->is_plain) {
         for (c = 0; c < n; ++c) {
-            const uint32_t rule = w->s->rules[c];
+            const uint32_t rule = p->s->rules[c];
             const int32_t to_mean = (int32_t)(a[0][c] + a[1][c] + b[0][c] + b[1][c] - 4 * plain[c]);
             if (rule == LACEDRING_BY_MEAN_) moved[c] += lacedring_rounded_(to_mean, 2);
             if (rule == LACEDRING_BY_NEIGHBOR_) moved[c] = a[0][c];
             if (rule == LACEDRING_BY_NOTHING_) moved[c] = 0;
         }
-    } else if (w->s->smooth != 0 || w->errors != NULL) {
+    } else if (p->s->smooth != 0 || p->errors != NULL) {
         for (c = 0; c < n; ++c) {
             int64_t move = (int32_t)(a[0][c] + a[1][c] + b[0][c] + b[1][c] - 4 * plain[c]);
-            move *= w->s->smooth;
-            if (w->errors != NULL) {
-                const int64_t sum = lacedring_error_of_(w, a[0] + c) + lacedring_error_of_(w, a[1] + c) +
-                                    lacedring_error_of_(w, b[0] + c) + lacedring_error_of_(w, b[1] + c);
-                move += sum * w->s->error;
+            move *= p->s->smooth;
+            if (p->errors != NULL) {
+                const uint32_t of[4] = {visit->x[0], visit->y[0], visit->x[1], visit->y[1]};
+                uint32_t i;
+                for (i = 0; i < 4; ++i) move += (int64_t)(int32_t)p->errors[(size_t)of[i] * n + c] * p->s->error;
             }
             moved[c] += lacedring_rounded_(move, 6);
         }
     }
-    if (n == 3 && w->s->by_normal) {
+    if (n == 3 && p->s->by_normal) {
         uint64_t normal[3] = {0, 0, 0};
         lacedring_add_normal_(a[0], a[1], a[2], normal);
         lacedring_add_normal_(b[0], b[1], b[2], normal);
@@ -927,107 +1032,53 @@ LACEDRING_HOT_ void lacedring_predict_(struct lacedring_walk_* w, uint32_t n, ui
     } else {
         for (c = 0; c < n; ++c) out[c] = moved[c] + lacedring_unfold_(residual[c]);
     }
-    for (c = 0; c < n && w->errors != NULL; ++c) w->errors[(size_t)v * n + c] = out[c] - plain[c];
-    w->last = v;
+    for (c = 0; c < n && p->errors != NULL; ++c) p->errors[at + c] = out[c] - plain[c];
 }
 
-/* The neighbor across from a corner of a complete triangle is complete, too, or its vertex gets the corner. */
-LACEDRING_HOT_ void lacedring_look_across_(struct lacedring_walk_* w, uint32_t corner) {
-    const uint32_t across = w->opposite[corner];
-    uint32_t v, found, more, queue;
-    if (across == LACEDRING_NONE_) return;
-    v = w->triangles[across];
-    found = w->state[v];
-    if (found == LACEDRING_KNOWN_) {
-        if (w->complete[across / 3]) return;
-        w->complete[across / 3] = 1;
-        w->pending[w->pending_count++] = across / 3;
-        return;
-    }
-    more = found < 2;
-    queue = found != 0;
-    w->opposite[corner] = found == 0 ? LACEDRING_NONE_ : w->corner[v];
-    w->corner[v] = across;
-    w->waiting[queue][w->tail[queue]] = v;
-    w->tail[queue] += more;
-    w->state[v] = (uint8_t)(found + more);
-}
-
-/* The corner of a vertex's list behind this one, or LACEDRING_NONE_: the opposite corner says, which is of no use any
-   more. */
-LACEDRING_HOT_ uint32_t lacedring_corner_behind_(const struct lacedring_walk_* w, uint32_t corner) {
-    return w->opposite[w->opposite[corner]];
-}
-
-/* Goes on from complete triangles until nothing is left that they predict. */
-LACEDRING_HOT_ void lacedring_grow_(struct lacedring_walk_* w, uint32_t n) {
-    for (;;) {
-        uint32_t v = LACEDRING_NONE_, c, i, second;
-        while (w->pending_count > 0) {
-            c = 3 * w->pending[--w->pending_count];
-            lacedring_look_across_(w, c);
-            lacedring_look_across_(w, c + 1);
-            lacedring_look_across_(w, c + 2);
-        }
-        if (w->head[1] < w->tail[1]) {
-            v = w->waiting[1][w->head[1]++];
+LACEDRING_HOT_ void lacedring_predict_some_(const struct lacedring_predictor_* p, uint32_t n,
+                                            const struct lacedring_visit_* visit, uint32_t count,
+                                            const uint32_t* residual) {
+    uint32_t c;
+    for (; count > 0; --count, ++visit, residual += n) {
+        if (visit->x[0] != LACEDRING_NONE_) {
+            lacedring_predict_(p, n, visit, residual);
         } else {
-            while (w->head[0] < w->tail[0] && v == LACEDRING_NONE_) {
-                v = w->waiting[0][w->head[0]++];
-                if (w->state[v] == LACEDRING_KNOWN_) v = LACEDRING_NONE_;
+            for (c = 0; c < n; ++c) {
+                const uint32_t before = visit->y[0] == LACEDRING_NONE_ ? 0 : p->integers[(size_t)visit->y[0] * n + c];
+                p->integers[(size_t)visit->v * n + c] = before + lacedring_unfold_(residual[c]);
             }
-            if (v == LACEDRING_NONE_) return;
-        }
-        c = w->corner[v];
-        second = lacedring_corner_behind_(w, c);
-        lacedring_predict_(w, n, v, c, second != LACEDRING_NONE_ ? second : c);
-        w->state[v] = LACEDRING_KNOWN_;
-        w->complete[c / 3] = 1;
-        for (i = second; i != LACEDRING_NONE_; i = lacedring_corner_behind_(w, i)) w->complete[i / 3] = 1;
-        for (;;) {
-            const uint32_t k = c % 3;
-            lacedring_look_across_(w, k == 2 ? c - 2 : c + 1);
-            lacedring_look_across_(w, k == 0 ? c + 2 : c - 1);
-            if (second == LACEDRING_NONE_) break;
-            c = second;
-            second = lacedring_corner_behind_(w, c);
         }
     }
 }
 
-LACEDRING_HOT_ void lacedring_walk_n_(const struct lacedring_walk_* begin, uint32_t n, uint32_t triangles,
-                                      uint32_t vertices) {
-    struct lacedring_walk_ walk = *begin, *w = &walk; /* in registers */
-    uint32_t t, k, v;
-    for (t = 0; t < triangles; ++t) {
-        const uint32_t* of = w->triangles + 3 * (size_t)t;
-        uint32_t from = LACEDRING_NONE_;
-        if (w->complete[t] || of[0] == of[1] || of[1] == of[2] || of[2] == of[0]) continue;
-        for (k = 0; k < 3; ++k) {
-            if (w->state[of[k]] == LACEDRING_KNOWN_) from = of[k];
-        }
-        for (k = 0; k < 3; ++k) {
-            if (w->state[of[k]] == LACEDRING_KNOWN_) continue;
-            lacedring_start_(w, n, of[k], from);
-            w->state[of[k]] = LACEDRING_KNOWN_;
-            from = of[k];
-        }
-        w->complete[t] = 1;
-        w->pending[w->pending_count++] = t;
-        lacedring_grow_(w, n);
+/* Decodes the integers of some vertices, of n components each, which is a constant where it matters. */
+LACEDRING_HOT_ void lacedring_integers_n_(const struct lacedring_predictor_* p, struct lacedring_walk_* walk,
+                                          struct lacedring_residuals_* residuals, uint32_t n) {
+    struct lacedring_visit_ visits[LACEDRING_SOME_VERTICES_];
+    uint32_t count;
+    while ((count = lacedring_walk_some_(walk, visits, LACEDRING_SOME_VERTICES_ - 2)) > 0) {
+        lacedring_some_residuals_(residuals, n, count);
+        lacedring_predict_some_(p, n, visits, count, residuals->some);
     }
-    for (v = 0; v < vertices; ++v) {
-        if (w->state[v] != LACEDRING_KNOWN_) lacedring_start_(w, n, v, LACEDRING_NONE_);
+}
+
+LACEDRING_COLD_ void lacedring_integers_(const struct lacedring_predictor_* p, struct lacedring_walk_* walk,
+                                         struct lacedring_residuals_* residuals, uint32_t n) {
+    if (n == 1) {
+        lacedring_integers_n_(p, walk, residuals, 1);
+    } else if (n == 2) {
+        lacedring_integers_n_(p, walk, residuals, 2);
+    } else if (n == 3) {
+        lacedring_integers_n_(p, walk, residuals, 3);
+    } else {
+        lacedring_integers_n_(p, walk, residuals, n);
     }
 }
 
 size_t lacedring_stored_vertices_scratch(const struct lacedring_stored_vertices* s, uint32_t triangles) {
     const uint32_t n = s->attribute.components, vertices = s->attribute.vertices;
-    const size_t begin = n * sizeof(struct lacedring_residual_models_);
-    const size_t pairs = lacedring_bytes_of_(lacedring_bytes_of_(begin, triangles, 12), vertices, 16);
-    const size_t walk =
-        lacedring_bytes_of_(lacedring_bytes_of_(begin, triangles, 17), vertices, 13 + (s->error != 0 ? 4 * n : 0));
-    return pairs > walk ? pairs : walk;
+    const size_t begin = 32 + n * sizeof(struct lacedring_residual_models_);
+    return lacedring_bytes_of_(lacedring_bytes_of_(begin, triangles, 32), vertices, 16 + (s->error != 0 ? 4 * n : 0));
 }
 
 /* Reads the exceptions and writes them to values of floats, if `out` is not null. Returns 0 if one is impossible. */
@@ -1076,58 +1127,44 @@ enum lacedring_status lacedring_stored_vertices_decode(struct lacedring_stored_v
     const uint32_t n = s->attribute.components, vertices = s->attribute.vertices;
     struct lacedring_residuals_ residuals;
     struct lacedring_walk_ w;
+    struct lacedring_predictor_ p;
     struct lacedring_coded d;
     uint32_t* words;
-    uint32_t c, outside = 0;
-    size_t i;
-    if (triangle_count >= UINT32_MAX / 3) return lacedring_at_(where, triangle_count, LACEDRING_STATUS_TRIANGLES);
-    for (i = 0; i < 3 * (size_t)triangle_count; ++i) outside |= triangles[i] >= vertices;
-    for (i = 0; outside && triangles[i] < vertices;) ++i;
-    if (outside) return lacedring_at_(where, i / 3, LACEDRING_STATUS_TRIANGLE);
+    uint32_t c, i;
+    if (triangle_count >= (1u << 29) - 1) return lacedring_at_(where, triangle_count, LACEDRING_STATUS_LIMIT);
+    w.corners = (uint32_t*)(void*)((uint8_t*)scratch + (32 - ((uintptr_t)scratch & 31)));
+    words = w.corners + 8 * (size_t)triangle_count;
+    i = lacedring_pair_corners_(triangles, triangle_count, vertices, w.corners, words);
+    if (i < triangle_count) return lacedring_at_(where, i, LACEDRING_STATUS_TRIANGLE);
 
+    w.state = words;
+    w.one = w.one_end = w.state + vertices;
+    w.two = w.two_end = w.state + 2 * (size_t)vertices;
+    memset(w.state, 0xff, 4 * (size_t)vertices);
+    words += 4 * (size_t)vertices;
+    w.pending = w.last = LACEDRING_NONE_;
+    w.triangle = w.vertex = 0;
+    w.triangles = triangle_count;
+    w.vertices = vertices;
+    p.s = s;
+    p.integers = integers;
+    p.is_plain = 1;
+    for (c = 0; c < n; ++c) p.is_plain &= s->rules[c] == LACEDRING_BY_PARALLELOGRAMS_;
+    p.errors = NULL;
+    if (s->error != 0) {
+        p.errors = words;
+        memset(words, 0, 4 * (size_t)vertices * n);
+        words += (size_t)vertices * n;
+    }
     residuals.coded = s->residuals;
-    residuals.models = (struct lacedring_residual_models_*)scratch;
+    residuals.models = (struct lacedring_residual_models_*)(void*)words;
     residuals.fine = s->fine;
-    residuals.left = vertices;
     for (c = 0; c < n; ++c) {
         lacedring_begin_symbols_(residuals.models[c].steps, LACEDRING_STORED_STEPS_);
         lacedring_begin_symbols_(&residuals.models[c].others, 1);
         residuals.models[c].level = 0;
     }
-    memset(&w, 0, sizeof w);
-    w.s = s;
-    w.triangles = triangles;
-    w.opposite = (uint32_t*)(void*)(residuals.models + n);
-    words = w.opposite + 3 * (size_t)triangle_count;
-    lacedring_find_opposite_(triangles, triangle_count, vertices, w.opposite, words);
-    w.corner = words;
-    w.waiting[0] = w.corner + vertices;
-    w.waiting[1] = w.waiting[0] + vertices;
-    w.pending = w.waiting[1] + vertices;
-    words = w.pending + triangle_count;
-    if (s->error != 0) {
-        w.errors = words;
-        memset(words, 0, 4 * (size_t)vertices * n);
-        words += (size_t)vertices * n;
-    }
-    w.complete = (uint8_t*)words;
-    w.state = w.complete + triangle_count;
-    memset(w.complete, 0, (size_t)triangle_count + vertices);
-    w.integers = integers;
-    w.last = LACEDRING_NONE_;
-    w.is_plain = 1;
-    for (c = 0; c < n; ++c) w.is_plain &= s->rules[c] == LACEDRING_BY_PARALLELOGRAMS_;
-    w.residuals = &residuals;
-    if (n == 1) {
-        lacedring_walk_n_(&w, 1, triangle_count, vertices);
-    } else if (n == 2) {
-        lacedring_walk_n_(&w, 2, triangle_count, vertices);
-    } else if (n == 3) {
-        lacedring_walk_n_(&w, 3, triangle_count, vertices);
-    } else {
-        lacedring_walk_n_(&w, n, triangle_count, vertices);
-    }
-
+    lacedring_integers_(&p, &w, &residuals, n);
     d = residuals.coded;
     if (s->attribute.mapping == LACEDRING_MAPPING_DECIMALS) {
         s->attribute.exception_count = lacedring_coded_raw_(&d, 32);
@@ -1162,9 +1199,14 @@ void lacedring_stored_vertices_values(const struct lacedring_stored_vertices* s,
 #undef LACEDRING_RIGHT_
 #undef LACEDRING_STORED_PART_
 #undef LACEDRING_STORED_STEPS_
-#undef LACEDRING_SOME_RESIDUALS_
+#undef LACEDRING_SOME_VERTICES_
 #undef LACEDRING_NONE_
 #undef LACEDRING_KNOWN_
+#undef LACEDRING_UNSEEN_
+#undef LACEDRING_MORE_
+#undef LACEDRING_COMPLETE_
+#undef LACEDRING_LINK_
+#undef LACEDRING_OPPOSITE_
 #ifdef __cplusplus
 }
 #endif
