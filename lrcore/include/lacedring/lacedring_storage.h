@@ -636,43 +636,38 @@ struct lacedring_residuals_ {
     struct lacedring_coded coded;
     struct lacedring_residual_models_* models;
     uint32_t fine;
-    uint32_t some[LACEDRING_SOME_VERTICES_ * LACEDRING_VERTICES_MAX_COMPONENTS];
 };
 
-/* The residuals of `count` vertices. */
-LACEDRING_HOT_ void lacedring_some_residuals_(struct lacedring_residuals_* r, uint32_t n, uint32_t count) {
+/* The residuals of a vertex. `d`, which is in registers, takes the place of r->coded. */
+LACEDRING_HOT_ void lacedring_next_residuals_(struct lacedring_residuals_* r, struct lacedring_coded* d, uint32_t n,
+                                              uint32_t* out) {
     /* A symbol is a range of numbers: where it begins, how many bits say which, and a size in 128ths of a bit. */
     static const uint16_t begin[16] = {0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 64, 128, 256, 512, 0};
     static const uint8_t bits[16] = {0, 0, 0, 0, 1, 1, 2, 2, 3, 3, 5, 6, 7, 8, 9, 0};
     static const uint16_t size[16] = {0, 256, 352, 400, 464, 512, 576, 640, 704, 768, 864, 992, 1120, 1248, 1376, 0};
-    struct lacedring_coded d = r->coded; /* in registers */
-    uint32_t i, c, *out = r->some;
-    for (i = 0; i < count; ++i) {
-        uint32_t before = 0, second = 0; /* the levels of the two integers before */
-        for (c = 0; c < n; ++c, ++out) {
-            struct lacedring_residual_models_* m = r->models + c;
-            uint32_t step = c == 0             ? m->level / 64
-                            : c == 2 && n == 3 ? (10 * m->level + 3 * (before + second)) / 1024
-                                               : (m->level + before) / 128;
-            uint32_t low, symbol, level;
-            if (step >= LACEDRING_STORED_STEPS_) step = LACEDRING_STORED_STEPS_ - 1;
-            low = step > r->fine ? (step - r->fine + 1) / 2 : 0;
-            symbol = lacedring_coded_symbol_(&d, m->steps + step);
-            second = before;
-            if (symbol == 15) {
-                before = m->level;
-                r->coded = d;
-                *out = lacedring_coded_number_(&r->coded, &m->others);
-                d = r->coded;
-                continue;
-            }
-            level = size[symbol] + 128 * low;
-            before = level > 128 ? level - 128 : 0;
-            m->level += (uint32_t)((int32_t)(before - m->level) * 3 >> 4);
-            *out = ((uint32_t)begin[symbol] << low) + lacedring_coded_raw_(&d, bits[symbol] + low);
+    uint32_t c, before = 0, second = 0; /* the levels of the two integers before */
+    for (c = 0; c < n; ++c) {
+        struct lacedring_residual_models_* m = r->models + c;
+        uint32_t low, symbol, level;
+        uint32_t step = c == 0             ? m->level / 64
+                        : c == 2 && n == 3 ? (10 * m->level + 3 * (before + second)) / 1024
+                                           : (m->level + before) / 128;
+        if (step >= LACEDRING_STORED_STEPS_) step = LACEDRING_STORED_STEPS_ - 1;
+        low = step > r->fine ? (step - r->fine + 1) / 2 : 0;
+        symbol = lacedring_coded_symbol_(d, m->steps + step);
+        second = before;
+        if (symbol == 15) {
+            before = m->level;
+            r->coded = *d;
+            out[c] = lacedring_coded_number_(&r->coded, &m->others);
+            *d = r->coded;
+            continue;
         }
+        level = size[symbol] + 128 * low;
+        before = level > 128 ? level - 128 : 0;
+        m->level += (uint32_t)((int32_t)(before - m->level) * 3 >> 4);
+        out[c] = ((uint32_t)begin[symbol] << low) + lacedring_coded_raw_(d, bits[symbol] + low);
     }
-    r->coded = d;
 }
 
 /* The walk has eight words for each triangle, which are in one line of the cache: its vertices, whether it is complete,
@@ -973,20 +968,21 @@ LACEDRING_HOT_ void lacedring_by_normal_(const uint64_t normal[3], const uint32_
                                          uint32_t* out) {
     static const uint8_t next[3] = {1, 2, 0};
     uint64_t size[3];
-    uint32_t c, k, u, w, width, shift, up;
+    uint32_t c, k, u, w, width, shift, up, across[2];
     int32_t nk;
     for (c = 0; c < 3; ++c) size[c] = normal[c] >> 63 ? 0 - normal[c] : normal[c];
     k = size[1] > size[0];
     k = size[2] > size[k] ? 2 : k;
     u = next[k];
     w = next[u];
-    out[u] = moved[u] + lacedring_unfold_(residual[0]);
-    out[w] = moved[w] + lacedring_unfold_(residual[1]);
+    across[0] = lacedring_unfold_(residual[0]);
+    across[1] = lacedring_unfold_(residual[1]);
+    out[u] = moved[u] + across[0];
+    out[w] = moved[w] + across[1];
     width = lacedring_width_(size[k] | 1);
     shift = width > 14 ? width - 14 : 0;
     nk = (int32_t)((int64_t)normal[k] >> shift);
-    up = (uint32_t)((lacedring_slope_(normal[u], shift, out[u] - moved[u]) +
-                     lacedring_slope_(normal[w], shift, out[w] - moved[w])) /
+    up = (uint32_t)((lacedring_slope_(normal[u], shift, across[0]) + lacedring_slope_(normal[w], shift, across[1])) /
                     (nk == 0 ? 1 : nk)); /* all are 0 where nk is */
     out[k] = moved[k] - up + lacedring_unfold_(residual[2]);
 }
@@ -1035,31 +1031,28 @@ LACEDRING_HOT_ void lacedring_predict_(const struct lacedring_predictor_* p, uin
     for (c = 0; c < n && p->errors != NULL; ++c) p->errors[at + c] = out[c] - plain[c];
 }
 
-LACEDRING_HOT_ void lacedring_predict_some_(const struct lacedring_predictor_* p, uint32_t n,
-                                            const struct lacedring_visit_* visit, uint32_t count,
-                                            const uint32_t* residual) {
-    uint32_t c;
-    for (; count > 0; --count, ++visit, residual += n) {
-        if (visit->x[0] != LACEDRING_NONE_) {
-            lacedring_predict_(p, n, visit, residual);
-        } else {
-            for (c = 0; c < n; ++c) {
-                const uint32_t before = visit->y[0] == LACEDRING_NONE_ ? 0 : p->integers[(size_t)visit->y[0] * n + c];
-                p->integers[(size_t)visit->v * n + c] = before + lacedring_unfold_(residual[c]);
-            }
-        }
-    }
-}
-
-/* Decodes the integers of some vertices, of n components each, which is a constant where it matters. */
+/* Integers of n components, which is a constant where it matters. */
 LACEDRING_HOT_ void lacedring_integers_n_(const struct lacedring_predictor_* p, struct lacedring_walk_* walk,
                                           struct lacedring_residuals_* residuals, uint32_t n) {
     struct lacedring_visit_ visits[LACEDRING_SOME_VERTICES_];
-    uint32_t count;
+    struct lacedring_coded d = residuals->coded;
+    uint32_t i, c, count, residual[LACEDRING_VERTICES_MAX_COMPONENTS];
     while ((count = lacedring_walk_some_(walk, visits, LACEDRING_SOME_VERTICES_ - 2)) > 0) {
-        lacedring_some_residuals_(residuals, n, count);
-        lacedring_predict_some_(p, n, visits, count, residuals->some);
+        for (i = 0; i < count; ++i) {
+            const struct lacedring_visit_* visit = visits + i;
+            lacedring_next_residuals_(residuals, &d, n, residual);
+            if (visit->x[0] != LACEDRING_NONE_) {
+                lacedring_predict_(p, n, visit, residual);
+            } else {
+                const uint32_t from = visit->y[0];
+                for (c = 0; c < n; ++c)
+                    p->integers[(size_t)visit->v * n + c] =
+                        (from == LACEDRING_NONE_ ? 0 : p->integers[(size_t)from * n + c]) +
+                        lacedring_unfold_(residual[c]);
+            }
+        }
     }
+    residuals->coded = d;
 }
 
 LACEDRING_COLD_ void lacedring_integers_(const struct lacedring_predictor_* p, struct lacedring_walk_* walk,
