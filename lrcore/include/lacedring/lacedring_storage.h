@@ -108,7 +108,8 @@ void lacedring_stored_vertices_values(const struct lacedring_stored_vertices* st
 #if defined(LACEDRING_DECODE_IMPLEMENTATION) && !defined(LACEDRING_STORAGE_IMPLEMENTED)
 #define LACEDRING_STORAGE_IMPLEMENTED
 
-#ifdef __SSE2__
+#if defined(__SSE2__) && defined(__GNUC__) && !defined(LACEDRING_PLAIN)
+#define LACEDRING_SSE2_
 #include <emmintrin.h>
 #endif
 
@@ -246,7 +247,7 @@ LACEDRING_HOT_ uint32_t lacedring_coded_bit_(struct lacedring_coded* d, struct l
 
 /* The symbol whose range `at` is in. */
 LACEDRING_HOT_ uint32_t lacedring_find_symbol_(const struct lacedring_symbol_model_* m, uint32_t at) {
-#if defined(__SSE2__) && defined(__GNUC__) && !defined(LACEDRING_PLAIN)
+#ifdef LACEDRING_SSE2_
     const __m128i most = _mm_set1_epi16((short)at);
     const __m128i low = _mm_loadu_si128((const __m128i*)(const void*)m->begin);
     const __m128i high = _mm_loadu_si128((const __m128i*)(const void*)(m->begin + 8));
@@ -703,21 +704,27 @@ LACEDRING_HOT_ void lacedring_pair_corner_(const struct lacedring_pairs_* p, uin
     }
 }
 
-/* Pairs the corners of two triangles that follow each other and share two vertices, unless the first one's is `paired`.
-   Returns which corners of the first and, times 4, of the second these are; 3: none. */
-LACEDRING_HOT_ uint32_t lacedring_pair_successive_(uint32_t* corners, uint32_t second, uint32_t paired) {
-    static const uint8_t alone[8] = {3, 3, 3, 2, 3, 1, 0, 3}; /* the one of three whose bit is 0 */
-    const uint32_t *v = corners + second, *before = v - 8, p = before[0], q = before[1], r = before[2];
-    uint32_t i, k, other, from, shared = 0;
-    for (i = 0; i < 3; ++i) shared |= (uint32_t)((v[i] == p) | (v[i] == q) | (v[i] == r)) << i;
-    k = alone[shared];
-    if (k == 3) return 15;
-    other = p ^ q ^ r ^ v[0] ^ v[1] ^ v[2] ^ v[k]; /* the vertex before that is not shared */
-    from = other == r ? 2u : other == q ? 1u : 0u;
-    if (from == paired) return 15;
-    corners[second + k + LACEDRING_OPPOSITE_] = second - 8 + from;
-    corners[second - 8 + from + LACEDRING_OPPOSITE_] = second + k;
-    return from | k << 2;
+/* Which vertices two triangles have in common: a bit for each of v's, and, times 8, of those before. */
+LACEDRING_HOT_ uint32_t lacedring_shared_(const uint32_t v[3], const uint32_t before[3]) {
+#ifdef LACEDRING_SSE2_
+    const __m128i now = _mm_set_epi32(0, (int)v[2], (int)v[1], (int)v[0]);
+    const __m128i then = _mm_set_epi32(0, (int)before[2], (int)before[1], (int)before[0]);
+    const __m128i same = _mm_cmpeq_epi32(now, then);
+    const __m128i by_1 = _mm_cmpeq_epi32(now, _mm_shuffle_epi32(then, 0xc9));
+    const __m128i by_2 = _mm_cmpeq_epi32(now, _mm_shuffle_epi32(then, 0xd2));
+    const __m128i here = _mm_or_si128(_mm_or_si128(by_1, by_2), same);
+    const __m128i there =
+        _mm_or_si128(_mm_or_si128(_mm_shuffle_epi32(by_1, 0xd2), _mm_shuffle_epi32(by_2, 0xc9)), same);
+    return ((uint32_t)_mm_movemask_ps(_mm_castsi128_ps(here)) & 7) |
+           ((uint32_t)_mm_movemask_ps(_mm_castsi128_ps(there)) & 7) << 3;
+#else
+    uint32_t i, shared = 0;
+    for (i = 0; i < 3; ++i) {
+        shared |= (uint32_t)((v[i] == before[0]) | (v[i] == before[1]) | (v[i] == before[2])) << i;
+        shared |= (uint32_t)((before[i] == v[0]) | (before[i] == v[1]) | (before[i] == v[2])) << (3 + i);
+    }
+    return shared;
+#endif
 }
 
 /* Fills the words of triangles, and finds opposite corners. `scratch`: four words a vertex. Returns the number of a
@@ -726,29 +733,42 @@ LACEDRING_COLD_ uint32_t lacedring_pair_corners_(const uint32_t* triangles, uint
                                                  uint32_t* corners, uint32_t* scratch) {
     struct lacedring_pairs_ p;
     uint32_t* edges =
-        scratch + 2 * (size_t)vertices;           /* by the larger vertex, a corner that waits: the smaller, and it */
-    uint32_t i, c, k, v, paired = 3, is_good = 0; /* of the triangle before */
+        scratch + 2 * (size_t)vertices; /* by the larger vertex, a corner that waits: the smaller, and it */
+    static const uint8_t alone[8] = {3, 3, 3, 2, 3, 1, 0, 3}; /* the one of three whose bit is 0; 3: not one */
+    uint32_t i, c, k, v;
+    uint32_t before[3] = {0, 0, 0}, paired = 3, is_good = 0; /* of the triangle before */
     p.corners = corners;
     p.ring = scratch;
     p.last = scratch + vertices;
     memset(scratch, 0xff, 16 * (size_t)vertices);
     for (i = 0; i <= count; ++i, triangles += 3) {
-        uint32_t pair = 15, is_good_now = 0;
+        uint32_t paired_now = 3, behind = 3, is_good_now = 0;
         c = 8 * i;
         if (i < count) {
-            const uint32_t x = triangles[0], y = triangles[1], z = triangles[2];
+            const uint32_t now[3] = {triangles[0], triangles[1], triangles[2]};
             uint32_t* t = corners + c;
-            if (x >= vertices || y >= vertices || z >= vertices) return i;
-            is_good_now = !((x == y) | (y == z) | (z == x));
-            t[0] = x;
-            t[1] = y;
-            t[2] = z;
-            t[3] = t[7] = 0;
+            if (now[0] >= vertices || now[1] >= vertices || now[2] >= vertices) return i;
+            is_good_now = !((now[0] == now[1]) | (now[1] == now[2]) | (now[2] == now[0]));
+            t[0] = now[0];
+            t[1] = now[1];
+            t[2] = now[2];
+            t[LACEDRING_COMPLETE_] = 0;
             t[4] = t[5] = t[6] = LACEDRING_NONE_;
-            if (is_good & is_good_now) pair = lacedring_pair_successive_(corners, c, paired);
+            if (is_good & is_good_now) {
+                const uint32_t shared = lacedring_shared_(now, before), from = alone[shared >> 3];
+                k = alone[shared & 7];
+                if (k != 3 && from != paired) {
+                    paired_now = k;
+                    behind = from;
+                    t[k + LACEDRING_OPPOSITE_] = c - 8 + from;
+                    corners[c - 8 + from + LACEDRING_OPPOSITE_] = c + k;
+                }
+            }
+            before[0] = now[0];
+            before[1] = now[1];
+            before[2] = now[2];
         }
         if (is_good) { /* what is left of the triangle before: mostly one corner */
-            const uint32_t behind = pair & 3;
             if (paired + behind <= 3 && paired != 3 && behind != 3) {
                 lacedring_pair_corner_(&p, c - 8 + (3 - paired - behind));
             } else {
@@ -757,7 +777,7 @@ LACEDRING_COLD_ uint32_t lacedring_pair_corners_(const uint32_t* triangles, uint
                 }
             }
         }
-        paired = pair >> 2;
+        paired = paired_now;
         is_good = is_good_now;
     }
     for (v = 0; v < vertices; ++v) {
@@ -1186,6 +1206,9 @@ void lacedring_stored_vertices_values(const struct lacedring_stored_vertices* s,
         lacedring_stored_exceptions_(s, &exceptions, s->attribute.exception_count, (uint8_t*)out);
 }
 
+#undef LACEDRING_SSE2_
+#undef LACEDRING_PREFETCH_
+#undef LACEDRING_COLD_
 #undef LACEDRING_SCALE_
 #undef LACEDRING_LEAST_STATE_
 #undef LACEDRING_RING_EDGE_
