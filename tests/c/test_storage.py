@@ -12,7 +12,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 FLAGS = ["-std=c99", "-pedantic-errors", "-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-Werror", "-g"]
 VARIANTS = {"vectors": ["-O2"], "plain": ["-O2", "-DLACEDRING_PLAIN"],
             "sanitized": ["-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]}
-CASES = [("blob.ply", ["--positions", "14"]), ("cut_torus.ply", ["--positions", "10"]), ("blob.ply", [])]
+CASES = [("blob.ply", ["--positions", "14"]), ("cut_torus.ply", ["--positions", "10"]), ("blob.ply", ["--positions", "20"])]
 
 
 def surface(text):
