@@ -40,11 +40,11 @@ static int print_attribute(const uint32_t* words, size_t count, uint32_t name_by
     status = lacedring_stored_vertices_open(words + name_words, count - name_words, file_words[3], &s, &where);
     if (status != LACEDRING_STATUS_OK) return fail("attribute", status, where);
     size = (size_t)file_words[3] * lacedring_vertices_values(&s.attribute) * sizes[s.attribute.type];
-    scratch = malloc(lacedring_stored_vertices_scratch(&s, triangle_count));
+    scratch = malloc(lacedring_stored_vertices_scratch(&s, triangle_count, NULL));
     integers = malloc(4 * (size_t)file_words[3] * s.attribute.components + 1);
     values = malloc(size + 1);
     if (scratch == NULL || integers == NULL || values == NULL) return fail("no memory", 0, 0);
-    status = lacedring_stored_vertices_decode(&s, triangles, triangle_count, scratch, integers, &where);
+    status = lacedring_stored_vertices_decode(&s, triangles, triangle_count, NULL, scratch, integers, &where);
     if (status != LACEDRING_STATUS_OK) return fail("integers", status, where);
     lacedring_stored_vertices_values(&s, integers, values);
     for (i = 0; i < size; ++i) sum = (31 * sum + values[i]) & 0xffffffffu;

@@ -29,27 +29,6 @@ Bytes storage_bytes(const std::vector<T>& values) {
     return {bytes.begin(), bytes.end()};
 }
 
-/// Decodes in C what restores to a valid stream.
-void check_in_c(std::span<const std::uint32_t> stored, std::span<const std::uint32_t> triangles,
-                const VertexView& view) {
-    const auto in_c = test::attribute_in_c(stored, triangles, view.vertices);
-    REQUIRE(in_c);
-    Words integers(std::size_t{view.vertices} * view.integers);
-    for (std::uint32_t block = 0; block < view.blocks(); ++block)
-        decode_vertex_block(view, block,
-                            std::span(integers).subspan(std::size_t{block} * kVertexBlock * view.integers));
-    CHECK(in_c->integers == integers);
-    Bytes values(view.decoded_bytes());
-    decode_vertices(view, values);
-    CHECK(in_c->values == values);
-    CHECK(in_c->header.mapping == static_cast<std::uint32_t>(view.mapping));
-    CHECK(in_c->header.type == static_cast<std::uint32_t>(view.type));
-    CHECK((in_c->header.normalized != 0) == view.normalized);
-    CHECK(in_c->header.largest_error == view.largest_error);
-    CHECK(in_c->header.step == view.step);
-    CHECK(in_c->header.exception_count == view.exceptions);
-}
-
 /// The stored form of a stream, which gives it back. Both are in buffers of exactly their size.
 Words stored(const Words& stream, std::span<const std::uint32_t> triangles) {
     const Result<VertexView> view = validate_vertices(stream);
@@ -65,7 +44,7 @@ Words stored(const Words& stream, std::span<const std::uint32_t> triangles) {
         storage::restore_vertices({exact.get(), out->size()}, triangles, view->vertices, stream.size() - 1);
     REQUIRE_FALSE(small);
     CHECK(small.error().code == ErrorCode::memory_limit);
-    check_in_c(*out, triangles, *view);
+    test::check_in_c(*out, triangles, *view);
     return *out;
 }
 
@@ -396,7 +375,7 @@ TEST_CASE("vertex storage: damage does no harm") {
             std::copy(damaged.begin(), damaged.end(), exact.get());
             const auto back = storage::restore_vertices({exact.get(), damaged.size()}, triangles, vertices, 4000);
             const Result<VertexView> valid = back ? validate_vertices(*back) : back.error();
-            if (valid) check_in_c(damaged, triangles, *valid);
+            if (valid) test::check_in_c(damaged, triangles, *valid);
             (void)test::attribute_in_c(damaged, triangles, vertices);
             if (back) {
                 CHECK(back->size() <= 4000);

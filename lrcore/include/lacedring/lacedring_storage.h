@@ -14,9 +14,9 @@
 
        struct lacedring_stored_vertices stored;
        if (lacedring_stored_vertices_open(words, count, mesh.vertices, &stored, NULL) != LACEDRING_STATUS_OK) ...
-       void *scratch = malloc(lacedring_stored_vertices_scratch(&stored, mesh.triangles));
+       void *scratch = malloc(lacedring_stored_vertices_scratch(&stored, mesh.triangles, NULL));
        uint32_t *integers = malloc(4 * (size_t)mesh.vertices * stored.attribute.components);
-       if (lacedring_stored_vertices_decode(&stored, triangles, mesh.triangles, scratch, integers, NULL) !=
+       if (lacedring_stored_vertices_decode(&stored, triangles, mesh.triangles, NULL, scratch, integers, NULL) !=
            LACEDRING_STATUS_OK) ...
        float *positions = malloc(12 * (size_t)mesh.vertices);
        lacedring_stored_vertices_values(&stored, integers, positions);
@@ -78,6 +78,8 @@ struct lacedring_stored_vertices {
     uint32_t low[LACEDRING_VERTICES_MAX_COMPONENTS], range_bits[LACEDRING_VERTICES_MAX_COMPONENTS];
     uint8_t rules[LACEDRING_VERTICES_MAX_COMPONENTS]; /* that predict */
     uint32_t by_normal, error, smooth, fine;          /* parameters of predictions and residuals */
+    uint32_t by_positions;                            /* positions predict: normals, or other integers, two a vertex */
+    uint32_t by_angle, by_area, of_vertex;            /* how normals of triangles are added up */
 };
 
 /* Reads the header, which begins the words, and checks sizes: linear in words / 65,536. `vertices`: values that the
@@ -85,16 +87,26 @@ struct lacedring_stored_vertices {
 enum lacedring_status lacedring_stored_vertices_open(const uint32_t* words, size_t count, uint32_t vertices,
                                                      struct lacedring_stored_vertices* stored, uint64_t* where);
 
-/* Bytes of scratch memory that lacedring_stored_vertices_decode takes with so many triangles: 12 for each triangle, and
-   about 20 for each vertex. SIZE_MAX: more than there can be. */
-size_t lacedring_stored_vertices_scratch(const struct lacedring_stored_vertices* stored, uint32_t triangles);
+/* Where the values of an attribute are: what predicts it if stored->by_positions is not 0. */
+struct lacedring_positions {
+    const uint32_t* integers; /* three a vertex, of the file's POSITION, whose mapping is a lattice or decimals */
+    uint32_t vertices;
+    const uint32_t* vertex_of; /* the vertex of each value, where these are of copies; null: values are of vertices */
+};
+
+/* Bytes of scratch memory that lacedring_stored_vertices_decode takes with so many triangles and positions: 32 for each
+   triangle and about 16 for each vertex, or, of normals by positions, 24 for each of `positions` and of their values.
+   SIZE_MAX: more than there can be. */
+size_t lacedring_stored_vertices_scratch(const struct lacedring_stored_vertices* stored, uint32_t triangles,
+                                         const struct lacedring_positions* positions);
 
 /* The integers of the vertex stream, stored->attribute.components a vertex. `triangles`: those of the vertices,
-   `triangle_count` times three numbers of vertices, in the order of the file. Where it finds a fault, integers are of
-   no use. 10 KB of stack. */
+   `triangle_count` times three numbers of vertices, in the order of the file. `positions` may be null if none are
+   needed. Where it finds a fault, integers are of no use. 10 KB of stack. */
 enum lacedring_status lacedring_stored_vertices_decode(struct lacedring_stored_vertices* stored,
                                                        const uint32_t* triangles, uint32_t triangle_count,
-                                                       void* scratch, uint32_t* integers, uint64_t* where);
+                                                       const struct lacedring_positions* positions, void* scratch,
+                                                       uint32_t* integers, uint64_t* where);
 
 /* All values of the attribute by the integers decoded, as lacedring_vertices_decode gives them. */
 void lacedring_stored_vertices_values(const struct lacedring_stored_vertices* stored, const uint32_t* integers,
@@ -604,7 +616,12 @@ static enum lacedring_status lacedring_stored_header_(struct lacedring_stored_ve
     s->error = lacedring_coded_raw_(d, 4);
     s->smooth = lacedring_coded_raw_(d, 5);
     s->fine = lacedring_coded_raw_(d, 4);
-    if (n == 2 && lacedring_coded_raw_(d, 1)) return lacedring_at_(where, 0, LACEDRING_STATUS_POSITIONS);
+    s->by_positions = n == 2 && lacedring_coded_raw_(d, 1);
+    if (s->by_positions && mapping == LACEDRING_MAPPING_OCTAHEDRAL) {
+        s->by_angle = lacedring_coded_raw_(d, 1);
+        s->by_area = lacedring_coded_raw_(d, 1);
+        s->of_vertex = lacedring_coded_raw_(d, 1);
+    }
     if (s->smooth > 16 || (s->by_normal && n != 3))
         return lacedring_at_(where, LACEDRING_VERTICES_HEADER_WORDS, LACEDRING_STATUS_HEADER);
     return d->bit <= d->end ? LACEDRING_STATUS_OK : lacedring_at_(where, 0, LACEDRING_STATUS_CODED);
@@ -937,12 +954,115 @@ LACEDRING_COLD_ uint32_t lacedring_walk_some_(struct lacedring_walk_* begin, str
     return (uint32_t)(visit - visits);
 }
 
+/* Positions from their least coordinates, in 20 bits: products of three are exact as doubles. */
+struct lacedring_places_ {
+    const struct lacedring_positions* positions;
+    uint32_t low[3], shift;
+};
+
+static void lacedring_scale_places_(const struct lacedring_positions* positions, struct lacedring_places_* out) {
+    uint32_t c, v, extent = 0;
+    out->positions = positions;
+    for (c = 0; c < 3; ++c) {
+        int32_t low = INT32_MAX, high = INT32_MIN;
+        for (v = 0; v < positions->vertices; ++v) {
+            const int32_t x = (int32_t)positions->integers[3 * (size_t)v + c];
+            low = x < low ? x : low;
+            high = x > high ? x : high;
+        }
+        out->low[c] = (uint32_t)low;
+        extent |= (uint32_t)high - (uint32_t)low;
+    }
+    for (out->shift = 0; extent >> out->shift >= 1u << 20;) ++out->shift;
+}
+
+/* The place of a value of the attribute. */
+LACEDRING_HOT_ void lacedring_place_(const struct lacedring_places_* p, uint32_t value, double out[3]) {
+    const uint32_t* of = p->positions->vertex_of;
+    const uint32_t* at = p->positions->integers + 3 * (size_t)(of != NULL ? of[value] : value);
+    uint32_t c;
+    for (c = 0; c < 3; ++c) out[c] = (int32_t)((at[c] - p->low[c]) >> p->shift);
+}
+
+/* Of vectors below 2^53. Each component is rounded to a float first: its square is exact then, and fused operations
+   change nothing. */
+LACEDRING_HOT_ double lacedring_square_(const double v[3]) {
+    const double x = (double)(float)v[0], y = (double)(float)v[1], z = (double)(float)v[2];
+    return x * x + y * y + z * z;
+}
+
+LACEDRING_HOT_ void lacedring_cross_(const double a[3], const double b[3], double out[3]) {
+    out[0] = a[1] * b[2] - a[2] * b[1];
+    out[1] = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+LACEDRING_HOT_ double lacedring_dot_(const double a[3], const double b[3]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Folds the triangle (x, y, v) into the plane of (x, y, z), where v = x + along (y - x) - across (z - x): so the map to
+   the texture goes on. */
+LACEDRING_HOT_ void lacedring_extend_(const struct lacedring_places_* p, const double v[3], uint32_t x, uint32_t y,
+                                      uint32_t z, const uint32_t* values, uint32_t out[2]) {
+    const double most = 1 << 20;
+    double origin[3], edge[3], to_v[3], to_z[3], cross[3], height;
+    int64_t along = 65536, across = 65536; /* a parallelogram, where there is no plane */
+    uint32_t c;
+    lacedring_place_(p, x, origin);
+    lacedring_place_(p, y, edge);
+    lacedring_place_(p, z, to_z);
+    for (c = 0; c < 3; ++c) {
+        edge[c] -= origin[c];
+        to_z[c] -= origin[c];
+        to_v[c] = v[c] - origin[c];
+    }
+    lacedring_cross_(edge, to_z, cross);
+    height = lacedring_square_(cross);
+    if (height > 0) {
+        double heights, sum;
+        lacedring_cross_(edge, to_v, cross);
+        heights = 65536 * sqrt(lacedring_square_(cross) / height) + 0.5;
+        across = (int64_t)(heights < most ? heights : most);
+        sum = (double)(65536 * (int64_t)lacedring_dot_(edge, to_v) + across * (int64_t)lacedring_dot_(edge, to_z));
+        sum /= lacedring_dot_(edge, edge);
+        along = (int64_t)(sum < -most ? -most : sum > most ? most : sum);
+    }
+    for (c = 0; c < 2; ++c) {
+        const uint32_t from = values[2 * (size_t)x + c];
+        const int64_t to_y = (int32_t)(values[2 * (size_t)y + c] - from);
+        out[c] = from + (uint32_t)((along * to_y - across * (int32_t)(values[2 * (size_t)z + c] - from) + 32768) >> 16);
+    }
+}
+
+/* Makes the value of a difference, two integers, which `visit` finds. */
+LACEDRING_HOT_ void lacedring_add_place_(const struct lacedring_places_* p, const struct lacedring_visit_* visit,
+                                         const uint32_t* differences, uint32_t* values) {
+    const size_t at = 2 * (size_t)visit->v;
+    uint32_t base[2] = {0, 0}, other[2], c;
+    if (visit->x[0] != LACEDRING_NONE_) {
+        double v[3];
+        lacedring_place_(p, visit->v, v);
+        lacedring_extend_(p, v, visit->x[0], visit->y[0], visit->z[0], values, base);
+        if (visit->x[0] != visit->x[1] || visit->y[0] != visit->y[1] || visit->z[0] != visit->z[1]) {
+            lacedring_extend_(p, v, visit->x[1], visit->y[1], visit->z[1], values, other);
+            for (c = 0; c < 2; ++c) base[c] += (uint32_t)(((int64_t)(int32_t)(other[c] - base[c]) + 1) >> 1);
+        }
+    } else if (visit->y[0] != LACEDRING_NONE_) {
+        for (c = 0; c < 2; ++c)
+            base[c] = values[2 * (size_t)visit->y[0] + c] - differences[2 * (size_t)visit->y[0] + c];
+    }
+    for (c = 0; c < 2; ++c) values[at + c] = differences[at + c] + base[c];
+}
+
 /* Makes integers of residuals. */
 struct lacedring_predictor_ {
     const struct lacedring_stored_vertices* s;
     uint32_t* integers;
     uint32_t* errors;  /* of each integer, how far it is from what parallelograms predict; null: not needed */
     uint32_t is_plain; /* parallelograms alone predict */
+    const struct lacedring_places_* places; /* integers are differences from what these predict; null: they are not */
+    uint32_t* values;
 };
 
 LACEDRING_HOT_ uint32_t lacedring_unfold_(uint32_t code) {
@@ -1070,6 +1190,7 @@ LACEDRING_HOT_ void lacedring_integers_n_(const struct lacedring_predictor_* p, 
                         (from == LACEDRING_NONE_ ? 0 : p->integers[(size_t)from * n + c]) +
                         lacedring_unfold_(residual[c]);
             }
+            if (n == 2 && p->places != NULL) lacedring_add_place_(p->places, visit, p->integers, p->values);
         }
     }
     residuals->coded = d;
@@ -1088,10 +1209,141 @@ LACEDRING_COLD_ void lacedring_integers_(const struct lacedring_predictor_* p, s
     }
 }
 
-size_t lacedring_stored_vertices_scratch(const struct lacedring_stored_vertices* s, uint32_t triangles) {
+#define LACEDRING_TANGENTS_ 4096 /* of the table of angles: steps up to 45 degrees */
+#define LACEDRING_HALF_TURN_ 16384 /* of angles */
+
+/* The angles whose tangents are i / LACEDRING_TANGENTS_, rounded. */
+static void lacedring_angles_(uint16_t* out) {
+    const double step = 1.0 / LACEDRING_TANGENTS_;
+    double angle = 0;
+    uint32_t i;
+    for (i = 0; i <= LACEDRING_TANGENTS_; ++i) {
+        const double d = step / (1 + (double)i * (i + 1) * step * step), square = d * d; /* tangent of the difference */
+        out[i] = (uint16_t)(angle * LACEDRING_HALF_TURN_ / 3.14159265358979323846 + 0.5);
+        angle += d * (1 - square * (1.0 / 3 - square * (1.0 / 5)));
+    }
+}
+
+/* Adds the normals of triangles to the sums of their corners, three each. */
+static void lacedring_sum_normals_(const struct lacedring_stored_vertices* s, const struct lacedring_places_* p,
+                                   const uint32_t* triangles, uint32_t count, const uint32_t* vertex_of,
+                                   const uint16_t* angles, uint64_t* sums) {
+    uint32_t i, c, k;
+    for (i = 0; i < count; ++i, triangles += 3) {
+        double at[3][3], a[3], b[3], normal[3], cosine[3], length, ab;
+        for (k = 0; k < 3; ++k) lacedring_place_(p, triangles[k], at[k]);
+        for (c = 0; c < 3; ++c) {
+            a[c] = at[1][c] - at[0][c];
+            b[c] = at[2][c] - at[1][c];
+        }
+        lacedring_cross_(a, b, normal);
+        length = lacedring_square_(normal);
+        length = sqrt(length < 1 ? 1 : length);
+        ab = lacedring_dot_(a, b);
+        cosine[0] = lacedring_dot_(a, a) + ab; /* on the scale where the length is the sine */
+        cosine[1] = -ab;
+        cosine[2] = lacedring_dot_(b, b) + ab;
+        if (!s->by_area) {
+            const double by = 32768 / length;
+            for (c = 0; c < 3; ++c) normal[c] = (double)(int32_t)(normal[c] * by);
+        }
+        for (k = 0; k < 3; ++k) {
+            uint64_t* sum = sums + 3 * (size_t)(vertex_of != NULL ? vertex_of[triangles[k]] : triangles[k]);
+            int32_t weight = 1;
+            if (s->by_angle) {
+                const double x = cosine[k] < 0 ? -cosine[k] : cosine[k], most = x > length ? x : length;
+                weight = angles[(uint32_t)(LACEDRING_TANGENTS_ * (x > length ? length : x) / most + 0.5)];
+                if (x < length) weight = LACEDRING_HALF_TURN_ / 2 - weight;
+                if (cosine[k] < 0) weight = LACEDRING_HALF_TURN_ - weight;
+            }
+            for (c = 0; c < 3; ++c) sum[c] += (uint64_t)((int64_t)normal[c] * weight);
+        }
+    }
+}
+
+/* The octahedral integers of a sum. */
+static void lacedring_base_(const uint64_t sum[3], int32_t most, int32_t out[2]) {
+    uint64_t size[3];
+    double all;
+    uint32_t c, width;
+    for (c = 0; c < 3; ++c) size[c] = sum[c] >> 63 ? 0 - sum[c] : sum[c];
+    width = lacedring_width_(size[0] | size[1] | size[2] | 1);
+    for (c = 0; c < 3; ++c) size[c] >>= width > 32 ? width - 32 : 0;
+    all = (double)(int64_t)(size[0] + size[1] + size[2]);
+    out[0] = out[1] = 0;
+    if (all == 0) return;
+    for (c = 0; c < 2; ++c) out[c] = (int32_t)(most * (double)(int64_t)size[c] / all + 0.5);
+    if (sum[2] >> 63) {
+        const int32_t x = out[0];
+        out[0] = most - out[1];
+        out[1] = most - x;
+    }
+    for (c = 0; c < 2; ++c) {
+        if (sum[c] >> 63) out[c] = -out[c];
+    }
+}
+
+/* Turns a point of the square over: the lower half lies in the middle then. It is its own inverse. */
+static void lacedring_turn_over_(uint32_t* x, uint32_t* y, uint32_t most) {
+    const uint32_t left = *x >> 31, below = *y >> 31;
+    const uint32_t across = most + 1 - (below ? 0 - *y : *y), up = most + 1 - (left ? 0 - *x : *x);
+    *x = left ? 0 - across : across;
+    *y = below ? 0 - up : up;
+}
+
+/* Makes normals of their differences from the surface's. */
+LACEDRING_COLD_ void lacedring_add_normals_(const struct lacedring_stored_vertices* s,
+                                            const struct lacedring_positions* positions, const uint32_t* triangles,
+                                            uint32_t count, void* scratch, uint32_t* integers) {
+    const uint32_t values = s->attribute.vertices, most = (1u << (s->attribute.bits - 1)) - 1;
+    const uint32_t* vertex_of = s->of_vertex ? positions->vertex_of : NULL;
+    const size_t sum_count = vertex_of != NULL ? positions->vertices : values;
+    uint64_t* sums = (uint64_t*)(void*)((uint8_t*)scratch + (32 - ((uintptr_t)scratch & 31)));
+    uint16_t* angles = (uint16_t*)(void*)(sums + 3 * sum_count);
+    struct lacedring_places_ places;
+    uint32_t i;
+    lacedring_scale_places_(positions, &places);
+    memset(sums, 0, 24 * sum_count);
+    if (s->by_angle) lacedring_angles_(angles);
+    lacedring_sum_normals_(s, &places, triangles, count, vertex_of, angles, sums);
+    for (i = 0; i < values; ++i, integers += 2) {
+        int32_t base[2];
+        uint32_t x, y, is_down;
+        lacedring_base_(sums + 3 * (size_t)(vertex_of != NULL ? vertex_of[i] : i), (int32_t)most, base);
+        x = (uint32_t)base[0];
+        y = (uint32_t)base[1];
+        is_down = (x >> 31 ? 0 - x : x) + (y >> 31 ? 0 - y : y) > most;
+        if (is_down) lacedring_turn_over_(&x, &y, most);
+        integers[0] += x;
+        integers[1] += y;
+        if (is_down) lacedring_turn_over_(integers, integers + 1, most);
+    }
+}
+
+size_t lacedring_stored_vertices_scratch(const struct lacedring_stored_vertices* s, uint32_t triangles,
+                                         const struct lacedring_positions* positions) {
     const uint32_t n = s->attribute.components, vertices = s->attribute.vertices;
+    const uint32_t each = 16 + (s->error != 0 ? 4 * n : 0) + (s->by_positions ? 8 : 0);
     const size_t begin = 32 + n * sizeof(struct lacedring_residual_models_);
-    return lacedring_bytes_of_(lacedring_bytes_of_(begin, triangles, 32), vertices, 16 + (s->error != 0 ? 4 * n : 0));
+    const size_t walk = lacedring_bytes_of_(lacedring_bytes_of_(begin, triangles, 32), vertices, each);
+    uint32_t sums = vertices;
+    size_t normals;
+    if (!s->by_positions) return walk;
+    if (positions != NULL && positions->vertices > sums) sums = positions->vertices;
+    normals = lacedring_bytes_of_(32 + 2 * (LACEDRING_TANGENTS_ + 1), sums, 24);
+    return walk > normals ? walk : normals;
+}
+
+/* Has each value a place? */
+static int lacedring_have_places_(const struct lacedring_positions* positions, uint32_t values, uint64_t* where) {
+    uint32_t i = 0;
+    if (positions != NULL && positions->vertex_of == NULL && positions->vertices == values) return 1;
+    if (positions != NULL && positions->vertex_of != NULL) {
+        while (i < values && positions->vertex_of[i] < positions->vertices) ++i;
+        if (i == values) return 1;
+    }
+    if (where != NULL) *where = i;
+    return 0;
 }
 
 /* Reads the exceptions and writes them to values of floats, if `out` is not null. Returns 0 if one is impossible. */
@@ -1135,15 +1387,18 @@ static enum lacedring_status lacedring_stored_ranges_(const struct lacedring_sto
 }
 
 enum lacedring_status lacedring_stored_vertices_decode(struct lacedring_stored_vertices* s, const uint32_t* triangles,
-                                                       uint32_t triangle_count, void* scratch, uint32_t* integers,
-                                                       uint64_t* where) {
+                                                       uint32_t triangle_count,
+                                                       const struct lacedring_positions* positions, void* scratch,
+                                                       uint32_t* integers, uint64_t* where) {
     const uint32_t n = s->attribute.components, vertices = s->attribute.vertices;
     struct lacedring_residuals_ residuals;
     struct lacedring_walk_ w;
     struct lacedring_predictor_ p;
+    struct lacedring_places_ places;
     struct lacedring_coded d;
     uint32_t* words;
     uint32_t c, i;
+    if (s->by_positions && !lacedring_have_places_(positions, vertices, where)) return LACEDRING_STATUS_POSITIONS;
     if (triangle_count >= (1u << 29) - 1) return lacedring_at_(where, triangle_count, LACEDRING_STATUS_LIMIT);
     w.corners = (uint32_t*)(void*)((uint8_t*)scratch + (32 - ((uintptr_t)scratch & 31)));
     words = w.corners + 8 * (size_t)triangle_count;
@@ -1169,6 +1424,14 @@ enum lacedring_status lacedring_stored_vertices_decode(struct lacedring_stored_v
         memset(words, 0, 4 * (size_t)vertices * n);
         words += (size_t)vertices * n;
     }
+    p.places = NULL;
+    p.values = integers;
+    if (s->by_positions && s->attribute.mapping != LACEDRING_MAPPING_OCTAHEDRAL) {
+        lacedring_scale_places_(positions, &places);
+        p.places = &places;
+        p.integers = words;
+        words += 2 * (size_t)vertices;
+    }
     residuals.coded = s->residuals;
     residuals.models = (struct lacedring_residual_models_*)(void*)words;
     residuals.fine = s->fine;
@@ -1186,6 +1449,8 @@ enum lacedring_status lacedring_stored_vertices_decode(struct lacedring_stored_v
             return lacedring_at_(where, 0, LACEDRING_STATUS_CODED);
     }
     if (!lacedring_coded_ends_(&d)) return lacedring_at_(where, 0, LACEDRING_STATUS_CODED);
+    if (s->by_positions && s->attribute.mapping == LACEDRING_MAPPING_OCTAHEDRAL)
+        lacedring_add_normals_(s, positions, triangles, triangle_count, scratch, integers);
     return lacedring_stored_ranges_(s, integers, where);
 }
 
@@ -1217,6 +1482,8 @@ void lacedring_stored_vertices_values(const struct lacedring_stored_vertices* s,
 #undef LACEDRING_STORED_STEPS_
 #undef LACEDRING_SOME_VERTICES_
 #undef LACEDRING_NONE_
+#undef LACEDRING_TANGENTS_
+#undef LACEDRING_HALF_TURN_
 #undef LACEDRING_KNOWN_
 #undef LACEDRING_UNSEEN_
 #undef LACEDRING_MORE_
