@@ -1209,7 +1209,7 @@ LACEDRING_COLD_ void lacedring_integers_(const struct lacedring_predictor_* p, s
     }
 }
 
-#define LACEDRING_TANGENTS_ 4096 /* of the table of angles: steps up to 45 degrees */
+#define LACEDRING_TANGENTS_ 4096   /* of the table of angles: steps up to 45 degrees */
 #define LACEDRING_HALF_TURN_ 16384 /* of angles */
 
 /* The angles whose tangents are i / LACEDRING_TANGENTS_, rounded. */
