@@ -41,10 +41,11 @@ class Pack(CliTest):
 
     def test_options(self):
         """Every set of options, and a table of what it makes of the scene."""
-        more = ([], ["--fallback"], ["--keep-order"], ["--fallback", "--keep-order"], ["--document", "plain"], ["--document", "packed"])
+        more = ([], ["--resident"], ["--fallback"], ["--keep-order"], ["--fallback", "--keep-order", "--resident"], ["--document", "plain"],
+                ["--document", "packed"])
         cases = [(source, to, *bits, *options) for source in ("glb", "gltf") for to in ("glb", "gltf")
                  for bits in ([], ["--lossless"], FINE, COARSE) for options in more
-                 if to == "glb" or options[:1] != ["--document"]][::7 if SANITIZED else 1]
+                 if to == "glb" or options[:1] != ["--document"]][::8 if SANITIZED else 1]
 
         def one(i):
             source, to, *options = cases[i]

@@ -49,6 +49,8 @@ void write_stream(const char* target, const std::string& name, const Mesh& mesh,
     const Result<LrFile> seams = make_lr_file(cut, surface, encoded, mesh.triangle_count() % 3 == 0);
     all_written = seams.has_value() && all_written;
     if (seams) write("lr_file", std::string(target) + "-" + name + "-seams", serialize_lr(*seams));
+    if (seams)
+        write("lr_file", std::string(target) + "-" + name + "-stored-seams", serialize_lr(*seams, LrForm::stored));
 }
 
 /// The section of a mesh that is cut into charts: those triangles apart that are so many apart.

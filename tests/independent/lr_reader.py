@@ -12,11 +12,13 @@ from mesh_readers import TYPES, Attribute, BadFile, Mesh, split_keys
 from packed_reader import decode_packed
 from seams_reader import read_seams
 from storage_reader import read_stored_packed
-from vertex_reader import read_vertices
+from stored_seams import read_stored_seams
+from stored_vertices import read_stored_vertices
+from vertex_reader import DECIMALS, LATTICE, read_vertices
 
 ATTRIBUTE, VERTEX_ORDER, CORNER_ORDER, VERTEX_STREAM, SEAMS = 2, 3, 4, 8, 9
 STORAGE = 1 << 16  # added here to the kind of a section in storage form
-STORED_PACKED, STORED_VERTICES = STORAGE + 7, STORAGE + VERTEX_STREAM
+STORED_PACKED, STORED_VERTICES, STORED_SEAMS = STORAGE + 7, STORAGE + VERTEX_STREAM, STORAGE + SEAMS
 NORMALIZED, V_UP, PER_COPY = 1 << 16, 1 << 17, 1 << 18  # bits of an attribute's layout
 LAYOUT_BITS = {ATTRIBUTE: 0x7FFFF, VERTEX_STREAM: V_UP | PER_COPY, STORED_VERTICES: V_UP | PER_COPY}  # that may be set
 
@@ -44,6 +46,9 @@ DECODERS = {1: lambda words: (*decode_lean_slots(words), {}), 5: lambda words: t
             STORED_PACKED: lambda words: (*read_stored_packed(words), {})}
 
 
+SEAM_READERS = {SEAMS: read_seams, STORED_SEAMS: read_stored_seams}
+
+
 def sections(data):
     """(kind, contents, layout, length of the name) of each section; with STORAGE in kind if it is in storage form."""
     magic, version, count, vertices, _, copies, table_crc, header_crc = struct.unpack_from("<8I", data)
@@ -63,7 +68,7 @@ def sections(data):
         if offset != end + -end % 8 or any(data[end:offset]):
             raise BadFile(f"section {i} of the .lr file is not where it should be")
         kind += STORAGE * coding
-        if kind not in DECODERS and kind not in (*LAYOUT_BITS, VERTEX_ORDER, CORNER_ORDER, SEAMS):
+        if kind not in DECODERS and kind not in (*LAYOUT_BITS, VERTEX_ORDER, CORNER_ORDER, *SEAM_READERS):
             raise BadFile(f"section {i} of the .lr file has an unknown kind or coding")
         if layout & ~LAYOUT_BITS.get(kind, 0) or name_length and kind not in LAYOUT_BITS:
             raise BadFile(f"section {i} of the .lr file has bits set that should be 0")
@@ -74,42 +79,58 @@ def sections(data):
     return out
 
 
-def attribute(vertices, copies, kind, contents, layout, name_length):
-    if layout & PER_COPY:
-        if copies == 0:
+class Attributes:
+    """Reads attributes. Where some may be stored, connectivity and seams have to be known: `slots`, triangles of vertices;
+    `copy_slots`, of copies; `vertex_of`, the vertex of each copy."""
+
+    def __init__(self, data, slots=(), copy_slots=(), vertex_of=None):
+        self.vertices, _, self.copies = struct.unpack_from("<3I", data, 12)
+        self.triangles, self.copy_triangles = ([t for t in all_slots if t] for all_slots in (slots, copy_slots))
+        self.vertex_of = vertex_of
+        self.positions = None  # integers of the first attribute, once it is read
+
+    def read_all(self, parts):
+        """In the file's order, and of each whether it has a value for each copy. `parts`: the file's sections."""
+        parts = [part for part in parts if part[0] in LAYOUT_BITS]
+        out = [self.read(*part, is_first=i == 0) for i, part in enumerate(parts)]
+        per_copy = [layout & PER_COPY != 0 for _, _, layout, _ in parts]
+        if not out or (out[0].name, out[0].components, out[0].normalized) != ("POSITION", 3, False) or out[0].type < 6:
+            raise BadFile("the first attribute of the .lr file is not POSITION")
+        if not all(map(math.isfinite, array.array(TYPES[out[0].type], out[0].values))):
+            raise BadFile("a position is not finite")
+        if per_copy[0]:
+            raise BadFile("copies have positions")
+        return out, per_copy
+
+    def read(self, kind, contents, layout, name_length, is_first=False):
+        per_copy = layout & PER_COPY != 0
+        if per_copy and self.copies == 0:
             raise BadFile("an attribute of copies where there are none")
-        vertices = copies
-    begin = (name_length + 7) // 8 * 8
-    if len(contents) < begin or any(contents[name_length:begin]):
-        raise BadFile("the name of an attribute is not followed by zeros")
-    name, values = contents[:name_length].decode("latin-1"), contents[begin:]
-    if kind == STORED_VERTICES:
-        raise BadFile("vertex streams in storage form are not read here")
-    if kind == VERTEX_STREAM:
-        stream = read_vertices(values)
-        if stream.vertices != vertices:
-            raise BadFile("a vertex stream of the .lr file has another number of vertices")
-        return Attribute(name, stream.type, stream.components, stream.normalized, layout & V_UP != 0, stream.values)
-    kind, components = layout & 255, layout >> 8 & 255
-    if kind >= len(TYPES) or components == 0:
-        raise BadFile("an attribute has no values, or an unknown type")
-    if len(values) != vertices * components * struct.calcsize("<" + TYPES[kind]):
-        raise BadFile("an attribute has not one entry for each vertex")
-    return Attribute(name, kind, components, layout & NORMALIZED != 0, layout & V_UP != 0, values)
+        vertices = self.copies if per_copy else self.vertices
+        begin = (name_length + 7) // 8 * 8
+        if len(contents) < begin or any(contents[name_length:begin]):
+            raise BadFile("the name of an attribute is not followed by zeros")
+        name, values = contents[:name_length].decode("latin-1"), contents[begin:]
+        if kind != ATTRIBUTE:
+            stream = self.stored(values, vertices, per_copy) if kind == STORED_VERTICES else read_vertices(values)
+            if stream.vertices != vertices:
+                raise BadFile("a vertex stream of the .lr file has another number of vertices")
+            if is_first and stream.n == 3 and stream.mapping in (LATTICE, DECIMALS) and not per_copy:
+                self.positions = stream.integers
+            return Attribute(name, stream.type, stream.components, stream.normalized, layout & V_UP != 0, stream.values)
+        kind, components = layout & 255, layout >> 8 & 255
+        if kind >= len(TYPES) or components == 0:
+            raise BadFile("an attribute has no values, or an unknown type")
+        if len(values) != vertices * components * struct.calcsize("<" + TYPES[kind]):
+            raise BadFile("an attribute has not one entry for each vertex")
+        return Attribute(name, kind, components, layout & NORMALIZED != 0, layout & V_UP != 0, values)
 
-
-def attributes(data, parts):
-    """The attributes in the file's order, and of each whether it has a value for each copy. `parts`: its sections."""
-    vertices, _, copies = struct.unpack_from("<3I", data, 12)
-    out = [attribute(vertices, copies, *part) for part in parts if part[0] in LAYOUT_BITS]
-    per_copy = [layout & PER_COPY != 0 for kind, _, layout, _ in parts if kind in LAYOUT_BITS]
-    if not out or (out[0].name, out[0].components, out[0].normalized) != ("POSITION", 3, False) or out[0].type < 6:
-        raise BadFile("the first attribute of the .lr file is not POSITION")
-    if not all(map(math.isfinite, array.array(TYPES[out[0].type], out[0].values))):
-        raise BadFile("a position is not finite")
-    if per_copy[0]:
-        raise BadFile("copies have positions")
-    return out, per_copy
+    def stored(self, values, vertices, per_copy):
+        if len(values) % 4:
+            raise BadFile("stored vertices that are not a whole number of words")
+        triangles = self.copy_triangles if per_copy else self.triangles
+        return read_stored_vertices(array.array("I", values), vertices, triangles, self.positions,
+                                    self.vertex_of if per_copy else None)
 
 
 def order(parts, kind):
@@ -121,14 +142,15 @@ def order(parts, kind):
 
 
 def copies_of(data, parts, slots, vertices):
-    """The copies of the slots' corners, and the vertex of each copy. Without seams both are of the vertices."""
-    sections_of_seams = [contents for kind, contents, _, _ in parts if kind == SEAMS and contents]
+    """The copies of the slots' corners, and the vertex of each copy, None where there are no seams."""
+    found = [(kind, contents) for kind, contents, _, _ in parts if kind in SEAM_READERS and contents]
     copies, = struct.unpack_from("<I", data, 20)
-    if len(sections_of_seams) != (copies > 0):
+    if len(found) != (copies > 0):
         raise BadFile("the .lr file has seams without copies, or copies without seams")
-    if not sections_of_seams:
-        return slots, range(vertices)
-    slots, vertex_of = read_seams(sections_of_seams[0], slots, vertices)
+    if not found:
+        return slots, None
+    (kind, contents), = found
+    slots, vertex_of = SEAM_READERS[kind](contents, slots, vertices)
     if len(vertex_of) != copies:
         raise BadFile("seams and file have different numbers of copies")
     return slots, vertex_of
@@ -141,12 +163,13 @@ def read_lr(data):
     streams = [(kind, contents) for kind, contents, _, _ in parts if kind in DECODERS]
     if len(streams) != 1:
         raise BadFile("the .lr file has not one connectivity section")
-    all_attributes, per_copy = attributes(data, parts)
     kind, contents = streams[0]
     numbered, slots, extra = DECODERS[kind](array.array("I", contents))
     if numbered != vertices:
         raise BadFile("the .lr file's connectivity has another number of vertices")
-    slots, vertex_of = copies_of(data, parts, slots, vertices)
+    copy_slots, vertex_of = copies_of(data, parts, slots, vertices)
+    all_attributes, per_copy = Attributes(data, slots, copy_slots, vertex_of).read_all(parts)
+    slots, vertex_of = copy_slots, range(vertices) if vertex_of is None else vertex_of
     for attribute, own in zip(all_attributes, per_copy):
         if not own:
             size = attribute.components * struct.calcsize("<" + TYPES[attribute.type])

@@ -30,6 +30,24 @@ def ply(points, faces, order="<", strips=None, real="float"):
     return head + body
 
 
+PLY_TYPES = {"f": "float", "d": "double", "b": "char", "B": "uchar", "h": "short", "H": "ushort", "i": "int", "I": "uint"}
+
+
+def ply_of_attributes(columns, indices):
+    """columns: (name, type, flags of the comment, the values of each vertex), positions first."""
+    head, rows, properties = "ply\nformat binary_little_endian 1.0\n", [b""] * len(columns[0][3]), []
+    for name, code, flags, values in columns:
+        width = len(values[0])
+        head += f"comment lacedring attribute {width} {flags} {name}\n"
+        properties += [PLY_TYPES[code]] * width
+        rows = [row + struct.pack(f"<{width}{code}", *v) for row, v in zip(rows, values)]
+    names = ["x", "y", "z", *(f"p{i}" for i in range(3, len(properties)))]
+    head += f"element vertex {len(rows)}\n" + "".join(f"property {p} {n}\n" for p, n in zip(properties, names))
+    head += f"element face {len(indices) // 3}\nproperty list uchar int vertex_indices\nend_header\n"
+    corners = iter(indices)
+    return head.encode() + b"".join(rows) + b"".join(struct.pack("<B3i", 3, *t) for t in zip(corners, corners, corners))
+
+
 def decoded(points, triangles):
     """As `lacedring decode` writes it."""
     head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\nproperty float x\nproperty float y\n"

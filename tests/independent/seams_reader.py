@@ -232,18 +232,18 @@ class Walk:
             context = "right0"
         else:
             context = "right4" if x == 2 else "right1" if y == 0 else "right2" if q == 1 else "right3"
-        changes = (0, 0)
-        if self.codes.flag(context):
-            if self.codes.flag("half" if x == 0 else "both"):
-                changes = (context != "lone", 1)
-            elif self.codes.raw(1):
-                changes = (1, 0)
-            else:
-                changes = (context == "lone", 1)
-        for change, (x, w, state, far, q) in zip(changes, ends):
+        for change, (x, w, state, far, q) in zip(self.changes(context, "half" if x == 0 else "both", ends), ends):
             if change:
                 state = self.ask(w, self.change_questions(left, w, x, state, far, q), state)
             self.states[i][w] = state
+
+    def changes(self, context, usual, _ends):
+        """Which of both ends change their states."""
+        if not self.codes.flag(context):
+            return 0, 0
+        if self.codes.flag(usual):
+            return context != "lone", 1
+        return (1, 0) if self.codes.raw(1) else (context == "lone", 1)
 
     def change_questions(self, left, w, x, state, far, q):
         if not left:

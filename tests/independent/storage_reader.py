@@ -7,6 +7,7 @@ from collections import defaultdict
 
 from mesh_readers import BadFile
 from packed_reader import double
+from vertex_reader import Bits
 
 WORD = 0xFFFFFFFF
 HIGH = 1 << 31  # of the number of runs: triangles are flipped
@@ -18,7 +19,7 @@ MOST_VERTICES, MOST_TRIANGLES = 1 << 29, WORD // 3
 
 def require(condition, message):
     if not condition:
-        raise BadFile(f"stored packed stream: {message}")
+        raise BadFile(f"stored stream: {message}")
 
 
 class Coded:
@@ -30,7 +31,7 @@ class Coded:
         self.states = [self.symbols[i] | self.symbols[i + 1] << 32 for i in (0, 2)]
         require(min(self.states) >= LOWEST, "a state is too small")
         raw = words[words[0] + 1:].tobytes()
-        self.rest, self.left = int.from_bytes(raw, "little"), 8 * len(raw)
+        self.rest, self.left = Bits(raw), 8 * len(raw)
 
     def place(self):
         """Where in [0, SCALE) the next symbol's range is."""
@@ -48,14 +49,12 @@ class Coded:
 
     def raw(self, count):
         require(count <= self.left, "the raw bits end too early")
-        value = self.rest & (1 << count) - 1
-        self.rest >>= count
         self.left -= count
-        return value
+        return self.rest.take(count)
 
     def finish(self):
         require(self.states == [LOWEST, LOWEST] and self.at == len(self.symbols), "symbols are left")
-        require(self.left < 32 and self.rest == 0, "raw bits are left")
+        require(self.left < 32 and self.rest.take(32) == 0, "raw bits are left")
 
 
 class BitModel:
@@ -65,10 +64,13 @@ class BitModel:
     def read(self, coded):
         bit = int(coded.place() >= self.zero)
         coded.advance(*((self.zero, SCALE) if bit else (0, self.zero)))
+        self.learn(bit)
+        return bit
+
+    def learn(self, bit):
         self.seen = min(self.seen + 1, 48)
         target = 32 if bit else SCALE - 32
         self.zero += (target - self.zero) * ((1 << 17) // (2 * self.seen + 3)) >> 16
-        return bit
 
 
 class SymbolModel:

@@ -24,6 +24,7 @@ from gltf_reader import Gltf
 from lr_corners import check_corners
 from lr_tables_reader import Tables, decode_tables
 from mesh_readers import TYPES, Attribute, BadFile, ply_attributes, unpack
+from mesh_writers import ply_of_attributes
 from packed_reader import decode_packed, read_triangle
 from vertex_reader import LATTICE, OCTAHEDRAL, Vertices
 
@@ -587,20 +588,8 @@ class VertexStreams(WithProgram):
             mesh.indices, copies = cut(mesh.indices, random.Random(triangles))
             mesh.positions = [mesh.positions[v] for v in copies]
         columns = attributes_of([unpack(p) for p in mesh.positions], kind, random.Random(1))
-        head, rows = "ply\nformat binary_little_endian 1.0\n", [b""] * len(mesh.positions)
-        properties = []
-        for name, code, flags, values in columns:
-            head += f"comment lacedring attribute {len(values[0])} {flags} {name}\n"
-            properties += [{"f": "float", "d": "double", "b": "char", "B": "uchar", "h": "short", "H": "ushort",
-                            "i": "int", "I": "uint"}[code]] * len(values[0])
-            rows = [row + struct.pack(f"<{len(v)}{code}", *v) for row, v in zip(rows, values)]
-        names = ["x", "y", "z", *(f"p{i}" for i in range(3, len(properties)))]
-        head += f"element vertex {len(rows)}\n" + "".join(f"property {p} {n}\n" for p, n in zip(properties, names))
-        head += f"element face {len(mesh.indices) // 3}\nproperty list uchar int vertex_indices\nend_header\n"
-        corners = iter(mesh.indices)
         with open(self.path("m.ply"), "wb") as file:
-            file.write(head.encode() + b"".join(rows))
-            file.write(b"".join(struct.pack("<B3i", 3, *t) for t in zip(corners, corners, corners)))
+            file.write(ply_of_attributes(columns, mesh.indices))
         return ply_attributes(self.read("m.ply"))
 
     def streams(self, data):
@@ -670,7 +659,7 @@ class VertexStreams(WithProgram):
                                 capture_output=True, text=True)
         try:
             parts = lr_reader.sections(data)
-            attribute = lr_reader.attributes(data, parts[1:2] + parts[i:i + 1] * (i > 1))[0][-1]
+            attribute = lr_reader.Attributes(data).read_all(parts[1:2] + parts[i:i + 1] * (i > 1))[0][-1]
         except BadFile as error:
             self.assertNotIn("checksum", str(error))
             self.assertEqual(result.returncode, 3, f"the program accepts it, but: {error}")
@@ -764,7 +753,7 @@ class VertexStreams(WithProgram):
             for data in self.check_seams(wanted, indices, self.path("m.ply"), (((), BITS)[i % 2],), formats):
                 parts = lr_reader.sections(data)
                 kinds |= {part[0] for part in parts}
-                per_copy = dict(zip((a.name for a in wanted), lr_reader.attributes(data, parts)[1]))
+                per_copy = dict(zip((a.name for a in wanted), lr_reader.Attributes(data).read_all(parts)[1]))
                 equal = {"POSITION", "NORMAL", "f64"}  # made of positions alone
                 self.assertEqual({name for name in equal if per_copy[name]}, set())
                 self.assertTrue(per_copy["TEXCOORD_0"] and per_copy["COLOR_0"])

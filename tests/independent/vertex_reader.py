@@ -62,29 +62,37 @@ def float_bits(integer):
     return integer ^ (0x80000000 if integer >> 31 else WORD)
 
 
-class Vertices:
-    """A stream's parts before the data. read_vertices adds `integers`, for each vertex a tuple of n unsigned 32-bit
-    integers, and `values`, the attribute's bytes. `table` and `data` are the words at which these parts begin.
-    """
+class Header:
+    """What a stream says of its values: words 1, 2, 4, 5 and 6."""
 
-    def __init__(self, words):
-        require(len(words) >= 7 and words[0] == MAGIC, "too short, or wrong magic")
-        self.vertices, layout, _, self.scale, error, exceptions = words[1:7]
+    def __init__(self, vertices, layout, scale, error, exceptions):
+        self.vertices, self.scale = vertices, scale
         self.n, self.mapping, self.type = layout & 31, layout >> 5 & 7, layout >> 8 & 15
-        self.normalized, octahedral_bits, self.width = bool(layout >> 12 & 1), layout >> 13 & 31, layout >> 18 & 31
+        self.normalized, self.octahedral_bits, self.width = bool(layout >> 12 & 1), layout >> 13 & 31, layout >> 18 & 31
         require(1 <= self.n <= 16 and layout >> 23 == 0, "invalid number of integers, or unused bits are set")
         require(self.mapping <= DOUBLES and self.type in ALLOWED.get(self.mapping, (6,)), "invalid mapping or type")
         require(not self.normalized or self.mapping == INTEGERS, "floats are normalized")
         octahedral = self.mapping == OCTAHEDRAL
-        require(2 <= octahedral_bits <= 16 and self.n in (2, 3) if octahedral else octahedral_bits == 0,
+        require(2 <= self.octahedral_bits <= 16 and self.n in (2, 3) if octahedral else self.octahedral_bits == 0,
                 "invalid octahedral layout")
-        self.largest = (1 << octahedral_bits - 1) - 1 if octahedral else 0  # the document's M
+        self.largest = (1 << self.octahedral_bits - 1) - 1 if octahedral else 0  # the document's M
         require(self.mapping != DOUBLES or self.n % 2 == 0, "doubles with an odd number of integers")
         self.components = {OCTAHEDRAL: self.n + 1, DOUBLES: self.n // 2}.get(self.mapping, self.n)  # of the attribute
         require(self.scale in SCALES.get(self.mapping, (0,)), "step or digits out of range")
         require(error < (INFINITY if self.mapping in (LATTICE, OCTAHEDRAL) else 1), "invalid largest error")
         require(exceptions == 0 or self.mapping == DECIMALS, "exceptions without decimals")
         self.largest_error = as_float(error)
+
+
+class Vertices(Header):
+    """A stream's parts before the data. read_vertices adds `integers`, for each vertex a tuple of n unsigned 32-bit
+    integers, and `values`, the attribute's bytes. `table` and `data` are the words at which these parts begin.
+    """
+
+    def __init__(self, words):
+        require(len(words) >= 7 and words[0] == MAGIC, "too short, or wrong magic")
+        vertices, layout, _, scale, error, exceptions = words[1:7]
+        super().__init__(vertices, layout, scale, error, exceptions)
         self.blocks = (self.vertices + BLOCK - 1) // BLOCK
         self.groups = (self.blocks + GROUP - 1) // GROUP
         self.group_words = 1 + ((GROUP - 1) * self.width + 31) // 32

@@ -126,7 +126,7 @@ TEST_CASE("place prediction: as documented, at any places") {
         const auto other = prediction.predict(3, {turned, turned}, values);
         for (std::size_t c = 0; c < 2; ++c) {
             const auto apart = static_cast<std::int32_t>(other[c] - found[c]);
-            CHECK(both[c] == found[c] + static_cast<std::uint32_t>(std::floor((apart + 1.0) / 2)));
+            CHECK(both[c] == found[c] + static_cast<std::uint32_t>((std::int64_t{apart} + 1) >> 1));
         }
     }
 }

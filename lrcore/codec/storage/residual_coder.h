@@ -86,11 +86,10 @@ class ResidualCoder {
     std::vector<Role> roles_;
 };
 
-/// Codes the residuals of all vertices, `integers` of each.
-template <class Coder>
-void code_residuals(Coder& coder, std::uint32_t integers, std::uint32_t fine, std::span<std::uint32_t> residuals) {
-    const auto run = [&]<std::uint32_t N>() { ResidualCoder<Coder, N>(coder, integers, fine).code(residuals); };
-    switch (integers) {
+/// run.operator()<N>(), where N is `count`, or 0 if it is more than 3: loops over few components are then unrolled.
+template <class Run>
+void with_count(std::uint32_t count, const Run& run) {
+    switch (count) {
         case 1:
             return run.template operator()<1>();
         case 2:
@@ -100,6 +99,12 @@ void code_residuals(Coder& coder, std::uint32_t integers, std::uint32_t fine, st
         default:
             return run.template operator()<0>();
     }
+}
+
+/// Codes the residuals of all vertices, `integers` of each.
+template <class Coder>
+void code_residuals(Coder& coder, std::uint32_t integers, std::uint32_t fine, std::span<std::uint32_t> residuals) {
+    with_count(integers, [&]<std::uint32_t N>() { ResidualCoder<Coder, N>(coder, integers, fine).code(residuals); });
 }
 
 }  // namespace lacedring::storage
