@@ -12,6 +12,7 @@
 #include "lrcore/codec/storage/vertex_storage.h"
 #include "tests/support/capture.h"
 #include "tests/support/meshes.h"
+#include "tests/support/stored_in_c.h"
 
 using namespace lacedring;
 using storage::NormalBase;
@@ -220,10 +221,12 @@ TEST_CASE("normal base: normals of a surface become smaller, with seams and with
         const auto back = restored(waves.where());
         REQUIRE_MESSAGE(back, back.error().message);
         CHECK(*back == waves.normals);
+        test::check_in_c(with, waves.triangles, view, waves.where());
         Words fewer = waves.positions;
         fewer.resize(fewer.size() - 3);
         for (const VertexPlaces& bad : {VertexPlaces{}, VertexPlaces{fewer, waves.vertex_of}}) {
             const auto failed = restored(bad);
+            CHECK_FALSE(test::attribute_in_c(with, waves.triangles, view.vertices, bad).has_value());
             REQUIRE_FALSE(failed);
             CHECK(failed.error().code == ErrorCode::malformed);
             CHECK(failed.error().message.find("positions") != std::string::npos);
@@ -250,5 +253,9 @@ TEST_CASE("normal base: damage does no harm") {
         const auto back =
             storage::restore_vertices({exact.get(), all.size()}, waves.triangles, view.vertices, 100000, waves.where());
         if (back) CHECK((*back)[1] == view.vertices);
+        const std::span<const std::uint32_t> damaged{exact.get(), all.size()};
+        (void)test::attribute_in_c(damaged, waves.triangles, view.vertices, waves.where());
+        const Result<VertexView> valid = back ? validate_vertices(*back) : back.error();
+        if (valid) test::check_in_c(damaged, waves.triangles, *valid, waves.where());
     }
 }

@@ -10,6 +10,7 @@
 #include "lrcore/codec/storage/rans.h"
 #include "lrlab/generate/generate.h"
 #include "tests/support/meshes.h"
+#include "tests/support/stored_in_c.h"
 
 using namespace lacedring;
 using storage::restore_packed;
@@ -47,7 +48,15 @@ bool round_trips(const Words& words) {
     const Result<Words> back = restored(*stored, limits_of(*view));
     REQUIRE_MESSAGE(back, back.error().message);
     CHECK(*back == words);
+    CHECK(test::triangles_in_c(*stored, view->vertices, view->triangles) == decode(*view_stream(words)));
     return true;
+}
+
+/// Damaged words: if they restore to a valid stream, C finds its triangles. Whatever they are, it does no harm.
+void same_in_c(const Words& stored, const storage::PackedLimits& limits, const Result<Words>& back) {
+    const auto triangles = test::triangles_in_c(stored, limits.vertices, limits.triangles);
+    if (!back || !validate_packed(*back)) return;
+    CHECK(triangles == decode(*view_stream(*back)));
 }
 
 }  // namespace
@@ -114,14 +123,21 @@ TEST_CASE("stored packed streams cut short, changed or beyond their limits are r
         for (std::size_t size = 0; size < stored->size(); ++size) {
             CHECK_FALSE(
                 restored({stored->begin(), stored->begin() + static_cast<std::ptrdiff_t>(size)}, limits_of(*view)));
+            CHECK_FALSE(
+                test::triangles_in_c(std::span(*stored).first(size), view->vertices, view->triangles).has_value());
         }
-        if (view->vertices > 0) CHECK_FALSE(restored(*stored, {view->vertices - 1, view->triangles}));
+        if (view->vertices > 0) {
+            CHECK_FALSE(restored(*stored, {view->vertices - 1, view->triangles}));
+            CHECK_FALSE(test::triangles_in_c(*stored, view->vertices - 1, view->triangles).has_value());
+        }
+        if (view->triangles > 0)
+            CHECK_FALSE(test::triangles_in_c(*stored, view->vertices, view->triangles - 1).has_value());
         if (view->own > 0) CHECK_FALSE(restored(*stored, {view->vertices, view->own - 1}));
         for (std::size_t bit = 0; bit < 32 * stored->size(); bit += test::kSanitized ? 7 : 1) {
             Words changed = *stored;
             changed[bit / 32] ^= 1U << bit % 32;
             const Result<Words> back = restored(changed, limits_of(*view));
-            if (back) (void)validate_packed(*back);
+            same_in_c(changed, limits_of(*view), back);
             ++all;
             if (back && *back == words) ++same;  // of steps that have nothing across an edge it says what is entered
         }
@@ -145,7 +161,7 @@ TEST_CASE("random words are no stored packed stream, or restore to something") {
             words[3] = 4 + random() % static_cast<std::uint32_t>(words.size() - 7);
         }
         const Result<Words> back = restored(words, {1000, 1000});
-        if (back) (void)validate_packed(*back);
+        same_in_c(words, {1000, 1000}, back);
         if (!back) CHECK_FALSE(back.error().message.empty());
     }
 }

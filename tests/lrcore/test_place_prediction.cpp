@@ -12,6 +12,7 @@
 #include "lrcore/codec/storage/vertex_storage.h"
 #include "tests/support/capture.h"
 #include "tests/support/meshes.h"
+#include "tests/support/stored_in_c.h"
 
 using namespace lacedring;
 using storage::VertexPlaces;
@@ -144,10 +145,12 @@ TEST_CASE("place prediction: texture coordinates become smaller, with seams and 
         const auto back = restored(sheet.where());
         REQUIRE_MESSAGE(back, back.error().message);
         CHECK(*back == sheet.texture);
+        test::check_in_c(with, sheet.triangles, view, sheet.where());
         Words fewer = sheet.positions;
         fewer.resize(fewer.size() - 3);
         for (const VertexPlaces& bad : {VertexPlaces{}, VertexPlaces{fewer, sheet.vertex_of}}) {
             const auto failed = restored(bad);
+            CHECK_FALSE(test::attribute_in_c(with, sheet.triangles, view.vertices, bad).has_value());
             REQUIRE_FALSE(failed);
             CHECK(failed.error().code == ErrorCode::malformed);
             CHECK(failed.error().message.find("positions") != std::string::npos);
@@ -170,5 +173,9 @@ TEST_CASE("place prediction: damage does no harm") {
         const auto back =
             storage::restore_vertices({exact.get(), all.size()}, sheet.triangles, view.vertices, 100000, sheet.where());
         if (back) CHECK((*back)[1] == view.vertices);
+        const std::span<const std::uint32_t> damaged{exact.get(), all.size()};
+        (void)test::attribute_in_c(damaged, sheet.triangles, view.vertices, sheet.where());
+        const Result<VertexView> valid = back ? validate_vertices(*back) : back.error();
+        if (valid) test::check_in_c(damaged, sheet.triangles, *valid, sheet.where());
     }
 }

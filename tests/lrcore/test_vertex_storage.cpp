@@ -14,6 +14,7 @@
 #include "lrcore/codec/storage/vertex_walk.h"
 #include "tests/support/capture.h"
 #include "tests/support/meshes.h"
+#include "tests/support/stored_in_c.h"
 
 using namespace lacedring;
 
@@ -43,6 +44,7 @@ Words stored(const Words& stream, std::span<const std::uint32_t> triangles) {
         storage::restore_vertices({exact.get(), out->size()}, triangles, view->vertices, stream.size() - 1);
     REQUIRE_FALSE(small);
     CHECK(small.error().code == ErrorCode::memory_limit);
+    test::check_in_c(*out, triangles, *view);
     return *out;
 }
 
@@ -339,14 +341,17 @@ TEST_CASE("vertex storage: what is cut short is refused") {
             const auto exact = std::make_unique<std::uint32_t[]>(size + 1);
             std::copy_n(all.begin(), size, exact.get());
             CHECK_FALSE(storage::restore_vertices({exact.get(), size}, triangles, 144, 1 << 20));
+            CHECK_FALSE(test::attribute_in_c({exact.get(), size}, triangles, 144).has_value());
         }
         Words longer = all;
         longer.push_back(0);
+        CHECK_FALSE(test::attribute_in_c(longer, triangles, 144).has_value());
         CHECK_FALSE(storage::restore_vertices(longer, triangles, 144, 1 << 20));
     }
     const Words all = stored(stream_of(kAttributes[0], 144, 11), triangles);
     const Words outside{0, 1, 144};
     CHECK_FALSE(storage::restore_vertices(all, outside, 144, 1 << 20));
+    CHECK_FALSE(test::attribute_in_c(all, outside, 144).has_value());
     CHECK_FALSE(storage::restore_vertices(all, std::span(triangles).first(4), 144, 1 << 20));
 }
 
@@ -369,6 +374,9 @@ TEST_CASE("vertex storage: damage does no harm") {
             const auto exact = std::make_unique<std::uint32_t[]>(damaged.size());
             std::copy(damaged.begin(), damaged.end(), exact.get());
             const auto back = storage::restore_vertices({exact.get(), damaged.size()}, triangles, vertices, 4000);
+            const Result<VertexView> valid = back ? validate_vertices(*back) : back.error();
+            if (valid) test::check_in_c(damaged, triangles, *valid);
+            (void)test::attribute_in_c(damaged, triangles, vertices);
             if (back) {
                 CHECK(back->size() <= 4000);
                 CHECK((*back)[1] == vertices);

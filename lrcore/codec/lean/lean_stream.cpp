@@ -7,6 +7,7 @@
 #define LACEDRING_DECODE_IMPLEMENTATION
 #include "lacedring/lacedring_decode.h"
 #include "lacedring/lacedring_seams.h"
+#include "lacedring/lacedring_storage.h"
 #include "lacedring/lacedring_vertices.h"
 #include "lrcore/base/crc32.h"
 #include "lrcore/base/message.h"
@@ -80,6 +81,11 @@ std::string why(lacedring_status status, std::uint64_t where, std::span<const st
         case LACEDRING_STATUS_VERTEX_BLOCK:
         case LACEDRING_STATUS_TRIANGLE:
             break;  // of seam sections
+        case LACEDRING_STATUS_LIMIT:
+        case LACEDRING_STATUS_CODED:
+        case LACEDRING_STATUS_INTEGER:
+        case LACEDRING_STATUS_POSITIONS:
+            break;  // of the storage form
     }
     return "unknown";
 }

@@ -60,7 +60,11 @@ enum lacedring_status {
     LACEDRING_STATUS_DOUBLES,      /* which run of doubles is impossible */
     LACEDRING_STATUS_HEADER,       /* the word of the header that says something impossible */
     LACEDRING_STATUS_VERTEX_BLOCK, /* the block of vertices that says something impossible */
-    LACEDRING_STATUS_TRIANGLE      /* the triangle that has a vertex out of range, or one twice */
+    LACEDRING_STATUS_TRIANGLE,     /* the triangle that has a vertex out of range, or one twice */
+    LACEDRING_STATUS_LIMIT,        /* how many vertices or triangles there are, and no more were allowed */
+    LACEDRING_STATUS_CODED,        /* a coded part does not end where its symbols and bits do */
+    LACEDRING_STATUS_INTEGER,      /* the vertex that has an integer out of range */
+    LACEDRING_STATUS_POSITIONS     /* positions are needed and were not given, or have no place for this copy */
 };
 
 /* A stream in memory, its header read. Holds no copy. Slots are numbered: 2 for each vertex of two-sided rings, 1 for
@@ -1682,17 +1686,24 @@ static uint32_t lacedring_run_end_(const struct lacedring_packed* p, uint32_t ru
     return run + 1 < p->runs ? p->doubles[(size_t)2 * run + 2] : p->triangles;
 }
 
-enum lacedring_status lacedring_packed_check(const struct lacedring_packed* p, uint64_t* where) {
-    struct lacedring_group_ g;
-    struct lacedring_block_ b;
-    uint32_t indices[3 * LACEDRING_PACKED_BLOCK], block, blocks = lacedring_blocks_of_(p->own), i, left, plain = 0;
-    uint64_t end = 0;
+/* Runs of doubles follow each other, and are of own triangles. */
+static enum lacedring_status lacedring_check_doubles_(const struct lacedring_packed* p, uint64_t* where) {
+    uint32_t i;
     for (i = 0; i < p->runs; ++i) {
         const uint32_t *run = p->doubles + (size_t)2 * i, from = run[1] & ~LACEDRING_DOUBLES_;
         const uint32_t run_end = lacedring_run_end_(p, i);
         if ((i == 0 && run[0] != p->own) || run[0] >= run_end || from >= p->own || run_end - run[0] > p->own - from)
             return lacedring_at_(where, i, LACEDRING_STATUS_DOUBLES);
     }
+    return LACEDRING_STATUS_OK;
+}
+
+enum lacedring_status lacedring_packed_check(const struct lacedring_packed* p, uint64_t* where) {
+    struct lacedring_group_ g;
+    struct lacedring_block_ b;
+    uint32_t indices[3 * LACEDRING_PACKED_BLOCK], block, blocks = lacedring_blocks_of_(p->own), i, left, plain = 0;
+    uint64_t end = 0;
+    if (lacedring_check_doubles_(p, where) != LACEDRING_STATUS_OK) return LACEDRING_STATUS_DOUBLES;
     for (block = 0; block < blocks; ++block) {
         if (block % LACEDRING_PACKED_GROUP_ == 0) {
             const uint64_t begin = (uint64_t)4 * (block == 0 ? 0 : p->table[block / LACEDRING_PACKED_GROUP_ - 1]);

@@ -134,16 +134,9 @@ static float lacedring_as_float_(uint32_t bits) {
     return value;
 }
 
-enum lacedring_status lacedring_vertices_open(const uint32_t* words, size_t count, struct lacedring_vertices* s,
-                                              uint64_t* where) {
+/* Reads words 2, 4 and 5 of a header. Returns which of them says something impossible, or 0. */
+static uint32_t lacedring_vertex_layout_(struct lacedring_vertices* s, uint32_t layout, uint32_t step, uint32_t error) {
     static const uint8_t mappings[8] = {1, 1, 1, 1, 1, 1, 2 | 4 | 8 | 16, 32}; /* that each type has */
-    uint32_t layout, step;
-    uint64_t size;
-    if (count < LACEDRING_VERTICES_HEADER_WORDS) return lacedring_at_(where, 0, LACEDRING_STATUS_SHORT);
-    if (words[0] != 0x3156524cu) return lacedring_at_(where, 0, LACEDRING_STATUS_MAGIC);
-    layout = words[2];
-    step = words[4];
-    s->vertices = words[1];
     s->components = layout & 31;
     s->mapping = layout >> 5 & 7;
     s->type = layout >> 8 & 15;
@@ -152,29 +145,41 @@ enum lacedring_status lacedring_vertices_open(const uint32_t* words, size_t coun
     s->field_bits = layout >> 18 & 31;
     s->step = s->mapping == LACEDRING_MAPPING_LATTICE ? lacedring_as_float_(step) : 0.0f;
     s->digits = s->mapping == LACEDRING_MAPPING_DECIMALS ? step : 0;
-    s->exception_count = words[6];
-    s->largest_error = lacedring_as_float_(words[5]);
+    s->largest_error = lacedring_as_float_(error);
     if (layout >> 23 != 0 || s->components == 0 || s->components > LACEDRING_VERTICES_MAX_COMPONENTS || s->type > 7 ||
         (mappings[s->type] >> s->mapping & 1) == 0 || (s->normalized && s->type > 5))
-        return lacedring_at_(where, 2, LACEDRING_STATUS_HEADER);
+        return 2;
     if (s->mapping == LACEDRING_MAPPING_OCTAHEDRAL
             ? s->bits < 2 || s->bits > 16 || s->components < 2 || s->components > 3
             : s->bits != 0)
-        return lacedring_at_(where, 2, LACEDRING_STATUS_HEADER);
-    if (s->mapping == LACEDRING_MAPPING_DOUBLES && s->components % 2 != 0)
-        return lacedring_at_(where, 2, LACEDRING_STATUS_HEADER);
+        return 2;
+    if (s->mapping == LACEDRING_MAPPING_DOUBLES && s->components % 2 != 0) return 2;
     /* A step is a normal number with 24 bits to spare above, so that no product is more than a float holds. */
     if (s->mapping == LACEDRING_MAPPING_LATTICE    ? step < 0x00800000u || step >= 0x73800000u
         : s->mapping == LACEDRING_MAPPING_DECIMALS ? step > 9
                                                    : step != 0)
-        return lacedring_at_(where, 4, LACEDRING_STATUS_HEADER);
-    if (s->mapping == LACEDRING_MAPPING_LATTICE || s->mapping == LACEDRING_MAPPING_OCTAHEDRAL ? words[5] >= 0x7f800000u
-                                                                                              : words[5] != 0)
-        return lacedring_at_(where, 5, LACEDRING_STATUS_HEADER);
+        return 4;
+    if (s->mapping == LACEDRING_MAPPING_LATTICE || s->mapping == LACEDRING_MAPPING_OCTAHEDRAL ? error >= 0x7f800000u
+                                                                                              : error != 0)
+        return 5;
     s->most = s->mapping == LACEDRING_MAPPING_OCTAHEDRAL ? 1u << (s->bits - 1) : 0;
     if (s->mapping == LACEDRING_MAPPING_LATTICE) { /* a float has 24 bits for the step and the integer */
-        for (s->most = 1, size = step & 0x007fffffu; s->most < 1u << 23 && !(size & 1); s->most *= 2) size >>= 1;
+        uint32_t zeros = step & 0x007fffffu;
+        for (s->most = 1; s->most < 1u << 23 && !(zeros & 1); s->most *= 2) zeros >>= 1;
     }
+    return 0;
+}
+
+enum lacedring_status lacedring_vertices_open(const uint32_t* words, size_t count, struct lacedring_vertices* s,
+                                              uint64_t* where) {
+    uint32_t wrong;
+    uint64_t size;
+    if (count < LACEDRING_VERTICES_HEADER_WORDS) return lacedring_at_(where, 0, LACEDRING_STATUS_SHORT);
+    if (words[0] != 0x3156524cu) return lacedring_at_(where, 0, LACEDRING_STATUS_MAGIC);
+    s->vertices = words[1];
+    s->exception_count = words[6];
+    wrong = lacedring_vertex_layout_(s, words[2], words[4], words[5]);
+    if (wrong != 0) return lacedring_at_(where, wrong, LACEDRING_STATUS_HEADER);
     if (s->mapping != LACEDRING_MAPPING_DECIMALS && s->exception_count != 0)
         return lacedring_at_(where, 6, LACEDRING_STATUS_HEADER);
     size = LACEDRING_VERTICES_HEADER_WORDS + 2 * s->components + (uint64_t)2 * s->exception_count;

@@ -1,0 +1,101 @@
+#pragma once
+// The storage form decoded by lacedring_storage.h, in buffers of exactly their size.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "lacedring/lacedring_storage.h"
+#include "lacedring/vertices.hpp"
+#include "lrcore/codec/storage/vertex_places.h"
+
+namespace lacedring::test {
+
+template <class T>
+std::unique_ptr<T[]> exact_copy(std::span<const T> from) {
+    auto out = std::make_unique<T[]>(from.size());
+    std::copy(from.begin(), from.end(), out.get());
+    return out;
+}
+
+/// The triangles of a stored packed stream; none: it is refused.
+inline std::optional<std::vector<std::uint32_t>> triangles_in_c(std::span<const std::uint32_t> stored,
+                                                                std::uint32_t vertices, std::uint32_t triangles) {
+    const auto words = exact_copy(stored);
+    lacedring_stored_packed mesh;
+    if (lacedring_stored_packed_open(words.get(), stored.size(), vertices, triangles, &mesh, nullptr) !=
+        LACEDRING_STATUS_OK)
+        return {};
+    const auto scratch = std::make_unique<std::byte[]>(lacedring_stored_packed_scratch(&mesh));
+    const std::size_t size = std::size_t{3} * mesh.triangles;
+    const auto out = std::make_unique<std::uint32_t[]>(size);
+    std::uint64_t where = 0;
+    if (lacedring_stored_packed_decode(&mesh, scratch.get(), out.get(), &where) != LACEDRING_STATUS_OK) return {};
+    return std::vector<std::uint32_t>(out.get(), out.get() + size);
+}
+
+struct AttributeInC {
+    lacedring_vertices header;
+    std::vector<std::uint32_t> integers;
+    std::vector<std::byte> values;
+};
+
+/// The integers and the values of a stored vertex stream; none: it is refused.
+inline std::optional<AttributeInC> attribute_in_c(std::span<const std::uint32_t> stored,
+                                                  std::span<const std::uint32_t> triangles, std::uint32_t vertices,
+                                                  const storage::VertexPlaces& places = {}) {
+    const auto words = exact_copy(stored), corners = exact_copy(triangles);
+    const auto positions = exact_copy(places.positions), vertex_of = exact_copy(places.vertex_of);
+    const lacedring_positions given{positions.get(), static_cast<std::uint32_t>(places.positions.size() / 3),
+                                    places.vertex_of.empty() ? nullptr : vertex_of.get()};
+    const lacedring_positions* where_from = places.positions.empty() ? nullptr : &given;
+    const auto count = static_cast<std::uint32_t>(triangles.size() / 3);
+    lacedring_stored_vertices attribute;
+    if (lacedring_stored_vertices_open(words.get(), stored.size(), vertices, &attribute, nullptr) !=
+        LACEDRING_STATUS_OK)
+        return {};
+    const auto scratch =
+        std::make_unique<std::byte[]>(lacedring_stored_vertices_scratch(&attribute, count, where_from));
+    const std::size_t size = std::size_t{vertices} * attribute.attribute.components;
+    const auto integers = std::make_unique<std::uint32_t[]>(size);
+    std::uint64_t where = 0;
+    if (lacedring_stored_vertices_decode(&attribute, corners.get(), count, where_from, scratch.get(), integers.get(),
+                                         &where) != LACEDRING_STATUS_OK)
+        return {};
+    constexpr std::uint8_t kSizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
+    const std::size_t bytes =
+        std::size_t{vertices} * lacedring_vertices_values(&attribute.attribute) * kSizes[attribute.attribute.type];
+    const auto values = std::make_unique<std::byte[]>(bytes);
+    lacedring_stored_vertices_values(&attribute, integers.get(), values.get());
+    return AttributeInC{
+        attribute.attribute, {integers.get(), integers.get() + size}, {values.get(), values.get() + bytes}};
+}
+
+/// Compares what C decodes with the stream that it restores to.
+inline void check_in_c(std::span<const std::uint32_t> stored, std::span<const std::uint32_t> triangles,
+                       const VertexView& view, const storage::VertexPlaces& places = {}) {
+    const auto in_c = attribute_in_c(stored, triangles, view.vertices, places);
+    REQUIRE(in_c);
+    std::vector<std::uint32_t> integers(std::size_t{view.vertices} * view.integers);
+    for (std::uint32_t block = 0; block < view.blocks(); ++block)
+        decode_vertex_block(view, block,
+                            std::span(integers).subspan(std::size_t{block} * kVertexBlock * view.integers));
+    CHECK(in_c->integers == integers);
+    std::vector<std::byte> values(view.decoded_bytes());
+    decode_vertices(view, values);
+    CHECK(in_c->values == values);
+    CHECK(in_c->header.mapping == static_cast<std::uint32_t>(view.mapping));
+    CHECK(in_c->header.type == static_cast<std::uint32_t>(view.type));
+    CHECK((in_c->header.normalized != 0) == view.normalized);
+    CHECK(in_c->header.largest_error == view.largest_error);
+    CHECK(in_c->header.step == view.step);
+    CHECK(in_c->header.exception_count == view.exceptions);
+}
+
+}  // namespace lacedring::test
