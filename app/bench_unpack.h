@@ -26,9 +26,10 @@ struct UnpackBench {
 UnpackBench unpack_candidates(const Mesh& mesh);
 
 /// "lacedring": an .lr file in storage form to resident streams (parse_lr), which have blocks that decode alone;
-/// "lacedring_decoded": from there to positions and an index list, too (decode_lr); "draco": the same positions with
-/// the same bits by Draco at level 10, its smallest, to positions and an index list. `encoded` is the mesh's, as
-/// packed; of its attributes only POSITION is taken. All from bytes in memory, on one thread.
+/// "lacedring_decoded": from there to positions and an index list, too (decode_lr); "lacedring_arrays": to these
+/// straight (lacedring_storage.h), from the file's sections; "draco": the same positions with the same bits by Draco at
+/// level 10, its smallest, to positions and an index list. `encoded` is the mesh's, as packed; of its attributes only
+/// POSITION is taken. All from bytes in memory, on one thread.
 UnpackBench restore_candidates(const Mesh& mesh, Encoded encoded, const AttributeBits& bits);
 
 }  // namespace lacedring::app

@@ -269,6 +269,7 @@ int bench(const BenchOptions& options, const std::string& path, Json& meshes, [[
     const Json construct_ratio = construct.ratio("strips", "lean"),
                decode_cpu_ratio = decode.ratio("meshopt_vertex_codec", "vertices"),
                unpack_ratio = unpack.ratio("draco", "lacedring"), restore_ratio = restore.ratio("draco", "lacedring"),
+               arrays_ratio = restore.ratio("draco", "lacedring_arrays"),
                decode_gpu_ratio = decode_gpu.ratio("packed_vertices", "packed");
     if (options.json) {
         meshes.push_back({{"file", path},
@@ -328,6 +329,7 @@ int bench(const BenchOptions& options, const std::string& path, Json& meshes, [[
                 fmt::format("a file in storage form takes {:.0f} ns a triangle to restore,",
                             1e9 * restore.median("lacedring") / triangles),
                 "times as fast as Draco decodes its smallest");
+    print_ratio(arrays_ratio, "straight to indices and positions,", "times as fast");
     print_ratio(decode_gpu_ratio, "on the device, indices and positions take", "times as long as indices alone");
     for (const auto& [name, reason] : absent.items()) {
         print("  {} absent: {}\n", name, reason.get<std::string>());

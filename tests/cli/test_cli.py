@@ -321,7 +321,7 @@ class Json(CliTest):
         self.assertEqual(mesh["position_bits"], 14)
         rivals = {"draco", "draco_smallest"} - set(mesh["absent"])  # a build may lack Draco
         self.assertEqual(set(mesh["unpack"]), {"lacedring"} | rivals)
-        self.assertEqual(set(mesh["restore"]), {"lacedring", "lacedring_decoded"} | (rivals & {"draco"}))
+        self.assertEqual(set(mesh["restore"]), {"lacedring", "lacedring_decoded", "lacedring_arrays"} | (rivals & {"draco"}))
         self.assertTrue(all(entry["bytes"] > 0 for entry in (*mesh["unpack"].values(), *mesh["restore"].values())))
         for entry in mesh["restore"].values():
             self.assertAlmostEqual(entry["ns_per_triangle"], 1e9 * entry["seconds"] / 2000)
