@@ -94,7 +94,7 @@ struct lacedring_positions {
     const uint32_t* vertex_of; /* the vertex of each value, where these are of copies; null: values are of vertices */
 };
 
-/* Bytes of scratch memory that lacedring_stored_vertices_decode takes with so many triangles and positions: 32 for each
+/* Bytes of scratch memory that lacedring_stored_vertices_decode takes with so many triangles and positions: 16 for each
    triangle and about 16 for each vertex, or, of normals by positions, 24 for each of `positions` and of their values.
    SIZE_MAX: more than there can be. */
 size_t lacedring_stored_vertices_scratch(const struct lacedring_stored_vertices* stored, uint32_t triangles,
@@ -588,7 +588,7 @@ enum lacedring_status lacedring_stored_packed_decode(const struct lacedring_stor
 #define LACEDRING_SOME_VERTICES_ 128u /* vertices that are decoded at once */
 #define LACEDRING_KNOWN_ 0xfffffffeu  /* states of vertices */
 #define LACEDRING_UNSEEN_ UINT32_MAX
-#define LACEDRING_MORE_ 4u
+#define LACEDRING_MORE_ 0x80000000u /* of a vertex's state: more corners than one */
 
 enum { LACEDRING_BY_PARALLELOGRAMS_, LACEDRING_BY_MEAN_, LACEDRING_BY_NEIGHBOR_, LACEDRING_BY_NOTHING_ };
 
@@ -688,26 +688,30 @@ LACEDRING_HOT_ void lacedring_next_residuals_(struct lacedring_residuals_* r, st
     }
 }
 
-/* The walk has eight words for each triangle, which are in one line of the cache: its vertices, whether it is complete,
-   the opposite corner of each corner, and a link. A corner is the number of its vertex's word. */
+/* The walk has four words for each triangle: the opposite corner of each of its corners, and 0, or, where it is
+   complete, 1, or a link with that bit. A corner is the number of its word. */
 #define LACEDRING_COMPLETE_ 3u /* of a triangle's words */
-#define LACEDRING_LINK_ 7u
-#define LACEDRING_OPPOSITE_ 4u /* words from a vertex to its opposite corner */
 #define LACEDRING_NONE_ UINT32_MAX
+
+/* Where a corner's vertex is among three a triangle. */
+LACEDRING_HOT_ size_t lacedring_of_corner_(uint32_t corner) {
+    return corner - (corner >> 2);
+}
 
 /* Corners that wait for their opposite ones. Those of an edge between vertices that follow each other are in a table;
    the others in a list for each vertex, which is the smaller one of their edges. */
 struct lacedring_pairs_ {
-    uint32_t* corners;
+    const uint32_t* triangles;
+    uint32_t* opposite;
     uint32_t* ring; /* of each vertex: a corner that faces the edge to the next one */
     uint32_t* last; /* of each vertex's list, where the opposite corner is the next one; behind the last is the first */
 };
 
 /* Of a corner without an opposite one. */
 LACEDRING_HOT_ void lacedring_pair_corner_(const struct lacedring_pairs_* p, uint32_t corner) {
-    const uint32_t k = corner & 3, *t = p->corners + (corner - k);
+    const uint32_t k = corner & 3, *t = p->triangles + lacedring_of_corner_(corner - k);
     const uint32_t x = t[k == 0 ? 1 : 0], y = t[k == 2 ? 1 : 2], smaller = x < y ? x : y;
-    uint32_t* const opposite = p->corners + LACEDRING_OPPOSITE_;
+    uint32_t* const opposite = p->opposite;
     if (x - y == 1 || y - x == 1) {
         const uint32_t other = p->ring[smaller], is_pair = other != LACEDRING_NONE_; /* hard to predict: no branch */
         opposite[corner] = other;
@@ -747,38 +751,35 @@ LACEDRING_HOT_ uint32_t lacedring_shared_(const uint32_t v[3], const uint32_t be
 /* Fills the words of triangles, and finds opposite corners. `scratch`: four words a vertex. Returns the number of a
    triangle that has another vertex, or `count`. */
 LACEDRING_COLD_ uint32_t lacedring_pair_corners_(const uint32_t* triangles, uint32_t count, uint32_t vertices,
-                                                 uint32_t* corners, uint32_t* scratch) {
+                                                 uint32_t* opposite, uint32_t* scratch) {
     struct lacedring_pairs_ p;
     uint32_t* edges =
         scratch + 2 * (size_t)vertices; /* by the larger vertex, a corner that waits: the smaller, and it */
     static const uint8_t alone[8] = {3, 3, 3, 2, 3, 1, 0, 3}; /* the one of three whose bit is 0; 3: not one */
     uint32_t i, c, k, v;
     uint32_t before[3] = {0, 0, 0}, paired = 3, is_good = 0; /* of the triangle before */
-    p.corners = corners;
+    p.triangles = triangles;
+    p.opposite = opposite;
     p.ring = scratch;
     p.last = scratch + vertices;
     memset(scratch, 0xff, 16 * (size_t)vertices);
     for (i = 0; i <= count; ++i, triangles += 3) {
         uint32_t paired_now = 3, behind = 3, is_good_now = 0;
-        c = 8 * i;
+        c = 4 * i;
         if (i < count) {
             const uint32_t now[3] = {triangles[0], triangles[1], triangles[2]};
-            uint32_t* t = corners + c;
             if (now[0] >= vertices || now[1] >= vertices || now[2] >= vertices) return i;
             is_good_now = !((now[0] == now[1]) | (now[1] == now[2]) | (now[2] == now[0]));
-            t[0] = now[0];
-            t[1] = now[1];
-            t[2] = now[2];
-            t[LACEDRING_COMPLETE_] = 0;
-            t[4] = t[5] = t[6] = LACEDRING_NONE_;
+            opposite[c] = opposite[c + 1] = opposite[c + 2] = LACEDRING_NONE_;
+            opposite[c + LACEDRING_COMPLETE_] = 0;
             if (is_good & is_good_now) {
                 const uint32_t shared = lacedring_shared_(now, before), from = alone[shared >> 3];
                 k = alone[shared & 7];
                 if (k != 3 && from != paired) {
                     paired_now = k;
                     behind = from;
-                    t[k + LACEDRING_OPPOSITE_] = c - 8 + from;
-                    corners[c - 8 + from + LACEDRING_OPPOSITE_] = c + k;
+                    opposite[c + k] = c - 4 + from;
+                    opposite[c - 4 + from] = c + k;
                 }
             }
             before[0] = now[0];
@@ -787,10 +788,10 @@ LACEDRING_COLD_ uint32_t lacedring_pair_corners_(const uint32_t* triangles, uint
         }
         if (is_good) { /* what is left of the triangle before: mostly one corner */
             if (paired + behind <= 3 && paired != 3 && behind != 3) {
-                lacedring_pair_corner_(&p, c - 8 + (3 - paired - behind));
+                lacedring_pair_corner_(&p, c - 4 + (3 - paired - behind));
             } else {
                 for (k = 0; k < 3; ++k) {
-                    if (k != paired && k != behind) lacedring_pair_corner_(&p, c - 8 + k);
+                    if (k != paired && k != behind) lacedring_pair_corner_(&p, c - 4 + k);
                 }
             }
         }
@@ -801,14 +802,14 @@ LACEDRING_COLD_ uint32_t lacedring_pair_corners_(const uint32_t* triangles, uint
         const uint32_t last = p.last[v];
         uint32_t next;
         if (last == LACEDRING_NONE_) continue;
-        for (c = corners[last + LACEDRING_OPPOSITE_];; c = next) {
-            const uint32_t* t = corners + (c & ~3u);
-            const uint32_t larger = t[0] ^ t[1] ^ t[2] ^ corners[c] ^ v;
+        for (c = opposite[last];; c = next) {
+            const uint32_t k_of = c & 3, *t = p.triangles + lacedring_of_corner_(c - k_of);
+            const uint32_t larger = t[0] ^ t[1] ^ t[2] ^ t[k_of] ^ v;
             uint32_t* edge = edges + 2 * (size_t)larger;
             const uint32_t other = edge[1], is_pair = edge[0] == v;
-            next = corners[c + LACEDRING_OPPOSITE_];
-            corners[c + LACEDRING_OPPOSITE_] = is_pair ? other : LACEDRING_NONE_;
-            corners[(is_pair ? other : c) + LACEDRING_OPPOSITE_] = is_pair ? c : LACEDRING_NONE_;
+            next = opposite[c];
+            opposite[c] = is_pair ? other : LACEDRING_NONE_;
+            opposite[is_pair ? other : c] = is_pair ? c : LACEDRING_NONE_;
             edge[0] = is_pair ? LACEDRING_NONE_ : v;
             edge[1] = c;
             if (c == last) break;
@@ -825,8 +826,9 @@ struct lacedring_visit_ {
 
 /* Finds the order of vertices. */
 struct lacedring_walk_ {
-    uint32_t* corners; /* where a corner was looked across from, its opposite one is the next of the vertex's list */
-    uint32_t* state;   /* of each vertex: known, unseen, or the first corner of its list, plus 4 if there are more */
+    const uint32_t* of; /* of triangles, three vertices each */
+    uint32_t* opposite; /* where a corner was looked across from, its opposite one is the next of the vertex's list */
+    uint32_t* state;    /* of each vertex: known, unseen, or the first corner of its list and a bit if there are more */
     const uint32_t *one, *two; /* queues of vertices that wait: with one corner, and with more */
     uint32_t *one_end, *two_end;
     uint32_t pending;             /* a stack of complete triangles that were not looked across */
@@ -837,46 +839,45 @@ struct lacedring_walk_ {
 
 /* A triangle is complete, and is to be looked across. */
 LACEDRING_HOT_ void lacedring_complete_(struct lacedring_walk_* w, uint32_t triangle) {
-    w->corners[triangle + LACEDRING_COMPLETE_] = 1;
-    w->corners[triangle + LACEDRING_LINK_] = w->pending;
+    w->opposite[triangle + LACEDRING_COMPLETE_] = w->pending | 1;
     w->pending = triangle;
 }
 
 /* The neighbor across from a corner of a complete triangle is complete, too, or its vertex gets the corner. */
 LACEDRING_HOT_ void lacedring_look_across_(struct lacedring_walk_* w, uint32_t corner) {
-    uint32_t* corners = w->corners;
-    const uint32_t across = corners[corner + LACEDRING_OPPOSITE_], k = across & 3, triangle = across - k;
+    uint32_t* opposite = w->opposite;
+    const uint32_t across = opposite[corner], k = across & 3, triangle = across - k;
     uint32_t v, state;
     if (across == LACEDRING_NONE_) return;
-    v = corners[across];
+    v = w->of[lacedring_of_corner_(across)];
     state = w->state[v];
     if (state == LACEDRING_KNOWN_) {
-        if (!corners[triangle + LACEDRING_COMPLETE_]) lacedring_complete_(w, triangle);
+        if (!opposite[triangle + LACEDRING_COMPLETE_]) lacedring_complete_(w, triangle);
     } else { /* no branches: these are hard to predict */
         const uint32_t is_first = state == LACEDRING_UNSEEN_, is_second = !(state & LACEDRING_MORE_);
-        const uint32_t* opposite = corners + triangle + LACEDRING_OPPOSITE_;
-        corners[corner + LACEDRING_OPPOSITE_] = is_first ? LACEDRING_NONE_ : state & ~LACEDRING_MORE_;
+        const uint32_t* next = opposite + triangle;
+        opposite[corner] = is_first ? LACEDRING_NONE_ : state & ~LACEDRING_MORE_;
         w->state[v] = is_first ? across : across | LACEDRING_MORE_;
         *(is_first ? w->one_end : w->two_end) = v;
         w->one_end += is_first;
         w->two_end += is_second;
-        LACEDRING_PREFETCH_(corners + opposite[k == 2 ? 0 : k + 1]); /* which will be looked at next */
-        LACEDRING_PREFETCH_(corners + opposite[k == 0 ? 2 : k - 1]);
+        LACEDRING_PREFETCH_(opposite + next[k == 2 ? 0 : k + 1]); /* which will be looked at next */
+        LACEDRING_PREFETCH_(opposite + next[k == 0 ? 2 : k - 1]);
     }
 }
 
 /* The corner of a vertex's list behind this one, or LACEDRING_NONE_: the opposite corner says, which is of no use any
    more. */
 LACEDRING_HOT_ uint32_t lacedring_corner_behind_(const struct lacedring_walk_* w, uint32_t corner) {
-    return w->corners[w->corners[corner + LACEDRING_OPPOSITE_] + LACEDRING_OPPOSITE_];
+    return w->opposite[w->opposite[corner]];
 }
 
 LACEDRING_HOT_ void lacedring_predict_by_(const struct lacedring_walk_* w, uint32_t corner, uint32_t i,
                                           struct lacedring_visit_* visit) {
-    const uint32_t k = corner & 3, *t = w->corners + (corner - k);
+    const uint32_t k = corner & 3, *t = w->of + lacedring_of_corner_(corner - k);
     visit->x[i] = t[k == 2 ? 0 : k + 1];
     visit->y[i] = t[k == 0 ? 2 : k - 1];
-    visit->z[i] = w->corners[w->corners[corner + LACEDRING_OPPOSITE_]];
+    visit->z[i] = w->of[lacedring_of_corner_(w->opposite[corner])];
 }
 
 LACEDRING_HOT_ struct lacedring_visit_* lacedring_start_(struct lacedring_walk_* w, uint32_t v, uint32_t from,
@@ -898,7 +899,8 @@ LACEDRING_COLD_ uint32_t lacedring_walk_some_(struct lacedring_walk_* begin, str
         uint32_t v = LACEDRING_NONE_;
         while (w->pending != LACEDRING_NONE_) {
             c = w->pending;
-            w->pending = w->corners[c + LACEDRING_LINK_];
+            w->pending = w->opposite[c + LACEDRING_COMPLETE_];
+            w->pending -= w->pending != LACEDRING_NONE_;
             for (k = 0; k < 3; ++k) lacedring_look_across_(w, c + k);
         }
         if (visit >= visits + most) break;
@@ -919,7 +921,7 @@ LACEDRING_COLD_ uint32_t lacedring_walk_some_(struct lacedring_walk_* begin, str
             ++visit;
             w->state[v] = LACEDRING_KNOWN_;
             for (i = c; i != LACEDRING_NONE_; i = lacedring_corner_behind_(w, i))
-                w->corners[i | LACEDRING_COMPLETE_] = 1;
+                w->opposite[i | LACEDRING_COMPLETE_] = 1;
             for (;;) {
                 k = c & 3;
                 lacedring_look_across_(w, k == 2 ? c - 2 : c + 1);
@@ -929,9 +931,9 @@ LACEDRING_COLD_ uint32_t lacedring_walk_some_(struct lacedring_walk_* begin, str
                 second = lacedring_corner_behind_(w, c);
             }
         } else if (w->triangle < w->triangles) { /* does it begin a component? */
-            const uint32_t* t = w->corners + 8 * (size_t)w->triangle++;
+            const uint32_t *t = w->of + 3 * (size_t)w->triangle, next = 4 * w->triangle++;
             uint32_t from = LACEDRING_NONE_;
-            if (t[LACEDRING_COMPLETE_] || t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+            if (w->opposite[next + LACEDRING_COMPLETE_] || t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
             for (k = 0; k < 3; ++k) {
                 if (w->state[t[k]] == LACEDRING_KNOWN_) from = t[k];
             }
@@ -940,7 +942,7 @@ LACEDRING_COLD_ uint32_t lacedring_walk_some_(struct lacedring_walk_* begin, str
                 visit = lacedring_start_(w, t[k], from == LACEDRING_NONE_ ? w->last : from, visit);
                 w->last = from = t[k];
             }
-            lacedring_complete_(w, 8 * (w->triangle - 1));
+            lacedring_complete_(w, next);
         } else if (w->vertex < w->vertices) {
             v = w->vertex++;
             if (w->state[v] == LACEDRING_KNOWN_) continue;
@@ -1325,7 +1327,7 @@ size_t lacedring_stored_vertices_scratch(const struct lacedring_stored_vertices*
     const uint32_t n = s->attribute.components, vertices = s->attribute.vertices;
     const uint32_t each = 16 + (s->error != 0 ? 4 * n : 0) + (s->by_positions ? 8 : 0);
     const size_t begin = 32 + n * sizeof(struct lacedring_residual_models_);
-    const size_t walk = lacedring_bytes_of_(lacedring_bytes_of_(begin, triangles, 32), vertices, each);
+    const size_t walk = lacedring_bytes_of_(lacedring_bytes_of_(begin, triangles, 16), vertices, each);
     uint32_t sums = vertices;
     size_t normals;
     if (!s->by_positions) return walk;
@@ -1400,9 +1402,10 @@ enum lacedring_status lacedring_stored_vertices_decode(struct lacedring_stored_v
     uint32_t c, i;
     if (s->by_positions && !lacedring_have_places_(positions, vertices, where)) return LACEDRING_STATUS_POSITIONS;
     if (triangle_count >= (1u << 29) - 1) return lacedring_at_(where, triangle_count, LACEDRING_STATUS_LIMIT);
-    w.corners = (uint32_t*)(void*)((uint8_t*)scratch + (32 - ((uintptr_t)scratch & 31)));
-    words = w.corners + 8 * (size_t)triangle_count;
-    i = lacedring_pair_corners_(triangles, triangle_count, vertices, w.corners, words);
+    w.of = triangles;
+    w.opposite = (uint32_t*)(void*)((uint8_t*)scratch + (32 - ((uintptr_t)scratch & 31)));
+    words = w.opposite + 4 * (size_t)triangle_count;
+    i = lacedring_pair_corners_(triangles, triangle_count, vertices, w.opposite, words);
     if (i < triangle_count) return lacedring_at_(where, i, LACEDRING_STATUS_TRIANGLE);
 
     w.state = words;
@@ -1488,8 +1491,6 @@ void lacedring_stored_vertices_values(const struct lacedring_stored_vertices* s,
 #undef LACEDRING_UNSEEN_
 #undef LACEDRING_MORE_
 #undef LACEDRING_COMPLETE_
-#undef LACEDRING_LINK_
-#undef LACEDRING_OPPOSITE_
 #ifdef __cplusplus
 }
 #endif
