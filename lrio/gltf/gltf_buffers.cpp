@@ -148,8 +148,12 @@ Result<std::span<const std::byte>> GltfBuffers::load(std::size_t index, const Bu
         if (index == 0 && bin_) return *bin_;
         return malformed("has no URI, and there is no BIN chunk for it");
     }
+    return open_uri(*buffer.uri, buffer.length);
+}
+
+Result<std::span<const std::byte>> GltfBuffers::open_uri(const std::string& name, std::uint64_t most) {
     constexpr std::string_view kData = "data:";
-    const std::string_view uri = *buffer.uri;
+    const std::string_view uri = name;
     if (uri.size() >= kData.size() && equals_ignoring_case(uri.substr(0, kData.size()), kData)) {
         auto bytes = decode_data_uri(uri.substr(kData.size()));
         if (!bytes) return bytes.error();
@@ -157,7 +161,7 @@ Result<std::span<const std::byte>> GltfBuffers::load(std::size_t index, const Bu
         return std::span<const std::byte>(storage_.emplace_back(std::move(*bytes)));
     }
     if (has_scheme(uri)) return cannot_open("the URI {} is not a file beside the glTF", shown(uri));
-    return load_file(*buffer.uri, buffer.length);
+    return load_file(name, most);
 }
 
 Result<std::span<const std::byte>> GltfBuffers::load_file(const std::string& uri, std::uint64_t length) {

@@ -35,6 +35,9 @@ class GltfBuffers {
     /// Errors: cannot_open (a URI that names no file in the folder, too), malformed (too few bytes, no URI).
     Result<std::span<const std::byte>> open(std::size_t index);
 
+    /// All bytes of a file or a data URI, `most` of a file; they stay where they are. Errors: cannot_open, malformed.
+    Result<std::span<const std::byte>> open_uri(const std::string& uri, std::uint64_t most);
+
     /// Bytes of the files and data URIs opened so far.
     std::uint64_t loaded_bytes() const { return loaded_bytes_; }
 

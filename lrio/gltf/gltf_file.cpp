@@ -159,9 +159,11 @@ void tell_what_is_left_out(const nlohmann::json& document, Reading& reading) {
     const auto leave_out = [&](const char* list, std::string_view one, std::string_view many) {
         reading.leave_out(size_of_array(document, list), one, many);
     };
-    leave_out("materials", "material", "materials");
-    leave_out("textures", "texture", "textures");
-    leave_out("images", "image", "images");
+    if (reading.materials == nullptr) {
+        leave_out("materials", "material", "materials");
+        leave_out("textures", "texture", "textures");
+        leave_out("images", "image", "images");
+    }
     leave_out("skins", "skin", "skins");
     leave_out("animations", "animation", "animations");
     leave_out("cameras", "camera", "cameras");

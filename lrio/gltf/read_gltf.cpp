@@ -9,6 +9,7 @@
 #include "lacedring/surface.hpp"
 #include "lrio/gltf/gltf_accessor.h"
 #include "lrio/gltf/gltf_file.h"
+#include "lrio/gltf/gltf_materials.h"
 #include "lrio/gltf/gltf_primitives.h"
 #include "lrio/gltf/gltf_scene.h"
 #include "lrio/gltf/gltf_values.h"
@@ -38,6 +39,11 @@ class GltfJoiner {
         if (!instances) return instances.error();
         if (auto good = plans_.make(*instances); !good) return good.error();
         choose_attributes(*instances);
+        if (reading_.materials != nullptr) {
+            auto materials = read_materials(file_, reading_);
+            if (!materials) return materials.error();
+            *reading_.materials = std::move(*materials);
+        }
         if (auto good = allocate(*instances); !good) return good.error();
         for (const MeshInstance& instance : *instances) {
             if (auto good = append(instance); !good) return good.error();
@@ -83,6 +89,7 @@ class GltfJoiner {
             mesh_.attributes.push_back({"NORMAL", ComponentType::f32, 3, false, {}});
             makes_normals_ = with_normals < blocks;
         }
+        if (reading_.materials != nullptr) keep_for_materials();
         std::set<std::string_view> kept;
         for (const Attribute& attribute : mesh_.attributes) kept.insert(attribute.name);
         for_each_block([&](const VertexBlock& block) {
@@ -99,6 +106,47 @@ class GltfJoiner {
             attribute.type = ComponentType::f32;
             attribute.normalized = false;
         }
+    }
+
+    /// Components of the floats that materials are drawn with; 0: an attribute that they do not need.
+    static std::uint8_t shading_components(std::string_view name) {
+        return name == "TEXCOORD_0" || name == "TEXCOORD_1" ? 2 : name == "COLOR_0" ? 4 : 0;
+    }
+    static bool is_shading(const std::string& name, const AccessorView& view) {
+        return view.components == shading_components(name) || (name == "COLOR_0" && view.components == 3);
+    }
+
+    /// Makes floats of what materials are drawn with, and adds it where not every primitive has it.
+    void keep_for_materials() {
+        std::erase_if(mesh_.attributes, [](const Attribute& a) { return shading_components(a.name) != 0; });
+        for (const char* name : {"TEXCOORD_0", "TEXCOORD_1", "COLOR_0"}) {
+            bool is_there = false;
+            for_each_block([&](const VertexBlock& block) {
+                const AccessorView* view = view_of(block, name);
+                is_there |= view != nullptr && is_shading(name, *view);
+            });
+            if (is_there) mesh_.attributes.push_back({name, ComponentType::f32, shading_components(name), false, {}});
+        }
+    }
+
+    /// The values of a block, or, where it has none, 0, or 1 of colors.
+    static Result<void> append_shading(const VertexBlock& block, Attribute& to) {
+        const std::size_t n = to.components;
+        std::vector<float> values(block.count * n, to.name == "COLOR_0" ? 1.0F : 0.0F);
+        if (const AccessorView* view = view_of(block, to.name); view != nullptr && is_shading(to.name, *view)) {
+            std::vector<std::byte> packed(view->count * view->element_bytes());
+            if (auto good = copy_elements(*view, packed.data()); !good) return good;
+            for (std::size_t i = 0; i < block.count; ++i) {
+                for (std::size_t c = 0; c < view->components; ++c) {
+                    const double value =
+                        component_at(packed.data(), view->type, view->normalized, i * view->components + c);
+                    values[i * n + c] = static_cast<float>(value);
+                }
+            }
+        }
+        const auto bytes = std::as_bytes(std::span(values));
+        to.data.insert(to.data.end(), bytes.begin(), bytes.end());
+        return {};
     }
 
     Result<void> allocate(const std::vector<MeshInstance>& instances) {
@@ -132,7 +180,10 @@ class GltfJoiner {
                     attribute.data.resize(attribute.data.size() + block.count * attribute.stride());
                     continue;
                 }
-                if (auto good = append_values(block.views.at(attribute.name), instance.transform, attribute); !good) {
+                const bool shades = reading_.materials != nullptr && shading_components(attribute.name) != 0;
+                const auto good = shades ? append_shading(block, attribute)
+                                         : append_values(block.views.at(attribute.name), instance.transform, attribute);
+                if (!good) {
                     return Error{good.error().code, fmt::format("glTF: mesh {}: {}: {}", instance.mesh,
                                                                 shown(attribute.name), good.error().message)};
                 }
@@ -149,6 +200,12 @@ class GltfJoiner {
             }
             const auto added = std::span(mesh_.indices).subspan(from);
             if (instance.transform.determinant() < 0) turn_round(added);
+            if (reading_.materials != nullptr) {
+                const int said = file_.model.meshes[instance.mesh].primitives[primitive.number].material;
+                const std::size_t usual = reading_.materials->materials.size() - 1;
+                const std::size_t material = said < 0 ? usual : std::min(static_cast<std::size_t>(said), usual);
+                reading_.materials->of_triangle.resize(mesh_.indices.size() / 3, static_cast<std::uint32_t>(material));
+            }
             if (makes_normals_ && !has_normals(block))
                 without_normals_.insert(without_normals_.end(), added.begin(), added.end());
         }

@@ -171,9 +171,9 @@ Result<void> Reading::check_memory(double vertices, double stride, double triang
 }  // namespace detail
 
 Result<Mesh> read_mesh(std::span<const std::byte> bytes, const std::filesystem::path& name, const ReadOptions& options,
-                       ReadReport* report) {
+                       ReadReport* report, Materials* materials) {
     ReadReport unwanted;
-    detail::Reading reading{options, report != nullptr ? *report : unwanted, name};
+    detail::Reading reading{options, report != nullptr ? *report : unwanted, name, materials};
     return detail::caught([&]() -> Result<Mesh> {
         Result<Mesh> mesh = detail::read_bytes(bytes, reading);
         if (!mesh || reading.report.format == MeshFormat::gltf) return mesh;  // read_gltf knows of all its files
@@ -186,11 +186,12 @@ Result<Mesh> read_mesh(std::span<const std::byte> bytes, const std::filesystem::
     });
 }
 
-Result<Mesh> read_mesh(const std::filesystem::path& path, const ReadOptions& options, ReadReport* report) {
+Result<Mesh> read_mesh(const std::filesystem::path& path, const ReadOptions& options, ReadReport* report,
+                       Materials* materials) {
     return detail::caught([&]() -> Result<Mesh> {
         const auto bytes = read_file(path);
         if (!bytes) return bytes.error();
-        return read_mesh(*bytes, path, options, report);
+        return read_mesh(*bytes, path, options, report, materials);
     });
 }
 

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "lacedring/base.hpp"
+#include "lacedring/materials.hpp"
 #include "lacedring/mesh.hpp"
 #include "lacedring/mesh_files.hpp"
 #include "lacedring/primitives.hpp"
@@ -29,7 +30,8 @@ static_assert(std::endian::native == std::endian::little, "Mesh holds little-end
 struct Reading {
     const ReadOptions& options;
     ReadReport& report;
-    std::filesystem::path name;  ///< of the file; empty: it has none
+    std::filesystem::path name;      ///< of the file; empty: it has none
+    Materials* materials = nullptr;  ///< what a glTF's triangles look like; null: not wanted
 
     void leave_out(std::uint64_t count, std::string_view one, std::string_view many);
     /// Is there room for a mesh of so many vertices of `stride` bytes and so many triangles, read from `file_bytes`?

@@ -328,7 +328,7 @@ Result<PlainScene> PlainScene::open(std::span<const std::byte> bytes, Reading& r
     UnpackReport report;
     Reading unpacking{options, report.read, reading.name};
     auto scene = PackedScene::load(bytes, unpacking);
-    Result<SceneFile> plain = scene ? Unpacker(*scene, unpacking, report).run("", false) : scene.error();
+    Result<SceneFile> plain = scene ? Unpacker(*scene, unpacking, report).run("", reading.materials != nullptr) : scene.error();
     std::ranges::move(report.read.files, std::back_inserter(reading.report.files));
     if (!plain) return plain.error();
     reading.report.streams = std::move(report.read.streams);

@@ -38,6 +38,22 @@ void check_primitives(std::span<const std::byte> bytes, const Mesh& joined, std:
     REQUIRE(sum == joined.triangle_count());
 }
 
+/// Read with its materials, it is the same triangles, each with a material, and with attributes of them all.
+void check_materials(std::span<const std::byte> bytes, const Mesh& joined) {
+    Materials materials;
+    const Result<Mesh> mesh =
+        read_mesh(bytes, {}, {.format = MeshFormat::gltf, .max_bytes = 2 * kMaxBytes}, nullptr, &materials);
+    if (!mesh) return check_message(mesh.error());
+    check_mesh(*mesh);
+    REQUIRE(mesh->indices == joined.indices);
+    REQUIRE(materials.of_triangle.size() == mesh->triangle_count());
+    REQUIRE(std::ranges::all_of(materials.of_triangle, [&](auto m) { return m < materials.materials.size(); }));
+    for (const Material& m : materials.materials) {
+        for (const TextureUse* use : {&m.base, &m.metallic_roughness, &m.normal, &m.occluding, &m.emitting})
+            REQUIRE(use->image == TextureUse::kNone || use->image < materials.images.size());
+    }
+}
+
 template <MeshFormat format>
 bool run(std::span<const std::byte> bytes) {
     ReadReport report;
@@ -51,7 +67,10 @@ bool run(std::span<const std::byte> bytes) {
     std::uint64_t size = 4 * mesh->indices.size();
     for (const Attribute& attribute : mesh->attributes) size += attribute.data.size();
     REQUIRE(size <= kMaxBytes);
-    if (format == MeshFormat::gltf) check_primitives(bytes, *mesh, report.primitives);
+    if (format == MeshFormat::gltf) {
+        check_primitives(bytes, *mesh, report.primitives);
+        check_materials(bytes, *mesh);
+    }
     check_writers(*mesh);
     const Result<CornerTable> table = build_corner_table(mesh->indices, mesh->vertex_count);
     REQUIRE(table && check_corner_table(*table).empty());

@@ -13,7 +13,7 @@ CORE = ["base", "topology", "ring", "codec"]
 PUBLIC = {"base.hpp": "base", "lacedring_decode.h": "base", "topology.hpp": "topology", "ring.hpp": "ring", "streams.hpp": "codec",
           "operators.hpp": "codec", "vertices.hpp": "codec", "lacedring_vertices.h": "base", "seams.hpp": "codec", "lacedring_seams.h": "base",
           "lacedring_storage.h": "base", "lacedring.hpp": "codec", "lacedring.h": "codec"}
-LRIO = {"file.hpp", "mesh.hpp", "mesh_files.hpp", "primitives.hpp", "scene.h", "scene.hpp", "surface.hpp", "lr_file.hpp"}
+LRIO = {"file.hpp", "materials.hpp", "mesh.hpp", "mesh_files.hpp", "primitives.hpp", "scene.h", "scene.hpp", "surface.hpp", "lr_file.hpp"}
 # Decoding and validating: these files include each other, and nothing else of lrcore but base.
 DECODERS = {"lacedring/streams.hpp", "lacedring/operators.hpp", "lacedring/base.hpp", "lacedring/lacedring_decode.h", "lacedring/vertices.hpp",
             "lacedring/lacedring_vertices.h", "lacedring/seams.hpp", "lacedring/lacedring_seams.h",

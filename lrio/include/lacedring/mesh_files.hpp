@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lacedring/base.hpp"
+#include "lacedring/materials.hpp"
 #include "lacedring/mesh.hpp"
 
 namespace lacedring {
@@ -47,13 +48,16 @@ struct ReadReport {
 /// Polygons are cut into triangles that cover them (docs/formats-read.md). STL vertices at one position are merged.
 /// `report`, if given, is filled even on an error. Errors: cannot_open, malformed, unsupported, too_large,
 /// memory_limit. Untrusted input: safe. Cost: O(what is read).
-Result<Mesh> read_mesh(const std::filesystem::path& path, const ReadOptions& options = {},
-                       ReadReport* report = nullptr);
+/// `materials`, if given, gets what a glTF's triangles look like. The mesh then has TEXCOORD_0, TEXCOORD_1 and COLOR_0,
+/// as floats, wherever some primitive has them: 0, or 1 of colors, where others lack them. Images that cannot be read
+/// are told of in the report.
+Result<Mesh> read_mesh(const std::filesystem::path& path, const ReadOptions& options = {}, ReadReport* report = nullptr,
+                       Materials* materials = nullptr);
 
 /// The same of a file that is in memory. `name` gives the extension, and the folder in which a glTF's buffers are
 /// looked for; without a name there is neither.
 Result<Mesh> read_mesh(std::span<const std::byte> bytes, const std::filesystem::path& name,
-                       const ReadOptions& options = {}, ReadReport* report = nullptr);
+                       const ReadOptions& options = {}, ReadReport* report = nullptr, Materials* materials = nullptr);
 
 /// Differences of a written file from the mesh, a line each: "NORMAL: 3 of no length were made from the triangles".
 using WriteNotes = std::vector<std::string>;
