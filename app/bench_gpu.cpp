@@ -2,7 +2,7 @@
 
 #include "app/gpu_options.h"
 #include "app/progress.h"
-#include "renderer/timing.h"
+#include "renderer/verify/timing.h"
 
 namespace lacedring::app {
 namespace {

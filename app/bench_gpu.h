@@ -8,7 +8,7 @@
 #include "app/measure.h"
 #include "lacedring/base.hpp"
 #include "lacedring/vertices.hpp"
-#include "renderer/context.h"
+#include "renderer/vk/context.h"
 
 namespace lacedring::app {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lacedring/base.hpp"
-#include "renderer/camera.h"
+#include "renderer/draw/camera.h"
 
 namespace CLI {
 class App;

@@ -30,7 +30,7 @@
 #ifdef LACEDRING_GPU
 #include "app/bench_gpu.h"
 #include "app/gpu_options.h"
-#include "renderer/device_error.h"
+#include "renderer/vk/device_error.h"
 #endif
 
 namespace lacedring::app {

@@ -19,8 +19,8 @@
 #include "app/output.h"
 #include "app/progress.h"
 #include "app/scene_check.h"
-#include "renderer/compare.h"
-#include "renderer/device_error.h"
+#include "renderer/verify/compare.h"
+#include "renderer/vk/device_error.h"
 
 namespace lacedring::app {
 namespace {

@@ -12,8 +12,8 @@
 #include "app/gpu_options.h"
 #include "app/option_rules.h"
 #include "app/output.h"
-#include "renderer/png.h"
-#include "renderer/renderer.h"
+#include "renderer/draw/png.h"
+#include "renderer/draw/renderer.h"
 
 namespace lacedring::app {
 namespace {

@@ -15,7 +15,7 @@
 #ifdef LACEDRING_GPU
 #include "app/camera_options.h"
 #include "app/report_pictures.h"
-#include "renderer/device_error.h"
+#include "renderer/vk/device_error.h"
 #endif
 
 namespace lacedring::app {

@@ -13,7 +13,7 @@
 
 #include "app/progress.h"
 #include "lacedring/lacedring.hpp"
-#include "renderer/device_error.h"
+#include "renderer/vk/device_error.h"
 
 namespace lacedring::app {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "renderer/context.h"
+#include "renderer/vk/context.h"
 
 namespace CLI {
 class App;

@@ -1,9 +1,9 @@
 #include "app/report_pictures.h"
 
 #include "app/report_html.h"
-#include "renderer/device_error.h"
-#include "renderer/png.h"
-#include "renderer/renderer.h"
+#include "renderer/draw/png.h"
+#include "renderer/draw/renderer.h"
+#include "renderer/vk/device_error.h"
 
 namespace lacedring::app {
 namespace {

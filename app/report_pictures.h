@@ -3,7 +3,7 @@
 
 #include "app/gpu_options.h"
 #include "app/report_data.h"
-#include "renderer/camera.h"
+#include "renderer/draw/camera.h"
 
 namespace lacedring::app {
 

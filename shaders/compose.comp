@@ -23,7 +23,7 @@ float to_srgb(float x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 
 vec3 linear(vec3 c) { return vec3(to_linear(c.x), to_linear(c.y), to_linear(c.z)); }
 vec3 srgb(vec3 c) { return vec3(to_srgb(c.x), to_srgb(c.y), to_srgb(c.z)); }
 
-// As finish() (renderer/picture.cpp) has it.
+// As finish() (renderer/draw/picture.cpp) has it.
 vec3 background(vec2 at) {
     vec2 d = at - vec2(0.5, 0.42);
     float t = min(1.0, length(d) * 1.25);

@@ -13,7 +13,7 @@ layout(constant_id = LR_CONSTANT_SEAMS) const bool seams = false;
 
 layout(push_constant) uniform Push { DrawConstants push; };
 
-// From the coordinates of the source into the unit sphere, to the bit as normalise() of renderer/model.cpp has it.
+// From the coordinates of the source into the unit sphere, to the bit as normalise() of renderer/mesh/model.cpp has it.
 vec3 unit_position(vec3 position) {
     precise vec3 moved = position - push.unit.xyz;
     precise vec3 scaled = moved * push.unit.w;

@@ -10,7 +10,7 @@
 #include "lacedring/ring.hpp"
 #include "lacedring/surface.hpp"
 #include "lacedring/topology.hpp"
-#include "renderer/model.h"
+#include "renderer/mesh/model.h"
 
 namespace lacedring::app {
 struct FormatSet;  // app/formats.h, which is slow to compile

@@ -14,8 +14,8 @@
 #include "lacedring/lacedring.hpp"
 #include "lacedring/streams.hpp"
 #include "lrlab/rivals/strips.h"
-#include "renderer/device_error.h"
-#include "renderer/try.h"
+#include "renderer/vk/device_error.h"
+#include "renderer/vk/try.h"
 
 namespace lacedring::view {
 namespace {

@@ -18,7 +18,7 @@
 #include "app/view/threads.h"
 #include "app/view/viewer.h"
 #include "app/view/window.h"
-#include "renderer/swapchain.h"
+#include "renderer/vk/swapchain.h"
 
 namespace lacedring::view {
 namespace {

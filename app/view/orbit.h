@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "renderer/camera.h"
+#include "renderer/draw/camera.h"
 
 namespace lacedring::view {
 

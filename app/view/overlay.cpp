@@ -7,10 +7,10 @@
 #include <filesystem>
 
 #include "app/view/theme.h"
-#include "renderer/context.h"
-#include "renderer/device_error.h"
-#include "renderer/target.h"
-#include "renderer/try.h"
+#include "renderer/draw/target.h"
+#include "renderer/vk/context.h"
+#include "renderer/vk/device_error.h"
+#include "renderer/vk/try.h"
 
 namespace lacedring::view {
 namespace {

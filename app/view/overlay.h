@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "app/view/event.h"
-#include "renderer/commands.h"
-#include "renderer/image.h"
+#include "renderer/vk/commands.h"
+#include "renderer/vk/image.h"
 
 namespace lacedring::view {
 

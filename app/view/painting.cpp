@@ -6,7 +6,7 @@
 
 #include "lacedring/ring.hpp"
 #include "lacedring/streams.hpp"
-#include "renderer/triangle_class.h"
+#include "renderer/mesh/triangle_class.h"
 
 namespace lacedring::view {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "lacedring/lacedring.hpp"
-#include "renderer/try.h"
+#include "renderer/vk/try.h"
 #include "spirv/compose_comp.h"
 
 namespace lacedring::view {
@@ -159,7 +159,7 @@ Result<void> Scene::reload() {
     std::erase_if(entries_, [](const auto& entry) { return entry.first.source == gpu::Source::plain; });
     for (auto& [key, entry] : entries_) {
         entry.plans.clear();
-        entry.drawable.mesh.decoded = false;
+        entry.expanded.mesh.decoded = false;
     }
     return {};
 }
@@ -181,8 +181,8 @@ Result<bool> Scene::upload(const std::shared_ptr<const gpu::Model>& model, const
     if (std::optional<Uploader::Done> done = uploader_->take()) {
         if (done->job.model == model) {
             if (done->error) return *done->error;
-            for (std::size_t i = 0; i < done->drawables.size(); ++i) {
-                entries.emplace(done->job.keys[i], Entry{std::move(done->drawables[i]), {}});
+            for (std::size_t i = 0; i < done->meshes.size(); ++i) {
+                entries.emplace(done->job.keys[i], Entry{std::move(done->meshes[i]), {}});
             }
         }
     }
@@ -219,7 +219,7 @@ Result<bool> Scene::prepare(const Shown& shown) {
         Entry& entry = entries_.at(key_of(shown, side));
         if (entry.plans.contains({shown.view, side})) continue;
         Plan plan{gpu::Descriptors(*context_), {}};
-        LR_ASSIGN(plan.draw, by->plan(plan.descriptors, entry.drawable.mesh, *targets_[side]));
+        LR_ASSIGN(plan.draw, by->plan(plan.descriptors, entry.expanded.mesh, *targets_[side]));
         entry.plans.emplace(std::pair(shown.view, side), std::move(plan));
     }
     return true;
@@ -256,15 +256,15 @@ Result<void> Scene::record_draw(VkCommandBuffer commands, const Shown& shown, co
     if (queries_) vkCmdResetQueryPool(commands, queries_.get(), 0, kTimestamps);
     stamp(0);
     for (int side = 0; side < sides; ++side) {
-        gpu::Drawable& drawable = entries_.at(key_of(shown, side)).drawable;
-        if (shown.decode_again && drawable.mesh.source != gpu::Source::plain) drawable.mesh.decoded = false;
-        expander_->decode(commands, drawable);
+        gpu::ExpandedMesh& expanded = entries_.at(key_of(shown, side)).expanded;
+        if (shown.decode_again && expanded.mesh.source != gpu::Source::plain) expanded.mesh.decoded = false;
+        expander_->decode(commands, expanded);
     }
     stamp(1);
     for (int side = 0; side < sides; ++side) {
         Entry& entry = entries_.at(key_of(shown, side));
-        if (shown.exact) expander_->rotate(commands, entry.drawable);
-        by.record(commands, entry.drawable.mesh, entry.plans.at({shown.view, side}).draw, *targets_[side],
+        if (shown.exact) expander_->rotate(commands, entry.expanded);
+        by.record(commands, entry.expanded.mesh, entry.plans.at({shown.view, side}).draw, *targets_[side],
                   shown.exact ? gpu::Painter::Ties::by_number : gpu::Painter::Ties::first_drawn);
         if (adjacency_) silhouettes_->record(commands, *adjacency_, *targets_[side]);
     }
@@ -301,7 +301,7 @@ Result<void> Scene::record_compose(VkCommandBuffer commands, Mode mode, std::uin
     push.triangles = (painted_ || grows_) && model_ ? model_->triangle_count() : 0;
     push.invaded = invaded_;
     push.fresh = fresh_;
-    // The ring's line, faded and thinned like the one of the view of the ring (renderer/painter.cpp).
+    // The ring's line, faded and thinned like the one of the view of the ring (renderer/draw/painter.cpp).
     const double strength = std::clamp((edge_pixels_ - 1) / 9, 0.0, 1.0);
     const double closer = std::clamp((edge_pixels_ - 10) / 40, 0.0, 1.0);
     const auto width = static_cast<std::uint32_t>(std::lround((0.7 + 1.5 * strength + 1.3 * closer) * samples_));

@@ -11,8 +11,8 @@
 
 #include "app/view/uploader.h"
 #include "lacedring/lacedring.hpp"
-#include "renderer/adjacency.h"
-#include "renderer/renderer.h"
+#include "renderer/draw/adjacency.h"
+#include "renderer/draw/renderer.h"
 #include "shaders/compose_shared.h"
 
 namespace lacedring::view {
@@ -98,7 +98,7 @@ class Scene {
         gpu::DrawPlan draw;
     };
     struct Entry {
-        gpu::Drawable drawable;
+        gpu::ExpandedMesh expanded;
         std::map<std::pair<gpu::View, int>, Plan> plans;  // by side
     };
 

@@ -2,7 +2,7 @@
 #include <cstring>
 
 #include "app/view/scene.h"
-#include "renderer/try.h"
+#include "renderer/vk/try.h"
 
 namespace lacedring::view {
 

@@ -16,7 +16,7 @@
 #include "app/camera_options.h"
 #include "app/print.h"
 #include "lacedring/file.hpp"
-#include "renderer/try.h"
+#include "renderer/vk/try.h"
 
 namespace lacedring::view {
 namespace {

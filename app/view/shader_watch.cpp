@@ -9,7 +9,7 @@
 #include <set>
 
 #include "app/view/shader_compiler.h"
-#include "renderer/shader_interface.h"
+#include "renderer/shaders/shader_interface.h"
 #include "spirv/all.h"
 
 namespace lacedring::view {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "app/view/threads.h"
-#include "renderer/shader_set.h"
+#include "renderer/shaders/shader_set.h"
 
 namespace lacedring::view {
 

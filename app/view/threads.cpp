@@ -4,7 +4,7 @@
 #include <system_error>
 #include <utility>
 
-#include "renderer/device_error.h"
+#include "renderer/vk/device_error.h"
 
 namespace lacedring::view {
 

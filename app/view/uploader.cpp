@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "app/view/threads.h"
-#include "renderer/try.h"
+#include "renderer/vk/try.h"
 
 namespace lacedring::view {
 namespace {
@@ -74,8 +74,8 @@ void Uploader::finish() {
 Result<void> Uploader::upload(Done& done, gpu::Expander& expander) {
     try {
         for (const UploadKey& key : done.job.keys) {
-            LR_ASSIGN(gpu::Drawable drawable, expander.upload(transfer_, *done.job.model, key.source, options_of(key)));
-            done.drawables.push_back(std::move(drawable));
+            LR_ASSIGN(gpu::ExpandedMesh mesh, expander.upload(transfer_, *done.job.model, key.source, options_of(key)));
+            done.meshes.push_back(std::move(mesh));
         }
     } catch (const std::bad_alloc&) {
         return Error{ErrorCode::too_large, "not enough memory"};
@@ -95,7 +95,7 @@ void Uploader::run() {
         lock.unlock();
         if (const Result<void> made = upload(done, expander); !made) {
             done.error = made.error();
-            done.drawables.clear();
+            done.meshes.clear();
         }
         lock.lock();
         working_ = false;

@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "renderer/expander.h"
+#include "renderer/decode/expander.h"
 
 namespace lacedring::view {
 
@@ -40,8 +40,8 @@ class Uploader {
     };
     struct Done {
         Job job;
-        std::vector<gpu::Drawable> drawables;  ///< one a key
-        std::optional<Error> error;            ///< then there are none
+        std::vector<gpu::ExpandedMesh> meshes;  ///< one a key
+        std::optional<Error> error;             ///< then there are none
     };
 
     /// `wake` is called by the thread when something is done. Errors: kDeviceFailure (no thread, and Vulkan's).

@@ -13,8 +13,8 @@
 #include "app/view/overlays.h"
 #include "app/view/panels.h"
 #include "app/view/theme.h"
-#include "renderer/device_error.h"
-#include "renderer/try.h"
+#include "renderer/vk/device_error.h"
+#include "renderer/vk/try.h"
 
 namespace lacedring::view {
 namespace {

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "app/view/viewer.h"
-#include "renderer/try.h"
+#include "renderer/vk/try.h"
 
 namespace lacedring::view {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "app/view/viewer.h"
-#include "renderer/picture.h"
+#include "renderer/draw/picture.h"
 
 namespace lacedring::view {
 

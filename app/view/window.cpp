@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "app/command.h"
-#include "renderer/device_error.h"
+#include "renderer/vk/device_error.h"
 
 struct _XDisplay;  // Xlib's Display
 

@@ -4,7 +4,7 @@
 
 #include "lacedring/lacedring.hpp"
 #include "lacedring/streams.hpp"
-#include "renderer/pipeline.h"
+#include "renderer/vk/pipeline.h"
 #include "spirv/packed_triangle_comp.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/support/meshes.h"

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "lacedring/vertices.hpp"
-#include "renderer/pipeline.h"
+#include "renderer/vk/pipeline.h"
 #include "shaders/shared.h"
 #include "spirv/vertex_decode_comp.h"
 #include "tests/gpu/gpu_test.h"
