@@ -7,7 +7,7 @@
 
 #include "app/view/state.h"
 #include "app/view/threads.h"
-#include "shaders/compose_shared.h"
+#include "shaders/viewer/compose_shared.h"
 
 namespace lacedring::view {
 

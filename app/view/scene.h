@@ -13,7 +13,7 @@
 #include "lacedring/lacedring.hpp"
 #include "renderer/draw/adjacency.h"
 #include "renderer/draw/renderer.h"
-#include "shaders/compose_shared.h"
+#include "shaders/viewer/compose_shared.h"
 
 namespace lacedring::view {
 

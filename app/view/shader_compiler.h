@@ -29,9 +29,9 @@ class ShaderCompiler {
     ShaderCompiler(const ShaderCompiler&) = delete;
     ShaderCompiler& operator=(const ShaderCompiler&) = delete;
 
-    /// `name`: "surface.frag". `files`: gets every file that was read, or should have been, as it was just before.
+    /// `name`: "draw/surface.frag". `files`: gets every file that was read, or should have been, as it was just before.
     /// Cost: some milliseconds; a tenth of a second the first time. One thread at a time.
-    /// Errors: malformed, unsupported (a stage that is not ours); lines of "shaders/surface.frag:42: why".
+    /// Errors: malformed, unsupported (a stage that is not ours); lines of "shaders/draw/surface.frag:42: why".
     Result<std::vector<std::uint32_t>> compile(const std::string& name, std::map<std::string, Stamp>& files);
 
   private:

@@ -39,7 +39,7 @@ bool as_they_were(const Files& files) {
 Files files_of(const fs::path& folder) {
     std::error_code error;
     Files out;
-    for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
         out[at->path().string()] = stamp_of(at->path());
     }
     return out;

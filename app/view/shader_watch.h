@@ -26,9 +26,9 @@ class ShaderWatch {
     void force();
 
     struct News {
-        bool fresh = false;                 ///< something came since the last call: what follows is of now
-        std::string error;                  ///< lines of "shaders/surface.frag:42: why"; then `replaced` is as before
-        bool changed = false;               ///< `replaced` is to be taken
+        bool fresh = false;    ///< something came since the last call: what follows is of now
+        std::string error;     ///< lines of "shaders/draw/surface.frag:42: why"; then `replaced` is as before
+        bool changed = false;  ///< `replaced` is to be taken
         gpu::ShaderSet::Replaced replaced;  ///< every shader that is not as it was built in
         std::uint32_t compiled = 0;         ///< shaders, since the beginning
         std::uint64_t looks = 0;            ///< how often it has looked at the files, always of now

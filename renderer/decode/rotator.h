@@ -1,5 +1,6 @@
 #pragma once
-// The compute pass that turns every triangle so that its smallest original vertex comes first (shaders/rotate.comp).
+// The compute pass that turns every triangle so that its smallest original vertex comes first
+// (shaders/decode/rotate.comp).
 
 #include "renderer/decode/decoder.h"
 

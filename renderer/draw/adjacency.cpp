@@ -10,7 +10,7 @@
 #include "renderer/draw/surface.h"
 #include "renderer/vk/context.h"
 #include "renderer/vk/try.h"
-#include "shaders/adjacency_shared.h"
+#include "shaders/adjacency/adjacency_shared.h"
 #include "spirv/silhouette_frag.h"
 #include "spirv/silhouette_vert.h"
 #include "spirv/vertex_normals_comp.h"

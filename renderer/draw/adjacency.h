@@ -1,6 +1,6 @@
 #pragma once
 // The corner operators in shaders: LR tables on the device, and two uses of them. Neither has an index buffer or a list
-// of edges: shaders/lacedring_operators.glsl says what lies beside what. Paper: LR 2011, sections 4 and 5.
+// of edges: shaders/include/lacedring_operators.glsl says what lies beside what. Paper: LR 2011, sections 4 and 5.
 
 #include <array>
 #include <cstdint>

@@ -20,8 +20,8 @@ class SlotReader {
   public:
     static Result<SlotReader> create(Context& context);
 
-    /// 3 indices a slot of a mesh that has a stream, by shaders/slot_source.glsl. The pipelines are made when they are
-    /// first needed. Device memory: up to 16 MiB while it runs.
+    /// 3 indices a slot of a mesh that has a stream, by shaders/draw/slot_source.glsl. The pipelines are made when they
+    /// are first needed. Device memory: up to 16 MiB while it runs.
     Result<std::vector<std::uint32_t>> read(Commands& commands, Transfer& transfer, const GpuMesh& mesh);
 
     /// 3 words a vertex: the bits of the positions that shaders decode by themselves from the vertex stream.

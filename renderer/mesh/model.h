@@ -20,7 +20,7 @@ namespace lacedring::gpu {
 
 /// Positions are moved and scaled so that the used vertices fill the unit sphere: f32 depth and derivatives then mean
 /// the same for every mesh, and all sources draw exactly the same numbers. One subtraction and one product of floats
-/// do it, which a shader repeats to the bit (unit_position of shaders/draw_push.glsl).
+/// do it, which a shader repeats to the bit (unit_position of shaders/draw/draw_push.glsl).
 struct Model {
     std::span<const std::uint32_t> indices;  ///< of the mesh, which must outlive the model; 3 a triangle
     std::vector<float> positions;            ///< 3 a vertex, in the mesh's own vertex order

@@ -13,7 +13,7 @@
 #include "lacedring/mesh_files.hpp"
 #include "lacedring/topology.hpp"
 #include "renderer/draw/adjacency.h"
-#include "shaders/adjacency_shared.h"
+#include "shaders/adjacency/adjacency_shared.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/support/meshes.h"
 

@@ -1,4 +1,4 @@
-// lr_packed_triangle of shaders/lacedring.glsl: any triangle on its own is decode_packed's.
+// lr_packed_triangle of shaders/include/lacedring.glsl: any triangle on its own is decode_packed's.
 
 #include <array>
 

@@ -1,5 +1,5 @@
-// shaders/seam_decode.comp, with shaders/lacedring_seams.glsl: the copies that the device decodes are decode_seams',
-// corner by corner. Pictures of a mesh with seams are those of streams of its surface.
+// shaders/decode/seam_decode.comp, with shaders/include/lacedring_seams.glsl: the copies that the device decodes are
+// decode_seams', corner by corner. Pictures of a mesh with seams are those of streams of its surface.
 
 #include <algorithm>
 #include <array>
