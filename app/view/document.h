@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "app/mesh_input.h"
+#include "app/cli/mesh_input.h"
 #include "lacedring/lacedring.hpp"
 #include "lacedring/ring.hpp"
 #include "lacedring/surface.hpp"
@@ -13,7 +13,7 @@
 #include "renderer/mesh/model.h"
 
 namespace lacedring::app {
-struct FormatSet;  // app/formats.h, which is slow to compile
+struct FormatSet;  // app/formats/formats.h, which is slow to compile
 }
 
 namespace lacedring::view {

@@ -8,8 +8,8 @@
 #include <thread>
 #include <utility>
 
-#include "app/formats.h"
-#include "app/input.h"
+#include "app/cli/input.h"
+#include "app/formats/formats.h"
 #include "app/view/files.h"
 #include "lacedring/lacedring.hpp"
 #include "lacedring/streams.hpp"

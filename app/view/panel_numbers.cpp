@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "app/format_notes.h"
-#include "app/formats.h"
-#include "app/measure.h"
+#include "app/bench/measure.h"
+#include "app/formats/formats.h"
+#include "app/formats/notes.h"
 #include "app/view/panels.h"
 #include "app/view/theme.h"
 #include "lacedring/lacedring.hpp"

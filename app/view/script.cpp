@@ -13,8 +13,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "app/camera_options.h"
-#include "app/print.h"
+#include "app/cli/camera_options.h"
+#include "app/cli/print.h"
 #include "lacedring/file.hpp"
 #include "renderer/vk/try.h"
 

@@ -1,7 +1,7 @@
 // What the line `print` of a script says.
 #include <nlohmann/json.hpp>
 
-#include "app/formats.h"
+#include "app/formats/formats.h"
 #include "app/view/panels.h"
 #include "app/view/script.h"
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "app/command.h"
+#include "app/cli/command.h"
 #include "renderer/vk/device_error.h"
 
 struct _XDisplay;  // Xlib's Display
