@@ -14,10 +14,10 @@
 #include "app/cli/command.h"
 #include "app/cli/gpu_options.h"
 #include "app/cli/option_rules.h"
-#include "app/view/script.h"
-#include "app/view/threads.h"
-#include "app/view/viewer.h"
-#include "app/view/window.h"
+#include "app/view/script/script.h"
+#include "app/view/session/threads.h"
+#include "app/view/ui/viewer.h"
+#include "app/view/window/window.h"
 #include "renderer/vk/swapchain.h"
 
 namespace lacedring::view {

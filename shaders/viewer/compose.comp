@@ -45,7 +45,7 @@ uint triangle_at(bool right, ivec2 at) {
     return right ? imageLoad(right_triangles, at).x : imageLoad(left_triangles, at).x;
 }
 
-// Colours as the panel names them (app/view/panel_choices.cpp).
+// Colours as the panel names them (app/view/ui/panel_choices.cpp).
 vec3 growth_colour(uint step) {
     uint settled = step & ~LR_GROWTH_RIGHT;
     if (settled >= push.invaded) return vec3(LR_GROWTH_NOT_YET_COLOUR) / 255.0;

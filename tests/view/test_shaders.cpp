@@ -8,7 +8,7 @@
 #include <random>
 #include <sstream>
 
-#include "app/view/shader_compiler.h"
+#include "app/view/session/shader_compiler.h"
 #include "renderer/shaders/shader_interface.h"
 #include "spirv/all.h"
 
