@@ -10,9 +10,9 @@
 #include <new>
 #include <sstream>
 
-#include "app/arguments.h"
-#include "app/command.h"
-#include "app/commands.h"
+#include "app/cli/arguments.h"
+#include "app/cli/command.h"
+#include "app/commands/commands.h"
 
 namespace {
 

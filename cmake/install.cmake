@@ -17,6 +17,5 @@ file(RELATIVE_PATH to_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INST
 configure_file(${PROJECT_SOURCE_DIR}/cmake/lacedring.pc.in ${PROJECT_BINARY_DIR}/cmake/lacedring.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/cmake/lacedring.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 # The GLSL that decodes streams, for a program's own shaders: glslangValidator -I${lacedring_GLSL_DIR}.
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/shaders/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lacedring FILES_MATCHING
-        PATTERN "lacedring*.glsl")
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/shaders/include/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lacedring)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

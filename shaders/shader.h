@@ -8,7 +8,7 @@
 namespace lacedring::gpu {
 
 struct Shader {
-    std::string_view name;  ///< of its source in this folder: "surface.frag"
+    std::string_view name;  ///< of its source in this folder: "draw/surface.frag"
     std::span<const std::uint32_t> words;
 };
 

@@ -10,15 +10,15 @@
 #include <exception>
 #include <thread>
 
-#include "app/camera_options.h"
-#include "app/command.h"
-#include "app/gpu_options.h"
-#include "app/option_rules.h"
-#include "app/view/script.h"
-#include "app/view/threads.h"
-#include "app/view/viewer.h"
-#include "app/view/window.h"
-#include "renderer/swapchain.h"
+#include "app/cli/camera_options.h"
+#include "app/cli/command.h"
+#include "app/cli/gpu_options.h"
+#include "app/cli/option_rules.h"
+#include "app/view/script/script.h"
+#include "app/view/session/threads.h"
+#include "app/view/ui/viewer.h"
+#include "app/view/window/window.h"
+#include "renderer/vk/swapchain.h"
 
 namespace lacedring::view {
 namespace {

@@ -12,8 +12,8 @@
 #include "lacedring/lacedring.hpp"
 #include "lacedring/mesh_files.hpp"
 #include "lacedring/topology.hpp"
-#include "renderer/adjacency.h"
-#include "shaders/adjacency_shared.h"
+#include "renderer/draw/adjacency.h"
+#include "shaders/adjacency/adjacency_shared.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/support/meshes.h"
 

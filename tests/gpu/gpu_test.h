@@ -4,9 +4,9 @@
 #include <doctest/doctest.h>
 
 #include "lrlab/generate/generate.h"
-#include "renderer/compare.h"
-#include "renderer/renderer.h"
-#include "renderer/timing.h"
+#include "renderer/draw/renderer.h"
+#include "renderer/verify/compare.h"
+#include "renderer/verify/timing.h"
 
 namespace lacedring::test {
 

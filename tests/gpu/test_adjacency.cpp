@@ -1,11 +1,11 @@
-// shaders/lacedring_operators.glsl: every operator at every corner and vertex is Operators'; the normals that are
-// made with it are the corner table's.
+// shaders/include/lacedring_operators.glsl: every operator at every corner and vertex is Operators'; the normals that
+// are made with it are the corner table's.
 
 #include <cstdint>
 #include <random>
 
 #include "lacedring/operators.hpp"
-#include "shaders/lacedring_operators.glsl"
+#include "shaders/include/lacedring_operators.glsl"
 #include "spirv/operators_table_comp.h"
 #include "tests/gpu/adjacency_test.h"
 

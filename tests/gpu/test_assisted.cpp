@@ -1,7 +1,7 @@
 // GPU-assisted validation: what shaders read and write, as they do it. Slow, so it has small meshes.
 
 #include "lrcore/codec/lean/lean_format.h"
-#include "renderer/adjacency.h"
+#include "renderer/draw/adjacency.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/support/cut_mesh.h"
 

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "renderer/camera.h"
+#include "renderer/draw/camera.h"
 #include "tests/gpu/gpu_test.h"
 
 using namespace lacedring;

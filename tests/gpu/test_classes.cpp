@@ -5,7 +5,7 @@
 #include "lacedring/lacedring.hpp"
 #include "lacedring/streams.hpp"
 #include "lrlab/paper/offsets.h"
-#include "renderer/triangle_class.h"
+#include "renderer/mesh/triangle_class.h"
 #include "shaders/shared.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/support/meshes.h"

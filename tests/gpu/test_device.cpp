@@ -1,6 +1,6 @@
 #include <vector>
 
-#include "renderer/device_error.h"
+#include "renderer/vk/device_error.h"
 #include "tests/gpu/gpu_test.h"
 
 using namespace lacedring;

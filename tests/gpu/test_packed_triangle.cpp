@@ -1,10 +1,10 @@
-// lr_packed_triangle of shaders/lacedring.glsl: any triangle on its own is decode_packed's.
+// lr_packed_triangle of shaders/include/lacedring.glsl: any triangle on its own is decode_packed's.
 
 #include <array>
 
 #include "lacedring/lacedring.hpp"
 #include "lacedring/streams.hpp"
-#include "renderer/pipeline.h"
+#include "renderer/vk/pipeline.h"
 #include "spirv/packed_triangle_comp.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/support/meshes.h"

@@ -1,5 +1,5 @@
-// shaders/seam_decode.comp, with shaders/lacedring_seams.glsl: the copies that the device decodes are decode_seams',
-// corner by corner. Pictures of a mesh with seams are those of streams of its surface.
+// shaders/decode/seam_decode.comp, with shaders/include/lacedring_seams.glsl: the copies that the device decodes are
+// decode_seams', corner by corner. Pictures of a mesh with seams are those of streams of its surface.
 
 #include <algorithm>
 #include <array>
@@ -10,8 +10,8 @@
 #include "lacedring/lacedring.hpp"
 #include "lacedring/mesh_files.hpp"
 #include "lacedring/seams.hpp"
-#include "renderer/adjacency.h"
-#include "renderer/seam_decoder.h"
+#include "renderer/decode/seam_decoder.h"
+#include "renderer/draw/adjacency.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/support/cut_mesh.h"
 #include "tests/support/cuts.h"

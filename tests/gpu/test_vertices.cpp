@@ -1,5 +1,5 @@
-// shaders/vertex_decode.comp, with shaders/lacedring_vertices.glsl: the integers and floats of a vertex stream are the
-// CPU's, bit for bit.
+// shaders/decode/vertex_decode.comp, with shaders/include/lacedring_vertices.glsl: the integers and floats of a vertex
+// stream are the CPU's, bit for bit.
 
 #include <array>
 #include <bit>
@@ -8,7 +8,7 @@
 #include <random>
 
 #include "lacedring/vertices.hpp"
-#include "renderer/pipeline.h"
+#include "renderer/vk/pipeline.h"
 #include "shaders/shared.h"
 #include "spirv/vertex_decode_comp.h"
 #include "tests/gpu/gpu_test.h"

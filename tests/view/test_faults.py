@@ -88,10 +88,10 @@ class Faults(driver.Scripted):
     def test_pipes_among_shaders(self):
         shaders = self.path("glsl")
         shutil.copytree(SOURCES, shaders)
-        os.remove(os.path.join(shaders, "surface.frag"))
-        self.fifo("glsl", "surface.frag")
+        os.remove(os.path.join(shaders, "draw/surface.frag"))
+        self.fifo("glsl", "draw/surface.frag")
         states, _, seconds = self.faulty("wait mesh\nwait shaders\nprint", mesh("torus", 500), "--shaders", shaders)
-        self.assertEqual(states[0]["shaders"]["error"], "shaders/surface.frag: cannot be read")
+        self.assertEqual(states[0]["shaders"]["error"], "shaders/draw/surface.frag: cannot be read")
         self.assertLess(seconds, SOON)
 
     def test_closing_waits_for_no_disk(self):

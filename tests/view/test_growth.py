@@ -10,7 +10,7 @@ import driver
 import png
 from driver import mesh, run
 
-# The shares of red, green and blue that a lit colour keeps (shaders/compose_shared.h).
+# The shares of red, green and blue that a lit colour keeps (shaders/viewer/compose_shared.h).
 ORANGE, YELLOW, CREAM, GREY, BLUE, BLACK = (222, 112, 48), (255, 214, 60), (247, 234, 200), (168, 172, 180), \
     (24, 96, 220), (24, 24, 28)
 

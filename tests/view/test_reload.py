@@ -28,7 +28,7 @@ class Reload(driver.Scripted):
         with open(os.path.join(SOURCES, name)) as file:
             text = file.read()
         self.assertIn(old, text)
-        made = os.path.join(self.folder, f"{len(os.listdir(self.folder))}-{name}")
+        made = os.path.join(self.folder, f"{len(os.listdir(self.folder))}-{os.path.basename(name)}")
         with open(made, "w") as file:
             file.write(text.replace(old, new, 1))
         return f"copy {made} {self.shaders}/{name}\nwait shaders"
@@ -57,8 +57,8 @@ class Reload(driver.Scripted):
 
     def test_an_edit_is_drawn_and_taken_back(self):
         red, back = self.script(
-            self.shot("before"), self.edited("surface.frag", ALBEDO, RED), self.shot("red"), "print",
-            self.mended("surface.frag"), self.shot("after"), "print")
+            self.shot("before"), self.edited("draw/surface.frag", ALBEDO, RED), self.shot("red"), "print",
+            self.mended("draw/surface.frag"), self.shot("after"), "print")
         self.assertEqual((red["replaced"], red["reloads"], red["error"]), (1, 1, ""))
         self.assertEqual((back["replaced"], back["reloads"], back["error"]), (0, 2, ""))
         self.assertEqual(red["compiled"] + 1, back["compiled"])
@@ -69,10 +69,10 @@ class Reload(driver.Scripted):
 
     def test_errors_keep_the_picture(self):
         broken, closed, other, mended = self.script(
-            self.shot("before"), self.edited("surface.frag", ALBEDO, "vec3 albedo = vec3(0.62, 0.60"), "frames 3",
+            self.shot("before"), self.edited("draw/surface.frag", ALBEDO, "vec3 albedo = vec3(0.62, 0.60"), "frames 3",
             self.shot("notice") + " now", "print", "key escape", "frames 3", self.shot("closed"), "print",
-            self.edited("line.frag", "void main", "void mine"), "print",
-            self.mended("surface.frag"), self.mended("line.frag"), self.shot("after"), "print")
+            self.edited("draw/line.frag", "void main", "void mine"), "print",
+            self.mended("draw/surface.frag"), self.mended("draw/line.frag"), self.shot("after"), "print")
         self.assertRegex(broken["error"], r"^shaders/surface\.frag:71: ")  # where the next statement begins
         self.assertEqual((broken["replaced"], broken["reloads"]), (0, 0))
         self.assertEqual(closed["error"], "")
@@ -89,20 +89,20 @@ class Reload(driver.Scripted):
     def test_an_edit_of_what_is_included(self):
         start, moved, wrong = self.script(
             "set view ring", "wait settled", "print", self.shot("before"),
-            self.edited("surface_vertex.glsl", "vec3(0.045, 0.085, 0.50)", "vec3(0.9, 0.9, 0.0)"), self.shot("other"),
-            "print", self.edited("surface_vertex.glsl", "v.clip = clip;", "v.clap = clip;"), "print")
+            self.edited("draw/surface_vertex.glsl", "vec3(0.045, 0.085, 0.50)", "vec3(0.9, 0.9, 0.0)"), self.shot("other"),
+            "print", self.edited("draw/surface_vertex.glsl", "v.clip = clip;", "v.clap = clip;"), "print")
         # Those that include it, and no others.
         including = moved["compiled"] - start["compiled"]
         self.assertGreaterEqual(including, 4)
         self.assertLess(including, 10)
         self.assertEqual((moved["reloads"], moved["error"]), (1, ""))
         self.assertGreater(self.differences("before", "other")[0], 1000)
-        self.assertIn("shaders/surface_vertex.glsl:30: ", wrong["error"])
+        self.assertIn("shaders/draw/surface_vertex.glsl:30: ", wrong["error"])
         self.assertEqual(wrong["reloads"], 1)
 
     def test_another_interface_is_refused(self):
-        cases = [("surface.frag", "layout(binding = 3,", "layout(binding = 5,", "binding 5 is new"),
-                 ("surface.frag", "layout(location = 1) out uint", "uint", "output 1 is missing"),
+        cases = [("draw/surface.frag", "layout(binding = 3,", "layout(binding = 5,", "binding 5 is new"),
+                 ("draw/surface.frag", "layout(location = 1) out uint", "uint", "output 1 is missing"),
                  ("shared.h", "mat4 view_from_world;", "vec4 more; mat4 view_from_world;", "binding 0 is declared otherwise"),
                  ("shared.h", "LR_COMPUTE_GROUP 128u", "LR_COMPUTE_GROUP 32u", "the workgroup's size")]
         lines = [self.shot("before")]
@@ -119,12 +119,12 @@ class Reload(driver.Scripted):
     def test_edits_while_everything_moves(self):
         lines = ["set outlines on", "wait tables", "set mode split", "set decode on", "set turntable on"]
         for i in range(4):
-            lines += [self.edited("surface.frag", ALBEDO, RED.replace("0.05", f"0.{i}")), "frames 5"]
-            lines += [self.edited("lean_decode.comp", "void main() {", f"void main() {{ // {i}\n"), "frames 2"]
-            lines += [self.edited("compose.comp", "void main() {", "void main() { nothing"), "frames 2"]
-            lines += [self.mended("compose.comp"), f"set path {('pull', 'geometry', 'compute', 'compute')[i]}",
+            lines += [self.edited("draw/surface.frag", ALBEDO, RED.replace("0.05", f"0.{i}")), "frames 5"]
+            lines += [self.edited("decode/lean_decode.comp", "void main() {", f"void main() {{ // {i}\n"), "frames 2"]
+            lines += [self.edited("viewer/compose.comp", "void main() {", "void main() { nothing"), "frames 2"]
+            lines += [self.mended("viewer/compose.comp"), f"set path {('pull', 'geometry', 'compute', 'compute')[i]}",
                       f"set source {('lean', 'packed')[i % 2]}", "frames 4", "key f5", "frames 1"]
-        lines += ["set decode off", "set turntable off", self.mended("surface.frag"), "wait settled", "print"]
+        lines += ["set decode off", "set turntable off", self.mended("draw/surface.frag"), "wait settled", "print"]
         states = self.script(*lines)
         self.assertGreaterEqual(states[-1]["reloads"], 4)  # edits that come close together are one
         self.assertEqual((states[-1]["error"], states[-1]["replaced"]), ("", 0))
@@ -136,9 +136,9 @@ class Reload(driver.Scripted):
         for mode in ("single", "split"):
             states = self.script(
                 f"set mode {mode}", self.shot("before"),
-                self.edited("lean_decode.comp", store, nothing), self.shot("decoded"), self.mended("lean_decode.comp"),
-                self.shot("after"), self.edited("rotate.comp", rotated, none), self.shot("rotated"),
-                self.mended("rotate.comp"), self.shot("later"), "print")
+                self.edited("decode/lean_decode.comp", store, nothing), self.shot("decoded"), self.mended("decode/lean_decode.comp"),
+                self.shot("after"), self.edited("decode/rotate.comp", rotated, none), self.shot("rotated"),
+                self.mended("decode/rotate.comp"), self.shot("later"), "print")
             self.assertEqual((states[0]["error"], states[0]["reloads"], states[0]["replaced"]), ("", 4, 0))
             for wrong, right in (("decoded", "after"), ("rotated", "later")):
                 self.assertGreater(self.differences("before", wrong)[0], 1000, mode)

@@ -8,8 +8,8 @@
 #include <random>
 #include <sstream>
 
-#include "app/view/shader_compiler.h"
-#include "renderer/shader_interface.h"
+#include "app/view/session/shader_compiler.h"
+#include "renderer/shaders/shader_interface.h"
 #include "spirv/all.h"
 
 namespace lacedring::view {
@@ -42,7 +42,7 @@ struct Sources {
     Sources() : from(built_shaders()) {
         REQUIRE(!from.empty());
         folder = fs::temp_directory_path() / ("lacedring-shaders-" + std::to_string(std::random_device{}()));
-        fs::copy(from, folder);
+        fs::copy(from, folder, fs::copy_options::recursive);
         compiler.emplace(folder, from);
     }
     Sources(const Sources&) = delete;
@@ -89,28 +89,28 @@ TEST_CASE("unchanged shaders come out as the build's words") {
 
 TEST_CASE("errors say file and line") {
     Sources sources;
-    sources.edit("surface.frag", "#include", "nothing at all;\n#include");
-    CHECK(sources.refused("surface.frag").starts_with("shaders/surface.frag:4: "));
-    sources.restore("surface.frag");
-    sources.edit("surface_vertex.glsl", "v.clip = clip;", "v.clop = clip;");
-    for (const char* name : {"surface.vert", "surface_pull.vert"}) {
+    sources.edit("draw/surface.frag", "#include", "nothing at all;\n#include");
+    CHECK(sources.refused("draw/surface.frag").starts_with("shaders/draw/surface.frag:4: "));
+    sources.restore("draw/surface.frag");
+    sources.edit("draw/surface_vertex.glsl", "v.clip = clip;", "v.clop = clip;");
+    for (const char* name : {"draw/surface.vert", "draw/surface_pull.vert"}) {
         const std::string why = sources.refused(name);
-        CHECK(why.starts_with("shaders/surface_vertex.glsl:30: "));
+        CHECK(why.starts_with("shaders/draw/surface_vertex.glsl:30: "));
         CHECK(why.find("clop") != std::string::npos);
         CHECK(why.find("No code generated") == std::string::npos);
     }
-    sources.restore("surface_vertex.glsl");
-    sources.edit("surface.frag", "\"shaders/surface.glsl\"", "\"shaders/none.glsl\"");
-    CHECK(sources.refused("surface.frag").starts_with("shaders/surface.frag:4: "));
+    sources.restore("draw/surface_vertex.glsl");
+    sources.edit("draw/surface.frag", "\"shaders/draw/surface.glsl\"", "\"shaders/none.glsl\"");
+    CHECK(sources.refused("draw/surface.frag").starts_with("shaders/draw/surface.frag:4: "));
     CHECK(
         sources.files.contains((sources.folder / "none.glsl").string()));  // so that it is missed no longer once there
     write(sources.folder / "none.glsl", "#include \"shaders/none.glsl\"\n");
-    CHECK(sources.refused("surface.frag").find("includes itself") != std::string::npos);
-    fs::remove(sources.folder / "surface.frag");
-    CHECK(sources.refused("surface.frag") == "shaders/surface.frag: cannot be read");
-    sources.edit("line.frag", "void main()", "void mine()");
-    CHECK(sources.refused("line.frag").starts_with("shaders/line.frag: "));
-    CHECK(sources.refused("line.vert").empty());
+    CHECK(sources.refused("draw/surface.frag").find("includes itself") != std::string::npos);
+    fs::remove(sources.folder / "draw/surface.frag");
+    CHECK(sources.refused("draw/surface.frag") == "shaders/draw/surface.frag: cannot be read");
+    sources.edit("draw/line.frag", "void main()", "void mine()");
+    CHECK(sources.refused("draw/line.frag").starts_with("shaders/draw/line.frag: "));
+    CHECK(sources.refused("draw/line.vert").empty());
 }
 
 TEST_CASE("an interface that changes is refused, and nothing else is") {
@@ -118,30 +118,31 @@ TEST_CASE("an interface that changes is refused, and nothing else is") {
         const char *file, *before, *after, *shader, *why;
     };
     constexpr Case kCases[] = {
-        {"surface.frag", "vec3(0.62, 0.60, 0.565)", "vec3(1, 0, 0)", "surface.frag", ""},
-        {"surface.frag", "vec4(srgb(colour.x), srgb(colour.y), srgb(colour.z), 1.0)", "vec4(1)", "surface.frag", ""},
-        {"surface.frag", "in_ring_colour;", "in_other;\nvec3 in_ring_colour = vec3(1);", "surface.frag", ""},
-        {"shared.h", "#define LR_LINE_LIFT 0.0012", "#define LR_LINE_LIFT 0.005", "line.vert", ""},
-        {"shared.h", "vec4 line_colour;", "vec4 colour_of_lines;", "surface.vert", ""},
-        {"surface.frag", "binding = 3", "binding = 4", "surface.frag", "binding 4 is new"},
-        {"surface.frag", "r32ui) uniform readonly uimage2D", "r32i) uniform readonly iimage2D", "surface.frag",
-         "binding 3 is declared otherwise"},
-        {"surface.frag", "(location = 2)", "(location = 5)", "surface.frag", "input 5 is new"},
-        {"surface.frag", "out vec4 out_colour", "out vec3 out_rgb;\nvec4 out_colour", "surface.frag",
+        {"draw/surface.frag", "vec3(0.62, 0.60, 0.565)", "vec3(1, 0, 0)", "draw/surface.frag", ""},
+        {"draw/surface.frag", "vec4(srgb(colour.x), srgb(colour.y), srgb(colour.z), 1.0)", "vec4(1)",
+         "draw/surface.frag", ""},
+        {"draw/surface.frag", "in_ring_colour;", "in_other;\nvec3 in_ring_colour = vec3(1);", "draw/surface.frag", ""},
+        {"shared.h", "#define LR_LINE_LIFT 0.0012", "#define LR_LINE_LIFT 0.005", "draw/line.vert", ""},
+        {"shared.h", "vec4 line_colour;", "vec4 colour_of_lines;", "draw/surface.vert", ""},
+        {"draw/surface.frag", "binding = 3", "binding = 4", "draw/surface.frag", "binding 4 is new"},
+        {"draw/surface.frag", "r32ui) uniform readonly uimage2D", "r32i) uniform readonly iimage2D",
+         "draw/surface.frag", "binding 3 is declared otherwise"},
+        {"draw/surface.frag", "(location = 2)", "(location = 5)", "draw/surface.frag", "input 5 is new"},
+        {"draw/surface.frag", "out vec4 out_colour", "out vec3 out_rgb;\nvec4 out_colour", "draw/surface.frag",
          "output 0 is declared otherwise"},
-        {"surface.frag", "layout(location = 1) out uint", "uint", "surface.frag", "output 1 is missing"},
-        {"shared.h", "mat4 view_from_world;", "vec4 more;\n    mat4 view_from_world;", "surface.vert",
+        {"draw/surface.frag", "layout(location = 1) out uint", "uint", "draw/surface.frag", "output 1 is missing"},
+        {"shared.h", "mat4 view_from_world;", "vec4 more;\n    mat4 view_from_world;", "draw/surface.vert",
          "binding 0 is declared otherwise"},
-        {"shared.h", "uint ordered;     // 1", "uint more, ordered;  // 1", "surface_pull.vert",
+        {"shared.h", "uint ordered;     // 1", "uint more, ordered;  // 1", "draw/surface_pull.vert",
          "push constants is declared otherwise"},
-        {"shared.h", "LR_COMPUTE_GROUP 128u", "LR_COMPUTE_GROUP 64u", "lean_decode.comp",
+        {"shared.h", "LR_COMPUTE_GROUP 128u", "LR_COMPUTE_GROUP 64u", "decode/lean_decode.comp",
          "the workgroup's size is declared otherwise"},
-        {"shared.h", "LR_MESH_TRIANGLES 64u", "LR_MESH_TRIANGLES 32u", "surface.mesh",
+        {"shared.h", "LR_MESH_TRIANGLES 64u", "LR_MESH_TRIANGLES 32u", "draw/surface.mesh",
          "output 0 is declared otherwise"},
-        {"surface.geom", "max_vertices = 3 * LR_GEOMETRY_SLOTS", "max_vertices = 9", "surface.geom",
+        {"draw/surface.geom", "max_vertices = 3 * LR_GEOMETRY_SLOTS", "max_vertices = 9", "draw/surface.geom",
          "what is emitted is declared otherwise"},
-        {"surface.frag", "out_triangle = (",
-         "out_colour.x = float(double(out_colour.x) * 2.0lf);\n    out_triangle = (", "surface.frag",
+        {"draw/surface.frag", "out_triangle = (",
+         "out_colour.x = float(double(out_colour.x) * 2.0lf);\n    out_triangle = (", "draw/surface.frag",
          "capability 10 was not asked"},
     };
     Sources sources;
@@ -160,7 +161,7 @@ TEST_CASE("an interface that changes is refused, and nothing else is") {
 }
 
 TEST_CASE("another stage's words, and what is no SPIR-V, are refused") {
-    const gpu::Shader &vertex = built_in("line.vert"), &fragment = built_in("line.frag");
+    const gpu::Shader &vertex = built_in("draw/line.vert"), &fragment = built_in("draw/line.frag");
     CHECK(gpu::check_interface(vertex, vertex.words));
     CHECK_FALSE(gpu::check_interface(vertex, fragment.words));
     CHECK_FALSE(gpu::check_interface(vertex, {}));

@@ -1,0 +1,61 @@
+#include "app/bench/gpu.h"
+
+#include "app/cli/gpu_options.h"
+#include "app/cli/progress.h"
+#include "renderer/verify/timing.h"
+
+namespace lacedring::app {
+namespace {
+
+Candidate candidate(std::string name, const gpu::Times& times) {
+    Candidate c{std::move(name), {}, {}, {}};
+    for (const gpu::Elapsed& elapsed : times) {
+        c.seconds.push_back(elapsed.wall);
+        if (elapsed.gpu) c.gpu_seconds.push_back(*elapsed.gpu);
+    }
+    return c;
+}
+
+}  // namespace
+
+Result<GpuFigures> measure_gpu(const LoadedMesh& mesh, const VertexOptions& vertices,
+                               const gpu::ContextOptions& options, int rounds) {
+    OptimizeOptions optimize;
+    optimize.progress = progress_bar("optimising the ring", optimize.passes);
+    const Result<gpu::Model> model = gpu::make_model(
+        mesh.mesh, {.packed = true, .vertices = vertices, .optimize = std::move(optimize), .surface = mesh.surface});
+    if (!model) return model.error();
+    const Result<std::unique_ptr<gpu::Context>> context = gpu::Context::create(options);
+    if (!context) return context.error();
+    gpu::TimingOptions timing;
+    timing.repeats = static_cast<std::uint32_t>(rounds);
+    const Result<gpu::DeviceTimes> times = [&] {
+        std::optional<ProgressBar> bar;
+        timing.progress = [&bar](std::uint32_t done, std::uint32_t total) {
+            if (!bar) bar.emplace("drawing", total);
+            bar->show(done);
+        };
+        return gpu::measure_device(**context, *model, timing);
+    }();
+    GpuFigures figures;
+    figures.validation_messages = print_validation(**context);
+    if (!times) return times.error();
+    figures.device = (*context)->info().name;
+    for (const gpu::Way& way : times->ways) {
+        figures.draw.push_back(candidate(way.name, way.draw));
+        figures.cost.push_back({way.connectivity_bytes, way.bytes_read, way.vertex_invocations});
+        if (way.decode.empty()) continue;
+        figures.decode.push_back(candidate(way.name, way.decode));
+        const std::uint64_t stream = gpu::connectivity_bytes(*model, way.source);
+        figures.draw.push_back(candidate(way.name + "_decode_every_frame", way.decode_and_draw));
+        figures.cost.push_back({way.connectivity_bytes + stream, way.bytes_read + stream, way.vertex_invocations});
+    }
+    figures.decode.push_back(candidate("vertices", times->vertices));
+    figures.decode.back().vertices = true;
+    figures.decode.push_back(candidate("copy", times->copy));
+    figures.device_bytes = times->device_bytes;
+    figures.absent = times->absent;
+    return figures;
+}
+
+}  // namespace lacedring::app

@@ -1,0 +1,58 @@
+#include "app/cli/gpu_options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cstdio>
+
+#include "app/cli/print.h"
+
+namespace lacedring::app {
+namespace {
+
+bool parse_size(const std::string& text, PictureSize& size) {
+    const char* end = text.data() + text.size();
+    const auto [x, error] = std::from_chars(text.data(), end, size.width);
+    if (error != std::errc() || x == end || *x != 'x') return false;
+    const auto [rest, error2] = std::from_chars(x + 1, end, size.height);
+    if (error2 != std::errc() || rest != end) return false;
+    return size.width >= 1 && size.height >= 1 && size.width <= 8192 && size.height <= 8192;
+}
+
+}  // namespace
+
+void add_device_options(CLI::App& command, gpu::ContextOptions& options) {
+    command.add_option("--device", options.device, "part of the name of the Vulkan device to use, or of its driver")
+        ->type_name("NAME");
+    command
+        .add_option_function<std::uint64_t>(
+            "--device-memory", [&options](const std::uint64_t& mebibytes) { options.memory = mebibytes << 20; },
+            "MiB of device memory to use at most")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 30))
+        ->type_name("MiB");
+    command.add_flag("--validation", options.validation, "Vulkan validation layers, with synchronization validation");
+}
+
+bool asks_for_device(const gpu::ContextOptions& options) {
+    return !options.device.empty() || options.memory != 0 || options.validation;
+}
+
+void add_size(CLI::App& command, PictureSize& size) {
+    command
+        .add_option_function<std::string>(
+            "--size",
+            [&size](const std::string& text) {
+                if (!parse_size(text, size)) throw CLI::ValidationError("--size", "not WIDTHxHEIGHT, each 1 to 8192");
+            },
+            "pixels, 1280x720 unless told")
+        ->type_name("WxH");
+}
+
+std::size_t print_validation(gpu::Context& context) {
+    const std::vector<std::string> messages = context.validation().messages();
+    for (const std::string& message : messages) say("lacedring: validation: {}\n", message);
+    return messages.size();
+}
+
+}  // namespace lacedring::app

@@ -1,0 +1,44 @@
+#pragma once
+// Files that commands write. What the user did not mean is refused before anything is written.
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/cli/run_log.h"
+#include "lacedring/base.hpp"
+
+namespace CLI {
+class App;
+}  // namespace CLI
+
+namespace lacedring::app {
+
+struct OutputOptions {
+    std::string path;  ///< "-": standard output
+    bool force = false;
+};
+
+/// Adds -o and --force, or --force alone.
+void add_output(CLI::App& command, OutputOptions& options, const std::string& what);
+void add_force(CLI::App& command, OutputOptions& options);
+
+/// As messages name it.
+std::string output_name(const std::filesystem::path& path);
+
+/// Refuses an output that is one of the files read (through links, too), and one with the extension of another kind of
+/// file than `extensions` (".lr"), unless --force. Errors: invalid_argument.
+Result<void> check_output(const std::filesystem::path& path, const OutputOptions& options, const RunLog& log,
+                          std::span<const std::string_view> extensions);
+
+/// Writes to the path, or to standard output. Errors: cannot_write.
+Result<void> write_output(const std::filesystem::path& path, std::span<const std::span<const std::byte>> parts);
+
+/// Output paths, one an input: the output itself for one input, else FOLDER/STEM + `extension` for each.
+/// Errors: invalid_argument (several inputs and no folder, or two of one name).
+Result<std::vector<std::filesystem::path>> output_paths(const std::vector<std::string>& inputs,
+                                                        const OutputOptions& options, std::string_view extension);
+
+}  // namespace lacedring::app

@@ -1,0 +1,98 @@
+// lacedring decode IN.lr... -o OUT.glb|.ply|.obj
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <thread>
+
+#include "app/cli/output.h"
+#include "app/commands/commands.h"
+#include "lacedring/lr_file.hpp"
+#include "lacedring/mesh_files.hpp"
+
+namespace lacedring::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct DecodeOptions {
+    std::vector<std::string> inputs;
+    InputOptions input;  ///< its memory limit
+    OutputOptions output;
+    std::string format;  ///< "" by the extension
+    bool original_order = false;
+};
+
+/// "glb" as write_mesh knows it.
+MeshFormat output_format(const DecodeOptions& options, const fs::path& path) {
+    return writable_format(options.format.empty() ? path : fs::path("x." + options.format));
+}
+
+Result<void> write(const Mesh& mesh, const DecodeOptions& options, const fs::path& path, WriteNotes& notes) {
+    if (path == "-") return write_mesh(mesh, output_format(options, path), STDOUT_FILENO, &notes);
+    return write_mesh(mesh, path, &notes);
+}
+
+/// Joints and weights came with a scene's skin.
+bool has_skin(const Mesh& mesh) {
+    return std::ranges::any_of(mesh.attributes, [](const Attribute& a) { return a.name.starts_with("JOINTS_"); });
+}
+
+/// Returns an Exit.
+int decode(const DecodeOptions& options, const std::string& input, const fs::path& output, RunLog& log) {
+    const auto bytes = read_input(input, options.input, log);
+    if (!bytes) return fail(input, bytes.error());
+    const Result<LrFile> file = parse_lr(*bytes, options.input.max_memory << 20, std::thread::hardware_concurrency());
+    if (!file) return fail(input, file.error());
+    constexpr std::string_view kExtensions[] = {".glb", ".ply", ".obj"};
+    if (const auto good = check_output(output, options.output, log, kExtensions); !good) {
+        return fail(output_name(output), good.error());
+    }
+    const Result<Mesh> mesh = options.original_order ? decode_lr_original_order(*file) : Result<Mesh>(decode_lr(*file));
+    if (!mesh) return fail(input, mesh.error());
+    WriteNotes notes;
+    if (const Result<void> written = write(*mesh, options, output, notes); !written) {
+        return fail(output_name(output), written.error());
+    }
+    for (const std::string& note : notes) log.note(output_name(output), note);
+    if (output_format(options, output) == MeshFormat::gltf && has_skin(*mesh)) {
+        log.note(output_name(output), "joints without the skin of their scene (lacedring pack keeps scenes)");
+    }
+    return done;
+}
+
+int run_decode(const DecodeOptions& options, RunLog& log) {
+    const bool named = options.output.path == "-" || options.output.path.ends_with('/') || options.inputs.size() > 1;
+    if (named && options.format.empty()) {
+        return fail(output_name(options.output.path),
+                    Error{ErrorCode::invalid_argument, "needs --output-format glb, ply or obj"});
+    }
+    if (!named && !options.format.empty()) {
+        return fail(options.output.path,
+                    Error{ErrorCode::invalid_argument, "--output-format goes with -o - and -o FOLDER/"});
+    }
+    const auto outputs = output_paths(options.inputs, options.output, "." + options.format);
+    if (!outputs) return fail(output_name(options.output.path), outputs.error());
+    return for_each_input(options.inputs, log,
+                          [&](std::size_t i) { return decode(options, options.inputs[i], (*outputs)[i], log); });
+}
+
+}  // namespace
+
+void add_decode(CLI::App& program, Action& action) {
+    auto options = std::make_shared<DecodeOptions>();
+    CLI::App* command = program.add_subcommand("decode", "write an .lr file as .glb, .ply or .obj");
+    command->add_option("IN.lr", options->inputs, ".lr files; - is standard input")->required();
+    add_output(*command, options->output, "the mesh file; FOLDER/ for several, - for standard output");
+    command->add_option("--output-format", options->format, "with -o - and -o FOLDER/")
+        ->check(CLI::IsMember({"glb", "ply", "obj"}));
+    command->add_flag("--original-order", options->original_order,
+                      "vertices, triangles and their first corners in the order of the file that was encoded (with "
+                      "--keep-order)");
+    add_max_memory(*command, options->input);
+    command->callback([options, &action] { action = [options](RunLog& log) { return run_decode(*options, log); }; });
+}
+
+}  // namespace lacedring::app

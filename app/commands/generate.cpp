@@ -1,0 +1,62 @@
+// lacedring generate KIND -o OUT --triangles N [--seed S]
+
+#include "lrlab/generate/generate.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "app/cli/output.h"
+#include "app/commands/commands.h"
+#include "lacedring/mesh_files.hpp"
+
+namespace lacedring::app {
+namespace {
+
+struct GenerateOptions {
+    std::string kind, format;
+    OutputOptions output;
+    std::uint64_t triangles = 10000, seed = 1;
+};
+
+int run_generate(const GenerateOptions& options, RunLog& log) {
+    const std::string& output = options.output.path;
+    const bool standard = output == "-";
+    if (standard == options.format.empty()) {
+        return fail(output_name(output),
+                    Error{ErrorCode::invalid_argument,
+                          standard ? "needs --output-format glb, ply or obj" : "--output-format goes with -o -"});
+    }
+    constexpr std::string_view kExtensions[] = {".glb", ".ply", ".obj"};
+    if (const auto good = check_output(output, options.output, log, kExtensions); !good)
+        return fail(output_name(output), good.error());
+    const Result<Mesh> mesh = generate(options.kind, options.triangles, options.seed);
+    if (!mesh) return fail("generate", mesh.error());
+    const Result<void> written =
+        standard ? write_mesh(*mesh, writable_format("x." + options.format), STDOUT_FILENO) : write_mesh(*mesh, output);
+    if (!written) return fail(output_name(output), written.error());
+    say("{}: {} triangles, {} vertices\n", output_name(output), mesh->triangle_count(), mesh->vertex_count);
+    return done;
+}
+
+}  // namespace
+
+void add_generate(CLI::App& program, Action& action) {
+    auto options = std::make_shared<GenerateOptions>();
+    CLI::App* command = program.add_subcommand("generate", "procedural meshes of any size");
+    std::string kinds;
+    for (const GeneratorInfo& kind : generators()) kinds += fmt::format("\n  {:<9}{}", kind.name, kind.description);
+    command->footer("Kinds:" + kinds);
+    command->add_option("KIND", options->kind, "see below")->required();
+    add_output(*command, options->output, ".glb, .ply or .obj; - for standard output");
+    command->add_option("--output-format", options->format, "with -o -")->check(CLI::IsMember({"glb", "ply", "obj"}));
+    command->add_option("--triangles", options->triangles, "about how many")
+        ->check(refuse_negative)
+        ->capture_default_str();
+    command->add_option("--seed", options->seed, "same seed, same file")->check(refuse_negative)->capture_default_str();
+    command->callback([options, &action] { action = [options](RunLog& log) { return run_generate(*options, log); }; });
+}
+
+}  // namespace lacedring::app

@@ -1,0 +1,207 @@
+// lacedring render MESH -o OUT.png
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/camera_options.h"
+#include "app/cli/gpu_options.h"
+#include "app/cli/option_rules.h"
+#include "app/cli/output.h"
+#include "app/commands/commands.h"
+#include "renderer/draw/png.h"
+#include "renderer/draw/renderer.h"
+
+namespace lacedring::app {
+namespace {
+
+struct RenderOptions {
+    std::vector<std::string> inputs;
+    InputOptions input;
+    OutputOptions output;
+    std::string source = "lean";
+    std::string path = "compute";
+    std::string view = "smooth";
+    std::uint32_t positions = 0;  ///< bits
+    RingChoice ring;
+    bool no_warts = false;
+    PictureSize size;
+    std::uint32_t samples = 0;  ///< 0: kSamples, or as many as the device draws
+    double crease = 40;
+    gpu::CameraOptions camera;
+    gpu::ContextOptions context;
+    bool json = false;
+};
+
+constexpr std::uint32_t kSamples = 3;
+
+using ContextPointer = std::unique_ptr<gpu::Context>;
+
+/// Returns an Exit. Makes `context`, once, when a mesh has been read.
+int render(const RenderOptions& options, const std::string& input, const std::filesystem::path& output,
+           ContextPointer& context, RunLog& log) {
+    const Result<LoadedMesh> loaded = load_file({input, options.input}, log);
+    if (!loaded) return fail(input, loaded.error());
+    const Mesh* mesh = &loaded->mesh;
+    constexpr std::string_view kExtensions[] = {".png"};
+    if (const auto good = check_output(output, options.output, log, kExtensions); !good) {
+        return fail(output_name(output), good.error());
+    }
+    // Pictures show the ring as the paper makes it, unless the optimiser is asked for.
+    OptimizeOptions optimize = optimize_options(options.ring, kLeanRingCost);
+    if (options.ring.optimize == "auto") optimize.passes = 0;
+    const gpu::Source source = gpu::source_named(options.source).value_or(gpu::Source::lean);
+    gpu::ModelOptions model_options{ring_options(options.ring, mesh->triangle_count()),
+                                    {.wart_skipping = !options.no_warts},
+                                    gpu::is_packed(source),
+                                    {},
+                                    std::move(optimize)};
+    model_options.surface = loaded->surface;
+    if (source == gpu::Source::packed_vertices) model_options.vertices = position_options(options.positions);
+    const Result<gpu::Model> model = gpu::make_model(*mesh, model_options);
+    if (!model) return fail(input, model.error());
+    if (!model->exact.empty()) log.note(input_name(input), "POSITION stays lossless: " + model->exact);
+    if (!context) {
+        Result<ContextPointer> made = gpu::Context::create(options.context);
+        if (!made) return fail(input, made.error());
+        context = std::move(*made);
+    }
+
+    gpu::RendererOptions renderer_options;
+    renderer_options.view = gpu::view_named(options.view).value_or(gpu::View::smooth);
+    // An explicit --samples is drawn or fails; the default falls back to fewer samples.
+    const std::uint32_t samples =
+        options.samples != 0
+            ? options.samples
+            : gpu::Target::fitting_samples(*context, {options.size.width, options.size.height}, kSamples);
+    renderer_options.samples = samples;
+    renderer_options.crease = options.crease;
+    renderer_options.width = options.size.width * samples;
+    renderer_options.height = options.size.height * samples;
+    constexpr std::uint64_t kWorthSaying = std::uint64_t{1} << 30;
+    std::uint64_t device_bytes = 0;
+    Result<gpu::Picture> drawn = [&]() -> Result<gpu::Picture> {
+        Result<gpu::Renderer> renderer = gpu::Renderer::create(*context, renderer_options);
+        if (!renderer) return renderer.error();
+        const gpu::Path path = gpu::path_named(options.path).value_or(gpu::Path::compute);
+        device_bytes = context->arena().used() + renderer->device_bytes(*model, source, path);
+        if (device_bytes > kWorthSaying) {
+            say("lacedring: drawing takes {:.1f} GB of device memory\n", static_cast<double>(device_bytes) / 1e9);
+        }
+        Result<gpu::Drawable> drawable = renderer->upload(*model, source, path);
+        if (!drawable) return drawable.error();
+        const Result<gpu::Camera> camera =
+            gpu::make_camera(*model, options.camera, renderer_options.width, renderer_options.height);
+        if (!camera) return camera.error();
+        return renderer->draw(*drawable, *model, *camera, true);
+    }();
+    const std::size_t messages = print_validation(*context);
+    if (!drawn) return fail(input, drawn.error());
+    const Result<std::vector<std::byte>> png = gpu::encode_png(gpu::finish(*drawn, samples));
+    if (!png) return fail(output_name(output), png.error());
+    const std::span<const std::byte> parts[] = {*png};
+    if (const Result<void> written = write_output(output, parts); !written) {
+        return fail(output_name(output), written.error());
+    }
+    std::uint64_t covered = 0;
+    for (const std::uint32_t id : drawn->triangles) covered += id != 0 ? 1 : 0;
+    const double share = static_cast<double>(covered) / static_cast<double>(drawn->pixels());
+    if (options.json) {
+        const gpu::DeviceInfo& info = context->info();
+        nlohmann::ordered_json out = {{"schema", 1},
+                                      {"file", input_name(input)},
+                                      {"output", output.string()},
+                                      {"device", {{"name", info.name}, {"driver", info.driver}, {"api", info.api}}},
+                                      {"size", {options.size.width, options.size.height}},
+                                      {"samples", samples * samples},
+                                      {"source", options.source},
+                                      {"path", options.path},
+                                      {"view", options.view},
+                                      {"triangles", model->triangle_count()},
+                                      {"covered", share},
+                                      {"device_bytes", device_bytes},
+                                      {"validation_messages", messages}};
+        print_json(out);
+    } else {
+        const std::string line =
+            fmt::format("{}: {}x{}, {} triangles, {} {}, covers {:.1f} % of the picture; {}\n", output_name(output),
+                        options.size.width, options.size.height, model->triangle_count(), options.source, options.view,
+                        100 * share, context->info().name);
+        output == "-" ? say("{}", line) : print("{}", line);
+    }
+    return messages == 0 ? done : check_failed;
+}
+
+int run_render(const RenderOptions& options, RunLog& log) {
+    const auto outputs = output_paths(options.inputs, options.output, ".png");
+    if (!outputs) return fail(output_name(options.output.path), outputs.error());
+    ContextPointer context;
+    return for_each_input(options.inputs, log, [&](std::size_t i) {
+        return render(options, options.inputs[i], (*outputs)[i], context, log);
+    });
+}
+
+}  // namespace
+
+void add_render(CLI::App& program, Action& action) {
+    auto options = std::make_shared<RenderOptions>();
+    CLI::App* command = program.add_subcommand("render", "draw a mesh into a PNG file");
+    command->add_option("MESH", options->inputs, "mesh files; - is standard input")->required();
+    add_output(*command, options->output, "the PNG file; FOLDER/ for several, - for standard output");
+    add_input_options(*command, options->input, 150);
+    command->add_option("--source", options->source, "what the triangles come from")
+        ->check(CLI::IsMember(gpu::source_names()))
+        ->capture_default_str();
+    add_position_bits(*command, options->positions);
+    command->add_option("--path", options->path, "how the device expands the source")
+        ->check(CLI::IsMember(gpu::path_names()))
+        ->capture_default_str();
+    command->add_option("--view", options->view, "what is shown")
+        ->check(CLI::IsMember({"smooth", "flat", "class", "ring", "wire", "offsets", "seams", "silhouette"}))
+        ->capture_default_str();
+    command
+        ->add_option("--crease", options->crease,
+                     "degrees between triangles from which on --view silhouette draws their edge")
+        ->check(CLI::Range(0.0, 180.0))
+        ->capture_default_str();
+    add_ring_options(*command, options->ring);
+    command->add_flag("--no-warts", options->no_warts, "no wart skipping: the classes as they are before it");
+    add_size(*command, options->size);
+    command->add_option("--samples", options->samples, "samples a pixel along each side")
+        ->check(CLI::Range(1, 8))
+        ->default_str(std::to_string(kSamples));
+    add_camera(*command, options->camera);
+    add_device_options(*command, options->context);
+    command->add_flag("--json", options->json, "one JSON document on standard output");
+
+    const auto shows_ring = [options] {
+        return options->view == "class" || options->view == "ring" || options->view == "offsets";
+    };
+    auto rules = std::make_shared<OptionRules>(*command);
+    rules->forbid("--json goes with one mesh, and not with -o -",
+                  [options] { return options->json && (options->inputs.size() != 1 || options->output.path == "-"); });
+    rules->forbid("--source plain goes with --path compute only",
+                  [options] { return options->source == "plain" && options->path != "compute"; });
+    rules->only_with({"--positions"}, "--source packed_vertices",
+                     [options] { return options->source == "packed_vertices"; });
+    rules->only_with({"--crease"}, "--view silhouette", [options] { return options->view == "silhouette"; });
+    rules->only_with({"--ring", "--k", "--seeds", "--random-seed", "--optimize"},
+                     "--source lean, packed or packed_vertices, or --view class, ring or offsets",
+                     [options, shows_ring] { return options->source != "plain" || shows_ring(); });
+    rules->only_with({"--no-warts"}, "--source lean, or --view class, ring or offsets",
+                     [options, shows_ring] { return options->source == "lean" || shows_ring(); });
+    rules->only_with({"--k"}, "--ring hybrid", [options] { return options->ring.ring == "hybrid"; });
+    rules->only_with({"--random-seed"}, "several --seeds, or --optimize", [options] {
+        const std::string& passes = options->ring.optimize;
+        return options->ring.seeds != 1 || (passes != "auto" && passes != "0");
+    });
+    command->callback([options, rules, &action] {
+        rules->check();
+        action = [options](RunLog& log) { return run_render(*options, log); };
+    });
+}
+
+}  // namespace lacedring::app

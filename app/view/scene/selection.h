@@ -1,0 +1,51 @@
+#pragma once
+// A corner, and what the operators say of it.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/view/scene/scene.h"
+#include "app/view/session/document.h"
+
+namespace lacedring::view {
+
+struct Selection {
+    CornerId corner = kNullCorner;  ///< of the document's corner table
+
+    bool any() const { return !corner.is_null(); }
+};
+
+/// The corner of triangle t whose vertex is nearest to the ray, mesh coordinates.
+CornerId nearest_corner(const Document& document, std::uint32_t t, const std::array<double, 3>& eye,
+                        const std::array<double, 3>& ray);
+
+/// How far along the ray it meets triangle t, in lengths of `ray`; none if it misses it or runs along it.
+std::optional<double> ray_meets(const Document& document, std::uint32_t t, const std::array<double, 3>& eye,
+                                const std::array<double, 3>& ray);
+
+/// The triangle that the ray meets first; none if it misses all. Cost: O(T).
+std::optional<std::uint32_t> ray_hit(const Document& document, const std::array<double, 3>& eye,
+                                     const std::array<double, 3>& ray);
+
+/// Where the operator n p o s l r leads; null where there is nothing.
+CornerId step(const Document& document, CornerId corner, char operation);
+
+/// All corners around the vertex of a corner, by swings both ways.
+std::vector<CornerId> around(const CornerTable& table, CornerId corner);
+
+/// The selected triangle, its neighbours and the fan of its vertex, with their colours; the later ones count.
+std::vector<Mark> selection_marks(const Document& document, CornerId corner);
+
+/// Centre and radius of a ball around the fan of the corner's vertex, in the mesh's coordinates.
+std::pair<std::array<double, 3>, double> ball(const Document& document, CornerId corner);
+
+constexpr std::uint32_t rgba(unsigned r, unsigned g, unsigned b, unsigned a = 255) {
+    return r | g << 8 | b << 16 | a << 24;
+}
+constexpr std::uint32_t kSelectedColour = rgba(246, 190, 40), kOppositeColour = rgba(60, 130, 246),
+                        kLeftColour = rgba(58, 190, 96), kRightColour = rgba(226, 74, 120),
+                        kFanColour = rgba(150, 120, 220, 190);
+
+}  // namespace lacedring::view

@@ -1,0 +1,414 @@
+#include "app/view/session/loader.h"
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <new>
+#include <thread>
+#include <utility>
+
+#include "app/cli/input.h"
+#include "app/formats/formats.h"
+#include "app/view/session/files.h"
+#include "lacedring/lacedring.hpp"
+#include "lacedring/streams.hpp"
+#include "lrlab/rivals/strips.h"
+#include "renderer/vk/device_error.h"
+#include "renderer/vk/try.h"
+
+namespace lacedring::view {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kSoon = 0.25;  // seconds after which something must be seen of a ring that was asked for
+// Two jobs do not compute at once, unless the older one has not noticed for so long that it was stopped.
+constexpr std::chrono::seconds kTurn{1};
+constexpr std::size_t kMostReaders = 8;  // files and folders being read, those that nobody waits for any more included
+
+StreamFigures figures(std::size_t triangles, std::size_t bytes, std::size_t references, std::size_t vertices,
+                      const std::vector<std::uint32_t>& indices) {
+    StreamFigures out;
+    const auto count = static_cast<double>(std::max<std::size_t>(1, triangles));
+    out.bytes = bytes;
+    out.references = static_cast<double>(references) / count;
+    out.bits = 8.0 * static_cast<double>(bytes) / count;
+    out.acmr = analyze_fifo32(indices, vertices).acmr;
+    return out;
+}
+
+void measure(Document& document) {
+    const std::size_t triangles = document.mesh->triangle_count() - document.table->topology.degenerate;
+    const std::size_t vertices = document.mesh->vertex_count;
+    document.plain = figures(triangles, 4 * document.mesh->indices.size(), document.mesh->indices.size(), vertices,
+                             document.mesh->indices);
+    const gpu::Model& model = *document.model;
+    if (const Result<LeanView> view = view_lean(model.lean.words)) {
+        std::vector<std::uint32_t> indices(std::size_t{3} * view->slots());
+        decode_lean(*view, indices);
+        document.lean = figures(triangles, view->bytes(), view->references(), vertices, indices);
+    }
+    if (model.packed.words.empty()) return;
+    if (const Result<PackedView> view = view_packed(model.packed.words)) {
+        std::vector<std::uint32_t> indices(std::size_t{3} * view->triangles);
+        decode_packed(*view, indices);
+        document.packed = figures(triangles, view->bytes(), 0, vertices, indices);
+    }
+}
+
+RingOptions ring_options(const RingSettings& settings, bool quick) {
+    RingOptions options;
+    options.seeds = quick ? 1 : std::max(1U, settings.seeds);
+    options.random_seed = settings.random_seed;
+    options.start = settings.start;
+    options.k = settings.hybrid ? std::max(1U, settings.k) : 0;
+    return options;
+}
+
+}  // namespace
+
+/// State shared by the loader and its threads, which may outlive it.
+struct Loader::Shared {
+    std::mutex mutex;
+    std::condition_variable changed;
+    std::function<void()> wake;   // empty once the loader is gone
+    std::shared_ptr<Job> newest;  // null: nothing is being done, or nobody wants it
+    News news;
+    Progress progress;
+    std::size_t readers = 0, computing = 0;  // threads
+    std::uint64_t listing = 0;               // number of the newest one
+    std::weak_ptr<const Mesh> measured;      // whose formats were
+
+    void say_news() {
+        if (wake) wake();
+    }
+};
+
+/// One request, on a thread of its own.
+class Loader::Job {
+  public:
+    Job(std::shared_ptr<Shared> shared, Request request)
+        : shared_(std::move(shared)), request_(std::move(request)), asked_(Clock::now()) {}
+
+    /// With the mutex held. Nothing of it is news from then on.
+    void stop() { stop_ = true; }
+    const std::string& path() const { return request_.input ? request_.input->path : request_.document->path; }
+    bool reads() const { return request_.input.has_value(); }
+
+    void run();
+
+  private:
+    void work();
+    Result<app::LoadedMesh> read();
+    Result<void> make(Document& document);
+    Result<void> finish(Document& document, bool quick);
+    void measure_formats(const Document& document);
+    bool begin_computing();
+    bool stopped() const { return stop_.load(); }
+    double since_asked() const { return std::chrono::duration<double>(Clock::now() - asked_).count(); }
+    void say(const std::string& what, double share, bool background = false);
+    void publish(const Document& document);
+    void fail(const std::string& why);
+
+    const std::shared_ptr<Shared> shared_;
+    const Request request_;
+    const Clock::time_point asked_;
+    std::atomic<bool> stop_ = false;
+    bool reading_ = false, computing_ = false;  // counted in what is shared
+};
+
+Loader::Loader(Threads& threads, std::function<void()> wake) : threads_(threads), shared_(std::make_shared<Shared>()) {
+    shared_->wake = std::move(wake);
+}
+
+Loader::~Loader() {
+    cancel();
+    const std::lock_guard lock(shared_->mutex);
+    shared_->wake = {};
+}
+
+void Loader::request(Request request) {
+    auto job = std::make_shared<Job>(shared_, std::move(request));
+    cancel();
+    bool room = true;
+    {
+        const std::lock_guard lock(shared_->mutex);
+        if (job->reads()) room = shared_->readers < kMostReaders;
+        if (room) {
+            if (job->reads()) ++shared_->readers;
+            shared_->newest = job;
+            shared_->progress = {.busy = true, .background = false, .what = "starting", .share = 0};
+        }
+    }
+    shared_->changed.notify_all();
+    const Result<void> started =
+        room ? threads_.start([job] { job->run(); })
+             : Error{gpu::kDeviceFailure, std::to_string(kMostReaders) + " other files are still being read"};
+    if (started) return;
+    const std::lock_guard lock(shared_->mutex);
+    if (room && job->reads()) --shared_->readers;
+    shared_->newest.reset();
+    shared_->progress = {};
+    shared_->news.error = job->path() + ": " + started.error().message;
+}
+
+void Loader::open(const Input& input, const RingSettings& settings) {
+    request({input, nullptr, settings});
+}
+
+void Loader::encode(std::shared_ptr<const Document> document, const RingSettings& settings) {
+    request({std::nullopt, std::move(document), settings});
+}
+
+void Loader::cancel() {
+    const std::lock_guard lock(shared_->mutex);
+    if (shared_->newest) shared_->newest->stop();
+    shared_->newest.reset();
+    shared_->progress = {};
+    shared_->changed.notify_all();
+}
+
+void Loader::list(const std::string& path) {
+    std::uint64_t number = 0;
+    {
+        const std::lock_guard lock(shared_->mutex);
+        number = ++shared_->listing;
+        if (shared_->readers >= kMostReaders) return;
+        ++shared_->readers;
+    }
+    const Result<void> started = threads_.start([shared = shared_, path, number] {
+        std::optional<std::vector<std::string>> files;
+        try {
+            files = meshes_beside(path);
+        } catch (const std::bad_alloc&) {
+            files.reset();  // the list stays as it is
+        }
+        const std::lock_guard lock(shared->mutex);
+        --shared->readers;
+        if (number != shared->listing || !files) return;
+        shared->news.files = std::move(files);
+        shared->say_news();
+    });
+    if (started) return;
+    const std::lock_guard lock(shared_->mutex);
+    --shared_->readers;
+    shared_->news.error = path + ": its folder is not listed: " + started.error().message;
+}
+
+Loader::Progress Loader::progress() const {
+    const std::lock_guard lock(shared_->mutex);
+    return shared_->progress;
+}
+
+bool Loader::has_news() const {
+    const std::lock_guard lock(shared_->mutex);
+    const News& news = shared_->news;
+    return news.document || news.tables || news.formats || news.files || news.error;
+}
+
+Loader::News Loader::take() {
+    const std::lock_guard lock(shared_->mutex);
+    return std::exchange(shared_->news, {});
+}
+
+void Loader::Job::say(const std::string& what, double share, bool background) {
+    const std::lock_guard lock(shared_->mutex);
+    if (!stop_) shared_->progress = {true, background, what, share};
+}
+
+void Loader::Job::publish(const Document& document) {
+    auto copy = std::make_shared<Document>(document);
+    const std::lock_guard lock(shared_->mutex);
+    copy->asked = asked_;
+    copy->seconds = since_asked();
+    if (stop_) return;
+    shared_->news.document = std::move(copy);
+    shared_->say_news();
+}
+
+void Loader::Job::fail(const std::string& why) {
+    const std::lock_guard lock(shared_->mutex);
+    if (stop_) return;
+    shared_->news.error = path() + ": " + why;
+    shared_->say_news();
+}
+
+void Loader::Job::run() {
+    reading_ = reads();
+    try {
+        work();
+    } catch (const std::bad_alloc&) {
+        fail("not enough memory");
+    }
+    const std::lock_guard lock(shared_->mutex);
+    if (reading_) --shared_->readers;
+    if (computing_) --shared_->computing;
+    if (shared_->newest.get() == this) {
+        shared_->newest.reset();
+        shared_->progress = {};
+    }
+    shared_->changed.notify_all();
+}
+
+/// Reads the file: it may take for ever.
+Result<app::LoadedMesh> Loader::Job::read() {
+    say("reading the file", 0.05);
+    app::RunLog log;
+    Result<app::LoadedMesh> mesh = app::load_file(*request_.input, log);
+    if (mesh) log.flush();
+    const std::lock_guard lock(shared_->mutex);
+    --shared_->readers;
+    reading_ = false;
+    return mesh;
+}
+
+/// Waits until the job before this one has stopped computing. False: this one was stopped meanwhile.
+bool Loader::Job::begin_computing() {
+    std::unique_lock lock(shared_->mutex);
+    shared_->changed.wait_for(lock, kTurn, [this] { return stop_ || shared_->computing == 0; });
+    if (stop_) return false;
+    ++shared_->computing;
+    computing_ = true;
+    return true;
+}
+
+/// Rings and streams. `quick`: one seed, nothing optimised, lean alone.
+Result<void> Loader::Job::finish(Document& document, bool quick) {
+    const RingSettings& settings = request_.settings;
+    const CornerTable& table = *document.table;
+    // In steps of the bar: ring, lean's passes, packed's passes.
+    const double share = quick ? 0.55 : document.optimised ? 0.0 : 0.6;
+    say("making the ring", share);
+    auto expansion = std::make_shared<Expansion>();
+    const Rings rings = expand_rings(table, ring_options(settings, quick), expansion.get());
+    if (stopped()) return {};
+    bool shown = quick || reads();
+    // An optimiser that takes its time lets the ring be seen as it was made.
+    const auto show = [&] {
+        if (shown || since_asked() < kSoon) return;
+        shown = true;
+        Result<EncodedLean> lean = encode_lean(table, rings, {.wart_skipping = settings.warts});
+        if (!lean) return;  // reported when the optimized rings are encoded
+        Document early = document;
+        auto model = std::make_shared<gpu::Model>(*document.model);
+        model->lean = std::move(*lean);
+        model->packed = {};
+        if (!gpu::encode_seams(*model)) return;
+        early.rings = std::make_shared<const Rings>(rings);
+        early.model = std::move(model);
+        early.settings = settings;
+        early.optimised = false;
+        measure(early);
+        publish(early);
+    };
+    const auto optimise_options = [&](const RingCost& cost, double from, double to, const char* what) {
+        if (!quick) say(what, from);
+        OptimizeOptions options;
+        options.cost = cost;
+        options.passes = quick ? 0 : settings.passes;
+        options.random_seed = settings.random_seed;
+        options.threads = std::max(std::thread::hardware_concurrency(), 2U) - 1;  // one draws
+        options.progress = [&, from, to, what](std::uint32_t done) {
+            say(what, from + (to - from) * done / settings.passes);
+            show();
+            return !stopped();
+        };
+        return options;
+    };
+    auto lean_rings = std::make_shared<Rings>(
+        optimize_rings(table, rings, optimise_options(kLeanRingCost, share, 0.8, "optimising the ring")));
+    if (stopped()) return {};
+    auto model = std::make_shared<gpu::Model>(*document.model);
+    LR_ASSIGN(model->lean, encode_lean(table, *lean_rings, {.wart_skipping = settings.warts}));
+    if (!quick) {
+        const OptimizeOptions optimise =
+            optimise_options(kPackedRingCost, 0.8, 1.0, "optimising for the packed stream");
+        LR_ASSIGN(PackedChoice packed, encode_smallest_packed(table, ring_options(settings, quick), optimise));
+        model->packed = std::move(packed.stream);
+    }
+    LR_TRY(gpu::encode_seams(*model));
+    if (stopped()) return {};
+    document.rings = std::move(lean_rings);
+    // Where it went the same way it stays the same one, so that what is made of it does.
+    if (!document.expansion || *document.expansion != *expansion) document.expansion = std::move(expansion);
+    document.model = std::move(model);
+    document.settings = settings;
+    document.optimised = !quick;
+    measure(document);
+    publish(document);
+    return {};
+}
+
+/// The corner table and the surface of a mesh, shown with a quick ring.
+Result<void> Loader::Job::make(Document& document) {
+    say("building the corner table", 0.3);
+    const Surface& surface = *document.surface;
+    const Mesh joined = surface_mesh(*document.mesh, surface);
+    LR_ASSIGN(CornerTable table, build_corner_table(joined.indices, joined.vertex_count));
+    if (stopped()) return {};
+    document.table = std::make_shared<const CornerTable>(std::move(table));
+    LR_ASSIGN(gpu::Model model, gpu::make_surface(*document.mesh, surface));
+    document.model = std::make_shared<const gpu::Model>(std::move(model));
+    if (stopped()) return {};
+    return finish(document, true);
+}
+
+/// The figures of every format, with the ring recommended for each: once for a mesh, unless another ring was asked for
+/// before they came.
+void Loader::Job::measure_formats(const Document& document) {
+    {
+        const std::lock_guard lock(shared_->mutex);
+        if (stop_ || shared_->measured.lock() == document.mesh) return;
+    }
+    app::RingChoice choice;
+    Result<app::FormatSet> formats =
+        app::make_formats(*document.mesh, *document.surface, choice, false, [&](double share, const std::string& what) {
+            say("measuring " + what, share, true);
+            return !stopped();
+        });
+    if (!formats) return;
+    for (app::MeasuredFormat& format : formats->formats) {
+        format.indices = {};  // only the figures are shown
+        format.order = {};
+    }
+    const std::lock_guard lock(shared_->mutex);
+    if (stop_) return;
+    shared_->measured = document.mesh;
+    shared_->news.formats = std::make_shared<const app::FormatSet>(std::move(*formats));
+    shared_->say_news();
+}
+
+void Loader::Job::work() {
+    Document document;
+    if (stopped()) return;
+    if (reads()) {
+        Result<app::LoadedMesh> read_mesh = read();
+        if (!read_mesh) return fail(read_mesh.error().message);
+        if (!begin_computing()) return;
+        document.path = path();
+        document.mesh = std::make_shared<const Mesh>(std::move(read_mesh->mesh));
+        document.surface = std::make_shared<const Surface>(std::move(read_mesh->surface));
+        if (const Result<void> made = make(document); !made) return fail(made.error().message);
+    } else {
+        if (!begin_computing()) return;
+        document = *request_.document;
+        document.optimised = true;  // shown already: the bar begins with the ring
+    }
+    if (stopped()) return;
+    if (const Result<void> done = finish(document, false); !done) return fail(done.error().message);
+    if (stopped()) return;
+
+    say("making LR tables", 0, true);
+    if (Result<EncodedLr> lr = encode_lr(*document.table, ring_options(request_.settings, true))) {
+        if (Result<Tables> tables = make_tables(document.mesh, std::move(*lr))) {
+            const std::lock_guard lock(shared_->mutex);
+            if (stop_) return;
+            shared_->news.tables = std::make_shared<const Tables>(std::move(*tables));
+            shared_->say_news();
+        }
+    }
+    measure_formats(document);
+}
+
+}  // namespace lacedring::view

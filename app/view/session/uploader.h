@@ -1,0 +1,83 @@
+#pragma once
+// Puts models on the device on a thread of its own, so that the window goes on with what it has.
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "renderer/decode/expander.h"
+
+namespace lacedring::view {
+
+/// What is put there of a model, and with what beside its triangles.
+struct UploadKey {
+    enum class With {
+        ring,
+        offsets,
+        edges,
+        seams
+    };  ///< ring order, classes and the ring's lines; sizes of offsets; all edges; seams
+    gpu::Source source = gpu::Source::plain;
+    gpu::Path path = gpu::Path::compute;
+    With with = With::ring;
+
+    auto operator<=>(const UploadKey&) const = default;
+};
+
+class Uploader {
+  public:
+    struct Job {
+        std::shared_ptr<const gpu::Model> model;
+        std::vector<UploadKey> keys;
+
+        bool operator==(const Job&) const = default;
+    };
+    struct Done {
+        Job job;
+        std::vector<gpu::ExpandedMesh> meshes;  ///< one a key
+        std::optional<Error> error;             ///< then there are none
+    };
+
+    /// `wake` is called by the thread when something is done. Errors: kDeviceFailure (no thread, and Vulkan's).
+    static Result<std::unique_ptr<Uploader>> create(gpu::Context& context, std::function<void()> wake);
+    ~Uploader();  ///< Stops what is being done, and waits for that: it uses the device.
+    Uploader(const Uploader&) = delete;
+    Uploader& operator=(const Uploader&) = delete;
+
+    /// Queues the job, in the place of the one before it: that one is stopped if it has begun. `expander` must outlive
+    /// the job.
+    void ask(Job job, gpu::Expander& expander);
+    /// Asked for last, and not taken yet.
+    bool asked(const Job& job) const;
+    /// What was asked for last, once it is done.
+    std::optional<Done> take();
+    /// Waits until nothing is being done. What is done by then can still be taken.
+    void finish();
+    /// Stops what is being done for good. False: it still runs after `patience`.
+    bool stop(std::chrono::milliseconds patience);
+
+  private:
+    Uploader(gpu::Transfer transfer, std::function<void()> wake)
+        : transfer_(std::move(transfer)), wake_(std::move(wake)) {}
+    void run();
+    Result<void> upload(Done& done, gpu::Expander& expander);
+
+    gpu::Transfer transfer_;
+    std::function<void()> wake_;
+    mutable std::mutex mutex_;
+    std::condition_variable changed_;
+    gpu::Expander* expander_ = nullptr;
+    std::optional<Job> next_, last_;  // not begun; asked for and not taken
+    std::optional<Done> done_;
+    std::atomic<bool> stop_ = false;  // what is being done
+    bool working_ = false, quit_ = false;
+    std::thread thread_;
+};
+
+}  // namespace lacedring::view

@@ -1,0 +1,106 @@
+#include "app/view/ui/overlays.h"
+
+#include <imgui.h>
+
+#include <array>
+#include <cmath>
+
+#include "app/view/window/theme.h"
+
+namespace lacedring::view {
+namespace {
+
+ImVec2 at(const std::array<double, 2>& p) {
+    return {static_cast<float>(p[0]), static_cast<float>(p[1])};
+}
+
+void letter(ImVec2 place, const char* text, std::uint32_t colour) {
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const float radius = px(9);
+    list.AddCircleFilled(place, radius, IM_COL32(20, 21, 24, 235));
+    list.AddCircle(place, radius, colour | 0xff000000U, 0, px(1.5F));
+    const ImVec2 size = ImGui::CalcTextSize(text);
+    list.AddText({place.x - size.x / 2, place.y - size.y / 2}, IM_COL32_WHITE, text);
+}
+
+void mark_selection(const State& state, const Orbit& orbit, double width, double height) {
+    const Document& document = *state.document;
+    const auto place = [&](CornerId c, double towards) {
+        // A corner is drawn inside its triangle, near its vertex.
+        Vector p{};
+        const double weight[3] = {towards, (1 - towards) / 2, (1 - towards) / 2};
+        const CornerId corners[3] = {c, next(c), previous(c)};
+        for (std::size_t j = 0; j < 3; ++j) {
+            const std::size_t v = document.copy_at(corners[j]);
+            for (std::size_t i = 0; i < 3; ++i) {
+                const double x = static_cast<double>(document.model->positions[3 * v + i]) * document.model->radius +
+                                 document.model->centre[i];
+                p[i] += weight[j] * x;
+            }
+        }
+        return orbit.project(p, height, width);
+    };
+    const CornerTable& table = *document.table;
+    const CornerId c = state.selection.corner;
+    const std::array<std::tuple<CornerId, const char*, std::uint32_t>, 7> marks{
+        {{table.swing(c), "s", kFanColour},
+         {table.right(c), "r", kRightColour},
+         {table.left(c), "l", kLeftColour},
+         {table.opposite(c), "o", kOppositeColour},
+         {previous(c), "p", rgba(150, 150, 150)},
+         {next(c), "n", rgba(150, 150, 150)},
+         {c, "c", kSelectedColour}}};
+    // Letters only where triangles have room for them.
+    const auto a = place(c, 1), b = place(next(c), 1);
+    const bool room = a && b && std::hypot((*a)[0] - (*b)[0], (*a)[1] - (*b)[1]) > static_cast<double>(px(46));
+    // The least important come first and lie below; where one would lie under another, it is a dot.
+    std::vector<ImVec2> places(marks.size());
+    for (std::size_t i = marks.size(); i-- > 0;) {
+        const auto& [corner, text, colour] = marks[i];
+        if (corner.is_null() || (!room && corner != c)) continue;
+        if (const auto p = place(corner, room ? 0.72 : 1.0)) {
+            places[i] = at(*p);
+            const bool free =
+                std::none_of(places.begin() + static_cast<std::ptrdiff_t>(i) + 1, places.end(),
+                             [&](ImVec2 q) { return std::hypot(q.x - places[i].x, q.y - places[i].y) < px(19); });
+            if (room && free) {
+                letter(at(*p), text, colour);
+            } else {
+                ImGui::GetBackgroundDrawList()->AddCircleFilled(at(*p), px(4), colour | 0xff000000U);
+                ImGui::GetBackgroundDrawList()->AddCircle(at(*p), px(4), IM_COL32(20, 21, 24, 235), 0, px(1));
+            }
+        }
+    }
+}
+
+void tag(const char* text, float x, float y, float side) {
+    const ImVec2 size = ImGui::CalcTextSize(text);
+    const float left = side < 0 ? x - size.x - px(22) : x + px(10);
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    list.AddRectFilled({left, y}, {left + size.x + px(12), y + size.y + px(6)}, IM_COL32(20, 21, 24, 210), px(3));
+    list.AddText({left + px(6), y + px(3)}, IM_COL32(225, 225, 225, 255), text);
+}
+
+}  // namespace
+
+void draw_marks(const State& state, const Orbit& orbit, std::uint32_t width, std::uint32_t height) {
+    if (!state.panels) return;
+    if (state.document && state.selection.any()) mark_selection(state, orbit, width, height);
+    if (state.shown.mode != Mode::split) return;
+    const auto x = static_cast<float>(state.divider * width);
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    list.AddLine({x, 0}, {x, static_cast<float>(height)}, IM_COL32(20, 21, 24, 255), px(1.5F));
+    const float middle = static_cast<float>(height) / 2;
+    list.AddCircleFilled({x, middle}, px(11), IM_COL32(20, 21, 24, 235));
+    list.AddTriangleFilled({x - px(7), middle}, {x - px(2), middle - px(4)}, {x - px(2), middle + px(4)},
+                           IM_COL32(222, 107, 33, 255));
+    list.AddTriangleFilled({x + px(7), middle}, {x + px(2), middle - px(4)}, {x + px(2), middle + px(4)},
+                           IM_COL32(222, 107, 33, 255));
+    tag("index list", x, px(14), -1);
+    tag(state.shown.source == gpu::Source::packed  ? "packed"
+        : state.shown.source == gpu::Source::plain ? "index list"
+                                                   : "lean",
+        x, px(14), 1);
+}
+
+}  // namespace lacedring::view

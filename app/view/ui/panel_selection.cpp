@@ -1,0 +1,145 @@
+// Bottom: the selected corner, what the operators say of it, and what streams hold of its triangle.
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <string>
+
+#include "app/view/ui/panels.h"
+#include "app/view/window/theme.h"
+#include "lacedring/streams.hpp"
+
+namespace lacedring::view {
+namespace {
+
+ImVec4 colour(std::uint32_t rgba) {
+    return ImGui::ColorConvertU32ToFloat4(rgba | 0xff000000U);
+}
+
+/// "L[12] = 34": the slots of the lean stream that hold a triangle.
+std::string lean_text(const gpu::Model& model, std::uint32_t t) {
+    const Result<LeanView> view = view_lean(model.lean.words);
+    if (!view) return "";
+    const auto at = std::find(model.lean.slot_triangle.begin(), model.lean.slot_triangle.end(), t);
+    if (at == model.lean.slot_triangle.end()) return "in no slot";
+    const auto slot = static_cast<std::uint32_t>(at - model.lean.slot_triangle.begin());
+    const Triangle found = decode_lean_slot(*view, slot);
+    const std::string vertices = fmt::format("({}, {}, {})", found.v[0], found.v[1], found.v[2]);
+    if (slot >= view->ring_slots()) {
+        return fmt::format("slot {}: verbatim, a T0: {}", slot, vertices);
+    }
+    const std::uint32_t word = view->payload[slot];
+    if (slot < 2 * view->rings2) {
+        return fmt::format("slot {}: {}[{}], word {:08x}: {}", slot, slot % 2 == 0 ? 'L' : 'R', slot / 2, word,
+                           vertices);
+    }
+    return fmt::format("slot {}: one side of ring vertex {}, word {:08x}: {}", slot, slot - view->rings2, word,
+                       vertices);
+}
+
+std::string packed_text(const gpu::Model& model, std::uint32_t t) {
+    const Result<PackedView> view = view_packed(model.packed.words);
+    if (!view) return "not made";
+    const auto at = std::find(model.packed.triangle_order.begin(), model.packed.triangle_order.end(), t);
+    if (at == model.packed.triangle_order.end()) return "";
+    const auto i = static_cast<std::uint32_t>(at - model.packed.triangle_order.begin());
+    const Triangle found = decode_packed_triangle(*view, i);
+    return fmt::format("triangle {} of block {}: ({}, {}, {})", i % 256, i / 256, found.v[0], found.v[1], found.v[2]);
+}
+
+void cell(const std::string& text) {
+    ImGui::TableNextColumn();
+    const float room = ImGui::GetContentRegionAvail().x, width = ImGui::CalcTextSize(text.c_str()).x;
+    if (width < room) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room - width);
+    ImGui::TextUnformatted(text.c_str());
+}
+
+/// A line of the table: the letter that marks the corner on the surface, and where it is.
+void line(const Document& document, const char* letter, const char* name, std::uint32_t rgba, CornerId c,
+          const char* explained) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextColored(colour(rgba), "%s", letter);
+    ImGui::TableNextColumn();
+    ImGui::TextColored(colour(rgba), "%s", name);
+    explain(explained);
+    if (c.is_null()) {
+        cell("border");
+        return;
+    }
+    cell(std::to_string(c.value));
+    cell(std::to_string(triangle(c).value));
+    cell(std::to_string(document.table->vertex(c).value));
+}
+
+void draw_operators(const Document& document, CornerId c) {
+    const CornerTable& table = *document.table;
+    const std::uint32_t grey = 0xffb4b0aeU;
+    if (!ImGui::BeginTable("operators", 5, ImGuiTableFlags_SizingFixedFit)) return;
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TableNextColumn();
+    for (const char* name : {"corner", "triangle", "vertex"}) {
+        ImGui::TableNextColumn();
+        ImGui::TextDisabled("  %s", name);
+    }
+    line(document, "c", "selected", kSelectedColour, c, "The corner nearest to where you clicked");
+    line(document, "n", "next", grey, next(c), "Of the same triangle, counterclockwise. Key N");
+    line(document, "p", "previous", grey, previous(c), "Of the same triangle, clockwise. Key P");
+    line(document, "o", "opposite", kOppositeColour, table.opposite(c),
+         "Of the triangle across the edge that faces the corner. Key O");
+    line(document, "l", "left", kLeftColour, table.left(c), "The next corner's opposite. Key L");
+    line(document, "r", "right", kRightColour, table.right(c), "The previous corner's opposite. Key R");
+    line(document, "s", "swing", kFanColour, table.swing(c),
+         "Of the next triangle around the same vertex; violet: all of them. Key S");
+    ImGui::EndTable();
+}
+
+void draw_streams(const State& state, CornerId c) {
+    const Document& document = *state.document;
+    const auto part = [](const char* name, const std::string& text, const char* explained) {
+        ImGui::TextDisabled("%s", name);
+        explain(explained);
+        ImGui::PushFont(small_font());
+        ImGui::PushTextWrapPos(0);
+        ImGui::TextUnformatted(text.c_str());
+        ImGui::PopTextWrapPos();
+        ImGui::PopFont();
+    };
+    const std::size_t fan = around(*document.table, c).size();
+    ImGui::TextDisabled("%zu triangle%s around the vertex", fan, fan == 1 ? "" : "s");
+    if (document.surface->has_seams()) {
+        part(
+            "vertex copy", fmt::format("{} of {}", document.copy_at(c), document.mesh->vertex_count),
+            "The file's vertex at this corner: its normal, texture coordinates and the like. Beyond a seam, corners of "
+            "the same vertex have another copy");
+    }
+    part("LR tables hold", state.tables ? lr_text(*state.tables, *document.table, c) : "being made",
+         "Their own numbers: L[v] and R[v] are the triangles left and right of ring edge v, VO the T0 triangles");
+    part("lean holds", lean_text(*document.model, triangle(c).value),
+         "Vertices in ring order. Slot 2v is the triangle left of ring edge v, slot 2v + 1 the one right of it");
+    part("packed holds", packed_text(*document.model, triangle(c).value),
+         "Vertices in ring order. A block is 256 triangles that decode on their own");
+}
+
+}  // namespace
+
+void draw_selection(const State& state) {
+    const CornerId c = state.selection.corner;
+    // Beside each other where there is room.
+    const float width = ImGui::GetContentRegionAvail().x;
+    if (width < px(560)) {
+        draw_operators(*state.document, c);
+        draw_streams(state, c);
+        return;
+    }
+    ImGui::BeginGroup();
+    draw_operators(*state.document, c);
+    ImGui::EndGroup();
+    ImGui::SameLine(px(310));
+    ImGui::BeginGroup();
+    draw_streams(state, c);
+    ImGui::EndGroup();
+}
+
+}  // namespace lacedring::view

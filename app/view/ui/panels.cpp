@@ -1,0 +1,241 @@
+// Where panels, bar and notices are.
+#include "app/view/ui/panels.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "app/view/window/theme.h"
+
+namespace lacedring::view {
+namespace {
+
+constexpr float kLeft = 268, kRight = 316, kBar = 30;  // nominal pixels
+constexpr float kGap = 8;
+constexpr float kNarrow = 900;  // below it the side panels are drawers, opened from the bar
+// Lies over the picture, in front of panels, and takes no focus from them.
+constexpr ImGuiWindowFlags kOver = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
+                                   ImGuiWindowFlags_NoFocusOnAppearing;
+constexpr ImGuiWindowFlags kFixed = kOver | ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+bool narrow(double width) {
+    return width < static_cast<double>(px(kNarrow));
+}
+
+void begin_at(const char* name, ImVec2 at, ImVec2 size, ImGuiWindowFlags more = 0) {
+    ImGui::SetNextWindowPos(at);
+    ImGui::SetNextWindowSize(size);
+    ImGui::Begin(name, nullptr, kFixed | more);
+}
+
+/// A button in the bar that ends at `right`, moved to its left.
+bool bar_button(const char* text, float& right, bool pressed = false) {
+    right -= ImGui::CalcTextSize(text).x + 2 * ImGui::GetStyle().FramePadding.x;
+    ImGui::SetCursorPos({right, px(4)});
+    ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyle().Colors[pressed ? ImGuiCol_ButtonActive : ImGuiCol_Button]);
+    const bool out = ImGui::Button(text);
+    ImGui::PopStyleColor();
+    right -= px(kGap);
+    return out;
+}
+
+void bar_text(const std::string& text, float x, bool dim = false) {
+    ImGui::SetCursorPos({x, px(4)});
+    ImGui::AlignTextToFramePadding();
+    if (dim) {
+        ImGui::TextDisabled("%s", text.c_str());
+    } else {
+        ImGui::TextUnformatted(text.c_str());
+    }
+}
+
+/// What is open, as much of it as there is room for.
+std::string opened(const State& state, float room) {
+    const Document& document = *state.document;
+    const std::string name = std::filesystem::path(document.path).filename().string();
+    const auto counted = [](std::uint64_t count, const char* one, const char* many) {
+        return fmt::format("   {} {}", grouped(count), count == 1 ? one : many);
+    };
+    const std::string triangles = counted(document.mesh->triangle_count(), "triangle", "triangles");
+    const std::string all =
+        name + triangles + counted(document.table->vertex_count, "vertex", "vertices") +
+        (document.surface->has_seams() ? counted(document.mesh->vertex_count, "copy", "copies") : "");
+    if (ImGui::CalcTextSize(all.c_str()).x <= room) return all;
+    const float left = room - ImGui::CalcTextSize(triangles.c_str()).x;
+    if (left > px(120)) return elided(name, left) + triangles;
+    return elided(name, room);
+}
+
+void draw_progress(State& state, float& right, float window) {
+    const Loader::Progress& progress = state.progress;
+    if (!progress.background && bar_button("Cancel", right)) state.cancel = true;
+    const float length = std::clamp(window / 6, px(60), px(200));
+    right -= length;
+    ImGui::SetCursorPos({right, px(9)});
+    ImGui::ProgressBar(static_cast<float>(progress.share), {length, px(12)}, "");
+    right -= px(kGap);
+    const float text = ImGui::CalcTextSize(progress.what.c_str()).x;
+    if (right - text < window / 3) return;
+    right -= text;
+    bar_text(progress.what, right, true);
+    right -= px(kGap);
+}
+
+void draw_bar(State& state) {
+    const ImVec2 window = ImGui::GetIO().DisplaySize;
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2{px(12), px(4)});
+    begin_at("bar", {0, window.y - px(kBar)}, {window.x, px(kBar)}, ImGuiWindowFlags_NoScrollbar);
+    const bool told = state.clock < state.note_until;
+    // From the right, then what is left for the left.
+    float right = window.x - px(12);
+    if (narrow(window.x)) {
+        const auto drawer = [&](const char* text, Drawer which) {
+            const bool open = state.drawer == which;
+            if (bar_button(text, right, open)) state.drawer = open ? Drawer::none : which;
+        };
+        if (!told || window.x > px(420)) {
+            drawer("Numbers", Drawer::numbers);
+            drawer("Choices", Drawer::choices);
+        }
+    }
+    if (state.progress.busy) {
+        draw_progress(state, right, window.x);
+    } else if (!told && window.x > px(500)) {
+        if (bar_button("? Help", right, state.help)) state.help = !state.help;
+    }
+    float left = px(12);
+    const float room = right - left - px(kGap);
+    if (told && (narrow(window.x) || !state.document)) {
+        bar_text(elided(state.note, room), left);
+    } else if (state.document) {
+        const std::string text = opened(state, told ? room / 2 : room);
+        bar_text(text, left);
+        explain(state.document->path.c_str());
+        left += ImGui::CalcTextSize(text.c_str()).x + px(24);
+        if (told) bar_text(elided(state.note, right - left - px(kGap)), left);
+    } else {
+        bar_text(state.progress.busy ? "" : "no mesh", left, true);
+    }
+    ImGui::End();
+    ImGui::PopStyleVar();
+}
+
+/// Over the picture, in its middle, from `top` on; gives where it ends. `left`, `right`: what panels leave of the
+/// window.
+float draw_error(const char* name, std::string& error, float top, float left, float right) {
+    if (error.empty()) return top;
+    const float room = std::max(px(160), right - left - px(32));
+    const float button = px(36), padding = px(12);
+    const std::string text = broken(error, room - button - 2 * padding);
+    const float width = ImGui::CalcTextSize(text.c_str()).x + button + 2 * padding;
+    ImGui::SetNextWindowPos({(left + right) / 2, top}, ImGuiCond_Always, {0.5F, 0});
+    ImGui::SetNextWindowSizeConstraints({width, 0}, {width, ImGui::GetIO().DisplaySize.y * 0.6F});
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4{0.36F, 0.09F, 0.08F, 0.98F});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, px(4));
+    ImGui::Begin(name, nullptr, kOver | ImGuiWindowFlags_AlwaysAutoResize);
+    const float line = ImGui::GetCursorPosY();
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::SetCursorPos({ImGui::GetWindowContentRegionMax().x - px(24), line});
+    if (ImGui::SmallButton("x")) error.clear();
+    const float bottom = top + ImGui::GetWindowSize().y;
+    ImGui::End();
+    ImGui::PopStyleVar();
+    ImGui::PopStyleColor();
+    return bottom + px(kGap);
+}
+
+/// What happened, where there is no bar to tell it.
+void draw_note(const State& state) {
+    const ImVec2 window = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({window.x / 2, window.y - px(16)}, ImGuiCond_Always, {0.5F, 1});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, px(4));
+    ImGui::Begin("note", nullptr, kOver | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
+    ImGui::TextUnformatted(elided(state.note, window.x - px(56)).c_str());
+    ImGui::End();
+    ImGui::PopStyleVar();
+}
+
+/// In the middle of an empty window.
+void invite(const State& state, float left, float right, float height) {
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const auto centred = [&](const char* text, float size, float y, ImU32 colour) {
+        const float width = ImGui::CalcTextSize(text).x * size / ImGui::GetFontSize();
+        list.AddText(ImGui::GetFont(), size, {(left + right - width) / 2, y}, colour, text);
+    };
+    if (state.progress.busy) {
+        centred(state.progress.what.c_str(), px(18), height / 2 - px(20), IM_COL32(70, 72, 78, 255));
+        return;
+    }
+    centred("Drop a mesh here", px(22), height / 2 - px(26), IM_COL32(70, 72, 78, 255));
+    centred("glTF, GLB, OBJ, PLY, OFF, STL or LR", px(15), height / 2 + px(8), IM_COL32(100, 103, 110, 255));
+}
+
+/// The top of the box.
+float draw_selection_box(const State& state, float left, float right, float bottom) {
+    const float width = std::min(right - left - 2 * px(kGap), px(860));
+    ImGui::SetNextWindowPos({left + px(kGap), bottom - px(kGap)}, ImGuiCond_Always, {0, 1});
+    ImGui::SetNextWindowSizeConstraints({width, 0}, {width, std::max(px(90), bottom * 0.45F)});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, px(4));
+    ImGui::Begin("selection", nullptr, kOver | ImGuiWindowFlags_AlwaysAutoResize);
+    draw_selection(state);
+    const float top = ImGui::GetWindowPos().y;
+    ImGui::End();
+    ImGui::PopStyleVar();
+    return top;
+}
+
+}  // namespace
+
+std::array<double, 2> free_area(const State& state, double width, double height) {
+    if (!state.panels) return {width, height};
+    const auto bar = static_cast<double>(px(kBar));
+    const double free_height = std::max(0.3 * height, height - 2.0 * bar);
+    if (narrow(width)) return {width, free_height};
+    // The mesh stays in the window's middle, so the wider panel counts twice.
+    const double sides = 2.0 * static_cast<double>(px(std::max(kLeft, kRight)));
+    return {std::max(0.3 * width, width - sides), free_height};
+}
+
+void draw_panels(State& state, const Orbit&) {
+    const ImVec2 window = ImGui::GetIO().DisplaySize;
+    const bool slim = narrow(window.x);
+    const float height = window.y - px(kBar);
+    const bool choices = state.panels && (!slim || state.drawer == Drawer::choices);
+    const bool numbers = state.panels && (!slim || state.drawer == Drawer::numbers);
+    // What they leave of the picture.
+    const float left = choices && !slim ? px(kLeft) : 0;
+    const float right = numbers && !slim ? window.x - px(kRight) : window.x;
+    if (choices) {
+        begin_at("choices", {0, 0}, {std::min(px(kLeft), window.x), height});
+        draw_choices(state);
+        ImGui::End();
+    }
+    if (numbers) {
+        const float width = std::min(px(kRight), window.x);
+        begin_at("numbers", {window.x - width, 0}, {width, height});
+        draw_numbers(state);
+        ImGui::End();
+    }
+    if (state.panels) draw_bar(state);
+    // A drawer and help lie over what follows.
+    const bool covered = state.help || (slim && (choices || numbers));
+    float bottom = state.panels ? height : window.y;
+    if (state.panels && state.document && !covered) {
+        if (state.selection.any()) bottom = draw_selection_box(state, left, right, bottom);
+        // Below the names of the two pictures where these are near.
+        const bool near = state.shown.mode == Mode::split &&
+                          state.divider * static_cast<double>(window.x) < static_cast<double>(left + px(350));
+        draw_legend(state, left + px(kGap), near ? px(48) : px(kGap), bottom - px(100));
+    }
+    state.covered_below = static_cast<double>(window.y - bottom);
+    if (!state.document && !covered) invite(state, left, right, height);
+    if (!state.panels && state.clock < state.note_until) draw_note(state);
+    const float below = draw_error("error", state.error, px(16), left, right);
+    draw_error("shaders", state.shaders.error, below, left, right);
+    if (state.help) draw_help(left, right, state.panels ? height : window.y);
+}
+
+}  // namespace lacedring::view

@@ -1,0 +1,21 @@
+#pragma once
+// The compute pass that decodes a vertex stream of positions into a vertex buffer.
+
+#include "lacedring/vertices.hpp"
+#include "renderer/decode/decoder.h"
+
+namespace lacedring::gpu {
+
+using VertexPlan = PassPlan<VertexConstants>;
+
+/// Writes mesh.positions, or those of mesh.vertices where the surface has no seams.
+class VertexDecoder : public ComputePass<VertexConstants> {
+  public:
+    static Result<VertexDecoder> create(Context& context);
+
+    /// Splits the buffer so that no descriptor covers more than mesh.max_range bytes. The stream is read through
+    /// its address.
+    Result<VertexPlan> plan(Descriptors& descriptors, const GpuMesh& mesh, const VertexView& view) const;
+};
+
+}  // namespace lacedring::gpu

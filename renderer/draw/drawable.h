@@ -1,0 +1,18 @@
+#pragma once
+// A mesh on the device, with what is bound to draw it.
+
+#include <optional>
+
+#include "renderer/decode/expander.h"
+#include "renderer/draw/adjacency.h"
+#include "renderer/draw/surface.h"
+
+namespace lacedring::gpu {
+
+/// Goes before its context.
+struct Drawable : ExpandedMesh {
+    DrawPlan draw;
+    std::optional<Adjacency> adjacency;  ///< View::silhouette
+};
+
+}  // namespace lacedring::gpu

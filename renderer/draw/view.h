@@ -1,0 +1,31 @@
+#pragma once
+// What pictures show.
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "renderer/mesh/gpu_mesh.h"
+#include "shaders/shared.h"
+
+namespace lacedring::gpu {
+
+enum class View : std::uint32_t {
+    smooth = LR_VIEW_SMOOTH,          ///< interpolated normals
+    flat = LR_VIEW_FLAT,              ///< the triangles' own normals
+    triangle_class = LR_VIEW_CLASS,   ///< what each triangle is to the ring, and the ring
+    ring = LR_VIEW_RING,              ///< the vertices' order along the ring, and the ring
+    wire = LR_VIEW_WIRE,              ///< flat, and the triangles' edges
+    offsets = LR_VIEW_OFFSETS,        ///< significant bits of each triangle's offset along the ring, and the ring
+    seams = LR_VIEW_SEAMS,            ///< interpolated normals, and the seams
+    silhouette = LR_VIEW_SILHOUETTE,  ///< outline, creases and borders, over normals that the device computed
+};
+
+/// What a view needs on the device beside the triangles.
+UploadOptions upload_options(View view);
+/// Are lines drawn over the surface? It is pushed back a little then.
+bool has_lines(View view);
+/// "smooth", "flat", "class", "ring", "wire", "offsets", "seams", "silhouette"
+std::optional<View> view_named(std::string_view name);
+
+}  // namespace lacedring::gpu

@@ -1,0 +1,22 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// From vertex buffers and an index buffer.
+#include "shaders/draw/surface_vertex.glsl"
+
+layout(location = 0) in vec3 in_position;
+layout(location = 1) in vec3 in_normal;
+layout(location = 2) in float in_ring;
+
+layout(location = 0) out vec3 out_position;
+layout(location = 1) out vec3 out_normal;
+layout(location = 2) out vec3 out_ring_colour;
+
+invariant gl_Position;
+
+void main() {
+    SurfaceVertex v = surface_vertex(in_position, in_normal, in_ring);
+    gl_Position = v.clip;
+    out_position = v.position;
+    out_normal = v.normal;
+    out_ring_colour = v.ring_colour;
+}

@@ -1,0 +1,35 @@
+// A vertex of the surface, in every stage that makes vertices: passes compare depths for equality, so all of them compute
+// it with the same words.
+#include "shaders/draw/draw_push.glsl"
+
+layout(binding = 0) uniform Frame { FrameConstants frame; };
+layout(constant_id = 0) const uint view = LR_VIEW_SMOOTH;  // what no view needs is not fetched for it
+
+struct SurfaceVertex {
+    vec4 clip;
+    vec3 position;  // in view space, as is the normal
+    vec3 normal;
+    vec3 ring_colour;
+};
+
+vec3 ring_colour(float t) {
+    if (t < 0.0) return vec3(0.42);
+    // Blue, teal, sand, red: even steps of lightness, so that neighbouring corridors can be told apart.
+    const vec3 stops[5] = vec3[](vec3(0.045, 0.085, 0.50), vec3(0.03, 0.34, 0.72), vec3(0.62, 0.78, 0.72),
+                                 vec3(0.92, 0.46, 0.12), vec3(0.52, 0.02, 0.03));
+    float x = clamp(t, 0.0, 1.0) * 4.0;
+    int i = min(int(x), 3);
+    return mix(stops[i], stops[i + 1], x - float(i));
+}
+
+// position: in the coordinates of the source; ring: place along the rings in [0, 1], or negative: on no ring
+SurfaceVertex surface_vertex(vec3 position, vec3 normal, float ring) {
+    SurfaceVertex v;
+    precise vec4 from_eye = frame.view_from_world * vec4(unit_position(position), 1.0);
+    precise vec4 clip = frame.clip_from_view * from_eye;
+    v.clip = clip;
+    v.position = from_eye.xyz;
+    v.normal = mat3(frame.view_from_world) * normal;
+    v.ring_colour = view == LR_VIEW_RING ? ring_colour(ring) : vec3(0.0);
+    return v;
+}

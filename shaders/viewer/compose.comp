@@ -1,0 +1,160 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The viewer's picture of what was drawn: on the background, with colours laid over triangles by their number, and two
+// pictures of the same size side by side or compared.
+#include "shaders/viewer/compose_shared.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0, rgba8) uniform readonly image2D left_colour;
+layout(binding = 1, r32ui) uniform readonly uimage2D left_triangles;
+layout(binding = 2, rgba8) uniform readonly image2D right_colour;
+layout(binding = 3, r32ui) uniform readonly uimage2D right_triangles;
+layout(binding = 4, rgba8) uniform writeonly image2D composed;
+layout(std430, binding = 5) readonly buffer Paint { uint paint[]; };  // RGBA, one a triangle of the mesh
+layout(std430, binding = 6) readonly buffer Growth { GrowthTriangle growth[]; };
+layout(push_constant) uniform Push { ComposeConstants push; };
+// Constants, so that a device that runs both sides of every branch (a CPU) has none that it does not need.
+layout(constant_id = 0) const uint kMode = LR_COMPOSE_LEFT;
+layout(constant_id = 1) const uint kSamples = 1;  // of the pictures, a pixel along each side
+layout(constant_id = 2) const uint kPaint = LR_PAINT_NONE;
+
+float to_linear(float x) { return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4); }
+float to_srgb(float x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055; }
+vec3 linear(vec3 c) { return vec3(to_linear(c.x), to_linear(c.y), to_linear(c.z)); }
+vec3 srgb(vec3 c) { return vec3(to_srgb(c.x), to_srgb(c.y), to_srgb(c.z)); }
+
+// As finish() (renderer/draw/picture.cpp) has it.
+vec3 background(vec2 at) {
+    vec2 d = at - vec2(0.5, 0.42);
+    float t = min(1.0, length(d) * 1.25);
+    float s = t * t * (3.0 - 2.0 * t);
+    return vec3(246.0 - 34.0 * s, 247.0 - 32.0 * s, 249.0 - 28.0 * s) / 255.0;
+}
+
+// The surface's own colour is replaced.
+vec3 recoloured(vec3 colour, vec4 over) {
+    vec3 light = linear(colour) / vec3(0.62, 0.60, 0.565);
+    if ((kPaint & LR_PAINT_FLAT) != 0u) {
+        light = vec3(smoothstep(0.002, 0.02, dot(linear(colour), vec3(0.2126, 0.7152, 0.0722))));
+    }
+    vec3 lit = srgb(min(linear(over.rgb) * light, vec3(1.0)));
+    return mix(colour, lit, over.a);
+}
+
+uint triangle_at(bool right, ivec2 at) {
+    return right ? imageLoad(right_triangles, at).x : imageLoad(left_triangles, at).x;
+}
+
+// Colours as the panel names them (app/view/ui/panel_choices.cpp).
+vec3 growth_colour(uint step) {
+    uint settled = step & ~LR_GROWTH_RIGHT;
+    if (settled >= push.invaded) return vec3(LR_GROWTH_NOT_YET_COLOUR) / 255.0;
+    if (step >= LR_GROWTH_RIGHT) return vec3(LR_GROWTH_RIGHT_COLOUR) / 255.0;
+    uint age = push.invaded - 1u - settled;
+    vec3 invaded = vec3(LR_GROWTH_INVADED_COLOUR) / 255.0;
+    if (age >= push.fresh) return invaded;
+    return mix(vec3(LR_GROWTH_NEWEST_COLOUR) / 255.0, invaded, 0.6 * float(age) / float(push.fresh));
+}
+
+uvec3 triangles_across(uint i) { return uvec3(growth[i].across[0], growth[i].across[1], growth[i].across[2]); }
+
+bool is_among(uint i, uvec3 triangles) { return i != LR_GROWTH_BORDER && any(equal(triangles, uvec3(i))); }
+
+// The ring so far parts what is invaded from what is not (yet): where a sample nearby shows the triangle across such an
+// edge, or around its end, the line is drawn. So it hides behind the surface as that does, not where two parts of the
+// surface merely overlap, and costs what is seen, not what there is.
+vec4 ring_line(uint i, bool right, ivec2 at) {
+    uint step = growth[i].step;
+    uvec3 across = triangles_across(i);
+    bool inside = step < push.invaded;  // the flag makes the others larger than any number of triangles
+    ivec2 last = imageSize(left_triangles) - 1;
+    uint reach = inside ? push.inner : push.outer;
+    for (int d = 1; d <= int(reach); ++d) {
+        for (int k = 0; k < 4; ++k) {
+            ivec2 to = clamp(at + d * (k < 2 ? ivec2(2 * k - 1, 0) : ivec2(0, 2 * k - 5)), ivec2(0), last);
+            uint other = triangle_at(right, to) & ~LR_FRONT_FLAG;
+            if (other == i + 1u) continue;
+            if (other == 0u) {
+                if (inside && any(equal(across, uvec3(LR_GROWTH_BORDER)))) {
+                    return vec4(vec3(LR_GROWTH_LINE_COLOUR) / 255.0, push.line_opacity);
+                }
+                continue;
+            }
+            uint j = other - 1u;
+            uint beyond = growth[j].step;
+            if (inside == (beyond < push.invaded)) continue;
+            if (!is_among(j, across)) {
+                uvec3 there = triangles_across(j);
+                if (!is_among(across.x, there) && !is_among(across.y, there) && !is_among(across.z, there)) continue;
+            }
+            bool stays = ((inside ? beyond : step) & ~LR_GROWTH_RIGHT) < push.invaded;
+            if (stays) return vec4(vec3(LR_GROWTH_LINE_COLOUR) / 255.0, push.line_opacity);
+            return vec4(vec3(LR_GROWTH_FRONT_COLOUR) / 255.0, max(push.line_opacity, 0.75));
+        }
+    }
+    return vec4(0.0);
+}
+
+vec3 painted(vec3 colour, uint triangle, bool right, ivec2 at) {
+    if (kPaint == LR_PAINT_NONE || triangle == 0u) return colour;
+    uint i = (triangle & ~LR_FRONT_FLAG) - 1u;
+    if (i >= push.triangles) return colour;
+    vec4 over = (kPaint & LR_PAINT_TRIANGLES) != 0u ? unpackUnorm4x8(paint[i]) : vec4(0.0);
+    if ((kPaint & LR_PAINT_GROWTH) != 0u) {
+        vec3 lit;
+        if (over.a == 0.0 && (kPaint & LR_PAINT_FLAT) != 0u) {
+            lit = recoloured(colour, vec4(growth_colour(growth[i].step), 1.0));
+        } else if (over.a == 0.0) {
+            // As recoloured() has it, but for the few percent by which sRGB is not a power: this runs every frame.
+            lit = min(growth_colour(growth[i].step) * colour / vec3(0.808, 0.797, 0.776), vec3(1.0));
+        } else {
+            lit = recoloured(colour, over);
+        }
+        vec4 line = (kPaint & LR_PAINT_RING) == 0u ? vec4(0.0) : ring_line(i, right, at);
+        return mix(lit, line.rgb, line.a);
+    }
+    if (over.a == 0.0) return colour;
+    return recoloured(colour, over);
+}
+
+// One sample, on the background.
+vec3 sample_at(bool right, ivec2 at, vec3 behind) {
+    vec4 c = right ? imageLoad(right_colour, at) : imageLoad(left_colour, at);
+    vec3 over = c.a == 1.0 ? painted(c.rgb, triangle_at(right, at), right, at) : c.rgb;
+    return floor((over + (1.0 - c.a) * behind) * 255.0 + 0.5) / 255.0;
+}
+
+void main() {
+    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 size = imageSize(composed);
+    if (at.x >= size.x || at.y >= size.y) return;
+    vec3 behind = background((vec2(at) + 0.5) / vec2(size));
+    int n = int(kSamples);
+    vec3 colour;
+    if (kMode == LR_COMPOSE_DIFFERENCE) {
+        bool same = true;
+        vec3 pale = vec3(0.0);
+        for (int j = 0; j < n; ++j) {
+            for (int i = 0; i < n; ++i) {
+                ivec2 s = at * n + ivec2(i, j);
+                same = same && imageLoad(left_colour, s) == imageLoad(right_colour, s) &&
+                       imageLoad(left_triangles, s).x == imageLoad(right_triangles, s).x;
+                pale += sample_at(false, s, behind);
+            }
+        }
+        float grey = dot(pale / float(n * n), vec3(0.299, 0.587, 0.114));
+        colour = same ? mix(vec3(grey), vec3(1.0), 0.55) : vec3(0.85, 0.06, 0.06);
+    } else {
+        bool right = kMode == LR_COMPOSE_SPLIT && at.x >= int(push.divider);
+        if (n == 1) {
+            colour = sample_at(right, at, behind);
+        } else {
+            vec3 sum = vec3(0.0);
+            for (int j = 0; j < n; ++j) {
+                for (int i = 0; i < n; ++i) sum += linear(sample_at(right, at * n + ivec2(i, j), behind));
+            }
+            colour = srgb(sum / float(n * n));
+        }
+    }
+    imageStore(composed, at, vec4(colour, 1.0));
+}
