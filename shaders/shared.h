@@ -94,6 +94,9 @@ struct DrawConstants {
     uvec2 vertex_stream;
     uvec2 copies;
     uvec2 copy_vertices;
+    // Of LR_VIEW_MATERIAL: LR_SHADING_WORDS of each vertex, and a MaterialHead.
+    uvec2 shading;
+    uvec2 materials;
     uvec4 stream_layout;  // lean: LrLeanLayout; packed: LrPackedLayout
     // Positions are (x - unit.xyz) * unit.w in the unit sphere.
     vec4 unit;
@@ -124,6 +127,41 @@ struct DrawConstants {
 #define LR_VIEW_OFFSETS 5u
 #define LR_VIEW_SILHOUETTE 6u
 #define LR_VIEW_SEAMS 7u
+#define LR_VIEW_MATERIAL 8u
+
+// What a vertex is drawn with, beside LR_VERTEX_FLOATS: two sets of texture coordinates, as floats, and a color of four
+// numbers of 16 bits.
+#define LR_SHADING_WORDS 6u
+
+// Materials on the device: this, then a MaterialConstants for each.
+struct MaterialHead {
+    uvec2 of_triangle;  // address: the number of the material of each of the mesh's triangles
+    uvec2 texels;       // address: of all images and their mip maps, row by row, a byte a channel
+};
+// A texture of a material.
+struct TextureConstants {
+    uint first;     // texel of the largest mip map, the others follow
+    uint size;      // width and height, 16 bits each; 0: there is no texture
+    uint levels;    // mip maps
+    uint sampling;  // LR_TEXTURE_*
+    // To the image's coordinates from those of the set: two rows.
+    vec4 u, v;
+};
+#define LR_TEXTURE_SET 1u      // the second set of texture coordinates
+#define LR_TEXTURE_NEAREST 2u  // no blending of texels
+#define LR_TEXTURE_WRAP_U 4u   // shift of 2 bits: 0 repeat, 1 mirror, 2 clamp
+#define LR_TEXTURE_WRAP_V 6u
+struct MaterialConstants {
+    vec4 base_color;
+    vec4 emissive;  // and the cutoff of alpha
+    vec4 surface;   // metallic, roughness, scale of the normal map, occlusion
+    uvec4 flags;    // LR_MATERIAL_*
+    TextureConstants base, metallic_roughness, normal, occluding, emitting;
+};
+#define LR_MATERIAL_DOUBLE_SIDED 1u
+#define LR_MATERIAL_UNLIT 2u
+#define LR_MATERIAL_MASK 4u
+#define LR_MATERIAL_BLEND 8u
 
 // The picture of triangle numbers: 0 is the background, else the original triangle + 1 and which side of it is seen.
 #define LR_FRONT_FLAG 0x80000000u

@@ -65,7 +65,8 @@ Result<LoadedMesh> read(const MeshInput& input, RunLog& log, PrimitiveList* list
     ReadReport report;
     ReadOptions how = read_options(options);
     const std::string name = input.path == "-" ? "" : input.path;
-    Result<Mesh> mesh = read_mesh(*bytes, name, how, &report);
+    Materials materials;
+    Result<Mesh> mesh = read_mesh(*bytes, name, how, &report, options.materials ? &materials : nullptr);
     for (std::filesystem::path& file : report.files) log.read(std::move(file));
     if (!mesh) return mesh.error();
     if (!report.left_out.empty()) {
@@ -80,7 +81,7 @@ Result<LoadedMesh> read(const MeshInput& input, RunLog& log, PrimitiveList* list
         if (!primitives) return primitives.error();
         *list = std::move(*primitives);
     }
-    return LoadedMesh{std::move(*mesh), {}, {}, std::move(report.streams)};
+    return LoadedMesh{std::move(*mesh), {}, {}, std::move(report.streams), std::move(materials)};
 }
 
 /// Joins what seams cut, unless the file had its surface.

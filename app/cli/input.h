@@ -44,6 +44,9 @@ struct LoadedMesh {
     Surface surface;
     std::optional<LrContents> lr;
     std::vector<std::uint64_t> streams = {};  ///< ReadReport's
+    Materials materials = {};                 ///< InputOptions::materials
+
+    bool has_materials() const { return !materials.of_triangle.empty() && materials.materials.size() > 1; }
 };
 
 /// The corner table of the surface. Errors: build_corner_table's.

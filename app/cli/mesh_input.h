@@ -13,6 +13,7 @@ struct InputOptions {
     std::string format;          ///< "" as read_mesh tells, or "gltf", "obj", ...
     bool keep_vertices = false;  ///< copies that do not differ stay apart
     bool allow_outside = false;
+    bool materials = false;        ///< reads what triangles look like, too
     bool scene_hint = false;       ///< what a scene loses is said with the command that keeps it
     std::uint64_t max_memory = 0;  ///< MiB; 0: by the file's size (ReadOptions)
     /// Bytes that the command takes for each triangle at its peak, the mesh aside (docs/reliability.md).

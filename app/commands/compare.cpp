@@ -166,7 +166,9 @@ std::string verdict(bool passed, std::span<const Compared> all, std::uint32_t tr
 }
 
 int run_compare(const CompareOptions& options, RunLog& log) {
-    Result<LoadedScene> loaded = load_scene(options.input, log);
+    MeshInput input = options.input;
+    input.options.materials = true;
+    Result<LoadedScene> loaded = load_scene(input, log);
     if (!loaded) return fail(options.input.path, loaded.error());
     const DrawnScene scene = check_scene(*loaded, options.input.options.tolerance);
     loaded->primitives = {};
@@ -177,8 +179,9 @@ int run_compare(const CompareOptions& options, RunLog& log) {
     }
     gpu::ModelOptions model_options{.packed = true, .surface = loaded->joined.surface};
     if (options.compares("packed_vertices")) model_options.vertices = position_options(options.positions);
-    const Result<gpu::Model> model = gpu::make_model(*mesh, model_options);
+    Result<gpu::Model> model = gpu::make_model(*mesh, model_options);
     if (!model) return fail(options.input.path, model.error());
+    if (loaded->joined.has_materials()) gpu::add_materials(*model, *mesh, loaded->joined.materials);
     if (!model->exact.empty()) log.note(input_name(options.input.path), "POSITION stays lossless: " + model->exact);
     const Result<std::unique_ptr<gpu::Context>> context = gpu::Context::create(options.context);
     if (!context) return fail(options.input.path, context.error());
@@ -208,6 +211,7 @@ int run_compare(const CompareOptions& options, RunLog& log) {
     gpu::CompareOptions compare_options;
     compare_options.width = options.size.width;
     compare_options.height = options.size.height;
+    if (model->materials != nullptr) compare_options.view = gpu::View::material;
     std::vector<gpu::Subject> subjects;
     for (const Compared& compared : all) subjects.push_back(compared.subject);
     Result<std::vector<gpu::Comparison>> comparisons = [&] {

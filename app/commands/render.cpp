@@ -24,7 +24,7 @@ struct RenderOptions {
     OutputOptions output;
     std::string source = "lean";
     std::string path = "compute";
-    std::string view = "smooth";
+    std::string view;             ///< "": material where the file has any, else smooth
     std::uint32_t positions = 0;  ///< bits
     RingChoice ring;
     bool no_warts = false;
@@ -43,9 +43,14 @@ using ContextPointer = std::unique_ptr<gpu::Context>;
 /// Returns an Exit. Makes `context`, once, when a mesh has been read.
 int render(const RenderOptions& options, const std::string& input, const std::filesystem::path& output,
            ContextPointer& context, RunLog& log) {
-    const Result<LoadedMesh> loaded = load_file({input, options.input}, log);
+    MeshInput from{input, options.input};
+    from.options.materials = options.view.empty() || options.view == "material";
+    const Result<LoadedMesh> loaded = load_file(from, log);
     if (!loaded) return fail(input, loaded.error());
     const Mesh* mesh = &loaded->mesh;
+    const std::string view_name = !options.view.empty()     ? options.view
+                                  : loaded->has_materials() ? "material"
+                                                            : "smooth";
     constexpr std::string_view kExtensions[] = {".png"};
     if (const auto good = check_output(output, options.output, log, kExtensions); !good) {
         return fail(output_name(output), good.error());
@@ -61,8 +66,9 @@ int render(const RenderOptions& options, const std::string& input, const std::fi
                                     std::move(optimize)};
     model_options.surface = loaded->surface;
     if (source == gpu::Source::packed_vertices) model_options.vertices = position_options(options.positions);
-    const Result<gpu::Model> model = gpu::make_model(*mesh, model_options);
+    Result<gpu::Model> model = gpu::make_model(*mesh, model_options);
     if (!model) return fail(input, model.error());
+    if (view_name == "material") gpu::add_materials(*model, *mesh, loaded->materials);
     if (!model->exact.empty()) log.note(input_name(input), "POSITION stays lossless: " + model->exact);
     if (!context) {
         Result<ContextPointer> made = gpu::Context::create(options.context);
@@ -71,7 +77,7 @@ int render(const RenderOptions& options, const std::string& input, const std::fi
     }
 
     gpu::RendererOptions renderer_options;
-    renderer_options.view = gpu::view_named(options.view).value_or(gpu::View::smooth);
+    renderer_options.view = gpu::view_named(view_name).value_or(gpu::View::smooth);
     // An explicit --samples is drawn or fails; the default falls back to fewer samples.
     const std::uint32_t samples =
         options.samples != 0
@@ -93,6 +99,7 @@ int render(const RenderOptions& options, const std::string& input, const std::fi
         }
         Result<gpu::Drawable> drawable = renderer->upload(*model, source, path);
         if (!drawable) return drawable.error();
+        for (const std::string& note : renderer->notes()) log.note(input_name(input), note);
         const Result<gpu::Camera> camera =
             gpu::make_camera(*model, options.camera, renderer_options.width, renderer_options.height);
         if (!camera) return camera.error();
@@ -119,7 +126,7 @@ int render(const RenderOptions& options, const std::string& input, const std::fi
                                       {"samples", samples * samples},
                                       {"source", options.source},
                                       {"path", options.path},
-                                      {"view", options.view},
+                                      {"view", view_name},
                                       {"triangles", model->triangle_count()},
                                       {"covered", share},
                                       {"device_bytes", device_bytes},
@@ -128,7 +135,7 @@ int render(const RenderOptions& options, const std::string& input, const std::fi
     } else {
         const std::string line =
             fmt::format("{}: {}x{}, {} triangles, {} {}, covers {:.1f} % of the picture; {}\n", output_name(output),
-                        options.size.width, options.size.height, model->triangle_count(), options.source, options.view,
+                        options.size.width, options.size.height, model->triangle_count(), options.source, view_name,
                         100 * share, context->info().name);
         output == "-" ? say("{}", line) : print("{}", line);
     }
@@ -159,9 +166,9 @@ void add_render(CLI::App& program, Action& action) {
     command->add_option("--path", options->path, "how the device expands the source")
         ->check(CLI::IsMember(gpu::path_names()))
         ->capture_default_str();
-    command->add_option("--view", options->view, "what is shown")
-        ->check(CLI::IsMember({"smooth", "flat", "class", "ring", "wire", "offsets", "seams", "silhouette"}))
-        ->capture_default_str();
+    command->add_option("--view", options->view, "what is shown: material where the file has any, else smooth")
+        ->check(
+            CLI::IsMember({"material", "smooth", "flat", "class", "ring", "wire", "offsets", "seams", "silhouette"}));
     command
         ->add_option("--crease", options->crease,
                      "degrees between triangles from which on --view silhouette draws their edge")

@@ -28,6 +28,7 @@ Result<Renderer> Renderer::create(Context& context, const RendererOptions& optio
 std::uint64_t Renderer::device_bytes(const Model& model, Source source, Path path) const {
     UploadOptions options = upload_options(options_.view);
     options.path = path;
+    if (options_.view == View::material) options.materials.emplace();
     return mesh_bytes(model, source, options).all;
 }
 
@@ -35,6 +36,14 @@ Result<Drawable> Renderer::upload(const Model& model, Source source, Path path) 
     UploadOptions options = upload_options(options_.view);
     options.path = path;
     options.max_range = options_.max_range;
+    if (options_.view == View::material) {
+        const std::pair wanted(model.materials, model.triangle_count());
+        if (!materials_ || uploaded_materials_ != wanted) {
+            LR_ASSIGN(materials_, upload_materials(*context_, *transfer_, wanted.first, wanted.second));
+            uploaded_materials_ = wanted;
+        }
+        options.materials = materials_->table.address_words();
+    }
     std::optional<Adjacency> adjacency;
     std::vector<float> normals;
     if (vertex_normals_) {

@@ -2,11 +2,15 @@
 // Everything that draws pictures of one model, put together.
 
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "renderer/draw/adjacency.h"
 #include "renderer/draw/drawable.h"
 #include "renderer/draw/painter.h"
 #include "renderer/draw/slot_reader.h"
+#include "renderer/mesh/gpu_materials.h"
 #include "renderer/vk/context.h"
 
 namespace lacedring::gpu {
@@ -25,7 +29,11 @@ class Renderer {
   public:
     static Result<Renderer> create(Context& context, const RendererOptions& options);
 
+    /// Of View::material: the model's materials as well, in place of another model's, whose drawables are then of no
+    /// use.
     Result<Drawable> upload(const Model& model, Source source, Path path = Path::compute);
+    /// What is not drawn of the materials uploaded last, a line each.
+    std::vector<std::string> notes() const { return materials_ ? materials_->notes : std::vector<std::string>(); }
     /// Bytes of device memory that this takes beside what the renderer has already (context().arena().used()); without
     /// what View::silhouette asks for neighbours, which is known once its tables are made.
     std::uint64_t device_bytes(const Model& model, Source source, Path path = Path::compute) const;
@@ -82,7 +90,9 @@ class Renderer {
     Painter painter_;
     Expander expander_;
     SlotReader slots_;
-    std::optional<Silhouettes> silhouettes_;  // these two for View::silhouette
+    std::optional<GpuMaterials> materials_;                            // View::material
+    std::pair<const Materials*, std::uint32_t> uploaded_materials_{};  // of a model, and its triangles
+    std::optional<Silhouettes> silhouettes_;                           // these two for View::silhouette
     std::optional<VertexNormals> vertex_normals_;
 };
 

@@ -7,6 +7,9 @@
 #include "renderer/vk/context.h"
 #include "renderer/vk/try.h"
 #include "spirv/claim_frag.h"
+#include "spirv/material_alpha_frag.h"
+#include "spirv/material_claim_frag.h"
+#include "spirv/material_frag.h"
 #include "spirv/surface_frag.h"
 #include "spirv/surface_geom.h"
 #include "spirv/surface_geometry_vert.h"
@@ -71,9 +74,11 @@ Result<Surface> Surface::create(Context& context, const Layout& layout, View vie
             info.depth_compare = VK_COMPARE_OP_EQUAL;
             info.depth_write = false;
         }
-        if (pass == claim) info.fragment = spirv_claim_frag;
+        const bool materials = view == View::material;
+        if (pass == depth && materials) info.fragment = spirv_material_alpha_frag;
+        if (pass == claim) info.fragment = materials ? spirv_material_claim_frag : spirv_claim_frag;
         if (pass == resolve || pass == single) {
-            info.fragment = spirv_surface_frag;
+            info.fragment = materials ? spirv_material_frag : spirv_surface_frag;
             info.colours = {Target::kColour, Target::kTriangles};
         }
         LR_ASSIGN(out.pipelines_[pass], create_graphics(context, layout, info));
@@ -141,6 +146,8 @@ DrawConstants draw_constants(const GpuMesh& mesh, std::uint32_t first, std::uint
     constants.vertex_stream = mesh.vertex_stream.address_words();
     constants.copies = mesh.copies.address_words();
     constants.copy_vertices = mesh.copy_vertices.address_words();
+    constants.shading = mesh.shading.address_words();
+    constants.materials = mesh.materials;
     constants.stream_layout = mesh.stream_layout;
     constants.unit = mesh.unit;
     return constants;

@@ -17,14 +17,15 @@ bool has_lines(View view) {
 }
 
 std::optional<View> view_named(std::string_view name) {
-    constexpr std::array<std::pair<std::string_view, View>, 8> kViews{{{"smooth", View::smooth},
+    constexpr std::array<std::pair<std::string_view, View>, 9> kViews{{{"smooth", View::smooth},
                                                                        {"flat", View::flat},
                                                                        {"class", View::triangle_class},
                                                                        {"ring", View::ring},
                                                                        {"wire", View::wire},
                                                                        {"offsets", View::offsets},
                                                                        {"seams", View::seams},
-                                                                       {"silhouette", View::silhouette}}};
+                                                                       {"silhouette", View::silhouette},
+                                                                       {"material", View::material}}};
     for (const auto& [text, view] : kViews) {
         if (text == name) return view;
     }

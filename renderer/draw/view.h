@@ -19,13 +19,15 @@ enum class View : std::uint32_t {
     offsets = LR_VIEW_OFFSETS,        ///< significant bits of each triangle's offset along the ring, and the ring
     seams = LR_VIEW_SEAMS,            ///< interpolated normals, and the seams
     silhouette = LR_VIEW_SILHOUETTE,  ///< outline, creases and borders, over normals that the device computed
+    material = LR_VIEW_MATERIAL,      ///< colors, textures and light as the file's materials say
 };
 
 /// What a view needs on the device beside the triangles.
 UploadOptions upload_options(View view);
 /// Are lines drawn over the surface? It is pushed back a little then.
 bool has_lines(View view);
-/// "smooth", "flat", "class", "ring", "wire", "offsets", "seams", "silhouette"
+/// "smooth", "flat", "class", "ring", "wire", "offsets", "seams", "silhouette",
+/// "material"
 std::optional<View> view_named(std::string_view name);
 
 }  // namespace lacedring::gpu

@@ -149,6 +149,25 @@ Result<void> upload_lines(Context& context, Transfer& transfer, GpuMesh& mesh, c
     return transfer.upload(mesh.lines, std::span<const std::uint32_t>(lines));
 }
 
+/// What materials are drawn with at the vertices. `original(i)` is the mesh's vertex at place i.
+template <class Original>
+Result<void> upload_shading(Context& context, Transfer& transfer, GpuMesh& mesh, const Model& model,
+                            const std::array<std::uint32_t, 2>& materials, const Original& original) {
+    static_assert(sizeof(Shading) == LR_SHADING_WORDS * sizeof(std::uint32_t));
+    constexpr std::size_t kStride = sizeof(Shading);
+    mesh.materials = materials;
+    LR_ASSIGN(mesh.shading, Buffer::create(context, "shading", kStride * std::uint64_t{mesh.vertex_count},
+                                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | kAddress));
+    return transfer.upload(mesh.shading, 0, kStride * mesh.vertex_count, kStride,
+                           [&](std::byte* to, std::size_t from, std::size_t size) {
+                               for (std::size_t i = 0; i < size / kStride; ++i) {
+                                   const std::size_t v = original(static_cast<std::uint32_t>(from / kStride + i));
+                                   const Shading shading = v < model.shading.size() ? model.shading[v] : Shading{};
+                                   std::memcpy(to + i * kStride, &shading, kStride);
+                               }
+                           });
+}
+
 /// What is drawn beside the triangles, and the vertices. `original(i)` is the mesh's vertex at place i.
 template <class Original, class TriangleOf>
 Result<void> upload_rest(Context& context, Transfer& transfer, GpuMesh& mesh, const Model& model,
@@ -159,6 +178,7 @@ Result<void> upload_rest(Context& context, Transfer& transfer, GpuMesh& mesh, co
         LR_ASSIGN(lean, view_lean(model.lean.words));
     }
     LR_TRY(upload_lines(context, transfer, mesh, model, lean, options.lines, order));
+    if (options.materials) LR_TRY(upload_shading(context, transfer, mesh, model, *options.materials, original));
     const std::span<const float> normals = options.normals.empty() ? model.normals : options.normals;
     const auto vertices_with = [&](const auto& ring) {
         return upload_vertices(transfer, mesh, model.positions, normals, original, ring);
@@ -360,6 +380,7 @@ MeshBytes mesh_bytes(const Model& model, Source source, const UploadOptions& opt
         if (indices) add(sizeof(VkDrawIndexedIndirectCommand) * (slots / kSlotStep + 1));
     }
     if (options.ring) add((slots + 3) / 4 * 4);
+    if (options.materials) add(sizeof(Shading) * vertices);
     if (options.lines == UploadOptions::Lines::ring) add(2 * kWord * model.vertex_count());
     if (options.lines == UploadOptions::Lines::edges || (options.lines == UploadOptions::Lines::seams && seams)) {
         add(6 * kWord * model.triangle_count());

@@ -75,8 +75,10 @@ struct UploadOptions {
     /// maxStorageBufferRange. At least 4096; a test makes it small.
     std::uint64_t max_range = 0;
     std::span<const float> normals;  ///< 3 a vertex of the mesh, instead of the model's; must stay while uploading
-    bool ring = false;               ///< triangle classes, and the vertices' places on the rings
-    bool offsets = false;            ///< significant bits of the triangles' offsets instead of their classes
+    /// Of View::material: the vertices' shading, and the address of GpuMaterials::table.
+    std::optional<std::array<std::uint32_t, 2>> materials = {};
+    bool ring = false;     ///< triangle classes, and the vertices' places on the rings
+    bool offsets = false;  ///< significant bits of the triangles' offsets instead of their classes
     enum class Lines { none, ring, edges, seams } lines = Lines::none;  ///< drawn over the surface
 };
 
@@ -111,8 +113,10 @@ struct GpuMesh {
     Buffer copy_vertices;  ///< the surface's vertex of each copy
     Buffer positions;      ///< 3 floats a vertex of the surface. Source::packed_vertices by Path::compute
     // Only if asked for:
-    Buffer classes;  ///< LR_CLASS_*, or bits of offsets, one byte a slot
-    Buffer lines;    ///< u32, 2 a line
+    Buffer shading;                            ///< Shading
+    std::array<std::uint32_t, 2> materials{};  ///< UploadOptions::materials
+    Buffer classes;                            ///< LR_CLASS_*, or bits of offsets, one byte a slot
+    Buffer lines;                              ///< u32, 2 a line
     std::uint32_t line_indices = 0;
 
     bool decoded = false;  ///< the index buffer holds the triangles

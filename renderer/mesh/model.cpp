@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "lacedring/lacedring.hpp"
@@ -168,6 +169,30 @@ Result<Model> make_surface(const Mesh& mesh, const lacedring::Surface& surface) 
     LR_TRY(normalise(model));
     model.mean_edge = mean_edge(model);
     return model;
+}
+
+void add_materials(Model& model, const Mesh& mesh, const Materials& materials) {
+    model.materials = materials.of_triangle.empty() ? nullptr : &materials;
+    constexpr std::uint16_t kOne = UINT16_MAX;
+    model.shading.assign(mesh.vertex_count, {{0, 0, 0, 0}, {kOne, kOne, kOne, kOne}});
+    const auto floats_of = [&](const char* name, std::uint8_t components) -> const std::byte* {
+        const Attribute* a = find_attribute(mesh, name);
+        return a != nullptr && a->type == ComponentType::f32 && a->components == components ? a->data.data() : nullptr;
+    };
+    const std::byte *first = floats_of("TEXCOORD_0", 2), *second = floats_of("TEXCOORD_1", 2),
+                    *colors = floats_of("COLOR_0", 4);
+    for (std::size_t v = 0; v < mesh.vertex_count; ++v) {
+        Shading& to = model.shading[v];
+        if (first != nullptr) std::memcpy(to.texture, first + 8 * v, 8);
+        if (second != nullptr) std::memcpy(to.texture + 2, second + 8 * v, 8);
+        if (colors == nullptr) continue;
+        std::array<float, 4> color;
+        std::memcpy(color.data(), colors + sizeof color * v, sizeof color);
+        for (std::size_t c = 0; c < 4; ++c) {
+            const float part = color[c] >= 0 ? std::min(color[c], 1.0F) : 0.0F;
+            to.colour[c] = static_cast<std::uint16_t>(part * static_cast<float>(kOne) + 0.5F);
+        }
+    }
 }
 
 Result<void> encode_seams(Model& model) {

@@ -10,6 +10,7 @@
 
 #include "lacedring/base.hpp"
 #include "lacedring/lacedring.hpp"
+#include "lacedring/materials.hpp"
 #include "lacedring/mesh.hpp"
 #include "lacedring/ring.hpp"
 #include "lacedring/seams.hpp"
@@ -17,6 +18,12 @@
 #include "lacedring/vertices.hpp"
 
 namespace lacedring::gpu {
+
+/// What a vertex is drawn with by View::material: LR_SHADING_WORDS.
+struct Shading {
+    float texture[4];         ///< TEXCOORD_0, TEXCOORD_1
+    std::uint16_t colour[4];  ///< COLOR_0, 65535 is 1
+};
 
 /// Positions are moved and scaled so that the used vertices fill the unit sphere: f32 depth and derivatives then mean
 /// the same for every mesh, and all sources draw exactly the same numbers. One subtraction and one product of floats
@@ -34,7 +41,11 @@ struct Model {
     std::array<double, 3> centre{};         ///< of the unit sphere, in the mesh's coordinates: floats
     double radius = 1;                      ///< likewise
     std::array<float, 4> unit{0, 0, 0, 1};  ///< centre and 1 / radius: DrawConstants::unit
-    double mean_edge = 0;                   ///< mean length of the triangles' edges, of the unit sphere
+    /// What View::material draws: of its triangles, which must outlive the model; null: none. And what it reads of each
+    /// vertex; empty: there is nothing.
+    const Materials* materials = nullptr;
+    std::vector<Shading> shading;
+    double mean_edge = 0;  ///< mean length of the triangles' edges, of the unit sphere
 
     std::uint32_t surface_of(std::uint32_t vertex) const {
         return surface.has_seams() ? surface.vertex_of[vertex] : vertex;
@@ -64,6 +75,9 @@ std::vector<float> surface_positions(const Model& model);
 /// A model without streams, for who encodes them himself: positions, normals, sizes. Cost: O(V + T).
 /// Errors: unsupported (no triangles, extent zero or past f32), invalid_argument (a surface of another mesh).
 Result<Model> make_surface(const Mesh& mesh, const lacedring::Surface& surface = {});
+
+/// Adds the materials of the mesh that the model was made of, and its shading. `materials` has to outlive the model.
+void add_materials(Model& model, const Mesh& mesh, const Materials& materials);
 
 /// Makes the seam sections of the model's streams anew, where it has a surface of its own. Errors: encode_seams'.
 Result<void> encode_seams(Model& model);

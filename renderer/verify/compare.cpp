@@ -207,6 +207,7 @@ Result<Comparison> compare_one(Renderer& renderer, const Model& model, const Ref
 Result<std::vector<Comparison>> compare(Context& context, const Model& model, std::span<const Subject> subjects,
                                         const CompareOptions& options) {
     RendererOptions renderer_options;
+    renderer_options.view = options.view;
     renderer_options.width = options.width;
     renderer_options.height = options.height;
     renderer_options.max_range = options.max_range;

@@ -28,6 +28,7 @@ using CompareProgress = std::function<void(std::uint32_t done, std::uint32_t tot
 struct CompareOptions {
     std::uint32_t width = 1280;
     std::uint32_t height = 720;
+    View view = View::smooth;          ///< or material, of a model that has any
     std::uint64_t max_range = 0;       ///< see UploadOptions
     bool omit_decode_barrier = false;  ///< see RendererOptions
     CompareProgress progress = {};
@@ -64,13 +65,13 @@ struct Comparison {
     }
 };
 
-/// Draws the mesh plain and from streams of it, one after the other, from six sides, with smooth normals: first as the
+/// Draws the mesh plain and from streams of it, one after the other, from six sides: first as the
 /// index buffers are, then exactly (docs/renderer.md). The stream and its maps are taken from the model as they are: a
 /// wrong one is drawn and found out, as long as it is in range (validate_lean, validate_packed). Memory: twelve
 /// pictures.
 Result<std::vector<Comparison>> compare(Context& context, const Model& model, std::span<const Subject> subjects,
                                         const CompareOptions& options);
-/// With a renderer that is there (view smooth), whose pipelines serve many models.
+/// With a renderer that is there, whose pipelines serve many models.
 Result<std::vector<Comparison>> compare(Renderer& renderer, const Model& model, std::span<const Subject> subjects,
                                         const CompareProgress& progress = {});
 inline Result<Comparison> compare(Context& context, const Model& model, const Subject& subject,

@@ -16,5 +16,5 @@ SurfaceVertex pulled_vertex(uint v) {
         at += LR_POSITION_FLOATS;
     }
     vec3 normal = vec3(vertices.at[at], vertices.at[at + 1u], vertices.at[at + 2u]);
-    return surface_vertex(position, normal, view == LR_VIEW_RING ? vertices.at[at + 3u] : -1.0);
+    return surface_vertex(position, normal, view == LR_VIEW_RING ? vertices.at[at + 3u] : -1.0, v);
 }

@@ -9,6 +9,8 @@ layout(triangle_strip, max_vertices = 3 * LR_GEOMETRY_SLOTS) out;
 layout(location = 0) out vec3 out_position;
 layout(location = 1) out vec3 out_normal;
 layout(location = 2) out vec3 out_ring_colour;
+layout(location = 3) out vec4 out_texture_at;
+layout(location = 4) out vec4 out_colour;
 
 invariant gl_Position;
 
@@ -19,6 +21,8 @@ void emit(uint vertex, uint local) {
     out_position = v.position;
     out_normal = v.normal;
     out_ring_colour = v.ring_colour;
+    out_texture_at = v.texture_at;
+    out_colour = v.colour;
     EmitVertex();
 }
 

@@ -10,13 +10,17 @@ layout(location = 2) in float in_ring;
 layout(location = 0) out vec3 out_position;
 layout(location = 1) out vec3 out_normal;
 layout(location = 2) out vec3 out_ring_colour;
+layout(location = 3) out vec4 out_texture_at;
+layout(location = 4) out vec4 out_colour;
 
 invariant gl_Position;
 
 void main() {
-    SurfaceVertex v = surface_vertex(in_position, in_normal, in_ring);
+    SurfaceVertex v = surface_vertex(in_position, in_normal, in_ring, uint(gl_VertexIndex));
     gl_Position = v.clip;
     out_position = v.position;
     out_normal = v.normal;
     out_ring_colour = v.ring_colour;
+    out_texture_at = v.texture_at;
+    out_colour = v.colour;
 }

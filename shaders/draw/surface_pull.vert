@@ -6,6 +6,8 @@
 layout(location = 0) out vec3 out_position;
 layout(location = 1) out vec3 out_normal;
 layout(location = 2) out vec3 out_ring_colour;
+layout(location = 3) out vec4 out_texture_at;
+layout(location = 4) out vec4 out_colour;
 
 invariant gl_Position;
 
@@ -18,4 +20,6 @@ void main() {
     out_position = v.position;
     out_normal = v.normal;
     out_ring_colour = v.ring_colour;
+    out_texture_at = v.texture_at;
+    out_colour = v.colour;
 }

@@ -10,6 +10,8 @@ struct SurfaceVertex {
     vec3 position;  // in view space, as is the normal
     vec3 normal;
     vec3 ring_colour;
+    vec4 texture_at;  // two sets of texture coordinates
+    vec4 colour;
 };
 
 vec3 ring_colour(float t) {
@@ -22,8 +24,9 @@ vec3 ring_colour(float t) {
     return mix(stops[i], stops[i + 1], x - float(i));
 }
 
-// position: in the coordinates of the source; ring: place along the rings in [0, 1], or negative: on no ring
-SurfaceVertex surface_vertex(vec3 position, vec3 normal, float ring) {
+// position: in the coordinates of the source; ring: place along the rings in [0, 1], or negative: on no ring; number: of
+// the vertex, among those drawn
+SurfaceVertex surface_vertex(vec3 position, vec3 normal, float ring, uint number) {
     SurfaceVertex v;
     precise vec4 from_eye = frame.view_from_world * vec4(unit_position(position), 1.0);
     precise vec4 clip = frame.clip_from_view * from_eye;
@@ -31,5 +34,14 @@ SurfaceVertex surface_vertex(vec3 position, vec3 normal, float ring) {
     v.position = from_eye.xyz;
     v.normal = mat3(frame.view_from_world) * normal;
     v.ring_colour = view == LR_VIEW_RING ? ring_colour(ring) : vec3(0.0);
+    v.texture_at = vec4(0.0);
+    v.colour = vec4(1.0);
+    if (view == LR_VIEW_MATERIAL) {
+        Words shading = Words(push.shading);
+        uint at = LR_SHADING_WORDS * number;
+        v.texture_at = uintBitsToFloat(
+            uvec4(shading.at[at], shading.at[at + 1u], shading.at[at + 2u], shading.at[at + 3u]));
+        v.colour = vec4(unpackUnorm2x16(shading.at[at + 4u]), unpackUnorm2x16(shading.at[at + 5u]));
+    }
     return v;
 }

@@ -1,0 +1,10 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Depth of the surface, where a material lets it be seen.
+#include "shaders/draw/materials.glsl"
+
+void main() {
+    Steps steps = texture_steps();
+    MaterialConstants m = material_of(original_triangle());
+    if (is_hidden(m, base_of(m, steps).a)) discard;
+}
