@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""test_layers.py ROOT: who may include whom. Folders depend downwards only; lrcore on the language's own headers alone, and
-its decoders on nothing of rings and corner tables."""
+"""test_layers.py ROOT: who may include whom. The README's table of folders is the order: a file includes those of its folder
+and of folders before it. lrcore includes the language's own headers alone, and its decoders nothing of rings and corner tables."""
 
 import pathlib
 import re
 import sys
 
-# In the order in which data flows: each may include itself and those before it.
-LAYERS = ["lrcore", "lrio", "lrlab", "shaders", "renderer", "app"]
+LAYERS = ["lrcore", "lrio", "lrlab", "shaders", "renderer", "app"]  # whose files are looked at
+SOURCES = {".cpp", ".h", ".hpp", ".glsl", ".comp", ".vert", ".frag", ".geom", ".mesh"}
 CORE = ["base", "topology", "ring", "codec"]
 # The folder whose declarations a public header of lrcore has. Those of lrio are in LRIO.
 PUBLIC = {"base.hpp": "base", "lacedring_decode.h": "base", "topology.hpp": "topology", "ring.hpp": "ring", "streams.hpp": "codec",
@@ -37,10 +37,34 @@ def includes(path):
             yield number, found[2], found[1] == '"'
 
 
-def layer_of(header):
-    """The layer that a header in quotes belongs to."""
+def folders_of_readme(root):
+    """The folders of its table, in order. "lrcore/base, topology" are lrcore/base and lrcore/topology."""
+    text = (root / "README.md").read_text()
+    rows = text[text.index("| folder | what |"):].split("\n\n")[0].splitlines()[2:]
+    out, parent = [], ""
+    for row in rows:
+        for name in row.split("|")[1].strip().split(", "):
+            if "/" in name:
+                parent = name.rpartition("/")[0]
+            elif not (root / name).is_dir():
+                name = f"{parent}/{name}"
+            out.append(name)
+    return out
+
+
+def place_of(name, folders):
+    """The number of the folder that a file is in. One that has folders in the table holds only files of its own. None: there is none."""
+    for i, folder in enumerate(folders):
+        parent = any(other.startswith(folder + "/") for other in folders)
+        if name.rpartition("/")[0] == folder or (not parent and name.startswith(folder + "/")):
+            return i
+    return None
+
+
+def owner_of(header):
+    """The path of a header in quotes, as far as it matters."""
     folder, _, name = header.partition("/")
-    return ("lrio" if name in LRIO else "lrcore") if folder == "lacedring" else folder
+    return ("lrio/" if name in LRIO else "lrcore/include/") + header if folder == "lacedring" else header
 
 
 def folder_of(name):
@@ -69,20 +93,30 @@ def check_core(name, header, quoted):
 def main():
     root = pathlib.Path(sys.argv[1])
     wrong, seen = [], set()
-    for depth, layer in enumerate(LAYERS):
-        for path in sorted(p for p in (root / layer).rglob("*") if p.suffix in (".cpp", ".h", ".hpp")):
+    folders = folders_of_readme(root)
+    for folder in folders:
+        if not (root / folder).is_dir():
+            wrong.append(f"README.md: no folder {folder}")
+    if CORE != [folder.removeprefix("lrcore/") for folder in folders if folder.startswith("lrcore/")][1:]:
+        wrong.append(f"README.md: lrcore's folders are not {', '.join(CORE)}")
+    for layer in LAYERS:
+        for path in sorted(p for p in (root / layer).rglob("*") if p.suffix in SOURCES):
             name = str(path.relative_to(root))
             as_included = name.split("include/")[-1]
             seen.add(as_included)
+            place = place_of(name, folders)
+            if place is None:
+                wrong.append(f"{name}: its folder is not in the README's table")
+                continue
             for number, header, quoted in includes(path):
-                owner = layer_of(header) if quoted else None
+                owner = place_of(owner_of(header), folders) if quoted else None
                 why = None
-                if owner in LAYERS and LAYERS.index(owner) > depth:
-                    why = f"{layer} is below {owner}"
-                elif owner == "tests":
-                    why = "tests are above everything"
-                elif layer == "lrcore":
+                if layer == "lrcore":
                     why = check_core(as_included, header, quoted)
+                elif header.startswith("tests/"):
+                    why = "tests are above everything"
+                elif owner is not None and owner > place:
+                    why = f"{folders[place]} is below {folders[owner]}"
                 if why:
                     wrong.append(f"{name}:{number}: {header}: {why}")
             if layer == "lrcore":
