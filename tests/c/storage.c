@@ -22,8 +22,8 @@ struct mesh {
 static uint32_t* file_words;
 static size_t file_count;
 
-static int fail(const char* what, int status, uint64_t where) {
-    fprintf(stderr, "%s: %d at %llu\n", what, status, (unsigned long long)where);
+static int fail(const char* what, unsigned status, uint64_t where) {
+    fprintf(stderr, "%s: %u at %llu\n", what, status, (unsigned long long)where);
     return 1;
 }
 

@@ -486,9 +486,8 @@ static struct lacedring_seam_end_ lacedring_seam_end_of_(const struct lacedring_
 }
 
 /* What is asked about an end that changes. */
-LACEDRING_SMALL_ struct lacedring_seam_question_ lacedring_seam_change_(const struct lacedring_seam_walk_* w,
-                                                                        uint32_t side,
-                                                                        const struct lacedring_seam_end_* e) {
+static struct lacedring_seam_question_ lacedring_seam_change_(const struct lacedring_seam_walk_* w, uint32_t side,
+                                                              const struct lacedring_seam_end_* e) {
     struct lacedring_seam_question_ q = {e->far, LACEDRING_SEAM_STEP_L, LACEDRING_SEAM_NEW_L, 0};
     if (side == 0) {
         if (e->state < LACEDRING_SEAMS_PRIVATE) {
@@ -505,11 +504,17 @@ LACEDRING_SMALL_ struct lacedring_seam_question_ lacedring_seam_change_(const st
     return q;
 }
 
+/* Reads the state of an end that changes. */
+static uint32_t lacedring_seam_read_change_(struct lacedring_seam_walk_* w, uint32_t side,
+                                            const struct lacedring_seam_end_* e) {
+    return lacedring_seam_choose_(w, e->corner, e->state, lacedring_seam_change_(w, side, e));
+}
+
 /* The ends of the edge to the parent, the one that is asked about first in front. Returns the context of whether the
    edge is a seam. */
-LACEDRING_SMALL_ uint32_t lacedring_seam_ends_(const struct lacedring_seam_walk_* w, uint32_t i, uint32_t back,
-                                               const uint32_t pair[2], struct lacedring_seam_end_* a,
-                                               struct lacedring_seam_end_* b) {
+static uint32_t lacedring_seam_ends_(const struct lacedring_seam_walk_* w, uint32_t i, uint32_t back,
+                                     const uint32_t pair[2], struct lacedring_seam_end_* a,
+                                     struct lacedring_seam_end_* b) {
     *a = lacedring_seam_end_of_(w, i, back, pair[0], pair[1]);
     *b = lacedring_seam_end_of_(w, i, back, pair[1], pair[0]);
     if (b->type < a->type) {
@@ -547,15 +552,13 @@ static void lacedring_seam_spoke_(struct lacedring_seam_walk_* w, uint32_t i, ui
             b_changes = !a_alone;
         }
     }
-    w->state[a.corner] =
-        a_changes ? lacedring_seam_choose_(w, a.corner, a.state, lacedring_seam_change_(w, side, &a)) : a.state;
-    w->state[b.corner] =
-        b_changes ? lacedring_seam_choose_(w, b.corner, b.state, lacedring_seam_change_(w, side, &b)) : b.state;
+    w->state[a.corner] = a_changes ? lacedring_seam_read_change_(w, side, &a) : a.state;
+    w->state[b.corner] = b_changes ? lacedring_seam_read_change_(w, side, &b) : b.state;
 }
 
 /* What is asked about a corner of triangle i that is not in its parent. With a parent, the two others are known. */
-LACEDRING_SMALL_ struct lacedring_seam_question_ lacedring_seam_start_(const struct lacedring_seam_walk_* w, uint32_t i,
-                                                                       uint32_t j, uint32_t has_parent) {
+static struct lacedring_seam_question_ lacedring_seam_start_(const struct lacedring_seam_walk_* w, uint32_t i,
+                                                             uint32_t j, uint32_t has_parent) {
     const uint32_t* t = w->triangles + (size_t)3 * i;
     const uint32_t k = 3 * i + j, steps = w->steps[k];
     const uint32_t before = lacedring_seam_corner(t, t[j] - 1), after = lacedring_seam_corner(t, t[j] + 1);
