@@ -327,11 +327,12 @@ def read_stored_seams(data, slots, vertices):
     homes = [Homes(v, walk.corners[v], walk, slots, sides) for v in range(vertices)]
     copies = [[walk.copy[3 * t + k] for k in range(len(triangle))] for t, triangle in enumerate(slots)]
     answers, private = [], {}
+    several = [len({walk.copy[c] for c in corners}) > 1 for corners in walk.corners]
     for i in range(0, vertices, BLOCK):
         answers += vertex_answers(homes[i:i + BLOCK])
     for i, block in enumerate(blocks):
         reader = AnswerWalk(copies[BLOCK * i:BLOCK * (i + 1)], block, homes, private)
-        if any(walk.status[v] == DONE for triangle in block for v in triangle):
+        if any(several[v] for triangle in block for v in triangle):
             answers += reader.answers
     read_table(bits, answers)
     bits.finish()

@@ -14,6 +14,7 @@
 #include "tests/support/cuts.h"
 #include "tests/support/meshes.h"
 #include "tests/support/shapes.h"
+#include "tests/support/stored_in_c.h"
 
 using namespace lacedring;
 using test::cut;
@@ -36,15 +37,27 @@ SeamView view_of(const Words& section, const CutSurface& mesh) {
     return *view;
 }
 
-/// Restores from a buffer of exactly the size. Whatever is restored is a valid section, and decodes to what is said.
+/// Restores from a buffer of exactly the size. Whatever is restored is a valid section, and decodes to what is said; C
+/// accepts the same, and decodes it to the same copies.
 Result<Words> restored_seams(std::span<const std::uint32_t> stored, const CutSurface& mesh) {
     const auto exact = std::make_unique<std::uint32_t[]>(stored.size());
     std::ranges::copy(stored, exact.get());
     auto out = storage::restore_seams({exact.get(), stored.size()}, mesh.triangles, mesh.vertices);
+    const auto corners = static_cast<std::uint32_t>(mesh.triangles.size());
+    const auto in_c = [&](std::uint32_t most) { return test::seams_in_c(stored, mesh.triangles, mesh.vertices, most); };
+    const auto any = in_c(mesh.vertices + corners);
+    REQUIRE(any.has_value() == static_cast<bool>(out));
     if (!out) {
         CHECK_FALSE(out.error().message.empty());
         return out.error();
     }
+    REQUIRE(any->copies == out->copies);
+    REQUIRE(any->vertices == out->vertices);
+    const auto count = static_cast<std::uint32_t>(out->vertices.size());
+    const auto exact_in_c = in_c(count);
+    REQUIRE(exact_in_c);
+    REQUIRE(exact_in_c->vertices == out->vertices);
+    if (count > 0) CHECK_FALSE(in_c(count - 1));
     Words copies(mesh.triangles.size()), vertices;
     const auto view = decode_seams_checked(out->words, mesh.triangles, mesh.vertices, copies, vertices);
     REQUIRE_MESSAGE(view, view.error().message);
@@ -165,6 +178,9 @@ TEST_CASE("stored seams cut short, of other triangles, or with more behind them"
     CHECK_FALSE(storage::restore_seams(stored, mesh.triangles, UINT32_MAX));
     const Words twice{1, 2, 1};
     CHECK_FALSE(storage::restore_seams(stored, twice, 3));
+    CHECK_FALSE(test::seams_in_c(stored, mesh.triangles, mesh.vertices - 1, UINT32_MAX));
+    CHECK_FALSE(test::seams_in_c(stored, mesh.triangles, UINT32_MAX, UINT32_MAX));
+    CHECK_FALSE(test::seams_in_c(stored, twice, 3, UINT32_MAX));
 }
 
 TEST_CASE("damaged and random words are no stored seams, or restore to a valid section") {

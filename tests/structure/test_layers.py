@@ -12,12 +12,12 @@ CORE = ["base", "topology", "ring", "codec"]
 # The folder whose declarations a public header of lrcore has. Those of lrio are in LRIO.
 PUBLIC = {"base.hpp": "base", "lacedring_decode.h": "base", "topology.hpp": "topology", "ring.hpp": "ring", "streams.hpp": "codec",
           "operators.hpp": "codec", "vertices.hpp": "codec", "lacedring_vertices.h": "base", "seams.hpp": "codec", "lacedring_seams.h": "base",
-          "lacedring_storage.h": "base", "lacedring.hpp": "codec", "lacedring.h": "codec"}
+          "lacedring_storage.h": "base", "lacedring_stored_seams.h": "base", "lacedring.hpp": "codec", "lacedring.h": "codec"}
 LRIO = {"file.hpp", "materials.hpp", "mesh.hpp", "mesh_files.hpp", "primitives.hpp", "scene.h", "scene.hpp", "surface.hpp", "lr_file.hpp"}
 # Decoding and validating: these files include each other, and nothing else of lrcore but base.
 DECODERS = {"lacedring/streams.hpp", "lacedring/operators.hpp", "lacedring/base.hpp", "lacedring/lacedring_decode.h", "lacedring/vertices.hpp",
             "lacedring/lacedring_vertices.h", "lacedring/seams.hpp", "lacedring/lacedring_seams.h",
-            "lacedring/lacedring_storage.h", *("lrcore/codec/" + name for name in (
+            "lacedring/lacedring_storage.h", "lacedring/lacedring_stored_seams.h", *("lrcore/codec/" + name for name in (
                 "stream_view.cpp", "decode_slot.h", "lean/lean_format.h", "lean/lean_stream.cpp", "packed/packed_format.h", "packed/packed_c.h",
                 "packed/packed_stream.cpp", "packed/decode.cpp", "tables/lr_stream.cpp", "tables/tables_decode.h",
                 "tables/stream_header.h", "tables/validate.cpp", "vertices/vertex_stream.cpp", "seams/seam_section.cpp"))}
@@ -74,9 +74,10 @@ def folder_of(name):
 
 
 def check_core(name, header, quoted):
-    if name.endswith(("/lacedring_decode.h", "/lacedring_vertices.h", "/lacedring_seams.h", "/lacedring_storage.h")):
+    if name.endswith(("/lacedring_decode.h", "/lacedring_vertices.h", "/lacedring_seams.h", "/lacedring_storage.h",
+                      "/lacedring_stored_seams.h")):
         return None if header in ("stddef.h", "stdint.h", "string.h", "math.h", "immintrin.h", "emmintrin.h", "lacedring_decode.h",
-                                  "lacedring_vertices.h") else "C without a library"
+                                  "lacedring_vertices.h", "lacedring_seams.h", "lacedring_storage.h") else "C without a library"
     if name.endswith("/lacedring.h"):
         return None if header in ("stddef.h", "stdint.h", "string.h") or header.endswith("lacedring_decode.h") else "C without a library"
     if not quoted:

@@ -1,5 +1,5 @@
 #pragma once
-// The storage form decoded by lacedring_storage.h, in buffers of exactly their size.
+// The storage form decoded by lacedring_storage.h and lacedring_stored_seams.h, in buffers of exactly their size.
 
 #include <doctest/doctest.h>
 
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "lacedring/lacedring_storage.h"
+#include "lacedring/lacedring_stored_seams.h"
 #include "lacedring/vertices.hpp"
 #include "lrcore/codec/storage/vertex_places.h"
 
@@ -96,6 +97,31 @@ inline void check_in_c(std::span<const std::uint32_t> stored, std::span<const st
     CHECK(in_c->header.largest_error == view.largest_error);
     CHECK(in_c->header.step == view.step);
     CHECK(in_c->header.exception_count == view.exceptions);
+}
+
+struct SeamsInC {
+    std::vector<std::uint32_t> copies;    ///< of each corner
+    std::vector<std::uint32_t> vertices;  ///< of each copy
+};
+
+/// The copies of a stored seam section; none: it is refused, as one of more copies than `most` is.
+inline std::optional<SeamsInC> seams_in_c(std::span<const std::uint32_t> stored,
+                                          std::span<const std::uint32_t> triangles, std::uint32_t vertices,
+                                          std::uint32_t most) {
+    const auto words = exact_copy(stored), slots = exact_copy(triangles);
+    lacedring_stored_seams seams;
+    if (lacedring_stored_seams_open(words.get(), stored.size(), vertices,
+                                    static_cast<std::uint32_t>(triangles.size() / 3), most, &seams,
+                                    nullptr) != LACEDRING_STATUS_OK)
+        return {};
+    const auto scratch = std::make_unique<std::byte[]>(lacedring_stored_seams_scratch(&seams));
+    const auto copies = std::make_unique<std::uint32_t[]>(triangles.size());
+    const auto vertex_of = std::make_unique<std::uint32_t[]>(seams.most_copies);
+    std::uint64_t where = 0;
+    if (lacedring_stored_seams_decode(&seams, slots.get(), scratch.get(), copies.get(), vertex_of.get(), &where) !=
+        LACEDRING_STATUS_OK)
+        return {};
+    return SeamsInC{{copies.get(), copies.get() + triangles.size()}, {vertex_of.get(), vertex_of.get() + seams.copies}};
 }
 
 }  // namespace lacedring::test

@@ -8,6 +8,7 @@
 #include "lacedring/lacedring_decode.h"
 #include "lacedring/lacedring_seams.h"
 #include "lacedring/lacedring_storage.h"
+#include "lacedring/lacedring_stored_seams.h"
 #include "lacedring/lacedring_vertices.h"
 #include "lrcore/base/crc32.h"
 #include "lrcore/base/message.h"
@@ -85,6 +86,7 @@ std::string why(lacedring_status status, std::uint64_t where, std::span<const st
         case LACEDRING_STATUS_CODED:
         case LACEDRING_STATUS_INTEGER:
         case LACEDRING_STATUS_POSITIONS:
+        case LACEDRING_STATUS_COPY:
             break;  // of the storage form
     }
     return "unknown";

@@ -61,10 +61,11 @@ enum lacedring_status {
     LACEDRING_STATUS_HEADER,       /* the word of the header that says something impossible */
     LACEDRING_STATUS_VERTEX_BLOCK, /* the block of vertices that says something impossible */
     LACEDRING_STATUS_TRIANGLE,     /* the triangle that has a vertex out of range, or one twice */
-    LACEDRING_STATUS_LIMIT,        /* how many vertices or triangles there are, and no more were allowed */
+    LACEDRING_STATUS_LIMIT,        /* how many vertices, triangles or copies there are, and no more were allowed */
     LACEDRING_STATUS_CODED,        /* a coded part does not end where its symbols and bits do */
     LACEDRING_STATUS_INTEGER,      /* the vertex that has an integer out of range */
-    LACEDRING_STATUS_POSITIONS     /* positions are needed and were not given, or have no place for this copy */
+    LACEDRING_STATUS_POSITIONS,    /* positions are needed and were not given, or have no place for this copy */
+    LACEDRING_STATUS_COPY          /* the vertex of which an impossible copy is named */
 };
 
 /* A stream in memory, its header read. Holds no copy. Slots are numbered: 2 for each vertex of two-sided rings, 1 for

@@ -138,19 +138,23 @@ static inline int lacedring_seam_is_empty(const uint32_t triangle[3]) {
     return triangle[0] == UINT32_MAX;
 }
 
+/* Has another triangle two vertices of a triangle? Says which corners of it these are. */
+static inline int lacedring_seam_pair(const uint32_t triangle[3], const uint32_t other[3], uint32_t pair[2]) {
+    const uint32_t a = lacedring_seam_corner(other, triangle[0]) < 3, b = lacedring_seam_corner(other, triangle[1]) < 3;
+    const uint32_t c = lacedring_seam_corner(other, triangle[2]) < 3;
+    if (a + b + c < 2) return 0;
+    pair[0] = a ? 0 : 1;
+    pair[1] = a && b ? 1 : 2;
+    return 1;
+}
+
 /* The parent of triangle i of a block, which is not empty: the last one, of those not too far before, that has two of
    its vertices. Returns how far before it is, or 0, and which corners of triangle i these are. */
 static inline uint32_t lacedring_seam_parent(const uint32_t* triangles, uint32_t i, uint32_t pair[2]) {
     const uint32_t* t = triangles + (size_t)3 * i;
     uint32_t back;
     for (back = 1; back <= LACEDRING_SEAMS_BACK && back <= i; ++back) {
-        const uint32_t* other = t - (size_t)3 * back;
-        const uint32_t a = lacedring_seam_corner(other, t[0]) < 3, b = lacedring_seam_corner(other, t[1]) < 3;
-        const uint32_t c = lacedring_seam_corner(other, t[2]) < 3;
-        if (a + b + c < 2) continue;
-        pair[0] = a ? 0 : 1;
-        pair[1] = a && b ? 1 : 2;
-        return back;
+        if (lacedring_seam_pair(t, t - (size_t)3 * back, pair)) return back;
     }
     return 0;
 }
@@ -481,9 +485,9 @@ static struct lacedring_seam_end_ lacedring_seam_end_of_(const struct lacedring_
     return e;
 }
 
-/* Reads the state of an end that changes. */
-static uint32_t lacedring_seam_change_(struct lacedring_seam_walk_* w, uint32_t side,
-                                       const struct lacedring_seam_end_* e) {
+/* What is asked about an end that changes. */
+static struct lacedring_seam_question_ lacedring_seam_change_(const struct lacedring_seam_walk_* w, uint32_t side,
+                                                              const struct lacedring_seam_end_* e) {
     struct lacedring_seam_question_ q = {e->far, LACEDRING_SEAM_STEP_L, LACEDRING_SEAM_NEW_L, 0};
     if (side == 0) {
         if (e->state < LACEDRING_SEAMS_PRIVATE) {
@@ -497,32 +501,45 @@ static uint32_t lacedring_seam_change_(struct lacedring_seam_walk_* w, uint32_t 
         q.at_context = lacedring_seam_length_(w, e->corner) == 1 ? LACEDRING_SEAM_LAST_R : LACEDRING_SEAM_NEXT_R;
         q.new_context = LACEDRING_SEAM_NEW_R;
     }
-    return lacedring_seam_choose_(w, e->corner, e->state, q);
+    return q;
+}
+
+/* Reads the state of an end that changes. */
+static uint32_t lacedring_seam_read_change_(struct lacedring_seam_walk_* w, uint32_t side,
+                                            const struct lacedring_seam_end_* e) {
+    return lacedring_seam_choose_(w, e->corner, e->state, lacedring_seam_change_(w, side, e));
+}
+
+/* The ends of the edge to the parent, the one that is asked about first in front. Returns the context of whether the
+   edge is a seam. */
+static uint32_t lacedring_seam_ends_(const struct lacedring_seam_walk_* w, uint32_t i, uint32_t back,
+                                     const uint32_t pair[2], struct lacedring_seam_end_* a,
+                                     struct lacedring_seam_end_* b) {
+    *a = lacedring_seam_end_of_(w, i, back, pair[0], pair[1]);
+    *b = lacedring_seam_end_of_(w, i, back, pair[1], pair[0]);
+    if (b->type < a->type) {
+        const struct lacedring_seam_end_ swap = *a;
+        *a = *b;
+        *b = swap;
+    }
+    if (w->side[i] == 0)
+        return a->type == 0                   ? LACEDRING_SEAM_LONE
+               : a->type == 2 || a->type == 3 ? LACEDRING_SEAM_LEFT2
+               : b->type < 3                  ? LACEDRING_SEAM_LEFT0
+                                              : LACEDRING_SEAM_LEFT1;
+    return a->type == 1 || b->type == 1                ? LACEDRING_SEAM_RIGHT0
+           : a->type == 2                              ? LACEDRING_SEAM_RIGHT4
+           : b->type == 0                              ? LACEDRING_SEAM_RIGHT1
+           : lacedring_seam_length_(w, a->corner) == 1 ? LACEDRING_SEAM_RIGHT2
+                                                       : LACEDRING_SEAM_RIGHT3;
 }
 
 /* Reads both ends of the edge to the parent: is it a seam, and which ends change? */
 static void lacedring_seam_spoke_(struct lacedring_seam_walk_* w, uint32_t i, uint32_t back, const uint32_t pair[2]) {
     const uint32_t side = w->side[i];
-    struct lacedring_seam_end_ a = lacedring_seam_end_of_(w, i, back, pair[0], pair[1]);
-    struct lacedring_seam_end_ b = lacedring_seam_end_of_(w, i, back, pair[1], pair[0]);
-    uint32_t context, usual, a_changes = 0, b_changes = 0;
-    if (b.type < a.type) {
-        const struct lacedring_seam_end_ swap = a;
-        a = b;
-        b = swap;
-    }
-    if (side == 0) {
-        context = a.type == 0                  ? LACEDRING_SEAM_LONE
-                  : a.type == 2 || a.type == 3 ? LACEDRING_SEAM_LEFT2
-                  : b.type < 3                 ? LACEDRING_SEAM_LEFT0
-                                               : LACEDRING_SEAM_LEFT1;
-    } else {
-        context = a.type == 1 || b.type == 1                 ? LACEDRING_SEAM_RIGHT0
-                  : a.type == 2                              ? LACEDRING_SEAM_RIGHT4
-                  : b.type == 0                              ? LACEDRING_SEAM_RIGHT1
-                  : lacedring_seam_length_(w, a.corner) == 1 ? LACEDRING_SEAM_RIGHT2
-                                                             : LACEDRING_SEAM_RIGHT3;
-    }
+    struct lacedring_seam_end_ a, b;
+    const uint32_t context = lacedring_seam_ends_(w, i, back, pair, &a, &b);
+    uint32_t usual, a_changes = 0, b_changes = 0;
     if (lacedring_seam_flag_(&w->r, context)) {
         const uint32_t lone = context == LACEDRING_SEAM_LONE; /* usually b alone changes, else both do */
         usual = lacedring_seam_flag_(&w->r, a.type == 0 ? LACEDRING_SEAM_HALF : LACEDRING_SEAM_BOTH);
@@ -535,12 +552,13 @@ static void lacedring_seam_spoke_(struct lacedring_seam_walk_* w, uint32_t i, ui
             b_changes = !a_alone;
         }
     }
-    w->state[a.corner] = a_changes ? lacedring_seam_change_(w, side, &a) : a.state;
-    w->state[b.corner] = b_changes ? lacedring_seam_change_(w, side, &b) : b.state;
+    w->state[a.corner] = a_changes ? lacedring_seam_read_change_(w, side, &a) : a.state;
+    w->state[b.corner] = b_changes ? lacedring_seam_read_change_(w, side, &b) : b.state;
 }
 
-/* Reads a corner of triangle i that is not in its parent. With a parent, the two others are known. */
-static void lacedring_seam_start_(struct lacedring_seam_walk_* w, uint32_t i, uint32_t j, uint32_t has_parent) {
+/* What is asked about a corner of triangle i that is not in its parent. With a parent, the two others are known. */
+static struct lacedring_seam_question_ lacedring_seam_start_(const struct lacedring_seam_walk_* w, uint32_t i,
+                                                             uint32_t j, uint32_t has_parent) {
     const uint32_t* t = w->triangles + (size_t)3 * i;
     const uint32_t k = 3 * i + j, steps = w->steps[k];
     const uint32_t before = lacedring_seam_corner(t, t[j] - 1), after = lacedring_seam_corner(t, t[j] + 1);
@@ -568,7 +586,7 @@ static void lacedring_seam_start_(struct lacedring_seam_walk_* w, uint32_t i, ui
             q.new_first = 1;
         }
     }
-    w->state[k] = lacedring_seam_choose_(w, k, UINT32_MAX, q);
+    return q;
 }
 
 /* All triangles of the block. */
@@ -582,7 +600,9 @@ static void lacedring_seam_triangles_(struct lacedring_seam_walk_* w) {
         w->side[i] = (uint8_t)(side < 2 ? side : back > 0 ? w->side[i - back] : 0);
         if (back > 0) lacedring_seam_spoke_(w, i, back, pair);
         for (j = 0; j < 3; ++j) {
-            if (j != pair[0] && j != pair[1]) lacedring_seam_start_(w, i, j, back > 0);
+            if (j == pair[0] || j == pair[1]) continue;
+            w->state[3 * i + j] =
+                lacedring_seam_choose_(w, 3 * i + j, UINT32_MAX, lacedring_seam_start_(w, i, j, back > 0));
         }
     }
 }
