@@ -12,7 +12,7 @@
 #include "lrcore/codec/storage/vertex_storage.h"
 #include "tests/support/capture.h"
 #include "tests/support/meshes.h"
-#include "tests/support/stored_in_c.h"
+#include "tests/support/check_stored_in_c.h"
 
 using namespace lacedring;
 using storage::VertexPlaces;
