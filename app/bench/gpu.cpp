@@ -1,13 +1,13 @@
 #include "app/bench/gpu.h"
 
+#include "app/bench/device_times.h"
 #include "app/cli/gpu_options.h"
 #include "app/cli/progress.h"
-#include "renderer/verify/timing.h"
 
 namespace lacedring::app {
 namespace {
 
-Candidate candidate(std::string name, const gpu::Times& times) {
+Candidate candidate(std::string name, const Times& times) {
     Candidate c{std::move(name), {}, {}, {}};
     for (const gpu::Elapsed& elapsed : times) {
         c.seconds.push_back(elapsed.wall);
@@ -27,21 +27,21 @@ Result<GpuFigures> measure_gpu(const LoadedMesh& mesh, const VertexOptions& vert
     if (!model) return model.error();
     const Result<std::unique_ptr<gpu::Context>> context = gpu::Context::create(options);
     if (!context) return context.error();
-    gpu::TimingOptions timing;
+    TimingOptions timing;
     timing.repeats = static_cast<std::uint32_t>(rounds);
-    const Result<gpu::DeviceTimes> times = [&] {
+    const Result<DeviceTimes> times = [&] {
         std::optional<ProgressBar> bar;
         timing.progress = [&bar](std::uint32_t done, std::uint32_t total) {
             if (!bar) bar.emplace("drawing", total);
             bar->show(done);
         };
-        return gpu::measure_device(**context, *model, timing);
+        return measure_device(**context, *model, timing);
     }();
     GpuFigures figures;
     figures.validation_messages = print_validation(**context);
     if (!times) return times.error();
     figures.device = (*context)->info().name;
-    for (const gpu::Way& way : times->ways) {
+    for (const Way& way : times->ways) {
         figures.draw.push_back(candidate(way.name, way.draw));
         figures.cost.push_back({way.connectivity_bytes, way.bytes_read, way.vertex_invocations});
         if (way.decode.empty()) continue;

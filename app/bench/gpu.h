@@ -12,7 +12,7 @@
 
 namespace lacedring::app {
 
-/// A way of drawing, beside its times: see gpu::Way.
+/// A way of drawing, beside its times: see Way.
 struct DrawCost {
     std::uint64_t connectivity_bytes = 0;
     std::uint64_t bytes_read = 0;
@@ -22,7 +22,7 @@ struct DrawCost {
 struct GpuFigures {
     std::string device;
     std::vector<Candidate> decode;  ///< the streams' names, "vertices", "copy": wall and GPU seconds
-    std::vector<Candidate> draw;    ///< gpu::Way's names, and "lean_decode_every_frame", "packed_decode_every_frame"
+    std::vector<Candidate> draw;    ///< Way's names, and "lean_decode_every_frame", "packed_decode_every_frame"
     std::vector<DrawCost> cost;     ///< of each of `draw`
     std::uint64_t device_bytes = 0;
     std::vector<std::pair<std::string, std::string>> absent;  ///< name of a missing way, reason

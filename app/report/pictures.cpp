@@ -46,7 +46,7 @@ Result<void> draw_pictures(gpu::Context& context, const PictureSize& size, const
         return {};
     }
     for (const char* name : {"smooth", "class", "ring"}) {
-        Result<ReportPicture> picture = draw(context, size, camera, *model, *gpu::view_named(name));
+        Result<ReportPicture> picture = draw(context, size, camera, *model, *gpu::find_named(gpu::kViews, name));
         if (!picture) {
             const ErrorCode code = picture.error().code;
             if (code == gpu::kDeviceFailure || code == ErrorCode::invalid_argument) return picture.error();

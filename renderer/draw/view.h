@@ -1,11 +1,11 @@
 #pragma once
 // What pictures show.
 
+#include <array>
 #include <cstdint>
-#include <optional>
-#include <string_view>
 
 #include "renderer/mesh/gpu_mesh.h"
+#include "renderer/mesh/named.h"
 #include "shaders/shared.h"
 
 namespace lacedring::gpu {
@@ -21,11 +21,18 @@ enum class View : std::uint32_t {
     silhouette = LR_VIEW_SILHOUETTE,  ///< outline, creases and borders, over normals that the device computed
 };
 
+constexpr std::array<Named<View>, 8> kViews{{{"smooth", View::smooth, "smooth"},
+                                             {"flat", View::flat, "flat"},
+                                             {"class", View::triangle_class, "triangle classes"},
+                                             {"ring", View::ring, "ring order"},
+                                             {"wire", View::wire, "wireframe"},
+                                             {"offsets", View::offsets, "offsets"},
+                                             {"seams", View::seams, "seams"},
+                                             {"silhouette", View::silhouette, "silhouette"}}};
+
 /// What a view needs on the device beside the triangles.
 UploadOptions upload_options(View view);
 /// Are lines drawn over the surface? It is pushed back a little then.
 bool has_lines(View view);
-/// "smooth", "flat", "class", "ring", "wire", "offsets", "seams", "silhouette"
-std::optional<View> view_named(std::string_view name);
 
 }  // namespace lacedring::gpu

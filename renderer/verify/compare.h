@@ -28,8 +28,7 @@ using CompareProgress = std::function<void(std::uint32_t done, std::uint32_t tot
 struct CompareOptions {
     std::uint32_t width = 1280;
     std::uint32_t height = 720;
-    std::uint64_t max_range = 0;       ///< see UploadOptions
-    bool omit_decode_barrier = false;  ///< see RendererOptions
+    std::uint64_t max_range = 0;  ///< see UploadOptions
     CompareProgress progress = {};
 };
 
