@@ -1,8 +1,11 @@
 #include "app/bench/gpu.h"
 
+#include <CLI/CLI.hpp>
+
 #include "app/bench/device_times.h"
 #include "app/cli/gpu_options.h"
 #include "app/cli/progress.h"
+#include "renderer/vk/device_error.h"
 
 namespace lacedring::app {
 namespace {
@@ -15,8 +18,6 @@ Candidate candidate(std::string name, const Times& times) {
     }
     return c;
 }
-
-}  // namespace
 
 Result<GpuFigures> measure_gpu(const LoadedMesh& mesh, const VertexOptions& vertices,
                                const gpu::ContextOptions& options, int rounds) {
@@ -56,6 +57,34 @@ Result<GpuFigures> measure_gpu(const LoadedMesh& mesh, const VertexOptions& vert
     figures.device_bytes = times->device_bytes;
     figures.absent = times->absent;
     return figures;
+}
+
+}  // namespace
+
+struct GpuBench::Options {
+    bool off = false;
+    gpu::ContextOptions context;
+};
+
+GpuBench::GpuBench() : options_(std::make_unique<Options>()) {}
+GpuBench::~GpuBench() = default;
+
+void GpuBench::add_options(CLI::App& command) {
+    command.add_flag("--no-gpu", options_->off, "leave the device out");
+    add_device_options(command, options_->context);
+}
+
+Result<std::optional<GpuFigures>> GpuBench::measure(const LoadedMesh& mesh, const VertexOptions& vertices, int rounds,
+                                                    std::string& skipped) const {
+    if (options_->off) {
+        skipped = "--no-gpu";
+        return std::optional<GpuFigures>();
+    }
+    Result<GpuFigures> figures = measure_gpu(mesh, vertices, options_->context, rounds);
+    if (figures) return std::optional(std::move(*figures));
+    if (figures.error().code != gpu::kNoDevice || asks_for_device(options_->context)) return figures.error();
+    skipped = figures.error().message;
+    return std::optional<GpuFigures>();
 }
 
 }  // namespace lacedring::app
