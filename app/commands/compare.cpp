@@ -177,7 +177,7 @@ int run_compare(const CompareOptions& options, RunLog& log) {
     }
     gpu::ModelOptions model_options{.packed = true, .surface = loaded->joined.surface};
     if (options.compares("packed_vertices"))
-        model_options.vertices = position_options(options.positions);
+        model_options.vertices = position_options(options.positions, options.input.options.threads);
     const Result<gpu::Model> model = gpu::make_model(*mesh, model_options);
     if (!model) return fail(options.input.path, model.error());
     if (!model->exact.empty()) log.note(input_name(options.input.path), "POSITION stays lossless: " + model->exact);
@@ -262,6 +262,7 @@ void add_compare(CLI::App& program, Action& action) {
         program.add_subcommand("compare", "draw a mesh plain and from its streams, and compare the pixels");
     command->add_option("MESH", options->input.path, "mesh file")->required();
     add_input_options(*command, options->input.options, 250);
+    add_threads(*command, {&options->input.options.threads});
     add_force(*command, options->diff);
     add_size(*command, options->size);
     command

@@ -148,6 +148,7 @@ void add_encode(CLI::App& program, Action& action) {
         ->capture_default_str();
     add_input_options(*command, options->input, 200);
     add_ring_options(*command, options->ring);
+    add_threads(*command, {&options->input.threads, &options->ring.threads});
     command->add_option("--effort", options->ring.effort, "how long to look for good rings: 0 to 9")
         ->check(CLI::Range(0, 9))
         ->capture_default_str();

@@ -61,7 +61,7 @@ int render(const RenderOptions& options, const std::string& input, const std::fi
                                     std::move(optimize)};
     model_options.surface = loaded->surface;
     if (source == gpu::Source::packed_vertices)
-        model_options.vertices = position_options(options.positions);
+        model_options.vertices = position_options(options.positions, options.ring.threads);
     const Result<gpu::Model> model = gpu::make_model(*mesh, model_options);
     if (!model) return fail(input, model.error());
     if (!model->exact.empty()) log.note(input_name(input), "POSITION stays lossless: " + model->exact);
@@ -169,6 +169,7 @@ void add_render(CLI::App& program, Action& action) {
         ->check(CLI::Range(0.0, 180.0))
         ->capture_default_str();
     add_ring_options(*command, options->ring);
+    add_threads(*command, {&options->input.threads, &options->ring.threads});
     command->add_flag("--no-warts", options->no_warts, "no wart skipping: the classes as they are before it");
     add_size(*command, options->size);
     command->add_option("--samples", options->samples, "samples a pixel along each side")

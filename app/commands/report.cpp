@@ -112,6 +112,7 @@ void add_report(CLI::App& program, Action& action) {
     add_output(*command, options->output, "the HTML file; - for standard output");
     add_input_options(*command, options->input, 350);
     add_ring_options(*command, options->ring);
+    add_threads(*command, {&options->input.threads, &options->ring.threads});
     options->pictures.add_options(*command);
     auto rules = std::make_shared<OptionRules>(*command);
     rules->never_with({"--size", "--up", "--camera-position", "--camera-focal-point", "--camera-azimuth-angle",
