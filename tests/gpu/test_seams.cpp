@@ -222,10 +222,10 @@ struct SeamPictures : GpuTest {
     std::vector<gpu::Subject> subjects(bool small) const {
         std::vector<gpu::Subject> out;
         for (const auto source : {gpu::Source::lean, gpu::Source::packed, gpu::Source::packed_vertices}) {
-            for (const gpu::NamedPath& named : gpu::kPaths) {
-                if (named.path == gpu::Path::mesh && context->info().max_mesh_groups == 0) continue;
-                if (gpu::is_slow(source, named.path, small ? 0 : UINT32_MAX)) continue;
-                out.push_back({source, named.path});
+            for (const gpu::Named<gpu::Path>& named : gpu::kPaths) {
+                if (named.value == gpu::Path::mesh && context->info().max_mesh_groups == 0) continue;
+                if (gpu::is_slow(source, named.value, small ? 0 : UINT32_MAX)) continue;
+                out.push_back({source, named.value});
             }
         }
         return out;

@@ -13,6 +13,10 @@ namespace lacedring::view {
 
 /// What is laid over the triangles.
 enum class Paint { none, corridors, blocks, growth };
+constexpr std::array<gpu::Named<Paint>, 4> kPaints{{{"none", Paint::none, "none"},
+                                                    {"corridors", Paint::corridors, "corridors"},
+                                                    {"blocks", Paint::blocks, "blocks"},
+                                                    {"growth", Paint::growth, "ring-expander"}}};
 
 /// What one Paint lays over one document. Either may be empty.
 struct Painting {

@@ -18,6 +18,14 @@
 namespace lacedring::view {
 
 enum class Mode { single, split, difference };
+constexpr std::array<gpu::Named<Mode>, 3> kModes{{{"single", Mode::single, "off"},
+                                                  {"split", Mode::split, "side by side"},
+                                                  {"difference", Mode::difference, "difference"}}};
+
+// What the viewer has of the renderer's: packed vertices are not drawn, and outlines go with every view.
+constexpr std::span kViews = std::span(gpu::kViews).first<7>();
+constexpr std::span kSources = std::span(gpu::kSources).first<3>();
+static_assert(kViews.back().value == gpu::View::seams && kSources.back().value == gpu::Source::packed);
 
 /// What a picture is of.
 struct Shown {

@@ -176,48 +176,25 @@ Result<bool> Script::set(const Line& line, Viewer& viewer) {
     const std::string &name = line.words[1], &value = line.words[2];
     State& state = viewer.state();
     state.choices_changed = true;
-    const auto named = [&](const auto& names, auto& out) -> Result<bool> {
-        for (const auto& [text, v] : names) {
-            if (text == value) {
-                out = v;
-                return true;
-            }
-        }
-        return wrong("no such " + name + ": " + value);
+    const auto named = [&](const auto& table, auto& out) -> Result<bool> {
+        const auto found = gpu::find_named(table, value);
+        if (!found) return wrong("no such " + name + ": " + value);
+        out = *found;
+        return true;
     };
     if (name == "view") {
-        const auto view = gpu::view_named(value);
-        if (!view) return wrong("no such view: " + value);
         // It needs LR tables, which come later than the surface, and goes with every view.
-        if (*view == gpu::View::silhouette) return wrong("the viewer has no view silhouette: set outlines on");
-        state.shown.view = *view;
-        return true;
+        if (value == "silhouette") return wrong("the viewer has no view silhouette: set outlines on");
+        return named(kViews, state.shown.view);
     }
-    if (name == "mode") {
-        return named(
-            std::map<std::string, Mode>{
-                {"single", Mode::single}, {"split", Mode::split}, {"difference", Mode::difference}},
-            state.shown.mode);
-    }
-    if (name == "source") {
-        const auto source = gpu::source_named(value);
-        if (!source || *source == gpu::Source::packed_vertices) return wrong("no such source: " + value);
-        state.shown.source = *source;
-        return true;
-    }
+    if (name == "mode") return named(kModes, state.shown.mode);
+    if (name == "source") return named(kSources, state.shown.source);
     if (name == "path") {
         if (value == "mesh" && !state.mesh_shaders) return wrong("the device has no mesh shaders: " + state.device);
         return named(gpu::kPaths, state.shown.path);
     }
-    if (name == "paint") {
-        return named(std::map<std::string, Paint>{{"none", Paint::none},
-                                                  {"corridors", Paint::corridors},
-                                                  {"blocks", Paint::blocks},
-                                                  {"growth", Paint::growth}},
-                     state.paint);
-    }
-    if (name == "ring")
-        return named(std::map<std::string, bool>{{"expander", false}, {"hybrid", true}}, state.ring.hybrid);
+    if (name == "paint") return named(kPaints, state.paint);
+    if (name == "ring") return named(kRings, state.ring.hybrid);
     for (const Switch& one : kSwitches) {
         if (name != one.name) continue;
         if (value != "on" && value != "off") return wrong(name + " is on or off");

@@ -10,7 +10,7 @@
 #include "lacedring/ring.hpp"
 #include "lacedring/surface.hpp"
 #include "lacedring/topology.hpp"
-#include "renderer/mesh/model.h"
+#include "renderer/mesh/source.h"
 
 namespace lacedring::app {
 struct FormatSet;  // app/formats/formats.h, which is slow to compile
@@ -33,6 +33,9 @@ struct RingSettings {
     bool operator==(const RingSettings&) const = default;
 };
 
+/// RingSettings::hybrid
+constexpr std::array<gpu::Named<bool>, 2> kRings{{{"expander", false, "ring-expander"}, {"hybrid", true, "hybrid"}}};
+
 /// Figures of one stream. Per triangle of the input, as everywhere.
 struct StreamFigures {
     std::size_t bytes = 0;
@@ -49,6 +52,7 @@ struct Document {
     std::shared_ptr<const Rings> rings;          ///< lean's
     std::shared_ptr<const Expansion> expansion;  ///< how these were begun, before the optimiser
     std::shared_ptr<const gpu::Model> model;
+    gpu::StreamViews views;  ///< of the model's streams; packed is empty until it is made
     RingSettings settings;
     bool optimised = false;  ///< the optimiser has run, as often as the settings say
     StreamFigures plain, lean, packed;
@@ -69,6 +73,7 @@ struct Document {
 struct Tables {
     std::shared_ptr<const Mesh> mesh;  ///< of whose surface they are
     EncodedLr lr;
+    LrView view;                          ///< of its words
     std::vector<std::uint32_t> number;    ///< LR triangle of each of the mesh's, UINT32_MAX: degenerate
     std::vector<std::uint32_t> triangle;  ///< the mesh's triangle of each LR number, UINT32_MAX: none
 };

@@ -39,7 +39,7 @@ Result<Tables> make_tables(std::shared_ptr<const Mesh> mesh, EncodedLr lr) {
     const Result<LrStreamView<LrView>> stream = view_lr(lr.words);
     if (!stream) return stream.error();
     const Operators<LrView> operators(stream->view);
-    Tables out{std::move(mesh), {}, {}, {}};
+    Tables out{std::move(mesh), {}, stream->view, {}, {}};
     out.number.assign(out.mesh->triangle_count(), UINT32_MAX);
     out.triangle.assign(stream->view.triangle_numbers(), UINT32_MAX);
     std::size_t i = 0;
@@ -53,9 +53,7 @@ Result<Tables> make_tables(std::shared_ptr<const Mesh> mesh, EncodedLr lr) {
 }
 
 CornerId lr_step(const Tables& tables, const CornerTable& table, CornerId corner, char operation) {
-    const Result<LrStreamView<LrView>> stream = view_lr(tables.lr.words);
-    if (!stream) return kNullCorner;
-    const Operators<LrView> operators(stream->view);
+    const Operators<LrView> operators(tables.view);
     const CornerId c = to_lr(tables, operators, table, corner);
     if (c.is_null()) return c;
     const auto result = [&] {
@@ -78,9 +76,7 @@ CornerId lr_step(const Tables& tables, const CornerTable& table, CornerId corner
 }
 
 std::string lr_text(const Tables& tables, const CornerTable& table, CornerId corner) {
-    const Result<LrStreamView<LrView>> stream = view_lr(tables.lr.words);
-    if (!stream) return stream.error().message;
-    const LrView& view = stream->view;
+    const LrView& view = tables.view;
     const Operators<LrView> operators(view);
     const CornerId c = to_lr(tables, operators, table, corner);
     if (c.is_null()) return "degenerate: in no table";

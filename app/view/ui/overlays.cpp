@@ -97,10 +97,7 @@ void draw_marks(const State& state, const Orbit& orbit, std::uint32_t width, std
     list.AddTriangleFilled({x + px(7), middle}, {x + px(2), middle - px(4)}, {x + px(2), middle + px(4)},
                            IM_COL32(222, 107, 33, 255));
     tag("index list", x, px(14), -1);
-    tag(state.shown.source == gpu::Source::packed  ? "packed"
-        : state.shown.source == gpu::Source::plain ? "index list"
-                                                   : "lean",
-        x, px(14), 1);
+    tag(std::ranges::find(kSources, state.shown.source, &gpu::Named<gpu::Source>::value)->label, x, px(14), 1);
 }
 
 }  // namespace lacedring::view

@@ -24,18 +24,18 @@ void label(const char* text, const char* explained) {
 }
 
 /// `other`: what the list shows of a value that it does not have.
-template <class T, std::size_t N>
-bool choose(const char* name, const std::array<std::pair<const char*, T>, N>& values, T& value, const char* explained,
-            float width = -1, const char* other = "") {
-    const auto at = std::find_if(values.begin(), values.end(), [&](const auto& v) { return v.second == value; });
+template <class T>
+bool choose(const char* name, std::span<const gpu::Named<std::type_identity_t<T>>> values, T& value,
+            const char* explained, float width = -1, const char* other = "") {
+    const auto at = std::ranges::find(values, value, &gpu::Named<T>::value);
     bool changed = false;
     label(name, explained);
     ImGui::SetNextItemWidth(width);
     ImGui::PushID(name);
-    if (ImGui::BeginCombo("##", at == values.end() ? other : at->first)) {
-        for (const auto& [text, v] : values) {
-            if (ImGui::Selectable(text, v == value)) {
-                value = v;
+    if (ImGui::BeginCombo("##", at == values.end() ? other : at->label)) {
+        for (const gpu::Named<T>& named : values) {
+            if (ImGui::Selectable(named.label, named.value == value)) {
+                value = named.value;
                 changed = true;
             }
         }
@@ -138,21 +138,7 @@ void draw_growth(State& state) {
 
 void draw_view(State& state) {
     heading("View");
-    using gpu::View;
-    constexpr std::array<std::pair<const char*, View>, 7> kViews{{{"smooth", View::smooth},
-                                                                  {"flat", View::flat},
-                                                                  {"triangle classes", View::triangle_class},
-                                                                  {"ring order", View::ring},
-                                                                  {"wireframe", View::wire},
-                                                                  {"offsets", View::offsets},
-                                                                  {"seams", View::seams}}};
-    constexpr std::array<std::pair<const char*, Paint>, 4> kPaints{{{"none", Paint::none},
-                                                                    {"corridors", Paint::corridors},
-                                                                    {"blocks", Paint::blocks},
-                                                                    {"ring-expander", Paint::growth}}};
-    constexpr std::array<std::pair<const char*, Mode>, 3> kModes{
-        {{"off", Mode::single}, {"side by side", Mode::split}, {"difference", Mode::difference}}};
-    constexpr std::array<std::pair<const char*, std::uint32_t>, 3> kSamples{{{"1", 1}, {"4", 2}, {"9", 3}}};
+    constexpr std::array<gpu::Named<std::uint32_t>, 3> kSamples{{{"1", 1, "1"}, {"2", 2, "4"}, {"3", 3, "9"}}};
     Shown& shown = state.shown;
     bool changed = choose(
         "Show", kViews, shown.view,
@@ -178,8 +164,8 @@ void draw_view(State& state) {
         choose("Samples", kSamples, state.samples, "Of each pixel: more make edges smooth, and take longer", px(44));
     ImGui::SameLine();
     check("outlines", state.outlines, "Silhouettes, borders and creases, asked of the LR tables");
-    constexpr std::array<std::pair<const char*, std::uint32_t>, 4> kCaps{
-        {{"30 a second", 30}, {"60 a second", 60}, {"120 a second", 120}, {"no limit", 0}}};
+    constexpr std::array<gpu::Named<std::uint32_t>, 4> kCaps{
+        {{"30", 30, "30 a second"}, {"60", 60, "60 a second"}, {"120", 120, "120 a second"}, {"0", 0, "no limit"}}};
     choose("Pictures", kCaps, state.frame_cap, "At most so many are drawn while something moves", -1,
            (std::to_string(state.frame_cap) + " a second").c_str());
     state.choices_changed |= changed;
@@ -194,15 +180,6 @@ void draw_view(State& state) {
 
 void draw_stream(State& state) {
     heading("Stream");
-    using gpu::Path;
-    using gpu::Source;
-    constexpr std::array<std::pair<const char*, Source>, 3> kSources{
-        {{"index list", Source::plain}, {"lean", Source::lean}, {"packed", Source::packed}}};
-    constexpr std::array<std::pair<const char*, Path>, 4> kAll{{{"compute", Path::compute},
-                                                                {"vertex pulling", Path::pull},
-                                                                {"geometry shader", Path::geometry},
-                                                                {"mesh shader", Path::mesh}}};
-    constexpr std::array<std::pair<const char*, Path>, 3> kThree{{kAll[0], kAll[1], kAll[2]}};
     Shown& shown = state.shown;
     bool changed = choose("Format", kSources, shown.source,
                           "What is on the device and drawn. Index list: three numbers for each triangle. Lean: about "
@@ -211,8 +188,9 @@ void draw_stream(State& state) {
         "Where the stream becomes triangles. Compute: expanded once to an index list. The others read the stream "
         "itself "
         "in every frame, in the shader that the name tells";
-    changed |= state.mesh_shaders ? choose("Path", kAll, shown.path, path) : choose("Path", kThree, shown.path, path);
-    if (shown.path == Path::compute) {
+    const std::span paths(gpu::kPaths);
+    changed |= choose("Path", state.mesh_shaders ? paths : paths.first(3), shown.path, path);  // the last is mesh
+    if (shown.path == gpu::Path::compute) {
         check("decode every frame", shown.decode_again, "To see what expanding takes: it is needed only once");
     }
     state.choices_changed |= changed;
@@ -220,7 +198,6 @@ void draw_stream(State& state) {
 
 void draw_ring(State& state) {
     heading("Ring");
-    constexpr std::array<std::pair<const char*, bool>, 2> kRings{{{"ring-expander", false}, {"hybrid", true}}};
     RingSettings& ring = state.ring;
     choose(
         "Made by", kRings, ring.hybrid,

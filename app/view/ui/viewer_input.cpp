@@ -141,12 +141,9 @@ void Viewer::handle_key(const Event& event) {
             state_.ring.start = state_.selection.corner;
             return;
         case 'V': {
-            constexpr std::array<gpu::View, 7> kOrder{gpu::View::smooth, gpu::View::flat, gpu::View::triangle_class,
-                                                      gpu::View::ring,   gpu::View::wire, gpu::View::offsets,
-                                                      gpu::View::seams};
-            const auto* at = std::find(kOrder.begin(), kOrder.end(), state_.shown.view);
-            const auto i = static_cast<std::size_t>(at - kOrder.begin());
-            state_.shown.view = kOrder[(i + (shift ? kOrder.size() - 1 : 1)) % kOrder.size()];
+            const auto at = std::ranges::find(kViews, state_.shown.view, &gpu::Named<gpu::View>::value);
+            const auto i = static_cast<std::size_t>(at - kViews.begin());
+            state_.shown.view = kViews[(i + (shift ? kViews.size() - 1 : 1)) % kViews.size()].value;
             state_.choices_changed = true;
             return;
         }
