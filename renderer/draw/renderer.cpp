@@ -36,9 +36,9 @@ Result<Drawable> Renderer::upload(const Model& model, Source source, Path path) 
     options.path = path;
     options.max_range = options_.max_range;
     if (options_.view == View::material) {
-        const std::pair wanted(model.materials, model.triangle_count());
+        const std::pair wanted(model.materials_number, model.triangle_count());
         if (!materials_ || uploaded_materials_ != wanted) {
-            LR_ASSIGN(materials_, upload_materials(*context_, *transfer_, wanted.first, wanted.second));
+            LR_ASSIGN(materials_, upload_materials(*context_, *transfer_, model.materials, wanted.second));
             uploaded_materials_ = wanted;
         }
         options.materials = materials_->table.address_words();

@@ -85,9 +85,9 @@ class Renderer {
     Painter painter_;
     Expander expander_;
     SlotReader slots_;
-    std::optional<GpuMaterials> materials_;                            // View::material
-    std::pair<const Materials*, std::uint32_t> uploaded_materials_{};  // of a model, and its triangles
-    std::optional<Silhouettes> silhouettes_;                           // these two for View::silhouette
+    std::optional<GpuMaterials> materials_;                         // View::material
+    std::pair<std::uint64_t, std::uint32_t> uploaded_materials_{};  // a model's number, and its triangles
+    std::optional<Silhouettes> silhouettes_;                        // these two for View::silhouette
     std::optional<VertexNormals> vertex_normals_;
 };
 

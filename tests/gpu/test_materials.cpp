@@ -109,7 +109,8 @@ TEST_CASE("mip maps: the mean of four texels, colors as light") {
         const std::uint32_t red = texels[6] & 255;  // of black, white, black and white
         CHECK(red >= (is_color ? 187 : 127));
         CHECK(red <= (is_color ? 189 : 128));
-        CHECK(texels[6] >> 24 == 255);
+        const std::uint32_t alpha = texels[6] >> 24;
+        CHECK(alpha == 255);
     }
     std::vector<std::uint32_t> one{0x12345678};
     CHECK(gpu::append_mip_maps(one, 1, 1, true) == 1);
@@ -210,7 +211,7 @@ TEST_CASE_FIXTURE(GpuTest, "materials: one picture from every source, by every p
         REQUIRE_MESSAGE(model, model.error().message);
         gpu::add_materials(*model, drawn.mesh, drawn.materials);
         std::vector<gpu::Subject> subjects;
-        for (const auto& [path_name, path] : gpu::kPaths) {
+        for (const auto& [path_name, path, label] : gpu::kPaths) {
             if (path == gpu::Path::mesh && context->info().max_mesh_groups == 0) continue;
             for (const gpu::Source source : {gpu::Source::lean, gpu::Source::packed, gpu::Source::packed_vertices}) {
                 if (source != gpu::Source::packed_vertices || path == gpu::Path::compute)
