@@ -79,8 +79,9 @@ void check_copies(const StreamView& stream, std::uint32_t how, std::uint64_t see
     }
 
     CornerCopies copies(stream, *view);
+    test::SplitMix64 random(seed);
     for (std::uint32_t n = 0; n < std::min(stream.slots(), 2000U); ++n) {
-        const std::uint32_t slot = test::random_below(seed, stream.slots());
+        const std::uint32_t slot = random.below(stream.slots());
         for (std::uint32_t k = 0; k < 3; ++k) right &= copies.copy(slot, k) == wanted[std::size_t{3} * slot + k];
     }
     REQUIRE(right);

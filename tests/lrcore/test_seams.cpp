@@ -19,7 +19,6 @@ using namespace lacedring;
 using test::cut;
 using test::CutSurface;
 using test::kCuts;
-using test::random_below;
 
 namespace {
 
@@ -263,7 +262,7 @@ TEST_CASE("sections of other meshes, cut short or changed are refused") {
 }
 
 TEST_CASE("what is accepted decodes to copies of the corner's vertex, whatever was changed") {
-    std::uint64_t state = 9;
+    test::SplitMix64 random(9);
     std::uint32_t accepted = 0;
     for (const std::uint32_t how : {0U, 1U, 2U, 4U}) {
         const CutSurface mesh = blob(1500, how);
@@ -271,8 +270,8 @@ TEST_CASE("what is accepted decodes to copies of the corner's vertex, whatever w
         for (std::uint32_t n = 0; n < 200; ++n) {
             Words changed = words;
             for (std::uint32_t k = 0; k <= n % 3; ++k) {
-                std::uint32_t& word = changed[random_below(state, static_cast<std::uint32_t>(changed.size()))];
-                word = n % 5 == 0 ? random_below(state, UINT32_MAX) : word ^ 1U << random_below(state, 32);
+                std::uint32_t& word = changed[random.below(static_cast<std::uint32_t>(changed.size()))];
+                word = n % 5 == 0 ? random.below(UINT32_MAX) : word ^ 1U << random.below(32);
             }
             mend(changed);
             const Result<SeamView> view = validate_seams(changed, mesh.triangles, mesh.vertices);

@@ -18,7 +18,6 @@
 using namespace lacedring;
 using test::CutMesh;
 using test::Part;
-using test::random_below;
 using test::with_parts;
 
 namespace {
@@ -298,7 +297,7 @@ TEST_CASE("sections of seams occur once, at any place") {
 }
 
 TEST_CASE("whatever is accepted of changed seams decodes, and what it decodes to is encoded again") {
-    std::uint64_t state = 3;
+    test::SplitMix64 random(3);
     std::uint32_t accepted = 0;
     for (const Format format : test::kFormats) {
         for (const std::uint32_t charting : {0U, 2U, 4U}) {
@@ -308,8 +307,8 @@ TEST_CASE("whatever is accepted of changed seams decodes, and what it decodes to
             for (std::uint32_t n = 0; n < (test::kSanitized ? 60 : 300); ++n) {
                 LrFile changed = file;
                 std::uint32_t& word =
-                    changed.seams[2 + random_below(state, static_cast<std::uint32_t>(file.seams.size()) - 2)];
-                word ^= 1U << random_below(state, 32);
+                    changed.seams[2 + random.below(static_cast<std::uint32_t>(file.seams.size()) - 2)];
+                word ^= 1U << random.below(32);
                 mend(changed.seams);
                 // Whatever number of copies that makes, the file's attributes go with it.
                 const Result<StreamView> stream = view_stream(file.words);

@@ -39,6 +39,7 @@ Grouped group_mesh(const test::CutMesh& whole, std::size_t sets, std::size_t par
                    std::uint64_t seed) {
     const Mesh& mesh = whole.mesh;
     const auto& vertex_of = whole.surface.vertex_of;
+    test::SplitMix64 random(seed);
     std::vector<std::uint32_t> root(mesh.vertex_count);
     std::iota(root.begin(), root.end(), 0U);
     const auto find = [&](std::uint32_t v) {
@@ -61,7 +62,7 @@ Grouped group_mesh(const test::CutMesh& whole, std::size_t sets, std::size_t par
     for (std::size_t t = 0; t < kept.size(); ++t) {
         std::uint32_t& set = set_of_root[find(mesh.indices[3 * t])];
         if (!kept[t] || set != UINT32_MAX) continue;
-        set = count < sets ? count++ : test::random_below(seed, count);
+        set = count < sets ? count++ : random.below(count);
     }
     for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
         set_of[v] = set_of_root[find(v)] == UINT32_MAX ? 0 : set_of_root[find(v)];
@@ -97,7 +98,7 @@ Grouped group_mesh(const test::CutMesh& whole, std::size_t sets, std::size_t par
             out.set_of_part.push_back(set_of[mesh.indices[3 * t]]);
         } else {
             out.part_of.push_back(
-                of_set.empty() ? 0 : of_set[test::random_below(seed, static_cast<std::uint32_t>(of_set.size()))]);
+                of_set.empty() ? 0 : of_set[random.below(static_cast<std::uint32_t>(of_set.size()))]);
         }
     }
     return out;
