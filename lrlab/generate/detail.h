@@ -7,6 +7,7 @@
 #include "lacedring/base.hpp"
 #include "lacedring/mesh.hpp"
 #include "lrcore/base/random.h"
+#include "lrcore/base/vec3.h"
 
 namespace lacedring::detail {
 
@@ -24,11 +25,7 @@ class Random : public SplitMix64 {
     double signed_unit() { return static_cast<double>(next() >> 40) * (1.0 / 8388608.0) - 1.0; }
 };
 
-struct Point {
-    double x = 0;
-    double y = 0;
-    double z = 0;
-};
+using Point = Vec3<double>;
 
 /// Cosine and sine of k/n of a full turn; n >= 1, k < 2^60. Exact at multiples of a quarter turn.
 struct Turn {

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "lacedring/surface.hpp"
+#include "lrcore/base/vec3.h"
 #include "tests/support/capture.h"
 #include "tests/support/cut_mesh.h"
 #include "tests/support/cuts.h"
@@ -54,7 +55,7 @@ Mesh random_mesh(std::uint64_t seed) {
 double distance(const Mesh& mesh, std::uint32_t v, std::uint32_t w) {
     const Positions positions = positions_of(mesh);
     const Point a = positions[VertexId{v}], b = positions[VertexId{w}];
-    return std::sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
+    return detail::length(detail::minus(a, b));
 }
 
 std::vector<std::byte> value(const Attribute& attribute, std::size_t v) {
