@@ -4,8 +4,6 @@
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include "lrcore/base/try.h"
 #ifdef __linux__
 #include <sys/vfs.h>
 #endif
@@ -19,6 +17,8 @@
 #include <optional>
 #include <string>
 #include <utility>
+
+#include "lrcore/base/try.h"
 
 namespace lacedring {
 namespace {

@@ -13,6 +13,7 @@
 #include "tests/support/capture.h"
 #include "tests/support/cut_mesh.h"
 #include "tests/support/cuts.h"
+#include "tests/support/damage.h"
 #include "tests/support/shapes.h"
 
 using namespace lacedring;
@@ -175,17 +176,9 @@ TEST_CASE("quantized attributes of copies keep to their errors, and copies are a
 TEST_CASE("every truncation and every flipped bit of an lr file with seams is refused") {
     const std::vector<std::byte> good = serialize_lr(make_cut(small_cut(), true, Format::packed));
     REQUIRE(parse_lr(good));
-    for (std::size_t size = 0; size < good.size(); ++size) {
-        const std::unique_ptr<std::byte[]> exact(new std::byte[size]);
-        std::copy_n(good.begin(), size, exact.get());
-        CHECK_FALSE(parse_lr(std::span<const std::byte>(exact.get(), size)));
-    }
-    for (std::size_t i = 0; i < good.size(); ++i) {
-        std::vector<std::byte> bad = good;
-        bad[i] ^= static_cast<std::byte>(1U << (i % 8));
-        CAPTURE(i);
-        CHECK_FALSE(parse_lr(bad));
-    }
+    test::for_each_cut(good, [](auto cut) { CHECK_FALSE(parse_lr(cut)); });
+    test::for_each_flip(
+        good, [](const auto& bad, std::size_t) { CHECK_FALSE(parse_lr(bad)); }, 1);
 }
 
 TEST_CASE("hostile lr files with seams and matching checksums") {

@@ -15,15 +15,10 @@
 #include "lacedring/lacedring_stored_seams.h"
 #include "lacedring/vertices.hpp"
 #include "lrcore/codec/storage/vertex_places.h"
+#include "lrcore/codec/storage/vertex_storage.h"
+#include "tests/support/damage.h"
 
 namespace lacedring::test {
-
-template <class T>
-std::unique_ptr<T[]> exact_copy(std::span<const T> from) {
-    auto out = std::make_unique<T[]>(from.size());
-    std::copy(from.begin(), from.end(), out.get());
-    return out;
-}
 
 /// The triangles of a stored packed stream; none: it is refused.
 inline std::optional<std::vector<std::uint32_t>> triangles_in_c(std::span<const std::uint32_t> stored,
@@ -97,6 +92,19 @@ inline void check_in_c(std::span<const std::uint32_t> stored, std::span<const st
     CHECK(in_c->header.largest_error == view.largest_error);
     CHECK(in_c->header.step == view.step);
     CHECK(in_c->header.exception_count == view.exceptions);
+}
+
+/// Restores a stored vertex stream that may be damaged, to `most` words at most. Of what that gives, C decodes the
+/// same.
+inline void check_damaged_in_c(std::span<const std::uint32_t> stored, std::span<const std::uint32_t> triangles,
+                               std::uint32_t vertices, std::uint64_t most, const storage::VertexPlaces& places = {}) {
+    const auto exact = exact_copy(stored);
+    const auto back = storage::restore_vertices({exact.get(), stored.size()}, triangles, vertices, most, places);
+    (void)attribute_in_c(stored, triangles, vertices, places);
+    if (!back) return;
+    CHECK(back->size() <= most);
+    CHECK((*back)[1] == vertices);
+    if (const Result<VertexView> valid = validate_vertices(*back)) check_in_c(stored, triangles, *valid, places);
 }
 
 struct SeamsInC {
