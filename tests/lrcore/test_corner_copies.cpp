@@ -13,6 +13,7 @@
 #include "lrlab/generate/generate.h"
 #include "tests/support/cuts.h"
 #include "tests/support/meshes.h"
+#include "tests/support/named_streams.h"
 #include "tests/support/shapes.h"
 
 using namespace lacedring;
@@ -240,20 +241,10 @@ void check_texcoords(const LrStreamView<View>& tables, const StreamView& stream,
 TEST_CASE("a corner's copy at random access is what the whole section decodes to") {
     std::uint32_t seed = 0;
     Seen seen;
-    for (const test::NamedMesh& named : test::named_meshes()) {
-        if (named.mesh.triangle_count() > 1000) continue;
-        CAPTURE(named.name);
-        for (const Format format : {Format::lean, Format::packed, Format::lr, Format::lr_compact}) {
-            CAPTURE(name_of(format));
-            const Result<Encoded> encoded =
-                encode(named.mesh.indices, named.mesh.vertex_count, {.format = format, .effort = 0});
-            if (!encoded) continue;
-            const Result<StreamView> stream = validate(encoded->words);
-            REQUIRE_MESSAGE(stream, stream.error().message);
-            check_copies(*stream, seed % test::kCuts, seed, seen);  // all ways to cut, in turn
-            ++seed;
-        }
-    }
+    test::for_each_named_stream([&](const StreamView& stream) {
+        check_copies(stream, seed % test::kCuts, seed, seen);  // all ways to cut, in turn
+        ++seed;
+    });
     CHECK(seen.redundant > 0);
     CHECK(seen.border > 0);
     CHECK(seen.flipped > 0);

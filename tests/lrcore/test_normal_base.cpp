@@ -214,24 +214,8 @@ TEST_CASE("normal base: normals of a surface become smaller, with seams and with
         const Waves waves(seam);
         const VertexView view = *validate_vertices(waves.normals);
         const Words without = storage::store_vertices(view, waves.triangles).value();
-        const Words with = storage::store_vertices(view, waves.triangles, waves.where()).value();
+        const Words with = test::check_stored_by_places(waves.normals, waves.triangles, waves.where());
         CHECK(3 * with.size() < 2 * without.size());
-        const auto restored = [&](const VertexPlaces& places) {
-            return storage::restore_vertices(with, waves.triangles, view.vertices, waves.normals.size(), places);
-        };
-        const auto back = restored(waves.where());
-        REQUIRE_MESSAGE(back, back.error().message);
-        CHECK(*back == waves.normals);
-        test::check_in_c(with, waves.triangles, view, waves.where());
-        Words fewer = waves.positions;
-        fewer.resize(fewer.size() - 3);
-        for (const VertexPlaces& bad : {VertexPlaces{}, VertexPlaces{fewer, waves.vertex_of}}) {
-            const auto failed = restored(bad);
-            CHECK_FALSE(test::attribute_in_c(with, waves.triangles, view.vertices, bad).has_value());
-            REQUIRE_FALSE(failed);
-            CHECK(failed.error().code == ErrorCode::malformed);
-            CHECK(failed.error().message.find("positions") != std::string::npos);
-        }
         // What is stored without a base needs no places, but may be given some.
         CHECK(storage::restore_vertices(without, waves.triangles, view.vertices, 1 << 20, waves.where()));
     }

@@ -138,24 +138,8 @@ TEST_CASE("place prediction: texture coordinates become smaller, with seams and 
         const Sheet sheet(seam);
         const VertexView view = *validate_vertices(sheet.texture);
         const Words without = storage::store_vertices(view, sheet.triangles).value();
-        const Words with = storage::store_vertices(view, sheet.triangles, sheet.where()).value();
+        const Words with = test::check_stored_by_places(sheet.texture, sheet.triangles, sheet.where());
         CHECK(4 * with.size() < 3 * without.size());
-        const auto restored = [&](const VertexPlaces& places) {
-            return storage::restore_vertices(with, sheet.triangles, view.vertices, sheet.texture.size(), places);
-        };
-        const auto back = restored(sheet.where());
-        REQUIRE_MESSAGE(back, back.error().message);
-        CHECK(*back == sheet.texture);
-        test::check_in_c(with, sheet.triangles, view, sheet.where());
-        Words fewer = sheet.positions;
-        fewer.resize(fewer.size() - 3);
-        for (const VertexPlaces& bad : {VertexPlaces{}, VertexPlaces{fewer, sheet.vertex_of}}) {
-            const auto failed = restored(bad);
-            CHECK_FALSE(test::attribute_in_c(with, sheet.triangles, view.vertices, bad).has_value());
-            REQUIRE_FALSE(failed);
-            CHECK(failed.error().code == ErrorCode::malformed);
-            CHECK(failed.error().message.find("positions") != std::string::npos);
-        }
     }
 }
 

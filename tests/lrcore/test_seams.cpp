@@ -14,6 +14,7 @@
 #include "tests/support/cuts.h"
 #include "tests/support/damage.h"
 #include "tests/support/meshes.h"
+#include "tests/support/named_streams.h"
 #include "tests/support/shapes.h"
 
 using namespace lacedring;
@@ -164,24 +165,14 @@ TEST_CASE("seams of flipped, doubled and pinched surfaces come back") {
 
 TEST_CASE("seams of all formats' slots come back, those without a triangle left out") {
     std::uint64_t seed = 1;
-    for (const test::NamedMesh& named : test::named_meshes()) {
-        if (named.mesh.triangle_count() > 1000) continue;
-        CAPTURE(named.name);
-        for (const Format format : {Format::lean, Format::packed, Format::lr, Format::lr_compact}) {
-            CAPTURE(name_of(format));
-            const Result<Encoded> encoded =
-                encode(named.mesh.indices, named.mesh.vertex_count, {.format = format, .effort = 0});
-            if (!encoded) continue;
-            const Result<StreamView> view = validate(encoded->words);
-            REQUIRE_MESSAGE(view, view.error().message);
-            const Words slots = slot_triangles(*view);
-            Words triangles = slots;
-            std::erase(triangles, UINT32_MAX);
-            CHECK(triangles == decode(*view));
-            ++seed;
-            check(cut(slots, view->vertices(), static_cast<std::uint32_t>(seed % kCuts), seed));
-        }
-    }
+    test::for_each_named_stream([&](const StreamView& view) {
+        const Words slots = slot_triangles(view);
+        Words triangles = slots;
+        std::erase(triangles, UINT32_MAX);
+        CHECK(triangles == decode(view));
+        ++seed;
+        check(cut(slots, view.vertices(), static_cast<std::uint32_t>(seed % kCuts), seed));
+    });
     Words none(3000, UINT32_MAX);
     check(cut(none, 0, 0, 0));
     check(cut(none, 10, 0, 0));

@@ -107,6 +107,28 @@ inline void check_damaged_in_c(std::span<const std::uint32_t> stored, std::span<
     if (const Result<VertexView> valid = validate_vertices(*back)) check_in_c(stored, triangles, *valid, places);
 }
 
+/// Stores a vertex stream by its vertices' places, and returns what is stored. It comes back with these alone, in C,
+/// too.
+inline std::vector<std::uint32_t> check_stored_by_places(const std::vector<std::uint32_t>& stream,
+                                                         std::span<const std::uint32_t> triangles,
+                                                         const storage::VertexPlaces& places) {
+    const VertexView view = validate_vertices(stream).value();
+    const std::vector<std::uint32_t> stored = storage::store_vertices(view, triangles, places).value();
+    const auto back = storage::restore_vertices(stored, triangles, view.vertices, stream.size(), places);
+    REQUIRE_MESSAGE(back, back.error().message);
+    CHECK(*back == stream);
+    check_in_c(stored, triangles, view, places);
+    const storage::VertexPlaces fewer{places.positions.first(places.positions.size() - 3), places.vertex_of};
+    for (const storage::VertexPlaces& bad : {storage::VertexPlaces{}, fewer}) {
+        const auto failed = storage::restore_vertices(stored, triangles, view.vertices, stream.size(), bad);
+        CHECK_FALSE(attribute_in_c(stored, triangles, view.vertices, bad).has_value());
+        REQUIRE_FALSE(failed);
+        CHECK(failed.error().code == ErrorCode::malformed);
+        CHECK(failed.error().message.find("positions") != std::string::npos);
+    }
+    return stored;
+}
+
 struct SeamsInC {
     std::vector<std::uint32_t> copies;    ///< of each corner
     std::vector<std::uint32_t> vertices;  ///< of each copy
