@@ -13,15 +13,9 @@
 #include "lacedring/lacedring_stored_seams.h"
 #include "lacedring/vertices.hpp"
 #include "lrcore/codec/storage/vertex_places.h"
+#include "tests/support/exact_copy.h"
 
 namespace lacedring::test {
-
-template <class T>
-std::unique_ptr<T[]> exact_copy(std::span<const T> from) {
-    auto out = std::make_unique<T[]>(from.size());
-    std::copy(from.begin(), from.end(), out.get());
-    return out;
-}
 
 /// The triangles of a stored packed stream; none: it is refused.
 inline std::optional<std::vector<std::uint32_t>> triangles_in_c(std::span<const std::uint32_t> stored,
