@@ -184,8 +184,7 @@ TEST_CASE_FIXTURE(SeamDecode, "damaged seam sections neither hang nor write beyo
         std::vector<std::uint32_t> words =
             encode_seams(surface.triangles, surface.vertices, surface.copies).value().words;
         for (std::uint32_t k = 0; k <= trial % 20; ++k) {
-            words[2 + random.below(static_cast<std::uint32_t>(words.size() - 2))] ^= 1U
-                                                                                            << random.below(32);
+            words[2 + random.below(static_cast<std::uint32_t>(words.size() - 2))] ^= 1U << random.below(32);
         }
         SeamView view;
         view.words = words;

@@ -57,8 +57,7 @@ int main() {
         write(seams->words, triangles, mesh.vertex_count);
         for (std::uint32_t n = 0; n < 3; ++n) {
             Words changed = seams->words;
-            changed[random.below(static_cast<std::uint32_t>(changed.size()))] ^=
-                1U << random.below(32);
+            changed[random.below(static_cast<std::uint32_t>(changed.size()))] ^= 1U << random.below(32);
             changed[1] = crc32(std::as_bytes(std::span(changed).subspan(2)));
             write(changed, triangles, mesh.vertex_count);
         }

@@ -21,9 +21,7 @@ Mesh make_mesh(std::vector<std::uint32_t> indices, std::uint32_t vertex_count) {
     std::vector<float> positions;
     SplitMix64 random(vertex_count);
     for (std::uint32_t v = 0; v < vertex_count; ++v) {
-        const auto unit = [&] {
-            return static_cast<float>(random.below(1U << 24)) * (1.0F / 8388608.0F) - 1.0F;
-        };
+        const auto unit = [&] { return static_cast<float>(random.below(1U << 24)) * (1.0F / 8388608.0F) - 1.0F; };
         const float x = unit();
         const float y = unit();
         positions.insert(positions.end(), {x, y, static_cast<float>(v) / 1024.0F});
