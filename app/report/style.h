@@ -90,7 +90,11 @@ details { margin-top: 8px; } summary { cursor: pointer; color: var(--link); font
   background: linear-gradient(90deg, #3b52ba, #309bdb, #cce3dc, #f6b562, #c0282f); }
 footer { margin-top: 48px; padding-top: 12px; border-top: 2px solid var(--line); }
 .made dt { float: left; clear: left; min-width: 6.5em; } .made dd { margin: 0 0 2px 6.5em; }
-@media (max-width: 1180px) { td.what { white-space: nowrap; } }
+@media (max-width: 1180px) {
+  table { font-size: .8rem; } th, td { padding: 4px; }
+  table.sizes td.left { white-space: normal; min-width: 6.5em; } table.sizes td.what { min-width: 11em; }
+}
+@media (max-width: 800px) { table.sizes td.left { white-space: nowrap; } }
 @media (max-width: 640px) {
   body { padding: 16px 14px 32px; }
   .chart { --name: 9.2rem; --value: 3.3rem; font-size: .8rem; }
