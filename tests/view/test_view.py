@@ -85,13 +85,13 @@ class View(driver.Scripted):
 
     def test_screenshots_are_what_render_draws(self):
         blob = mesh("blob", 3000)
-        views = ["smooth", "flat", "class", "ring", "wire", "offsets", "seams"]
-        script = ["set panels off", "wait optimised", "set passes 0", "wait settled", "drag 200 150 260 170", "scroll 250 140 2", "drag 200 150 190 120 middle", "print"]
+        views = ["smooth", "flat", "class", "ring", "wire", "offsets", "seams", "material", "silhouette"]
+        script = ["set panels off", "set ring-line off", "wait tables", "set passes 0", "wait settled", "drag 200 150 260 170", "scroll 250 140 2", "drag 200 150 190 120 middle", "print"]
         for view in views:
             script += [f"set view {view}", f"screenshot {driver.folder}/{view}.png"]
         camera = self.view("\n".join(script), blob)[0]["camera"].split()
         for view in views:
-            done = run("render", blob, "-o", os.path.join(driver.folder, "r.png"), "--size", "480x320", "--samples", "1",
+            done = run("render", blob, "-o", os.path.join(driver.folder, "r.png"), "--size", "480x320", "--samples", "3",
                        "--view", view, "--seeds", "1", *camera)
             self.assertEqual(done.returncode, 0, done.stderr)
             pixels, largest = png.differences(png.read(f"{driver.folder}/{view}.png"), png.read(f"{driver.folder}/r.png"))
@@ -159,7 +159,7 @@ class View(driver.Scripted):
             print
             drop {bad[0]}
             wait error
-            frames 3
+            screenshot {driver.folder}/notice.png now
             print
             drop {' '.join(bad)}
             frames 40
@@ -170,6 +170,9 @@ class View(driver.Scripted):
             wait optimised
             print""", torus)
         self.assertEqual([state["file"] for state in states[:3]], [torus] * 3)
+        # The notice is in the picture as soon as the error is waited for: red, in the middle, below the legend.
+        red, green, blue = png.read(f"{driver.folder}/notice.png")[2][45][3 * 240:3 * 241]
+        self.assertGreater(red, 2 * max(green, blue))
         self.assertEqual(states[0]["error"], "")
         self.assertIn("bad0.ply: ", states[1]["error"])
         self.assertEqual(len(states[1]["error"].splitlines()), 1)
