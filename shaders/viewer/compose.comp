@@ -71,15 +71,8 @@ vec4 ring_line(uint i, bool right, ivec2 at) {
     uvec3 across = triangles_across(i);
     bool inside = step < push.invaded;  // the flag makes the others larger than any number of triangles
     ivec2 last = imageSize(left_triangles) - 1;
-    uint reach = inside ? push.inner : push.outer;
-    // A triangle is convex: where it is seen on all four sides that far away, it is all there is between.
-    bool alone = reach > 1u;
-    for (int k = 0; alone && k < 4; ++k) {
-        ivec2 to = at + int(reach) * (k < 2 ? ivec2(2 * k - 1, 0) : ivec2(0, 2 * k - 5));
-        alone = (triangle_at(right, clamp(to, ivec2(0), last)) & ~LR_FRONT_FLAG) == i + 1u;
-    }
-    if (alone) return vec4(0.0);
-    for (int d = 1; d <= int(reach); ++d) {
+    // A triangle that ends within reach is not seen at its end, unless another one lies behind: that is asked for nearer.
+    for (int d = int(inside ? push.inner : push.outer); d > 0; d /= 2) {
         for (int k = 0; k < 4; ++k) {
             ivec2 to = clamp(at + d * (k < 2 ? ivec2(2 * k - 1, 0) : ivec2(0, 2 * k - 5)), ivec2(0), last);
             uint other = triangle_at(right, to) & ~LR_FRONT_FLAG;

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The viewer, driven by scripts in a window of Xvfb. Usage: test_view.py LACEDRING"""
 
+import json
 import os
 import random
 import subprocess
@@ -12,6 +13,7 @@ import driver
 import png
 from driver import mesh, run, without_display
 
+ASSETS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "assets")
 WINDOW_LIBRARIES = ("libglfw", "libX11", "libxcb", "libwayland", "libGL.")
 
 
@@ -60,7 +62,6 @@ class View(driver.Scripted):
 
     def test_what_a_script_may_not_say(self):
         """Nothing is ignored, and no number is changed to one that fits."""
-        self.wrong_line("set view silhouette", "set outlines on")
         self.wrong_line("set path mesh", "mesh shaders", before="frames 1\n")  # as long as the device has none
         for line in ("set warts yes", "set samples 4", "set samples 1.5", "set divider 1.1", "set k -5", "set k nan",
                      "set passes 2x", "set colour red", "set view", "set view smooth flat", "wait dinner", "frames", "frames 1e99",
@@ -125,7 +126,7 @@ class View(driver.Scripted):
 
     def test_clicks_hit_what_rays_hit(self):
         random.seed(7)
-        script = ["set panels off", "wait tables", "wait settled"]
+        script = ["set panels off", "set samples 1", "set ring-line off", "wait tables", "wait settled"]
         for _ in range(1000):
             x, y = random.randrange(100, 380), random.randrange(20, 300)
             script += [f"click {x} {y}", f"ray {x} {y}"]
@@ -258,6 +259,75 @@ class View(driver.Scripted):
             print""", mesh("blob", 3000), "--scale", "2", size="1280x800")
         self.assertEqual(states[0]["error"], "")
         self.assertIn("packed", states[0]["formats"])
+
+    def test_the_ring_lies_over_the_surface_from_the_start(self):
+        blob = mesh("blob", 3000)
+        states = self.view(f"""set panels off
+            wait optimised
+            screenshot {driver.folder}/ring-on.png
+            print
+            key e
+            screenshot {driver.folder}/ring-off.png
+            print
+            set view class
+            wait settled
+            print
+            set samples 1
+            wait settled
+            print""", blob)
+        self.assertEqual([state["ring_line"] for state in states], [True, False, False, False])
+        self.assertEqual([state["choices"]["ring-line"] for state in states], ["on", "off", "off", "off"])
+        self.assertEqual([state["samples"] for state in states], [3, 3, 3, 1])
+        on, off = (png.read(f"{driver.folder}/ring-{name}.png") for name in ("on", "off"))
+        self.assertGreater(png.differences(on, off)[0], 3000)
+        darker = sum(sum(a) < sum(b) for a, b in zip(on[2], off[2]))
+        self.assertGreater(darker, 150)  # rows of pixels
+
+    def test_materials_are_seen_at_first(self):
+        globe = os.path.join(ASSETS, "globe.glb")
+        states = self.view(f"wait optimised\nprint\nopen {mesh('torus', 500)}\nwait optimised\nprint\n"
+                           f"set view flat\nopen {globe}\nwait optimised\nprint", globe)
+        self.assertEqual([state["choices"]["view"] for state in states], ["material", "smooth", "flat"])
+
+    def test_counts_are_those_of_info(self):
+        globe = os.path.join(ASSETS, "globe.glb")
+        for path in (globe, mesh("terrain", 400), mesh("genus", 600)):
+            state, = self.view("wait optimised\nprint", path)
+            info = json.loads(run("info", path, "--json").stdout)
+            self.assertEqual([state[name] for name in ("triangles", "components", "borders", "genus")],
+                             [info[name] for name in ("triangles", "components", "border_loops", "genus")])
+            self.assertEqual(state["copies"], info["copies"] if info["seam_edges"] else 0)
+            self.assertGreaterEqual(state["rings"], state["components"])
+
+    def test_welding_reads_the_file_again(self):
+        globe = os.path.join(ASSETS, "globe.glb")
+        states = self.view("""wait optimised
+            print
+            set weld none
+            wait optimised
+            print
+            set weld position
+            wait optimised
+            print""", globe)
+        self.assertGreater(states[0]["copies"], 0)
+        self.assertEqual(states[1]["copies"], 0)
+        self.assertEqual(states[0]["copies"], states[2]["copies"])
+        self.assertEqual(len({state["camera"] for state in states}), 1)
+
+    def test_a_selection_that_its_panel_would_cover_is_moved(self):
+        states = self.view("""wait ready
+            click 640 540
+            frames 12
+            wait settled
+            print
+            key escape
+            click 640 300
+            wait settled
+            print""", mesh("sphere", 600), size="1280x720")
+        legend, box = ({panel["name"]: panel["box"] for panel in states[0]["panels"]}[name] for name in ("legend", "selection"))
+        self.assertLessEqual(legend[1] + legend[3], 60)
+        self.assertGreater(540, box[1])  # it would have been covered
+        self.assertEqual(states[0]["camera"] != states[1]["camera"], False)  # and what is in sight stays where it is
 
     def test_screenshot_option(self):
         name = os.path.join(driver.folder, "option.png")

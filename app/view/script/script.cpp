@@ -257,7 +257,7 @@ Result<bool> Script::minimise(const Words& words, const Stage& stage) {
 }
 
 Result<bool> Script::close(const Words&, const Stage& stage) {
-    return performed(stage.viewer, action::Close{});
+    return performed(stage.viewer, action::Do::close);
 }
 
 Result<bool> Script::set(const Words& words, const Stage& stage) {

@@ -43,7 +43,7 @@ std::string state_text(Viewer& viewer) {
         out["components"] = document.report.components;
         out["borders"] = document.report.border_loops;
         out["genus"] = document.report.genus;
-        out["copies"] = document.mesh->vertex_count - document.table->vertex_count;
+        out["copies"] = document.surface->has_seams() ? document.mesh->vertex_count : 0;
         out["stand_in"] = document.stand_in;
         out["lean_bits"] = document.lean.bits;
         out["packed_bits"] = document.packed.bits;

@@ -45,7 +45,8 @@ struct StreamFigures {
 /// A model that keeps what it points to.
 struct OwningModel : gpu::Model {
     std::shared_ptr<const Mesh> mesh;
-    std::shared_ptr<const Materials> owned_materials;  ///< null: the file has none
+    std::shared_ptr<const Materials> owned_materials;
+    bool has_materials = false;  ///< of the file: it is drawn with them at first
 };
 
 struct Document {

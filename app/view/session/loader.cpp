@@ -98,7 +98,7 @@ class Loader::Job {
   private:
     void work();
     Result<app::LoadedMesh> read();
-    Result<void> make(Document& document, const std::shared_ptr<const Materials>& materials);
+    Result<void> make(Document& document, const std::shared_ptr<const Materials>& materials, bool has_materials);
     Result<void> finish(Document& document, bool quick);
     void show_stand_in(const app::LoadedMesh& loaded);
     void measure_formats(const Document& document);
@@ -339,7 +339,8 @@ Result<void> Loader::Job::finish(Document& document, bool quick) {
 }
 
 /// The corner table and the surface of a mesh, shown with a quick ring.
-Result<void> Loader::Job::make(Document& document, const std::shared_ptr<const Materials>& materials) {
+Result<void> Loader::Job::make(Document& document, const std::shared_ptr<const Materials>& materials,
+                               bool has_materials) {
     say("building the corner table", 0.3);
     const Surface& surface = *document.surface;
     const Mesh joined = surface_mesh(*document.mesh, surface);
@@ -347,8 +348,9 @@ Result<void> Loader::Job::make(Document& document, const std::shared_ptr<const M
     if (stopped()) return {};
     document.table = std::make_shared<const CornerTable>(std::move(table));
     LR_ASSIGN(gpu::Model model, gpu::make_surface(*document.mesh, surface));
-    if (materials) gpu::add_materials(model, *document.mesh, *materials);
-    document.model = std::make_shared<const OwningModel>(OwningModel{std::move(model), document.mesh, materials});
+    gpu::add_materials(model, *document.mesh, *materials);
+    document.model =
+        std::make_shared<const OwningModel>(OwningModel{std::move(model), document.mesh, materials, has_materials});
     if (stopped()) return {};
     return finish(document, true);
 }
@@ -365,7 +367,7 @@ void Loader::Job::show_stand_in(const app::LoadedMesh& loaded) {
     surface->vertex_count = mesh.vertex_count;
     document.mesh = std::make_shared<const Mesh>(std::move(mesh));
     document.surface = std::move(surface);
-    if (!make(document, nullptr)) return;  // the mesh itself will say why
+    if (!make(document, std::make_shared<const Materials>(), false)) return;  // the mesh itself will say why
 }
 
 /// The figures of every format, with the ring recommended for each: once for a mesh, unless another ring was asked for
@@ -405,9 +407,10 @@ void Loader::Job::work() {
         if (stopped()) return;
         document.mesh = std::make_shared<const Mesh>(std::move(read_mesh->mesh));
         document.surface = std::make_shared<const Surface>(std::move(read_mesh->surface));
-        std::shared_ptr<const Materials> materials;
-        if (read_mesh->has_materials()) materials = std::make_shared<const Materials>(std::move(read_mesh->materials));
-        if (const Result<void> made = make(document, materials); !made) return fail(made.error().message);
+        const bool has_materials = read_mesh->has_materials();
+        const auto materials = std::make_shared<const Materials>(std::move(read_mesh->materials));
+        if (const Result<void> made = make(document, materials, has_materials); !made)
+            return fail(made.error().message);
     } else {
         if (!begin_computing()) return;
         document = *request_.document;

@@ -15,6 +15,15 @@ struct Setting;
 
 namespace action {
 
+enum class Do {
+    cancel,  ///< what is being done
+    escape,  ///< closes help, else cancels, else clears selection and errors
+    frame_selection,
+    begin_ring,  ///< at the selected corner
+    copy_camera,
+    reload_shaders,
+    close
+};
 /// Opens the first of the files that can be read.
 struct Open {
     std::vector<std::string> paths;
@@ -24,14 +33,9 @@ struct Set {
     const Setting* setting;
     double value;
 };
-/// Cancels what is being done.
-struct Cancel {};
-/// Closes help, else cancels, else clears selection and errors.
-struct Escape {};
 struct FrameAll {
     gpu::CameraOptions camera;
 };
-struct FrameSelection {};
 struct LookFrom {
     Vector direction;
 };
@@ -53,9 +57,6 @@ struct Pick {
 struct Step {
     char operation;
 };
-/// Begins the ring at the selected corner.
-struct BeginRing {};
-struct CopyCamera {};
 /// Empty: the first free name in the working folder. Likewise below.
 struct SavePicture {
     std::string path;
@@ -67,14 +68,11 @@ struct SaveTurn {
     std::string folder;
     std::uint32_t pictures = 90;
 };
-struct ReloadShaders {};
-struct Close {};
 
 }  // namespace action
 
-using Action = std::variant<action::Open, action::Set, action::Cancel, action::Escape, action::FrameAll,
-                            action::FrameSelection, action::LookFrom, action::Turn, action::Pan, action::Zoom,
-                            action::Pick, action::Step, action::BeginRing, action::CopyCamera, action::SavePicture,
-                            action::SaveTurn, action::ReloadShaders, action::Close>;
+using Action =
+    std::variant<action::Do, action::Open, action::Set, action::FrameAll, action::LookFrom, action::Turn, action::Pan,
+                 action::Zoom, action::Pick, action::Step, action::SavePicture, action::SaveTurn>;
 
 }  // namespace lacedring::view

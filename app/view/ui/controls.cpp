@@ -37,7 +37,7 @@ std::optional<Action> key_action(const Event& event, const Choices& choices, con
     const bool control = (event.modifiers & mod_control) != 0, shift = (event.modifiers & mod_shift) != 0;
     switch (event.code) {
         case key_escape:
-            return action::Escape{};
+            return action::Do::escape;
         case '/':  // with shift: ?
         case key_f1:
         case 'H':
@@ -52,19 +52,19 @@ std::optional<Action> key_action(const Event& event, const Choices& choices, con
             return all;
         }
         case '.':
-            return action::FrameSelection{};
+            return action::Do::frame_selection;
         case 'T':
             if (shift) return action::SaveTurn{};
             return toggle(choices, "turntable");
         case key_f5:
-            return action::ReloadShaders{};
+            return action::Do::reload_shaders;
         case key_f12:
             return action::SavePicture{};
         case 'Q':
-            if (control) return action::Close{};
+            if (control) return action::Do::close;
             return std::nullopt;
         case 'C':
-            if (control) return action::CopyCamera{};
+            if (control) return action::Do::copy_camera;
             return std::nullopt;
         case 'D':
             return toggle(choices, "mode", "difference", "single");
@@ -75,7 +75,7 @@ std::optional<Action> key_action(const Event& event, const Choices& choices, con
         case 'G':
             return set("paint", "growth");
         case 'B':
-            return action::BeginRing{};
+            return action::Do::begin_ring;
         case 'V':
             return cycle(choices, "view", shift);
         case 'N':

@@ -81,27 +81,6 @@ void draw_stream_figures(const State& state) {
     }
 }
 
-/// "1 ring", "3 rings"
-std::string counted(std::uint64_t count, const char* one, const char* many) {
-    return fmt::format("{} {}", grouped(count), count == 1 ? one : many);
-}
-
-void draw_surface(const State& state) {
-    if (!state.facts.document || !state.facts.document->optimised) return;
-    const Document& document = *state.facts.document;
-    const TopologyReport& report = document.report;
-    row("surface",
-        counted(report.components, "component", "components") + ", " +
-            counted(document.rings->count(), "ring", "rings"),
-        "Components: triangles connected through vertices. Each has a ring, or several where it falls into pieces");
-    row("", counted(report.border_loops, "border", "borders") + ", genus " + std::to_string(report.genus),
-        "Borders: loops of edges with one triangle. Genus: handles, summed over the pieces of the surface");
-    if (document.surface->has_seams()) {
-        row("", counted(document.mesh->vertex_count - document.table->vertex_count, "copy", "copies"),
-            "The file's vertices beyond those of the surface: more than one at a position, for seams");
-    }
-}
-
 /// Bars of the last frames, the newest on the right.
 void plot(ImVec2 at, ImVec2 size, const State& state, float FrameCost::*member, float most) {
     constexpr int kFrames = 120;
@@ -242,7 +221,6 @@ void draw_formats(const State& state) {
 
 void draw_numbers(State& state) {
     draw_stream_figures(state);
-    draw_surface(state);
     draw_times(state);
     draw_formats(state);
 }

@@ -2,6 +2,7 @@
 #include "app/view/ui/panels.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -53,31 +54,45 @@ void bar_text(const std::string& text, float x, bool dim = false) {
     }
 }
 
-/// What is open, as much of it as there is room for.
-std::string opened(const State& state, float room) {
-    const Document& document = *state.facts.document;
-    const std::string name = std::filesystem::path(document.path).filename().string();
-    const auto counted = [](std::uint64_t count, const char* one, const char* many) {
-        return fmt::format("   {} {}", grouped(count), count == 1 ? one : many);
-    };
-    const std::string triangles = counted(document.mesh->triangle_count(), "triangle", "triangles");
-    const std::string all =
-        name + triangles + counted(document.table->vertex_count, "vertex", "vertices") +
-        (document.surface->has_seams() ? counted(document.mesh->vertex_count, "copy", "copies") : "");
-    if (document.stand_in != 0) {
-        const std::string said =
-            name + fmt::format("   a coarse stand-in for {} triangles", grouped(document.stand_in));
-        return ImGui::CalcTextSize(said.c_str()).x <= room ? said : elided(said, room);
+std::string counted(std::int64_t count, const char* one, const char* many) {
+    return fmt::format("{} {}", grouped(static_cast<std::uint64_t>(count)), count == 1 ? one : many);
+}
+
+/// What is open, the more important the earlier.
+std::vector<std::string> counts(const Document& document) {
+    if (document.stand_in != 0) return {fmt::format("a coarse stand-in for {} triangles", grouped(document.stand_in))};
+    std::vector<std::string> out{counted(document.mesh->triangle_count(), "triangle", "triangles"),
+                                 counted(document.table->vertex_count, "vertex", "vertices")};
+    if (document.surface->has_seams()) {
+        out.push_back(counted(document.mesh->vertex_count, "copy", "copies"));
     }
-    if (ImGui::CalcTextSize(all.c_str()).x <= room) return all;
+    if (!document.optimised) return out;
+    const TopologyReport& report = document.report;
+    out.push_back(counted(report.components, "component", "components"));
+    out.push_back(counted(static_cast<std::int64_t>(document.rings->count()), "ring", "rings"));
+    out.push_back(counted(report.border_loops, "border", "borders"));
+    out.push_back(fmt::format("genus {}", report.genus));
+    return out;
+}
+
+/// The file's name and as many counts as there is room for.
+std::string opened(const Document& document, float room) {
+    const std::string name = std::filesystem::path(document.path).filename().string();
+    std::string out = name;
+    for (const std::string& count : counts(document)) {
+        std::string longer = out + "   " + count;
+        if (ImGui::CalcTextSize(longer.c_str()).x > room) break;
+        out = std::move(longer);
+    }
+    if (out != name) return out;
+    const std::string triangles = "   " + counts(document)[0];
     const float left = room - ImGui::CalcTextSize(triangles.c_str()).x;
-    if (left > px(120)) return elided(name, left) + triangles;
-    return elided(name, room);
+    return left > px(120) ? elided(name, left) + triangles : elided(name, room);
 }
 
 void draw_progress(State& state, float& right, float window) {
     const Loader::Progress& progress = state.facts.progress;
-    if (!progress.background && bar_button("Cancel", right)) state.ask(action::Cancel{});
+    if (!progress.background && bar_button("Cancel", right)) state.ask(action::Do::cancel);
     const float length = std::clamp(window / 6, px(60), px(200));
     right -= length;
     ImGui::SetCursorPos({right, px(9)});
@@ -118,9 +133,14 @@ void draw_bar(State& state) {
     if (told && (narrow(window.x) || !state.facts.document)) {
         bar_text(elided(state.facts.note, room), left);
     } else if (state.facts.document) {
-        const std::string text = opened(state, told ? room / 2 : room);
+        const Document& document = *state.facts.document;
+        const std::string text = opened(document, told ? room / 2 : room);
         bar_text(text, left);
-        explain(state.facts.document->path.c_str());
+        explain(fmt::format(
+                    "{}\n{}.\nCopies: vertices of the file, where it has several at a place. Borders: loops. Genus: "
+                    "handles",
+                    document.path, fmt::join(counts(document), ", "))
+                    .c_str());
         left += ImGui::CalcTextSize(text.c_str()).x + px(24);
         if (told) bar_text(elided(state.facts.note, right - left - px(kGap)), left);
     } else {

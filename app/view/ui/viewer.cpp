@@ -131,7 +131,7 @@ void Viewer::handle(const Event& in_window) {
         set_window(
             {static_cast<std::uint32_t>(std::max(0.0, event.x)), static_cast<std::uint32_t>(std::max(0.0, event.y))});
     } else if (event.kind == Event::close) {
-        act_on(action::Close{});
+        act_on(action::Do::close);
     } else if (event.kind == Event::drop) {
         if (!event.paths.empty()) act_on(action::Open{event.paths});
     } else {
@@ -142,6 +142,34 @@ void Viewer::handle(const Event& in_window) {
 Result<void> Viewer::perform(const Action& action) {
     quiet_frames_ = 0;
     return std::visit([this](const auto& one) { return on(one); }, action);
+}
+
+Result<void> Viewer::on(action::Do what) {
+    switch (what) {
+        case action::Do::cancel:
+            cancel();
+            break;
+        case action::Do::escape:
+            escape();
+            break;
+        case action::Do::frame_selection:
+            frame_selection();
+            break;
+        case action::Do::begin_ring:
+            begin_ring();
+            break;
+        case action::Do::copy_camera:
+            clipboard_ = orbit_.text();
+            state_.facts.tell("camera copied");
+            break;
+        case action::Do::reload_shaders:
+            shaders_.force(state_.facts);
+            break;
+        case action::Do::close:
+            closing_ = true;
+            break;
+    }
+    return {};
 }
 
 Result<void> Viewer::on(const action::Open& open) {
@@ -174,28 +202,26 @@ Result<void> Viewer::on(const action::Set& set) {
     return {};
 }
 
-Result<void> Viewer::on(const action::Cancel&) {
+void Viewer::cancel() {
     if (turn_.running()) {
         end_turn();
     } else {
         loader_.cancel();
         queue_.clear();
     }
-    return {};
 }
 
-Result<void> Viewer::on(const action::Escape&) {
+void Viewer::escape() {
     const Loader::Progress& progress = state_.facts.progress;
     if (state_.choices.help) {
         state_.choices.help = false;
     } else if (turn_.running() || (progress.busy && !progress.background)) {
-        return on(action::Cancel{});
+        cancel();
     } else {
         state_.facts.selection = {};
         state_.facts.error.clear();
         state_.facts.shaders.error.clear();
     }
-    return {};
 }
 
 Result<void> Viewer::on(const action::FrameAll& all) {
@@ -208,8 +234,8 @@ Result<void> Viewer::on(const action::FrameAll& all) {
     return {};
 }
 
-Result<void> Viewer::on(const action::FrameSelection&) {
-    if (!state_.facts.document || !state_.facts.selection.any()) return {};
+void Viewer::frame_selection() {
+    if (!state_.facts.document || !state_.facts.selection.any()) return;
     const auto [centre, radius] = ball(*state_.facts.document, state_.facts.selection.corner);
     // In the middle of what panels leave of the window.
     const Area& free = state_.facts.free;
@@ -218,7 +244,6 @@ Result<void> Viewer::on(const action::FrameSelection&) {
     orbit_.look_at(centre, radius * std::min(width, height) / seen);
     orbit_.pan((free.left + free.right - width) / 2, (free.top + free.bottom - height) / 2, height, width);
     stale(Freshness::redraw);
-    return {};
 }
 
 Result<void> Viewer::on(const action::LookFrom& from) {
@@ -288,20 +313,13 @@ Result<void> Viewer::on(const action::Step& by) {
     return {};
 }
 
-Result<void> Viewer::on(const action::BeginRing&) {
+void Viewer::begin_ring() {
     const Selection& selection = state_.facts.selection;
     CornerId& start = state_.choices.ring.start;
     state_.facts.tell(selection.any()   ? "the ring begins at the selected corner"
                       : start.is_null() ? "click a triangle first"
                                         : "the ring begins at the first triangle");
     start = selection.corner;
-    return {};
-}
-
-Result<void> Viewer::on(const action::CopyCamera&) {
-    clipboard_ = orbit_.text();
-    state_.facts.tell("camera copied");
-    return {};
 }
 
 Result<void> Viewer::on(const action::SavePicture& save) {
@@ -318,16 +336,6 @@ Result<void> Viewer::on(const action::SaveTurn& save) {
     if (turn_.running()) return {};
     if (!state_.facts.document) return Error{ErrorCode::invalid_argument, "no mesh"};
     return turn_.start(save.folder.empty() ? free_name("turntable", "") : save.folder, save.pictures, orbit_);
-}
-
-Result<void> Viewer::on(const action::ReloadShaders&) {
-    shaders_.force(state_.facts);
-    return {};
-}
-
-Result<void> Viewer::on(const action::Close&) {
-    closing_ = true;
-    return {};
 }
 
 // News of threads.
@@ -374,7 +382,7 @@ void Viewer::take_document() {
     const bool other = !facts.document || facts.document->mesh != news_.document->mesh;
     const std::shared_ptr<const OwningModel>& model = news_.document->model;
     Shown picture = shown(Quality::rough, *model);
-    if (other && !choices.view_chosen) picture.view = model->owned_materials ? gpu::View::material : gpu::View::smooth;
+    if (other && !choices.view_chosen) picture.view = model->has_materials ? gpu::View::material : gpu::View::smooth;
     const Result<bool> there = scene_.adopt(model, picture);
     if (there && !*there) return;
     const std::shared_ptr<const Document> document = std::exchange(news_.document, nullptr);

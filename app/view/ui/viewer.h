@@ -93,24 +93,18 @@ class Viewer {
           loader_(threads, options.wake),
           paint_(threads) {}
 
+    Result<void> on(action::Do what);
     Result<void> on(const action::Open& open);
     Result<void> on(const action::Set& set);
-    Result<void> on(const action::Cancel&);
-    Result<void> on(const action::Escape&);
     Result<void> on(const action::FrameAll& all);
-    Result<void> on(const action::FrameSelection&);
     Result<void> on(const action::LookFrom& from);
     Result<void> on(const action::Turn& turn);
     Result<void> on(const action::Pan& pan);
     Result<void> on(const action::Zoom& zoom);
     Result<void> on(const action::Pick& pick);
     Result<void> on(const action::Step& step);
-    Result<void> on(const action::BeginRing&);
-    Result<void> on(const action::CopyCamera&);
     Result<void> on(const action::SavePicture& save);
     Result<void> on(const action::SaveTurn& save);
-    Result<void> on(const action::ReloadShaders&);
-    Result<void> on(const action::Close&);
 
     bool news() const { return loader_.has_news() || news_.document || shaders_.has_news(); }
     bool animated() const;
@@ -129,6 +123,10 @@ class Viewer {
 
     Result<void> resize();
     void set_window(VkExtent2D window);
+    void cancel();
+    void escape();
+    void frame_selection();
+    void begin_ring();
     void open_next();
     void take_news();
     void take_document();
