@@ -518,12 +518,9 @@ void Viewer::keep_selection_in_sight() {
     const Facts& facts = state_.facts;
     if (!facts.document || !facts.selection.any()) return;
     const auto at = orbit_.project(place_of(*facts.document, facts.selection.corner), extent_.height, extent_.width);
-    const double margin = static_cast<double>(px(20));
     const Area& free = facts.free;
-    if (!at || ((*at)[0] > free.left + margin && (*at)[0] < free.right - margin && (*at)[1] > free.top + margin &&
-                (*at)[1] < free.bottom - margin)) {
+    if (!at || ((*at)[0] >= free.left && (*at)[0] < free.right && (*at)[1] >= free.top && (*at)[1] < free.bottom))
         return;
-    }
     orbit_.pan((free.left + free.right) / 2 - (*at)[0], (free.top + free.bottom) / 2 - (*at)[1], extent_.height,
                extent_.width);
     stale(Freshness::redraw);
