@@ -73,7 +73,7 @@ class Reload(driver.Scripted):
             self.shot("notice") + " now", "print", "key escape", "frames 3", self.shot("closed"), "print",
             self.edited("draw/line.frag", "void main", "void mine"), "print",
             self.mended("draw/surface.frag"), self.mended("draw/line.frag"), self.shot("after"), "print")
-        self.assertRegex(broken["error"], r"^shaders/surface\.frag:71: ")  # where the next statement begins
+        self.assertRegex(broken["error"], r"^shaders/draw/surface\.frag:71: ")  # where the next statement begins
         self.assertEqual((broken["replaced"], broken["reloads"]), (0, 0))
         self.assertEqual(closed["error"], "")
         # One notice of all that is wrong, at the top of the window; the picture under it is as it was.
@@ -97,7 +97,7 @@ class Reload(driver.Scripted):
         self.assertLess(including, 10)
         self.assertEqual((moved["reloads"], moved["error"]), (1, ""))
         self.assertGreater(self.differences("before", "other")[0], 1000)
-        self.assertIn("shaders/draw/surface_vertex.glsl:30: ", wrong["error"])
+        self.assertIn("shaders/draw/surface_vertex.glsl:33: ", wrong["error"])
         self.assertEqual(wrong["reloads"], 1)
 
     def test_another_interface_is_refused(self):
