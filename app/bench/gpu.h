@@ -1,4 +1,7 @@
 #pragma once
+// What a device takes to decode and to draw, for bench.
+
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -8,11 +11,14 @@
 #include "app/cli/input.h"
 #include "lacedring/base.hpp"
 #include "lacedring/vertices.hpp"
-#include "renderer/vk/context.h"
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace lacedring::app {
 
-/// A way of drawing, beside its times: see gpu::Way.
+/// A way of drawing, beside its times: see Way.
 struct DrawCost {
     std::uint64_t connectivity_bytes = 0;
     std::uint64_t bytes_read = 0;
@@ -22,15 +28,31 @@ struct DrawCost {
 struct GpuFigures {
     std::string device;
     std::vector<Candidate> decode;  ///< the streams' names, "vertices", "copy": wall and GPU seconds
-    std::vector<Candidate> draw;    ///< gpu::Way's names, and "lean_decode_every_frame", "packed_decode_every_frame"
+    std::vector<Candidate> draw;    ///< Way's names, and "lean_decode_every_frame", "packed_decode_every_frame"
     std::vector<DrawCost> cost;     ///< of each of `draw`
     std::uint64_t device_bytes = 0;
     std::vector<std::pair<std::string, std::string>> absent;  ///< name of a missing way, reason
     std::size_t validation_messages = 0;                      ///< printed on standard error
 };
 
-/// With the streams that the program recommends, optimised. Errors: kNoDevice, and those of the renderer.
-Result<GpuFigures> measure_gpu(const LoadedMesh& mesh, const VertexOptions& vertices,
-                               const gpu::ContextOptions& options, int rounds);
+/// The device, as the command line asks for it. A program that was built without Vulkan (no_gpu.cpp) has none, nor
+/// options for it.
+class GpuBench {
+  public:
+    GpuBench();
+    ~GpuBench();
+
+    /// --no-gpu, and those of a device.
+    void add_options(CLI::App& command);
+
+    /// With the streams that the program recommends, optimised. Nothing where there shall or can be no device: then
+    /// `skipped` says why. Errors: those of the renderer, and of a device that was asked for.
+    Result<std::optional<GpuFigures>> measure(const LoadedMesh& mesh, const VertexOptions& vertices, int rounds,
+                                              std::string& skipped) const;
+
+  private:
+    struct Options;
+    std::unique_ptr<Options> options_;
+};
 
 }  // namespace lacedring::app

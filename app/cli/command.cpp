@@ -93,7 +93,7 @@ OptimizeOptions optimize_options(const RingChoice& choice, const RingCost& cost)
     } else if (!choice.ring.empty() || choice.k != "auto") {
         options.passes = 0;
     }
-    options.threads = std::max(std::thread::hardware_concurrency(), 1U);
+    options.threads = thread_count(choice.threads);
     options.progress = progress_bar("optimising the ring", options.passes);
     return options;
 }
@@ -127,9 +127,25 @@ void add_position_bits(CLI::App& command, std::uint32_t& bits) {
     add_bits(command, "--positions", bits, 1, 22, "quantize positions: bits along the largest extent");
 }
 
-VertexOptions position_options(std::uint32_t bits) {
+void add_threads(CLI::App& command, const std::vector<std::uint32_t*>& asked) {
+    command
+        .add_option_function<std::uint32_t>(
+            "--threads",
+            [asked](std::uint32_t threads) {
+                for (std::uint32_t* one : asked) *one = threads;
+            },
+            "run on at most so many threads; unless told on all of the machine. The result is the same for any")
+        ->check(CLI::Range(1, 1024))
+        ->type_name("N");
+}
+
+unsigned thread_count(std::uint32_t asked) {
+    return asked != 0 ? asked : std::max(std::thread::hardware_concurrency(), 1U);
+}
+
+VertexOptions position_options(std::uint32_t bits, std::uint32_t threads) {
     VertexOptions options;
-    options.threads = std::max(std::thread::hardware_concurrency(), 1U);
+    options.threads = thread_count(threads);
     if (bits == 0) return options;
     options.mapping = VertexMapping::lattice;
     options.bits = bits;

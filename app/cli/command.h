@@ -5,6 +5,7 @@
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "app/cli/input.h"
 #include "app/cli/print.h"
@@ -33,6 +34,7 @@ struct RingChoice {
     std::uint32_t seeds = 0;  ///< 0: recommended_seeds
     std::uint64_t random_seed = 1;
     std::uint32_t effort = EncodeOptions{}.effort;  ///< what is not said below is decided by it (encode)
+    std::uint32_t threads = 0;                      ///< at most; 0: all of the machine
     std::string optimize = "auto";  ///< passes of the optimiser: a number, or as many as optimize_rings recommends
 };
 /// Refuses a number with a minus sign, which CLI11 would take for one near 2^64.
@@ -55,8 +57,13 @@ OptimizeOptions optimize_options(const RingChoice& choice, const RingCost& cost)
 void add_bits(CLI::App& command, const char* name, std::uint32_t& bits, std::uint32_t least, std::uint32_t most,
               const char* what);
 void add_position_bits(CLI::App& command, std::uint32_t& bits);
-/// Lossless for 0 bits. On all hardware threads.
-VertexOptions position_options(std::uint32_t bits);
+/// Lossless for 0 bits. `threads`: as asked for.
+VertexOptions position_options(std::uint32_t bits, std::uint32_t threads = 0);
+
+/// --threads, for all of these: threads at most, 0 for all of the machine.
+void add_threads(CLI::App& command, const std::vector<std::uint32_t*>& asked);
+/// The threads to run on where so many were asked for.
+unsigned thread_count(std::uint32_t asked);
 
 /// Calls work(i), which returns an Exit, for each input, and says each one's notes behind it. One bad input does not
 /// keep the others from their results. Returns the first exit code that is not done.

@@ -4,9 +4,9 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <thread>
 #include <utility>
 
+#include "app/cli/command.h"
 #include "lacedring/file.hpp"
 #include "lacedring/mesh_files.hpp"
 
@@ -53,7 +53,7 @@ Result<LoadedMesh> read(const MeshInput& input, RunLog& log, PrimitiveList* list
     if (is_lr(*bytes) && options.format.empty()) {
         Result<LrContents> contents = list_lr(*bytes);
         if (!contents) return contents.error();
-        const Result<LrFile> file = parse_lr(*bytes, options.max_memory << 20, std::thread::hardware_concurrency());
+        const Result<LrFile> file = parse_lr(*bytes, options.max_memory << 20, thread_count(options.threads));
         if (!file) return file.error();
         Surface surface;
         Result<Mesh> mesh = decode_lr(*file, &surface);

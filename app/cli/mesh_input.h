@@ -18,6 +18,7 @@ struct InputOptions {
     std::uint64_t max_memory = 0;  ///< MiB; 0: by the file's size (ReadOptions)
     /// Bytes that the command takes for each triangle at its peak, the mesh aside (docs/reliability.md).
     std::uint32_t triangle_bytes = 0;
+    std::uint32_t threads = 0;  ///< that restore what is in storage form, at most; 0: all of the machine
 };
 
 /// One mesh. The path "-" is standard input.

@@ -4,13 +4,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 
-#include "app/bench/measure.h"
+#include "app/bench/candidates.h"
+#include "app/bench/gpu.h"
 #include "app/bench/operators.h"
 #include "app/bench/resident.h"
 #include "app/bench/section.h"
@@ -19,19 +19,6 @@
 #include "app/cli/option_rules.h"
 #include "app/cli/progress.h"
 #include "app/commands/commands.h"
-#include "lacedring/lacedring.hpp"
-#include "lacedring/ring.hpp"
-#include "lacedring/streams.hpp"
-#include "lacedring/topology.hpp"
-#include "lrlab/rivals/codecs.h"
-#include "lrlab/rivals/limit.h"
-#include "lrlab/rivals/squad.h"
-#include "lrlab/rivals/strips.h"
-#ifdef LACEDRING_GPU
-#include "app/bench/gpu.h"
-#include "app/cli/gpu_options.h"
-#include "renderer/vk/device_error.h"
-#endif
 
 namespace lacedring::app {
 namespace {
@@ -44,26 +31,145 @@ struct BenchOptions {
     int rounds = 5;
     std::uint32_t seeds = 1;
     std::uint32_t positions = kBenchPositions;  ///< bits
-    bool no_gpu = false;
     bool operators = false;
     bool resident = false;
     ResidentOptions limits;
-#ifdef LACEDRING_GPU
-    gpu::ContextOptions context;
-#endif
+    GpuBench gpu;
     bool json = false;
 };
 
-constexpr std::uint32_t kHybridPeriod = 32;  // of Figure 8's middle picture
+/// All that was measured of one mesh.
+struct Figures {
+    std::string path;
+    Counts counts;
+    std::size_t triangles = 0;
+    Section construct, decode, unpack, restore, decode_gpu{"decode_gpu (wall)", {}};
+    std::vector<OperatorFigures> operators;
+    std::optional<ResidentFigures> resident;
+    std::optional<GpuFigures> gpu;
+    std::string gpu_skipped;  ///< why there are none of the device
+    Json peak = Json::object(), absent = Json::object();
 
-#ifdef LACEDRING_GPU
-void add_costs(Json& draw, const GpuFigures& figures) {
-    for (std::size_t i = 0; i < figures.draw.size(); ++i) {
-        Json& entry = draw[figures.draw[i].name];
-        entry["connectivity_bytes"] = figures.cost[i].connectivity_bytes;
-        entry["connectivity_bytes_read"] = figures.cost[i].bytes_read;
-        if (figures.cost[i].vertex_invocations) entry["vertex_invocations"] = *figures.cost[i].vertex_invocations;
+    // How the first of two compares with the second.
+    Json construct_ratio() const { return construct.ratio("strips", "lean"); }
+    Json decode_cpu_ratio() const { return decode.ratio("meshopt_vertex_codec", "vertices"); }
+    Json unpack_ratio() const { return unpack.ratio("draco", "lacedring"); }
+    Json restore_ratio() const { return restore.ratio("draco", "lacedring"); }
+    Json decode_gpu_ratio() const { return decode_gpu.ratio("packed_vertices", "packed"); }
+};
+
+/// Structures that disagree on a result are a check that failed, and no wrong usage.
+int failed(const std::string& path, const Error& error) {
+    const int code = fail(path, error);
+    return error.code == ErrorCode::invalid_argument ? static_cast<int>(check_failed) : code;
+}
+
+/// Measures the candidates, with a progress bar, and notes which are absent.
+Section measured(const char* name, Candidates candidates, int rounds, Json& absent) {
+    for (const auto& [what, reason] : candidates.absent) absent[what] = reason;
+    Section out{name, std::move(candidates.list)};
+    measure(out, rounds);
+    return out;
+}
+
+/// Peak memory of those that are there.
+Json peaks(const Section& construct) {
+    Json out = Json::object();
+    ProgressBar bar("peak memory", 3);
+    for (const char* name : {"lean", "packed", "strips"}) {
+        const auto at = std::ranges::find(construct.candidates, name, &Candidate::name);
+        if (at != construct.candidates.end()) out[name] = peak_bytes(at->work);
+        bar.step();
     }
+    return out;
+}
+
+Result<Figures> measure_cpu(const BenchOptions& options, const std::string& path, const Subject& subject) {
+    const Mesh& mesh = subject.mesh;
+    Figures out;
+    out.path = path;
+    out.triangles = mesh.triangle_count();
+    out.counts = {static_cast<double>(out.triangles), static_cast<double>(mesh.vertex_count)};
+    out.construct = measured("construct", construction(subject), options.rounds, out.absent);
+    const VertexOptions positions = position_options(options.positions);
+    Result<Candidates> decoders = decoding(subject, positions);
+    if (!decoders) return decoders.error();
+    out.decode = measured("decode_cpu", std::move(*decoders), options.rounds * 3, out.absent);
+    out.unpack =
+        measure_unpacking("unpack", unpack_candidates(subject.loaded.mesh), options.rounds * 3, out.absent, "");
+    out.restore = measure_unpacking(
+        "restore",
+        restore_candidates(mesh, as_encoded(EncodedPacked(subject.packed)), {.positions = options.positions}),
+        options.rounds * 3, out.absent, "_restore");
+    if (options.operators) {
+        Result<OperatorBench> operators = measure_operators(mesh, subject.table, options.rounds);
+        if (!operators) return operators.error();
+        out.operators = std::move(operators->structures);
+        for (const auto& [name, reason] : operators->absent) out.absent[name + "_operators"] = reason;
+    }
+    if (options.resident) {
+        ResidentOptions limits = options.limits;
+        limits.rounds = options.rounds;
+        Result<ResidentFigures> resident = measure_resident(mesh, subject.table, limits);
+        if (!resident) return resident.error();
+        out.resident = std::move(*resident);
+    }
+    return out;
+}
+
+/// Adds what the device takes, if there is one.
+Result<void> add_device(const BenchOptions& options, const Subject& subject, Figures& out) {
+    Result<std::optional<GpuFigures>> gpu =
+        options.gpu.measure(subject.loaded, position_options(options.positions), options.rounds, out.gpu_skipped);
+    if (!gpu) return gpu.error();
+    out.gpu = std::move(*gpu);
+    if (!out.gpu) return {};
+    out.decode_gpu.candidates = out.gpu->decode;
+    out.peak["gpu"] = out.gpu->device_bytes;
+    for (const auto& [name, reason] : out.gpu->absent) out.absent[name] = reason;
+    return {};
+}
+
+Json draw_to_json(const Figures& figures) {
+    if (!figures.gpu) return Json::object();
+    Json draw = to_json({"", figures.gpu->draw}, figures.counts);
+    for (std::size_t i = 0; i < figures.gpu->draw.size(); ++i) {
+        const DrawCost& cost = figures.gpu->cost[i];
+        Json& entry = draw[figures.gpu->draw[i].name];
+        entry["connectivity_bytes"] = cost.connectivity_bytes;
+        entry["connectivity_bytes_read"] = cost.bytes_read;
+        if (cost.vertex_invocations) entry["vertex_invocations"] = *cost.vertex_invocations;
+    }
+    return draw;
+}
+
+Json figures_json(const BenchOptions& options, const Figures& figures) {
+    Json operators = Json::object();
+    for (const OperatorFigures& structure : figures.operators) {
+        Json& entry = operators[structure.structure];
+        for (const auto& row : structure.rows) entry[row.name] = {{"ns_per_op", row.ns_per_op()}};
+    }
+    const auto section = [&](const Section& s) { return to_json(s, figures.counts); };
+    return {{"file", figures.path},
+            {"triangles", figures.triangles},
+            {"construct", section(figures.construct)},
+            {"construct_ratio", figures.construct_ratio()},
+            {"position_bits", options.positions},
+            {"decode_cpu", section(figures.decode)},
+            {"decode_cpu_ratio", figures.decode_cpu_ratio()},
+            {"unpack", section(figures.unpack)},
+            {"unpack_ratio", figures.unpack_ratio()},
+            {"restore", section(figures.restore)},
+            {"restore_ratio", figures.restore_ratio()},
+            {"decode_gpu", section(figures.decode_gpu)},
+            {"decode_gpu_ratio", figures.decode_gpu_ratio()},
+            {"draw", draw_to_json(figures)},
+            {"device", figures.gpu ? figures.gpu->device : ""},
+            {"gpu_skipped", figures.gpu_skipped},
+            {"absent", figures.absent},
+            {"operators", operators},
+            {"resident", figures.resident ? to_json(*figures.resident) : Json::object()},
+            {"peak_bytes", figures.peak}};
 }
 
 void print_draw(const GpuFigures& figures, double triangles) {
@@ -83,261 +189,76 @@ void print_draw(const GpuFigures& figures, double triangles) {
     }
     print("    resident, read: bytes of connectivity a triangle; VS runs: vertex shader runs a triangle\n");
 }
-#endif
-
-/// Structures that disagree on a result are a check that failed, and no wrong usage.
-int failed(const std::string& path, const Error& error) {
-    const int code = fail(path, error);
-    return error.code == ErrorCode::invalid_argument ? static_cast<int>(check_failed) : code;
-}
-
-/// One mesh: its figures printed, or put into `meshes`. Returns an Exit.
-int bench(const BenchOptions& options, const std::string& path, Json& meshes, [[maybe_unused]] std::size_t& messages,
-          RunLog& log) {
-    const Result<LoadedMesh> loaded = load_file({path, options.input}, log);
-    if (!loaded) return fail(path, loaded.error());
-    // Connectivity is the surface's, the rivals' too; what is drawn has its copies.
-    const Mesh joined = surface_mesh(loaded->mesh, loaded->surface);
-    const Mesh* mesh = &joined;
-    const auto build = [&] { return build_corner_table(mesh->indices, mesh->vertex_count); };
-    const Result<CornerTable> table = build();
-    if (!table) return fail(path, table.error());
-    const auto triangles = static_cast<double>(mesh->triangle_count());
-    const Counts counts{triangles, static_cast<double>(mesh->vertex_count)};
-    const RingOptions ring_choice{options.seeds, 1};
-    const Rings rings = expand_rings(*table, ring_choice);
-    const Result<EncodedLean> lean = encode_lean(*table, rings);
-    if (!lean) return fail(path, lean.error());
-    const Result<LeanView> view = view_lean(lean->words);
-    if (!view) return fail(path, view.error());
-
-    Section construct{"construct", {}};
-    construct.candidates.push_back({"corner_table", [&] { (void)build(); }, {}, {}});
-    construct.candidates.push_back({"ring", [&] { expand_rings(*table, ring_choice); }, {}, {}});
-    construct.candidates.push_back({"lean_encode", [&] { (void)encode_lean(*table, rings); }, {}, {}});
-    const auto whole = [&] {
-        const Result<CornerTable> t = build();
-        (void)encode_lean(*t, expand_rings(*t, ring_choice));
-    };
-    construct.candidates.push_back({"lean", whole, {}, {}});
-    Json absent = Json::object();
-    const auto strips = [&] { (void)make_restart_strip(mesh->indices, mesh->vertex_count); };
-    const Result<void> orders = check_valences(mesh->indices, mesh->vertex_count);
-    if (orders) {
-        construct.candidates.push_back({"strips", strips, {}, {}});
-    } else {
-        absent["strips"] = orders.error().message;
-    }
-    // From a corner table of a pseudo-manifold to the tables, ring included.
-    CornerTable split = *table;
-    split_fans(split);
-    const auto make_lr = [&](std::uint32_t k) {
-        return build_lr(split, expand_rings(split, {options.seeds, 1, k, true}));
-    };
-    const auto hybrid = [&] { expand_rings(*table, {options.seeds, 1, kHybridPeriod}); };
-    const auto compact = [&] {
-        if (const auto lr = make_lr(kHybridPeriod)) (void)build_compact_lr(lr->view());
-    };
-    construct.candidates.push_back({"ring_hybrid", hybrid, {}, {}});
-    construct.candidates.push_back({"lr", [&] { (void)make_lr(0); }, {}, {}});
-    construct.candidates.push_back({"lr_compact", compact, {}, {}});
-    construct.candidates.push_back({"squad", [&] { (void)build_squad(split); }, {}, {}});
-    // The optimiser alone, at its default, and from index list to packed stream with it.
-    const OptimizeOptions optimize{.cost = kPackedRingCost};
-    const auto whole_packed = [&] {
-        const Result<CornerTable> t = build();
-        (void)encode_packed(*t, optimize_rings(*t, expand_rings(*t, ring_choice), optimize));
-    };
-    construct.candidates.push_back({"optimize", [&] { (void)optimize_rings(*table, rings, optimize); }, {}, {}});
-    construct.candidates.push_back({"packed_encode", [&] { (void)encode_packed(*table, rings); }, {}, {}});
-    construct.candidates.push_back(
-        {"packed_cache_encode", [&] { (void)encode_packed(*table, rings, PackedProfile::cache); }, {}, {}});
-    construct.candidates.push_back({"packed", whole_packed, {}, {}});
-    measure(construct, options.rounds);
-
-    Section decode{"decode_cpu", {}};
-    std::vector<std::uint32_t> indices(std::size_t{3} * view->slots()), copy(indices.size());
-    decode.candidates.push_back({"lean", [&] { decode_lean(*view, indices); }, {}, {}});
-    decode.candidates.push_back({"copy", [&] { std::copy(indices.begin(), indices.end(), copy.begin()); }, {}, {}});
-    const Rings optimised = optimize_rings(*table, rings, optimize);
-    const Result<EncodedPacked> small = encode_packed(*table, optimised),
-                                cache = encode_packed(*table, optimised, PackedProfile::cache);
-    if (!small || !cache) return fail(path, small ? cache.error() : small.error());
-    const Result<PackedView> packed = view_packed(small->words), packed_cache = view_packed(cache->words);
-    if (!packed || !packed_cache) return fail(path, packed ? packed_cache.error() : packed.error());
-    std::vector<std::uint32_t> unpacked(std::size_t{3} * packed->triangles), decoded(unpacked.size());
-    std::vector<std::uint32_t> proper;  // the rival takes no degenerate triangles
-    for (const std::uint32_t t : small->triangle_order) {
-        for (std::size_t k = 0; k < 3; ++k) proper.push_back(mesh->indices[std::size_t{3} * t + k]);
-    }
-    const Result<CodedIndices> codec = encode_meshopt_indices(proper, mesh->vertex_count);
-    decode.candidates.push_back({"packed", [&] { decode_packed(*packed, unpacked); }, {}, {}});
-    decode.candidates.push_back({"packed_2_threads", [&] { decode_packed(*packed, unpacked, 2); }, {}, {}});
-    decode.candidates.push_back({"packed_cache", [&] { decode_packed(*packed_cache, unpacked); }, {}, {}});
-    if (codec) {
-        decode.candidates.push_back(
-            {"meshopt_index_codec", [&] { (void)decode_meshopt_indices(codec->bytes, decoded); }, {}, {}});
-    } else {
-        absent["meshopt_index_codec"] = codec.error().message;
-    }
-    const VertexOptions positions = position_options(options.positions);
-    Result<VertexBench> vertices =
-        vertex_candidates(*mesh, positions, small->vertex_order,
-                          codec ? std::span<const std::uint32_t>(codec->order) : std::span<const std::uint32_t>());
-    if (!vertices) return failed(path, vertices.error());
-    for (const auto& [name, reason] : vertices->absent) absent[name] = reason;
-    std::ranges::move(vertices->candidates, std::back_inserter(decode.candidates));
-    EncodedSeams seams;
-    Result<SeamView> seam_view = SeamView{};
-    if (loaded->surface.has_seams()) {
-        Result<EncodedSeams> encoded =
-            encode_seams(as_encoded(EncodedPacked(*small)), loaded->mesh.indices, loaded->surface.vertex_of);
-        if (!encoded) return failed(path, encoded.error());
-        seams = std::move(*encoded);
-        seam_view = view_seams(seams.words, packed->triangles, packed->vertices);
-        if (!seam_view) return failed(path, seam_view.error());
-        decode.candidates.push_back({"packed_seams",
-                                     [&] {
-                                         decode_packed(*packed, unpacked);
-                                         decode_seams(*seam_view, unpacked, decoded);
-                                     },
-                                     {},
-                                     {}});
-    }
-    measure(decode, options.rounds * 3);
-
-    const Section unpack = measure_unpacking("unpack", unpack_candidates(loaded->mesh), options.rounds * 3, absent, "");
-    const Section restore = measure_unpacking(
-        "restore", restore_candidates(*mesh, as_encoded(EncodedPacked(*small)), {.positions = options.positions}),
-        options.rounds * 3, absent, "_restore");
-
-    std::vector<OperatorFigures> operators;
-    Json operators_json = Json::object();
-    if (options.operators) {
-        Result<OperatorBench> measured = measure_operators(*mesh, *table, options.rounds);
-        if (!measured) return failed(path, measured.error());
-        operators = std::move(measured->structures);
-        for (const auto& [name, reason] : measured->absent) absent[name + "_operators"] = reason;
-        for (const OperatorFigures& structure : operators) {
-            Json& entry = operators_json[structure.structure];
-            for (const auto& row : structure.rows) entry[row.name] = {{"ns_per_op", row.ns_per_op()}};
-        }
-    }
-
-    std::optional<ResidentFigures> resident;
-    if (options.resident) {
-        ResidentOptions limits = options.limits;
-        limits.rounds = options.rounds;
-        Result<ResidentFigures> measured = measure_resident(*mesh, *table, limits);
-        if (!measured) return failed(path, measured.error());
-        resident = std::move(*measured);
-    }
-
-    Section decode_gpu{"decode_gpu (wall)", {}};
-    Json draw = Json::object();
-    std::string device, gpu_skipped = "built without Vulkan";
-    Json peak = Json::object();
-#ifdef LACEDRING_GPU
-    Result<GpuFigures> gpu = Error{gpu::kNoDevice, ""};
-    if (options.no_gpu) {
-        gpu_skipped = "--no-gpu";
-    } else if (gpu = measure_gpu(*loaded, positions, options.context, options.rounds); gpu) {
-        gpu_skipped.clear();
-        device = gpu->device;
-        decode_gpu.candidates = gpu->decode;
-        draw = to_json({"", gpu->draw}, counts);
-        add_costs(draw, *gpu);
-        peak["gpu"] = gpu->device_bytes;
-        for (const auto& [name, reason] : gpu->absent) absent[name] = reason;
-        messages += gpu->validation_messages;
-    } else if (gpu.error().code == gpu::kNoDevice && !asks_for_device(options.context)) {
-        gpu_skipped = gpu.error().message;
-    } else {
-        return fail(path, gpu.error());
-    }
-#endif
-    {
-        ProgressBar bar("peak memory", 3);
-        const auto add_peak = [&](const char* name, const std::function<void()>& work) {
-            peak[name] = peak_bytes(work);
-            bar.step();
-        };
-        add_peak("lean", whole);
-        add_peak("packed", whole_packed);
-        if (orders) add_peak("strips", strips);
-    }
-    const Json construct_ratio = construct.ratio("strips", "lean"),
-               decode_cpu_ratio = decode.ratio("meshopt_vertex_codec", "vertices"),
-               unpack_ratio = unpack.ratio("draco", "lacedring"), restore_ratio = restore.ratio("draco", "lacedring"),
-               arrays_ratio = restore.ratio("draco", "lacedring_arrays"),
-               decode_gpu_ratio = decode_gpu.ratio("packed_vertices", "packed");
-    if (options.json) {
-        meshes.push_back({{"file", path},
-                          {"triangles", mesh->triangle_count()},
-                          {"construct", to_json(construct, counts)},
-                          {"construct_ratio", construct_ratio},
-                          {"position_bits", options.positions},
-                          {"decode_cpu", to_json(decode, counts)},
-                          {"decode_cpu_ratio", decode_cpu_ratio},
-                          {"unpack", to_json(unpack, counts)},
-                          {"unpack_ratio", unpack_ratio},
-                          {"restore", to_json(restore, counts)},
-                          {"restore_ratio", restore_ratio},
-                          {"decode_gpu", to_json(decode_gpu, counts)},
-                          {"decode_gpu_ratio", decode_gpu_ratio},
-                          {"draw", draw},
-                          {"device", device},
-                          {"gpu_skipped", gpu_skipped},
-                          {"absent", absent},
-                          {"operators", operators_json},
-                          {"resident", resident ? to_json(*resident) : Json::object()},
-                          {"peak_bytes", peak}});
-        return done;
-    }
-    print("{}: {} triangles; medians of {} rounds\n", path, mesh->triangle_count(), options.rounds);
-    for (const Section& section : {construct, decode, unpack, restore, decode_gpu}) {
-        if (section.candidates.empty()) continue;
-        print("  {}\n", section.name);
-        for (const Candidate& c : section.candidates) {
-            const double million = 1e6 * c.median();
-            print("    {:<24}{:>11.3f} ms{:>10.1f} {}\n", c.name, c.median() * 1e3,
-                  (c.vertices ? counts.vertices : triangles) / million, c.vertices ? "Mvert/s" : "Mtri/s");
-        }
-    }
-#ifdef LACEDRING_GPU
-    if (gpu) print_draw(*gpu, triangles);
-#endif
-    print("  {}\n", gpu_skipped.empty() ? "drawn at 1280x720 on " + device : "not drawn: " + gpu_skipped);
-    if (!operators.empty()) {
-        print("  operators, ns each{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "refs/tri", "c.v", "c.o, c.s", "valence",
-              "normal", "contour");
-    }
+void print_operators(const std::vector<OperatorFigures>& operators) {
+    print("  operators, ns each{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "refs/tri", "c.v", "c.o, c.s", "valence",
+          "normal", "contour");
     for (const OperatorFigures& structure : operators) {
         print("    {:<16}{:>10.3f}", structure.structure, structure.references_per_triangle);
         for (const auto& row : structure.rows) print("{:>10.2f}", row.ns_per_op());
         print("\n");
     }
-    if (resident) print_resident(*resident);
-    const auto print_ratio = [](const Json& ratio, std::string_view before, std::string_view after) {
-        if (ratio.front().is_number()) print("  {} {:.2f} {}\n", before, ratio.front().get<double>(), after);
-    };
-    print_ratio(construct_ratio, "lean is built", "times as fast as strips");
-    print_ratio(decode_cpu_ratio, fmt::format("positions of {} bits decode", options.positions),
+}
+
+void print_ratio(const Json& ratio, std::string_view before, std::string_view after) {
+    if (ratio.front().is_number()) print("  {} {:.2f} {}\n", before, ratio.front().get<double>(), after);
+}
+
+void print_figures(const BenchOptions& options, const Figures& figures) {
+    const double triangles = figures.counts.triangles;
+    print("{}: {} triangles; medians of {} rounds\n", figures.path, figures.triangles, options.rounds);
+    for (const Section* section :
+         {&figures.construct, &figures.decode, &figures.unpack, &figures.restore, &figures.decode_gpu}) {
+        if (section->candidates.empty()) continue;
+        print("  {}\n", section->name);
+        for (const Candidate& c : section->candidates) {
+            const double million = 1e6 * c.median();
+            print("    {:<24}{:>11.3f} ms{:>10.1f} {}\n", c.name, c.median() * 1e3,
+                  (c.vertices ? figures.counts.vertices : triangles) / million, c.vertices ? "Mvert/s" : "Mtri/s");
+        }
+    }
+    if (figures.gpu) print_draw(*figures.gpu, triangles);
+    print("  {}\n", figures.gpu ? "drawn at 1280x720 on " + figures.gpu->device : "not drawn: " + figures.gpu_skipped);
+    if (!figures.operators.empty()) print_operators(figures.operators);
+    if (figures.resident) print_resident(*figures.resident);
+    print_ratio(figures.construct_ratio(), "lean is built", "times as fast as strips");
+    print_ratio(figures.decode_cpu_ratio(), fmt::format("positions of {} bits decode", options.positions),
                 "times as fast as by meshoptimizer's vertex codec");
-    print_ratio(unpack_ratio, "the whole mesh is unpacked", "times as fast as by Draco");
-    print_ratio(restore_ratio,
+    print_ratio(figures.unpack_ratio(), "the whole mesh is unpacked", "times as fast as by Draco");
+    print_ratio(figures.restore_ratio(),
                 fmt::format("a file in storage form takes {:.0f} ns a triangle to restore,",
-                            1e9 * restore.median("lacedring") / triangles),
+                            1e9 * figures.restore.median("lacedring") / triangles),
                 "times as fast as Draco decodes its smallest");
-    print_ratio(arrays_ratio, "straight to indices and positions,", "times as fast");
-    print_ratio(decode_gpu_ratio, "on the device, indices and positions take", "times as long as indices alone");
-    for (const auto& [name, reason] : absent.items()) {
+    print_ratio(figures.restore.ratio("draco", "lacedring_arrays"), "straight to indices and positions,",
+                "times as fast");
+    print_ratio(figures.decode_gpu_ratio(), "on the device, indices and positions take",
+                "times as long as indices alone");
+    for (const auto& [name, reason] : figures.absent.items()) {
         print("  {} absent: {}\n", name, reason.get<std::string>());
     }
     print("  peak memory beyond the input\n");
-    for (const auto& [name, bytes] : peak.items()) {
+    for (const auto& [name, bytes] : figures.peak.items()) {
         print("    {:<24}{:>11.1f} MB{:>10.1f} bytes a triangle\n", name, bytes.get<double>() / 1e6,
               bytes.get<double>() / triangles);
+    }
+}
+
+/// One mesh: its figures printed, or put into `meshes`. Returns an Exit.
+int bench(const BenchOptions& options, const std::string& path, Json& meshes, std::size_t& messages, RunLog& log) {
+    Result<LoadedMesh> loaded = load_file({path, options.input}, log);
+    if (!loaded) return fail(path, loaded.error());
+    const Result<Subject> subject = make_subject(std::move(*loaded), options.seeds);
+    if (!subject) return fail(path, subject.error());
+    Result<Figures> figures = measure_cpu(options, path, *subject);
+    if (!figures) return failed(path, figures.error());
+    if (const Result<void> drawn = add_device(options, *subject, *figures); !drawn) {
+        return fail(path, drawn.error());
+    }
+    if (figures->gpu) messages += figures->gpu->validation_messages;
+    figures->peak.update(peaks(figures->construct));
+    if (options.json) {
+        meshes.push_back(figures_json(options, *figures));
+    } else {
+        print_figures(options, *figures);
     }
     return done;
 }
@@ -387,10 +308,7 @@ void add_bench(CLI::App& program, Action& action) {
         ->allow_extra_args(false)
         ->check(CLI::Range(0.0, 1000.0))
         ->needs(resident);
-#ifdef LACEDRING_GPU
-    command->add_flag("--no-gpu", options->no_gpu, "leave the device out");
-    add_device_options(*command, options->context);
-#endif
+    options->gpu.add_options(*command);
     command->add_flag("--json", options->json, "one JSON document on standard output");
     auto rules = std::make_shared<OptionRules>(*command);
     rules->never_with({"--device", "--device-memory", "--validation"}, "--no-gpu");

@@ -178,7 +178,8 @@ int run_compare(const CompareOptions& options, RunLog& log) {
         return fail(options.diff.path, good.error());
     }
     gpu::ModelOptions model_options{.packed = true, .surface = loaded->joined.surface};
-    if (options.compares("packed_vertices")) model_options.vertices = position_options(options.positions);
+    if (options.compares("packed_vertices"))
+        model_options.vertices = position_options(options.positions, options.input.options.threads);
     Result<gpu::Model> model = gpu::make_model(*mesh, model_options);
     if (!model) return fail(options.input.path, model.error());
     if (loaded->joined.has_materials()) gpu::add_materials(*model, *mesh, loaded->joined.materials);
@@ -187,7 +188,7 @@ int run_compare(const CompareOptions& options, RunLog& log) {
     if (!context) return fail(options.input.path, context.error());
     std::vector<Compared> all;
     std::vector<Skipped> skipped;
-    for (const auto& [path_name, path] : gpu::kPaths) {
+    for (const auto& [path_name, path, path_label] : gpu::kPaths) {
         if (path == gpu::Path::mesh && (*context)->info().max_mesh_groups == 0) {
             skipped.push_back({path_name, "the device has no mesh shaders (VK_EXT_mesh_shader)"});
             continue;
@@ -196,7 +197,7 @@ int run_compare(const CompareOptions& options, RunLog& log) {
             skipped.push_back({path_name, "--path"});
             continue;
         }
-        for (const auto& [source_name, source] : gpu::kSources) {
+        for (const auto& [source_name, source, source_label] : gpu::kSources) {
             if (source == gpu::Source::plain || !options.compares(source_name)) continue;
             if (options.sources.empty() && options.paths.empty() &&
                 gpu::is_slow(source, path, model->triangle_count())) {
@@ -265,17 +266,18 @@ void add_compare(CLI::App& program, Action& action) {
         program.add_subcommand("compare", "draw a mesh plain and from its streams, and compare the pixels");
     command->add_option("MESH", options->input.path, "mesh file")->required();
     add_input_options(*command, options->input.options, 250);
+    add_threads(*command, {&options->input.options.threads});
     add_force(*command, options->diff);
     add_size(*command, options->size);
     command
         ->add_option("--path", options->paths, "compute, pull, geometry or mesh, with commas; all of them unless told")
         ->delimiter(',')
-        ->check(CLI::IsMember(gpu::path_names()));
+        ->check(CLI::IsMember(gpu::names_of(gpu::kPaths)));
     command
         ->add_option("--source", options->sources,
                      "lean, packed or packed_vertices, with commas; all of them unless told")
         ->delimiter(',')
-        ->check(CLI::IsMember(std::set<std::string>{"lean", "packed", "packed_vertices"}));
+        ->check(CLI::IsMember(gpu::names_of(std::span(gpu::kSources).subspan(1))));
     add_position_bits(*command, options->positions);
     command->add_option("--diff", options->diff.path, "write a picture of the differences, even if there are none")
         ->type_name("FILE.png");

@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
-#include <thread>
 
 #include "app/cli/output.h"
 #include "app/commands/commands.h"
@@ -44,7 +43,7 @@ bool has_skin(const Mesh& mesh) {
 int decode(const DecodeOptions& options, const std::string& input, const fs::path& output, RunLog& log) {
     const auto bytes = read_input(input, options.input, log);
     if (!bytes) return fail(input, bytes.error());
-    const Result<LrFile> file = parse_lr(*bytes, options.input.max_memory << 20, std::thread::hardware_concurrency());
+    const Result<LrFile> file = parse_lr(*bytes, options.input.max_memory << 20, thread_count(options.input.threads));
     if (!file) return fail(input, file.error());
     constexpr std::string_view kExtensions[] = {".glb", ".ply", ".obj"};
     if (const auto good = check_output(output, options.output, log, kExtensions); !good) {
@@ -92,6 +91,7 @@ void add_decode(CLI::App& program, Action& action) {
                       "vertices, triangles and their first corners in the order of the file that was encoded (with "
                       "--keep-order)");
     add_max_memory(*command, options->input);
+    add_threads(*command, {&options->input.threads});
     command->callback([options, &action] { action = [options](RunLog& log) { return run_decode(*options, log); }; });
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -17,18 +18,13 @@
 namespace lacedring::app {
 namespace {
 
-Format format_named(std::string_view name) {
-    for (const Format format : {Format::lean, Format::lr, Format::lr_compact}) {
-        if (name == name_of(format)) return format;
-    }
-    return Format::packed;
-}
+constexpr Format kStreamFormats[] = {Format::lean, Format::packed, Format::lr, Format::lr_compact};
 
 struct EncodeCommand {
     std::vector<std::string> inputs;
     InputOptions input;
     OutputOptions output;
-    std::string format = "packed";
+    std::string format = name_of(Format::packed);
     std::string profile = "small";
     RingChoice ring;
     bool no_warts = false;
@@ -37,8 +33,9 @@ struct EncodeCommand {
     bool storage = false, resident = false;  ///< as they were given
     AttributeBits bits;
 
+    bool is(Format one) const { return format == name_of(one); }
     /// Packed streams have a storage form; the other formats are for programs that map their files.
-    LrForm form() const { return format == "packed" && !resident ? LrForm::stored : LrForm::resident; }
+    LrForm form() const { return is(Format::packed) && !resident ? LrForm::stored : LrForm::resident; }
 };
 
 /// "POSITION 4.8e-06": the largest error of each attribute that has one; "" if all is lossless.
@@ -93,7 +90,9 @@ int encode_file(const EncodeCommand& options, const std::string& input, const st
     const std::uint32_t degenerate = table->topology.degenerate;
     const std::size_t triangles = mesh.triangle_count() - degenerate;
     const std::uint32_t turned = options.orient ? orient(mesh, *table) : 0;
-    EncodeOptions how = encode_options(options.ring, format_named(options.format), mesh.triangle_count());
+    EncodeOptions how = encode_options(
+        options.ring, *std::ranges::find_if(kStreamFormats, [&](Format format) { return options.is(format); }),
+        mesh.triangle_count());
     how.profile = options.profile == "cache" ? PackedProfile::cache : PackedProfile::small;
     how.wart_skipping = !options.no_warts;
     const Result<WholeFile> whole =
@@ -140,14 +139,17 @@ void add_encode(CLI::App& program, Action& action) {
     CLI::App* command = program.add_subcommand("encode", "write a mesh as an .lr file");
     command->add_option("MESH", options->inputs, "mesh files; - is standard input")->required();
     add_output(*command, options->output, "the .lr file; FOLDER/ for several, - for standard output");
+    std::vector<std::string> formats;
+    for (const Format format : kStreamFormats) formats.emplace_back(name_of(format));
     command->add_option("--format", options->format, "stream format")
-        ->check(CLI::IsMember({"lean", "packed", "lr", "lr-compact"}))
+        ->check(CLI::IsMember(formats))
         ->capture_default_str();
     command->add_option("--profile", options->profile, "of packed: the fewest bits, or an order for the vertex cache")
         ->check(CLI::IsMember({"small", "cache"}))
         ->capture_default_str();
     add_input_options(*command, options->input, 200);
     add_ring_options(*command, options->ring);
+    add_threads(*command, {&options->input.threads, &options->ring.threads});
     command->add_option("--effort", options->ring.effort, "how long to look for good rings: 0 to 9")
         ->check(CLI::Range(0, 9))
         ->capture_default_str();
@@ -165,17 +167,17 @@ void add_encode(CLI::App& program, Action& action) {
     command->add_flag("--orient", options->orient,
                       "turn triangles round so that neighbors agree, instead of keeping each as it is");
     auto rules = std::make_shared<OptionRules>(*command);
-    const auto is = [options](std::string_view format) { return options->format == format; };
-    rules->only_with({"--profile"}, "--format packed", [is] { return is("packed"); });
-    rules->only_with({"--storage"}, "--format packed", [is] { return is("packed"); });
-    rules->only_with({"--no-warts"}, "--format lean or lr", [is] { return is("lean") || is("lr"); });
-    rules->only_with({"--optimize"}, "--format lean, packed or lr", [is] { return !is("lr-compact"); });
+    const auto is = [options](Format format) { return options->is(format); };
+    rules->only_with({"--profile"}, "--format packed", [is] { return is(Format::packed); });
+    rules->only_with({"--storage"}, "--format packed", [is] { return is(Format::packed); });
+    rules->only_with({"--no-warts"}, "--format lean or lr", [is] { return is(Format::lean) || is(Format::lr); });
+    rules->only_with({"--optimize"}, "--format lean, packed or lr", [is] { return !is(Format::lr_compact); });
     rules->only_with({"--k"}, "--ring hybrid or --format lr-compact", [options, is] {
-        return options->ring.ring == "hybrid" || (is("lr-compact") && options->ring.ring.empty());
+        return options->ring.ring == "hybrid" || (is(Format::lr_compact) && options->ring.ring.empty());
     });
     rules->only_with({"--random-seed"}, "several --seeds, or --optimize", [options, is] {
         return options->ring.seeds > 1 ||
-               (!is("lr-compact") &&
+               (!is(Format::lr_compact) &&
                 ((options->ring.seeds == 0 && options->ring.effort > 0) ||
                  (options->ring.optimize == "auto" ? options->ring.effort > 0 : options->ring.optimize != "0")));
     });

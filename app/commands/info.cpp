@@ -157,6 +157,7 @@ void add_info(CLI::App& program, Action& action) {
         program.add_subcommand("info", "topology report; the primitives of a scene, the sections of an .lr file");
     command->add_option("MESH", options->input.path, "mesh file")->required();
     add_input_options(*command, options->input.options, 130);
+    add_threads(*command, {&options->input.options.threads});
     command->add_flag("--json", options->json, "one JSON document on standard output");
     command->callback([options, &action] { action = [options](RunLog& log) { return run_info(*options, log); }; });
 }

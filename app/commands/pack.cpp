@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "app/cli/option_rules.h"
 #include "app/cli/print.h"
@@ -66,7 +65,7 @@ int pack_file(const PackCommand& options, const std::string& input, const std::f
     PackOptions how = options.pack;
     how.bin_uri = output.bin;
     how.fallback_uri = output.fallback;
-    how.bits.threads = std::max(1U, std::thread::hardware_concurrency());
+    how.bits.threads = thread_count(options.input.threads);
     PackReport report;
     const auto scene = pack_scene(*bytes, input == "-" ? "" : input, how, read_options(options.input), &report);
     for (std::filesystem::path& file : report.read.files) log.read(file);
@@ -127,6 +126,7 @@ void add_pack(CLI::App& program, Action& action) {
     command->add_flag("--json", options->json, "print a JSON document with the figures");
     add_allow_outside(*command, options->input);
     add_max_memory(*command, options->input);
+    add_threads(*command, {&options->input.threads});
     options->input.triangle_bytes = 200;
     auto rules = std::make_shared<OptionRules>(*command);
     rules->forbid("--document packed has no effect with --fallback",

@@ -58,14 +58,15 @@ int render(const RenderOptions& options, const std::string& input, const std::fi
     // Pictures show the ring as the paper makes it, unless the optimiser is asked for.
     OptimizeOptions optimize = optimize_options(options.ring, kLeanRingCost);
     if (options.ring.optimize == "auto") optimize.passes = 0;
-    const gpu::Source source = gpu::source_named(options.source).value_or(gpu::Source::lean);
+    const gpu::Source source = gpu::find_named(gpu::kSources, options.source).value_or(gpu::Source::lean);
     gpu::ModelOptions model_options{ring_options(options.ring, mesh->triangle_count()),
                                     {.wart_skipping = !options.no_warts},
                                     gpu::is_packed(source),
                                     {},
                                     std::move(optimize)};
     model_options.surface = loaded->surface;
-    if (source == gpu::Source::packed_vertices) model_options.vertices = position_options(options.positions);
+    if (source == gpu::Source::packed_vertices)
+        model_options.vertices = position_options(options.positions, options.ring.threads);
     Result<gpu::Model> model = gpu::make_model(*mesh, model_options);
     if (!model) return fail(input, model.error());
     if (view_name == "material") gpu::add_materials(*model, *mesh, loaded->materials);
@@ -77,7 +78,7 @@ int render(const RenderOptions& options, const std::string& input, const std::fi
     }
 
     gpu::RendererOptions renderer_options;
-    renderer_options.view = gpu::view_named(view_name).value_or(gpu::View::smooth);
+    renderer_options.view = gpu::find_named(gpu::kViews, view_name).value_or(gpu::View::smooth);
     // An explicit --samples is drawn or fails; the default falls back to fewer samples.
     const std::uint32_t samples =
         options.samples != 0
@@ -92,7 +93,7 @@ int render(const RenderOptions& options, const std::string& input, const std::fi
     Result<gpu::Picture> drawn = [&]() -> Result<gpu::Picture> {
         Result<gpu::Renderer> renderer = gpu::Renderer::create(*context, renderer_options);
         if (!renderer) return renderer.error();
-        const gpu::Path path = gpu::path_named(options.path).value_or(gpu::Path::compute);
+        const gpu::Path path = gpu::find_named(gpu::kPaths, options.path).value_or(gpu::Path::compute);
         device_bytes = context->arena().used() + renderer->device_bytes(*model, source, path);
         if (device_bytes > kWorthSaying) {
             say("lacedring: drawing takes {:.1f} GB of device memory\n", static_cast<double>(device_bytes) / 1e9);
@@ -160,21 +161,21 @@ void add_render(CLI::App& program, Action& action) {
     add_output(*command, options->output, "the PNG file; FOLDER/ for several, - for standard output");
     add_input_options(*command, options->input, 150);
     command->add_option("--source", options->source, "what the triangles come from")
-        ->check(CLI::IsMember(gpu::source_names()))
+        ->check(CLI::IsMember(gpu::names_of(gpu::kSources)))
         ->capture_default_str();
     add_position_bits(*command, options->positions);
     command->add_option("--path", options->path, "how the device expands the source")
-        ->check(CLI::IsMember(gpu::path_names()))
+        ->check(CLI::IsMember(gpu::names_of(gpu::kPaths)))
         ->capture_default_str();
     command->add_option("--view", options->view, "what is shown: material where the file has any, else smooth")
-        ->check(
-            CLI::IsMember({"material", "smooth", "flat", "class", "ring", "wire", "offsets", "seams", "silhouette"}));
+        ->check(CLI::IsMember(gpu::names_of(gpu::kViews)));
     command
         ->add_option("--crease", options->crease,
                      "degrees between triangles from which on --view silhouette draws their edge")
         ->check(CLI::Range(0.0, 180.0))
         ->capture_default_str();
     add_ring_options(*command, options->ring);
+    add_threads(*command, {&options->input.threads, &options->ring.threads});
     command->add_flag("--no-warts", options->no_warts, "no wart skipping: the classes as they are before it");
     add_size(*command, options->size);
     command->add_option("--samples", options->samples, "samples a pixel along each side")

@@ -12,11 +12,7 @@
 #include "app/commands/commands.h"
 #include "app/report/html.h"
 #include "app/report/page.h"
-#ifdef LACEDRING_GPU
-#include "app/cli/camera_options.h"
 #include "app/report/pictures.h"
-#include "renderer/vk/device_error.h"
-#endif
 
 namespace lacedring::app {
 namespace {
@@ -26,12 +22,7 @@ struct ReportOptions {
     OutputOptions output;
     InputOptions input;
     RingChoice ring;
-    bool no_gpu = false;
-#ifdef LACEDRING_GPU
-    PictureSize size{960, 720};
-    gpu::CameraOptions camera;  ///< of every mesh
-    gpu::ContextOptions context;
-#endif
+    ReportPictures pictures;
     std::string command;  ///< as it was given
 };
 
@@ -57,41 +48,16 @@ std::string command_line(const CLI::App& command) {
     return out + (dashes ? " --" : "") + positional;
 }
 
-#ifdef LACEDRING_GPU
-/// The device, unless there shall or can be none: then `skipped` says why. Errors: those of a device asked for.
-Result<std::unique_ptr<gpu::Context>> open_device(const ReportOptions& options, std::string& skipped) {
-    if (options.no_gpu) {
-        skipped = "--no-gpu";
-        return std::unique_ptr<gpu::Context>();
-    }
-    Result<std::unique_ptr<gpu::Context>> context = gpu::Context::create(options.context);
-    if (!context && context.error().code == gpu::kNoDevice && !asks_for_device(options.context)) {
-        skipped = context.error().message;
-        return std::unique_ptr<gpu::Context>();
-    }
-    return context;
-}
-#endif
-
-int run_report(const ReportOptions& options, RunLog& log) {
+int run_report(ReportOptions& options, RunLog& log) {
     ReportPage page;
     page.command = options.command;
     page.version = LACEDRING_VERSION;
-    std::string skipped = "built without Vulkan";
-#ifdef LACEDRING_GPU
-    skipped.clear();
-    const Result<std::unique_ptr<gpu::Context>> device = open_device(options, skipped);
+    const Result<ReportPictures::Device> device = options.pictures.open();
     if (!device) return fail(options.paths.front(), device.error());
-    gpu::Context* context = device->get();
-    if (context != nullptr) {
-        const gpu::DeviceInfo& info = context->info();
-        page.device = fmt::format("{}, {}, Vulkan {}", info.name, info.driver, info.api);
-        const std::uint32_t samples = report_samples(*context, options.size);
-        page.samples = samples * samples;
-    }
-#endif
+    page.device = device->name;
+    page.samples = device->samples;
+    std::string skipped = device->skipped;
     std::vector<MeshReport> meshes;
-    std::size_t messages = 0;
     const int exit = for_each_input(options.paths, log, [&](std::size_t i) {
         const std::string& path = options.paths[i];
         const auto leave_out = [&](const std::string& why, int code) {
@@ -108,24 +74,18 @@ int run_report(const ReportOptions& options, RunLog& log) {
             return leave_out(invalid, check_failed);
         }
         report->no_pictures = skipped;
-#ifdef LACEDRING_GPU
-        if (context != nullptr) {
-            const Result<void> drawn =
-                draw_pictures(*context, options.size, options.camera, *mesh, options.ring, *report);
-            if (!drawn) return leave_out(drawn.error().message, fail(path, drawn.error()));
+        if (const Result<void> drawn = options.pictures.draw(*mesh, options.ring, *report); !drawn) {
+            return leave_out(drawn.error().message, fail(path, drawn.error()));
         }
-#endif
         meshes.push_back(std::move(*report));
         return int{done};
     });
     if (meshes.empty()) return exit;
-#ifdef LACEDRING_GPU
-    if (context != nullptr) messages = print_validation(*context);
+    const std::size_t messages = options.pictures.print_messages();
     if (std::ranges::all_of(meshes, [](const MeshReport& mesh) { return mesh.pictures.empty(); })) {
         page.device.clear();
         skipped = meshes.front().no_pictures;
     }
-#endif
     constexpr std::string_view kExtensions[] = {".html", ".htm"};
     if (const auto good = check_output(options.output.path, options.output, log, kExtensions); !good) {
         return fail(output_name(options.output.path), good.error());
@@ -152,13 +112,8 @@ void add_report(CLI::App& program, Action& action) {
     add_output(*command, options->output, "the HTML file; - for standard output");
     add_input_options(*command, options->input, 350);
     add_ring_options(*command, options->ring);
-    command->add_flag("--no-gpu", options->no_gpu, "no pictures");
-#ifdef LACEDRING_GPU
-    add_size(*command, options->size);
-    command->get_option("--size")->description("pixels of a picture, 960x720 unless told");
-    add_camera(*command, options->camera);
-    add_device_options(*command, options->context);
-#endif
+    add_threads(*command, {&options->input.threads, &options->ring.threads});
+    options->pictures.add_options(*command);
     auto rules = std::make_shared<OptionRules>(*command);
     rules->never_with({"--size", "--up", "--camera-position", "--camera-focal-point", "--camera-azimuth-angle",
                        "--camera-elevation-angle", "--camera-zoom-factor", "--camera-view-angle", "--device",

@@ -283,6 +283,7 @@ void add_stats(CLI::App& program, Action& action) {
     command->add_option("MESH", options->paths, "mesh files")->required();
     add_input_options(*command, options->input, 350);
     add_ring_options(*command, options->ring);
+    add_threads(*command, {&options->input.threads, &options->ring.threads});
     command->add_flag(
         "--paper", options->paper,
         "the paper's procedures alone: no optimiser, ring-expander, and for lr_compact the hybrid with the best k");

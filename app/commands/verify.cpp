@@ -33,7 +33,7 @@ std::string check_primitive(const LoadedPrimitive& primitive, const RingChoice& 
             if (!check.why.empty()) return check.name + ": " + check.why;
         }
     }
-    const std::string why = check_file(mesh, primitive.surface);
+    const std::string why = check_file(mesh, primitive.surface, ring.threads);
     return why.empty() ? why : "attributes: " + why;
 }
 
@@ -86,7 +86,7 @@ int run_verify(const VerifyOptions& options, RunLog& log) {
             if (!options.json) print("{:<20} absent: {}\n", name, reason);
         }
     }
-    const std::string why = check_file(mesh, surface);
+    const std::string why = check_file(mesh, surface, options.ring.threads);
     tell("attributes", why);
     if (!scene->primitives.empty()) {
         all = verify_primitives(options, *scene, primitives) && all;
@@ -112,6 +112,7 @@ void add_verify(CLI::App& program, Action& action) {
     command->add_option("MESH|IN.lr", options->input.path, "mesh file or .lr file")->required();
     add_input_options(*command, options->input.options, 350);
     add_ring_options(*command, options->ring);
+    add_threads(*command, {&options->input.options.threads, &options->ring.threads});
     command->add_flag("--json", options->json, "one JSON document on standard output");
     command->callback([options, &action] { action = [options](RunLog& log) { return run_verify(*options, log); }; });
 }

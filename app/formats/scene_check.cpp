@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cstring>
-#include <thread>
 #include <vector>
 
 #include "app/formats/formats.h"
@@ -85,12 +84,12 @@ std::size_t count_triangles(const LoadedScene& scene) {
     return count;
 }
 
-std::string check_file(const Mesh& mesh, const Surface& surface) {
+std::string check_file(const Mesh& mesh, const Surface& surface, std::uint32_t threads) {
     Result<CornerTable> table = surface_table({mesh, surface, {}});
     if (!table) return table.error().message;
     if (without_degenerate(surface_mesh(mesh, surface).indices).empty()) return "";  // encode makes no file of it
     EncodeOptions how{.format = Format::packed, .effort = 0};
-    how.threads = std::max(std::thread::hardware_concurrency(), 1U);
+    how.threads = thread_count(threads);
     const Result<WholeFile> whole = make_file(mesh, surface, std::move(*table), how, {}, true);
     if (!whole) return whole.error().message;
     const Result<LrFile> file = parse_lr(serialize_lr(whole->file, LrForm::stored));

@@ -2,6 +2,7 @@
 // Checks of scenes and of whole files, for verify and compare.
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "app/cli/input.h"
@@ -23,7 +24,7 @@ PlacedDifference check_placed(const LoadedScene& scene, double tolerance);
 std::size_t count_triangles(const LoadedScene& scene);
 
 /// Makes a lossless .lr file of the mesh and reads it: empty, or what it does not give back. Cost: encode's at effort
-/// 0, and the attributes' streams.
-std::string check_file(const Mesh& mesh, const Surface& surface);
+/// 0, and the attributes' streams. `threads`: as asked for.
+std::string check_file(const Mesh& mesh, const Surface& surface, std::uint32_t threads);
 
 }  // namespace lacedring::app

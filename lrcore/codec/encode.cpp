@@ -6,6 +6,7 @@
 #include "lacedring/lacedring.hpp"
 #include "lrcore/base/message.h"
 #include "lrcore/base/signature.h"
+#include "lrcore/base/try.h"
 
 namespace lacedring {
 namespace {
@@ -50,21 +51,19 @@ std::vector<std::uint32_t> periods(const EncodeOptions& options, std::size_t tri
 Result<Encoded> lean(const CornerTable& table, const RingOptions& ring, const EncodeOptions& options) {
     const OptimizeOptions optimize = optimize_options(options, kLeanRingCost);
     const Rings rings = optimize_rings(table, expand_rings(table, ring), optimize);
-    Result<EncodedLean> stream = encode_lean(table, rings, {.wart_skipping = options.wart_skipping});
-    if (!stream) return stream.error();
-    Encoded out = as_encoded(std::move(*stream));
+    LR_ASSIGN(EncodedLean stream, encode_lean(table, rings, {.wart_skipping = options.wart_skipping}));
+    Encoded out = as_encoded(std::move(stream));
     out.report.k = ring.k;
     out.report.passes = optimize.passes;
     return out;
 }
 
 Result<Encoded> packed(const CornerTable& table, const RingOptions& ring, const EncodeOptions& options) {
-    Result<PackedChoice> choice =
-        encode_smallest_packed(table, ring, optimize_options(options, kPackedRingCost), options.profile);
-    if (!choice) return choice.error();
-    Encoded out = as_encoded(std::move(choice->stream));
+    LR_ASSIGN(PackedChoice choice,
+              encode_smallest_packed(table, ring, optimize_options(options, kPackedRingCost), options.profile));
+    Encoded out = as_encoded(std::move(choice.stream));
     out.report.k = ring.k;
-    out.report.passes = choice->passes;
+    out.report.passes = choice.passes;
     return out;
 }
 
@@ -143,9 +142,8 @@ Result<Encoded> encode(CornerTable&& table, const EncodeOptions& options) {
 
 Result<Encoded> encode(std::span<const std::uint32_t> indices, std::uint32_t vertex_count,
                        const EncodeOptions& options) {
-    Result<CornerTable> table = build_corner_table(indices, vertex_count);
-    if (!table) return table.error();
-    return encode(std::move(*table), options);
+    LR_ASSIGN(CornerTable table, build_corner_table(indices, vertex_count));
+    return encode(std::move(table), options);
 }
 
 }  // namespace lacedring

@@ -7,6 +7,7 @@
 #include "lacedring/streams.hpp"
 #include "lrcore/base/message.h"
 #include "lrcore/base/signature.h"
+#include "lrcore/base/try.h"
 #include "lrcore/codec/decode_slot.h"
 
 namespace lacedring {
@@ -92,22 +93,20 @@ StreamView::StreamView(const Any& any_view) : view_(any_view) {
 }
 
 Result<StreamView> view_stream(std::span<const std::uint32_t> words) {
-    const Result<StreamView::Any> view = open(words, false);
-    if (!view) return view.error();
-    if (const auto* compact = std::get_if<LrStreamView<CompactLrView>>(&*view)) {
+    LR_ASSIGN(const StreamView::Any view, open(words, false));
+    if (const auto* compact = std::get_if<LrStreamView<CompactLrView>>(&view)) {
         for (const std::uint32_t w : compact->view.lr) {  // the count of triangles looks at the records
             if (CompactLrView::is_long(w) && compact->view.record(w) + 1 >= compact->view.star.size()) {
                 return Error{ErrorCode::malformed, "LR tables: a record outside VO*"};
             }
         }
     }
-    return StreamView(*view);
+    return StreamView(view);
 }
 
 Result<StreamView> validate(std::span<const std::uint32_t> words) {
-    const Result<StreamView::Any> view = open(words, true);
-    if (!view) return view.error();
-    return StreamView(*view);
+    LR_ASSIGN(const StreamView::Any view, open(words, true));
+    return StreamView(view);
 }
 
 Result<StreamView> validate(std::span<const std::byte> bytes) {

@@ -14,18 +14,11 @@
 #include "lrcore/base/compiler.h"
 #include "lrcore/base/message.h"
 #include "lrcore/base/parallel.h"
+#include "lrcore/base/random.h"
 #include "lrcore/ring/ring_walk.h"
 
 namespace lacedring {
 namespace {
-
-/// SplitMix64 (Steele, Lea, Flood 2014).
-std::uint64_t random_next(std::uint64_t& state) {
-    std::uint64_t z = (state += 0x9e3779b97f4a7c15U);
-    z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
-    return z ^ (z >> 31U);
-}
 
 constexpr std::size_t kAhead = 6;  // edges on the stack whose triangle is fetched before its turn
 
@@ -215,7 +208,7 @@ Rings expand_rings(const CornerTable& table, const RingOptions& options, Expansi
     if (expansion != nullptr) *expansion = {};
     std::vector<CornerId>* const entered = expansion != nullptr ? &expansion->corners : nullptr;
     Expander expander(table);
-    std::uint64_t random = options.random_seed;
+    detail::SplitMix64 random(options.random_seed);
     std::vector<RingEdge> region;
     std::vector<CornerId> seeds;
     std::vector<std::int64_t> costs;
@@ -246,9 +239,9 @@ Rings expand_rings(const CornerTable& table, const RingOptions& options, Expansi
         expander.undo(region);
         seeds.assign(1, best);
         while (seeds.size() < options.seeds) {
-            const RingEdge& edge = region[random_next(random) % region.size()];
+            const RingEdge& edge = region[random.next() % region.size()];
             CornerId seed = edge.right;
-            if (seed.is_null() || random_next(random) % 2 == 0) seed = edge.left;
+            if (seed.is_null() || random.next() % 2 == 0) seed = edge.left;
             seeds.push_back(expander.can_seed(triangle(seed)) ? seed : best);
         }
         costs.assign(seeds.size(), 0);

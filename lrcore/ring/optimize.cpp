@@ -18,17 +18,11 @@
 
 #include "lacedring/ring.hpp"
 #include "lrcore/base/parallel.h"
+#include "lrcore/base/random.h"
 #include "lrcore/ring/lacing.h"
 
 namespace lacedring {
 namespace {
-
-/// The finalizer of SplitMix64 (Steele, Lea, Flood 2014).
-std::uint64_t mix(std::uint64_t z) {
-    z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
-    return z ^ (z >> 31U);
-}
 
 /// By how much a change may raise the cost: Metropolis' rule.
 class Temperature {
@@ -120,8 +114,6 @@ class Annealer {
     /// The result of a try.
     enum class Try : std::uint8_t { done, refused, hopeless };
 
-    std::uint64_t random() { return mix(random_ += 0x9e3779b97f4a7c15U); }
-
     /// Collects the corners of vertex(c) near c, but not c, in their order around it.
     void walk_fan(std::uint32_t c) {
         fan_ = 0;
@@ -168,7 +160,7 @@ class Annealer {
     Try try_t2(std::uint32_t t) {
         const std::uint32_t c = lacing_.t2_corner(t), across = lacing_.opposite(c);
         if (!lacing_.can_take_out(c)) return Try::hopeless;
-        const std::uint64_t bits = random();
+        const std::uint64_t bits = random_.next();
         const std::int64_t most = temperature_.rise(bits);
         const std::int64_t gain =
             across != Lacing::kNone && range_.has(across >> 2) ? lacing_.cost(lacing_.state(across >> 2)) : 0;
@@ -216,7 +208,7 @@ class Annealer {
             if (lacing_.can_lace_in(corner_[i])) corner_[places++] = corner_[i];
         }
         if (places == 0) return false;
-        const std::uint64_t bits = random();
+        const std::uint64_t bits = random_.next();
         const std::uint32_t place = any_place(places, bits);
         if (!lacing_.within(range_, place >> 2)) return false;
         changes_.clear();
@@ -280,7 +272,7 @@ class Annealer {
     std::int64_t slack_;    // what an estimate may be above the cost
     bool warts_are_cheap_;  // then dead ends are kept short: they become warts
     std::uint32_t rounds_;  // changes tried at a dead end in a pass: more on small meshes, where chance weighs more
-    std::uint64_t random_;
+    detail::SplitMix64 random_;
     std::int64_t cost_ = 0;
     std::vector<std::uint32_t> isolated_;
     Lacing::Changes changes_;
@@ -352,7 +344,7 @@ Rings optimize_rings(const CornerTable& table, Rings rings, const OptimizeOption
         detail::in_parallel(threads, static_cast<std::uint32_t>(outcomes.size()), [&](std::uint32_t i) {
             const TriangleRange range{begins[i], begins[i + 1]};
             Annealer annealer(lacing, range, temperature, options.cost,
-                              mix(options.random_seed + mix((std::uint64_t{p} << 32U) + i)));
+                              detail::mix(options.random_seed + detail::mix((std::uint64_t{p} << 32U) + i)));
             const auto first_of = [&](std::uint32_t t) {
                 return std::lower_bound(isolated.begin(), isolated.end(), 4 * t);
             };

@@ -4,17 +4,12 @@
 
 #include "lacedring/topology.hpp"
 #include "lrcore/base/bits.h"
+#include "lrcore/base/vec3.h"
 
 namespace lacedring {
 namespace {
 
-Point minus(const Point& a, const Point& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-Point cross(const Point& a, const Point& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
+using detail::cross, detail::dot, detail::minus;
 
 /// Neumaier's sum: its error does not grow with the number of terms.
 class Sum {
@@ -39,7 +34,7 @@ class MixedProducts {
     void add(const Point& p, const Point& q, const Point& r) {
         const Point a = minus(p, from_), e = minus(q, p), f = minus(r, p);
         const Point n = cross(e, f);
-        sum_.add(n[0] * a[0] + n[1] * a[1] + n[2] * a[2]);
+        sum_.add(dot(n, a));
         // The same with every sign positive: what rounding is relative to.
         for (std::size_t i = 0; i < 3; ++i) {
             const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;

@@ -17,17 +17,11 @@ std::vector<VertexId> split_fans(CornerTable& table) {
         } else {
             has_fan.set(v.value);
         }
-        const auto visit = [&](CornerId c) {
+        table.around(CornerId{i}, [&](CornerId c) {
             in_fan.set(c.value);
             table.corners[c.value].vertex = name;
-        };
-        CornerId c{i};
-        do {  // forwards, until it closes or meets a border
-            visit(c);
-            c = table.swing(c);
-        } while (!c.is_null() && c.value != i);
-        if (!c.is_null()) continue;
-        for (c = table.right(CornerId{i}); !c.is_null(); c = table.right(previous(c))) visit(previous(c));  // backwards
+            return false;
+        });
     }
     table.vertex_count += static_cast<std::uint32_t>(copies.size());
     return copies;

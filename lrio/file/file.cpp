@@ -18,6 +18,8 @@
 #include <string>
 #include <utility>
 
+#include "lrcore/base/try.h"
+
 namespace lacedring {
 namespace {
 
@@ -111,28 +113,25 @@ Error too_large(std::uint64_t most) {
 }  // namespace
 
 Result<std::vector<std::byte>> read_file(const fs::path& path, std::uint64_t most) {
-    const Result<OpenFile> file = open_regular(path);
-    if (!file) return file.error();
-    if (file->size > most) return too_large(most);
+    LR_ASSIGN(const OpenFile file, open_regular(path));
+    if (file.size > most) return too_large(most);
     Result<std::vector<std::byte>> bytes =
-        read_up_to(file->descriptor.number(), most == UINT64_MAX ? most : most + 1, file->size);
+        read_up_to(file.descriptor.number(), most == UINT64_MAX ? most : most + 1, file.size);
     if (bytes && bytes->size() > most) return too_large(most);  // it grew
     return bytes;
 }
 
 Result<std::vector<std::byte>> read_file_start(const fs::path& path, std::uint64_t count) {
-    const Result<OpenFile> file = open_regular(path);
-    if (!file) return file.error();
-    return read_up_to(file->descriptor.number(), count, std::min(file->size, count));
+    LR_ASSIGN(const OpenFile file, open_regular(path));
+    return read_up_to(file.descriptor.number(), count, std::min(file.size, count));
 }
 
 Result<MappedFile> MappedFile::open(const fs::path& path) {
-    const Result<OpenFile> file = open_regular(path);
-    if (!file) return file.error();
-    if (file->size == 0) return MappedFile({});
-    if (file->size > SIZE_MAX) return too_large(SIZE_MAX);
-    const auto size = static_cast<std::size_t>(file->size);
-    void* at = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file->descriptor.number(), 0);
+    LR_ASSIGN(const OpenFile file, open_regular(path));
+    if (file.size == 0) return MappedFile({});
+    if (file.size > SIZE_MAX) return too_large(SIZE_MAX);
+    const auto size = static_cast<std::size_t>(file.size);
+    void* at = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.descriptor.number(), 0);
     if (at == MAP_FAILED) return cannot_open(std::strerror(errno));
     return MappedFile({static_cast<const std::byte*>(at), size});
 }
@@ -220,10 +219,9 @@ std::optional<fs::path> take_free_name(const fs::path& folder, Take take) {
 }  // namespace
 
 Result<void> write_file(const fs::path& path, std::span<const std::span<const std::byte>> parts) {
-    const Result<Destination> found = find_destination(path);
-    if (!found) return found.error();
-    if (found->in_place) return write_in_place(found->path, parts);
-    const fs::path& target = found->path;
+    LR_ASSIGN(const Destination found, find_destination(path));
+    if (found.in_place) return write_in_place(found.path, parts);
+    const fs::path& target = found.path;
     const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
 
     // Without a name while it is written, so that a killed process leaves nothing behind; where the file system cannot
@@ -246,14 +244,14 @@ Result<void> write_file(const fs::path& path, std::span<const std::span<const st
         return why;
     };
     if (const Result<void> written = write_descriptor(file.number(), parts); !written) return give_up(written.error());
-    if (found->mode) (void)::fchmod(file.number(), *found->mode);  // best effort: who may read it stays as it was
+    if (found.mode) (void)::fchmod(file.number(), *found.mode);  // best effort: who may read it stays as it was
     if (nameless) {
         const std::string self = "/proc/self/fd/" + std::to_string(file.number());
         const auto link_as = [&](const fs::path& name) {
             return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
         };
         // A new file gets its name at once. One that is there already is replaced, which takes a name of its own first.
-        if (!found->mode && link_as(target)) return {};
+        if (!found.mode && link_as(target)) return {};
         temporary = take_free_name(folder, link_as);
         if (!temporary) return cannot_write(std::strerror(errno));
     }

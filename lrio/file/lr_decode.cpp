@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "lrcore/base/try.h"
 #include "lrcore/codec/storage/seam_storage.h"
 #include "lrio/file/lr_layout.h"
 
@@ -28,22 +29,19 @@ Result<void> decode_copies(const LrFileView& file, const StreamView& stream, boo
     const std::vector<std::uint32_t> slots = slot_triangles(stream);
     std::vector<std::uint32_t> copies;
     if (stored != nullptr) {
-        Result<storage::RestoredSeams> restored = restore(*stored, slots, stream.vertices());
-        if (!restored) return restored.error();
-        stored->words = std::move(restored->words);
-        copies = std::move(restored->copies);
-        out.vertex_of = std::move(restored->vertices);
+        LR_ASSIGN(storage::RestoredSeams restored, restore(*stored, slots, stream.vertices()));
+        stored->words = std::move(restored.words);
+        copies = std::move(restored.copies);
+        out.vertex_of = std::move(restored.vertices);
     } else {
-        const Result<SeamView> seams = view_seams(file.seams, stream.slots(), stream.vertices());
-        if (!seams) return seams.error();
+        LR_ASSIGN(const SeamView seams, view_seams(file.seams, stream.slots(), stream.vertices()));
         copies.resize(slots.size());
         if (untrusted) {
-            const auto checked = decode_seams_checked(file.seams, slots, stream.vertices(), copies, out.vertex_of);
-            if (!checked) return checked.error();
+            LR_TRY(decode_seams_checked(file.seams, slots, stream.vertices(), copies, out.vertex_of));
         } else {
-            decode_seams(*seams, slots, copies);
-            out.vertex_of.resize(seams->copies);
-            copy_vertices(*seams, slots, out.vertex_of);
+            decode_seams(seams, slots, copies);
+            out.vertex_of.resize(seams.copies);
+            copy_vertices(seams, slots, out.vertex_of);
         }
     }
     if (out.vertex_of.size() != file.copy_count) {
@@ -66,17 +64,16 @@ void DecodedLr::remove_extra(std::vector<std::uint32_t>& values) const {
 }
 
 Result<DecodedLr> decode_connectivity(const LrFileView& file, bool untrusted, const StoredSeams* stored) {
-    const Result<StreamView> view = untrusted ? validate(file.words) : view_stream(file.words);
-    if (!view) return view.error();
-    if (view->format() != file.format) return malformed_lr("the stream is of another format than its section");
-    if (view->vertices() != file.vertex_count) {
+    LR_ASSIGN(const StreamView view, untrusted ? validate(file.words) : view_stream(file.words));
+    if (view.format() != file.format) return malformed_lr("the stream is of another format than its section");
+    if (view.vertices() != file.vertex_count) {
         return malformed_lr("connectivity and file have different vertex counts");
     }
     DecodedLr out;
-    out.vertices = view->vertices();
+    out.vertices = view.vertices();
     if (file.seams.empty()) {
-        out.indices = decode(*view);
-    } else if (const Result<void> decoded = decode_copies(file, *view, untrusted, stored, out); !decoded) {
+        out.indices = decode(view);
+    } else if (const Result<void> decoded = decode_copies(file, view, untrusted, stored, out); !decoded) {
         return decoded.error();
     }
     const auto mark_extra = [&](const auto* stream) {
@@ -88,8 +85,8 @@ Result<DecodedLr> decode_connectivity(const LrFileView& file, bool untrusted, co
         for (std::size_t i = 0; i < copies.size(); ++i) copies[i] = out.is_extra(out.vertex_of[i]);
         out.extra = std::move(copies);
     };
-    mark_extra(view->get<LrStreamView<LrView>>());
-    mark_extra(view->get<LrStreamView<CompactLrView>>());
+    mark_extra(view.get<LrStreamView<LrView>>());
+    mark_extra(view.get<LrStreamView<CompactLrView>>());
     return out;
 }
 
@@ -173,23 +170,21 @@ Result<Mesh> decode_mesh(const LrFile& file, DecodedLr& decoded, Surface* surfac
 }  // namespace detail
 
 Result<Mesh> decode_lr(const LrFile& file, Surface* surface) {
-    Result<detail::DecodedLr> decoded = detail::decode_connectivity(detail::view_of(file), false);
-    if (!decoded) return decoded.error();
-    return detail::decode_mesh(file, *decoded, surface);
+    LR_ASSIGN(detail::DecodedLr decoded, detail::decode_connectivity(detail::view_of(file), false));
+    return detail::decode_mesh(file, decoded, surface);
 }
 
 Result<Mesh> decode_lr_original_order(const LrFile& file) {
-    Result<detail::DecodedLr> decoded = detail::decode_connectivity(detail::view_of(file), false);
-    if (!decoded) return decoded.error();
-    const std::size_t triangles = decoded->indices.size() / 3;
-    const std::size_t vertices = decoded->vertex_of.empty() ? decoded->vertices : decoded->vertex_of.size();
+    LR_ASSIGN(detail::DecodedLr decoded, detail::decode_connectivity(detail::view_of(file), false));
+    const std::size_t triangles = decoded.indices.size() / 3;
+    const std::size_t vertices = decoded.vertex_of.empty() ? decoded.vertices : decoded.vertex_of.size();
     if (file.vertex_order.size() != vertices || file.corner_order.size() != triangles) {
         return Error{ErrorCode::invalid_argument,
                      "the file does not keep the input's order (encode --keep-order does)"};
     }
     std::vector<std::uint32_t> vertex_order = file.vertex_order;
-    decoded->remove_extra(vertex_order);
-    Result<Mesh> stream = detail::decode_mesh(file, *decoded, nullptr);
+    decoded.remove_extra(vertex_order);
+    Result<Mesh> stream = detail::decode_mesh(file, decoded, nullptr);
     if (!stream) return stream;
     // permute_attributes takes the new number of each old vertex: the inverse of the order.
     std::vector<std::uint32_t> number(vertex_order.size());

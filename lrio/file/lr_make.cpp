@@ -4,6 +4,7 @@
 
 #include "lacedring/file.hpp"
 #include "lacedring/streams.hpp"
+#include "lrcore/base/try.h"
 #include "lrcore/codec/storage/packed_storage.h"
 #include "lrcore/codec/storage/seam_storage.h"
 #include "lrcore/codec/storage/vertex_storage.h"
@@ -69,9 +70,8 @@ LrFile make_file(const Mesh& mesh, const Surface& surface, Encoded encoded, Enco
 
 Result<LrFile> make_lr_file(const Mesh& mesh, const Surface& surface, Encoded encoded, bool keep_order) {
     if (!surface.has_seams()) return make_lr_file(mesh, std::move(encoded), keep_order);
-    Result<EncodedSeams> seams = encode_seams(encoded, mesh.indices, surface.vertex_of);
-    if (!seams) return seams.error();
-    return make_file(mesh, surface, std::move(encoded), std::move(*seams), keep_order);
+    LR_ASSIGN(EncodedSeams seams, encode_seams(encoded, mesh.indices, surface.vertex_of));
+    return make_file(mesh, surface, std::move(encoded), std::move(seams), keep_order);
 }
 
 LrFile make_lr_file(const Mesh& mesh, Encoded encoded, bool keep_order) {

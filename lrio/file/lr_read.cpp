@@ -6,6 +6,7 @@
 #include "lacedring/file.hpp"
 #include "lrcore/base/bits.h"
 #include "lrcore/base/parallel.h"
+#include "lrcore/base/try.h"
 #include "lrcore/codec/storage/packed_storage.h"
 #include "lrcore/codec/storage/vertex_storage.h"
 #include "lrio/file/lr_layout.h"
@@ -32,7 +33,7 @@ class Reader {
             });
         if (limit_) return *limit_;
         if (!header) return header.error();
-        if (auto good = check(); !good) return good.error();
+        LR_TRY(check());
         return std::move(file_);
     }
 
@@ -138,15 +139,15 @@ class Reader {
         return in_parts(1 + stored_.size(), [&](std::size_t part) -> Result<void> {
             if (part == 0) {
                 if (!is_stored_) return {};
-                auto read = storage::StoredPacked::read(file_.words, {file_.vertex_count, file_.input_triangles});
-                if (!read) return read.error();
-                steps_ = std::move(*read);
+                LR_ASSIGN(auto read,
+                          storage::StoredPacked::read(file_.words, {file_.vertex_count, file_.input_triangles}));
+                steps_ = std::move(read);
                 return {};
             }
             const std::size_t i = stored_[part - 1];
-            auto read = storage::StoredVertices::read(file_.attributes[i].words, values_of(file_.attributes[i]));
-            if (!read) return read.error();
-            residuals_[i] = std::move(*read);
+            LR_ASSIGN(auto read,
+                      storage::StoredVertices::read(file_.attributes[i].words, values_of(file_.attributes[i])));
+            residuals_[i] = std::move(read);
             return {};
         });
     }
@@ -159,13 +160,11 @@ class Reader {
         residuals_[i].reset();
         if (!words) return words.error();
         attribute.words = std::move(*words);
-        const Result<VertexView> view = validate_vertices(attribute.words);
-        if (!view) return view.error();
-        if (view->vertices != values_of(attribute))
-            return malformed_lr("a vertex stream of another number of vertices");
-        attribute.type = view->type;
-        attribute.components = view->components;
-        attribute.normalized = view->normalized;
+        LR_ASSIGN(const VertexView view, validate_vertices(attribute.words));
+        if (view.vertices != values_of(attribute)) return malformed_lr("a vertex stream of another number of vertices");
+        attribute.type = view.type;
+        attribute.components = view.components;
+        attribute.normalized = view.normalized;
         return {};
     }
 
@@ -195,9 +194,8 @@ class Reader {
             connectivity.words = file_.words;
             connectivity.seams = file_.seams;
             const StoredSeams seams{file_.seams, max_bytes_};
-            auto decoded = decode_connectivity(connectivity, true, has_stored_seams_ ? &seams : nullptr);
-            if (!decoded) return decoded.error();
-            decoded_ = std::move(*decoded);
+            LR_ASSIGN(auto decoded, decode_connectivity(connectivity, true, has_stored_seams_ ? &seams : nullptr));
+            decoded_ = std::move(decoded);
             return {};
         });
         if (!good || beside.empty()) return good;
@@ -315,9 +313,8 @@ Result<LrFile> parse_lr(std::span<const std::byte> bytes, std::uint64_t max_byte
 }
 
 Result<LrFile> read_lr(const std::filesystem::path& path) {
-    Result<std::vector<std::byte>> bytes = read_file(path);
-    if (!bytes) return bytes.error();
-    return parse_lr(*bytes);
+    LR_ASSIGN(std::vector<std::byte> bytes, read_file(path));
+    return parse_lr(bytes);
 }
 
 }  // namespace lacedring

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lrcore/base/try.h"
 #include "lrcore/codec/storage/vertex_storage.h"
 #include "lrio/file/lr_layout.h"
 
@@ -74,9 +75,8 @@ Result<StreamView> LrFileView::validate() const {
     if (view->format() != format) return malformed_lr("the stream is of another format than its section");
     if (view->vertices() != vertex_count) return malformed_lr("connectivity and file have different vertex counts");
     if (seams.empty()) return view;
-    const Result<SeamView> valid = validate_seams(seams, slot_triangles(*view), vertex_count);
-    if (!valid) return valid.error();
-    if (valid->copies != copy_count) return malformed_lr("seams and file have different numbers of copies");
+    LR_ASSIGN(const SeamView valid, validate_seams(seams, slot_triangles(*view), vertex_count));
+    if (valid.copies != copy_count) return malformed_lr("seams and file have different numbers of copies");
     return view;
 }
 

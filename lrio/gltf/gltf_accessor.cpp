@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "lrcore/base/try.h"
 #include "lrio/gltf/gltf_draco.h"
 #include "lrio/gltf/gltf_view.h"
 #include "lrio/mesh/read_formats.h"
@@ -75,15 +76,14 @@ Result<void> add_sparse(GltfFile& file, const tinygltf::Accessor& accessor, cons
     if (!known || !is_unsigned) {
         return malformed("{}: sparse indices of type {}", where, sparse.indices.componentType);
     }
-    const auto indices =
-        view_bytes(file, sparse.indices.bufferView, static_cast<std::uint64_t>(sparse.indices.byteOffset),
-                   view.sparse_count, size_of(view.sparse_type), where);
-    if (!indices) return indices.error();
-    const auto values = view_bytes(file, sparse.values.bufferView, static_cast<std::uint64_t>(sparse.values.byteOffset),
-                                   view.sparse_count, view.element_bytes(), where);
-    if (!values) return values.error();
-    view.sparse_indices = *indices;
-    view.sparse_values = *values;
+    LR_ASSIGN(const auto indices,
+              view_bytes(file, sparse.indices.bufferView, static_cast<std::uint64_t>(sparse.indices.byteOffset),
+                         view.sparse_count, size_of(view.sparse_type), where));
+    LR_ASSIGN(const auto values,
+              view_bytes(file, sparse.values.bufferView, static_cast<std::uint64_t>(sparse.values.byteOffset),
+                         view.sparse_count, view.element_bytes(), where));
+    view.sparse_indices = indices;
+    view.sparse_values = values;
     return {};
 }
 
@@ -115,20 +115,18 @@ Result<AccessorView> view_accessor(GltfFile& file, int index) {
     if (is_padded_matrix(accessor)) return unsupported("{}: a matrix of small integers", where);
 
     if (file.draco.sources.contains(index)) {
-        const auto values = draco_values(file, index);
-        if (!values) return values.error();
-        view.count = values->size() / view.element_bytes();
-        view.values = {values->data(), view.element_bytes()};
+        LR_ASSIGN(const auto values, draco_values(file, index));
+        view.count = values.size() / view.element_bytes();
+        view.values = {values.data(), view.element_bytes()};
         return view;
     }
     if (accessor.bufferView != -1) {
-        const auto values =
-            view_bytes(file, accessor.bufferView, accessor.byteOffset, view.count, view.element_bytes(), where);
-        if (!values) return values.error();
-        view.values = *values;
+        LR_ASSIGN(const auto values,
+                  view_bytes(file, accessor.bufferView, accessor.byteOffset, view.count, view.element_bytes(), where));
+        view.values = values;
     }
     if (accessor.sparse.isSparse) {
-        if (auto good = add_sparse(file, accessor, where, view); !good) return good.error();
+        LR_TRY(add_sparse(file, accessor, where, view));
     }
     return view;
 }

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "lacedring/file.hpp"
+#include "lrcore/base/try.h"
 
 namespace lacedring::detail {
 namespace {
@@ -155,10 +156,9 @@ Result<std::span<const std::byte>> GltfBuffers::open_uri(const std::string& name
     constexpr std::string_view kData = "data:";
     const std::string_view uri = name;
     if (uri.size() >= kData.size() && equals_ignoring_case(uri.substr(0, kData.size()), kData)) {
-        auto bytes = decode_data_uri(uri.substr(kData.size()));
-        if (!bytes) return bytes.error();
-        loaded_bytes_ += bytes->size();
-        return std::span<const std::byte>(storage_.emplace_back(std::move(*bytes)));
+        LR_ASSIGN(auto bytes, decode_data_uri(uri.substr(kData.size())));
+        loaded_bytes_ += bytes.size();
+        return std::span<const std::byte>(storage_.emplace_back(std::move(bytes)));
     }
     if (has_scheme(uri)) return cannot_open("the URI {} is not a file beside the glTF", shown(uri));
     return load_file(name, most);

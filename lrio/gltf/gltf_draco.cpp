@@ -4,6 +4,7 @@
 #include <tuple>
 #include <utility>
 
+#include "lrcore/base/try.h"
 #include "lrio/gltf/draco_mesh.h"
 #include "lrio/gltf/gltf_accessor.h"
 #include "lrio/gltf/gltf_view.h"
@@ -97,12 +98,10 @@ Result<void> decode_values(GltfFile& file, const draco::Mesh& mesh, int index) {
 
 Result<void> decode_draco(GltfFile& file, int view) {
     if (static_cast<std::size_t>(view) >= file.model.bufferViews.size()) return malformed("does not exist");
-    const auto bytes = open_view(file, static_cast<std::size_t>(view));
-    if (!bytes) return bytes.error();
-    const auto mesh = decode_draco_mesh(file, *bytes);
-    if (!mesh) return mesh.error();
+    LR_ASSIGN(const auto bytes, open_view(file, static_cast<std::size_t>(view)));
+    LR_ASSIGN(const auto mesh, decode_draco_mesh(file, bytes));
     for (const int accessor : file.draco.accessors[view]) {
-        if (auto good = decode_values(file, **mesh, accessor); !good) {
+        if (auto good = decode_values(file, *mesh, accessor); !good) {
             return Error{good.error().code, fmt::format("accessor {}: {}", accessor, good.error().message)};
         }
     }

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "lrcore/base/try.h"
 #include "lrio/gltf/draco_mesh.h"
 #include "lrio/gltf/gltf_draco.h"
 #include "lrio/gltf/gltf_view.h"
@@ -281,9 +282,8 @@ Result<void> check_json(std::string_view text) {
 }
 
 Result<GltfFile> load_gltf(std::span<const std::byte> bytes, Reading& reading, GltfUse use) {
-    const auto chunks = split_gltf(bytes);
-    if (!chunks) return chunks.error();
-    return load_gltf(*chunks, bytes.size(), reading, use);
+    LR_ASSIGN(const auto chunks, split_gltf(bytes));
+    return load_gltf(chunks, bytes.size(), reading, use);
 }
 
 Result<GltfFile> load_gltf(const GltfChunks& chunks, std::size_t file_bytes, Reading& reading, GltfUse use) {
@@ -295,18 +295,16 @@ Result<GltfFile> load_gltf(const GltfChunks& chunks, std::size_t file_bytes, Rea
         return Error{ErrorCode::malformed, one_line(exception.what())};
     }
     if (!document.is_object()) return malformed("glTF: is not a JSON object");
-    if (auto good = check_version(document); !good) return good.error();
-    if (auto good = check_extensions(document, reading, use); !good) return good.error();
-    if (auto good = check_lists(document); !good) return good.error();
-    auto model = load_model(document);
-    if (!model) return model.error();
+    LR_TRY(check_version(document));
+    LR_TRY(check_extensions(document, reading, use));
+    LR_TRY(check_lists(document));
+    LR_ASSIGN(auto model, load_model(document));
     tell_what_is_left_out(document, reading);
 
-    GltfFile file{chunks.json, std::move(document), std::move(*model), {}, &reading, file_bytes};
-    auto buffers = GltfBuffers::make(file.document, chunks.bin, reading);
-    if (!buffers) return buffers.error();
-    file.buffers = std::move(*buffers);
-    if (auto good = find_draco_primitives(file); !good) return good.error();
+    GltfFile file{chunks.json, std::move(document), std::move(model), {}, &reading, file_bytes};
+    LR_ASSIGN(auto buffers, GltfBuffers::make(file.document, chunks.bin, reading));
+    file.buffers = std::move(buffers);
+    LR_TRY(find_draco_primitives(file));
     return file;
 }
 

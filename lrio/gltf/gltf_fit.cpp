@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "lrcore/base/try.h"
 #include "lrio/mesh/read_formats.h"
 #include "lrio/mesh/write_formats.h"
 
@@ -118,7 +119,7 @@ class Fitter {
             }
             const bool is_position = out_.attributes.empty();
             if (is_position) {
-                if (auto good = check_positions(*to); !good) return good.error();
+                LR_TRY(check_positions(*to));
             } else {
                 mend_values(*to);
             }

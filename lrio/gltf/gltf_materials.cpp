@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 
+#include "lrcore/base/try.h"
 #include "lrio/gltf/gltf_view.h"
 
 namespace lacedring::detail {
@@ -24,7 +25,7 @@ class MaterialReader {
             return malformed("glTF: material {}: {}", out_.materials.size() - 1, wrong_);
         }
         out_.materials.emplace_back();
-        if (auto good = read_images(); !good) return good.error();
+        LR_TRY(read_images());
         if (!extensions_.empty()) {
             const std::vector<std::string> names(extensions_.begin(), extensions_.end());
             reading_.report.left_out.push_back("what " + shown_names(names) + " adds to materials");

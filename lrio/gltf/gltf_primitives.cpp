@@ -1,5 +1,7 @@
 #include "lrio/gltf/gltf_primitives.h"
 
+#include "lrcore/base/try.h"
+
 namespace lacedring::detail {
 
 Result<void> MeshPlans::make(const std::vector<MeshInstance>& instances) {
@@ -35,16 +37,14 @@ Result<void> MeshPlans::plan_primitive(MeshPlan& plan, const tinygltf::Primitive
     PrimitivePlan primitive;
     primitive.mode = from.mode;
     primitive.number = number;
-    const auto block = find_block(plan, from);
-    if (!block) return block.error();
-    primitive.block = *block;
+    LR_ASSIGN(const auto block, find_block(plan, from));
+    primitive.block = block;
     if (from.indices != -1) {
-        const auto view = view_accessor(file_, from.indices);
-        if (!view) return view.error();
+        LR_ASSIGN(const auto view, view_accessor(file_, from.indices));
         const bool is_unsigned =
-            view->type == ComponentType::u8 || view->type == ComponentType::u16 || view->type == ComponentType::u32;
-        if (!is_unsigned || view->components != 1) return malformed("the indices are not unsigned scalars");
-        primitive.indices = *view;
+            view.type == ComponentType::u8 || view.type == ComponentType::u16 || view.type == ComponentType::u32;
+        if (!is_unsigned || view.components != 1) return malformed("the indices are not unsigned scalars");
+        primitive.indices = view;
     }
     const std::size_t corners = primitive.corner_count(plan.blocks[primitive.block].count);
     if (corners % 3 != 0) return malformed("{} indices are not triangles", corners);

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "lrcore/base/try.h"
 #include "lrio/gltf/gltf_accessor.h"
 
 namespace lacedring::detail {
@@ -78,9 +79,9 @@ Result<std::optional<Instances>> instances_of(GltfFile& file, const tinygltf::No
         to = *view;
         return {};
     };
-    if (auto good = take("TRANSLATION", 3, false, out.translation); !good) return good.error();
-    if (auto good = take("ROTATION", 4, true, out.rotation); !good) return good.error();
-    if (auto good = take("SCALE", 3, false, out.scale); !good) return good.error();
+    LR_TRY(take("TRANSLATION", 3, false, out.translation));
+    LR_TRY(take("ROTATION", 4, true, out.rotation));
+    LR_TRY(take("SCALE", 3, false, out.scale));
     if (!any) return malformed("instances without TRANSLATION, ROTATION or SCALE");
     return std::optional<Instances>(out);
 }
@@ -92,7 +93,7 @@ Result<std::vector<std::array<double, width>>> values_of(const std::optional<Acc
     std::vector<std::array<double, width>> out(count, unset);
     if (!view) return out;
     std::vector<std::byte> packed(count * view->element_bytes());
-    if (auto good = copy_elements(*view, packed.data()); !good) return good.error();
+    LR_TRY(copy_elements(*view, packed.data()));
     for (std::size_t i = 0; i < count * width; ++i) {
         out[i / width][i % width] = component_at(packed.data(), view->type, view->normalized, i);
     }
@@ -106,14 +107,11 @@ Result<void> place_each(const Instances& several, std::size_t mesh, const Transf
                                            2.0 * sizeof(MeshInstance),  // while the list grows it is there twice
                                            0, static_cast<double>(file_bytes));
     if (!room) return room;
-    const auto translation = values_of<3>(several.translation, several.count, {0, 0, 0});
-    if (!translation) return translation.error();
-    const auto rotation = values_of<4>(several.rotation, several.count, {0, 0, 0, 1});
-    if (!rotation) return rotation.error();
-    const auto scale = values_of<3>(several.scale, several.count, {1, 1, 1});
-    if (!scale) return scale.error();
+    LR_ASSIGN(const auto translation, values_of<3>(several.translation, several.count, {0, 0, 0}));
+    LR_ASSIGN(const auto rotation, values_of<4>(several.rotation, several.count, {0, 0, 0, 1}));
+    LR_ASSIGN(const auto scale, values_of<3>(several.scale, several.count, {1, 1, 1}));
     for (std::size_t i = 0; i < several.count; ++i) {
-        instances.push_back({mesh, node * from_parts((*translation)[i], (*rotation)[i], (*scale)[i])});
+        instances.push_back({mesh, node * from_parts(translation[i], rotation[i], scale[i])});
     }
     return {};
 }
@@ -127,8 +125,7 @@ Result<std::vector<MeshInstance>> place_meshes(GltfFile& file, Reading& reading,
         for (std::size_t mesh = 0; mesh < model.meshes.size(); ++mesh) instances.push_back({mesh, {}});
         return instances;
     }
-    const auto roots = root_nodes(model);
-    if (!roots) return roots.error();
+    LR_ASSIGN(const auto roots, root_nodes(model));
 
     struct Visit {
         int node;
@@ -136,7 +133,7 @@ Result<std::vector<MeshInstance>> place_meshes(GltfFile& file, Reading& reading,
         bool is_root;
     };
     std::vector<Visit> stack;  // not recursion: hostile files nest nodes deep
-    for (auto root = roots->rbegin(); root != roots->rend(); ++root) stack.push_back({*root, {}, true});
+    for (auto root = roots.rbegin(); root != roots.rend(); ++root) stack.push_back({*root, {}, true});
     std::vector<bool> visited(model.nodes.size(), false);
     while (!stack.empty()) {
         const Visit visit = stack.back();

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "lrcore/base/vec3.h"
+
 namespace lacedring::detail {
 
 /// 4 x 4, column by column, as glTF has it.
@@ -27,7 +29,7 @@ struct Transform {
     }
 };
 
-using Vector3 = std::array<double, 3>;
+using Vector3 = Vec3<double>;
 
 inline Transform operator*(const Transform& a, const Transform& b) {
     Transform out;
@@ -78,9 +80,9 @@ inline Vector3 transform_normal(const std::array<double, 9>& cofactors, bool mir
 
 /// A vector without a direction (zero, or not finite) stays as it is.
 inline Vector3 normalized(const Vector3& v) {
-    const double length = std::sqrt((v[0] * v[0] + v[1] * v[1]) + v[2] * v[2]);
-    if (!(length > 0) || !std::isfinite(length)) return v;
-    return {v[0] / length, v[1] / length, v[2] / length};
+    const double size = length(v);
+    if (!(size > 0) || !std::isfinite(size)) return v;
+    return {v[0] / size, v[1] / size, v[2] / size};
 }
 
 }  // namespace lacedring::detail

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "lrcore/base/try.h"
+
 #ifdef LACEDRING_MESHOPTIMIZER
 #include <meshoptimizer.h>
 #endif
@@ -151,31 +153,30 @@ Result<void> check_codec(Mode mode, std::byte first) {
 }
 
 Result<std::vector<std::byte>> decode_meshopt(GltfFile& file, std::size_t index, const nlohmann::json& extension) {
-    const auto what = parse_compressed(extension, file.model.bufferViews[index]);
-    if (!what) return what.error();
-    const auto data = buffer_bytes(file, what->buffer, what->offset, what->length, "compressed data");
+    LR_ASSIGN(const auto what, parse_compressed(extension, file.model.bufferViews[index]));
+    const auto data = buffer_bytes(file, what.buffer, what.offset, what.length, "compressed data");
     if (!data) return data.error();
-    if (auto good = check_codec(what->mode, data->front()); !good) return good.error();
-    if (data->size() < fewest_bytes(*what, data->front())) {
-        return malformed("{} elements of {} bytes are not in {} compressed bytes", what->count, what->stride,
+    LR_TRY(check_codec(what.mode, data->front()));
+    if (data->size() < fewest_bytes(what, data->front())) {
+        return malformed("{} elements of {} bytes are not in {} compressed bytes", what.count, what.stride,
                          data->size());
     }
-    const std::size_t size = what->count * what->stride;
-    if (auto room = file.take_memory(static_cast<double>(size)); !room) return room.error();
+    const std::size_t size = what.count * what.stride;
+    LR_TRY(file.take_memory(static_cast<double>(size)));
     std::vector<std::byte> out(size);
     const auto* from = reinterpret_cast<const unsigned char*>(data->data());
     int failed = 0;
-    if (what->mode == Mode::attributes) {
-        failed = meshopt_decodeVertexBuffer(out.data(), what->count, what->stride, from, data->size());
-    } else if (what->mode == Mode::triangles) {
-        failed = meshopt_decodeIndexBuffer(out.data(), what->count, what->stride, from, data->size());
+    if (what.mode == Mode::attributes) {
+        failed = meshopt_decodeVertexBuffer(out.data(), what.count, what.stride, from, data->size());
+    } else if (what.mode == Mode::triangles) {
+        failed = meshopt_decodeIndexBuffer(out.data(), what.count, what.stride, from, data->size());
     } else {
-        failed = meshopt_decodeIndexSequence(out.data(), what->count, what->stride, from, data->size());
+        failed = meshopt_decodeIndexSequence(out.data(), what.count, what.stride, from, data->size());
     }
     if (failed != 0) return malformed("meshoptimizer does not decode the data");
-    if (what->filter == Filter::octahedral) meshopt_decodeFilterOct(out.data(), what->count, what->stride);
-    if (what->filter == Filter::quaternion) meshopt_decodeFilterQuat(out.data(), what->count, what->stride);
-    if (what->filter == Filter::exponential) meshopt_decodeFilterExp(out.data(), what->count, what->stride);
+    if (what.filter == Filter::octahedral) meshopt_decodeFilterOct(out.data(), what.count, what.stride);
+    if (what.filter == Filter::quaternion) meshopt_decodeFilterQuat(out.data(), what.count, what.stride);
+    if (what.filter == Filter::exponential) meshopt_decodeFilterExp(out.data(), what.count, what.stride);
     return out;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "lacedring/surface.hpp"
+#include "lrcore/base/try.h"
 #include "lrio/gltf/gltf_accessor.h"
 #include "lrio/gltf/gltf_file.h"
 #include "lrio/gltf/gltf_materials.h"
@@ -35,21 +36,19 @@ class GltfJoiner {
         : file_(file), reading_(reading), file_bytes_(file_bytes), plans_(file, reading) {}
 
     Result<Mesh> read() {
-        const auto instances = place_meshes(file_, reading_, file_bytes_);
-        if (!instances) return instances.error();
-        if (auto good = plans_.make(*instances); !good) return good.error();
-        choose_attributes(*instances);
+        LR_ASSIGN(const auto instances, place_meshes(file_, reading_, file_bytes_));
+        LR_TRY(plans_.make(instances));
+        choose_attributes(instances);
         if (reading_.materials != nullptr) {
-            auto materials = read_materials(file_, reading_);
-            if (!materials) return materials.error();
-            *reading_.materials = std::move(*materials);
+            LR_ASSIGN(auto materials, read_materials(file_, reading_));
+            *reading_.materials = std::move(materials);
         }
-        if (auto good = allocate(*instances); !good) return good.error();
-        for (const MeshInstance& instance : *instances) {
-            if (auto good = append(instance); !good) return good.error();
+        LR_TRY(allocate(instances));
+        for (const MeshInstance& instance : instances) {
+            LR_TRY(append(instance));
         }
         make_normals();
-        tell_what_is_left_out(*instances);
+        tell_what_is_left_out(instances);
         return checked(std::move(mesh_));
     }
 
@@ -260,13 +259,10 @@ class GltfJoiner {
 }  // namespace
 
 Result<Mesh> read_gltf(std::span<const std::byte> bytes, Reading& reading) {
-    const auto source = PlainScene::open(bytes, reading);
-    if (!source) return source.error();
-    const auto chunks = source->chunks();
-    if (!chunks) return chunks.error();
-    auto file = load_gltf(*chunks, source->file_bytes, reading);
-    if (!file) return file.error();
-    return GltfJoiner(*file, reading, source->file_bytes).read();
+    LR_ASSIGN(const auto source, PlainScene::open(bytes, reading));
+    LR_ASSIGN(const auto chunks, source.chunks());
+    LR_ASSIGN(auto file, load_gltf(chunks, source.file_bytes, reading));
+    return GltfJoiner(file, reading, source.file_bytes).read();
 }
 
 }  // namespace lacedring::detail

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "lacedring/primitives.hpp"
+#include "lrcore/base/try.h"
 #include "lrio/gltf/gltf_file.h"
 #include "lrio/gltf/gltf_primitives.h"
 #include "lrio/gltf/gltf_scene.h"
@@ -108,26 +109,22 @@ Result<void> read_mesh_primitives(const MeshPlan& plan, std::size_t mesh, std::v
 }  // namespace
 
 Result<PrimitiveList> read_gltf_primitives(std::span<const std::byte> bytes, Reading& reading) {
-    const auto source = PlainScene::open(bytes, reading);
-    if (!source) return source.error();
-    const auto chunks = source->chunks();
-    if (!chunks) return chunks.error();
-    Result<GltfFile> file = load_gltf(*chunks, source->file_bytes, reading);
-    if (!file) return file.error();
-    const Result<std::vector<MeshInstance>> instances = place_meshes(*file, reading, source->file_bytes);
-    if (!instances) return instances.error();
-    MeshPlans plans(*file, reading);
-    if (auto good = plans.make(*instances); !good) return good.error();
-    if (auto good = check_room(plans, *file, reading, source->file_bytes); !good) return good.error();
+    LR_ASSIGN(const auto source, PlainScene::open(bytes, reading));
+    LR_ASSIGN(const auto chunks, source.chunks());
+    LR_ASSIGN(GltfFile file, load_gltf(chunks, source.file_bytes, reading));
+    LR_ASSIGN(const std::vector<MeshInstance> instances, place_meshes(file, reading, source.file_bytes));
+    MeshPlans plans(file, reading);
+    LR_TRY(plans.make(instances));
+    LR_TRY(check_room(plans, file, reading, source.file_bytes));
     PrimitiveList out;
     out.primitives.reserve(plans.primitive_count());
     for (std::size_t mesh = 0; mesh < plans.meshes().size(); ++mesh) {
-        if (auto good = read_mesh_primitives(plans.meshes()[mesh], mesh, out.primitives); !good) return good.error();
-        out.mesh_names.push_back(file->model.meshes[mesh].name);
+        LR_TRY(read_mesh_primitives(plans.meshes()[mesh], mesh, out.primitives));
+        out.mesh_names.push_back(file.model.meshes[mesh].name);
     }
     if (out.primitives.empty()) return malformed("has no triangles");
-    out.placed.reserve(instances->size());
-    for (const MeshInstance& instance : *instances) out.placed.push_back({instance.mesh, instance.transform.m});
+    out.placed.reserve(instances.size());
+    for (const MeshInstance& instance : instances) out.placed.push_back({instance.mesh, instance.transform.m});
     plans.tell_what_is_left_out();
     reading.report.primitives = out.primitives.size();
     return out;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "lrcore/base/try.h"
 #include "lrio/gltf/gltf_names.h"
 #include "lrio/mesh/write_formats.h"
 
@@ -19,20 +20,18 @@ class GlbMaker {
     explicit GlbMaker(const Mesh& mesh) : mesh_(mesh) {}
 
     Result<void> make(Bytes& head, Bytes& body, WriteNotes& notes) {
-        Result<GltfAttributes> fitted = fit_to_gltf(mesh_, notes);
-        if (!fitted) return fitted.error();
-        quantized_ = fitted->quantized;
-        find_bounds(fitted->attributes.front());
+        LR_ASSIGN(GltfAttributes fitted, fit_to_gltf(mesh_, notes));
+        quantized_ = fitted.quantized;
+        find_bounds(fitted.attributes.front());
         nlohmann::json attributes = nlohmann::json::object();
-        for (const Attribute& attribute : fitted->attributes) {
+        for (const Attribute& attribute : fitted.attributes) {
             const std::size_t accessor = add_attribute(attribute, attributes.empty());
             attributes.emplace(attribute.name, accessor);
         }
         const std::size_t indices = add_indices();
         const std::string json = document(attributes, indices);
-        Result<Bytes> begin = make_glb_head(json, bin_.size());
-        if (!begin) return begin.error();
-        head = std::move(*begin);
+        LR_ASSIGN(Bytes begin, make_glb_head(json, bin_.size()));
+        head = std::move(begin);
         body = std::move(bin_);
         return {};
     }

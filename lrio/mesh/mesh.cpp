@@ -3,7 +3,11 @@
 #include <cmath>
 #include <cstring>
 
+#include "lrcore/base/vec3.h"
+
 namespace lacedring {
+
+using detail::cross, detail::minus, detail::Vec3;
 
 const Attribute* find_attribute(const Mesh& mesh, std::string_view name) {
     for (const Attribute& attribute : mesh.attributes) {
@@ -45,12 +49,10 @@ std::vector<float> normals_f32(const Mesh& mesh) {
     } else {
         const std::vector<float> p = positions_f32(mesh);
         for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-            const std::size_t a = std::size_t{mesh.indices[3 * t]} * 3;
-            const std::size_t b = std::size_t{mesh.indices[3 * t + 1]} * 3;
-            const std::size_t c = std::size_t{mesh.indices[3 * t + 2]} * 3;
-            const float e[3] = {p[b] - p[a], p[b + 1] - p[a + 1], p[b + 2] - p[a + 2]};
-            const float f[3] = {p[c] - p[a], p[c + 1] - p[a + 1], p[c + 2] - p[a + 2]};
-            const float n[3] = {e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]};
+            const auto at = [&](std::size_t k) { return std::size_t{mesh.indices[3 * t + k]} * 3; };
+            const auto position = [&](std::size_t i) { return Vec3<float>{p[i], p[i + 1], p[i + 2]}; };
+            const std::size_t a = at(0), b = at(1), c = at(2);
+            const Vec3<float> n = cross(minus(position(b), position(a)), minus(position(c), position(a)));
             for (const std::size_t v : {a, b, c}) {
                 for (std::size_t i = 0; i < 3; ++i) out[v + i] += n[i];
             }

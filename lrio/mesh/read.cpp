@@ -7,6 +7,7 @@
 
 #include "lacedring/file.hpp"
 #include "lacedring/mesh_files.hpp"
+#include "lrcore/base/try.h"
 #include "lrio/mesh/read_formats.h"
 #include "lrio/mesh/text_scanner.h"
 
@@ -128,12 +129,11 @@ Result<Recognized> recognize(std::span<const std::byte> bytes, Reading& reading)
 }
 
 Result<Mesh> read_bytes(std::span<const std::byte> bytes, Reading& reading) {
-    const Result<Recognized> file = recognize(bytes, reading);
-    if (!file) return file.error();
-    const auto& [raw, text, format] = *file;
+    LR_ASSIGN(const Recognized file, recognize(bytes, reading));
+    const auto& [raw, text, format] = file;
     switch (format) {
         case MeshFormat::gltf:
-            return read_gltf(file->text_bytes(), reading);
+            return read_gltf(file.text_bytes(), reading);
         case MeshFormat::obj:
             return read_obj(text, reading);
         case MeshFormat::off:
@@ -179,9 +179,8 @@ Result<Mesh> read_mesh(std::span<const std::byte> bytes, const std::filesystem::
         if (!mesh || reading.report.format == MeshFormat::gltf) return mesh;  // read_gltf knows of all its files
         double stride = 0;
         for (const Attribute& attribute : mesh->attributes) stride += static_cast<double>(attribute.stride());
-        const auto good = reading.check_memory(mesh->vertex_count, stride, static_cast<double>(mesh->triangle_count()),
-                                               static_cast<double>(bytes.size()));
-        if (!good) return good.error();
+        LR_TRY(reading.check_memory(mesh->vertex_count, stride, static_cast<double>(mesh->triangle_count()),
+                                    static_cast<double>(bytes.size())));
         return mesh;
     });
 }
@@ -189,9 +188,8 @@ Result<Mesh> read_mesh(std::span<const std::byte> bytes, const std::filesystem::
 Result<Mesh> read_mesh(const std::filesystem::path& path, const ReadOptions& options, ReadReport* report,
                        Materials* materials) {
     return detail::caught([&]() -> Result<Mesh> {
-        const auto bytes = read_file(path);
-        if (!bytes) return bytes.error();
-        return read_mesh(*bytes, path, options, report, materials);
+        LR_ASSIGN(const auto bytes, read_file(path));
+        return read_mesh(bytes, path, options, report, materials);
     });
 }
 
@@ -200,13 +198,11 @@ Result<PrimitiveList> read_primitives(std::span<const std::byte> bytes, const st
     ReadReport unwanted;
     detail::Reading reading{options, report != nullptr ? *report : unwanted, name};
     return detail::caught([&]() -> Result<PrimitiveList> {
-        const auto file = detail::recognize(bytes, reading);
-        if (!file) return file.error();
-        if (file->format == MeshFormat::gltf) return detail::read_gltf_primitives(file->text_bytes(), reading);
-        Result<Mesh> mesh = read_mesh(bytes, name, options, &reading.report);
-        if (!mesh) return mesh.error();
+        LR_ASSIGN(const auto file, detail::recognize(bytes, reading));
+        if (file.format == MeshFormat::gltf) return detail::read_gltf_primitives(file.text_bytes(), reading);
+        LR_ASSIGN(Mesh mesh, read_mesh(bytes, name, options, &reading.report));
         PrimitiveList out;
-        out.primitives.push_back({0, 0, PrimitiveMode::triangles, std::move(*mesh)});
+        out.primitives.push_back({0, 0, PrimitiveMode::triangles, std::move(mesh)});
         out.placed.push_back({});
         out.mesh_names.emplace_back();
         return out;
@@ -216,9 +212,8 @@ Result<PrimitiveList> read_primitives(std::span<const std::byte> bytes, const st
 Result<PrimitiveList> read_primitives(const std::filesystem::path& path, const ReadOptions& options,
                                       ReadReport* report) {
     return detail::caught([&]() -> Result<PrimitiveList> {
-        const auto bytes = read_file(path);
-        if (!bytes) return bytes.error();
-        return read_primitives(*bytes, path, options, report);
+        LR_ASSIGN(const auto bytes, read_file(path));
+        return read_primitives(bytes, path, options, report);
     });
 }
 

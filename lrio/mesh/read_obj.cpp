@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "lrcore/base/try.h"
 #include "lrio/mesh/distinct.h"
 #include "lrio/mesh/polygon.h"
 #include "lrio/mesh/read_formats.h"
@@ -124,8 +125,8 @@ class ObjReader {
         : text_(text), scanner_(text, true, true), sizes_(sizes) {}
 
     Result<Mesh> read(Reading& reading) {
-        if (auto good = read_statements(); !good) return good.error();
-        if (auto good = check_references(); !good) return good.error();
+        LR_TRY(read_statements());
+        LR_TRY(check_references());
         tell(reading);
         return build(reading);
     }
@@ -170,27 +171,26 @@ class ObjReader {
 
     Result<void> read_vertex() {
         float numbers[7] = {};
-        const auto count = read_line(numbers, 3, 7);
-        if (!count) return count.error();
+        LR_ASSIGN(const auto count, read_line(numbers, 3, 7));
         if (!std::isfinite(numbers[0]) || !std::isfinite(numbers[1]) || !std::isfinite(numbers[2])) {
             return at_line("vertex {} is not finite", vertices_.size() + 1);
         }
         if (vertices_.size() == max_vertices) return too_many_vertices();
         // x y z [w], or x y z r g b; colors are left out unless every vertex has one.
-        if (*count >= 6) {
+        if (count >= 6) {
             ++colored_;
             if (colors_.size() == vertices_.values.size()) colors_.insert(colors_.end(), numbers + 3, numbers + 6);
-        } else if (*count > 3 && numbers[3] != 1) {
+        } else if (count > 3 && numbers[3] != 1) {
             ++weights_;
         }
-        if (*count == 5 || *count == 7) ++odd_;
+        if (count == 5 || count == 7) ++odd_;
         vertices_.values.insert(vertices_.values.end(), numbers, numbers + 3);
         return {};
     }
 
     Result<void> read_texture() {
         float numbers[3] = {};
-        if (const auto count = read_line(numbers, 1, 3); !count) return count.error();
+        LR_TRY(read_line(numbers, 1, 3));
         if (textures_.size() == max_vertices) return too_many_vertices();
         if (numbers[2] != 0) ++depths_;
         textures_.values.insert(textures_.values.end(), numbers, numbers + 2);
@@ -199,7 +199,7 @@ class ObjReader {
 
     Result<void> read_normal() {
         float numbers[3] = {};
-        if (const auto count = read_line(numbers, 3, 3); !count) return count.error();
+        LR_TRY(read_line(numbers, 3, 3));
         if (normals_.size() == max_vertices) return too_many_vertices();
         normals_.values.insert(normals_.values.end(), numbers, numbers + 3);
         return {};

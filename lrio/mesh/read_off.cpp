@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <utility>
 
+#include "lrcore/base/try.h"
 #include "lrio/mesh/polygon.h"
 #include "lrio/mesh/read_formats.h"
 #include "lrio/mesh/text_scanner.h"
@@ -61,8 +62,8 @@ class OffReader {
         header_ = header_at(scanner_);  // may be left out
         scanner_.skip_bytes(header_.length);
         if (header_.higher_dimension) return unsupported("OFF with more than 3 dimensions");
-        if (auto good = read_counts(); !good) return good.error();
-        if (auto good = read_elements(); !good) return good.error();
+        LR_TRY(read_counts());
+        LR_TRY(read_elements());
         scanner_.skip_space();
         reading.leave_out(scanner_.remaining(), "byte behind the last face", "bytes behind the last face");
         return build(reading);

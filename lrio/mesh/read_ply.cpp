@@ -6,6 +6,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "lrcore/base/try.h"
 #include "lrio/mesh/ply_header.h"
 #include "lrio/mesh/polygon.h"
 #include "lrio/mesh/read_formats.h"
@@ -182,14 +183,13 @@ class PlyReader {
         mesh_.vertex_count = static_cast<std::uint32_t>(vertex->count);
 
         for (const PlyElement& element : header_.elements) {
-            if (auto fits = check_count(element); !fits) return fits.error();
+            LR_TRY(check_count(element));
             if (element.properties.empty()) continue;  // takes no bytes, whatever its count
             const bool faces = element.name == "face";
             const bool strips = element.name == "tristrips";
-            auto good = &element == vertex ? read_vertices(element)
-                        : faces || strips  ? read_polygons(element, strips)
-                                           : skip_element(element);
-            if (!good) return good.error();
+            LR_TRY(&element == vertex ? read_vertices(element)
+                   : faces || strips  ? read_polygons(element, strips)
+                                      : skip_element(element));
         }
         tell(reading, *vertex);
         reading.leave_out(source_.bytes_left(), "byte behind the last element", "bytes behind the last element");
@@ -211,8 +211,7 @@ class PlyReader {
     }
 
     Result<void> read_vertices(const PlyElement& vertex) {
-        auto plan = plan_ply_attributes(vertex, header_.notes);
-        if (!plan) return plan.error();
+        LR_ASSIGN(auto plan, plan_ply_attributes(vertex, header_.notes));
         // Where each property's value goes: `stride` apart from vertex to vertex, or nowhere for a list.
         struct Target {
             std::byte* at = nullptr;
@@ -221,8 +220,8 @@ class PlyReader {
             bool is_position = false;
         };
         std::vector<Target> targets(vertex.properties.size());
-        mesh_.attributes.reserve(plan->size());
-        for (PlyAttribute& entry : *plan) {
+        mesh_.attributes.reserve(plan.size());
+        for (PlyAttribute& entry : plan) {
             const std::size_t stride = entry.attribute.stride();
             const ComponentType type = entry.attribute.type;
             const bool is_position = mesh_.attributes.empty();
@@ -450,17 +449,16 @@ Result<Mesh> read_ascii(std::string_view bytes, const PlyHeader& header, Reading
 }  // namespace
 
 Result<Mesh> read_ply(std::string_view bytes, Reading& reading) {
-    const auto header = parse_ply_header(bytes);
-    if (!header) return header.error();
-    switch (header->format) {
+    LR_ASSIGN(const auto header, parse_ply_header(bytes));
+    switch (header.format) {
         case PlyFormat::ascii:
-            return read_ascii(bytes, *header, reading);
+            return read_ascii(bytes, header, reading);
         case PlyFormat::little_endian:
-            return PlyReader<BinarySource<false>>(bytes, *header).read(reading);
+            return PlyReader<BinarySource<false>>(bytes, header).read(reading);
         case PlyFormat::big_endian:
             break;
     }
-    return PlyReader<BinarySource<true>>(bytes, *header).read(reading);
+    return PlyReader<BinarySource<true>>(bytes, header).read(reading);
 }
 
 }  // namespace lacedring::detail

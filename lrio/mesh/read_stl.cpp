@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "lrcore/base/try.h"
 #include "lrio/mesh/distinct.h"
 #include "lrio/mesh/read_formats.h"
 #include "lrio/mesh/text_scanner.h"
@@ -99,7 +100,7 @@ class AsciiStl {
             if (scanner_.at_end()) break;
             if (!is_next("solid")) return unexpected("'solid'");
             scanner_.skip_line();  // its name
-            if (auto solid = read_solid(); !solid) return solid.error();
+            LR_TRY(read_solid());
         }
         return merged(corners_);
     }

@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "lrcore/base/bits.h"
+#include "lrcore/base/vec3.h"
 #include "lrio/mesh/distinct.h"
 
 namespace lacedring {
@@ -21,7 +22,7 @@ Point position(const Positions& positions, std::uint32_t v) {
 }
 
 double distance(const Point& a, const Point& b) {
-    return std::sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
+    return detail::length(detail::minus(a, b));
 }
 
 /// Marks the vertices of triangles that are not degenerate.

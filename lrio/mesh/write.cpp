@@ -4,6 +4,7 @@
 
 #include "lacedring/file.hpp"
 #include "lacedring/mesh_files.hpp"
+#include "lrcore/base/try.h"
 #include "lrio/mesh/write_formats.h"
 
 namespace lacedring {
@@ -37,13 +38,13 @@ struct File {
 };
 
 Result<File> make_file(const Mesh& mesh, MeshFormat format, WriteNotes* notes) {
-    if (auto good = check(mesh); !good) return good.error();
+    LR_TRY(check(mesh));
     WriteNotes unwanted;
     WriteNotes& told = notes != nullptr ? *notes : unwanted;
     File file;
     switch (format) {
         case MeshFormat::gltf:
-            if (auto made = detail::make_glb(mesh, file.head, file.body, told); !made) return made.error();
+            LR_TRY(detail::make_glb(mesh, file.head, file.body, told));
             return file;
         case MeshFormat::ply:
             detail::make_ply(mesh, file.head, file.body);
@@ -68,24 +69,21 @@ MeshFormat writable_format(const std::filesystem::path& path) {
 }
 
 Result<void> write_mesh(const Mesh& mesh, const std::filesystem::path& path, WriteNotes* notes) {
-    const Result<File> file = make_file(mesh, writable_format(path), notes);
-    if (!file) return file.error();
-    const std::span<const std::byte> parts[] = {file->head, file->body};
+    LR_ASSIGN(const File file, make_file(mesh, writable_format(path), notes));
+    const std::span<const std::byte> parts[] = {file.head, file.body};
     return write_file(path, parts);
 }
 
 Result<void> write_mesh(const Mesh& mesh, MeshFormat format, int descriptor, WriteNotes* notes) {
-    const Result<File> file = make_file(mesh, format, notes);
-    if (!file) return file.error();
-    const std::span<const std::byte> parts[] = {file->head, file->body};
+    LR_ASSIGN(const File file, make_file(mesh, format, notes));
+    const std::span<const std::byte> parts[] = {file.head, file.body};
     return write_descriptor(descriptor, parts);
 }
 
 Result<std::vector<std::byte>> mesh_file_bytes(const Mesh& mesh, MeshFormat format, WriteNotes* notes) {
-    Result<File> file = make_file(mesh, format, notes);
-    if (!file) return file.error();
-    detail::append(file->head, file->body);
-    return std::move(file->head);
+    LR_ASSIGN(File file, make_file(mesh, format, notes));
+    detail::append(file.head, file.body);
+    return std::move(file.head);
 }
 
 }  // namespace lacedring

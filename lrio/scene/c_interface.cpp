@@ -6,6 +6,7 @@
 
 #include "lacedring/scene.h"
 #include "lacedring/scene.hpp"
+#include "lrcore/base/try.h"
 #include "lrcore/codec/c_message.h"
 
 namespace lacedring {
@@ -25,9 +26,8 @@ lacedring_code scene_code(ErrorCode code) {
 }
 
 Result<std::vector<std::byte>> plain_glb(std::span<const std::byte> bytes, std::uint64_t max_bytes) {
-    const auto scene = unpack_scene(bytes, "", "", {.max_bytes = max_bytes});
-    if (!scene) return scene.error();
-    return make_glb_file(*scene);
+    LR_ASSIGN(const auto scene, unpack_scene(bytes, "", "", {.max_bytes = max_bytes}));
+    return make_glb_file(scene);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "lrcore/base/try.h"
 #include "lrio/mesh/read_formats.h"
 #include "lrio/scene/deflate.h"
 
@@ -111,12 +112,11 @@ Result<std::vector<std::byte>> encode_floats(std::span<const std::byte> bytes, s
         }
     }
     if (used > 0) tail.push_back(static_cast<std::byte>(bits));
-    const auto packed = deflate_bytes(lengths);
-    if (!packed) return packed.error();
+    LR_ASSIGN(const auto packed, deflate_bytes(lengths));
     std::vector<std::byte> out;
     put_word(out, width | (quaternions ? kQuaternions : 0));
-    put_word(out, static_cast<std::uint32_t>(packed->size()));
-    out.insert(out.end(), packed->begin(), packed->end());
+    put_word(out, static_cast<std::uint32_t>(packed.size()));
+    out.insert(out.end(), packed.begin(), packed.end());
     out.insert(out.end(), tail.begin(), tail.end());
     return out;
 }

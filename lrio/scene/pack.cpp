@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "lacedring/scene.hpp"
+#include "lrcore/base/try.h"
 #include "lrio/gltf/gltf_accessor.h"
 #include "lrio/gltf/gltf_file.h"
 #include "lrio/gltf/gltf_names.h"
@@ -35,14 +36,13 @@ class Packer {
         name_draco_accessors();
         accessors_ = json_.root.find("accessors");
         meshes_json_ = json_.root.list("meshes");
-        auto plan = plan_scene(json_.root, file_, options_.keep_order);
-        if (!plan) return plan.error();
-        plan_ = std::move(*plan);
+        LR_ASSIGN(auto plan, plan_scene(json_.root, file_, options_.keep_order));
+        plan_ = std::move(plan);
         report_.not_compressed = plan_.not_compressed;
-        if (auto good = read_sets(); !good) return good.error();
+        LR_TRY(read_sets());
         group_sets();
         for (const Group& group : groups_) {
-            if (auto good = encode(group); !good) return good.error();
+            LR_TRY(encode(group));
         }
         return finish();
     }
@@ -109,18 +109,16 @@ class Packer {
     Result<void> read_sets() {
         SetSize all;
         for (const VertexSet& set : plan_.sets) {
-            const auto size = size_of_set(file_, set);
-            if (!size) return size.error();
-            all.vertices += size->vertices * size->stride;
-            all.triangles += size->triangles;
+            LR_ASSIGN(const auto size, size_of_set(file_, set));
+            all.vertices += size.vertices * size.stride;
+            all.triangles += size.triangles;
         }
         if (auto room = reading_.check_memory(1, all.vertices, all.triangles, file_bytes()); !room) return room;
         std::vector<VertexSet> kept;
         for (VertexSet& set : plan_.sets) {
-            auto read = read_set(file_, set);
-            if (!read) return read.error();
-            const bool finite = has_finite_positions(read->mesh);
-            if (!finite || !every_part_has_triangles(*read)) {
+            LR_ASSIGN(auto read, read_set(file_, set));
+            const bool finite = has_finite_positions(read.mesh);
+            if (!finite || !every_part_has_triangles(read)) {
                 if (file_.draco.sources.contains(static_cast<int>(set.attributes[0].accessor))) {
                     return unsupported(
                         "a primitive compressed with Draco, of no triangles or of positions that are not finite");
@@ -133,7 +131,7 @@ class Packer {
             }
             report_.geometry_before += size_before(set);
             kept.push_back(std::move(set));
-            meshes_.push_back(std::move(*read));
+            meshes_.push_back(std::move(read));
         }
         plan_.sets = std::move(kept);
         return {};
@@ -226,11 +224,9 @@ class Packer {
         for (std::size_t s = 0; s < group.sets.size(); ++s) {
             for (const std::uint32_t number : part_numbers[s]) said.set_of_part[number] = static_cast<std::uint32_t>(s);
         }
-        auto decoder = StreamDecoder::open(stream->file, stream->parts, std::move(said));
-        if (!decoder) return decoder.error();
-        const auto decoded = decode(*decoder, group.sets.size());
-        if (!decoded) return decoded.error();
-        return describe(group, part_numbers, std::move(*stream), *decoded);
+        LR_ASSIGN(auto decoder, StreamDecoder::open(stream->file, stream->parts, std::move(said)));
+        LR_ASSIGN(const auto decoded, decode(decoder, group.sets.size()));
+        return describe(group, part_numbers, std::move(*stream), decoded);
     }
 
     struct Decoded {
@@ -255,7 +251,7 @@ class Packer {
                 made.data.resize(set.vertices * made.stride());
                 to.emplace_back(made.data);
             }
-            if (auto good = decoder.decode_attribute(a, to); !good) return good.error();
+            LR_TRY(decoder.decode_attribute(a, to));
         }
         std::vector<std::span<std::uint32_t>> to;
         out.parts.resize(decoder.parts());
@@ -302,10 +298,9 @@ class Packer {
         const AttributeView decoded{attribute.name, attribute.type, attribute.components, attribute.normalized,
                                     attribute.v_up, false,          attribute.data,       {}};
         describe_attribute(json_, accessor, decoded, vertices, decoded.name.starts_with("POSITION"));
-        auto values = values_as(accessor, decoded);
-        if (!values) return values.error();
-        const std::size_t stride = values->size() / vertices;
-        if (options_.fallback) fallback_.push_back({number, std::move(*values), stride});
+        LR_ASSIGN(auto values, values_as(accessor, decoded));
+        const std::size_t stride = values.size() / vertices;
+        if (options_.fallback) fallback_.push_back({number, std::move(values), stride});
         return {};
     }
 
@@ -343,7 +338,7 @@ class Packer {
 
     Result<SceneFile> finish() {
         SceneViewWriter views(json_, file_, options_.fallback);
-        if (auto good = views.keep_others(); !good) return good.error();
+        LR_TRY(views.keep_others());
         JsonValue list = JsonText::array();
         for (Stream& stream : streams_) {
             stream.json.set("bufferView", json_.number(views.add_stream(stream.file)));
@@ -412,10 +407,9 @@ Result<SceneFile> pack_scene(std::span<const std::byte> bytes, const std::filesy
         return Error{ErrorCode::invalid_argument, "a packed document needs a GLB without a fallback"};
     }
     return caught([&]() -> Result<SceneFile> {
-        auto file = load_gltf(bytes, reading, GltfUse::everything);
-        if (!file) return file.error();
+        LR_ASSIGN(auto file, load_gltf(bytes, reading, GltfUse::everything));
         told.read.left_out.clear();  // of a mesh; here nothing is
-        return Packer(*file, options, reading, told).run();
+        return Packer(file, options, reading, told).run();
     });
 }
 

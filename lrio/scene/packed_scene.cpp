@@ -1,5 +1,6 @@
 #include "lrio/scene/packed_scene.h"
 
+#include "lrcore/base/try.h"
 #include "lrio/gltf/gltf_file.h"
 #include "lrio/scene/deflate.h"
 #include "lrio/scene/float_coding.h"
@@ -42,8 +43,7 @@ Result<std::span<const std::byte>> SceneViews::stored(std::uint64_t index) const
 }
 
 Result<std::uint64_t> SceneViews::size(std::uint64_t index) const {
-    const auto bytes = stored(index);
-    if (!bytes) return bytes.error();
+    LR_TRY(stored(index));
     const auto length = views_[static_cast<std::size_t>(index)].value.integer("byteLength");
     if (!length) return malformed("buffer view {}: no byteLength", index);
     return *length;
@@ -81,10 +81,9 @@ bool SceneViews::is_coded(std::uint64_t index) const {
 }
 
 Result<PackedScene> PackedScene::load(std::span<const std::byte> bytes, Reading& reading) {
-    const auto chunks = split_gltf(bytes);
-    if (!chunks) return chunks.error();
+    LR_ASSIGN(const auto chunks, split_gltf(bytes));
     PackedScene out;
-    out.has_bin_chunk_ = chunks->bin.has_value();
+    out.has_bin_chunk_ = chunks.bin.has_value();
     const auto open = [&](std::string_view text) -> Result<void> {
         if (auto good = check_json(text); !good) return good;
         out.json_ = std::make_unique<JsonText>(text);
@@ -95,12 +94,11 @@ Result<PackedScene> PackedScene::load(std::span<const std::byte> bytes, Reading&
         if (buffers != nullptr && buffers->is_array()) {
             (*out.buffer_list_)["buffers"] = nlohmann::json::parse(text_of(*buffers), nullptr, false);
         }
-        auto made = GltfBuffers::make(*out.buffer_list_, chunks->bin, reading);
-        if (!made) return made.error();
-        out.buffers_ = std::make_unique<GltfBuffers>(std::move(*made));
+        LR_ASSIGN(auto made, GltfBuffers::make(*out.buffer_list_, chunks.bin, reading));
+        out.buffers_ = std::make_unique<GltfBuffers>(std::move(made));
         return {};
     };
-    if (auto good = open(chunks->json); !good) return good.error();
+    LR_TRY(open(chunks.json));
     const auto document = [&]() -> const JsonValue* {
         const JsonValue* extension = extension_of(out.json_->root);
         return extension == nullptr ? nullptr : extension->find("document");
@@ -118,7 +116,7 @@ Result<PackedScene> PackedScene::load(std::span<const std::byte> bytes, Reading&
         auto text = inflate_bytes(*packed, most, ErrorCode::memory_limit);
         if (!text) return Error{text.error().code, "the packed document: " + text.error().message};
         out.text_ = std::make_unique<std::string>(reinterpret_cast<const char*>(text->data()), text->size());
-        if (auto good = open(*out.text_); !good) return good.error();
+        LR_TRY(open(*out.text_));
         if (document() != nullptr) return malformed("a packed document in a packed document");
     }
     out.file_bytes_ = file_bytes;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lrcore/base/try.h"
 #include "lrio/mesh/read_formats.h"
 #include "lrio/scene/deflate.h"
 
@@ -76,9 +77,8 @@ Result<std::vector<std::byte>> encode_part_codes(std::span<const std::uint32_t> 
 
 Result<std::vector<std::uint32_t>> decode_part_codes(std::span<const std::byte> codes, std::size_t triangles,
                                                      std::size_t parts) {
-    const auto bytes = inflate_bytes(codes, 15 * static_cast<std::uint64_t>(triangles));
-    if (!bytes) return bytes.error();
-    std::span<const std::byte> runs = *bytes;
+    LR_ASSIGN(const auto bytes, inflate_bytes(codes, 15 * static_cast<std::uint64_t>(triangles)));
+    std::span<const std::byte> runs = bytes;
     std::vector<std::uint32_t> out;
     out.reserve(triangles);
     std::vector<std::uint32_t> recent;

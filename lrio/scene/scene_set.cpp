@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "lrcore/base/try.h"
 #include "lrio/gltf/gltf_accessor.h"
 #include "lrio/gltf/gltf_primitives.h"
 #include "lrio/gltf/tinygltf.h"
@@ -25,9 +26,8 @@ Result<void> append_part(GltfFile& file, const ScenePart& part, std::size_t vert
     PrimitivePlan plan;
     plan.mode = part.mode;
     if (part.indices) {
-        const auto view = view_indices(file, *part.indices);
-        if (!view) return view.error();
-        plan.indices = *view;
+        LR_ASSIGN(const auto view, view_indices(file, *part.indices));
+        plan.indices = view;
     }
     const std::size_t corners = plan.corner_count(vertices);
     if (corners % 3 != 0) return malformed("{} indices are not triangles", corners);
@@ -35,14 +35,13 @@ Result<void> append_part(GltfFile& file, const ScenePart& part, std::size_t vert
 }
 
 Result<Attribute> read_attribute(GltfFile& file, const SceneAttribute& from) {
-    const auto view = view_accessor(file, static_cast<int>(from.accessor));
-    if (!view) return view.error();
-    Attribute out{from.name, view->type, view->components, view->normalized, {}};
-    out.data.resize(view->count * view->element_bytes());
-    if (auto good = copy_elements(*view, out.data.data()); !good) return good.error();
+    LR_ASSIGN(const auto view, view_accessor(file, static_cast<int>(from.accessor)));
+    Attribute out{from.name, view.type, view.components, view.normalized, {}};
+    out.data.resize(view.count * view.element_bytes());
+    LR_TRY(copy_elements(view, out.data.data()));
     if (from.name != "POSITION" || out.type == ComponentType::f32) return out;
-    std::vector<std::byte> floats(view->count * 3 * sizeof(float));
-    for (std::size_t i = 0; i < 3 * view->count; ++i) {
+    std::vector<std::byte> floats(view.count * 3 * sizeof(float));
+    for (std::size_t i = 0; i < 3 * view.count; ++i) {
         const auto value = static_cast<float>(component_at(out.data.data(), out.type, false, i));
         std::memcpy(floats.data() + i * sizeof value, &value, sizeof value);
     }
@@ -58,16 +57,14 @@ Result<SetSize> size_of_set(GltfFile& file, const VertexSet& set) {
     SetSize out;
     out.vertices = static_cast<double>(set.vertices);
     for (const SceneAttribute& a : set.attributes) {
-        const auto view = view_accessor(file, static_cast<int>(a.accessor));
-        if (!view) return view.error();
-        out.stride += static_cast<double>(view->element_bytes());
+        LR_ASSIGN(const auto view, view_accessor(file, static_cast<int>(a.accessor)));
+        out.stride += static_cast<double>(view.element_bytes());
     }
     for (const ScenePart& part : set.parts) {
         std::size_t corners = set.vertices;
         if (part.indices) {
-            const auto view = view_indices(file, *part.indices);
-            if (!view) return view.error();
-            corners = view->count;
+            LR_ASSIGN(const auto view, view_indices(file, *part.indices));
+            corners = view.count;
         }
         out.triangles += static_cast<double>(part.mode == TINYGLTF_MODE_TRIANGLES ? corners / 3 : corners);
     }

@@ -7,6 +7,7 @@
 
 #include "lacedring/lacedring.hpp"
 #include "lacedring/surface.hpp"
+#include "lrcore/base/try.h"
 #include "lrio/file/lr_layout.h"
 #include "lrio/mesh/read_formats.h"
 #include "lrio/scene/part_codes.h"
@@ -83,15 +84,13 @@ Result<StreamChoice> make_choice(const Mesh& mesh, const Surface& surface, const
     const Mesh bare = surface_mesh(mesh, surface);
     EncodeOptions how;
     how.threads = threads;
-    Result<Encoded> encoded = encode(bare.indices, bare.vertex_count, how);
-    if (!encoded) return encoded.error();
+    LR_ASSIGN(Encoded encoded, encode(bare.indices, bare.vertex_count, how));
     StreamChoice out;
-    out.triangle_order = encoded->triangle_order;
-    out.degenerate = encoded->report.topology.degenerate;
-    Result<LrFile> file = make_lr_file(mesh, surface, std::move(*encoded), keep_order);
-    if (!file) return file.error();
-    out.file = std::move(*file);
-    if (auto good = compress(out.file, options, threads); !good) return good.error();
+    out.triangle_order = encoded.triangle_order;
+    out.degenerate = encoded.report.topology.degenerate;
+    LR_ASSIGN(LrFile file, make_lr_file(mesh, surface, std::move(encoded), keep_order));
+    out.file = std::move(file);
+    LR_TRY(compress(out.file, options, threads));
     out.bytes = serialize_lr(out.file, form);
     return out;
 }
@@ -122,9 +121,8 @@ Result<SceneStream> encode_scene_stream(std::vector<CodedSet> sets, bool keep_or
     parts.reserve(best->triangle_order.size());
     for (const std::uint32_t t : best->triangle_order) parts.push_back(joined.part_of[t]);
     if (joined.parts > 1) {
-        auto codes = encode_part_codes(parts);
-        if (!codes) return codes.error();
-        out.parts = std::move(*codes);
+        LR_ASSIGN(auto codes, encode_part_codes(parts));
+        out.parts = std::move(codes);
     }
     return out;
 }

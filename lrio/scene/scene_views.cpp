@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 
+#include "lrcore/base/try.h"
 #include "lrio/gltf/gltf_accessor.h"
 #include "lrio/gltf/gltf_view.h"
 #include "lrio/gltf/tinygltf.h"
@@ -277,7 +278,7 @@ Result<SceneFile> SceneViewWriter::finish(const PackOptions& options) {
     }
     out.json = text_of(root);
     if (deflates_document(options, out)) {
-        if (auto good = pack_document(out); !good) return good.error();
+        LR_TRY(pack_document(out));
     }
     return out;
 }
@@ -316,15 +317,14 @@ Result<void> SceneViewWriter::pack_document(SceneFile& out) {
         }
     }
     out.json = text_of(json_.root);
-    const auto packed = deflate_bytes(std::as_bytes(std::span(out.json)));
-    if (!packed) return packed.error();
+    LR_ASSIGN(const auto packed, deflate_bytes(std::as_bytes(std::span(out.json))));
     BinChunk bin;
     bin.add(out.bin);
     JsonValue view = JsonText::object(), views = JsonText::array(), extension = JsonText::object(),
               extensions = JsonText::object();
     view.set("buffer", json_.number(0));
-    view.set("byteOffset", json_.number(bin.add(*packed)));
-    view.set("byteLength", json_.number(packed->size()));
+    view.set("byteOffset", json_.number(bin.add(packed)));
+    view.set("byteLength", json_.number(packed.size()));
     views.members.push_back({{}, std::move(view)});
     extension.set("document", json_.number(0));
     extensions.set(kExtension, std::move(extension));

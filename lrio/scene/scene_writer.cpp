@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 
+#include "lrcore/base/try.h"
 #include "lrio/gltf/gltf_accessor.h"
 #include "lrio/gltf/gltf_names.h"
 #include "lrio/mesh/read_formats.h"
@@ -124,9 +125,8 @@ Result<bool> has_type_of(const JsonValue& accessor, const AttributeView& attribu
 }
 
 Result<std::vector<std::byte>> values_as(const JsonValue& accessor, const AttributeView& attribute) {
-    const auto same = has_type_of(accessor, attribute);
-    if (!same) return same.error();
-    if (*same) return std::vector<std::byte>(attribute.data.begin(), attribute.data.end());
+    LR_ASSIGN(const auto same, has_type_of(accessor, attribute));
+    if (same) return std::vector<std::byte>(attribute.data.begin(), attribute.data.end());
     const std::uint64_t type = accessor.integer("componentType").value_or(0);
     std::vector<std::byte> out;
     const bool fits = (type == kGltfByte && convert_all<std::int8_t>(attribute.data, out)) ||

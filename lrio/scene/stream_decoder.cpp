@@ -5,6 +5,7 @@
 #include <numeric>
 #include <thread>
 
+#include "lrcore/base/try.h"
 #include "lrio/mesh/read_formats.h"
 #include "lrio/scene/part_codes.h"
 
@@ -16,15 +17,14 @@ Result<StreamDecoder> StreamDecoder::open(std::span<const std::byte> file, std::
     DecodedLr decoded;
     Result<LrFileView> view = view_checked_lr(file);
     if (!view && view.error().code == ErrorCode::unsupported) {  // in storage form
-        Result<LrFile> whole = parse_lr(file, 0, decoded, std::thread::hardware_concurrency());
-        if (!whole) return whole.error();
-        restored = std::make_unique<LrFile>(std::move(*whole));
+        LR_ASSIGN(LrFile whole, parse_lr(file, 0, decoded, std::thread::hardware_concurrency()));
+        restored = std::make_unique<LrFile>(std::move(whole));
         view = view_of(*restored);
     }
     if (!view) return view.error();
-    if (auto good = check_position(*view); !good) return good.error();
+    LR_TRY(check_position(*view));
     if (check) {
-        if (auto good = check(*view); !good) return good.error();
+        LR_TRY(check(*view));
     }
     StreamDecoder out;
     out.said_ = std::move(said);
@@ -32,9 +32,9 @@ Result<StreamDecoder> StreamDecoder::open(std::span<const std::byte> file, std::
     out.restored_ = std::move(restored);
     out.decoded_ = std::move(decoded);
     out.corners_.assign(out.said_.set_of_part.size(), 0);
-    if (auto good = out.read(file); !good) return good.error();
-    if (auto good = out.read_parts(parts); !good) return good.error();
-    if (auto good = out.number_vertices(); !good) return good.error();
+    LR_TRY(out.read(file));
+    LR_TRY(out.read_parts(parts));
+    LR_TRY(out.number_vertices());
     return out;
 }
 
@@ -43,16 +43,14 @@ Result<void> StreamDecoder::read(std::span<const std::byte> file) {
     if (!plain || !view_.vertex_order.empty() || !view_.corner_order.empty()) return read_mesh(file);
     if (view_.format == Format::packed && view_.seams.empty() && corners_.size() == 1 && said_.vertices.size() == 1 &&
         !restored_) {
-        Result<StreamView> stream = view_.validate();
-        if (!stream) return stream.error();
-        vertex_count_ = stream->vertices();
-        triangle_count_ = stream->triangles();
-        stream_ = *stream;
+        LR_ASSIGN(StreamView stream, view_.validate());
+        vertex_count_ = stream.vertices();
+        triangle_count_ = stream.triangles();
+        stream_ = stream;
     } else {
         if (!restored_) {
-            Result<DecodedLr> decoded = decode_connectivity(view_, true);
-            if (!decoded) return decoded.error();
-            decoded_ = std::move(*decoded);
+            LR_ASSIGN(DecodedLr decoded, decode_connectivity(view_, true));
+            decoded_ = std::move(decoded);
         }
         vertex_count_ = view_.seams.empty() ? decoded_.vertices : view_.copy_count;
         indices_ = std::move(decoded_.indices);
@@ -66,18 +64,16 @@ Result<void> StreamDecoder::read(std::span<const std::byte> file) {
 /// Of files whose vertices or triangles do not come as they are stored.
 Result<void> StreamDecoder::read_mesh(std::span<const std::byte> file) {
     if (!restored_) {
-        Result<LrFile> whole = parse_lr(file, 0, decoded_, 1);
-        if (!whole) return whole.error();
-        restored_ = std::make_unique<LrFile>(std::move(*whole));
+        LR_ASSIGN(LrFile whole, parse_lr(file, 0, decoded_, 1));
+        restored_ = std::make_unique<LrFile>(std::move(whole));
     }
     const LrFile* whole = restored_.get();
     in_order_ = !whole->vertex_order.empty() && !whole->corner_order.empty();
-    Result<Mesh> mesh = in_order_ ? decode_lr_original_order(*whole) : decode_mesh(*whole, decoded_, nullptr);
-    if (!mesh) return mesh.error();
-    vertex_count_ = mesh->vertex_count;
-    indices_ = std::move(mesh->indices);
+    LR_ASSIGN(Mesh mesh, in_order_ ? decode_lr_original_order(*whole) : decode_mesh(*whole, decoded_, nullptr));
+    vertex_count_ = mesh.vertex_count;
+    indices_ = std::move(mesh.indices);
     triangle_count_ = indices_.size() / 3;
-    mesh_ = std::move(*mesh);
+    mesh_ = std::move(mesh);
     return {};
 }
 
@@ -86,9 +82,8 @@ Result<void> StreamDecoder::read_parts(std::span<const std::byte> codes) {
         corners_[0] = 3 * triangle_count_;
         return codes.empty() ? Result<void>() : malformed("parts of a stream that has one");
     }
-    auto decoded = decode_part_codes(codes, triangle_count_, corners_.size());
-    if (!decoded) return decoded.error();
-    part_of_ = std::move(*decoded);
+    LR_ASSIGN(auto decoded, decode_part_codes(codes, triangle_count_, corners_.size()));
+    part_of_ = std::move(decoded);
     if (in_order_) {  // codes are in the stream's order
         std::vector<std::uint32_t> order(part_of_.size()), sorted;
         std::iota(order.begin(), order.end(), 0U);
@@ -157,10 +152,9 @@ Result<void> StreamDecoder::decode_values(std::size_t attribute, std::span<std::
     if (from.words.empty()) {
         if (!out.empty()) std::memcpy(out.data(), from.data.data(), out.size());
     } else {
-        const Result<VertexView> stream = view_vertices(from.words);
-        if (!stream) return stream.error();
-        if (auto good = decode_vertices_checked(*stream, out); !good) return good;
-        if (stream->mapping == VertexMapping::lattice) return {};  // of finite floats
+        LR_ASSIGN(const VertexView stream, view_vertices(from.words));
+        if (auto good = decode_vertices_checked(stream, out); !good) return good;
+        if (stream.mapping == VertexMapping::lattice) return {};  // of finite floats
     }
     return attribute == 0 ? check_finite(from.type, out) : Result<void>();
 }

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "lacedring/scene.hpp"
+#include "lrcore/base/try.h"
 #include "lrio/gltf/gltf_file.h"
 #include "lrio/gltf/gltf_names.h"
 #include "lrio/scene/packed_scene.h"
@@ -26,13 +27,12 @@ class Unpacker {
 
     /// `images`: without them, their buffer views have no contents.
     Result<SceneFile> run(const std::string& bin_uri, bool images) {
-        auto plan = plan_unpacking(scene_, images);
-        if (!plan) return plan.error();
-        report_.primitives = plan->primitives;
-        positions_ = std::move(plan->positions);
-        if (auto good = keep_views(plan->kept); !good) return good.error();
-        for (std::size_t i = 0; i < plan->streams.size(); ++i) {
-            if (auto good = unpack(plan->streams[i]); !good) {
+        LR_ASSIGN(auto plan, plan_unpacking(scene_, images));
+        report_.primitives = plan.primitives;
+        positions_ = std::move(plan.positions);
+        LR_TRY(keep_views(plan.kept));
+        for (std::size_t i = 0; i < plan.streams.size(); ++i) {
+            if (auto good = unpack(plan.streams[i]); !good) {
                 return Error{good.error().code, fmt::format("stream {}: {}", i, good.error().message)};
             }
         }
@@ -51,13 +51,12 @@ class Unpacker {
         for (std::size_t i = 0; i < views.size(); ++i) {
             if (!keep[i]) continue;
             free_[i] = false;
-            const auto contents = open_view(source, i);
-            if (!contents) return contents.error();
+            LR_ASSIGN(const auto contents, open_view(source, i));
             JsonValue view = views[i].value;
             remove_extension(view, kExtension);
             view.set("buffer", scene_.json().number(0));
-            view.set("byteOffset", scene_.json().number(bin_.add(*contents)));
-            view.set("byteLength", scene_.json().number(contents->size()));
+            view.set("byteOffset", scene_.json().number(bin_.add(contents)));
+            view.set("byteLength", scene_.json().number(contents.size()));
             kept[i] = std::move(view);
         }
         views_ = std::move(kept);
@@ -66,9 +65,8 @@ class Unpacker {
 
     /// The contents of a view, if there is room for them: a small file can have many views of the same bytes.
     Result<std::vector<std::byte>> open_view(const SceneViews& source, std::uint64_t view) {
-        const auto size = source.size(view);
-        if (!size) return size.error();
-        if (auto room = take_memory(2 * static_cast<double>(*size), 0); !room) return room.error();
+        LR_ASSIGN(const auto size, source.size(view));
+        LR_TRY(take_memory(2 * static_cast<double>(size), 0));
         return source.contents(view);
     }
 
@@ -85,15 +83,13 @@ class Unpacker {
     }
 
     Result<void> unpack(const StreamPlan& stream) {
-        const auto file = open_view(scene_.views(), stream.view);
-        if (!file) return file.error();
+        LR_ASSIGN(const auto file, open_view(scene_.views(), stream.view));
         std::vector<std::byte> parts;
         if (stream.parts_view) {
-            auto contents = open_view(scene_.views(), *stream.parts_view);
-            if (!contents) return contents.error();
-            parts = std::move(*contents);
+            LR_ASSIGN(auto contents, open_view(scene_.views(), *stream.parts_view));
+            parts = std::move(contents);
         }
-        report_.read.streams.push_back(file->size() + parts.size());
+        report_.read.streams.push_back(file.size() + parts.size());
         StreamDecoder::Said said;
         for (const StreamPlan::Part& part : stream.parts) said.set_of_part.push_back(part.set);
         for (const auto& set : stream.sets) {
@@ -104,9 +100,8 @@ class Unpacker {
             said.vertices.push_back(static_cast<std::uint32_t>(count));
         }
         const auto check = [&](const LrFileView& contents) { return check_stream(stream, contents); };
-        auto decoder = StreamDecoder::open(*file, parts, std::move(said), check);
-        if (!decoder) return decoder.error();
-        return decode(stream, *decoder);
+        LR_ASSIGN(auto decoder, StreamDecoder::open(file, parts, std::move(said), check));
+        return decode(stream, decoder);
     }
 
     /// Before it is decoded: does each of its attributes have an accessor, and is there room? A few bytes may hold many
@@ -310,9 +305,8 @@ Result<SceneFile> unpack_scene(std::span<const std::byte> bytes, const std::file
     UnpackReport& told = report != nullptr ? *report : unwanted;
     Reading reading{read, told.read, name};
     return caught([&]() -> Result<SceneFile> {
-        auto scene = PackedScene::load(bytes, reading);
-        if (!scene) return scene.error();
-        return Unpacker(*scene, reading, told).run(bin_uri, true);
+        LR_ASSIGN(auto scene, PackedScene::load(bytes, reading));
+        return Unpacker(scene, reading, told).run(bin_uri, true);
     });
 }
 
@@ -328,7 +322,8 @@ Result<PlainScene> PlainScene::open(std::span<const std::byte> bytes, Reading& r
     UnpackReport report;
     Reading unpacking{options, report.read, reading.name};
     auto scene = PackedScene::load(bytes, unpacking);
-    Result<SceneFile> plain = scene ? Unpacker(*scene, unpacking, report).run("", reading.materials != nullptr) : scene.error();
+    Result<SceneFile> plain =
+        scene ? Unpacker(*scene, unpacking, report).run("", reading.materials != nullptr) : scene.error();
     std::ranges::move(report.read.files, std::back_inserter(reading.report.files));
     if (!plain) return plain.error();
     reading.report.streams = std::move(report.read.streams);

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "lrcore/base/try.h"
 #include "lrio/gltf/gltf_file.h"
 #include "lrio/scene/scene_plan.h"
 #include "lrio/scene/scene_writer.h"
@@ -20,11 +21,11 @@ class UnpackPlanner {
 
     Result<UnpackPlan> run() {
         if (extension_of(root_) != nullptr) {
-            if (auto good = check_extensions(); !good) return good.error();
+            LR_TRY(check_extensions());
         }
-        if (auto good = check_buffers(); !good) return good.error();
-        if (auto good = plan(); !good) return good.error();
-        if (auto good = choose_views(); !good) return good.error();
+        LR_TRY(check_buffers());
+        LR_TRY(plan());
+        LR_TRY(choose_views());
         return std::move(out_);
     }
 
@@ -93,12 +94,11 @@ class UnpackPlanner {
         for (const auto& set : value.list("sets")) {
             std::vector<std::uint32_t>& to = stream.sets.emplace_back();
             for (const auto& number : set.value.members) {
-                const auto accessor = accessor_number(&number.value);
-                if (!accessor) return accessor.error();
+                LR_ASSIGN(const auto accessor, accessor_number(&number.value));
                 const auto at = static_cast<std::uint32_t>(stream.sets.size() - 1);
-                if (auto good = take_once(*accessor, static_cast<std::uint32_t>(out_.streams.size()), at); !good)
+                if (auto good = take_once(accessor, static_cast<std::uint32_t>(out_.streams.size()), at); !good)
                     return good;
-                to.push_back(*accessor);
+                to.push_back(accessor);
             }
         }
         if (stream.sets.empty()) return malformed("no sets");
@@ -125,7 +125,7 @@ class UnpackPlanner {
             first = false;
             return {};
         };
-        if (auto good = visit_attributes(primitive, visit); !good) return good.error();
+        LR_TRY(visit_attributes(primitive, visit));
         return out;
     }
 

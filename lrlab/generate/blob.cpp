@@ -23,13 +23,13 @@ Point read(const std::vector<std::byte>& positions, std::size_t v) {
 }
 
 void write(std::vector<std::byte>& positions, std::size_t v, Point p) {
-    const float xyz[3] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+    const float xyz[3] = {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
     std::memcpy(positions.data() + v * sizeof xyz, xyz, sizeof xyz);
 }
 
 /// Six times the volume of the tetrahedron with the origin: positive where the triangle faces outwards.
 double volume(Point a, Point b, Point c) {
-    return a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
+    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
 /// Opposite corners of a closed manifold. The list of the corners whose next vertex is v, found through head[v], is
@@ -145,11 +145,11 @@ Result<Mesh> make_blob(std::uint64_t triangles, std::uint64_t seed) {
     const double reach = 0.6 / static_cast<double>(shape.rows());
     for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
         Point p = read(positions, v);
-        p.x += reach * random.signed_unit();
-        p.y += reach * random.signed_unit();
-        p.z += reach * random.signed_unit();
-        const double length = std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
-        write(positions, v, {p.x / length, p.y / length, p.z / length});
+        p[0] += reach * random.signed_unit();
+        p[1] += reach * random.signed_unit();
+        p[2] += reach * random.signed_unit();
+        const double size = length(p);
+        write(positions, v, {p[0] / size, p[1] / size, p[2] / size});
     }
     {
         Flipper flipper(mesh, positions);
@@ -158,8 +158,8 @@ Result<Mesh> make_blob(std::uint64_t triangles, std::uint64_t seed) {
     const std::uint64_t bumps = random.next();
     for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
         const Point p = read(positions, v);
-        const double radius = 1 + 0.35 * fractal_noise({1.3 * p.x, 1.3 * p.y, 1.3 * p.z}, 6, bumps);
-        write(positions, v, {radius * p.x, radius * p.y, radius * p.z});
+        const double radius = 1 + 0.35 * fractal_noise({1.3 * p[0], 1.3 * p[1], 1.3 * p[2]}, 6, bumps);
+        write(positions, v, {radius * p[0], radius * p[1], radius * p[2]});
     }
     return mesh;
 }

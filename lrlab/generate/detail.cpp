@@ -43,15 +43,15 @@ double blend(double t, double a, double b) {
 }  // namespace
 
 double noise(Point p, std::uint64_t seed) {
-    const double fx = std::floor(p.x);
-    const double fy = std::floor(p.y);
-    const double fz = std::floor(p.z);
+    const double fx = std::floor(p[0]);
+    const double fy = std::floor(p[1]);
+    const double fz = std::floor(p[2]);
     const auto x = static_cast<std::int64_t>(fx);
     const auto y = static_cast<std::int64_t>(fy);
     const auto z = static_cast<std::int64_t>(fz);
-    const double u = fade(p.x - fx);
-    const double v = fade(p.y - fy);
-    const double w = fade(p.z - fz);
+    const double u = fade(p[0] - fx);
+    const double v = fade(p[1] - fy);
+    const double w = fade(p[2] - fz);
     double plane[2];
     for (int i = 0; i < 2; ++i) {
         plane[i] = blend(v, blend(u, lattice(x, y, z + i, seed), lattice(x + 1, y, z + i, seed)),
@@ -66,7 +66,7 @@ double fractal_noise(Point p, int octaves, std::uint64_t seed) {
     for (int i = 0; i < octaves; ++i) {
         sum += height * noise(p, seed + static_cast<std::uint64_t>(i));
         height *= 0.5;
-        p = {2 * p.x + 0.37, 2 * p.y + 0.61, 2 * p.z + 0.83};
+        p = {2 * p[0] + 0.37, 2 * p[1] + 0.61, 2 * p[2] + 0.83};
     }
     return sum;
 }
@@ -77,7 +77,7 @@ void Builder::reserve(std::uint64_t vertices, std::uint64_t triangles) {
 }
 
 std::uint32_t Builder::vertex(Point p) {
-    const float xyz[3] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+    const float xyz[3] = {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
     std::byte bytes[sizeof xyz];
     std::memcpy(bytes, xyz, sizeof xyz);
     positions_.insert(positions_.end(), bytes, bytes + sizeof bytes);

@@ -6,40 +6,26 @@
 
 #include "lacedring/base.hpp"
 #include "lacedring/mesh.hpp"
+#include "lrcore/base/random.h"
+#include "lrcore/base/vec3.h"
 
 namespace lacedring::detail {
 
 /// Vertices that a mesh of ours may have: the lean stream numbers no more.
 constexpr std::uint64_t kMostVertices = std::uint64_t{1} << 29;
 
-/// Splitmix64's finaliser: a good hash of one word.
-constexpr std::uint64_t mix(std::uint64_t x) {
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
-    return x ^ (x >> 31);
-}
-
-/// Splitmix64. The standard's engines would do, but not its distributions: they differ between libraries.
-class Random {
+/// The numbers of one seed have nothing to do with those of the next.
+class Random : public SplitMix64 {
   public:
-    explicit Random(std::uint64_t seed) : state_(mix(seed + 0x9e3779b97f4a7c15ULL)) {}
-    std::uint64_t next() { return mix(state_ += 0x9e3779b97f4a7c15ULL); }
-    /// In [0, n), n in [1, 2^32]. The bias of at most n / 2^32 does not matter here.
-    std::uint32_t below(std::uint64_t n) { return static_cast<std::uint32_t>(((next() >> 32) * n) >> 32); }
+    explicit Random(std::uint64_t seed) : SplitMix64(SplitMix64(seed).next()) {}
+
     /// In [low, high].
     std::uint32_t between(std::uint32_t low, std::uint32_t high) { return low + below(std::uint64_t{high} - low + 1); }
     /// In [-1, 1), a multiple of 2^-23.
     double signed_unit() { return static_cast<double>(next() >> 40) * (1.0 / 8388608.0) - 1.0; }
-
-  private:
-    std::uint64_t state_;
 };
 
-struct Point {
-    double x = 0;
-    double y = 0;
-    double z = 0;
-};
+using Point = Vec3<double>;
 
 /// Cosine and sine of k/n of a full turn; n >= 1, k < 2^60. Exact at multiples of a quarter turn.
 struct Turn {

@@ -31,9 +31,9 @@ class Frame {
         }
     }
     Point operator()(double x, double y, double z) const {
-        return {m_[0][0] * x + m_[0][1] * y + m_[0][2] * z + centre_.x,
-                m_[1][0] * x + m_[1][1] * y + m_[1][2] * z + centre_.y,
-                m_[2][0] * x + m_[2][1] * y + m_[2][2] * z + centre_.z};
+        return {m_[0][0] * x + m_[0][1] * y + m_[0][2] * z + centre_[0],
+                m_[1][0] * x + m_[1][1] * y + m_[1][2] * z + centre_[1],
+                m_[2][0] * x + m_[2][1] * y + m_[2][2] * z + centre_[2]};
     }
 
   private:

@@ -156,9 +156,9 @@ Result<Mesh> make_soup(std::uint64_t triangles, std::uint64_t seed) {
                 number.push_back(builder.vertices() - 1 - random.below(std::min(builder.vertices(), 100U)));
                 continue;
             }
-            const double x = centre.x + 0.45 * random.signed_unit();
-            const double y = centre.y + 0.45 * random.signed_unit();
-            const double z = centre.z + 0.45 * random.signed_unit();
+            const double x = centre[0] + 0.45 * random.signed_unit();
+            const double y = centre[1] + 0.45 * random.signed_unit();
+            const double z = centre[2] + 0.45 * random.signed_unit();
             number.push_back(builder.vertex({x, y, z}));
         }
         for (std::size_t t = piece.triangles.size(); t > 1; --t) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lrcore/base/try.h"
 #include "lrlab/rivals/limit.h"
 
 namespace lacedring {
@@ -47,7 +48,7 @@ float down_scale(std::span<const float> positions) {
 
 Result<std::vector<std::uint32_t>> best_cache_order(std::span<const std::uint32_t> indices,
                                                     std::uint32_t vertex_count) {
-    if (const Result<void> good = check_valences(indices, vertex_count); !good) return good.error();
+    LR_TRY(check_valences(indices, vertex_count));
     std::vector<std::uint32_t> ordered(indices.size());
     if (!indices.empty()) {
         meshopt_optimizeVertexCache(ordered.data(), indices.data(), indices.size(), vertex_count);
@@ -78,9 +79,8 @@ Result<std::array<CodedIndices, 2>> encode_meshopt_orders(std::span<const std::u
         for (CodedIndices& coded : out) coded = encode({}, vertex_count);
         return out;
     }
-    Result<std::vector<std::uint32_t>> best = best_cache_order(indices, vertex_count);
-    if (!best) return best.error();
-    out[0] = encode(std::move(*best), vertex_count);
+    LR_ASSIGN(std::vector<std::uint32_t> best, best_cache_order(indices, vertex_count));
+    out[0] = encode(std::move(best), vertex_count);
     std::vector<std::uint32_t> ordered(indices.size());
     meshopt_optimizeVertexCacheStrip(ordered.data(), indices.data(), indices.size(), vertex_count);
     out[1] = encode(std::move(ordered), vertex_count);
@@ -88,9 +88,8 @@ Result<std::array<CodedIndices, 2>> encode_meshopt_orders(std::span<const std::u
 }
 
 Result<CodedIndices> encode_meshopt_indices(std::span<const std::uint32_t> indices, std::uint32_t vertex_count) {
-    Result<std::array<CodedIndices, 2>> orders = encode_meshopt_orders(indices, vertex_count);
-    if (!orders) return orders.error();
-    auto& [cache, strip] = *orders;
+    LR_ASSIGN(auto orders, encode_meshopt_orders(indices, vertex_count));
+    auto& [cache, strip] = orders;
     return std::move(strip.bytes.size() < cache.bytes.size() ? strip : cache);
 }
 
@@ -99,7 +98,7 @@ Result<Meshlets> make_meshlets(std::span<const std::uint32_t> indices, std::span
     Meshlets out;
     if (indices.empty()) return out;
     const auto vertex_count = static_cast<std::uint32_t>(positions.size() / 3);
-    if (const Result<void> good = check_valences(indices, vertex_count); !good) return good.error();
+    LR_TRY(check_valences(indices, vertex_count));
     std::vector<float> scaled;
     if (const float scale = down_scale(positions); scale != 1) {
         constexpr float kMost = std::numeric_limits<float>::max();  // positions given as doubles may round to infinity
@@ -107,7 +106,7 @@ Result<Meshlets> make_meshlets(std::span<const std::uint32_t> indices, std::span
         for (const float x : positions) scaled.push_back(std::clamp(x, -kMost, kMost) * scale);
         positions = scaled;
     }
-    if (const Result<void> good = check_places(indices, positions); !good) return good.error();
+    LR_TRY(check_places(indices, positions));
     const std::size_t most = meshopt_buildMeshletsBound(indices.size(), kVertices, kTriangles);
     std::vector<meshopt_Meshlet> meshlets(most);
     std::vector<unsigned int> vertices(most * kVertices);

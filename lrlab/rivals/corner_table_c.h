@@ -11,27 +11,20 @@
 #include <vector>
 
 #include "lacedring/topology.hpp"
-#include "lrlab/rivals/corner_walks.h"
 
 namespace lacedring {
 
 /// The arrays, wherever they are: in a CornerTableC, or in a memory-mapped file. Holds no copy. The names of
 /// Operators. Entries are trusted, as are the arguments.
-struct CornerTableCView : CornerWalks<CornerTableCView> {
+struct CornerTableCView : CornerWalks<CornerTableCView, 3> {
     std::uint32_t vertices = 0;
     std::span<const std::uint32_t> vertex_of;    ///< V, 3 a triangle
     std::span<const std::uint32_t> opposite_of;  ///< O, 3 a triangle; UINT32_MAX across a border
     std::span<const std::uint32_t> corner_of;    ///< C, 1 a vertex: at a border the first in swing order;
                                                  ///< UINT32_MAX where a vertex has no triangle
 
-    /// c.t
-    static TriangleId triangle(CornerId c) { return lacedring::triangle(c); }
-    /// t.c: the triangle's first corner; next gives the others.
-    static CornerId corner(TriangleId t) { return CornerId{t.value * 3}; }
-    /// c.n
-    static CornerId next(CornerId c) { return lacedring::next(c); }
-    /// c.p
-    static CornerId previous(CornerId c) { return lacedring::previous(c); }
+    using CornerWalks::corner;
+
     /// c.v
     VertexId vertex(CornerId c) const { return VertexId{vertex_of[c.value]}; }
     /// c.o: null across a border.
@@ -40,10 +33,7 @@ struct CornerTableCView : CornerWalks<CornerTableCView> {
     CornerId corner(VertexId v) const { return CornerId{corner_of[v.value]}; }
 
     /// Triangles keep the input's numbers; degenerate ones are held, and take part in nothing.
-    bool is_canonical(TriangleId t) const {
-        const std::uint32_t a = vertex_of[3 * t.value], b = vertex_of[3 * t.value + 1], c = vertex_of[3 * t.value + 2];
-        return a != b && b != c && c != a;
-    }
+    bool is_canonical(TriangleId t) const { return !degenerate(t); }
     std::uint32_t triangle_numbers() const { return static_cast<std::uint32_t>(vertex_of.size() / 3); }
     /// 6 n + m.
     std::size_t references() const { return vertex_of.size() + opposite_of.size() + corner_of.size(); }

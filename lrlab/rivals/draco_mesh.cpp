@@ -15,6 +15,7 @@
 #include <span>
 #include <string_view>
 
+#include "lrcore/base/try.h"
 #include "lrcore/codec/vertices/quantize.h"
 #endif
 
@@ -127,9 +128,8 @@ Result<draco::EncoderBuffer> encode_draco_at(const draco::Mesh& mesh, const std:
 }
 
 Result<Coded> encode_draco(const draco::Mesh& mesh, const std::vector<DracoInput>& inputs) {
-    Result<draco::EncoderBuffer> bytes = encode_draco_at(mesh, inputs, 10);
-    if (!bytes) return bytes.error();
-    Coded out{std::move(*bytes), nullptr};
+    LR_ASSIGN(draco::EncoderBuffer bytes, encode_draco_at(mesh, inputs, 10));
+    Coded out{std::move(bytes), nullptr};
     draco::DecoderBuffer buffer;
     buffer.Init(out.bytes.data(), out.bytes.size());
     draco::Decoder decoder;
@@ -188,24 +188,21 @@ void compare(const draco::Mesh& decoded, const Mesh& mesh, const std::vector<Dra
 Result<RivalMesh> encode_draco_mesh(const Mesh& mesh, const AttributeBits& bits) {
     std::vector<DracoInput> inputs;
     for (const Attribute& attribute : mesh.attributes) inputs.push_back(input_of(attribute, bits));
-    Result<Coded> coded = encode_draco(*draco_mesh(mesh, inputs, false), inputs);
-    if (!coded) return coded.error();
+    LR_ASSIGN(Coded coded, encode_draco(*draco_mesh(mesh, inputs, false), inputs));
     RivalMesh out;
-    const auto* const begin = reinterpret_cast<const std::byte*>(coded->bytes.data());
-    out.bytes.assign(begin, begin + coded->bytes.size());
-    const Result<Coded> numbered = encode_draco(*draco_mesh(mesh, inputs, true), inputs);
-    if (!numbered) return numbered.error();
-    compare(*numbered->decoded, mesh, inputs, out);
+    const auto* const begin = reinterpret_cast<const std::byte*>(coded.bytes.data());
+    out.bytes.assign(begin, begin + coded.bytes.size());
+    LR_ASSIGN(const Coded numbered, encode_draco(*draco_mesh(mesh, inputs, true), inputs));
+    compare(*numbered.decoded, mesh, inputs, out);
     return out;
 }
 
 Result<std::vector<std::byte>> draco_bytes(const Mesh& mesh, const AttributeBits& bits, int level) {
     std::vector<DracoInput> inputs;
     for (const Attribute& attribute : mesh.attributes) inputs.push_back(input_of(attribute, bits));
-    const Result<draco::EncoderBuffer> coded = encode_draco_at(*draco_mesh(mesh, inputs, false), inputs, level);
-    if (!coded) return coded.error();
-    const auto* const begin = reinterpret_cast<const std::byte*>(coded->data());
-    return std::vector<std::byte>(begin, begin + coded->size());
+    LR_ASSIGN(const draco::EncoderBuffer coded, encode_draco_at(*draco_mesh(mesh, inputs, false), inputs, level));
+    const auto* const begin = reinterpret_cast<const std::byte*>(coded.data());
+    return std::vector<std::byte>(begin, begin + coded.size());
 }
 
 Result<DecodedRival> decode_draco(std::span<const std::byte> bytes) {

@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "lrcore/base/try.h"
 #include "lrcore/codec/vertices/quantize.h"
 #include "lrlab/rivals/codecs.h"
 #include "lrlab/rivals/whole_mesh.h"
@@ -120,11 +121,10 @@ Result<RivalMesh> encode_meshopt_mesh(const Mesh& mesh, const AttributeBits& bit
             return Error{ErrorCode::unsupported, fmt::format("{} has more than 256 bytes a vertex", attribute.name)};
         }
     }
-    Result<std::array<CodedIndices, 2>> orders = encode_meshopt_orders(mesh.indices, mesh.vertex_count);
-    if (!orders) return orders.error();
+    LR_ASSIGN(auto orders, encode_meshopt_orders(mesh.indices, mesh.vertex_count));
     const auto triangles = oriented_triangles(mesh.indices, {});
     std::vector<std::uint8_t> smallest;
-    for (const CodedIndices& coded : *orders) {
+    for (const CodedIndices& coded : orders) {
         if (oriented_triangles(coded.indices, coded.order) != triangles) out.invalid = "triangles decoded differ";
         std::vector<VertexBuffer> ordered;
         for (const VertexBuffer& buffer : buffers) ordered.push_back(reorder(buffer, coded.order));

@@ -33,15 +33,15 @@
 #include <vector>
 
 #include "lacedring/base.hpp"
+#include "lacedring/corner_walks.hpp"
 #include "lacedring/lacedring.hpp"
 #include "lacedring/streams.hpp"
-#include "lrlab/rivals/corner_walks.h"
 
 namespace lacedring {
 
 /// The arrays, wherever they are: in a Squad, or in a memory-mapped file. Holds no copy. The names of Operators.
 /// Entries are trusted, as are the arguments: a corner of a triangle that does not exist gives nonsense.
-struct SquadView : CornerWalks<SquadView> {
+struct SquadView : CornerWalks<SquadView, 4> {
     static constexpr std::uint32_t kWrap = 0x80000000;        ///< in S: across a border, back to the fan's first corner
     static constexpr std::uint32_t kSingle = 0xffffffff;      ///< in S, a record's fourth word: it holds one triangle
     static constexpr std::uint32_t kBorder = 0x40000000;      ///< in S, word 4v: vertex v is on a border
@@ -52,14 +52,7 @@ struct SquadView : CornerWalks<SquadView> {
     std::span<const std::uint32_t> swings;   ///< S, 4 a record
     std::span<const std::uint32_t> corners;  ///< C, 1 an unmatched vertex: the smallest in its cycle; ascending
 
-    /// c.t
-    static TriangleId triangle(CornerId c) { return TriangleId{c.value / 4}; }
-    /// t.c: the triangle's first corner; next gives the others.
-    static CornerId corner(TriangleId t) { return CornerId{t.value * 4}; }
-    /// c.n
-    static CornerId next(CornerId c) { return CornerId{c.value % 4 == 2 ? c.value - 2 : c.value + 1}; }
-    /// c.p
-    static CornerId previous(CornerId c) { return CornerId{c.value % 4 == 0 ? c.value + 2 : c.value - 1}; }
+    using CornerWalks::corner;
 
     /// c.v: O(valence).
     VertexId vertex(CornerId c) const {
@@ -75,7 +68,7 @@ struct SquadView : CornerWalks<SquadView> {
 
     /// c.s: the next corner around c's vertex, null at a border.
     CornerId swing(CornerId c) const {
-        const std::uint32_t x = around(c.value);
+        const std::uint32_t x = next_in_cycle(c.value);
         return (x & kWrap) != 0 ? kNullCorner : CornerId{x & ~kBorder};
     }
     /// c.o: null across a border.
@@ -83,45 +76,16 @@ struct SquadView : CornerWalks<SquadView> {
         const CornerId s = swing(previous(c));
         return s.is_null() ? s : previous(s);
     }
-    /// c.l = c.n.o
-    CornerId left(CornerId c) const {
-        const CornerId s = swing(c);
-        return s.is_null() ? s : previous(s);
-    }
-    /// c.r = c.p.o
-    CornerId right(CornerId c) const {
-        const CornerId s = swing(next(c));
-        return s.is_null() ? s : previous(s);
-    }
-    /// The corner whose swing is c, null at a border.
-    CornerId swing_back(CornerId c) const {
-        const CornerId s = swing(next(c));
-        return s.is_null() ? s : next(s);
-    }
     /// v.c: null for a vertex of no triangle.
     CornerId corner(VertexId v) const {
         if (v.value < matched) return CornerId{8 * v.value};
         return v.value - matched < corners.size() ? CornerId{corners[v.value - matched]} : kNullCorner;
     }
 
-    /// Is the vertex on a border? O(valence).
-    bool is_border(VertexId v) const {
-        bool border = false;
-        cycle(corner(v), [&](std::uint32_t, std::uint32_t, bool wraps) { border |= wraps; });
-        return border;
-    }
     /// v.c, or at a border the first corner in swing order: O(valence) there. The walks around v begin with it.
     CornerId star_begin(VertexId v) const {
         if (v.value < matched && (swings[4 * v.value] & kBorder) == 0) return corner(v);
         return fan_begin(v);
-    }
-    /// Calls visit(corner) for every triangle around v, in swing order from star_begin. O(valence).
-    template <class Visit>
-    void star(VertexId v, Visit visit) const {
-        cycle(star_begin(v), [&](std::uint32_t c, std::uint32_t second, bool) {
-            visit(CornerId{c});
-            if (second != c) visit(CornerId{second});
-        });
     }
     /// Calls visit(vertex) for every neighbour of v once, in swing order: on a border from one border neighbour to the
     /// other. O(valence), times the cost of c.v.
@@ -157,7 +121,7 @@ struct SquadView : CornerWalks<SquadView> {
     std::uint32_t follow(std::uint32_t c) const { return leave(c) & ~(kWrap | kBorder); }
 
     /// The next corner in the cycle around c's vertex, with kWrap if that is across a border; kBorder means nothing.
-    std::uint32_t around(std::uint32_t c) const {
+    std::uint32_t next_in_cycle(std::uint32_t c) const {
         switch (c % 8) {
             case 0:
                 return is_quad(c / 8) ? c + 4 : leave(c);

@@ -65,7 +65,7 @@ class Builder {
     /// What follows c around its vertex.
     std::uint32_t beyond(CornerId c) const {
         if (const CornerId s = table_.swing(c); !s.is_null()) return number(s);
-        for (CornerId r = table_.right(c); !r.is_null(); r = table_.right(c)) c = previous(r);
+        for (CornerId b = c; !b.is_null(); b = table_.swing_back(b)) c = b;
         return number(c) | SquadView::kWrap;
     }
 

@@ -50,23 +50,6 @@ class Matcher {
     /// The corner at the vertex that owns c's triangle.
     CornerId owner_corner(CornerId c) const { return corner(triangle(c), state_[triangle(c).value] & kOwner); }
     void own(CornerId c) { state(c) = static_cast<std::uint8_t>((state(c) & ~kOwner) | c.value % 3); }
-    CornerId swing_back(CornerId c) const {
-        const CornerId r = table_.right(c);
-        return r.is_null() ? r : previous(r);
-    }
-    /// visit(corner) around c's vertex until it returns true.
-    template <class Visit>
-    void around(CornerId first, Visit visit) const {
-        CornerId c = first;
-        do {
-            if (visit(c)) return;
-            c = table_.swing(c);
-        } while (!c.is_null() && c != first);
-        if (!c.is_null()) return;
-        for (c = swing_back(first); !c.is_null(); c = swing_back(c)) {
-            if (visit(c)) return;
-        }
-    }
 
     void walk() {
         order_.reserve(table_.vertex_count);
@@ -121,7 +104,7 @@ class Matcher {
         known_.clear(table_.vertex(seed).value);
         for (std::size_t i = 0; i < steps.size(); ++i) {
             CornerId best = kNullCorner;
-            around(steps[i].kept, [&](CornerId c) {
+            table_.around(steps[i].kept, [&](CornerId c) {
                 if (!free(c)) return false;
                 const CornerId s = table_.swing(c);
                 const bool pair = !s.is_null() && free(s);
@@ -133,7 +116,7 @@ class Matcher {
                 for (; i != 0; i = steps[i].before) own(steps[i].taken);
                 break;
             }
-            around(steps[i].kept, [&](CornerId c) {
+            table_.around(steps[i].kept, [&](CornerId c) {
                 const CornerId owner = owner_corner(c);
                 const std::uint32_t w = table_.vertex(owner).value;
                 if (known_.test(w)) {
@@ -179,7 +162,7 @@ class Matcher {
             const CornerId facing = table_.opposite(c);
             const CornerId owned = (state_[a.value] & kOwner) == kFree ? c : facing;  // of the two that face the edge
             const CornerId at = owner_corner(owned);
-            join(at, owned == next(at) ? table_.swing(at) : swing_back(at));
+            join(at, owned == next(at) ? table_.swing(at) : table_.swing_back(at));
             for (const TriangleId x : {a, triangle(c)}) {
                 for (std::uint32_t i = 0; i < 3; ++i) {
                     const CornerId o = table_.opposite(corner(x, i));
@@ -222,11 +205,11 @@ class Matcher {
             const std::uint32_t w = table_.vertex(other).value;
             if ((s & kPaired) == 0 || !known_.test(w)) return false;
             known_.clear(w);
-            steps.push_back({(s & kPairSwing) != 0 ? table_.swing(other) : swing_back(other), x, i});
+            steps.push_back({(s & kPairSwing) != 0 ? table_.swing(other) : table_.swing_back(other), x, i});
             return false;
         };
         for (std::size_t i = 0; i < steps.size() && i < reach; ++i) {
-            if (look(i, table_.swing(steps[i].kept)) || look(i, swing_back(steps[i].kept))) break;
+            if (look(i, table_.swing(steps[i].kept)) || look(i, table_.swing_back(steps[i].kept))) break;
         }
         for (const Step& step : steps) known_.set(table_.vertex(step.kept).value);
     }

@@ -2,6 +2,7 @@
 
 #include <meshoptimizer.h>
 
+#include "lrcore/base/try.h"
 #include "lrlab/rivals/limit.h"
 
 namespace lacedring {
@@ -27,14 +28,14 @@ std::vector<std::uint32_t> stripify(std::span<const std::uint32_t> ordered, std:
 }  // namespace
 
 Result<Strips> make_strips(std::span<const std::uint32_t> indices, std::uint32_t vertex_count) {
-    if (const Result<void> good = check_valences(indices, vertex_count); !good) return good.error();
+    LR_TRY(check_valences(indices, vertex_count));
     const std::vector<std::uint32_t> ordered = strip_order(indices, vertex_count);
     return Strips{stripify(ordered, vertex_count, kStripRestart), stripify(ordered, vertex_count, 0)};
 }
 
 Result<std::vector<std::uint32_t>> make_restart_strip(std::span<const std::uint32_t> indices,
                                                       std::uint32_t vertex_count) {
-    if (const Result<void> good = check_valences(indices, vertex_count); !good) return good.error();
+    LR_TRY(check_valences(indices, vertex_count));
     return stripify(strip_order(indices, vertex_count), vertex_count, kStripRestart);
 }
 

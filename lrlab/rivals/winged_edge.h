@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "lacedring/topology.hpp"
-#include "lrlab/rivals/corner_walks.h"
 
 namespace lacedring {
 
@@ -28,16 +27,14 @@ struct HalfEdge {
 
 /// The arrays, wherever they are: in a WingedEdge, or in a memory-mapped file. Holds no copy. The names of Operators,
 /// each in constant time unless it says otherwise. Entries are trusted, as are the arguments.
-struct WingedEdgeView : CornerWalks<WingedEdgeView> {
+struct WingedEdgeView : CornerWalks<WingedEdgeView, 3> {
     std::uint32_t vertices = 0;
     std::span<const HalfEdge> half_edges;    ///< 3 a triangle
     std::span<const CornerId> half_edge_at;  ///< 1 a vertex: a half-edge that starts there, at a border the one
                                              ///< on it; null: of no triangle
 
-    /// c.t
-    static TriangleId triangle(CornerId c) { return lacedring::triangle(c); }
-    /// t.c: the triangle's first corner; next gives the others.
-    static CornerId corner(TriangleId t) { return CornerId{t.value * 3}; }
+    using CornerWalks::corner;
+
     /// c.n
     CornerId next(CornerId c) const { return half_edges[c.value].next; }
     /// c.p

@@ -1,7 +1,5 @@
 #include "renderer/decode/expander.h"
 
-#include "lacedring/streams.hpp"
-#include "lacedring/vertices.hpp"
 #include "renderer/vk/try.h"
 
 namespace lacedring::gpu {
@@ -37,38 +35,35 @@ Result<ExpandedMesh> Expander::upload(Transfer& transfer, const Model& model, So
                                       const UploadOptions& options) {
     ExpandedMesh out;
     out.descriptors = Descriptors(*context_);
-    LR_ASSIGN(out.mesh, upload_mesh(*context_, transfer, model, source, options));
+    LR_ASSIGN(const StreamViews views, view_streams(model, source));
+    LR_ASSIGN(out.mesh, upload_mesh({*context_, transfer, model, source, options, views}));
     if (!out.mesh.indices) return out;
     if (source == Source::lean) {
-        LR_ASSIGN(const LeanView view, view_lean(model.lean.words));
         LR_TRY(make_pass(*context_, lean_));
-        LR_ASSIGN(out.decode, lean_->plan(out.descriptors, out.mesh, view));
+        LR_ASSIGN(out.decode, lean_->plan(out.descriptors, out.mesh, views.lean));
     } else if (is_packed(source)) {
-        LR_ASSIGN(const PackedView view, view_packed(model.packed.words));
         LR_TRY(make_pass(*context_, packed_));
-        LR_ASSIGN(out.decode, packed_->plan(out.descriptors, out.mesh, view));
+        LR_ASSIGN(out.decode, packed_->plan(out.descriptors, out.mesh, views.packed));
     }
-    if (const EncodedSeams* seams = seams_of(model, source)) {
-        LR_ASSIGN(const SeamView view, view_seams(seams->words, out.mesh.slots, out.mesh.surface_vertices));
+    if (out.mesh.copies) {
         LR_TRY(make_pass(*context_, seams_));
-        LR_ASSIGN(out.seams, seams_->plan(out.descriptors, out.mesh, view));
+        LR_ASSIGN(out.seams, seams_->plan(out.descriptors, out.mesh, views.seams));
     }
     if (options.path != Path::compute) return out;
     if (source == Source::packed_vertices) {
-        LR_ASSIGN(const VertexView view, view_vertices(model.vertices.words));
         LR_TRY(make_pass(*context_, vertices_));
-        LR_ASSIGN(out.vertices, vertices_->plan(out.descriptors, out.mesh, view));
+        LR_ASSIGN(out.vertices, vertices_->plan(out.descriptors, out.mesh, views.vertices));
     }
     LR_ASSIGN(out.rotate, rotator_.plan(out.descriptors, out.mesh));
     return out;
 }
 
-void Expander::decode(VkCommandBuffer commands, ExpandedMesh& expanded, bool barrier) const {
+void Expander::decode(VkCommandBuffer commands, ExpandedMesh& expanded) const {
     if (expanded.mesh.decoded || expanded.decode.dispatches.empty()) return;
     const Decoder& decoder = expanded.mesh.source == Source::lean ? static_cast<const Decoder&>(*lean_) : *packed_;
     decoder.record(commands, expanded.decode);
     record_vertices(commands, expanded, true);
-    if (barrier) decode_barrier(commands);
+    decode_barrier(commands);
     expanded.mesh.decoded = true;
     expanded.mesh.rotated = false;
 }

@@ -32,8 +32,8 @@ class Expander {
     /// Uploads a source of the model and plans the passes over its index buffer.
     Result<ExpandedMesh> upload(Transfer& transfer, const Model& model, Source source, const UploadOptions& options);
 
-    /// Records the decoding of its streams, if that has not been done, and what makes it visible (`barrier`).
-    void decode(VkCommandBuffer commands, ExpandedMesh& expanded, bool barrier = true) const;
+    /// Records the decoding of its streams, if that has not been done, and what makes it visible.
+    void decode(VkCommandBuffer commands, ExpandedMesh& expanded) const;
     /// Records the decoding of the vertex stream alone, done or not, and what makes it visible.
     void decode_vertices(VkCommandBuffer commands, const ExpandedMesh& expanded) const;
     /// Records the turning of its triangles, if that has not been done, and what makes it visible.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "renderer/vk/device_error.h"
 #include "renderer/vk/try.h"
 
 namespace lacedring::gpu {
@@ -37,9 +36,9 @@ Result<Drawable> Renderer::upload(const Model& model, Source source, Path path) 
     options.path = path;
     options.max_range = options_.max_range;
     if (options_.view == View::material) {
-        const std::pair wanted(model.materials, model.triangle_count());
+        const std::pair wanted(model.materials_number, model.triangle_count());
         if (!materials_ || uploaded_materials_ != wanted) {
-            LR_ASSIGN(materials_, upload_materials(*context_, *transfer_, wanted.first, wanted.second));
+            LR_ASSIGN(materials_, upload_materials(*context_, *transfer_, model.materials, wanted.second));
             uploaded_materials_ = wanted;
         }
         options.materials = materials_->table.address_words();
@@ -74,7 +73,7 @@ Result<std::vector<float>> Renderer::normals_of(const Adjacency& adjacency, cons
 }
 
 void Renderer::decode(VkCommandBuffer commands, Drawable& drawable) const {
-    expander_.decode(commands, drawable, !options_.omit_decode_barrier);
+    expander_.decode(commands, drawable);
 }
 
 Result<Picture> Renderer::draw(Drawable& drawable, const Model& model, const Camera& camera, bool exact) {
@@ -135,28 +134,6 @@ Result<std::vector<std::uint32_t>> Renderer::read_positions(Drawable& drawable) 
 
 Result<WordsRead> Renderer::words_read(const Drawable& drawable) {
     return slots_.words_read(*commands_, *transfer_, drawable.mesh);
-}
-
-Result<std::uint64_t> Renderer::vertex_invocations(Drawable& drawable) {
-    if (!context_->info().statistics) return Error{kNoDevice, "the device counts no shader runs"};
-    VkQueryPoolCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
-    info.queryType = VK_QUERY_TYPE_PIPELINE_STATISTICS;
-    info.queryCount = 1;
-    info.pipelineStatistics = VK_QUERY_PIPELINE_STATISTIC_VERTEX_SHADER_INVOCATIONS_BIT;
-    VkQueryPool pool = VK_NULL_HANDLE;
-    LR_TRY_VK(vkCreateQueryPool(context_->device(), &info, nullptr, &pool));
-    const QueryPoolHandle queries(context_->device(), pool);
-    LR_ASSIGN(const VkCommandBuffer commands, commands_->begin());
-    vkCmdResetQueryPool(commands, pool, 0, 1);
-    vkCmdBeginQuery(commands, pool, 0, 0);
-    painter_.record(commands, drawable.mesh, drawable.draw, target_, Painter::Ties::first_drawn);
-    vkCmdEndQuery(commands, pool, 0);
-    LR_TRY(commands_->run());
-    std::uint64_t count = 0;
-    LR_TRY_VK(vkGetQueryPoolResults(context_->device(), pool, 0, 1, sizeof(count), &count, sizeof(count),
-                                    VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
-    return count;
 }
 
 }  // namespace lacedring::gpu

@@ -19,10 +19,9 @@ struct RendererOptions {
     View view = View::smooth;
     std::uint32_t width = 1280;  ///< of what is drawn, supersampling included
     std::uint32_t height = 720;
-    std::uint32_t samples = 1;         ///< lines get this much wider
-    double crease = 40;                ///< View::silhouette: see SilhouetteStyle
-    std::uint64_t max_range = 0;       ///< see UploadOptions
-    bool omit_decode_barrier = false;  ///< a bug on request: the test that validation sees it
+    std::uint32_t samples = 1;    ///< lines get this much wider
+    double crease = 40;           ///< View::silhouette: see SilhouetteStyle
+    std::uint64_t max_range = 0;  ///< see UploadOptions
 };
 
 class Renderer {
@@ -65,10 +64,6 @@ class Renderer {
     /// and a third of what one by Path::pull does.
     Result<WordsRead> words_read(const Drawable& drawable);
 
-    /// Runs of vertex shaders for one picture in one pass, as the device counts them. What draws it must be decoded.
-    /// Errors: kNoDevice (DeviceInfo::statistics).
-    Result<std::uint64_t> vertex_invocations(Drawable& drawable);
-
     Context& context() { return *context_; }
     Commands& commands() { return *commands_; }
     Transfer& transfer() { return *transfer_; }
@@ -90,9 +85,9 @@ class Renderer {
     Painter painter_;
     Expander expander_;
     SlotReader slots_;
-    std::optional<GpuMaterials> materials_;                            // View::material
-    std::pair<const Materials*, std::uint32_t> uploaded_materials_{};  // of a model, and its triangles
-    std::optional<Silhouettes> silhouettes_;                           // these two for View::silhouette
+    std::optional<GpuMaterials> materials_;                         // View::material
+    std::pair<std::uint64_t, std::uint32_t> uploaded_materials_{};  // a model's number, and its triangles
+    std::optional<Silhouettes> silhouettes_;                        // these two for View::silhouette
     std::optional<VertexNormals> vertex_normals_;
 };
 

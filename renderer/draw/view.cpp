@@ -1,8 +1,5 @@
 #include "renderer/draw/view.h"
 
-#include <array>
-#include <utility>
-
 namespace lacedring::gpu {
 namespace {
 
@@ -14,22 +11,6 @@ bool has_ring(View view) {
 
 bool has_lines(View view) {
     return has_ring(view) || view == View::wire || view == View::seams || view == View::silhouette;
-}
-
-std::optional<View> view_named(std::string_view name) {
-    constexpr std::array<std::pair<std::string_view, View>, 9> kViews{{{"smooth", View::smooth},
-                                                                       {"flat", View::flat},
-                                                                       {"class", View::triangle_class},
-                                                                       {"ring", View::ring},
-                                                                       {"wire", View::wire},
-                                                                       {"offsets", View::offsets},
-                                                                       {"seams", View::seams},
-                                                                       {"silhouette", View::silhouette},
-                                                                       {"material", View::material}}};
-    for (const auto& [text, view] : kViews) {
-        if (text == name) return view;
-    }
-    return std::nullopt;
 }
 
 UploadOptions upload_options(View view) {

@@ -1,11 +1,11 @@
 #pragma once
 // What pictures show.
 
+#include <array>
 #include <cstdint>
-#include <optional>
-#include <string_view>
 
 #include "renderer/mesh/gpu_mesh.h"
+#include "renderer/mesh/named.h"
 #include "shaders/shared.h"
 
 namespace lacedring::gpu {
@@ -22,12 +22,19 @@ enum class View : std::uint32_t {
     material = LR_VIEW_MATERIAL,      ///< colors, textures and light as the file's materials say
 };
 
+constexpr std::array<Named<View>, 9> kViews{{{"smooth", View::smooth, "smooth"},
+                                             {"flat", View::flat, "flat"},
+                                             {"class", View::triangle_class, "triangle classes"},
+                                             {"ring", View::ring, "ring order"},
+                                             {"wire", View::wire, "wireframe"},
+                                             {"offsets", View::offsets, "offsets"},
+                                             {"seams", View::seams, "seams"},
+                                             {"silhouette", View::silhouette, "silhouette"},
+                                             {"material", View::material, "materials"}}};
+
 /// What a view needs on the device beside the triangles.
 UploadOptions upload_options(View view);
 /// Are lines drawn over the surface? It is pushed back a little then.
 bool has_lines(View view);
-/// "smooth", "flat", "class", "ring", "wire", "offsets", "seams", "silhouette",
-/// "material"
-std::optional<View> view_named(std::string_view name);
 
 }  // namespace lacedring::gpu

@@ -19,20 +19,11 @@ constexpr std::uint64_t kSmallestRange = 4096;  // a packed block's indices, or 
 constexpr std::uint64_t kSlotStep = 256;        // in bytes, the coarsest alignment of a descriptor that Vulkan allows
 
 constexpr VkBufferUsageFlags kAddress = VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
 
 std::uint64_t padded_slots(std::uint32_t slots) {
     constexpr std::uint64_t kStep = LR_TRIANGLES_PER_INVOCATION;
     return (std::uint64_t{slots} + kStep - 1) / kStep * kStep;
-}
-
-std::uint64_t slots_of(const Model& model, Source source) {
-    if (source == Source::plain) return model.triangle_count();
-    return source == Source::lean ? model.lean.slot_triangle.size() : model.packed.triangle_order.size();
-}
-
-std::uint32_t vertices_of(const Model& model, Source source) {
-    const EncodedSeams* seams = seams_of(model, source);
-    return seams == nullptr ? model.vertex_count() : static_cast<std::uint32_t>(seams->copy_order.size());
 }
 
 /// Bytes of a vertex in GpuMesh::vertices.
@@ -44,7 +35,8 @@ constexpr std::size_t vertex_stride(Source source, Path path) {
 constexpr std::uint64_t kStreamTail = 64;  // the lean decoder loads a few words past the ones that it needs
 
 /// What every source needs.
-Result<GpuMesh> prepare(Context& context, const Model& model, Source source, const UploadOptions& options) {
+Result<GpuMesh> prepare(const Upload& upload) {
+    const auto& [context, transfer, model, source, options, views] = upload;
     const std::uint64_t slots = slots_of(model, source);
     GpuMesh mesh;
     mesh.source = source;
@@ -83,54 +75,64 @@ Result<GpuMesh> prepare(Context& context, const Model& model, Source source, con
     return mesh;
 }
 
+/// A buffer of these values.
+template <class T>
+Result<void> put(const Upload& upload, Buffer& to, const char* name, std::span<const T> values,
+                 VkBufferUsageFlags usage) {
+    LR_ASSIGN(to, Buffer::create(upload.context, name, values.size_bytes(), usage));
+    return upload.transfer.upload(to, values);
+}
+
 /// `original(i)` is the mesh's vertex at place i, `ring(i)` its place on the rings. Positions are left out where they
 /// are decoded.
 template <class Original, class Ring>
-Result<void> upload_vertices(Transfer& transfer, const GpuMesh& mesh, std::span<const float> positions,
-                             std::span<const float> normals, const Original& original, const Ring& ring) {
+Result<void> upload_vertices(const Upload& upload, const GpuMesh& mesh, const Original& original, const Ring& ring) {
+    const std::span<const float> positions = upload.model.positions;
+    const std::span<const float> normals =
+        upload.options.normals.empty() ? std::span<const float>(upload.model.normals) : upload.options.normals;
     const std::size_t stride = vertex_stride(mesh.source, mesh.path);
     const bool decoded = mesh.source == Source::packed_vertices;
-    return transfer.upload(mesh.vertices, 0, stride * mesh.vertex_count, stride,
-                           [&](std::byte* to, std::size_t from, std::size_t size) {
-                               const std::size_t first = from / stride;
-                               for (std::size_t i = 0; i < size / stride; ++i) {
-                                   const auto place = static_cast<std::uint32_t>(first + i);
-                                   const std::size_t v = original(place);
-                                   Vertex vertex{};
-                                   if (!decoded)
-                                       std::memcpy(vertex.position, &positions[3 * v], sizeof(vertex.position));
-                                   std::memcpy(vertex.normal, &normals[3 * v], sizeof(vertex.normal));
-                                   vertex.ring = ring(place);
-                                   const auto* bytes = reinterpret_cast<const std::byte*>(&vertex);
-                                   std::memcpy(to + i * stride, bytes + sizeof(Vertex) - stride, stride);
-                               }
-                           });
+    return upload.transfer.upload(mesh.vertices, 0, stride * mesh.vertex_count, stride,
+                                  [&](std::byte* to, std::size_t from, std::size_t size) {
+                                      const std::size_t first = from / stride;
+                                      for (std::size_t i = 0; i < size / stride; ++i) {
+                                          const auto place = static_cast<std::uint32_t>(first + i);
+                                          const std::size_t v = original(place);
+                                          Vertex vertex{};
+                                          if (!decoded)
+                                              std::memcpy(vertex.position, &positions[3 * v], sizeof(vertex.position));
+                                          std::memcpy(vertex.normal, &normals[3 * v], sizeof(vertex.normal));
+                                          vertex.ring = ring(place);
+                                          const auto* bytes = reinterpret_cast<const std::byte*>(&vertex);
+                                          std::memcpy(to + i * stride, bytes + sizeof(Vertex) - stride, stride);
+                                      }
+                                  });
 }
 
 /// One byte a slot, of the triangle that `triangle_of(slot)` says.
 template <class TriangleOf>
-Result<void> upload_classes(Context& context, Transfer& transfer, GpuMesh& mesh, const Model& model,
-                            const LeanView& lean, bool offsets, const TriangleOf& triangle_of) {
-    const std::vector<std::uint8_t> by_triangle = of_triangles(offsets ? slot_offset_bits(lean) : slot_classes(lean),
-                                                               model.lean.slot_triangle, model.triangle_count());
+Result<void> upload_classes(const Upload& upload, GpuMesh& mesh, const TriangleOf& triangle_of) {
+    const LeanView& lean = upload.views.lean;
+    const std::vector<std::uint8_t> by_triangle =
+        of_triangles(upload.options.offsets ? slot_offset_bits(lean) : slot_classes(lean),
+                     upload.model.lean.slot_triangle, upload.model.triangle_count());
     std::vector<std::uint8_t> classes((mesh.slots + 3) / 4 * 4, LR_CLASS_NONE);  // the shader reads whole words
     for (std::uint32_t slot = 0; slot < mesh.slots; ++slot) {
         const std::uint32_t t = triangle_of(slot);
         if (t < by_triangle.size()) classes[slot] = by_triangle[t];
     }
-    LR_ASSIGN(mesh.classes,
-              Buffer::create(context, "triangle classes", classes.size(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT));
-    return transfer.upload(mesh.classes, std::span<const std::uint8_t>(classes));
+    return put(upload, mesh.classes, "triangle classes", std::span<const std::uint8_t>(classes), kStorage);
 }
 
 /// The lines in the vertex numbers of a source: `order` is its vertex order, empty for the mesh's own. They come in the
 /// same order and direction for all sources, so that they are drawn alike. Any vertex at the place does.
-Result<void> upload_lines(Context& context, Transfer& transfer, GpuMesh& mesh, const Model& model, const LeanView& lean,
-                          UploadOptions::Lines kind, std::span<const std::uint32_t> order) {
+Result<void> upload_lines(const Upload& upload, GpuMesh& mesh, std::span<const std::uint32_t> order) {
+    const Model& model = upload.model;
+    const UploadOptions::Lines kind = upload.options.lines;
     if (kind == UploadOptions::Lines::none) return {};
     std::vector<std::uint32_t> lines;
     if (kind == UploadOptions::Lines::ring) {
-        lines = ring_lines(lean);
+        lines = ring_lines(upload.views.lean);
         const std::vector<std::uint32_t> of_surface = first_vertices(model.surface);
         for (std::uint32_t& v : lines) v = of_surface[model.lean.vertex_order[v]];
     } else {
@@ -144,53 +146,45 @@ Result<void> upload_lines(Context& context, Transfer& transfer, GpuMesh& mesh, c
         for (std::uint32_t& v : lines) v = place[model.surface_of(v)];
     }
     if (lines.size() > UINT32_MAX) return Error{ErrorCode::too_large, "more than 2^31 lines"};
-    LR_ASSIGN(mesh.lines, Buffer::create(context, "lines", 4 * lines.size(), VK_BUFFER_USAGE_INDEX_BUFFER_BIT));
     mesh.line_indices = static_cast<std::uint32_t>(lines.size());
-    return transfer.upload(mesh.lines, std::span<const std::uint32_t>(lines));
+    return put(upload, mesh.lines, "lines", std::span<const std::uint32_t>(lines), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
 }
 
 /// What materials are drawn with at the vertices. `original(i)` is the mesh's vertex at place i.
 template <class Original>
-Result<void> upload_shading(Context& context, Transfer& transfer, GpuMesh& mesh, const Model& model,
-                            const std::array<std::uint32_t, 2>& materials, const Original& original) {
+Result<void> upload_shading(const Upload& upload, GpuMesh& mesh, const Original& original) {
     static_assert(sizeof(Shading) == LR_SHADING_WORDS * sizeof(std::uint32_t));
     constexpr std::size_t kStride = sizeof(Shading);
-    mesh.materials = materials;
-    LR_ASSIGN(mesh.shading, Buffer::create(context, "shading", kStride * std::uint64_t{mesh.vertex_count},
+    const Model& model = upload.model;
+    mesh.materials = *upload.options.materials;
+    LR_ASSIGN(mesh.shading, Buffer::create(upload.context, "shading", kStride * std::uint64_t{mesh.vertex_count},
                                            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | kAddress));
-    return transfer.upload(mesh.shading, 0, kStride * mesh.vertex_count, kStride,
-                           [&](std::byte* to, std::size_t from, std::size_t size) {
-                               for (std::size_t i = 0; i < size / kStride; ++i) {
-                                   const std::size_t v = original(static_cast<std::uint32_t>(from / kStride + i));
-                                   const Shading shading = v < model.shading.size() ? model.shading[v] : Shading{};
-                                   std::memcpy(to + i * kStride, &shading, kStride);
-                               }
-                           });
+    return upload.transfer.upload(
+        mesh.shading, 0, kStride * mesh.vertex_count, kStride, [&](std::byte* to, std::size_t from, std::size_t size) {
+            for (std::size_t i = 0; i < size / kStride; ++i) {
+                const std::size_t v = original(static_cast<std::uint32_t>(from / kStride + i));
+                const Shading shading = v < model.shading.size() ? model.shading[v] : Shading{};
+                std::memcpy(to + i * kStride, &shading, kStride);
+            }
+        });
 }
 
 /// What is drawn beside the triangles, and the vertices. `original(i)` is the mesh's vertex at place i.
 template <class Original, class TriangleOf>
-Result<void> upload_rest(Context& context, Transfer& transfer, GpuMesh& mesh, const Model& model,
-                         const UploadOptions& options, std::span<const std::uint32_t> order, const Original& original,
-                         const TriangleOf& triangle_of) {
-    LeanView lean;
-    if (options.ring || options.lines == UploadOptions::Lines::ring) {
-        LR_ASSIGN(lean, view_lean(model.lean.words));
-    }
-    LR_TRY(upload_lines(context, transfer, mesh, model, lean, options.lines, order));
-    if (options.materials) LR_TRY(upload_shading(context, transfer, mesh, model, *options.materials, original));
-    const std::span<const float> normals = options.normals.empty() ? model.normals : options.normals;
-    const auto vertices_with = [&](const auto& ring) {
-        return upload_vertices(transfer, mesh, model.positions, normals, original, ring);
-    };
-    if (!options.ring) return vertices_with([](std::uint32_t) { return -1.0F; });
-    const std::uint32_t rings = lean.rings2 + lean.rings1;
+Result<void> upload_rest(const Upload& upload, GpuMesh& mesh, std::span<const std::uint32_t> order,
+                         const Original& original, const TriangleOf& triangle_of) {
+    LR_TRY(upload_lines(upload, mesh, order));
+    if (upload.options.materials) LR_TRY(upload_shading(upload, mesh, original));
+    if (!upload.options.ring) return upload_vertices(upload, mesh, original, [](std::uint32_t) { return -1.0F; });
+    const Model& model = upload.model;
+    const std::uint32_t rings = upload.views.lean.rings2 + upload.views.lean.rings1;
     std::vector<float> ring(model.surface.vertex_count, -1.0F);
     for (std::uint32_t i = 0; i < rings; ++i) {
         ring[model.lean.vertex_order[i]] = static_cast<float>(i) / static_cast<float>(rings);
     }
-    LR_TRY(vertices_with([&](std::uint32_t v) { return ring[model.surface_of(original(v))]; }));
-    return upload_classes(context, transfer, mesh, model, lean, options.offsets, triangle_of);
+    LR_TRY(
+        upload_vertices(upload, mesh, original, [&](std::uint32_t v) { return ring[model.surface_of(original(v))]; }));
+    return upload_classes(upload, mesh, triangle_of);
 }
 
 /// A stream, the mesh's vertex of each one that is drawn, and the mesh's triangle of each slot.
@@ -199,77 +193,54 @@ struct Stream {
     std::array<std::uint32_t, 4> layout;
 };
 
-Result<Stream> lean_stream(const Model& model) {
-    const EncodedLean& stream = model.lean;
-    LR_ASSIGN(const LeanView view, view_lean(stream.words));
-    if (view.vertices != model.surface.vertex_count || stream.vertex_order.size() != view.vertices ||
-        stream.slot_triangle.size() != view.slots()) {
-        return Error{ErrorCode::invalid_argument, "the lean stream is not of this mesh"};
+Stream stream_of(const Upload& upload) {
+    const Model& model = upload.model;
+    if (upload.source == Source::lean) {
+        const LeanView& view = upload.views.lean;
+        return {model.lean.words,
+                model.lean.vertex_order,
+                model.lean.slot_triangle,
+                {view.rings2, view.rings1, view.verbatim, 0}};
     }
-    return Stream{
-        stream.words, stream.vertex_order, stream.slot_triangle, {view.rings2, view.rings1, view.verbatim, 0}};
+    const PackedView& view = upload.views.packed;
+    return {model.packed.words,
+            model.packed.vertex_order,
+            model.packed.triangle_order,
+            {view.own, static_cast<std::uint32_t>(view.table_word()), static_cast<std::uint32_t>(view.groups_word()),
+             view.vertex_bits}};
 }
 
-Result<Stream> packed_stream(const Model& model) {
-    const EncodedPacked& stream = model.packed;
-    if (stream.words.empty()) return Error{ErrorCode::invalid_argument, "the model was made without a packed stream"};
-    LR_ASSIGN(const PackedView view, view_packed(stream.words));
-    if (view.vertices != model.surface.vertex_count || stream.vertex_order.size() != view.vertices ||
-        stream.triangle_order.size() != view.triangles) {
-        return Error{ErrorCode::invalid_argument, "the packed stream is not of this mesh"};
-    }
-    return Stream{stream.words,
-                  stream.vertex_order,
-                  stream.triangle_order,
-                  {view.own, static_cast<std::uint32_t>(view.table_word()),
-                   static_cast<std::uint32_t>(view.groups_word()), view.vertex_bits}};
-}
-
-Result<void> upload_vertex_stream(Context& context, Transfer& transfer, GpuMesh& mesh, const Model& model) {
-    const std::span<const std::uint32_t> words = model.vertices.words;
-    if (words.empty()) return Error{ErrorCode::invalid_argument, "the model was made without a vertex stream"};
-    LR_ASSIGN(const VertexView view, view_vertices(words));
-    if (view.vertices != model.surface.vertex_count || view.integers != 3 || view.type != ComponentType::f32 ||
-        view.mapping == VertexMapping::octahedral) {
-        return Error{ErrorCode::invalid_argument, "the vertex stream is not of this mesh's positions"};
-    }
-    mesh.unit = model.unit;
-    LR_ASSIGN(mesh.vertex_stream, Buffer::create(context, "vertex stream", words.size_bytes(),
-                                                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | kAddress));
-    return transfer.upload(mesh.vertex_stream, words);
-}
-
-Result<void> upload_seams(Context& context, Transfer& transfer, GpuMesh& mesh, const EncodedSeams& seams) {
-    LR_ASSIGN(const SeamView view, view_seams(seams.words, mesh.slots, mesh.surface_vertices));
-    if (view.copies != seams.copy_order.size())
-        return Error{ErrorCode::invalid_argument, "the seam section is not of this mesh"};
-    constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | kAddress;
-    const std::span<const std::uint32_t> words = seams.words;
-    LR_ASSIGN(mesh.seams, Buffer::create(context, "seams", words.size_bytes(), kStorage));
+Result<void> upload_seams(const Upload& upload, GpuMesh& mesh, const EncodedSeams& seams) {
+    Context& context = upload.context;
+    const SeamView& view = upload.views.seams;
+    constexpr VkBufferUsageFlags kBoth = kStorage | kAddress;
+    LR_TRY(put(upload, mesh.seams, "seams", std::span<const std::uint32_t>(seams.words), kBoth));
     LR_ASSIGN(mesh.homes,
-              Buffer::create(context, "homes", (std::uint64_t{view.vertices} + 1) * sizeof(std::uint32_t), kStorage));
+              Buffer::create(context, "homes", (std::uint64_t{view.vertices} + 1) * sizeof(std::uint32_t), kBoth));
     LR_ASSIGN(mesh.copies,
-              Buffer::create(context, "copies", mesh.indices.size(), kStorage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT));
-    LR_ASSIGN(mesh.copy_vertices, Buffer::create(context, "vertices of copies",
-                                                 std::uint64_t{view.copies} * sizeof(std::uint32_t), kStorage));
-    if (mesh.source == Source::packed_vertices && mesh.path == Path::compute) {
-        LR_ASSIGN(mesh.positions, Buffer::create(context, "positions of the surface",
-                                                 std::uint64_t{view.vertices} * sizeof(Vertex::position), kStorage));
-    }
-    return transfer.upload(mesh.seams, words);
+              Buffer::create(context, "copies", mesh.indices.size(), kBoth | VK_BUFFER_USAGE_INDEX_BUFFER_BIT));
+    LR_ASSIGN(mesh.copy_vertices,
+              Buffer::create(context, "vertices of copies", std::uint64_t{view.copies} * sizeof(std::uint32_t), kBoth));
+    if (mesh.source != Source::packed_vertices || mesh.path != Path::compute) return {};
+    LR_ASSIGN(mesh.positions, Buffer::create(context, "positions of the surface",
+                                             std::uint64_t{view.vertices} * sizeof(Vertex::position), kBoth));
+    return {};
 }
 
-Result<GpuMesh> upload_stream(Context& context, Transfer& transfer, const Model& model, Source source,
-                              const UploadOptions& options) {
-    LR_ASSIGN(Stream stream, source == Source::lean ? lean_stream(model) : packed_stream(model));
-    LR_ASSIGN(GpuMesh mesh, prepare(context, model, source, options));
+Result<GpuMesh> upload_stream(const Upload& upload) {
+    const auto& [context, transfer, model, source, options, views] = upload;
+    Stream stream = stream_of(upload);
+    LR_ASSIGN(GpuMesh mesh, prepare(upload));
     if (const EncodedSeams* seams = seams_of(model, source)) {
         stream.vertex_order = seams->copy_order;
-        LR_TRY(upload_seams(context, transfer, mesh, *seams));
+        LR_TRY(upload_seams(upload, mesh, *seams));
     }
-    if (source == Source::packed_vertices) LR_TRY(upload_vertex_stream(context, transfer, mesh, model));
+    if (source == Source::packed_vertices) {
+        mesh.unit = model.unit;
+        LR_TRY(put(upload, mesh.vertex_stream, "vertex stream", std::span<const std::uint32_t>(model.vertices.words),
+                   kStorage | kAddress));
+    }
     mesh.stream_layout = stream.layout;
-    constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     LR_ASSIGN(mesh.stream,
               Buffer::create(context, "stream", stream.words.size_bytes() + kStreamTail, kStorage | kAddress));
     LR_TRY(transfer.upload(mesh.stream, stream.words));
@@ -278,25 +249,20 @@ Result<GpuMesh> upload_stream(Context& context, Transfer& transfer, const Model&
                                                 mesh.draws * std::uint64_t{sizeof(VkDrawIndexedIndirectCommand)},
                                                 kStorage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT));
     }
-    LR_ASSIGN(mesh.slot_triangle,
-              Buffer::create(context, "slot triangles", stream.slot_triangle.size_bytes(), kStorage));
-    LR_TRY(transfer.upload(mesh.slot_triangle, stream.slot_triangle));
-    LR_ASSIGN(mesh.vertex_order,
-              Buffer::create(context, "vertex order", stream.vertex_order.size_bytes(), kStorage | kAddress));
-    LR_TRY(transfer.upload(mesh.vertex_order, stream.vertex_order));
+    LR_TRY(put(upload, mesh.slot_triangle, "slot triangles", stream.slot_triangle, kStorage));
+    LR_TRY(put(upload, mesh.vertex_order, "vertex order", stream.vertex_order, kStorage | kAddress));
     LR_TRY(upload_rest(
-        context, transfer, mesh, model, options, stream.vertex_order,
-        [&](std::uint32_t i) { return stream.vertex_order[i]; },
+        upload, mesh, stream.vertex_order, [&](std::uint32_t i) { return stream.vertex_order[i]; },
         [&](std::uint32_t slot) { return stream.slot_triangle[slot]; }));
     return mesh;
 }
 
-Result<GpuMesh> upload_plain(Context& context, Transfer& transfer, const Model& model, const UploadOptions& options) {
-    if (options.path != Path::compute)
+Result<GpuMesh> upload_plain(const Upload& upload) {
+    if (upload.options.path != Path::compute)
         return Error{ErrorCode::invalid_argument, "the pull, geometry and mesh paths draw streams, not an index list"};
-    LR_ASSIGN(GpuMesh mesh, prepare(context, model, Source::plain, options));
-    const auto indices = std::as_bytes(model.indices);
-    LR_TRY(transfer.upload(
+    LR_ASSIGN(GpuMesh mesh, prepare(upload));
+    const auto indices = std::as_bytes(upload.model.indices);
+    LR_TRY(upload.transfer.upload(
         mesh.indices, 0, mesh.indices.size(), 4, [&](std::byte* to, std::size_t from, std::size_t size) {
             const std::size_t real = from < indices.size() ? std::min(size, indices.size() - from) : 0;
             if (real != 0) std::memcpy(to, indices.data() + from, real);
@@ -304,54 +270,11 @@ Result<GpuMesh> upload_plain(Context& context, Transfer& transfer, const Model& 
         }));
     mesh.decoded = true;
     const auto itself = [](std::uint32_t i) { return i; };
-    LR_TRY(upload_rest(context, transfer, mesh, model, options, {}, itself, itself));
+    LR_TRY(upload_rest(upload, mesh, {}, itself, itself));
     return mesh;
 }
 
 }  // namespace
-
-std::optional<Path> path_named(std::string_view name) {
-    for (const NamedPath& named : kPaths) {
-        if (named.name == name) return named.path;
-    }
-    return std::nullopt;
-}
-
-std::optional<Source> source_named(std::string_view name) {
-    for (const NamedSource& named : kSources) {
-        if (named.name == name) return named.source;
-    }
-    return std::nullopt;
-}
-
-std::vector<std::string> path_names() {
-    std::vector<std::string> out;
-    for (const NamedPath& named : kPaths) out.emplace_back(named.name);
-    return out;
-}
-
-std::vector<std::string> source_names() {
-    std::vector<std::string> out;
-    for (const NamedSource& named : kSources) out.emplace_back(named.name);
-    return out;
-}
-
-bool has_source(const Model& model, Source source) {
-    if (source == Source::packed_vertices && model.vertices.words.empty()) return false;
-    return !is_packed(source) || !model.packed.words.empty();
-}
-
-const EncodedSeams* seams_of(const Model& model, Source source) {
-    if (source == Source::plain || !model.surface.has_seams()) return nullptr;
-    return source == Source::lean ? &model.lean_seams : &model.packed_seams;
-}
-
-std::uint64_t connectivity_bytes(const Model& model, Source source) {
-    if (source == Source::plain) return 0;
-    const EncodedSeams* seams = seams_of(model, source);
-    return sizeof(std::uint32_t) * ((is_packed(source) ? model.packed.words : model.lean.words).size() +
-                                    (seams == nullptr ? 0 : seams->words.size()));
-}
 
 MeshBytes mesh_bytes(const Model& model, Source source, const UploadOptions& options) {
     constexpr std::uint64_t kWord = sizeof(std::uint32_t);
@@ -388,10 +311,8 @@ MeshBytes mesh_bytes(const Model& model, Source source, const UploadOptions& opt
     return out;
 }
 
-Result<GpuMesh> upload_mesh(Context& context, Transfer& transfer, const Model& model, Source source,
-                            const UploadOptions& options) {
-    return source == Source::plain ? upload_plain(context, transfer, model, options)
-                                   : upload_stream(context, transfer, model, source, options);
+Result<GpuMesh> upload_mesh(const Upload& upload) {
+    return upload.source == Source::plain ? upload_plain(upload) : upload_stream(upload);
 }
 
 }  // namespace lacedring::gpu

@@ -3,71 +3,13 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
-#include "renderer/mesh/model.h"
+#include "renderer/mesh/source.h"
 #include "renderer/vk/buffer.h"
 #include "renderer/vk/transfer.h"
 
 namespace lacedring::gpu {
-
-/// Of a stream the device makes the index buffer and the draw commands.
-enum class Source {
-    plain,            ///< the mesh's own index list and vertex order
-    lean,             ///< the lean stream, with its vertex order
-    packed,           ///< the packed stream, with its vertex order
-    packed_vertices,  ///< likewise, and positions from a vertex stream
-};
-/// True if triangles come from the packed stream.
-constexpr bool is_packed(Source source) {
-    return source == Source::packed || source == Source::packed_vertices;
-}
-
-/// How triangles come from a stream into a picture. Source::plain is always drawn by Path::compute.
-enum class Path {
-    compute,   ///< compute shaders expand the streams to an index buffer and vertices, which are drawn
-    pull,      ///< the vertex shader decodes the triangle of its vertex; no index buffer, no vertex buffer bound
-    geometry,  ///< a geometry shader decodes four slots a point
-    mesh,      ///< a mesh shader decodes 64 slots a workgroup (VK_EXT_mesh_shader)
-};
-
-/// Without compute shaders, a draw of Source::packed_vertices decodes half a block of vertices for each corner. A
-/// larger mesh than this is drawn so only on request: a picture takes seconds on lavapipe.
-constexpr std::uint32_t kMostPulled = 20000;
-constexpr bool is_slow(Source source, Path path, std::uint32_t triangles) {
-    return source == Source::packed_vertices && path != Path::compute && triangles > kMostPulled;
-}
-
-/// By their names on the command line.
-struct NamedPath {
-    const char* name;
-    Path path;
-};
-constexpr std::array<NamedPath, 4> kPaths{
-    {{"compute", Path::compute}, {"pull", Path::pull}, {"geometry", Path::geometry}, {"mesh", Path::mesh}}};
-std::optional<Path> path_named(std::string_view name);
-struct NamedSource {
-    const char* name;
-    Source source;
-};
-constexpr std::array<NamedSource, 4> kSources{{{"plain", Source::plain},
-                                               {"lean", Source::lean},
-                                               {"packed", Source::packed},
-                                               {"packed_vertices", Source::packed_vertices}}};
-std::optional<Source> source_named(std::string_view name);
-std::vector<std::string> path_names();
-std::vector<std::string> source_names();
-
-/// Is this source there in the model?
-bool has_source(const Model& model, Source source);
-/// The seams of its stream; null where the mesh has none, and for Source::plain.
-const EncodedSeams* seams_of(const Model& model, Source source);
-/// Bytes of its stream of triangles, seams included; 0 of Source::plain.
-std::uint64_t connectivity_bytes(const Model& model, Source source);
 
 struct UploadOptions {
     Path path = Path::compute;
@@ -144,11 +86,20 @@ struct Vertex {
     float ring;  ///< place along the rings in [0, 1]; -1 off the rings
 };
 
+/// All that an upload is made of.
+struct Upload {
+    Context& context;
+    Transfer& transfer;
+    const Model& model;
+    Source source;
+    const UploadOptions& options;
+    StreamViews views;  ///< view_streams(model, source)
+};
+
 /// Errors: kNoDevice (Path::mesh where the device has none, indices past the device's, more memory than is left, which
-/// is found out before any is allocated), too_large (more than 2^32 indices), invalid_argument (max_range, no such
-/// stream in the model, Source::plain by another path than compute), unsupported (only degenerate triangles), and
-/// Vulkan's. The model's streams must be valid.
-Result<GpuMesh> upload_mesh(Context& context, Transfer& transfer, const Model& model, Source source,
-                            const UploadOptions& options);
+/// is found out before any is allocated), too_large (more than 2^32 indices), invalid_argument (max_range,
+/// Source::plain by another path than compute), unsupported (only degenerate triangles), and Vulkan's. The model's
+/// streams must be valid.
+Result<GpuMesh> upload_mesh(const Upload& upload);
 
 }  // namespace lacedring::gpu

@@ -1,6 +1,7 @@
 #include "renderer/mesh/model.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -172,7 +173,9 @@ Result<Model> make_surface(const Mesh& mesh, const lacedring::Surface& surface) 
 }
 
 void add_materials(Model& model, const Mesh& mesh, const Materials& materials) {
+    static std::atomic<std::uint64_t> last = 0;
     model.materials = materials.of_triangle.empty() ? nullptr : &materials;
+    model.materials_number = ++last;
     constexpr std::uint16_t kOne = UINT16_MAX;
     model.shading.assign(mesh.vertex_count, {{0, 0, 0, 0}, {kOne, kOne, kOne, kOne}});
     const auto floats_of = [&](const char* name, std::uint8_t components) -> const std::byte* {

@@ -44,6 +44,7 @@ struct Model {
     /// What View::material draws: of its triangles, which must outlive the model; null: none. And what it reads of each
     /// vertex; empty: there is nothing.
     const Materials* materials = nullptr;
+    std::uint64_t materials_number = 0;  ///< another one after each add_materials, in the whole program
     std::vector<Shading> shading;
     double mean_edge = 0;  ///< mean length of the triangles' edges, of the unit sphere
 

@@ -72,31 +72,26 @@ void note_seen(std::vector<bool>& seen, const Picture& picture) {
     }
 }
 
-Result<bool> indices_equal_cpu(Renderer& renderer, Drawable& drawable, const Model& model) {
+Result<bool> indices_equal_cpu(Renderer& renderer, Drawable& drawable, const Model& model, const StreamViews& views) {
     LR_ASSIGN(const std::vector<std::uint32_t> device, renderer.read_indices(drawable));
     std::vector<std::uint32_t> host(device.size());
-    if (drawable.mesh.source == Source::lean) {
-        LR_ASSIGN(const LeanView view, view_lean(model.lean.words));
-        decode_lean(view, host);
+    const bool packed = is_packed(drawable.mesh.source);
+    if (packed) {
+        decode_packed(views.packed, host);
     } else {
-        LR_ASSIGN(const PackedView view, view_packed(model.packed.words));
-        decode_packed(view, host);
+        decode_lean(views.lean, host);
     }
     if (device != host) return false;
-    const EncodedSeams* seams = seams_of(model, drawable.mesh.source);
-    if (seams == nullptr) return true;
+    if (!drawable.mesh.copies) return true;
     LR_ASSIGN(const std::vector<std::uint32_t> copies, renderer.read_copies(drawable));
-    LR_ASSIGN(const SeamView view, view_seams(seams->words, drawable.mesh.slots, drawable.mesh.surface_vertices));
-    LR_ASSIGN(const StreamView stream,
-              view_stream(is_packed(drawable.mesh.source) ? model.packed.words : model.lean.words));
-    decode_seams(view, slot_triangles(stream), host);
+    LR_ASSIGN(const StreamView stream, view_stream(packed ? model.packed.words : model.lean.words));
+    decode_seams(views.seams, slot_triangles(stream), host);
     std::ranges::replace(host, UINT32_MAX, 0U);  // slots without a triangle
     return copies == host;
 }
 
-Result<bool> vertices_equal_cpu(Renderer& renderer, Drawable& drawable, const Model& model) {
+Result<bool> vertices_equal_cpu(Renderer& renderer, Drawable& drawable, const Model& model, const VertexView& view) {
     LR_ASSIGN(const std::vector<std::uint32_t> device, renderer.read_positions(drawable));
-    LR_ASSIGN(const VertexView view, view_vertices(model.vertices.words));
     std::vector<std::uint32_t> host(std::size_t{3} * view.vertices);
     decode_vertices(view, std::as_writable_bytes(std::span(host)));
     if (!drawable.mesh.positions) return device == host;
@@ -176,9 +171,10 @@ Result<Comparison> compare_one(Renderer& renderer, const Model& model, const Ref
         mark(marks[v], reference.raw[v], picture, 2);
         counter.count();
     }
-    LR_ASSIGN(out.indices_equal_cpu, indices_equal_cpu(renderer, stream, model));
+    LR_ASSIGN(const StreamViews views, view_streams(model, subject.source));
+    LR_ASSIGN(out.indices_equal_cpu, indices_equal_cpu(renderer, stream, model, views));
     if (subject.source == Source::packed_vertices) {
-        LR_ASSIGN(out.vertices_equal_cpu, vertices_equal_cpu(renderer, stream, model));
+        LR_ASSIGN(out.vertices_equal_cpu, vertices_equal_cpu(renderer, stream, model, views.vertices));
     }
 
     out.picture.width = kColumns * width;
@@ -211,7 +207,6 @@ Result<std::vector<Comparison>> compare(Context& context, const Model& model, st
     renderer_options.width = options.width;
     renderer_options.height = options.height;
     renderer_options.max_range = options.max_range;
-    renderer_options.omit_decode_barrier = options.omit_decode_barrier;
     LR_ASSIGN(Renderer renderer, Renderer::create(context, renderer_options));
     return compare(renderer, model, subjects, options.progress);
 }

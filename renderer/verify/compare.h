@@ -28,9 +28,8 @@ using CompareProgress = std::function<void(std::uint32_t done, std::uint32_t tot
 struct CompareOptions {
     std::uint32_t width = 1280;
     std::uint32_t height = 720;
-    View view = View::smooth;          ///< or material, of a model that has any
-    std::uint64_t max_range = 0;       ///< see UploadOptions
-    bool omit_decode_barrier = false;  ///< see RendererOptions
+    View view = View::smooth;     ///< or material, of a model that has any
+    std::uint64_t max_range = 0;  ///< see UploadOptions
     CompareProgress progress = {};
 };
 

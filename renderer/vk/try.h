@@ -4,9 +4,9 @@
 #include <vulkan/vulkan.h>
 
 #include <string>
-#include <utility>
 
 #include "lacedring/base.hpp"
+#include "lrcore/base/try.h"
 
 namespace lacedring::gpu {
 
@@ -17,22 +17,6 @@ std::string result_name(VkResult result);
 Result<void> check(VkResult result, const char* call);
 
 }  // namespace lacedring::gpu
-
-#define LR_CONCAT_(a, b) a##b
-#define LR_CONCAT(a, b) LR_CONCAT_(a, b)
-
-/// Returns the error of a Result, if it is one.
-#define LR_TRY(expression)                                                 \
-    do {                                                                   \
-        if (auto lr_try_ = (expression); !lr_try_) return lr_try_.error(); \
-    } while (false)
-
-/// LR_ASSIGN(auto x, f()): x is the value of the Result that f returns; its error is returned.
-#define LR_ASSIGN(declaration, expression) LR_ASSIGN_(LR_CONCAT(lr_result_, __LINE__), declaration, expression)
-#define LR_ASSIGN_(name, declaration, expression) \
-    auto name = (expression);                     \
-    if (!name) return name.error();               \
-    declaration = std::move(name).value()
 
 /// Returns an error unless a Vulkan call gave VK_SUCCESS.
 #define LR_TRY_VK(call) LR_TRY(::lacedring::gpu::check((call), #call))

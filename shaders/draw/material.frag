@@ -75,14 +75,14 @@ vec3 lit(MaterialConstants m, Steps steps, vec3 base, vec3 dx, vec3 dy) {
     vec3 n = normal_of(m, steps, dx, dy), to_eye = normalize(-in_position);
     vec3 diffuse = base * (1.0 - metallic), f0 = mix(vec3(0.04), base, metallic);
     const vec3 key = normalize(vec3(-0.45, 0.72, 0.62)), fill = normalize(vec3(0.80, 0.05, 0.45));
-    vec3 colour = reflected(n, key, to_eye, diffuse, f0, rough) * vec3(1.10, 1.04, 0.96) +
+    vec3 colour = reflected(n, key, to_eye, diffuse, f0, rough) * vec3(0.94, 0.89, 0.82) +
                   reflected(n, fill, to_eye, diffuse, f0, rough) * vec3(0.16, 0.19, 0.24);
     // What the sky adds: its mean over the half space, and its reflection.
     float nv = clamp(dot(n, to_eye), 0.0, 1.0);
     vec4 r = rough * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
     float a = min(r.x * r.x, exp2(-9.28 * nv)) * r.x + r.y;
     vec2 part = vec2(-1.04, 1.04) * a + r.zw;
-    colour += open * (0.62 * diffuse * sky(n, 1.0) + (f0 * part.x + part.y) * sky(reflect(-to_eye, n), rough));
+    colour += open * (0.54 * diffuse * sky(n, 1.0) + (f0 * part.x + part.y) * sky(reflect(-to_eye, n), rough));
     return colour;
 }
 

@@ -131,6 +131,19 @@ class RoundTrip(CliTest):
         # Each form with three kinds of mesh, each kind with three forms: the unit tests have all of both.
         in_parallel(check, [(k, *f) for i, k in enumerate(KINDS) for j, f in enumerate(forms) if (i + j) % len(KINDS) < 3])
 
+    def test_threads(self):
+        """The bytes are the same for any number; only commands that have a use for it take it."""
+        source, files = self.generate("blob", 3000, 1), []
+        for threads in ("1", "3"):
+            out = self.path(f"{threads}.lr")
+            self.ok("encode", source, "-o", out, "--threads", threads)
+            self.ok("decode", out, "-o", self.path("out.ply"), "--threads", threads, "--force")
+            with open(out, "rb") as file:
+                files.append(file.read())
+        self.assertEqual(files[0], files[1])
+        self.fails("encode", source, "-o", self.path("no.lr"), "--threads", "0", codes=(WRONG_USAGE,))
+        self.fails("generate", "blob", "-o", self.path("no.ply"), "--threads", "2", codes=(WRONG_USAGE,))
+
     def test_orient(self):
         quads = [(i, i + 1, i + 11, i + 10) for i in range(0, 80) if i % 10 != 9]
         faces = [f for a, b, c, d in quads for f in ((a, b, c), (a, c, d))]

@@ -15,6 +15,9 @@
 #include "lacedring/scene.hpp"
 #include "lacedring/seams.hpp"
 #include "lacedring/vertices.hpp"
+#include "lrcore/codec/storage/packed_storage.h"
+#include "lrcore/codec/storage/seam_storage.h"
+#include "lrcore/codec/storage/vertex_storage.h"
 #include "lrlab/generate/generate.h"
 #include "tests/support/cut_mesh.h"
 #include "tests/support/meshes.h"
@@ -156,6 +159,61 @@ void write_vertex_seeds() {
                            [&](auto v, auto c) { return std::round(wave(v, c) * 4096) / 4096; });
 }
 
+/// The sections of a cut mesh in storage form, one behind the other (stored.cpp), with normals or texture coordinates.
+void write_stored(const std::string& name, const Mesh& mesh, bool normals) {
+    const Result<Encoded> encoded = encode(mesh.indices, mesh.vertex_count, {.format = Format::packed, .effort = 0});
+    all_written = encoded.has_value() && all_written;
+    if (!encoded) return;
+    auto [cut, surface] = test::cut_mesh(mesh, 2, mesh.vertex_count);
+    const Mesh more{cut.vertex_count, {}, {cut.attributes[0]}};
+    const std::vector<float> positions = positions_f32(more);
+    Attribute attribute{normals ? "NORMAL" : "TEXCOORD_0", ComponentType::f32, 3, false, {}};
+    std::vector<float> values;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        if (normals || i % 3 != 2)
+            values.push_back(positions[i] + 0.03F * static_cast<float>(i / 3 % 4));  // copies differ
+    }
+    if (!normals) attribute.components = 2;
+    const auto bytes = std::as_bytes(std::span(values));
+    attribute.data.assign(bytes.begin(), bytes.end());
+    cut.attributes = {cut.attributes[0], std::move(attribute)};
+    Result<LrFile> file = make_lr_file(cut, surface, *encoded, false);
+    if (file && !compress_attributes(*file, {.positions = 10, .normals = 8, .texcoords = 9})) return;
+    all_written = file.has_value() && all_written;
+    if (!file) return;
+    const auto stream = view_stream(file->words);
+    const std::vector<std::uint32_t> slots = slot_triangles(*stream);
+    const auto packed = storage::store_packed(*view_packed(file->words));
+    std::vector<std::uint32_t> positions_of, copies, vertex_of;
+    const VertexView position = *view_vertices(file->attributes[0].words);
+    positions_of.resize(std::size_t{3} * position.vertices);
+    for (std::uint32_t b = 0; b < position.blocks(); ++b)
+        decode_vertex_block(position, b, std::span(positions_of).subspan(std::size_t{3} * kVertexBlock * b));
+    std::vector<std::uint32_t> words{file->vertex_count, static_cast<std::uint32_t>(slots.size() / 3)};
+    using Stored = std::optional<std::vector<std::uint32_t>>;
+    Stored seams;
+    if (!file->seams.empty()) {
+        const SeamView view = *view_seams(file->seams, stream->slots(), stream->vertices());
+        copies.resize(slots.size());
+        vertex_of.resize(view.copies);
+        decode_seams(view, slots, copies);
+        copy_vertices(view, slots, vertex_of);
+        seams = storage::store_seams(view, slots);
+    }
+    const auto stored_positions = storage::store_vertices(position, slots);
+    const bool per_copy = file->attributes[1].per_copy;
+    const auto stored_attribute =
+        storage::store_vertices(*view_vertices(file->attributes[1].words), per_copy ? copies : slots,
+                                {positions_of, std::span(vertex_of).first(per_copy ? vertex_of.size() : 0)});
+    for (const Stored* part : {&packed, &stored_positions, &stored_attribute})
+        words.push_back(*part ? static_cast<std::uint32_t>((*part)->size()) : 0);
+    for (const Stored* part :
+         std::initializer_list<const Stored*>{&packed, &stored_positions, &stored_attribute, &seams}) {
+        if (*part) words.insert(words.end(), (*part)->begin(), (*part)->end());
+    }
+    write("stored", name, std::as_bytes(std::span(words)));
+}
+
 /// A file in storage form whose normals are differences from the surface's.
 void write_stored_normals() {
     Mesh mesh = generate("sphere", 600).value();
@@ -203,6 +261,10 @@ int main(int argc, char** argv) {
     for (const char* kind : {"blob", "terrain", "parts", "soup", "genus"}) {  // of several blocks, and groups of blocks
         write_seeds(std::string(kind) + "-600", generate(kind, 600).value(), number++);
         write_seeds(std::string(kind) + "-4600", generate(kind, 4600).value(), number++);
+    }
+    for (const char* kind : {"sphere", "blob", "terrain", "parts", "genus"}) {
+        for (const bool normals : {false, true})
+            write_stored(std::string(kind) + (normals ? "-normals" : "-texture"), generate(kind, 200).value(), normals);
     }
     write_vertex_seeds();
     write_stored_normals();

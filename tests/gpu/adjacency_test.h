@@ -12,6 +12,7 @@
 #include "lacedring/lacedring.hpp"
 #include "lacedring/mesh_files.hpp"
 #include "lacedring/topology.hpp"
+#include "lrcore/base/vec3.h"
 #include "renderer/draw/adjacency.h"
 #include "shaders/adjacency/adjacency_shared.h"
 #include "tests/gpu/gpu_test.h"
@@ -144,20 +145,8 @@ void every_mesh(const Check& check) {
     CHECK(checked.value_or(1) > 0);  // where the variable is set
 }
 
-using Point3 = std::array<double, 3>;
-
-inline Point3 minus(const Point3& a, const Point3& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-inline double dot(const Point3& a, const Point3& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-inline double length(const Point3& a) {
-    return std::sqrt(dot(a, a));
-}
-inline Point3 cross(const Point3& a, const Point3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
+using Point3 = detail::Vec3<double>;
+using detail::cross, detail::dot, detail::length, detail::minus;
 
 /// The positions that are drawn, or none where there is nothing to draw.
 inline std::vector<float> model_positions(const Mesh& mesh) {

@@ -6,7 +6,6 @@
 #include "lrlab/generate/generate.h"
 #include "renderer/draw/renderer.h"
 #include "renderer/verify/compare.h"
-#include "renderer/verify/timing.h"
 
 namespace lacedring::test {
 

@@ -81,9 +81,9 @@ TEST_CASE("GPU-assisted validation is clean on every source and path, and sees a
     for (const char* kind : {"parts", "soup"}) {  // borders, loose triangles, warts, several rings
         const Mesh mesh = generated(kind, 1000);
         const gpu::Model model = gpu::make_model(mesh, {.packed = true, .vertices = VertexOptions{}}).value();
-        for (const auto& [name, path] : gpu::kPaths) {
+        for (const auto& [name, path, path_label] : gpu::kPaths) {
             if (path == gpu::Path::mesh && context->info().max_mesh_groups == 0) continue;
-            for (const auto& [source_name, source] : gpu::kSources) {
+            for (const auto& [source_name, source, source_label] : gpu::kSources) {
                 if (source == gpu::Source::plain) continue;
                 // The other stages decode vertices as pull does, and take long to instrument.
                 if (source == gpu::Source::packed_vertices && path != gpu::Path::compute && path != gpu::Path::pull)

@@ -17,9 +17,9 @@ constexpr std::uint32_t kTinyWidth = 64, kTinyHeight = 48;
 /// Every source by every path that the device has.
 std::vector<gpu::Subject> all_subjects(const gpu::Context& context) {
     std::vector<gpu::Subject> out;
-    for (const gpu::NamedPath& named : gpu::kPaths) {
-        if (named.path == gpu::Path::mesh && context.info().max_mesh_groups == 0) continue;
-        for (const gpu::Source source : {gpu::Source::lean, gpu::Source::packed}) out.push_back({source, named.path});
+    for (const gpu::Named<gpu::Path>& named : gpu::kPaths) {
+        if (named.value == gpu::Path::mesh && context.info().max_mesh_groups == 0) continue;
+        for (const gpu::Source source : {gpu::Source::lean, gpu::Source::packed}) out.push_back({source, named.value});
     }
     return out;
 }

@@ -109,7 +109,7 @@ TEST_CASE("a mesh takes the device memory that was said, and none where there is
         options.view = view;
         auto renderer = gpu::Renderer::create(**context, options);
         REQUIRE(renderer);
-        for (const auto& [name, source] : gpu::kSources) {
+        for (const auto& [name, source, label] : gpu::kSources) {
             CAPTURE(std::string(name));
             for (const gpu::Path path : {gpu::Path::compute, gpu::Path::pull}) {
                 if (source == gpu::Source::plain && path != gpu::Path::compute) continue;

@@ -78,11 +78,14 @@ constexpr Golden kGoldens[] = {{"genus-smooth", "genus", 3000, gpu::View::smooth
                                {"parts-silhouette", "parts", 2000, gpu::View::silhouette},
                                {"blob-smooth", "blob.ply", 0, gpu::View::smooth},
                                {"cut-torus-class", "cut_torus.ply", 0, gpu::View::triangle_class},
-                               {"globe-flat", "globe.glb", 0, gpu::View::flat}};
+                               {"globe-flat", "globe.glb", 0, gpu::View::flat},
+                               {"globe-material", "globe.glb", 0, gpu::View::material},
+                               {"materials", "materials.glb", 0, gpu::View::material}};
 
-Mesh mesh_of(const Golden& golden) {
+Mesh mesh_of(const Golden& golden, Materials& materials) {
     if (golden.triangles != 0) return generated(golden.mesh, golden.triangles, 7);
-    Result<Mesh> mesh = read_mesh((std::filesystem::path(LACEDRING_ASSETS) / golden.mesh).string());
+    Result<Mesh> mesh = read_mesh(std::filesystem::path(LACEDRING_ASSETS) / golden.mesh, {}, nullptr,
+                                  golden.view == gpu::View::material ? &materials : nullptr);
     REQUIRE_MESSAGE(mesh, mesh.error().message);
     return std::move(mesh).value();
 }
@@ -95,8 +98,10 @@ TEST_CASE_FIXTURE(GpuTest, "golden pictures") {
     std::vector<gpu::Picture> goldens;
     for (const Golden& golden : kGoldens) {
         CAPTURE(std::string(golden.name));
-        const Mesh mesh = mesh_of(golden);  // the model looks at it
-        const gpu::Model model = model_of(mesh);
+        Materials materials;
+        const Mesh mesh = mesh_of(golden, materials);  // the model looks at both
+        gpu::Model model = model_of(mesh);
+        if (golden.view == gpu::View::material) gpu::add_materials(model, mesh, materials);
         const auto [at, made] = renderers.try_emplace(golden.view);
         if (made) at->second.emplace(renderer_of(*context, golden.view));
         gpu::Renderer& renderer = *at->second;

@@ -173,7 +173,7 @@ TEST_CASE_FIXTURE(SeamDecode, "seams of larger meshes, of several groups of bloc
 }
 
 TEST_CASE_FIXTURE(SeamDecode, "damaged seam sections neither hang nor write beyond their blocks") {
-    std::uint64_t state = 20261127;
+    SplitMix64 random(20261127);
     const Mesh mesh = generated("blob", 3000);
     const Result<Encoded> encoded = encode(mesh.indices, mesh.vertex_count, {.format = Format::packed, .effort = 0});
     REQUIRE(encoded);
@@ -184,8 +184,7 @@ TEST_CASE_FIXTURE(SeamDecode, "damaged seam sections neither hang nor write beyo
         std::vector<std::uint32_t> words =
             encode_seams(surface.triangles, surface.vertices, surface.copies).value().words;
         for (std::uint32_t k = 0; k <= trial % 20; ++k) {
-            words[2 + random_below(state, static_cast<std::uint32_t>(words.size() - 2))] ^= 1U
-                                                                                            << random_below(state, 32);
+            words[2 + random.below(static_cast<std::uint32_t>(words.size() - 2))] ^= 1U << random.below(32);
         }
         SeamView view;
         view.words = words;
@@ -222,10 +221,10 @@ struct SeamPictures : GpuTest {
     std::vector<gpu::Subject> subjects(bool small) const {
         std::vector<gpu::Subject> out;
         for (const auto source : {gpu::Source::lean, gpu::Source::packed, gpu::Source::packed_vertices}) {
-            for (const gpu::NamedPath& named : gpu::kPaths) {
-                if (named.path == gpu::Path::mesh && context->info().max_mesh_groups == 0) continue;
-                if (gpu::is_slow(source, named.path, small ? 0 : UINT32_MAX)) continue;
-                out.push_back({source, named.path});
+            for (const gpu::Named<gpu::Path>& named : gpu::kPaths) {
+                if (named.value == gpu::Path::mesh && context->info().max_mesh_groups == 0) continue;
+                if (gpu::is_slow(source, named.value, small ? 0 : UINT32_MAX)) continue;
+                out.push_back({source, named.value});
             }
         }
         return out;

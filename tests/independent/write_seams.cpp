@@ -35,7 +35,7 @@ void write(const Words& section, const Words& triangles, std::uint32_t vertices)
 }  // namespace
 
 int main() {
-    std::uint64_t state = 1;
+    test::SplitMix64 random(1);
     for (const test::NamedMesh& named : test::named_meshes()) {
         const Mesh& mesh = named.mesh;
         if (mesh.triangle_count() > 2000) continue;
@@ -43,12 +43,12 @@ int main() {
         for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
             const std::uint32_t* t = &mesh.indices[i];
             if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles.insert(triangles.end(), t, t + 3);
-            if (test::random_below(state, 20) == 0) triangles.insert(triangles.end(), 3, UINT32_MAX);
+            if (random.below(20) == 0) triangles.insert(triangles.end(), 3, UINT32_MAX);
         }
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> numbers;
         std::uint32_t chart = 0;
         for (std::size_t c = 0; c < triangles.size(); ++c) {
-            if (test::random_below(state, 30) == 0) chart = test::random_below(state, 5);
+            if (random.below(30) == 0) chart = random.below(5);
             const auto number = static_cast<std::uint32_t>(numbers.size());
             copies.push_back(numbers.emplace(std::pair(triangles[c], chart), number).first->second);
         }
@@ -57,8 +57,7 @@ int main() {
         write(seams->words, triangles, mesh.vertex_count);
         for (std::uint32_t n = 0; n < 3; ++n) {
             Words changed = seams->words;
-            changed[test::random_below(state, static_cast<std::uint32_t>(changed.size()))] ^=
-                1U << test::random_below(state, 32);
+            changed[random.below(static_cast<std::uint32_t>(changed.size()))] ^= 1U << random.below(32);
             changed[1] = crc32(std::as_bytes(std::span(changed).subspan(2)));
             write(changed, triangles, mesh.vertex_count);
         }

@@ -21,7 +21,7 @@ run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
 
 # What is installed: the headers that are public, and no others.
 file(GLOB headers RELATIVE ${WORK}/prefix/include/lacedring ${WORK}/prefix/include/lacedring/*)
-set(public base.hpp file.hpp lacedring.h lacedring.hpp lacedring_decode.h lacedring_seams.h lacedring_storage.h lacedring_stored_seams.h lacedring_vertices.h lr_file.hpp materials.hpp mesh.hpp mesh_files.hpp operators.hpp primitives.hpp ring.hpp scene.h scene.hpp
+set(public base.hpp corner_walks.hpp file.hpp lacedring.h lacedring.hpp lacedring_decode.h lacedring_seams.h lacedring_storage.h lacedring_stored_seams.h lacedring_vertices.h lr_file.hpp materials.hpp mesh.hpp mesh_files.hpp operators.hpp primitives.hpp ring.hpp scene.h scene.hpp
            seams.hpp streams.hpp surface.hpp topology.hpp vertices.hpp)
 if(NOT headers STREQUAL public)
     message(FATAL_ERROR "installed headers: ${headers}")

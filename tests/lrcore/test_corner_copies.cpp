@@ -13,6 +13,7 @@
 #include "lrlab/generate/generate.h"
 #include "tests/support/cuts.h"
 #include "tests/support/meshes.h"
+#include "tests/support/named_streams.h"
 #include "tests/support/shapes.h"
 
 using namespace lacedring;
@@ -79,8 +80,9 @@ void check_copies(const StreamView& stream, std::uint32_t how, std::uint64_t see
     }
 
     CornerCopies copies(stream, *view);
+    test::SplitMix64 random(seed);
     for (std::uint32_t n = 0; n < std::min(stream.slots(), 2000U); ++n) {
-        const std::uint32_t slot = test::random_below(seed, stream.slots());
+        const std::uint32_t slot = random.below(stream.slots());
         for (std::uint32_t k = 0; k < 3; ++k) right &= copies.copy(slot, k) == wanted[std::size_t{3} * slot + k];
     }
     REQUIRE(right);
@@ -239,20 +241,10 @@ void check_texcoords(const LrStreamView<View>& tables, const StreamView& stream,
 TEST_CASE("a corner's copy at random access is what the whole section decodes to") {
     std::uint32_t seed = 0;
     Seen seen;
-    for (const test::NamedMesh& named : test::named_meshes()) {
-        if (named.mesh.triangle_count() > 1000) continue;
-        CAPTURE(named.name);
-        for (const Format format : {Format::lean, Format::packed, Format::lr, Format::lr_compact}) {
-            CAPTURE(name_of(format));
-            const Result<Encoded> encoded =
-                encode(named.mesh.indices, named.mesh.vertex_count, {.format = format, .effort = 0});
-            if (!encoded) continue;
-            const Result<StreamView> stream = validate(encoded->words);
-            REQUIRE_MESSAGE(stream, stream.error().message);
-            check_copies(*stream, seed % test::kCuts, seed, seen);  // all ways to cut, in turn
-            ++seed;
-        }
-    }
+    test::for_each_named_stream([&](const StreamView& stream) {
+        check_copies(stream, seed % test::kCuts, seed, seen);  // all ways to cut, in turn
+        ++seed;
+    });
     CHECK(seen.redundant > 0);
     CHECK(seen.border > 0);
     CHECK(seen.flipped > 0);

@@ -103,10 +103,9 @@ TEST_CASE("section 12: signed volume") {
     SUBCASE("two triangles back to back are flat, to the last bit of whatever positions") {
         for (std::uint64_t seed = 1; seed < 200; ++seed) {
             CAPTURE(seed);
-            std::uint64_t state = seed;
+            test::SplitMix64 random(seed);
             std::vector<float> xyz;
-            for (int i = 0; i < 9; ++i)
-                xyz.push_back(static_cast<float>(test::random_below(state, 1U << 24)) / 1000.0F);
+            for (int i = 0; i < 9; ++i) xyz.push_back(static_cast<float>(random.below(1U << 24)) / 1000.0F);
             const CornerTable table = build({0, 1, 2, 2, 1, 0}, 3);
             const auto shells = closed_shells(table, Positions(std::span<const float>(xyz)));
             REQUIRE(shells.size() == 1);

@@ -7,6 +7,7 @@
 #include "lacedring/streams.hpp"
 #include "lrcore/codec/lean/lean_format.h"
 #include "tests/support/capture.h"
+#include "tests/support/damage.h"
 #include "tests/support/meshes.h"
 
 using namespace lacedring;
@@ -123,48 +124,27 @@ TEST_CASE("one side suffices for a strip of triangles") {
 }
 
 TEST_CASE("damaged streams are refused or harmless") {
-    const std::uint64_t seed = 20261122;
-    INFO("seed ", seed);
-    std::uint64_t state = seed;
-    const auto random = [&](std::uint32_t below) {
-        state = state * 6364136223846793005U + 1442695040888963407U;
-        return static_cast<std::uint32_t>((state >> 33) % below);
-    };
     std::size_t accepted = 0, refused = 0;
     for (std::uint64_t shape = 1; shape <= 20; ++shape) {
         const Mesh mesh = test::random_gluing(30, 60, shape);
         const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
         REQUIRE(table);
         const std::vector<std::uint32_t> good = encode_lean(*table, expand_rings(*table))->words;
-        for (std::size_t size = 0; size < good.size(); ++size) {
-            CHECK_FALSE(validate_lean(std::span(good).first(size)));
-        }
+        test::for_each_cut(good, [](auto cut) { CHECK_FALSE(validate_lean(cut)); });
         std::vector<std::uint32_t> longer = good;
         longer.push_back(0);
         CHECK_FALSE(validate_lean(longer));
-        for (int trial = 0; trial < 300; ++trial) {
-            std::vector<std::uint32_t> bad = good;
-            for (std::uint32_t k = 0; k <= random(3); ++k) {
-                std::uint32_t& word = bad[random(static_cast<std::uint32_t>(bad.size()))];
-                word = random(2) == 0 ? word ^ 1U << random(32) : random(64);
-            }
-            if (bad == good) continue;
+        test::for_each_damage(good, shape, 300, [&](std::vector<std::uint32_t>& bad, auto&) {
             CHECK_FALSE(validate_lean(bad));  // the checksum
             bad[LR_LEAN_WORD_CHECKSUM] = lean_checksum(bad);
-            const Result<LeanView> view = validate_lean(bad);
-            if (!view) {
-                ++refused;
-                continue;
-            }
-            ++accepted;  // another mesh, then: whatever it is, decoding stays in bounds
-            const std::unique_ptr<std::uint32_t[]> exact(new std::uint32_t[bad.size()]);
-            std::copy(bad.begin(), bad.end(), exact.get());
-            const Result<LeanView> moved = validate_lean(std::span<const std::uint32_t>(exact.get(), bad.size()));
-            REQUIRE(moved);
-            std::vector<std::uint32_t> indices(std::size_t{3} * moved->slots());
-            decode_lean(*moved, indices);
-            for (const std::uint32_t v : indices) CHECK(v < moved->vertices);
-        }
+            const auto exact = test::exact_copy(std::span<const std::uint32_t>(bad));
+            const Result<LeanView> view = validate_lean(std::span<const std::uint32_t>(exact.get(), bad.size()));
+            ++(view ? accepted : refused);
+            if (!view) return;  // else another mesh: whatever it is, decoding stays in bounds
+            std::vector<std::uint32_t> indices(std::size_t{3} * view->slots());
+            decode_lean(*view, indices);
+            for (const std::uint32_t v : indices) CHECK(v < view->vertices);
+        });
     }
     CHECK(accepted > 100);
     CHECK(refused > 100);

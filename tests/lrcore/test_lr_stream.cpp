@@ -9,6 +9,7 @@
 #include "lacedring/topology.hpp"
 #include "lrcore/base/crc32.h"
 #include "tests/support/capture.h"
+#include "tests/support/damage.h"
 #include "tests/support/lr_consistency.h"
 #include "tests/support/meshes.h"
 
@@ -63,9 +64,8 @@ std::vector<std::uint32_t> with_checksum(std::vector<std::uint32_t> words) {
 /// Refused, or harmless. Returns whether it was accepted.
 template <class Validate>
 bool try_damaged(std::vector<std::uint32_t> bad, Validate validate) {
-    const auto exact = std::make_unique<std::uint32_t[]>(bad.size());
     if (bad.size() >= kLrHeaderWords) bad = with_checksum(std::move(bad));
-    std::copy(bad.begin(), bad.end(), exact.get());
+    const auto exact = test::exact_copy(std::span<const std::uint32_t>(bad));
     const auto stream = validate(std::span<const std::uint32_t>(exact.get(), bad.size()));
     if (!stream) return false;
     CHECK(test::inconsistency(stream->view) == "");
@@ -154,13 +154,6 @@ TEST_CASE("a redundant T2 names v.n.n, and VO* the opposites that the operators 
 }
 
 TEST_CASE("damaged LR streams are refused or harmless") {
-    const std::uint64_t seed = 20261123;
-    INFO("seed ", seed);
-    std::uint64_t state = seed;
-    const auto random = [&](std::uint32_t below) {
-        state = state * 6364136223846793005U + 1442695040888963407U;
-        return static_cast<std::uint32_t>((state >> 33) % below);
-    };
     const auto standard = [](std::span<const std::uint32_t> w) { return validate_lr(w); };
     const auto compact = [](std::span<const std::uint32_t> w) { return validate_compact_lr(w); };
     std::size_t accepted = 0, refused = 0;
@@ -172,27 +165,9 @@ TEST_CASE("damaged LR streams are refused or harmless") {
                 return which == 0 ? try_damaged(bad, standard) : try_damaged(bad, compact);
             };
             CHECK(run(good));
-            for (std::size_t size = 0; size < good.size(); ++size) {
-                CHECK_FALSE(run({good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size)}));
-            }
-            for (int trial = 0; trial < 1500; ++trial) {
-                std::vector<std::uint32_t> bad = good;
-                for (std::uint32_t n = 0; n <= random(3); ++n) {
-                    std::uint32_t& word = bad[random(static_cast<std::uint32_t>(bad.size()))];
-                    switch (random(3)) {
-                        case 0:
-                            word ^= 1U << random(32);
-                            break;
-                        case 1:
-                            word = (word & 0xf0000000U) | random(80);
-                            break;
-                        default:
-                            word = random(2) == 0 ? UINT32_MAX : random(400);
-                            break;
-                    }
-                }
-                ++(run(bad) ? accepted : refused);
-            }
+            test::for_each_cut(good, [&](auto cut) { CHECK_FALSE(run({cut.begin(), cut.end()})); });
+            test::for_each_damage(good, shape, 1500,
+                                  [&](const auto& bad, auto&) { ++(run(bad) ? accepted : refused); });
         }
     }
     CHECK(accepted > 10);

@@ -11,8 +11,9 @@
 #include "lrcore/codec/storage/normal_base.h"
 #include "lrcore/codec/storage/vertex_storage.h"
 #include "tests/support/capture.h"
+#include "tests/support/damage.h"
 #include "tests/support/meshes.h"
-#include "tests/support/stored_in_c.h"
+#include "tests/support/check_stored_in_c.h"
 
 using namespace lacedring;
 using storage::NormalBase;
@@ -213,49 +214,20 @@ TEST_CASE("normal base: normals of a surface become smaller, with seams and with
         const Waves waves(seam);
         const VertexView view = *validate_vertices(waves.normals);
         const Words without = storage::store_vertices(view, waves.triangles).value();
-        const Words with = storage::store_vertices(view, waves.triangles, waves.where()).value();
+        const Words with = test::check_stored_by_places(waves.normals, waves.triangles, waves.where());
         CHECK(3 * with.size() < 2 * without.size());
-        const auto restored = [&](const VertexPlaces& places) {
-            return storage::restore_vertices(with, waves.triangles, view.vertices, waves.normals.size(), places);
-        };
-        const auto back = restored(waves.where());
-        REQUIRE_MESSAGE(back, back.error().message);
-        CHECK(*back == waves.normals);
-        test::check_in_c(with, waves.triangles, view, waves.where());
-        Words fewer = waves.positions;
-        fewer.resize(fewer.size() - 3);
-        for (const VertexPlaces& bad : {VertexPlaces{}, VertexPlaces{fewer, waves.vertex_of}}) {
-            const auto failed = restored(bad);
-            CHECK_FALSE(test::attribute_in_c(with, waves.triangles, view.vertices, bad).has_value());
-            REQUIRE_FALSE(failed);
-            CHECK(failed.error().code == ErrorCode::malformed);
-            CHECK(failed.error().message.find("positions") != std::string::npos);
-        }
         // What is stored without a base needs no places, but may be given some.
         CHECK(storage::restore_vertices(without, waves.triangles, view.vertices, 1 << 20, waves.where()));
     }
 }
 
 TEST_CASE("normal base: damage does no harm") {
-    const std::uint32_t seed = std::random_device{}();
-    CAPTURE(seed);
-    std::mt19937 random(seed);
     const Waves waves(true);
     const VertexView view = *validate_vertices(waves.normals);
     const Words all = storage::store_vertices(view, waves.triangles, waves.where()).value();
-    for (std::uint32_t i = 0; i < (test::kSanitized ? 100U : 400U); ++i) {
-        const auto exact = std::make_unique<std::uint32_t[]>(all.size());
-        std::copy(all.begin(), all.end(), exact.get());
-        // The header's raw bits, behind the words of symbols, more often than the rest.
-        const std::size_t word =
-            i % 2 == 0 ? random() % all.size() : std::min(all[0] + 1 + random() % 8, all.size() - 1);
-        exact[word] ^= 1U << random() % 32;
-        const auto back =
-            storage::restore_vertices({exact.get(), all.size()}, waves.triangles, view.vertices, 100000, waves.where());
-        if (back) CHECK((*back)[1] == view.vertices);
-        const std::span<const std::uint32_t> damaged{exact.get(), all.size()};
-        (void)test::attribute_in_c(damaged, waves.triangles, view.vertices, waves.where());
-        const Result<VertexView> valid = back ? validate_vertices(*back) : back.error();
-        if (valid) test::check_in_c(damaged, waves.triangles, *valid, waves.where());
-    }
+    const auto use = [&](const Words& damaged, auto&) {
+        test::check_damaged_in_c(damaged, waves.triangles, view.vertices, 100000, waves.where());
+    };
+    // The header's raw bits, behind the words of symbols, more often than the rest.
+    test::for_each_damage(all, std::random_device{}(), test::kSanitized ? 100 : 400, use, {all[0] + 1, 8});
 }

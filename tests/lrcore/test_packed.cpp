@@ -11,6 +11,7 @@
 #include "lrcore/codec/packed/packed_format.h"
 #include "lrlab/generate/generate.h"
 #include "tests/support/capture.h"
+#include "tests/support/damage.h"
 #include "tests/support/meshes.h"
 
 using namespace lacedring;
@@ -208,13 +209,6 @@ TEST_CASE("packed streams of real meshes, LACEDRING_MESHES") {
 }
 
 TEST_CASE("damaged packed streams are refused or harmless") {
-    const std::uint64_t seed = 20261124;
-    INFO("seed ", seed);
-    std::uint64_t state = seed;
-    const auto random = [&](std::uint32_t below) {
-        state = state * 6364136223846793005U + 1442695040888963407U;
-        return static_cast<std::uint32_t>((state >> 33) % below);
-    };
     std::size_t accepted = 0, refused = 0;
     for (std::uint64_t shape = 1; shape <= 30; ++shape) {
         const Mesh mesh = test::random_gluing(60, 80 + 30 * static_cast<std::uint32_t>(shape), shape);
@@ -224,32 +218,21 @@ TEST_CASE("damaged packed streams are refused or harmless") {
             encode_packed(*table, expand_rings(*table), shape % 2 == 0 ? PackedProfile::small : PackedProfile::cache);
         REQUIRE(encoded);
         const std::vector<std::uint32_t>& good = encoded->words;
-        for (std::size_t size = 0; size < good.size(); ++size)
-            CHECK_FALSE(validate_packed(std::span(good).first(size)));
+        test::for_each_cut(good, [](auto cut) { CHECK_FALSE(validate_packed(cut)); });
         std::vector<std::uint32_t> longer = good;
         longer.push_back(0);
         CHECK_FALSE(validate_packed(longer));
-        for (int trial = 0; trial < 1000; ++trial) {
-            std::vector<std::uint32_t> bad = good;
-            for (std::uint32_t k = 0; k <= random(3); ++k) {
-                std::uint32_t& word = bad[random(static_cast<std::uint32_t>(bad.size()))];
-                word = random(3) != 0 ? word ^ 1U << random(32) : static_cast<std::uint32_t>(state);
-            }
-            if (bad == good) continue;
+        test::for_each_damage(good, shape, 1000, [&](std::vector<std::uint32_t>& bad, auto&) {
             CHECK_FALSE(validate_packed(bad));  // the checksum
             bad[LR_PACKED_WORD_CHECKSUM] = packed_checksum(bad);
-            const auto exact = std::make_unique<std::uint32_t[]>(bad.size());
-            std::copy(bad.begin(), bad.end(), exact.get());
+            const auto exact = test::exact_copy(std::span<const std::uint32_t>(bad));
             const Result<PackedView> view = validate_packed(std::span<const std::uint32_t>(exact.get(), bad.size()));
-            if (!view) {
-                ++refused;
-                continue;
-            }
-            ++accepted;  // another mesh, then: whatever it is, decoding stays in bounds
+            ++(view ? accepted : refused);
+            if (!view) return;  // else another mesh: whatever it is, decoding stays in bounds
             std::vector<std::uint32_t> indices(std::size_t{3} * view->triangles);
             decode_packed(*view, indices);
             for (const std::uint32_t v : indices) CHECK(v < view->vertices);
-        }
+        });
     }
     CHECK(accepted > 100);
     CHECK(refused > 100);

@@ -9,6 +9,7 @@
 #include "lrcore/codec/storage/packed_storage.h"
 #include "lrcore/codec/storage/rans.h"
 #include "lrlab/generate/generate.h"
+#include "tests/support/damage.h"
 #include "tests/support/meshes.h"
 #include "tests/support/stored_in_c.h"
 
@@ -120,12 +121,10 @@ TEST_CASE("stored packed streams cut short, changed or beyond their limits are r
         REQUIRE(view);
         const std::optional<Words> stored = store_packed(*view);
         if (!stored) continue;
-        for (std::size_t size = 0; size < stored->size(); ++size) {
-            CHECK_FALSE(
-                restored({stored->begin(), stored->begin() + static_cast<std::ptrdiff_t>(size)}, limits_of(*view)));
-            CHECK_FALSE(
-                test::triangles_in_c(std::span(*stored).first(size), view->vertices, view->triangles).has_value());
-        }
+        test::for_each_cut(*stored, [&](auto cut) {
+            CHECK_FALSE(restored({cut.begin(), cut.end()}, limits_of(*view)));
+            CHECK_FALSE(test::triangles_in_c(cut, view->vertices, view->triangles).has_value());
+        });
         if (view->vertices > 0) {
             CHECK_FALSE(restored(*stored, {view->vertices - 1, view->triangles}));
             CHECK_FALSE(test::triangles_in_c(*stored, view->vertices - 1, view->triangles).has_value());
@@ -133,14 +132,13 @@ TEST_CASE("stored packed streams cut short, changed or beyond their limits are r
         if (view->triangles > 0)
             CHECK_FALSE(test::triangles_in_c(*stored, view->vertices, view->triangles - 1).has_value());
         if (view->own > 0) CHECK_FALSE(restored(*stored, {view->vertices, view->own - 1}));
-        for (std::size_t bit = 0; bit < 32 * stored->size(); bit += test::kSanitized ? 7 : 1) {
-            Words changed = *stored;
-            changed[bit / 32] ^= 1U << bit % 32;
+        const auto use = [&](const Words& changed, std::size_t) {
             const Result<Words> back = restored(changed, limits_of(*view));
             same_in_c(changed, limits_of(*view), back);
             ++all;
             if (back && *back == words) ++same;  // of steps that have nothing across an edge it says what is entered
-        }
+        };
+        test::for_each_flip(*stored, use, test::kSanitized ? 5 : 32);
     }
     MESSAGE(same << " of " << all << " changed bits make no difference");
     CHECK(50 * same < all);

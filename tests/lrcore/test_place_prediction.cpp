@@ -11,8 +11,9 @@
 #include "lrcore/codec/storage/place_prediction.h"
 #include "lrcore/codec/storage/vertex_storage.h"
 #include "tests/support/capture.h"
+#include "tests/support/damage.h"
 #include "tests/support/meshes.h"
-#include "tests/support/stored_in_c.h"
+#include "tests/support/check_stored_in_c.h"
 
 using namespace lacedring;
 using storage::VertexPlaces;
@@ -137,45 +138,18 @@ TEST_CASE("place prediction: texture coordinates become smaller, with seams and 
         const Sheet sheet(seam);
         const VertexView view = *validate_vertices(sheet.texture);
         const Words without = storage::store_vertices(view, sheet.triangles).value();
-        const Words with = storage::store_vertices(view, sheet.triangles, sheet.where()).value();
+        const Words with = test::check_stored_by_places(sheet.texture, sheet.triangles, sheet.where());
         CHECK(4 * with.size() < 3 * without.size());
-        const auto restored = [&](const VertexPlaces& places) {
-            return storage::restore_vertices(with, sheet.triangles, view.vertices, sheet.texture.size(), places);
-        };
-        const auto back = restored(sheet.where());
-        REQUIRE_MESSAGE(back, back.error().message);
-        CHECK(*back == sheet.texture);
-        test::check_in_c(with, sheet.triangles, view, sheet.where());
-        Words fewer = sheet.positions;
-        fewer.resize(fewer.size() - 3);
-        for (const VertexPlaces& bad : {VertexPlaces{}, VertexPlaces{fewer, sheet.vertex_of}}) {
-            const auto failed = restored(bad);
-            CHECK_FALSE(test::attribute_in_c(with, sheet.triangles, view.vertices, bad).has_value());
-            REQUIRE_FALSE(failed);
-            CHECK(failed.error().code == ErrorCode::malformed);
-            CHECK(failed.error().message.find("positions") != std::string::npos);
-        }
     }
 }
 
 TEST_CASE("place prediction: damage does no harm") {
-    const std::uint32_t seed = std::random_device{}();
-    CAPTURE(seed);
-    std::mt19937 random(seed);
     const Sheet sheet(true);
     const VertexView view = *validate_vertices(sheet.texture);
     const Words all = storage::store_vertices(view, sheet.triangles, sheet.where()).value();
-    for (std::uint32_t i = 0; i < (test::kSanitized ? 100U : 400U); ++i) {
-        const auto exact = std::make_unique<std::uint32_t[]>(all.size());
-        std::copy(all.begin(), all.end(), exact.get());
-        const std::size_t header = all[0] + 1;  // raw bits, behind the words of symbols
-        exact[i % 2 == 0 ? random() % all.size() : header + random() % 8] ^= 1U << random() % 32;
-        const auto back =
-            storage::restore_vertices({exact.get(), all.size()}, sheet.triangles, view.vertices, 100000, sheet.where());
-        if (back) CHECK((*back)[1] == view.vertices);
-        const std::span<const std::uint32_t> damaged{exact.get(), all.size()};
-        (void)test::attribute_in_c(damaged, sheet.triangles, view.vertices, sheet.where());
-        const Result<VertexView> valid = back ? validate_vertices(*back) : back.error();
-        if (valid) test::check_in_c(damaged, sheet.triangles, *valid, sheet.where());
-    }
+    const auto use = [&](const Words& damaged, auto&) {
+        test::check_damaged_in_c(damaged, sheet.triangles, view.vertices, 100000, sheet.where());
+    };
+    // The header's raw bits, behind the words of symbols, more often than the rest.
+    test::for_each_damage(all, std::random_device{}(), test::kSanitized ? 100 : 400, use, {all[0] + 1, 8});
 }

@@ -12,14 +12,15 @@
 #include "lrlab/generate/generate.h"
 #include "tests/support/capture.h"
 #include "tests/support/cuts.h"
+#include "tests/support/damage.h"
 #include "tests/support/meshes.h"
+#include "tests/support/named_streams.h"
 #include "tests/support/shapes.h"
 
 using namespace lacedring;
 using test::cut;
 using test::CutSurface;
 using test::kCuts;
-using test::random_below;
 
 namespace {
 
@@ -164,24 +165,14 @@ TEST_CASE("seams of flipped, doubled and pinched surfaces come back") {
 
 TEST_CASE("seams of all formats' slots come back, those without a triangle left out") {
     std::uint64_t seed = 1;
-    for (const test::NamedMesh& named : test::named_meshes()) {
-        if (named.mesh.triangle_count() > 1000) continue;
-        CAPTURE(named.name);
-        for (const Format format : {Format::lean, Format::packed, Format::lr, Format::lr_compact}) {
-            CAPTURE(name_of(format));
-            const Result<Encoded> encoded =
-                encode(named.mesh.indices, named.mesh.vertex_count, {.format = format, .effort = 0});
-            if (!encoded) continue;
-            const Result<StreamView> view = validate(encoded->words);
-            REQUIRE_MESSAGE(view, view.error().message);
-            const Words slots = slot_triangles(*view);
-            Words triangles = slots;
-            std::erase(triangles, UINT32_MAX);
-            CHECK(triangles == decode(*view));
-            ++seed;
-            check(cut(slots, view->vertices(), static_cast<std::uint32_t>(seed % kCuts), seed));
-        }
-    }
+    test::for_each_named_stream([&](const StreamView& view) {
+        const Words slots = slot_triangles(view);
+        Words triangles = slots;
+        std::erase(triangles, UINT32_MAX);
+        CHECK(triangles == decode(view));
+        ++seed;
+        check(cut(slots, view.vertices(), static_cast<std::uint32_t>(seed % kCuts), seed));
+    });
     Words none(3000, UINT32_MAX);
     check(cut(none, 0, 0, 0));
     check(cut(none, 10, 0, 0));
@@ -235,16 +226,12 @@ TEST_CASE("sections of other meshes, cut short or changed are refused") {
     for (const std::uint32_t how : {1U, 4U}) {
         const CutSurface mesh = blob(1500, how);
         const Words words = encoded(mesh).words;
-        for (std::size_t size = 0; size < words.size(); ++size) {
-            CHECK(!validate_seams(std::span(words).first(size), mesh.triangles, mesh.vertices));
-        }
-        for (std::size_t bit = 0; bit < 32 * words.size(); ++bit) {
-            Words changed = words;
-            changed[bit / 32] ^= 1U << bit % 32;
+        test::for_each_cut(words, [&](auto cut) { CHECK(!validate_seams(cut, mesh.triangles, mesh.vertices)); });
+        test::for_each_flip(words, [&](const Words& changed, std::size_t) {
             const Result<SeamView> view = validate_seams(changed, mesh.triangles, mesh.vertices);
             REQUIRE(!view);
             REQUIRE(!view.error().message.empty());
-        }
+        });
         Words longer = words;
         longer.push_back(0);
         mend(longer);
@@ -263,25 +250,18 @@ TEST_CASE("sections of other meshes, cut short or changed are refused") {
 }
 
 TEST_CASE("what is accepted decodes to copies of the corner's vertex, whatever was changed") {
-    std::uint64_t state = 9;
     std::uint32_t accepted = 0;
     for (const std::uint32_t how : {0U, 1U, 2U, 4U}) {
         const CutSurface mesh = blob(1500, how);
-        const Words words = encoded(mesh).words;
-        for (std::uint32_t n = 0; n < 200; ++n) {
-            Words changed = words;
-            for (std::uint32_t k = 0; k <= n % 3; ++k) {
-                std::uint32_t& word = changed[random_below(state, static_cast<std::uint32_t>(changed.size()))];
-                word = n % 5 == 0 ? random_below(state, UINT32_MAX) : word ^ 1U << random_below(state, 32);
-            }
+        test::for_each_damage(encoded(mesh).words, 9 + how, 200, [&](Words& changed, auto&) {
             mend(changed);
             const Result<SeamView> view = validate_seams(changed, mesh.triangles, mesh.vertices);
-            if (!view) continue;
+            if (!view) return;
             ++accepted;
             const CutSurface again{mesh.triangles, decoded(changed, mesh), mesh.vertices};
             REQUIRE(*std::ranges::max_element(again.copies) < view->copies);
             check(again);  // no copy is of two vertices
-        }
+        });
     }
     CHECK(accepted > 20);
 }

@@ -13,8 +13,9 @@
 #include "lrcore/codec/storage/vertex_storage.h"
 #include "lrcore/codec/storage/vertex_walk.h"
 #include "tests/support/capture.h"
+#include "tests/support/damage.h"
 #include "tests/support/meshes.h"
-#include "tests/support/stored_in_c.h"
+#include "tests/support/check_stored_in_c.h"
 
 using namespace lacedring;
 
@@ -336,13 +337,10 @@ TEST_CASE("vertex storage: what is cut short is refused") {
     const Words triangles = grid_triangles(12, 12);
     for (const Kind& a : kAttributes) {
         const Words all = stored(stream_of(a, 144, 11), triangles);
-        for (std::size_t size = 0; size < all.size(); ++size) {
-            CAPTURE(size);
-            const auto exact = std::make_unique<std::uint32_t[]>(size + 1);
-            std::copy_n(all.begin(), size, exact.get());
-            CHECK_FALSE(storage::restore_vertices({exact.get(), size}, triangles, 144, 1 << 20));
-            CHECK_FALSE(test::attribute_in_c({exact.get(), size}, triangles, 144).has_value());
-        }
+        test::for_each_cut(all, [&](auto cut) {
+            CHECK_FALSE(storage::restore_vertices(cut, triangles, 144, 1 << 20));
+            CHECK_FALSE(test::attribute_in_c(cut, triangles, 144).has_value());
+        });
         Words longer = all;
         longer.push_back(0);
         CHECK_FALSE(test::attribute_in_c(longer, triangles, 144).has_value());
@@ -357,30 +355,14 @@ TEST_CASE("vertex storage: what is cut short is refused") {
 
 TEST_CASE("vertex storage: damage does no harm") {
     const std::uint32_t seed = std::random_device{}();
-    CAPTURE(seed);
-    std::mt19937 random(seed);
     const Words triangles = grid_triangles(12, 13);
-    const std::uint32_t tries = test::kSanitized ? 300 : 2000;
     for (const Kind& a : kAttributes) {
-        const Words all = stored(stream_of(a, 156, 13), triangles);
-        for (std::uint32_t i = 0; i < tries; ++i) {
-            Words damaged = all;
-            for (std::size_t k = random() % 4 + 1; k > 0; --k) {
-                // The states and the raw bits of the header more often than the rest.
-                std::uint32_t& word = damaged[random() % (random() % 2 == 0 ? damaged.size() : 12)];
-                word = random() % 3 == 0 ? static_cast<std::uint32_t>(random()) : word ^ 1U << random() % 32;
-            }
-            const std::uint32_t vertices = random() % 4 == 0 ? 156 + static_cast<std::uint32_t>(random() % 3000) : 156;
-            const auto exact = std::make_unique<std::uint32_t[]>(damaged.size());
-            std::copy(damaged.begin(), damaged.end(), exact.get());
-            const auto back = storage::restore_vertices({exact.get(), damaged.size()}, triangles, vertices, 4000);
-            const Result<VertexView> valid = back ? validate_vertices(*back) : back.error();
-            if (valid) test::check_in_c(damaged, triangles, *valid);
-            (void)test::attribute_in_c(damaged, triangles, vertices);
-            if (back) {
-                CHECK(back->size() <= 4000);
-                CHECK((*back)[1] == vertices);
-            }
-        }
+        const auto use = [&](const Words& damaged, auto& random) {
+            const std::uint32_t vertices = random.below(4) == 0 ? 156 + random.below(3000) : 156;
+            test::check_damaged_in_c(damaged, triangles, vertices, 4000);
+        };
+        // The states and the raw bits of the header more often than the rest.
+        test::for_each_damage(stored(stream_of(a, 156, 13), triangles), seed, test::kSanitized ? 300 : 2000, use,
+                              {0, 12});
     }
 }

@@ -11,6 +11,7 @@
 #include "lacedring/vertices.hpp"
 #include "lrcore/base/crc32.h"
 #include "tests/support/capture.h"
+#include "tests/support/damage.h"
 
 using namespace lacedring;
 
@@ -338,31 +339,24 @@ TEST_CASE("every truncation, every flipped bit and every wrong word of a vertex 
         const std::vector<std::uint32_t> good =
             encoded({ComponentType::f32, 3, false, data}, {.mapping = mapping, .bits = 12});
         const Bytes want = decoded(good);
-        for (std::size_t size = 0; size < good.size(); ++size) {
-            const auto exact = std::make_unique<std::uint32_t[]>(size);
-            std::copy_n(good.begin(), size, exact.get());
-            CHECK_FALSE(validate_vertices(std::span<const std::uint32_t>(exact.get(), size)));
-        }
+        test::for_each_cut(good, [](auto cut) { CHECK_FALSE(validate_vertices(cut)); });
         std::size_t accepted = 0, same = 0;
-        for (std::size_t bit = 0; bit < 32 * good.size(); ++bit) {
-            std::vector<std::uint32_t> bad = good;
-            bad[bit / 32] ^= 1U << (bit % 32);
+        test::for_each_flip(good, [&](std::vector<std::uint32_t>& bad, std::size_t bit) {
             CHECK_FALSE(validate_vertices(bad));
-            if (bit / 32 == 3) continue;
+            if (bit / 32 == 3) return;
             mend(bad);
             const bool valid = validate_vertices(bad).has_value();
             if (const Result<VertexView> view = view_vertices(bad); view && view->decoded_bytes() < 1 << 16) {
                 Bytes values(view->decoded_bytes());
                 CHECK(decode_vertices_checked(*view, values).has_value() == valid);
             }
-            if (!valid) continue;
+            if (!valid) return;
             ++accepted;
-            // Every bit means something: the decoded values differ, or the step, the error or the type does.
             // Every bit means something: the decoded values differ, but for what the header says of most blocks where
             // no block is such, and for a slope that makes no difference.
-            if (bit / 32 < 13 && bit / 32 % 2 == 0 && bit % 32 >= 6) continue;
+            if (bit / 32 < 13 && bit / 32 % 2 == 0 && bit % 32 >= 6) return;
             if (bit / 32 >= 7 && decoded(bad) == want) ++same;
-        }
+        });
         CHECK(accepted > 0);  // the low bits of residuals
         CHECK(100 * same < accepted);
     }

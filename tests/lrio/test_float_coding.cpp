@@ -11,6 +11,7 @@
 #include "lrio/scene/deflate.h"
 #include "lrio/scene/float_coding.h"
 #include "tests/support/capture.h"
+#include "tests/support/damage.h"
 
 using namespace lacedring;
 
@@ -173,19 +174,11 @@ TEST_CASE("every truncation and every damaged byte of coded floats is refused, o
         CAPTURE(quaternions);
         const FloatBytes bytes = quaternions ? float_bytes(random_quaternions(20, 3)) : random_floats(4, 20, 6, 3);
         const FloatBytes good = must_code(bytes, 4, quaternions);
-        for (std::size_t size = 0; size < good.size(); ++size) {
-            CAPTURE(size);
-            CHECK_FALSE(detail::decode_floats({good.data(), size}, bytes.size()));
-        }
+        test::for_each_cut(good, [&](auto cut) { CHECK_FALSE(detail::decode_floats(cut, bytes.size())); });
         FloatBytes longer = good;
         longer.push_back(std::byte{0});
         CHECK_FALSE(detail::decode_floats(longer, bytes.size()));
-        for (std::size_t bit = 0; bit < 8 * good.size(); ++bit) {
-            CAPTURE(bit);
-            FloatBytes bad = good;
-            bad[bit / 8] ^= static_cast<std::byte>(1U << (bit % 8));
-            CHECK(is_safe(bad, bytes.size()));
-        }
+        test::for_each_flip(good, [&](const FloatBytes& bad, std::size_t) { CHECK(is_safe(bad, bytes.size())); });
         const CodedFloats parts(good);
         REQUIRE(parts.bytes() == good);
         for (std::size_t i = 0; i < parts.lengths.size(); ++i) {

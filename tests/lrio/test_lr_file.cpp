@@ -7,6 +7,7 @@
 #include "lrlab/generate/generate.h"
 #include "tests/lrio/lr_files.h"
 #include "tests/support/capture.h"
+#include "tests/support/damage.h"
 
 using namespace lacedring;
 
@@ -108,11 +109,8 @@ TEST_CASE("compressed attributes come back, bit for bit where nothing was quanti
             REQUIRE(stream);
             if (stream->largest_error == 0) CHECK(back->attributes[a].data == mesh.attributes[a].data);
         }
-        for (std::size_t i = 0; i < bytes.size(); ++i) {
-            std::vector<std::byte> bad = bytes;
-            bad[i] ^= static_cast<std::byte>(1U << (i % 8));
-            CHECK_FALSE(parse_lr(bad));
-        }
+        test::for_each_flip(
+            bytes, [](const auto& bad, std::size_t) { CHECK_FALSE(parse_lr(bad)); }, 1);
     }
 }
 
@@ -164,20 +162,12 @@ TEST_CASE("every truncation and every flipped bit of an lr file is refused") {
     REQUIRE(words);
     CHECK(words->format == format);
     CHECK(std::ranges::equal(words->words, make(with_attributes(), true, format).words));
-    for (std::size_t size = 0; size < good.size(); ++size) {
-        const std::unique_ptr<std::byte[]> exact(new std::byte[size]);
-        std::copy_n(good.begin(), size, exact.get());
-        CHECK_FALSE(parse_lr(std::span<const std::byte>(exact.get(), size)));
-    }
+    test::for_each_cut(good, [](auto cut) { CHECK_FALSE(parse_lr(cut)); });
     std::vector<std::byte> bad = good;
     bad.push_back(std::byte{0});
     CHECK_FALSE(parse_lr(bad));
-    for (std::size_t i = 0; i < good.size(); ++i) {
-        bad = good;
-        bad[i] ^= static_cast<std::byte>(1U << (i % 8));
-        CAPTURE(i);
-        CHECK_FALSE(parse_lr(bad));
-    }
+    test::for_each_flip(
+        good, [](const auto& flipped, std::size_t) { CHECK_FALSE(parse_lr(flipped)); }, 1);
 }
 
 TEST_CASE("golden bytes: lr files are written as they were, and read as they were") {

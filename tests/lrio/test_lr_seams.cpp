@@ -13,12 +13,12 @@
 #include "tests/support/capture.h"
 #include "tests/support/cut_mesh.h"
 #include "tests/support/cuts.h"
+#include "tests/support/damage.h"
 #include "tests/support/shapes.h"
 
 using namespace lacedring;
 using test::CutMesh;
 using test::Part;
-using test::random_below;
 using test::with_parts;
 
 namespace {
@@ -176,17 +176,9 @@ TEST_CASE("quantized attributes of copies keep to their errors, and copies are a
 TEST_CASE("every truncation and every flipped bit of an lr file with seams is refused") {
     const std::vector<std::byte> good = serialize_lr(make_cut(small_cut(), true, Format::packed));
     REQUIRE(parse_lr(good));
-    for (std::size_t size = 0; size < good.size(); ++size) {
-        const std::unique_ptr<std::byte[]> exact(new std::byte[size]);
-        std::copy_n(good.begin(), size, exact.get());
-        CHECK_FALSE(parse_lr(std::span<const std::byte>(exact.get(), size)));
-    }
-    for (std::size_t i = 0; i < good.size(); ++i) {
-        std::vector<std::byte> bad = good;
-        bad[i] ^= static_cast<std::byte>(1U << (i % 8));
-        CAPTURE(i);
-        CHECK_FALSE(parse_lr(bad));
-    }
+    test::for_each_cut(good, [](auto cut) { CHECK_FALSE(parse_lr(cut)); });
+    test::for_each_flip(
+        good, [](const auto& bad, std::size_t) { CHECK_FALSE(parse_lr(bad)); }, 1);
 }
 
 TEST_CASE("hostile lr files with seams and matching checksums") {
@@ -298,7 +290,7 @@ TEST_CASE("sections of seams occur once, at any place") {
 }
 
 TEST_CASE("whatever is accepted of changed seams decodes, and what it decodes to is encoded again") {
-    std::uint64_t state = 3;
+    test::SplitMix64 random(3);
     std::uint32_t accepted = 0;
     for (const Format format : test::kFormats) {
         for (const std::uint32_t charting : {0U, 2U, 4U}) {
@@ -308,8 +300,8 @@ TEST_CASE("whatever is accepted of changed seams decodes, and what it decodes to
             for (std::uint32_t n = 0; n < (test::kSanitized ? 60 : 300); ++n) {
                 LrFile changed = file;
                 std::uint32_t& word =
-                    changed.seams[2 + random_below(state, static_cast<std::uint32_t>(file.seams.size()) - 2)];
-                word ^= 1U << random_below(state, 32);
+                    changed.seams[2 + random.below(static_cast<std::uint32_t>(file.seams.size()) - 2)];
+                word ^= 1U << random.below(32);
                 mend(changed.seams);
                 // Whatever number of copies that makes, the file's attributes go with it.
                 const Result<StreamView> stream = view_stream(file.words);

@@ -11,6 +11,7 @@
 #include "lrio/scene/deflate.h"
 #include "lrio/scene/part_codes.h"
 #include "tests/support/capture.h"
+#include "tests/support/damage.h"
 
 using namespace lacedring;
 
@@ -153,15 +154,11 @@ TEST_CASE("every truncation and every flipped bit of runs of parts is refused, o
         const std::size_t count = *std::ranges::max_element(parts) + std::size_t{1};
         const auto runs = detail::inflate_bytes(encoded_parts(parts), 15 * parts.size());
         REQUIRE(runs);
-        for (std::size_t size = 0; size < runs->size(); ++size)
-            check_runs(std::span(*runs).first(size), parts.size(), count);
-        for (std::size_t bit = 0; bit < 8 * runs->size(); ++bit) {
-            CAPTURE(bit);
-            std::vector<std::byte> bad = *runs;
-            bad[bit / 8] ^= static_cast<std::byte>(1U << (bit % 8));
+        test::for_each_cut(*runs, [&](auto cut) { check_runs(cut, parts.size(), count); });
+        test::for_each_flip(*runs, [&](const std::vector<std::byte>& bad, std::size_t) {
             accepted += parts_by_document(bad, parts.size(), count).has_value() ? 1 : 0;
             check_runs(bad, parts.size(), count);
-        }
+        });
     }
     CHECK(accepted > 0);  // or nothing but refusals is tested
 }
@@ -193,16 +190,11 @@ TEST_CASE("random runs of parts are read as the document says") {
 TEST_CASE("a damaged zlib stream of part codes is refused") {
     const PartList parts = random_runs(9, 60, 1);
     const std::vector<std::byte> good = encoded_parts(parts);
-    for (std::size_t size = 0; size < good.size(); ++size) {
-        CHECK_FALSE(detail::decode_part_codes(std::span(good).first(size), parts.size(), 9));
-    }
-    for (std::size_t bit = 0; bit < 8 * good.size(); ++bit) {
-        CAPTURE(bit);
-        std::vector<std::byte> bad = good;
-        bad[bit / 8] ^= static_cast<std::byte>(1U << (bit % 8));
+    test::for_each_cut(good, [&](auto cut) { CHECK_FALSE(detail::decode_part_codes(cut, parts.size(), 9)); });
+    test::for_each_flip(good, [&](const std::vector<std::byte>& bad, std::size_t) {
         const auto read = detail::decode_part_codes(bad, parts.size(), 9);
         CHECK((!read || *read == parts));  // bits behind the last code of deflate say nothing
-    }
+    });
     std::vector<std::byte> longer = good;
     longer.push_back(std::byte{0});
     CHECK_FALSE(detail::decode_part_codes(longer, parts.size(), 9));

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "lacedring/surface.hpp"
+#include "lrcore/base/vec3.h"
 #include "tests/support/capture.h"
 #include "tests/support/cut_mesh.h"
 #include "tests/support/cuts.h"
@@ -15,7 +16,6 @@
 #include "tests/support/shapes.h"
 
 using namespace lacedring;
-using test::random_below;
 
 namespace {
 
@@ -38,15 +38,16 @@ Mesh random_mesh(std::uint64_t seed) {
     const auto size = static_cast<std::uint32_t>(seed);
     Mesh mesh = test::random_soup(2 + size % 30, size % 40, seed);
     const double values[] = {0.0, -0.0, 0.5, 0.125, 0.25, 1.0};
+    test::SplitMix64 random(seed);
     std::vector<Point> points;
     Attribute mark{"mark", ComponentType::u8, 1, false, {}};
     for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
         Point p{};
-        for (double& x : p) x = values[random_below(seed, 1 + random_below(seed, 6))];
+        for (double& x : p) x = values[random.below(1 + random.below(6))];
         points.push_back(p);
-        mark.data.push_back(static_cast<std::byte>(random_below(seed, 2)));
+        mark.data.push_back(static_cast<std::byte>(random.below(2)));
     }
-    const bool wide = random_below(seed, 2) == 0;
+    const bool wide = random.below(2) == 0;
     mesh.attributes = {wide ? position_attribute<double>(points) : position_attribute<float>(points), mark};
     return mesh;
 }
@@ -54,7 +55,7 @@ Mesh random_mesh(std::uint64_t seed) {
 double distance(const Mesh& mesh, std::uint32_t v, std::uint32_t w) {
     const Positions positions = positions_of(mesh);
     const Point a = positions[VertexId{v}], b = positions[VertexId{w}];
-    return std::sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
+    return detail::length(detail::minus(a, b));
 }
 
 std::vector<std::byte> value(const Attribute& attribute, std::size_t v) {

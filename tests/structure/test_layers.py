@@ -10,12 +10,12 @@ LAYERS = ["lrcore", "lrio", "lrlab", "shaders", "renderer", "app"]  # whose file
 SOURCES = {".cpp", ".h", ".hpp", ".glsl", ".comp", ".vert", ".frag", ".geom", ".mesh"}
 CORE = ["base", "topology", "ring", "codec"]
 # The folder whose declarations a public header of lrcore has. Those of lrio are in LRIO.
-PUBLIC = {"base.hpp": "base", "lacedring_decode.h": "base", "topology.hpp": "topology", "ring.hpp": "ring", "streams.hpp": "codec",
+PUBLIC = {"base.hpp": "base", "corner_walks.hpp": "base", "lacedring_decode.h": "base", "topology.hpp": "topology", "ring.hpp": "ring", "streams.hpp": "codec",
           "operators.hpp": "codec", "vertices.hpp": "codec", "lacedring_vertices.h": "base", "seams.hpp": "codec", "lacedring_seams.h": "base",
           "lacedring_storage.h": "base", "lacedring_stored_seams.h": "base", "lacedring.hpp": "codec", "lacedring.h": "codec"}
 LRIO = {"file.hpp", "materials.hpp", "mesh.hpp", "mesh_files.hpp", "primitives.hpp", "scene.h", "scene.hpp", "surface.hpp", "lr_file.hpp"}
 # Decoding and validating: these files include each other, and nothing else of lrcore but base.
-DECODERS = {"lacedring/streams.hpp", "lacedring/operators.hpp", "lacedring/base.hpp", "lacedring/lacedring_decode.h", "lacedring/vertices.hpp",
+DECODERS = {"lacedring/streams.hpp", "lacedring/operators.hpp", "lacedring/corner_walks.hpp", "lacedring/base.hpp", "lacedring/lacedring_decode.h", "lacedring/vertices.hpp",
             "lacedring/lacedring_vertices.h", "lacedring/seams.hpp", "lacedring/lacedring_seams.h",
             "lacedring/lacedring_storage.h", "lacedring/lacedring_stored_seams.h", *("lrcore/codec/" + name for name in (
                 "stream_view.cpp", "decode_slot.h", "lean/lean_format.h", "lean/lean_stream.cpp", "packed/packed_format.h", "packed/packed_c.h",

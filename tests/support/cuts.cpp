@@ -20,13 +20,13 @@ CutSurface cut_by_chart(std::vector<std::uint32_t> triangles, std::uint32_t vert
 
 CutSurface cut(const std::vector<std::uint32_t>& triangles, std::uint32_t vertices, std::uint32_t how,
                std::uint64_t seed) {
-    std::uint64_t state = seed;
+    SplitMix64 random(seed);
     std::uint32_t chart = 0;
     return cut_by_chart(triangles, vertices, [&](std::uint32_t c) {
         if (how == 1) chart = c / 3 / 37 % 5;
-        if (how == 2 && c % 3 == 0) chart = random_below(state, 4) / 3;
+        if (how == 2 && c % 3 == 0) chart = random.below(4) / 3;
         if (how == 3) chart = c / 3;
-        if (how == 4) chart = random_below(state, 1 + random_below(state, 5));
+        if (how == 4) chart = random.below(1 + random.below(5));
         return chart;
     });
 }

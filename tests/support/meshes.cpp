@@ -19,11 +19,9 @@ Mesh make_mesh(std::vector<std::uint32_t> indices, std::uint32_t vertex_count) {
     mesh.vertex_count = vertex_count;
     mesh.indices = std::move(indices);
     std::vector<float> positions;
-    std::uint64_t state = vertex_count;
+    SplitMix64 random(vertex_count);
     for (std::uint32_t v = 0; v < vertex_count; ++v) {
-        const auto unit = [&] {
-            return static_cast<float>(random_below(state, 1U << 24)) * (1.0F / 8388608.0F) - 1.0F;
-        };
+        const auto unit = [&] { return static_cast<float>(random.below(1U << 24)) * (1.0F / 8388608.0F) - 1.0F; };
         const float x = unit();
         const float y = unit();
         positions.insert(positions.end(), {x, y, static_cast<float>(v) / 1024.0F});
@@ -43,11 +41,11 @@ Mesh make_mesh(std::span<const std::array<std::uint32_t, 3>> triangles, std::uin
 
 Mesh random_soup(std::uint32_t vertices, std::uint32_t triangles, std::uint64_t seed, bool degenerate) {
     std::vector<std::uint32_t> indices;
-    std::uint64_t state = seed;
+    SplitMix64 random(seed);
     while (indices.size() < std::size_t{3} * triangles) {
-        const std::uint32_t a = random_below(state, vertices);
-        const std::uint32_t b = random_below(state, vertices);
-        const std::uint32_t c = random_below(state, vertices);
+        const std::uint32_t a = random.below(vertices);
+        const std::uint32_t b = random.below(vertices);
+        const std::uint32_t c = random.below(vertices);
         if (!degenerate && vertices >= 3 && (a == b || b == c || c == a)) continue;
         indices.insert(indices.end(), {a, b, c});
     }
@@ -56,7 +54,7 @@ Mesh random_soup(std::uint32_t vertices, std::uint32_t triangles, std::uint64_t 
 
 Mesh random_gluing(std::uint32_t vertices, std::uint32_t triangles, std::uint64_t seed) {
     std::vector<std::uint32_t> indices;
-    std::uint64_t state = seed;
+    SplitMix64 random(seed);
     std::uint32_t used = 3;
     for (std::uint32_t t = 0; t < triangles; ++t) {
         if (t == 0) {
@@ -64,21 +62,21 @@ Mesh random_gluing(std::uint32_t vertices, std::uint32_t triangles, std::uint64_
             continue;
         }
         // Mostly at one of the last triangles, so that fans and strips arise; the new tip is new, near, or any vertex.
-        const std::uint32_t reach = random_below(state, 4) == 0 ? t : std::min(t, 6U);
-        const std::uint32_t base = t - 1 - random_below(state, reach);
-        const std::uint32_t side = random_below(state, 3);
+        const std::uint32_t reach = random.below(4) == 0 ? t : std::min(t, 6U);
+        const std::uint32_t base = t - 1 - random.below(reach);
+        const std::uint32_t side = random.below(3);
         std::uint32_t a = indices[3 * base + (side + 1) % 3];
         std::uint32_t b = indices[3 * base + side];
         std::uint32_t tip = 0;
-        const std::uint32_t choice = random_below(state, 8);
+        const std::uint32_t choice = random.below(8);
         if (choice < 4 && used < vertices) {
             tip = used++;
         } else if (choice < 7) {
-            tip = indices[random_below(state, 3 * std::min(t, 8U)) + 3 * (t - std::min(t, 8U))];
+            tip = indices[random.below(3 * std::min(t, 8U)) + 3 * (t - std::min(t, 8U))];
         } else {
-            tip = random_below(state, used);
+            tip = random.below(used);
         }
-        if (random_below(state, 12) == 0) std::swap(a, b);
+        if (random.below(12) == 0) std::swap(a, b);
         indices.insert(indices.end(), {a, b, tip});
     }
     return make_mesh(std::move(indices), vertices);

@@ -6,17 +6,6 @@
 
 namespace lacedring::test {
 
-std::uint64_t random_step(std::uint64_t& state) {
-    std::uint64_t z = state += 0x9e3779b97f4a7c15ULL;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    return z ^ (z >> 31);
-}
-
-std::uint32_t random_below(std::uint64_t& state, std::uint32_t n) {
-    return static_cast<std::uint32_t>((random_step(state) >> 32) * n >> 32);
-}
-
 Shape grid(std::uint32_t width, std::uint32_t height, bool close_x, bool close_y, bool twist) {
     const std::uint32_t columns = close_x ? width : width + 1;
     const std::uint32_t rows = close_y ? height : height + 1;
@@ -171,8 +160,9 @@ Shape stack_all(const Shape& shape) {
 }
 
 Shape stack_random(Shape shape, std::uint32_t count, std::uint64_t seed) {
+    SplitMix64 random(seed);
     for (std::uint32_t i = 0; i < count; ++i) {
-        const std::uint32_t t = random_below(seed, static_cast<std::uint32_t>(shape.triangles.size()));
+        const std::uint32_t t = random.below(static_cast<std::uint32_t>(shape.triangles.size()));
         const auto [a, b, c] = shape.triangles[t];
         const std::uint32_t v = shape.vertices++;
         shape.triangles[t] = {a, b, v};
@@ -221,15 +211,16 @@ Shape double_some(Shape shape, std::uint32_t k, bool turned) {
 }
 
 Shape shuffle(Shape shape, std::uint64_t seed) {
+    SplitMix64 random(seed);
     std::vector<std::uint32_t> number(shape.vertices);
     for (std::uint32_t v = 0; v < shape.vertices; ++v) number[v] = v;
-    for (std::uint32_t i = shape.vertices; i > 1; --i) std::swap(number[i - 1], number[random_below(seed, i)]);
+    for (std::uint32_t i = shape.vertices; i > 1; --i) std::swap(number[i - 1], number[random.below(i)]);
     for (auto i = static_cast<std::uint32_t>(shape.triangles.size()); i > 1; --i) {
-        std::swap(shape.triangles[i - 1], shape.triangles[random_below(seed, i)]);
+        std::swap(shape.triangles[i - 1], shape.triangles[random.below(i)]);
     }
     for (Triangle& t : shape.triangles) {
         for (std::uint32_t& v : t) v = number[v];
-        std::rotate(t.begin(), t.begin() + random_below(seed, 3), t.end());
+        std::rotate(t.begin(), t.begin() + random.below(3), t.end());
     }
     return shape;
 }

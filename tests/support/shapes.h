@@ -5,8 +5,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "lrcore/base/random.h"
+
 namespace lacedring::test {
 
+using detail::SplitMix64;
 using Triangle = std::array<std::uint32_t, 3>;
 
 struct Shape {
@@ -52,9 +55,5 @@ Shape turn_some(Shape shape, std::uint32_t k);
 Shape double_some(Shape shape, std::uint32_t k, bool turned);
 /// Triangles in random order, rotated, and vertices renumbered at random.
 Shape shuffle(Shape shape, std::uint64_t seed);
-
-/// Splitmix64, a step; for the random shapes.
-std::uint64_t random_step(std::uint64_t& state);
-std::uint32_t random_below(std::uint64_t& state, std::uint32_t n);
 
 }  // namespace lacedring::test

@@ -1,7 +1,5 @@
 #pragma once
-// The storage form decoded by lacedring_storage.h and lacedring_stored_seams.h, in buffers of exactly their size.
-
-#include <doctest/doctest.h>
+// The storage form as decoded by lacedring_storage.h and lacedring_stored_seams.h, in buffers of exactly their size.
 
 #include <algorithm>
 #include <cstddef>
@@ -15,15 +13,9 @@
 #include "lacedring/lacedring_stored_seams.h"
 #include "lacedring/vertices.hpp"
 #include "lrcore/codec/storage/vertex_places.h"
+#include "tests/support/exact_copy.h"
 
 namespace lacedring::test {
-
-template <class T>
-std::unique_ptr<T[]> exact_copy(std::span<const T> from) {
-    auto out = std::make_unique<T[]>(from.size());
-    std::copy(from.begin(), from.end(), out.get());
-    return out;
-}
 
 /// The triangles of a stored packed stream; none: it is refused.
 inline std::optional<std::vector<std::uint32_t>> triangles_in_c(std::span<const std::uint32_t> stored,
@@ -76,27 +68,6 @@ inline std::optional<AttributeInC> attribute_in_c(std::span<const std::uint32_t>
     lacedring_stored_vertices_values(&attribute, integers.get(), values.get());
     return AttributeInC{
         attribute.attribute, {integers.get(), integers.get() + size}, {values.get(), values.get() + bytes}};
-}
-
-/// Compares what C decodes with the stream that it restores to.
-inline void check_in_c(std::span<const std::uint32_t> stored, std::span<const std::uint32_t> triangles,
-                       const VertexView& view, const storage::VertexPlaces& places = {}) {
-    const auto in_c = attribute_in_c(stored, triangles, view.vertices, places);
-    REQUIRE(in_c);
-    std::vector<std::uint32_t> integers(std::size_t{view.vertices} * view.integers);
-    for (std::uint32_t block = 0; block < view.blocks(); ++block)
-        decode_vertex_block(view, block,
-                            std::span(integers).subspan(std::size_t{block} * kVertexBlock * view.integers));
-    CHECK(in_c->integers == integers);
-    std::vector<std::byte> values(view.decoded_bytes());
-    decode_vertices(view, values);
-    CHECK(in_c->values == values);
-    CHECK(in_c->header.mapping == static_cast<std::uint32_t>(view.mapping));
-    CHECK(in_c->header.type == static_cast<std::uint32_t>(view.type));
-    CHECK((in_c->header.normalized != 0) == view.normalized);
-    CHECK(in_c->header.largest_error == view.largest_error);
-    CHECK(in_c->header.step == view.step);
-    CHECK(in_c->header.exception_count == view.exceptions);
 }
 
 struct SeamsInC {

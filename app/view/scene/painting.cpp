@@ -82,10 +82,8 @@ std::shared_ptr<const void> part(const Document& document, Paint paint) {
 std::vector<std::uint32_t> corridors(const Document& document) {
     const CornerTable& table = *document.table;
     std::vector<std::uint32_t> out(table.triangle_count(), UINT32_MAX);
-    const Result<LeanView> lean = view_lean(document.model->lean.words);
-    if (!lean) return out;
-    const std::vector<std::uint8_t> classes =
-        gpu::of_triangles(gpu::slot_classes(*lean), document.model->lean.slot_triangle, table.triangle_count());
+    const std::vector<std::uint8_t> classes = gpu::of_triangles(
+        gpu::slot_classes(document.views.lean), document.model->lean.slot_triangle, table.triangle_count());
     const auto corridor = [&](std::uint32_t t) {
         return classes[t] == LR_CLASS_T1_LEFT || classes[t] == LR_CLASS_T1_RIGHT;
     };

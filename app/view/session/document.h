@@ -11,7 +11,7 @@
 #include "lacedring/ring.hpp"
 #include "lacedring/surface.hpp"
 #include "lacedring/topology.hpp"
-#include "renderer/mesh/model.h"
+#include "renderer/mesh/source.h"
 
 namespace lacedring::app {
 struct FormatSet;  // app/formats/formats.h, which is slow to compile
@@ -33,6 +33,8 @@ struct RingSettings {
 
     bool operator==(const RingSettings&) const = default;
 };
+
+/// RingSettings::hybrid
 
 /// Figures of one stream. Per triangle of the input, as everywhere.
 struct StreamFigures {
@@ -57,6 +59,7 @@ struct Document {
     std::shared_ptr<const Rings> rings;          ///< lean's
     std::shared_ptr<const Expansion> expansion;  ///< how these were begun, before the optimiser
     std::shared_ptr<const OwningModel> model;
+    gpu::StreamViews views;  ///< of the model's streams; packed is empty until it is made
     RingSettings settings;
     bool optimised = false;    ///< the optimiser has run, as often as the settings say
     std::size_t stand_in = 0;  ///< triangles of the mesh that this is a coarse one of, until that is ready; else 0
@@ -83,6 +86,7 @@ struct Document {
 struct Tables {
     std::shared_ptr<const Mesh> mesh;  ///< of whose surface they are
     EncodedLr lr;
+    LrView view;                          ///< of its words
     double crease = 180;                  ///< degrees from which on an edge is one (crease_angle)
     std::vector<std::uint32_t> number;    ///< LR triangle of each of the mesh's, UINT32_MAX: degenerate
     std::vector<std::uint32_t> triangle;  ///< the mesh's triangle of each LR number, UINT32_MAX: none

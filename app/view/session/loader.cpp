@@ -40,18 +40,24 @@ void measure(Document& document) {
     };
     const std::vector<std::uint32_t>& listed = document.mesh->indices;
     document.plain = figures(4 * listed.size(), listed.size(), listed);
-    const gpu::Model& model = *document.model;
-    if (const Result<LeanView> view = view_lean(model.lean.words)) {
-        std::vector<std::uint32_t> indices(std::size_t{3} * view->slots());
-        decode_lean(*view, indices);
-        document.lean = figures(view->bytes(), view->references(), indices);
-    }
-    if (model.packed.words.empty()) return;
-    if (const Result<PackedView> view = view_packed(model.packed.words)) {
-        std::vector<std::uint32_t> indices(std::size_t{3} * view->triangles);
-        decode_packed(*view, indices);
-        document.packed = figures(view->bytes(), 0, indices);
-    }
+    const LeanView& lean = document.views.lean;
+    std::vector<std::uint32_t> indices(std::size_t{3} * lean.slots());
+    decode_lean(lean, indices);
+    document.lean = figures(lean.bytes(), lean.references(), indices);
+    if (document.model->packed.words.empty()) return;
+    const PackedView& packed = document.views.packed;
+    indices.resize(std::size_t{3} * packed.triangles);
+    decode_packed(packed, indices);
+    document.packed = figures(packed.bytes(), 0, indices);
+}
+
+/// A model whose streams are made, and their figures.
+Result<void> set_model(Document& document, std::shared_ptr<const OwningModel> model) {
+    const gpu::Source source = model->packed.words.empty() ? gpu::Source::lean : gpu::Source::packed;
+    LR_ASSIGN(document.views, gpu::view_streams(*model, source));
+    document.model = std::move(model);
+    measure(document);
+    return {};
 }
 
 RingOptions ring_options(const RingSettings& settings, bool quick) {
@@ -294,10 +300,9 @@ Result<void> Loader::Job::finish(Document& document, bool quick) {
         model->packed = {};
         if (!gpu::encode_seams(*model)) return;
         early.rings = std::make_shared<const Rings>(rings);
-        early.model = std::move(model);
+        if (!set_model(early, std::move(model))) return;
         early.settings = settings;
         early.optimised = false;
-        measure(early);
         publish(early);
     };
     const auto optimise_options = [&](const RingCost& cost, double from, double to, const char* what) {
@@ -330,10 +335,9 @@ Result<void> Loader::Job::finish(Document& document, bool quick) {
     document.rings = std::move(lean_rings);
     // Where it went the same way it stays the same one, so that what is made of it does.
     if (!document.expansion || *document.expansion != *expansion) document.expansion = std::move(expansion);
-    document.model = std::move(model);
+    LR_TRY(set_model(document, std::move(model)));
     document.settings = settings;
     document.optimised = !quick;
-    measure(document);
     publish(document);
     return {};
 }

@@ -93,6 +93,7 @@ Result<Tables> make_tables(std::shared_ptr<const Mesh> mesh, EncodedLr lr) {
     const Operators<LrView> operators(stream->view);
     Tables out;
     out.mesh = std::move(mesh);
+    out.view = stream->view;
     out.number.assign(out.mesh->triangle_count(), UINT32_MAX);
     out.triangle.assign(stream->view.triangle_numbers(), UINT32_MAX);
     std::size_t i = 0;
@@ -106,9 +107,7 @@ Result<Tables> make_tables(std::shared_ptr<const Mesh> mesh, EncodedLr lr) {
 }
 
 CornerId lr_step(const Tables& tables, const CornerTable& table, CornerId corner, char operation) {
-    const Result<LrStreamView<LrView>> stream = view_lr(tables.lr.words);
-    if (!stream) return kNullCorner;
-    const Operators<LrView> operators(stream->view);
+    const Operators<LrView> operators(tables.view);
     const CornerId c = to_lr(tables, operators, table, corner);
     if (c.is_null()) return c;
     const auto result = [&] {
@@ -131,9 +130,7 @@ CornerId lr_step(const Tables& tables, const CornerTable& table, CornerId corner
 }
 
 std::string lr_text(const Tables& tables, const CornerTable& table, CornerId corner) {
-    const Result<LrStreamView<LrView>> stream = view_lr(tables.lr.words);
-    if (!stream) return stream.error().message;
-    const LrView& view = stream->view;
+    const LrView& view = tables.view;
     const Operators<LrView> operators(view);
     const CornerId c = to_lr(tables, operators, table, corner);
     if (c.is_null()) return "degenerate: in no table";

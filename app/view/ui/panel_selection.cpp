@@ -17,33 +17,33 @@ ImVec4 colour(std::uint32_t rgba) {
 }
 
 /// "L[12] = 34": the slots of the lean stream that hold a triangle.
-std::string lean_text(const gpu::Model& model, std::uint32_t t) {
-    const Result<LeanView> view = view_lean(model.lean.words);
-    if (!view) return "";
+std::string lean_text(const Document& document, std::uint32_t t) {
+    const gpu::Model& model = *document.model;
+    const LeanView& view = document.views.lean;
     const auto at = std::find(model.lean.slot_triangle.begin(), model.lean.slot_triangle.end(), t);
     if (at == model.lean.slot_triangle.end()) return "in no slot";
     const auto slot = static_cast<std::uint32_t>(at - model.lean.slot_triangle.begin());
-    const Triangle found = decode_lean_slot(*view, slot);
+    const Triangle found = decode_lean_slot(view, slot);
     const std::string vertices = fmt::format("({}, {}, {})", found.v[0], found.v[1], found.v[2]);
-    if (slot >= view->ring_slots()) {
+    if (slot >= view.ring_slots()) {
         return fmt::format("slot {}: verbatim, a T0: {}", slot, vertices);
     }
-    const std::uint32_t word = view->payload[slot];
-    if (slot < 2 * view->rings2) {
+    const std::uint32_t word = view.payload[slot];
+    if (slot < 2 * view.rings2) {
         return fmt::format("slot {}: {}[{}], word {:08x}: {}", slot, slot % 2 == 0 ? 'L' : 'R', slot / 2, word,
                            vertices);
     }
-    return fmt::format("slot {}: one side of ring vertex {}, word {:08x}: {}", slot, slot - view->rings2, word,
+    return fmt::format("slot {}: one side of ring vertex {}, word {:08x}: {}", slot, slot - view.rings2, word,
                        vertices);
 }
 
-std::string packed_text(const gpu::Model& model, std::uint32_t t) {
-    const Result<PackedView> view = view_packed(model.packed.words);
-    if (!view) return "not made";
+std::string packed_text(const Document& document, std::uint32_t t) {
+    const gpu::Model& model = *document.model;
+    if (model.packed.words.empty()) return "not made";
     const auto at = std::find(model.packed.triangle_order.begin(), model.packed.triangle_order.end(), t);
     if (at == model.packed.triangle_order.end()) return "";
     const auto i = static_cast<std::uint32_t>(at - model.packed.triangle_order.begin());
-    const Triangle found = decode_packed_triangle(*view, i);
+    const Triangle found = decode_packed_triangle(document.views.packed, i);
     return fmt::format("triangle {} of block {}: ({}, {}, {})", i % 256, i / 256, found.v[0], found.v[1], found.v[2]);
 }
 
@@ -116,9 +116,9 @@ void draw_streams(const State& state, CornerId c) {
     }
     part("LR tables hold", state.facts.tables ? lr_text(*state.facts.tables, *document.table, c) : "being made",
          "Their own numbers: L[v] and R[v] are the triangles left and right of ring edge v, VO the T0 triangles");
-    part("lean holds", lean_text(*document.model, triangle(c).value),
+    part("lean holds", lean_text(document, triangle(c).value),
          "Vertices in ring order. Slot 2v is the triangle left of ring edge v, slot 2v + 1 the one right of it");
-    part("packed holds", packed_text(*document.model, triangle(c).value),
+    part("packed holds", packed_text(document, triangle(c).value),
          "Vertices in ring order. A block is 256 triangles that decode on their own");
 }
 

@@ -5,6 +5,7 @@
 #include "lacedring/lacedring.hpp"
 #include "lacedring/streams.hpp"
 #include "lrcore/base/message.h"
+#include "lrcore/base/try.h"
 #include "lrcore/codec/packed/corridors.h"
 #include "lrcore/codec/packed/doubles.h"
 #include "lrcore/codec/packed/packed_writer.h"
@@ -16,10 +17,9 @@ constexpr std::uint32_t kMostPackedVertices = 1U << 29;  // keeps folded BESIDE 
 
 Result<EncodedPacked> write_stream(const CornerTable& table, const Corridors& corridors) {
     EncodedPacked out;
-    Result<std::vector<std::uint32_t>> words =
-        write_packed(CorridorSteps(table, corridors), table.vertex_count, out.statistics);
-    if (!words) return words.error();
-    out.words = std::move(*words);
+    LR_ASSIGN(std::vector<std::uint32_t> words,
+              write_packed(CorridorSteps(table, corridors), table.vertex_count, out.statistics));
+    out.words = std::move(words);
     return out;
 }
 
@@ -46,13 +46,12 @@ namespace {
 Result<PackedChoice> encode_smallest(const CornerTable& table, const RingOptions& ring, const OptimizeOptions& optimize,
                                      PackedProfile profile) {
     Rings rings = expand_rings(table, ring);
-    Result<EncodedPacked> plain = encode_packed(table, rings, profile);
-    if (!plain) return plain.error();
-    PackedChoice out{std::move(*plain), 0};
+    LR_ASSIGN(EncodedPacked plain, encode_packed(table, rings, profile));
+    PackedChoice out{std::move(plain), 0};
     if (optimize.passes == 0) return out;
-    Result<EncodedPacked> optimized = encode_packed(table, optimize_rings(table, std::move(rings), optimize), profile);
-    if (!optimized) return optimized.error();
-    if (optimized->words.size() < out.stream.words.size()) out = {std::move(*optimized), optimize.passes};
+    LR_ASSIGN(EncodedPacked optimized,
+              encode_packed(table, optimize_rings(table, std::move(rings), optimize), profile));
+    if (optimized.words.size() < out.stream.words.size()) out = {std::move(optimized), optimize.passes};
     return out;
 }
 

@@ -9,6 +9,7 @@
 #include "lacedring/lacedring_seams.h"
 #include "lacedring/seams.hpp"
 #include "lrcore/base/message.h"
+#include "lrcore/base/try.h"
 #include "lrcore/codec/seams/seam_encoder.h"
 
 namespace lacedring {
@@ -337,14 +338,13 @@ Result<EncodedSeams> encode_seams(std::span<const std::uint32_t> triangles, std:
 Result<EncodedSeams> encode_seams(const Encoded& surface, std::span<const std::uint32_t> indices,
                                   std::span<const std::uint32_t> vertex_of) {
     using detail::message;
-    const Result<StreamView> view = view_stream(surface.words);
-    if (!view) return view.error();
+    LR_ASSIGN(const StreamView view, view_stream(surface.words));
     std::vector<std::uint32_t> first(surface.vertex_order.size(), kNone);  // the mesh's vertex, of the surface's
     for (std::uint32_t v = 0; v < vertex_of.size(); ++v) {
         if (vertex_of[v] >= first.size()) return invalid_seams(message("surface vertex ", vertex_of[v]));
         if (first[vertex_of[v]] == kNone) first[vertex_of[v]] = v;
     }
-    const std::vector<std::uint32_t> slots = slot_triangles(*view);
+    const std::vector<std::uint32_t> slots = slot_triangles(view);
     std::vector<std::uint32_t> copies(slots.size(), kNone);
     std::size_t triangle = 0;
     for (std::size_t i = 0; i < slots.size(); i += 3) {
@@ -358,13 +358,12 @@ Result<EncodedSeams> encode_seams(const Encoded& surface, std::span<const std::u
         if (place == 3) return invalid_seams(message("triangle ", t, " of the mesh has other vertices"));
         for (std::uint32_t j = 0; j < 3; ++j) copies[i + j] = corners[(place + j) % 3];
     }
-    Result<EncodedSeams> out = encode_seams(slots, view->vertices(), copies);
+    Result<EncodedSeams> out = encode_seams(slots, view.vertices(), copies);
     if (!out) return out;
-    const Result<SeamView> seams = view_seams(out->words, view->slots(), view->vertices());
-    if (!seams) return seams.error();
-    std::vector<std::uint32_t> homes(std::size_t{view->vertices()} + 1);
-    first_copies(*seams, homes);
-    for (std::uint32_t v = 0; v < view->vertices(); ++v) {
+    LR_ASSIGN(const SeamView seams, view_seams(out->words, view.slots(), view.vertices()));
+    std::vector<std::uint32_t> homes(std::size_t{view.vertices()} + 1);
+    first_copies(seams, homes);
+    for (std::uint32_t v = 0; v < view.vertices(); ++v) {
         std::uint32_t& copy = out->copy_order[homes[v]];
         if (copy == kNone) copy = first[surface.vertex_order[v]];
     }

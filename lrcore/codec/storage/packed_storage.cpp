@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "lrcore/base/message.h"
+#include "lrcore/base/try.h"
 #include "lrcore/codec/packed/packed_writer.h"
 #include "lrcore/codec/storage/packed_steps.h"
 #include "lrcore/codec/storage/walk_coder.h"
@@ -142,9 +143,8 @@ Result<std::vector<std::uint32_t>> StoredPacked::write() const {
 }
 
 Result<std::vector<std::uint32_t>> restore_packed(std::span<const std::uint32_t> stored, const PackedLimits& limits) {
-    const Result<StoredPacked> read = StoredPacked::read(stored, limits);
-    if (!read) return read.error();
-    return read->write();
+    LR_ASSIGN(const StoredPacked read, StoredPacked::read(stored, limits));
+    return read.write();
 }
 
 }  // namespace lacedring::storage

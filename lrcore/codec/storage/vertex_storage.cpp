@@ -9,6 +9,7 @@
 
 #include "lrcore/base/message.h"
 #include "lrcore/base/parallel.h"
+#include "lrcore/base/try.h"
 #include "lrcore/codec/storage/block_coder.h"
 #include "lrcore/codec/storage/normal_base.h"
 #include "lrcore/codec/storage/parameter_search.h"
@@ -306,19 +307,18 @@ Result<VertexView> view_stored_vertices(std::span<const std::uint32_t> stored) {
     std::span<const std::uint32_t> rest = stored;
     Decoder coder(take_part(rest));
     bool has_usual_ranges = false;
-    const Result<StoredStream> stream = read_header(coder, has_usual_ranges);
-    if (!stream) return stream.error();
-    const std::uint32_t n = stream->components();
+    LR_ASSIGN(const StoredStream stream, read_header(coder, has_usual_ranges));
+    const std::uint32_t n = stream.components();
     VertexView out;
-    out.mapping = static_cast<VertexMapping>(stream->mapping());
-    out.type = static_cast<ComponentType>(stream->choices.layout >> 8 & 15);
-    out.normalized = (stream->choices.layout >> 12 & 1) != 0;
+    out.mapping = static_cast<VertexMapping>(stream.mapping());
+    out.type = static_cast<ComponentType>(stream.choices.layout >> 8 & 15);
+    out.normalized = (stream.choices.layout >> 12 & 1) != 0;
     out.integers = static_cast<std::uint8_t>(n);
     const std::uint32_t values = out.mapping == VertexMapping::octahedral ? n + 1
                                  : out.mapping == VertexMapping::doubles  ? n / 2
                                                                           : n;
     out.components = static_cast<std::uint8_t>(values);
-    out.largest_error = std::bit_cast<float>(stream->choices.error);
+    out.largest_error = std::bit_cast<float>(stream.choices.error);
     return out;
 }
 
@@ -342,9 +342,8 @@ Result<StoredVertices> StoredVertices::read(std::span<const std::uint32_t> store
     std::span<const std::uint32_t> rest = stored;
     Decoder coder(take_part(rest));
     auto state = std::make_unique<State>();
-    Result<StoredStream> header = read_header(coder, state->has_usual_ranges);
-    if (!header) return header.error();
-    StoredStream& stream = state->stream = std::move(*header);
+    LR_ASSIGN(StoredStream header, read_header(coder, state->has_usual_ranges));
+    StoredStream& stream = state->stream = std::move(header);
     stream.vertices = vertices;
     const std::uint32_t n = stream.components();
     state->residuals.resize(std::size_t{vertices} * n);
@@ -399,9 +398,8 @@ Result<std::vector<std::uint32_t>> StoredVertices::restore(std::span<const std::
 Result<std::vector<std::uint32_t>> restore_vertices(std::span<const std::uint32_t> stored,
                                                     std::span<const std::uint32_t> triangles, std::uint32_t vertices,
                                                     std::uint64_t most_words, const VertexPlaces& places) {
-    Result<StoredVertices> read = StoredVertices::read(stored, vertices);
-    if (!read) return read.error();
-    return std::move(*read).restore(triangles, most_words, places, 1);
+    LR_ASSIGN(StoredVertices read, StoredVertices::read(stored, vertices));
+    return std::move(read).restore(triangles, most_words, places, 1);
 }
 
 }  // namespace lacedring::storage

@@ -1,5 +1,6 @@
 #include "lacedring/lacedring.hpp"
 #include "lacedring/topology.hpp"
+#include "lrcore/base/try.h"
 
 namespace lacedring {
 namespace {
@@ -35,11 +36,10 @@ Result<EncodedLr> encode_lr(CornerTable table, const RingOptions& ring, const Op
     one.one_per_shell = true;
     LrMap map;
     const Rings rings = optimize_rings(table, expand_rings(table, one), optimize);
-    const Result<LrTable> lr = build_lr(table, rings, {.wart_skipping = wart_skipping}, &map);
-    if (!lr) return lr.error();
+    LR_ASSIGN(const LrTable lr, build_lr(table, rings, {.wart_skipping = wart_skipping}, &map));
     EncodedLr out;
-    out.words = serialize(*lr, translate(map, originals, out));
-    out.statistics = lr->statistics;
+    out.words = serialize(lr, translate(map, originals, out));
+    out.statistics = lr.statistics;
     out.k = ring.k;
     return out;
 }
@@ -47,12 +47,11 @@ Result<EncodedLr> encode_lr(CornerTable table, const RingOptions& ring, const Op
 Result<EncodedLr> encode_compact_lr(CornerTable table, const RingOptions& ring,
                                     std::span<const std::uint32_t> periods) {
     const std::vector<VertexId> originals = split_fans(table);
-    const Result<CompactChoice> best = smallest_compact_lr(table, ring, periods);
-    if (!best) return best.error();
+    LR_ASSIGN(const CompactChoice best, smallest_compact_lr(table, ring, periods));
     EncodedLr out;
-    out.words = serialize(best->compact, translate(best->map, originals, out));
-    out.statistics = best->lr.statistics;
-    out.k = best->k;
+    out.words = serialize(best.compact, translate(best.map, originals, out));
+    out.statistics = best.lr.statistics;
+    out.k = best.k;
     return out;
 }
 

@@ -1,6 +1,7 @@
 #include <utility>
 
 #include "lacedring/lacedring.hpp"
+#include "lrcore/base/try.h"
 
 namespace lacedring {
 
@@ -21,12 +22,10 @@ Result<CompactChoice> smallest_compact_lr(const CornerTable& table, const RingOp
         ring.one_per_shell = true;
         CompactChoice choice;
         choice.k = k;
-        Result<LrTable> lr = build_lr(table, expand_rings(table, ring), {}, &choice.map);
-        if (!lr) return lr.error();
-        Result<CompactLrTable> compact = build_compact_lr(lr->view());
-        if (!compact) return compact.error();
-        choice.lr = std::move(*lr);
-        choice.compact = std::move(*compact);
+        LR_ASSIGN(LrTable lr, build_lr(table, expand_rings(table, ring), {}, &choice.map));
+        LR_ASSIGN(CompactLrTable compact, build_compact_lr(lr.view()));
+        choice.lr = std::move(lr);
+        choice.compact = std::move(compact);
         if (any && choice.compact.view().bytes() >= best.compact.view().bytes()) continue;
         best = std::move(choice);
         any = true;

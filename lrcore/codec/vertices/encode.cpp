@@ -14,6 +14,7 @@
 #include "lacedring/lacedring_vertices.h"
 #include "lacedring/vertices.hpp"
 #include "lrcore/base/parallel.h"
+#include "lrcore/base/try.h"
 #include "lrcore/codec/bit_writer.h"
 #include "lrcore/codec/vertices/quantize.h"
 #include "lrcore/codec/vertices/vertex_layout.h"
@@ -476,9 +477,8 @@ Result<EncodedVertices> encode_integers(const VertexIntegers& integers, const Ve
 }  // namespace
 
 Result<EncodedVertices> encode_vertices(const VertexValues& values, const VertexOptions& options) {
-    Result<VertexIntegers> integers = to_integers(values, options);
-    if (!integers) return integers.error();
-    Result<EncodedVertices> out = encode_integers(*integers, values, options.threads);
+    LR_ASSIGN(VertexIntegers integers, to_integers(values, options));
+    Result<EncodedVertices> out = encode_integers(integers, values, options.threads);
     // Smaller and lossless beats what was asked for, unless the lattice is shared with other meshes.
     if (!out || options.step != 0) return out;
     const std::optional<VertexIntegers> decimals = to_decimals(values);

@@ -7,6 +7,7 @@
 
 #include "lacedring/lacedring_vertices.h"
 #include "lrcore/base/message.h"
+#include "lrcore/base/try.h"
 
 namespace lacedring {
 
@@ -260,24 +261,23 @@ Result<VertexIntegers> to_integers(const VertexValues& values, const VertexOptio
 Result<double> quantize_vertices(std::span<std::byte> values, std::uint8_t components, const VertexOptions& options) {
     if (options.mapping != VertexMapping::lattice && options.mapping != VertexMapping::octahedral)
         return invalid("a mapping that loses nothing");
-    const Result<VertexIntegers> integers = to_integers({ComponentType::f32, components, false, values}, options);
-    if (!integers) return integers.error();
+    LR_ASSIGN(const VertexIntegers integers, to_integers({ComponentType::f32, components, false, values}, options));
     const auto put = [&](std::size_t i, float value) { std::memcpy(values.data() + 4 * i, &value, 4); };
-    if (integers->mapping == VertexMapping::lattice) {
-        for (std::size_t i = 0; i < integers->values.size(); ++i) {
-            put(i, static_cast<float>(static_cast<std::int32_t>(integers->values[i])) * integers->step);
+    if (integers.mapping == VertexMapping::lattice) {
+        for (std::size_t i = 0; i < integers.values.size(); ++i) {
+            put(i, static_cast<float>(static_cast<std::int32_t>(integers.values[i])) * integers.step);
         }
-        return integers->largest_error;
+        return integers.largest_error;
     }
-    for (std::size_t i = 0, n = integers->components; i < integers->values.size() / n; ++i) {
-        const std::uint32_t* from = integers->values.data() + i * n;
+    for (std::size_t i = 0, n = integers.components; i < integers.values.size() / n; ++i) {
+        const std::uint32_t* from = integers.values.data() + i * n;
         float unit[3];
         lacedring_octahedral(static_cast<std::int32_t>(from[0]), static_cast<std::int32_t>(from[1]), options.bits,
                              unit);
         for (std::size_t c = 0; c < 3; ++c) put(i * components + c, unit[c]);
         if (n == 3) put(i * components + 3, from[2] == 0 ? 1.0F : -1.0F);
     }
-    return integers->largest_error;
+    return integers.largest_error;
 }
 
 }  // namespace lacedring

@@ -8,6 +8,7 @@
 #include "lrcore/base/crc32.h"
 #include "lrcore/base/message.h"
 #include "lrcore/base/signature.h"
+#include "lrcore/base/try.h"
 
 namespace lacedring {
 namespace {
@@ -91,7 +92,7 @@ Result<VertexView> view_vertices(std::span<const std::uint32_t> words) {
 Result<VertexView> validate_vertices(std::span<const std::uint32_t> words) {
     const Result<VertexView> view = view_vertices(words);
     if (!view) return view;
-    if (auto good = check_vertices(words, nullptr); !good) return good.error();
+    LR_TRY(check_vertices(words, nullptr));
     return view;
 }
 

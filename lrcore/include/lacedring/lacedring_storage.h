@@ -242,22 +242,19 @@ LACEDRING_HOT_ void lacedring_coded_advance_(struct lacedring_coded* d, uint32_t
     d->next = x;
 }
 
-LACEDRING_HOT_ void lacedring_learn_bit_(struct lacedring_bit_model_* m, uint32_t bit) {
-    static const uint16_t
-        steps[49] = {43690, 26214, 18724, 14563, 11915, 10082, 8738, 7710, 6898, 6241, 5698, 5242, 4854,
-                     4519,  4228,  3971,  3744,  3542,  3360,  3196, 3048, 2912, 2788, 2674, 2570, 2473,
-                     2383,  2299,  2221,  2148,  2080,  2016,  1956, 1899, 1846, 1795, 1747, 1702, 1659,
-                     1618,  1579,  1542,  1506,  1472,  1440,  1409, 1379, 1351, 1323}; /* 131072 / (2 seen + 3) */
-    const uint32_t seen = m->seen < 48 ? m->seen + 1u : 48u;
-    const int32_t to = bit ? 32 : (int32_t)LACEDRING_SCALE_ - 32, zero = m->zero;
-    m->seen = (uint16_t)seen;
-    m->zero = (uint16_t)(zero + (((to - zero) * (int32_t)steps[seen]) >> 16));
-}
+/* How fast a bit's probability is learnt, by how many were seen: 131072 / (2 seen + 3). */
+static const uint16_t lacedring_bit_steps_[49] = {
+    43690, 26214, 18724, 14563, 11915, 10082, 8738, 7710, 6898, 6241, 5698, 5242, 4854, 4519, 4228, 3971, 3744,
+    3542,  3360,  3196,  3048,  2912,  2788,  2674, 2570, 2473, 2383, 2299, 2221, 2148, 2080, 2016, 1956, 1899,
+    1846,  1795,  1747,  1702,  1659,  1618,  1579, 1542, 1506, 1472, 1440, 1409, 1379, 1351, 1323};
 
 LACEDRING_HOT_ uint32_t lacedring_coded_bit_(struct lacedring_coded* d, struct lacedring_bit_model_* m) {
     const uint32_t at = (uint32_t)d->now & (LACEDRING_SCALE_ - 1), zero = m->zero, bit = (uint32_t)(at >= zero);
+    const uint32_t seen = m->seen < 48 ? m->seen + 1u : 48u;
+    const int32_t to = bit ? 32 : (int32_t)LACEDRING_SCALE_ - 32;
     lacedring_coded_advance_(d, at, bit ? zero : 0, bit ? LACEDRING_SCALE_ - zero : zero, 1);
-    lacedring_learn_bit_(m, bit);
+    m->seen = (uint16_t)seen;
+    m->zero = (uint16_t)((int32_t)zero + (((to - (int32_t)zero) * (int32_t)lacedring_bit_steps_[seen]) >> 16));
     return bit;
 }
 

@@ -97,8 +97,10 @@ LACEDRING_SMALL_ uint32_t lacedring_seam_split_(struct lacedring_seam_bits_* d, 
 }
 
 static uint32_t lacedring_seam_bit_(struct lacedring_seam_bits_* d, struct lacedring_bit_model_* m) {
-    const uint32_t bit = lacedring_seam_split_(d, m->zero);
-    lacedring_learn_bit_(m, bit);
+    const uint32_t bit = lacedring_seam_split_(d, m->zero), seen = m->seen < 48 ? m->seen + 1u : 48u;
+    const int32_t zero = m->zero, to = bit ? 32 : 32768 - 32;
+    m->seen = (uint16_t)seen;
+    m->zero = (uint16_t)(zero + (((to - zero) * (int32_t)lacedring_bit_steps_[seen]) >> 16));
     return bit;
 }
 

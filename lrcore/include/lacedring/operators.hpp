@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "lacedring/base.hpp"
+#include "lacedring/corner_walks.hpp"
 #include "lacedring/streams.hpp"
 
 namespace lacedring {
@@ -104,8 +105,12 @@ class FanSide {
 // `Store` is LrView or CompactLrView, or a test's wrapper that counts what is read.
 
 template <class Store>
-class Operators {
+class Operators : public CornerWalks<Operators<Store>, 4> {
+    using Walks = CornerWalks<Operators<Store>, 4>;
+
   public:
+    using Walks::corner, Walks::next, Walks::previous;
+
     /// `copies`: LrStreamView::copies, which original() looks in; no other operator needs them.
     explicit Operators(const Store& store, std::span<const std::uint32_t> copies = {})
         : s_(store), ring_(store.ring_vertices), copies_(copies) {}
@@ -127,15 +132,6 @@ class Operators {
     }
 
     bool is_t0(CornerId c) const { return c.value >= 8 * ring_; }
-
-    /// c.t
-    static TriangleId triangle(CornerId c) { return TriangleId{c.value / 4}; }
-    /// t.c: the triangle's first corner; next gives the others.
-    static CornerId corner(TriangleId t) { return CornerId{t.value * 4}; }
-    /// c.n
-    static CornerId next(CornerId c) { return CornerId{c.value % 4 == 2 ? c.value - 2 : c.value + 1}; }
-    /// c.p
-    static CornerId previous(CornerId c) { return CornerId{c.value % 4 == 0 ? c.value + 2 : c.value - 1}; }
 
     /// Does the triangle exist, and is this its canonical number (not that of a T2's first copy)?
     bool is_canonical(TriangleId t) const {
@@ -197,47 +193,27 @@ class Operators {
         }
     }
 
-    /// c.l = c.n.o
-    CornerId left(CornerId c) const { return opposite(next(c)); }
-    /// c.r = c.p.o
-    CornerId right(CornerId c) const { return opposite(previous(c)); }
-    /// c.s: the next corner around c's vertex, null at a border.
-    CornerId swing(CornerId c) const {
-        const CornerId l = left(c);
-        return l.is_null() ? l : next(l);
-    }
-    /// The corner whose swing is c, null at a border.
-    CornerId swing_back(CornerId c) const {
-        const CornerId r = right(c);
-        return r.is_null() ? r : previous(r);
-    }
-
     /// v.c: canonical; null for a vertex of no triangle.
     CornerId corner(VertexId v) const {
         if (v.value < ring_) return canonical(at(v.value, 0, kStart));  // the left side always has a triangle
         return v.value < s_.used_vertices() ? CornerId{s_.isolated_corner(v.value - ring_)} : kNullCorner;
     }
 
-    /// Is the vertex on a border? O(valence).
-    bool is_border(VertexId v) const {
+    /// v.c, or if v is on a border the corner that no swing leads to.
+    CornerId star_begin(VertexId v) const {
         const CornerId first = corner(v);
-        for (CornerId c = first; !c.is_null();) {
-            c = swing(c);
-            if (c == first) return false;
+        if constexpr (kHasFans) {  // with neighbors on all sides
+            typename Store::PlainFan fan;
+            FanSide<Store> left, right;
+            if (v.value < ring_ && (s_.plain_fan(v.value, fan) || find_sides(v.value, left, right))) return first;
         }
-        return !first.is_null();
-    }
-
-    /// Calls visit(corner) for every triangle around v in swing order: from v.c, or from the border where there is one.
-    /// O(valence).
-    template <class Visit>
-    void star(VertexId v, Visit visit) const {
-        const CornerId first = star_begin(v);
         for (CornerId c = first; !c.is_null();) {
-            visit(c);
-            c = swing(c);
-            if (c == first) return;
+            const CornerId back = this->swing_back(c);
+            if (back.is_null()) return c;
+            if (back == first) break;
+            c = back;
         }
+        return first;
     }
 
     /// Edges at v: its triangles, and one more on a border. O(valence), constant where LrView::plain_fan sees it.
@@ -248,30 +224,13 @@ class Operators {
             FanSide<Store> left, right;
             if (find_sides(v.value, left, right)) return left.size + right.size + 2;
         }
-        const CornerId first = corner(v);
-        if (first.is_null()) return 0;
-        std::uint32_t count = 0;
-        CornerId c = first;
-        do {
-            ++count;
-            c = swing(c);
-        } while (!c.is_null() && c != first);
-        if (!c.is_null()) return count;
-        for (c = swing_back(first); !c.is_null(); c = swing_back(c)) ++count;
-        return count + 1;
+        return Walks::valence(v);
     }
 
-    /// Calls visit(vertex) for every neighbor of v once, in the order of star: of each triangle that of next, and on a
-    /// border at last the other end. O(valence).
+    /// Calls visit(vertex) for every neighbor of v once, in the order of star. O(valence), likewise.
     template <class Visit>
     void neighbors(VertexId v, Visit visit) const {
-        if (near_neighbors(v, visit)) return;
-        CornerId last = kNullCorner;
-        star(v, [&](CornerId c) {
-            visit(vertex(next(c)));
-            last = c;
-        });
-        if (!last.is_null() && left(last).is_null()) visit(vertex(previous(last)));
+        if (!near_neighbors(v, visit)) Walks::neighbors(v, visit);
     }
 
     /// Visits the same vertices in the same order and returns true, if the slots near v give them in constant time.
@@ -314,23 +273,6 @@ class Operators {
     static constexpr bool kHasOpposites = requires(const Store& store) { store.plain_opposite(0); };
 
     static constexpr bool kHasFans = requires { typename Store::PlainFan; };
-
-    /// v.c, or if v is on a border the corner that no swing leads to.
-    CornerId star_begin(VertexId v) const {
-        const CornerId first = corner(v);
-        if constexpr (kHasFans) {  // with neighbors on all sides
-            typename Store::PlainFan fan;
-            FanSide<Store> left, right;
-            if (v.value < ring_ && (s_.plain_fan(v.value, fan) || find_sides(v.value, left, right))) return first;
-        }
-        for (CornerId c = first; !c.is_null();) {
-            const CornerId back = swing_back(c);
-            if (back.is_null()) return c;
-            if (back == first) break;
-            c = back;
-        }
-        return first;
-    }
 
     /// Lists the neighbors on both sides; false where v is not well inside a ring, or not all were found.
     bool find_sides(std::uint32_t v, FanSide<Store>& left, FanSide<Store>& right) const {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "lacedring/base.hpp"
+#include "lacedring/corner_walks.hpp"
 
 namespace lacedring {
 
@@ -26,17 +27,19 @@ namespace lacedring {
 //
 // Corner c belongs to triangle c/3; next follows the triangle's stored order. Opposite is null across a border.
 
+using TableCorners = CornerSteps<struct CornerTable, 3>;
+
 constexpr TriangleId triangle(CornerId c) {
-    return TriangleId{c.value / 3};
+    return TableCorners::triangle(c);
 }
 constexpr CornerId corner(TriangleId t, std::uint32_t i) {
-    return CornerId{t.value * 3 + i};
+    return TableCorners::corner(t, i);
 }
 constexpr CornerId next(CornerId c) {
-    return CornerId{c.value % 3 == 2 ? c.value - 2 : c.value + 1};
+    return TableCorners::next(c);
 }
 constexpr CornerId previous(CornerId c) {
-    return CornerId{c.value % 3 == 0 ? c.value + 2 : c.value - 1};
+    return TableCorners::previous(c);
 }
 
 /// How the triangles of an index list were joined into a manifold.
@@ -50,7 +53,7 @@ struct Topology {
 
 /// Corner table of any triangle soup, made manifold by leaving edges unjoined and oriented by flipping triangles.
 /// No vertex is renumbered: a vertex whose triangles form several fans keeps its one number.
-struct CornerTable {
+struct CornerTable : TableCorners {
     /// V and O side by side: whoever reads one of them mostly reads the other, so a triangle is one cache line.
     struct Corner {
         VertexId vertex;
@@ -66,18 +69,7 @@ struct CornerTable {
     IdRange<VertexTag> vertices() const { return IdRange<VertexTag>(vertex_count); }
     VertexId vertex(CornerId c) const { return corners[c.value].vertex; }
     CornerId opposite(CornerId c) const { return corners[c.value].opposite; }
-    CornerId left(CornerId c) const { return opposite(next(c)); }
-    CornerId right(CornerId c) const { return opposite(previous(c)); }
-    /// Next corner around vertex(c), or null at a border.
-    CornerId swing(CornerId c) const {
-        const CornerId l = left(c);
-        return l.is_null() ? kNullCorner : next(l);
-    }
     bool flipped(TriangleId t) const { return !flip.empty() && (flip[t.value / 64] >> (t.value % 64) & 1) != 0; }
-    bool degenerate(TriangleId t) const {
-        const VertexId a = vertex(corner(t, 0)), b = vertex(corner(t, 1)), c = vertex(corner(t, 2));
-        return a == b || b == c || c == a;
-    }
 };
 
 /// Builds the corner table of `indices` (3 per triangle, each < vertex_count).

@@ -1,5 +1,5 @@
 #pragma once
-// How long the device takes. For `lacedring bench`.
+// How long the device takes to decode and to draw.
 
 #include <cstdint>
 #include <functional>
@@ -13,10 +13,10 @@
 #include "renderer/vk/commands.h"
 #include "renderer/vk/context.h"
 
-namespace lacedring::gpu {
+namespace lacedring::app {
 
 /// One entry a repetition, after one that is not counted.
-using Times = std::vector<Elapsed>;
+using Times = std::vector<gpu::Elapsed>;
 
 struct TimingOptions {
     std::uint32_t repeats = 5;
@@ -29,8 +29,8 @@ struct TimingOptions {
 /// One way to draw the model.
 struct Way {
     std::string name;  ///< "plain", "plain_best_order", "lean", "lean_pull", "packed_mesh", ...
-    Source source = Source::plain;
-    Path path = Path::compute;
+    gpu::Source source = gpu::Source::plain;
+    gpu::Path path = gpu::Path::compute;
     Times draw;             ///< of Path::compute: decoded before
     Times decode;           ///< to index buffer and draw commands, and vertices. Path::compute of a stream only, as is
                             ///< the next
@@ -55,6 +55,6 @@ struct DeviceTimes {
 /// best for the vertex cache, vertices in the order of their use (absent where that order takes too long). Pictures are
 /// drawn in one pass with smooth normals, from the default camera, and not read back. Every repetition is one
 /// submission, waited for; all kinds take turns. Device memory: all of them at the same time.
-Result<DeviceTimes> measure_device(Context& context, const Model& model, const TimingOptions& options = {});
+Result<DeviceTimes> measure_device(gpu::Context& context, const gpu::Model& model, const TimingOptions& options = {});
 
-}  // namespace lacedring::gpu
+}  // namespace lacedring::app

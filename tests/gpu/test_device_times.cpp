@@ -1,3 +1,4 @@
+#include "app/bench/device_times.h"
 #include "tests/gpu/gpu_test.h"
 
 using namespace lacedring;
@@ -5,15 +6,15 @@ using namespace lacedring::test;
 
 TEST_CASE_FIXTURE(GpuTest, "device times are measured, once a repetition") {
     const Mesh mesh = generated("sphere", 4000);
-    gpu::TimingOptions options;
+    app::TimingOptions options;
     options.repeats = 3;
     options.width = 160;
     options.height = 120;
     const auto model = gpu::make_model(mesh, {.packed = true, .vertices = VertexOptions{}});
     REQUIRE(model);
-    const auto times = gpu::measure_device(*context, *model, options);
+    const auto times = app::measure_device(*context, *model, options);
     REQUIRE_MESSAGE(times, times.error().message);
-    const auto check = [&](const gpu::Times& t) {
+    const auto check = [&](const app::Times& t) {
         REQUIRE(t.size() == 3);
         for (const gpu::Elapsed& e : t) {
             CHECK(e.wall > 0);
@@ -24,7 +25,7 @@ TEST_CASE_FIXTURE(GpuTest, "device times are measured, once a repetition") {
     check(times->vertices);
     const std::uint64_t corners = 3 * mesh.triangle_count();
     std::size_t decoded = 0;
-    for (const gpu::Way& way : times->ways) {
+    for (const app::Way& way : times->ways) {
         CAPTURE(way.name);
         check(way.draw);
         if (!way.decode.empty()) {
