@@ -80,9 +80,9 @@ Result<void> loop(Viewer& viewer, Window& window, gpu::Swapchain& swapchain, Scr
         if (viewer.visible()) {
             const Result<bool> shown = swapchain.show(viewer.image(), viewer.extent(), viewer.window());
             if (!shown) return shown.error();
-            viewer.state().window_too_large = !*shown;
+            viewer.state().facts.window_too_large = !*shown;
             viewer.presented(std::chrono::duration<double>(Clock::now() - now).count());
-            double& started = viewer.state().started;
+            double& started = viewer.state().facts.started;
             if (started == 0) started = std::chrono::duration<double>(Clock::now() - kStart).count();
         }
         if (std::string next = viewer.title(); next != title) window.set_title(title = std::move(next));
@@ -92,7 +92,7 @@ Result<void> loop(Viewer& viewer, Window& window, gpu::Swapchain& swapchain, Scr
         }
         if (script != nullptr) continue;  // as fast as it goes
         // Not every driver waits for the display.
-        const std::uint32_t cap = viewer.visible() ? viewer.state().frame_cap : 20;
+        const std::uint32_t cap = viewer.visible() ? viewer.state().choices.frame_cap : 20;
         if (cap == 0) continue;
         std::this_thread::sleep_until(
             now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / cap)));
@@ -150,9 +150,9 @@ int run(Options& options, Threads& threads) {
         if (!viewer) return viewer.error();
         Result<void> looped = loop(**viewer, **window, *swapchain, script ? &*script : nullptr);
         // A picture of a mesh that could not be read is none.
-        if (looped && !options.screenshot.empty() && !(*viewer)->state().document) {
+        if (looped && !options.screenshot.empty() && !(*viewer)->state().facts.document) {
             failed_on = "--screenshot";
-            looped = Error{ErrorCode::malformed, (*viewer)->state().error};
+            looped = Error{ErrorCode::malformed, (*viewer)->state().facts.error};
         }
         (*window)->hide();
         // The device must be idle before its objects are destroyed. A thread that computes for long in between
@@ -170,6 +170,7 @@ int start(int argc, char** argv, Threads& threads) {
     Options options;
     auto* mesh = program.add_option("MESH", options.viewer.input.path, "mesh file");
     app::add_input_options(program, options.viewer.input.options, 250);
+    options.viewer.input.options.materials = true;
     app::add_size(program, options.size);
     program.add_option("--scale", options.scale, "pixels a nominal pixel of the panels; the display's unless told")
         ->check(CLI::Range(0.5, 8.0));

@@ -18,6 +18,9 @@ layout(constant_id = 0) const uint kMode = LR_COMPOSE_LEFT;
 layout(constant_id = 1) const uint kSamples = 1;  // of the pictures, a pixel along each side
 layout(constant_id = 2) const uint kPaint = LR_PAINT_NONE;
 
+// to_linear of every colour that a sample can have: a workgroup computes each once, not each of its samples.
+shared float linear_of[256];
+
 float to_linear(float x) { return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4); }
 float to_srgb(float x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055; }
 vec3 linear(vec3 c) { return vec3(to_linear(c.x), to_linear(c.y), to_linear(c.z)); }
@@ -68,8 +71,8 @@ vec4 ring_line(uint i, bool right, ivec2 at) {
     uvec3 across = triangles_across(i);
     bool inside = step < push.invaded;  // the flag makes the others larger than any number of triangles
     ivec2 last = imageSize(left_triangles) - 1;
-    uint reach = inside ? push.inner : push.outer;
-    for (int d = 1; d <= int(reach); ++d) {
+    // A triangle that ends within reach is not seen at its end, unless another one lies behind: that is asked for nearer.
+    for (int d = int(inside ? push.inner : push.outer); d > 0; d /= 2) {
         for (int k = 0; k < 4; ++k) {
             ivec2 to = clamp(at + d * (k < 2 ? ivec2(2 * k - 1, 0) : ivec2(0, 2 * k - 5)), ivec2(0), last);
             uint other = triangle_at(right, to) & ~LR_FRONT_FLAG;
@@ -100,31 +103,31 @@ vec3 painted(vec3 colour, uint triangle, bool right, ivec2 at) {
     uint i = (triangle & ~LR_FRONT_FLAG) - 1u;
     if (i >= push.triangles) return colour;
     vec4 over = (kPaint & LR_PAINT_TRIANGLES) != 0u ? unpackUnorm4x8(paint[i]) : vec4(0.0);
-    if ((kPaint & LR_PAINT_GROWTH) != 0u) {
-        vec3 lit;
-        if (over.a == 0.0 && (kPaint & LR_PAINT_FLAT) != 0u) {
-            lit = recoloured(colour, vec4(growth_colour(growth[i].step), 1.0));
-        } else if (over.a == 0.0) {
-            // As recoloured() has it, but for the few percent by which sRGB is not a power: this runs every frame.
-            lit = min(growth_colour(growth[i].step) * colour / vec3(0.808, 0.797, 0.776), vec3(1.0));
-        } else {
-            lit = recoloured(colour, over);
-        }
-        vec4 line = (kPaint & LR_PAINT_RING) == 0u ? vec4(0.0) : ring_line(i, right, at);
-        return mix(lit, line.rgb, line.a);
+    vec3 lit = colour;
+    if (over.a != 0.0) {
+        lit = recoloured(colour, over);
+    } else if ((kPaint & LR_PAINT_GROWTH) != 0u) {
+        vec3 grown = growth_colour(growth[i].step);
+        // As recoloured() has it, but for the few percent by which sRGB is not a power: this runs every frame.
+        lit = (kPaint & LR_PAINT_FLAT) != 0u ? recoloured(colour, vec4(grown, 1.0))
+                                             : min(grown * colour / vec3(0.808, 0.797, 0.776), vec3(1.0));
     }
-    if (over.a == 0.0) return colour;
-    return recoloured(colour, over);
+    if ((kPaint & LR_PAINT_RING) == 0u) return lit;
+    vec4 line = ring_line(i, right, at);
+    return mix(lit, line.rgb, line.a);
 }
 
 // One sample, on the background.
-vec3 sample_at(bool right, ivec2 at, vec3 behind) {
-    vec4 c = right ? imageLoad(right_colour, at) : imageLoad(left_colour, at);
+vec3 sample_at(vec4 c, bool right, ivec2 at, vec3 behind) {
     vec3 over = c.a == 1.0 ? painted(c.rgb, triangle_at(right, at), right, at) : c.rgb;
     return floor((over + (1.0 - c.a) * behind) * 255.0 + 0.5) / 255.0;
 }
 
 void main() {
+    if (kSamples > 1u) {
+        for (uint k = gl_LocalInvocationIndex; k < 256u; k += 64u) linear_of[k] = to_linear(float(k) / 255.0);
+        barrier();
+    }
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
     ivec2 size = imageSize(composed);
     if (at.x >= size.x || at.y >= size.y) return;
@@ -139,7 +142,7 @@ void main() {
                 ivec2 s = at * n + ivec2(i, j);
                 same = same && imageLoad(left_colour, s) == imageLoad(right_colour, s) &&
                        imageLoad(left_triangles, s).x == imageLoad(right_triangles, s).x;
-                pale += sample_at(false, s, behind);
+                pale += sample_at(imageLoad(left_colour, s), false, s, behind);
             }
         }
         float grey = dot(pale / float(n * n), vec3(0.299, 0.587, 0.114));
@@ -147,13 +150,24 @@ void main() {
     } else {
         bool right = kMode == LR_COMPOSE_SPLIT && at.x >= int(push.divider);
         if (n == 1) {
-            colour = sample_at(right, at, behind);
+            colour = sample_at(right ? imageLoad(right_colour, at) : imageLoad(left_colour, at), right, at, behind);
         } else {
             vec3 sum = vec3(0.0);
+            int empty = 0;
             for (int j = 0; j < n; ++j) {
-                for (int i = 0; i < n; ++i) sum += linear(sample_at(right, at * n + ivec2(i, j), behind));
+                for (int i = 0; i < n; ++i) {
+                    ivec2 s = at * n + ivec2(i, j);
+                    vec4 drawn = right ? imageLoad(right_colour, s) : imageLoad(left_colour, s);
+                    if (drawn.a == 0.0) {
+                        ++empty;
+                        continue;
+                    }
+                    uvec3 level = uvec3(sample_at(drawn, right, s, behind) * 255.0 + 0.5);
+                    sum += vec3(linear_of[level.x], linear_of[level.y], linear_of[level.z]);
+                }
             }
-            colour = srgb(sum / float(n * n));
+            behind = floor(behind * 255.0 + 0.5) / 255.0;
+            colour = empty == n * n ? behind : srgb((sum + float(empty) * linear(behind)) / float(n * n));
         }
     }
     imageStore(composed, at, vec4(colour, 1.0));

@@ -17,7 +17,7 @@ namespace lacedring::gpu {
 #define LR_PAINT_NONE 0u
 #define LR_PAINT_TRIANGLES 1u
 #define LR_PAINT_GROWTH 2u
-#define LR_PAINT_RING 4u  // with LR_PAINT_GROWTH: the ring's line
+#define LR_PAINT_RING 4u  // the ring's line
 #define LR_PAINT_FLAT 8u  // the surface has colours of its own: only its lines stay, else the light on it does
 
 // RING-EXPANDER's way over one triangle of the mesh (ring.hpp).

@@ -208,7 +208,7 @@ class Faults(driver.Scripted):
         try:
             for memory, size in (("4000", [1200, 900]), ("120", [600, 450])):
                 with open(self.path("script.txt"), "w") as file:
-                    file.write(f"wait ready\nframes 300\nscreenshot {self.path('shot.png')}\nprint\nframes 1000000\n")
+                    file.write(f"set ring-line off\nwait ready\nframes 300\nscreenshot {self.path('shot.png')}\nprint\nframes 1000000\n")
                 viewer = subprocess.Popen(
                     [driver.program, "view", mesh("torus", 500), "--size", "1200x900", "--device-memory", memory, "--no-panels",
                      "--script", file.name], stdout=subprocess.PIPE, cwd=driver.folder,

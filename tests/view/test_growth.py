@@ -166,6 +166,7 @@ class Growth(driver.Scripted):
             set passes 0
             wait settled
             print
+            set ring-line off
             turntable-png {folder} 8
             print
             set panels off
@@ -178,7 +179,7 @@ class Growth(driver.Scripted):
         for i in range(8):
             self.assertGreater(png.differences(pictures[i], pictures[(i + 1) % 8])[0], 1000)
         rendered = os.path.join(driver.folder, "quarter.png")
-        done = run("render", blob, "-o", rendered, "--size", "480x320", "--samples", "1", "--seeds", "1", "--optimize", "0",
+        done = run("render", blob, "-o", rendered, "--size", "480x320", "--samples", "3", "--seeds", "1", "--optimize", "0",
                    "--camera-azimuth-angle", "90", *states[0]["camera"].split())
         self.assertEqual(done.returncode, 0, done.stderr)
         pixels, largest = png.differences(pictures[2], png.read(rendered))

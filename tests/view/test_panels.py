@@ -57,7 +57,7 @@ class Panels(driver.Scripted):
                 self.assertLessEqual(SIDES, set(boxes))
                 for name in SIDES:
                     self.assertEqual(self.hidden_below(state, name), 0, f"{name} of {size} needs scrolling")
-            self.assertNotIn("legend", self.check(states[0]))  # there is nothing to tell
+            self.assertIn("legend", self.check(states[0]))  # the ring
             self.assertIn("legend", self.check(states[1]))
             self.assertLessEqual({"legend", "selection"}, set(self.check(states[-1])))
 

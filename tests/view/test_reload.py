@@ -97,7 +97,7 @@ class Reload(driver.Scripted):
         self.assertLess(including, 10)
         self.assertEqual((moved["reloads"], moved["error"]), (1, ""))
         self.assertGreater(self.differences("before", "other")[0], 1000)
-        self.assertIn("shaders/draw/surface_vertex.glsl:30: ", wrong["error"])
+        self.assertIn("shaders/draw/surface_vertex.glsl:33: ", wrong["error"])
         self.assertEqual(wrong["reloads"], 1)
 
     def test_another_interface_is_refused(self):

@@ -95,7 +95,7 @@ TEST_CASE("errors say file and line") {
     sources.edit("draw/surface_vertex.glsl", "v.clip = clip;", "v.clop = clip;");
     for (const char* name : {"draw/surface.vert", "draw/surface_pull.vert"}) {
         const std::string why = sources.refused(name);
-        CHECK(why.starts_with("shaders/draw/surface_vertex.glsl:30: "));
+        CHECK(why.starts_with("shaders/draw/surface_vertex.glsl:33: "));
         CHECK(why.find("clop") != std::string::npos);
         CHECK(why.find("No code generated") == std::string::npos);
     }

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The viewer, driven by scripts in a window of Xvfb. Usage: test_view.py LACEDRING"""
 
+import json
 import os
 import random
 import subprocess
@@ -12,6 +13,7 @@ import driver
 import png
 from driver import mesh, run, without_display
 
+ASSETS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "assets")
 WINDOW_LIBRARIES = ("libglfw", "libX11", "libxcb", "libwayland", "libGL.")
 
 
@@ -60,7 +62,6 @@ class View(driver.Scripted):
 
     def test_what_a_script_may_not_say(self):
         """Nothing is ignored, and no number is changed to one that fits."""
-        self.wrong_line("set view silhouette", "set outlines on")
         self.wrong_line("set path mesh", "mesh shaders", before="frames 1\n")  # as long as the device has none
         for line in ("set warts yes", "set samples 4", "set samples 1.5", "set divider 1.1", "set k -5", "set k nan",
                      "set passes 2x", "set colour red", "set view", "set view smooth flat", "wait dinner", "frames", "frames 1e99",
@@ -85,19 +86,23 @@ class View(driver.Scripted):
 
     def test_screenshots_are_what_render_draws(self):
         blob = mesh("blob", 3000)
-        views = ["smooth", "flat", "class", "ring", "wire", "offsets", "seams"]
-        script = ["set panels off", "wait optimised", "set passes 0", "wait settled", "drag 200 150 260 170", "scroll 250 140 2", "drag 200 150 190 120 middle", "print"]
+        views = ["smooth", "flat", "class", "ring", "wire", "offsets", "seams", "material"]
+        script = ["set panels off", "set ring-line off", "wait tables", "set passes 0", "wait settled", "drag 200 150 260 170", "scroll 250 140 2", "drag 200 150 190 120 middle", "print"]
         for view in views:
             script += [f"set view {view}", f"screenshot {driver.folder}/{view}.png"]
+        script += ["set view silhouette", f"screenshot {driver.folder}/silhouette.png"]
         camera = self.view("\n".join(script), blob)[0]["camera"].split()
         for view in views:
-            done = run("render", blob, "-o", os.path.join(driver.folder, "r.png"), "--size", "480x320", "--samples", "1",
+            done = run("render", blob, "-o", os.path.join(driver.folder, "r.png"), "--size", "480x320", "--samples", "3",
                        "--view", view, "--seeds", "1", *camera)
             self.assertEqual(done.returncode, 0, done.stderr)
             pixels, largest = png.differences(png.read(f"{driver.folder}/{view}.png"), png.read(f"{driver.folder}/r.png"))
             # The background is computed by the device in the one and by the CPU in the other.
             self.assertLessEqual(largest, 1, view)
             self.assertLessEqual(pixels, 480 * 320 // 20, view)
+        # Its creases are lines only, those of `render` all that are sharp.
+        smooth, lines = (png.read(f"{driver.folder}/{view}.png") for view in ("smooth", "silhouette"))
+        self.assertGreater(png.differences(smooth, lines)[0], 500)
 
     def test_split_screen_shows_one_picture(self):
         blob = mesh("blob", 3000)
@@ -125,7 +130,7 @@ class View(driver.Scripted):
 
     def test_clicks_hit_what_rays_hit(self):
         random.seed(7)
-        script = ["set panels off", "wait tables", "wait settled"]
+        script = ["set panels off", "set samples 1", "set ring-line off", "wait tables", "wait settled"]
         for _ in range(1000):
             x, y = random.randrange(100, 380), random.randrange(20, 300)
             script += [f"click {x} {y}", f"ray {x} {y}"]
@@ -159,7 +164,7 @@ class View(driver.Scripted):
             print
             drop {bad[0]}
             wait error
-            frames 3
+            screenshot {driver.folder}/notice.png now
             print
             drop {' '.join(bad)}
             frames 40
@@ -170,6 +175,9 @@ class View(driver.Scripted):
             wait optimised
             print""", torus)
         self.assertEqual([state["file"] for state in states[:3]], [torus] * 3)
+        # The notice is in the picture as soon as the error is waited for: red, in the middle, below the legend.
+        red, green, blue = png.read(f"{driver.folder}/notice.png")[2][45][3 * 240:3 * 241]
+        self.assertGreater(red, 2 * max(green, blue))
         self.assertEqual(states[0]["error"], "")
         self.assertIn("bad0.ply: ", states[1]["error"])
         self.assertEqual(len(states[1]["error"].splitlines()), 1)
@@ -255,6 +263,84 @@ class View(driver.Scripted):
             print""", mesh("blob", 3000), "--scale", "2", size="1280x800")
         self.assertEqual(states[0]["error"], "")
         self.assertIn("packed", states[0]["formats"])
+
+    def test_the_ring_lies_over_the_surface_from_the_start(self):
+        blob = mesh("blob", 3000)
+        states = self.view(f"""set panels off
+            wait optimised
+            screenshot {driver.folder}/ring-on.png
+            print
+            key e
+            screenshot {driver.folder}/ring-off.png
+            print
+            set view class
+            wait settled
+            print
+            set samples 1
+            wait settled
+            print""", blob)
+        self.assertEqual([state["ring_line"] for state in states], [True, False, False, False])
+        self.assertEqual([state["choices"]["ring-line"] for state in states], ["on", "off", "off", "off"])
+        self.assertEqual([state["samples"] for state in states], [3, 3, 3, 1])
+        on, off = (png.read(f"{driver.folder}/ring-{name}.png") for name in ("on", "off"))
+        self.assertGreater(png.differences(on, off)[0], 3000)
+        darker = sum(sum(a) < sum(b) for a, b in zip(on[2], off[2]))
+        self.assertGreater(darker, 150)  # rows of pixels
+
+    def globe(self):
+        """A textured mesh with seams, and nothing to tell of: without the -0 that its file has."""
+        path = os.path.join(driver.folder, "globe.glb")
+        with open(os.path.join(ASSETS, "globe.glb"), "rb") as file:
+            data = file.read()
+        with open(path, "wb") as file:
+            file.write(data.replace(b"\0\0\0\x80", b"\0\0\0\0"))
+        return path
+
+    def test_materials_are_seen_at_first(self):
+        globe = self.globe()
+        states = self.view(f"wait optimised\nprint\nopen {mesh('torus', 500)}\nwait optimised\nprint\n"
+                           f"set view flat\nopen {globe}\nwait optimised\nprint", globe)
+        self.assertEqual([state["choices"]["view"] for state in states], ["material", "smooth", "flat"])
+
+    def test_counts_are_those_of_info(self):
+        globe = self.globe()
+        for path in (globe, mesh("terrain", 400), mesh("genus", 600)):
+            state, = self.view("wait optimised\nprint", path)
+            info = json.loads(run("info", path, "--json").stdout)
+            self.assertEqual([state[name] for name in ("triangles", "components", "borders", "genus")],
+                             [info[name] for name in ("triangles", "components", "border_loops", "genus")])
+            self.assertEqual(state["copies"], info["copies"] if info["seam_edges"] else 0)
+            self.assertGreaterEqual(state["rings"], state["components"])
+
+    def test_welding_reads_the_file_again(self):
+        globe = self.globe()
+        states = self.view("""wait optimised
+            print
+            set weld none
+            wait optimised
+            print
+            set weld position
+            wait optimised
+            print""", globe)
+        self.assertGreater(states[0]["copies"], 0)
+        self.assertEqual(states[1]["copies"], 0)
+        self.assertEqual(states[0]["copies"], states[2]["copies"])
+        self.assertEqual(len({state["camera"] for state in states}), 1)
+
+    def test_a_selection_that_its_panel_would_cover_is_moved(self):
+        states = self.view("""wait ready
+            click 640 540
+            frames 12
+            wait settled
+            print
+            key escape
+            click 640 300
+            wait settled
+            print""", mesh("sphere", 600), size="1280x720")
+        legend, box = ({panel["name"]: panel["box"] for panel in states[0]["panels"]}[name] for name in ("legend", "selection"))
+        self.assertLessEqual(legend[1] + legend[3], 60)
+        self.assertGreater(540, box[1])  # it would have been covered
+        self.assertEqual(states[0]["camera"] != states[1]["camera"], False)  # and what is in sight stays where it is
 
     def test_screenshot_option(self):
         name = os.path.join(driver.folder, "option.png")

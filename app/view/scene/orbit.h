@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "app/view/scene/vector.h"
+#include "app/view/session/vector.h"
 #include "renderer/draw/camera.h"
 
 namespace lacedring::view {

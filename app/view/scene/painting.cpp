@@ -8,6 +8,7 @@
 #include "lacedring/ring.hpp"
 #include "lacedring/streams.hpp"
 #include "renderer/mesh/triangle_class.h"
+#include "renderer/vk/try.h"
 
 namespace lacedring::view {
 namespace {
@@ -21,18 +22,50 @@ std::uint32_t hashed(std::uint32_t i) {
     return kColours[(i * 2654435761U >> 8) % kColours.size()];
 }
 
-std::vector<gpu::GrowthTriangle> growth(const Document& document) {
-    const CornerTable& table = *document.table;
-    const std::vector<std::uint32_t> steps = settling_steps(table, *document.expansion);
-    std::vector<gpu::GrowthTriangle> out(steps.size());
+std::vector<gpu::GrowthTriangle> triangles_across(const CornerTable& table) {
+    std::vector<gpu::GrowthTriangle> out(table.triangle_count());
     for (std::uint32_t t = 0; t < out.size(); ++t) {
-        std::uint32_t across[3];
         for (std::uint32_t k = 0; k < 3; ++k) {
             const CornerId o = table.opposite(corner(TriangleId{t}, k));
-            across[k] = o.is_null() ? LR_GROWTH_BORDER : triangle(o).value;
+            out[t].across[k] = o.is_null() ? LR_GROWTH_BORDER : triangle(o).value;
         }
-        static_assert(LR_GROWTH_RIGHT == kNeverInvaded);
-        out[t] = {steps[t], {across[0], across[1], across[2]}};
+    }
+    return out;
+}
+
+std::vector<gpu::GrowthTriangle> growth(const Document& document) {
+    static_assert(LR_GROWTH_RIGHT == kNeverInvaded);
+    std::vector<gpu::GrowthTriangle> out = triangles_across(*document.table);
+    const std::vector<std::uint32_t> steps = settling_steps(*document.table, *document.expansion);
+    for (std::size_t t = 0; t < out.size(); ++t) out[t].step = steps[t];
+    return out;
+}
+
+/// Which triangles lie left of the finished rings: those that the others are reached from without crossing one.
+std::vector<gpu::GrowthTriangle> ring_sides(const Document& document) {
+    const CornerTable& table = *document.table;
+    std::vector<gpu::GrowthTriangle> out = triangles_across(table);
+    std::vector<bool> crossed(table.corners.size());
+    std::vector<std::uint32_t> stack;
+    for (gpu::GrowthTriangle& t : out) t.step = LR_GROWTH_RIGHT;
+    const auto reach = [&](CornerId c) {
+        gpu::GrowthTriangle& t = out[triangle(c).value];
+        if (t.step == 0) return;
+        t.step = 0;
+        stack.push_back(triangle(c).value);
+    };
+    for (const RingEdge& edge : document.rings->edges) {
+        crossed[edge.left.value] = true;
+        if (!edge.right.is_null()) crossed[edge.right.value] = true;
+    }
+    for (const RingEdge& edge : document.rings->edges) reach(edge.left);
+    while (!stack.empty()) {
+        const TriangleId t{stack.back()};
+        stack.pop_back();
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const CornerId c = corner(t, k);
+            if (!crossed[c.value] && !table.opposite(c).is_null()) reach(table.opposite(c));
+        }
     }
     return out;
 }
@@ -40,6 +73,7 @@ std::vector<gpu::GrowthTriangle> growth(const Document& document) {
 /// The part of a document that a painting shows: another document with the same part has the same painting.
 std::shared_ptr<const void> part(const Document& document, Paint paint) {
     if (paint == Paint::growth) return document.expansion;
+    if (paint == Paint::ring) return document.rings;
     return document.model;
 }
 
@@ -87,21 +121,25 @@ Painting make_painting(const Document& document, Paint paint) {
         out.colours.resize(document.mesh->triangle_count());
         for (std::uint32_t i = 0; i < order.size(); ++i) out.colours[order[i]] = hashed(i / 256);
     } else if (paint == Paint::growth) {
-        out.growth = growth(document);
+        out.sides = growth(document);
+    } else if (paint == Paint::ring) {
+        out.sides = ring_sides(document);
     }
     return out;
 }
 
-struct Paintings::Job {
+struct PaintLayer::Job {
+    Paint paint = Paint::none;
+    std::shared_ptr<const void> of;
     std::atomic<bool> done = false;
     std::shared_ptr<const Painting> painting;  // once done; null: there was not enough memory
 };
 
-Result<std::shared_ptr<const Painting>> Paintings::get(const std::shared_ptr<const Document>& document, Paint paint) {
+Result<std::shared_ptr<const Painting>> PaintLayer::get(const std::shared_ptr<const Document>& document, Paint paint) {
     if (job_ && job_->done) {
         const std::shared_ptr<Job> job = std::exchange(job_, nullptr);
-        if (!job->painting) return Error{ErrorCode::too_large, "not enough memory for these colours"};
-        made_[static_cast<std::size_t>(job_paint_)] = {std::move(job_of_), job->painting};
+        if (!job->painting) return Error{ErrorCode::too_large, "not enough memory for these colors"};
+        made_[static_cast<std::size_t>(job->paint)] = {job->of, job->painting};
     }
     for (std::size_t i = 0; i < kPaints; ++i) {  // nothing of another mesh or ring is kept
         if (made_[i].of != part(*document, static_cast<Paint>(i))) made_[i] = {};
@@ -110,9 +148,11 @@ Result<std::shared_ptr<const Painting>> Paintings::get(const std::shared_ptr<con
     const Made& made = made_[static_cast<std::size_t>(paint)];
     if (made.painting || job_) return made.painting;
     auto job = std::make_shared<Job>();
-    const Result<void> started = threads_.start([job, document, paint] {
+    job->paint = paint;
+    job->of = part(*document, paint);
+    const Result<void> started = threads_.start([job, document] {
         try {
-            job->painting = std::make_shared<const Painting>(make_painting(*document, paint));
+            job->painting = std::make_shared<const Painting>(make_painting(*document, job->paint));
         } catch (const std::bad_alloc&) {
             job->painting.reset();
         }
@@ -120,9 +160,52 @@ Result<std::shared_ptr<const Painting>> Paintings::get(const std::shared_ptr<con
     });
     if (!started) return started.error();
     job_ = std::move(job);
-    job_paint_ = paint;
-    job_of_ = part(*document, paint);
     return std::shared_ptr<const Painting>();
+}
+
+Result<void> PaintLayer::clear(Scene& scene) {
+    colours_.reset();
+    sides_.reset();
+    marked_ = kNullCorner;
+    laid_ = {};
+    LR_TRY(scene.set_sides({}, false));
+    return scene.set_paint({});
+}
+
+Result<bool> PaintLayer::update(Scene& scene, const Wanted& wanted) {
+    if (laid(wanted)) return false;
+    bool made = true;
+    const auto [colour_paint, side_paint] = wanted.layers;
+    LR_ASSIGN(const std::shared_ptr<const Painting> colours, get(wanted.document, colour_paint));
+    if (colours || colour_paint == Paint::none) {
+        if (colours != colours_) {
+            LR_TRY(scene.set_paint(colours ? colours->colours : std::span<const std::uint32_t>{}));
+            marked_ = kNullCorner;
+        }
+        colours_ = colours;
+    } else {
+        made = false;
+    }
+    LR_ASSIGN(const std::shared_ptr<const Painting> sides, get(wanted.document, side_paint));
+    if (sides || side_paint == Paint::none) {
+        if (sides != sides_) {
+            LR_TRY(scene.set_sides(sides ? sides->sides : std::span<const gpu::GrowthTriangle>{},
+                                   side_paint == Paint::growth));
+        }
+        sides_ = sides;
+        if (side_paint == Paint::ring) {
+            scene.grow(1, 0);
+        } else {
+            scene.grow(wanted.invaded, wanted.newest);
+        }
+    } else {
+        made = false;
+    }
+    const bool marks = marked_ != wanted.corner;
+    if (marks) LR_TRY(scene.set_marks(selection_marks(*wanted.document, wanted.corner)));
+    marked_ = wanted.corner;
+    if (made) laid_ = wanted;
+    return made || marks;
 }
 
 }  // namespace lacedring::view

@@ -1,27 +1,24 @@
 #pragma once
-// Colours by triangle that take a look at the whole mesh to know. Made beside drawing, and kept while they are of use.
+// Colors by triangle, and sides of the ring, that take a look at the whole mesh to know. Made beside drawing, and kept
+// while they are of use.
 
 #include <array>
 #include <memory>
 #include <vector>
 
+#include "app/view/scene/scene.h"
 #include "app/view/session/document.h"
 #include "app/view/session/threads.h"
-#include "shaders/viewer/compose_shared.h"
 
 namespace lacedring::view {
 
-/// What is laid over the triangles.
-enum class Paint { none, corridors, blocks, growth };
-constexpr std::array<gpu::Named<Paint>, 4> kPaints{{{"none", Paint::none, "none"},
-                                                    {"corridors", Paint::corridors, "corridors"},
-                                                    {"blocks", Paint::blocks, "blocks"},
-                                                    {"growth", Paint::growth, "ring-expander"}}};
+/// What is laid over the triangles. `ring` is the ring's line alone.
+enum class Paint { none, corridors, blocks, growth, ring };
 
 /// What one Paint lays over one document. Either may be empty.
 struct Painting {
-    std::vector<std::uint32_t> colours;       ///< RGBA a triangle of the mesh; 0: as it is drawn
-    std::vector<gpu::GrowthTriangle> growth;  ///< a triangle of the mesh each
+    std::vector<std::uint32_t> colours;      ///< RGBA a triangle of the mesh; 0: as it is drawn
+    std::vector<gpu::GrowthTriangle> sides;  ///< of the ring, a triangle of the mesh each
 };
 
 /// Costs: O(T) time; corridors 5 bytes a triangle while they are made.
@@ -31,29 +28,49 @@ Painting make_painting(const Document& document, Paint paint);
 /// triangles.
 std::vector<std::uint32_t> corridors(const Document& document);
 
-/// Makes one painting at a time, on a thread beside the window's, which may outlive this.
-class Paintings {
-  public:
-    explicit Paintings(Threads& threads) : threads_(threads) {}
+/// Colors of one Paint, and sides of another one over them.
+struct Layers {
+    Paint colours = Paint::none, sides = Paint::none;
+    bool operator==(const Layers&) const = default;
+};
 
-    /// The document's, if it is made; null while it is being made, which this begins, and for Paint::none. One that is
-    /// asked for again is made once. Errors: kDeviceFailure (no thread), too_large (not enough memory); the next call
-    /// tries again.
-    Result<std::shared_ptr<const Painting>> get(const std::shared_ptr<const Document>& document, Paint paint);
+/// Keeps up what the scene lays over a document. Makes one painting at a time, on a thread that may outlive this.
+class PaintLayer {
+  public:
+    struct Wanted {
+        std::shared_ptr<const Document> document;
+        Layers layers;
+        CornerId corner = kNullCorner;          ///< selected
+        std::uint32_t invaded = 0, newest = 0;  ///< Scene::grow
+        bool operator==(const Wanted&) const = default;
+    };
+
+    explicit PaintLayer(Threads& threads) : threads_(threads) {}
+
+    /// Brings the scene up to date; what takes time to make is laid by a later call, and what was there stays until
+    /// then. True: the picture has to be composed again. Errors: kDeviceFailure (no thread), too_large (memory), and
+    /// those of the scene; the next call tries again.
+    Result<bool> update(Scene& scene, const Wanted& wanted);
+    bool laid(const Wanted& wanted) const { return !wanted.document || laid_ == wanted; }
+    /// Takes everything away: it is of another mesh.
+    Result<void> clear(Scene& scene);
 
   private:
-    static constexpr std::size_t kPaints = 4;
+    static constexpr std::size_t kPaints = 5;
     struct Made {
-        std::shared_ptr<const void> of;  ///< what of the document it shows
+        std::shared_ptr<const void> of;  ///< the part of the document that it shows
         std::shared_ptr<const Painting> painting;
     };
     struct Job;
+    /// The painting of a layer, or null while it is being made and for Paint::none.
+    Result<std::shared_ptr<const Painting>> get(const std::shared_ptr<const Document>& document, Paint paint);
 
     Threads& threads_;
     std::array<Made, kPaints> made_;
     std::shared_ptr<Job> job_;  // with its thread; null: nothing is being made
-    Paint job_paint_ = Paint::none;
-    std::shared_ptr<const void> job_of_;
+    std::shared_ptr<const Painting> colours_, sides_;
+    Wanted laid_;
+    CornerId marked_ = kNullCorner;  // whose marks are laid
 };
 
 }  // namespace lacedring::view

@@ -22,10 +22,6 @@ constexpr Access kComposeRead{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_
 constexpr Access kComposeWrite{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
 constexpr Access kTransferRead{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
 constexpr Access kTransferWrite{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
-/// How many pictures are drawn.
-int sides_of(const Shown& shown) {
-    return shown.mode == Mode::single ? 1 : 2;
-}
 
 /// What was drawn, to be read by compose.comp and by triangle_at.
 void leave(VkCommandBuffer commands, const gpu::Target& target) {
@@ -69,41 +65,50 @@ Result<Scene> Scene::create(gpu::Context& context, std::function<void()> wake) {
     return out;
 }
 
-Result<void> Scene::resize(VkExtent2D extent, std::uint32_t samples) {
-    // Lines and supersampling go together, so painters do, too.
-    if (samples != samples_) painters_.clear();
-    for (auto& [key, entry] : entries_) entry.plans.clear();
-    extent_ = extent;
-    samples_ = samples;
-    const VkExtent2D drawn{extent.width * samples, extent.height * samples};
-    for (auto& target : targets_) {
-        target.reset();
-        LR_ASSIGN(target, gpu::Target::create(*context_, drawn, VK_IMAGE_USAGE_STORAGE_BIT));
+Result<void> Scene::resize(VkExtent2D extent, std::uint32_t samples, int sides) {
+    const bool other = extent.width != extent_.width || extent.height != extent_.height;
+    std::erase_if(sides_, [&](const auto& entry) { return other || (entry.first != 1 && entry.first != samples); });
+    for (auto& [key, entry] : entries_) {
+        std::erase_if(entry.plans, [&](const auto& plan) { return !sides_.contains(std::get<1>(plan.first)); });
     }
-    LR_ASSIGN(composed_, gpu::Image::create(*context_, "composed", extent, gpu::Target::kColour,
-                                            VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT));
-    blank_ = true;
+    blank_ = blank_ || !sides_.contains(drawn_.samples);
+    if (other) {
+        extent_ = {};  // until all is there
+        LR_ASSIGN(composed_, gpu::Image::create(*context_, "composed", extent, gpu::Target::kColour,
+                                                VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT));
+    }
+    for (const std::uint32_t n : {1U, samples}) {
+        for (int side = 0; side < sides; ++side) {
+            std::optional<gpu::Target>& target = sides_[n].targets[side];
+            if (target) continue;
+            LR_ASSIGN(target, gpu::Target::create(*context_, {extent.width * n, extent.height * n},
+                                                  VK_IMAGE_USAGE_STORAGE_BIT));
+        }
+    }
+    extent_ = extent;
     return write_sets();
 }
 
 Result<void> Scene::write_sets() {
-    if (!targets_[0]) return {};
     descriptors_ = gpu::Descriptors(*context_);
-    for (const int both : {0, 1}) {
-        LR_ASSIGN(sets_[both], descriptors_.allocate(layout_));
-        const gpu::Target& right = *targets_[both];
-        descriptors_.write_image(sets_[both], 0, targets_[0]->colour().view());
-        descriptors_.write_image(sets_[both], 1, targets_[0]->triangles().view());
-        descriptors_.write_image(sets_[both], 2, right.colour().view());
-        descriptors_.write_image(sets_[both], 3, right.triangles().view());
-        descriptors_.write_image(sets_[both], 4, composed_.view());
-        descriptors_.write(sets_[both], 5, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, {&paint_});
-        descriptors_.write(sets_[both], 6, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, {&growth_});
+    for (auto& [samples, sides] : sides_) {
+        for (const int last : {0, 1}) {
+            if (!sides.targets[last]) continue;
+            VkDescriptorSet& set = sides.sets[last];
+            LR_ASSIGN(set, descriptors_.allocate(layout_));
+            descriptors_.write_image(set, 0, sides.targets[0]->colour().view());
+            descriptors_.write_image(set, 1, sides.targets[0]->triangles().view());
+            descriptors_.write_image(set, 2, sides.targets[last]->colour().view());
+            descriptors_.write_image(set, 3, sides.targets[last]->triangles().view());
+            descriptors_.write_image(set, 4, composed_.view());
+            descriptors_.write(set, 5, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, {&paint_});
+            descriptors_.write(set, 6, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, {&growth_});
+        }
     }
     return {};
 }
 
-Result<bool> Scene::adopt(const std::shared_ptr<const gpu::Model>& model, const Shown& shown) {
+Result<bool> Scene::adopt(const std::shared_ptr<const OwningModel>& model, const Shown& shown) {
     if (model == model_) return true;
     if (model != adopting_) {
         adopted_.clear();
@@ -119,8 +124,9 @@ Result<bool> Scene::adopt(const std::shared_ptr<const gpu::Model>& model, const 
     return true;
 }
 
-Result<void> Scene::set_outlines(const EncodedLr* tables) {
+Result<void> Scene::set_outlines(const EncodedLr* tables, double crease) {
     adjacency_.reset();
+    crease_ = crease;
     // Surfaces are pushed back, or no longer.
     painters_.clear();
     for (auto& [key, entry] : entries_) entry.plans.clear();
@@ -144,10 +150,10 @@ Result<void> Scene::reload() {
     if (silhouettes_) {
         LR_ASSIGN(silhouettes, gpu::Silhouettes::create(*context_));
     }
-    std::map<gpu::View, gpu::Painter> painters;
-    for (const auto& [view, painter] : painters_) {
+    decltype(painters_) painters;
+    for (const auto& [key, painter] : painters_) {
         LR_ASSIGN(gpu::Painter again, painter.again());
-        painters.emplace(view, std::move(again));
+        painters.emplace(key, std::move(again));
     }
     context_->wait_idle();  // the last picture may still be drawn with those that go
     *expander_ = std::move(expander);
@@ -159,17 +165,18 @@ Result<void> Scene::reload() {
     std::erase_if(entries_, [](const auto& entry) { return entry.first.source == gpu::Source::plain; });
     for (auto& [key, entry] : entries_) {
         entry.plans.clear();
-        entry.expanded.mesh.decoded = false;
+        entry.mesh.expanded.mesh.decoded = false;
     }
     return {};
 }
 
 UploadKey Scene::key_of(const Shown& shown, int side) {
     using With = UploadKey::With;
-    const With with = shown.view == gpu::View::offsets ? With::offsets
-                      : shown.view == gpu::View::wire  ? With::edges
-                      : shown.view == gpu::View::seams ? With::seams
-                                                       : With::ring;
+    const With with = shown.view == gpu::View::offsets    ? With::offsets
+                      : shown.view == gpu::View::wire     ? With::edges
+                      : shown.view == gpu::View::seams    ? With::seams
+                      : shown.view == gpu::View::material ? With::materials
+                                                          : With::ring;
     if (shown.source == gpu::Source::plain || (shown.mode != Mode::single && side == 0)) {
         return {gpu::Source::plain, gpu::Path::compute, with};
     }
@@ -177,7 +184,7 @@ UploadKey Scene::key_of(const Shown& shown, int side) {
 }
 
 /// True once all that `shown` needs of the model is in `entries`.
-Result<bool> Scene::upload(const std::shared_ptr<const gpu::Model>& model, const Shown& shown, Entries& entries) {
+Result<bool> Scene::upload(const std::shared_ptr<const OwningModel>& model, const Shown& shown, Entries& entries) {
     if (std::optional<Uploader::Done> done = uploader_->take()) {
         if (done->job.model == model) {
             if (done->error) return *done->error;
@@ -187,7 +194,7 @@ Result<bool> Scene::upload(const std::shared_ptr<const gpu::Model>& model, const
         }
     }
     Uploader::Job missing{model, {}};
-    for (int side = 0; side < sides_of(shown); ++side) {
+    for (int side = 0; side < shown.sides(); ++side) {
         const UploadKey key = key_of(shown, side);
         if (!entries.contains(key)) missing.keys.push_back(key);
     }
@@ -196,43 +203,45 @@ Result<bool> Scene::upload(const std::shared_ptr<const gpu::Model>& model, const
     return false;
 }
 
-Result<gpu::Painter*> Scene::painter(gpu::View view) {
-    const auto found = painters_.find(view);
+Result<gpu::Painter*> Scene::painter(gpu::View view, std::uint32_t samples) {
+    const std::pair key(view, samples);
+    const auto found = painters_.find(key);
     if (found != painters_.end()) return &found->second;
-    LR_ASSIGN(gpu::Painter made, gpu::Painter::create(*context_, view, samples_, adjacency_.has_value()));
-    return &painters_.emplace(view, std::move(made)).first->second;
+    LR_ASSIGN(gpu::Painter made, gpu::Painter::create(*context_, view, samples, adjacency_.has_value()));
+    return &painters_.emplace(key, std::move(made)).first->second;
 }
 
 Result<bool> Scene::prepare(const Shown& shown) {
     if (!model_) return true;
     // While another model is on its way, this one is drawn as far as it is there.
     if (adopting_) {
-        for (int side = 0; side < sides_of(shown); ++side) {
+        for (int side = 0; side < shown.sides(); ++side) {
             if (!entries_.contains(key_of(shown, side))) return false;
         }
     } else {
         LR_ASSIGN(const bool there, upload(model_, shown, entries_));
         if (!there) return false;
     }
-    LR_ASSIGN(gpu::Painter * by, painter(shown.view));
-    for (int side = 0; side < sides_of(shown); ++side) {
+    LR_ASSIGN(gpu::Painter * by, painter(shown.view, shown.samples));
+    for (int side = 0; side < shown.sides(); ++side) {
         Entry& entry = entries_.at(key_of(shown, side));
-        if (entry.plans.contains({shown.view, side})) continue;
+        const std::tuple key(shown.view, shown.samples, side);
+        if (entry.plans.contains(key)) continue;
         Plan plan{gpu::Descriptors(*context_), {}};
-        LR_ASSIGN(plan.draw, by->plan(plan.descriptors, entry.expanded.mesh, *targets_[side]));
-        entry.plans.emplace(std::pair(shown.view, side), std::move(plan));
+        const gpu::Target& target = *sides_.at(shown.samples).targets[side];
+        LR_ASSIGN(plan.draw, by->plan(plan.descriptors, entry.mesh.expanded.mesh, target));
+        entry.plans.emplace(key, std::move(plan));
     }
     return true;
 }
 
-void Scene::record_clear(VkCommandBuffer commands, int first) {
-    for (int side = first; side < 2; ++side) {
-        const gpu::Target& target = *targets_[side];
-        target.prepare(commands);
-        target.begin(commands, {.colour = true, .triangles = true, .clear_colour = true, .clear_depth = true});
-        gpu::Target::end(commands);
-        leave(commands, target);
-    }
+void Scene::record_clear(VkCommandBuffer commands) {
+    const gpu::Target& target = *sides_.at(1).targets[0];
+    target.prepare(commands);
+    target.begin(commands, {.colour = true, .triangles = true, .clear_colour = true, .clear_depth = true});
+    gpu::Target::end(commands);
+    leave(commands, target);
+    drawn_ = {.samples = 1};
     blank_ = false;
 }
 
@@ -240,51 +249,58 @@ Result<void> Scene::record_draw(VkCommandBuffer commands, const Shown& shown, co
     const auto stamp = [&](std::uint32_t i) {
         if (queries_) vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_.get(), i);
     };
-    view_ = shown.view;
-    const int sides = sides_of(shown);
-    if (blank_) record_clear(commands, sides);  // what is not drawn must be readable
-    const VkExtent2D drawn = targets_[0]->extent();
+    drawn_ = shown;
+    blank_ = false;
+    const int sides = shown.sides();
+    const auto& targets = sides_.at(shown.samples).targets;
+    const VkExtent2D drawn = targets[0]->extent();
     LR_ASSIGN(const gpu::Camera camera, gpu::make_camera(*model_, options, drawn.width, drawn.height));
-    edge_pixels_ = model_->mean_edge * camera.pixels_per_unit / samples_;
-    gpu::Painter& by = painters_.at(shown.view);
-    by.set_frame(*model_, camera, *targets_[0]);
+    edge_pixels_ = model_->mean_edge * camera.pixels_per_unit / shown.samples;
+    gpu::Painter& by = painters_.at({shown.view, shown.samples});
+    by.set_frame(*model_, camera, *targets[0]);
     if (adjacency_) {
         gpu::SilhouetteStyle style;
-        style.width *= static_cast<float>(samples_);
-        silhouettes_->set_frame(camera, *targets_[0], style);
+        style.crease = crease_;
+        style.width *= static_cast<float>(shown.samples);
+        silhouettes_->set_frame(camera, *targets[0], style);
     }
     if (queries_) vkCmdResetQueryPool(commands, queries_.get(), 0, kTimestamps);
     stamp(0);
     for (int side = 0; side < sides; ++side) {
-        gpu::ExpandedMesh& expanded = entries_.at(key_of(shown, side)).expanded;
+        gpu::ExpandedMesh& expanded = entries_.at(key_of(shown, side)).mesh.expanded;
         if (shown.decode_again && expanded.mesh.source != gpu::Source::plain) expanded.mesh.decoded = false;
         expander_->decode(commands, expanded);
     }
     stamp(1);
     for (int side = 0; side < sides; ++side) {
         Entry& entry = entries_.at(key_of(shown, side));
-        if (shown.exact) expander_->rotate(commands, entry.expanded);
-        by.record(commands, entry.expanded.mesh, entry.plans.at({shown.view, side}).draw, *targets_[side],
-                  shown.exact ? gpu::Painter::Ties::by_number : gpu::Painter::Ties::first_drawn);
-        if (adjacency_) silhouettes_->record(commands, *adjacency_, *targets_[side]);
+        if (shown.exact) expander_->rotate(commands, entry.mesh.expanded);
+        by.record(commands, entry.mesh.expanded.mesh, entry.plans.at({shown.view, shown.samples, side}).draw,
+                  *targets[side], shown.exact ? gpu::Painter::Ties::by_number : gpu::Painter::Ties::first_drawn);
+        if (adjacency_) silhouettes_->record(commands, *adjacency_, *targets[side]);
     }
     stamp(2);
     timed_ = static_cast<bool>(queries_);
-    for (int side = 0; side < sides; ++side) leave(commands, *targets_[side]);
+    for (int side = 0; side < sides; ++side) leave(commands, *targets[side]);
     return {};
 }
 
-Result<VkPipeline> Scene::compose_pipeline(Mode mode) {
+bool Scene::has_ring_line() const {
+    return parted_ && edge_pixels_ > kLeastEdge;
+}
+
+Result<VkPipeline> Scene::compose_pipeline() {
+    const auto [mode, view] = std::pair(drawn_.mode, drawn_.view);
     const std::uint32_t how = mode == Mode::single  ? LR_COMPOSE_LEFT
                               : mode == Mode::split ? LR_COMPOSE_SPLIT
                                                     : LR_COMPOSE_DIFFERENCE;
     std::uint32_t paint = painted_ ? LR_PAINT_TRIANGLES : LR_PAINT_NONE;
     if (grows_) paint |= LR_PAINT_GROWTH;
-    if (grows_ && edge_pixels_ > kLeastEdge) paint |= LR_PAINT_RING;
-    const bool grey =
-        view_ == gpu::View::smooth || view_ == gpu::View::flat || view_ == gpu::View::wire || view_ == gpu::View::seams;
+    if (has_ring_line()) paint |= LR_PAINT_RING;
+    const bool grey = view == gpu::View::smooth || view == gpu::View::flat || view == gpu::View::wire ||
+                      view == gpu::View::seams || view == gpu::View::silhouette;
     if (paint != LR_PAINT_NONE && !grey) paint |= LR_PAINT_FLAT;
-    const std::array<std::uint32_t, 3> constants{how, samples_, paint};
+    const std::array<std::uint32_t, 3> constants{how, drawn_.samples, paint};
     gpu::PipelineHandle& made = compose_[constants];
     if (!made) {
         LR_ASSIGN(made, gpu::create_compute(*context_, "compose", layout_, spirv_compose_comp, constants));
@@ -292,25 +308,25 @@ Result<VkPipeline> Scene::compose_pipeline(Mode mode) {
     return made.get();
 }
 
-Result<void> Scene::record_compose(VkCommandBuffer commands, Mode mode, std::uint32_t divider) {
-    LR_ASSIGN(const VkPipeline pipeline, compose_pipeline(mode));
+Result<void> Scene::record_compose(VkCommandBuffer commands, std::uint32_t divider) {
+    LR_ASSIGN(const VkPipeline pipeline, compose_pipeline());
     gpu::image_barrier(commands, composed_.handle(), composed_.aspect(), kTransferRead, kComposeWrite,
                        VK_IMAGE_LAYOUT_UNDEFINED, kGeneral);
     gpu::ComposeConstants push{};
     push.divider = divider;
-    push.triangles = (painted_ || grows_) && model_ ? model_->triangle_count() : 0;
+    push.triangles = (painted_ || parted_) && model_ ? model_->triangle_count() : 0;
     push.invaded = invaded_;
     push.fresh = fresh_;
     // The ring's line, faded and thinned like the one of the view of the ring (renderer/draw/painter.cpp).
     const double strength = std::clamp((edge_pixels_ - 1) / 9, 0.0, 1.0);
     const double closer = std::clamp((edge_pixels_ - 10) / 40, 0.0, 1.0);
-    const auto width = static_cast<std::uint32_t>(std::lround((0.7 + 1.5 * strength + 1.3 * closer) * samples_));
+    const auto width = static_cast<std::uint32_t>(std::lround((0.7 + 1.5 * strength + 1.3 * closer) * drawn_.samples));
     push.inner = (width + 1) / 2;
     push.outer = width / 2;
     push.line_opacity = static_cast<float>(0.15 + 0.80 * strength);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.pipeline(), 0, 1,
-                            &sets_[mode == Mode::single ? 0 : 1], 0, nullptr);
+                            &sides_.at(drawn_.samples).sets[drawn_.sides() - 1], 0, nullptr);
     vkCmdPushConstants(commands, layout_.pipeline(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(push), &push);
     vkCmdDispatch(commands, (extent_.width + kGroup - 1) / kGroup, (extent_.height + kGroup - 1) / kGroup, 1);
     gpu::image_barrier(commands, composed_.handle(), composed_.aspect(), kComposeWrite, kTransferRead, kGeneral,
@@ -332,12 +348,12 @@ std::optional<SceneTimes> Scene::times() const {
 
 Result<std::optional<std::uint32_t>> Scene::triangle_at(std::uint32_t x, std::uint32_t y, bool right) {
     if (!model_ || x >= extent_.width || y >= extent_.height) return std::optional<std::uint32_t>{};
-    const gpu::Image& image = targets_[right ? 1 : 0]->triangles();
+    const gpu::Image& image = sides_.at(drawn_.samples).targets[right ? 1 : 0]->triangles();
+    const std::uint32_t n = drawn_.samples;
     LR_ASSIGN(const VkCommandBuffer commands, commands_->begin());
     VkBufferImageCopy region{};
     region.imageSubresource = {image.aspect(), 0, 0, 1};
-    region.imageOffset = {static_cast<std::int32_t>(x * samples_ + samples_ / 2),
-                          static_cast<std::int32_t>(y * samples_ + samples_ / 2), 0};
+    region.imageOffset = {static_cast<std::int32_t>(x * n + n / 2), static_cast<std::int32_t>(y * n + n / 2), 0};
     region.imageExtent = {1, 1, 1};
     constexpr VkImageLayout kSource = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
     gpu::image_barrier(commands, image.handle(), image.aspect(), kComposeRead, kTransferRead, kGeneral, kSource);
@@ -353,7 +369,8 @@ Result<std::optional<std::uint32_t>> Scene::triangle_at(std::uint32_t x, std::ui
 
 Result<gpu::Difference> Scene::difference() {
     LR_ASSIGN(const VkCommandBuffer commands, commands_->begin());
-    for (const auto& target : targets_) {
+    const auto& targets = sides_.at(drawn_.samples).targets;
+    for (const auto& target : targets) {
         for (const gpu::Image* image : {&target->colour(), &target->triangles()}) {
             gpu::image_barrier(commands, image->handle(), image->aspect(), kComposeRead, kColourWrite, kGeneral,
                                VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
@@ -365,7 +382,60 @@ Result<gpu::Difference> Scene::difference() {
         }
     }
     LR_TRY(commands_->run());
-    return gpu::difference(targets_[0]->picture(), targets_[1]->picture());
+    return gpu::difference(targets[0]->picture(), targets[1]->picture());
+}
+
+Result<void> Scene::hold(gpu::Buffer& buffer, const char* name, std::size_t bytes) {
+    if (buffer.size() >= bytes && buffer.mapped() != nullptr) return {};
+    LR_ASSIGN(buffer,
+              gpu::Buffer::create(*context_, name, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Memory::upload));
+    return write_sets();
+}
+
+Result<void> Scene::set_paint(std::span<const std::uint32_t> colours) {
+    under_marks_.clear();
+    painted_ = coloured_ = !colours.empty();
+    if (!painted_) return {};
+    LR_TRY(hold(paint_, "paint", colours.size_bytes()));
+    std::memcpy(paint_.mapped(), colours.data(), colours.size_bytes());
+    return {};
+}
+
+Result<void> Scene::set_marks(std::span<const Mark> marks) {
+    const auto exchange = [&](const Mark& mark) {
+        std::byte* at = paint_.mapped() + sizeof(std::uint32_t) * mark.triangle;
+        Mark under = mark;
+        std::memcpy(&under.colour, at, sizeof(under.colour));
+        std::memcpy(at, &mark.colour, sizeof(mark.colour));
+        return under;
+    };
+    while (!under_marks_.empty()) {  // a triangle may have been marked twice
+        exchange(under_marks_.back());
+        under_marks_.pop_back();
+    }
+    painted_ = coloured_ || !marks.empty();
+    if (marks.empty() || !model_) return {};
+    if (!coloured_) {
+        const std::size_t bytes = sizeof(std::uint32_t) * std::size_t{model_->triangle_count()};
+        LR_TRY(hold(paint_, "paint", bytes));
+        std::memset(paint_.mapped(), 0, bytes);
+    }
+    for (const Mark& mark : marks) under_marks_.push_back(exchange(mark));
+    return {};
+}
+
+Result<void> Scene::set_sides(std::span<const gpu::GrowthTriangle> triangles, bool colours) {
+    parted_ = !triangles.empty();
+    grows_ = parted_ && colours;
+    if (!parted_) return {};
+    LR_TRY(hold(growth_, "growth", triangles.size_bytes()));
+    std::memcpy(growth_.mapped(), triangles.data(), triangles.size_bytes());
+    return {};
+}
+
+void Scene::grow(std::uint32_t invaded, std::uint32_t fresh) {
+    invaded_ = invaded;
+    fresh_ = fresh;
 }
 
 }  // namespace lacedring::view

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "app/view/scene/vector.h"
+#include "app/view/session/vector.h"
 
 namespace lacedring::view {
 namespace {
@@ -20,12 +20,16 @@ Vector place(const gpu::Model& model, std::uint32_t v) {
 
 }  // namespace
 
+Vector place_of(const Document& document, CornerId corner) {
+    return place(*document.model, document.copy_at(corner));
+}
+
 CornerId nearest_corner(const Document& document, std::uint32_t t, const Vector& eye, const Vector& ray) {
     CornerId best = kNullCorner;
     double distance = std::numeric_limits<double>::infinity();
     for (std::uint32_t i = 0; i < 3; ++i) {
         const CornerId c = lacedring::corner(TriangleId{t}, i);
-        const Vector d = cross(place(*document.model, document.copy_at(c)) - eye, ray);
+        const Vector d = cross(place_of(document, c) - eye, ray);
         if (dot(d, d) < distance) {
             distance = dot(d, d);
             best = c;
@@ -112,11 +116,11 @@ std::vector<Mark> selection_marks(const Document& document, CornerId corner) {
 }
 
 std::pair<Vector, double> ball(const Document& document, CornerId corner) {
-    const Vector centre = place(*document.model, document.copy_at(corner));
+    const Vector centre = place_of(document, corner);
     double squared = 0;
     for (const CornerId c : around(*document.table, corner)) {
         for (const CornerId other : {next(c), previous(c)}) {
-            const Vector d = place(*document.model, document.copy_at(other)) - centre;
+            const Vector d = place_of(document, other) - centre;
             squared = std::max(squared, dot(d, d));
         }
     }

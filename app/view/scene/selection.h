@@ -17,6 +17,9 @@ struct Selection {
     bool any() const { return !corner.is_null(); }
 };
 
+/// The corner's vertex, in the mesh's coordinates, as it is drawn.
+std::array<double, 3> place_of(const Document& document, CornerId corner);
+
 /// The corner of triangle t whose vertex is nearest to the ray, mesh coordinates.
 CornerId nearest_corner(const Document& document, std::uint32_t t, const std::array<double, 3>& eye,
                         const std::array<double, 3>& ray);

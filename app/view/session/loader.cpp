@@ -10,6 +10,7 @@
 
 #include "app/cli/input.h"
 #include "app/formats/formats.h"
+#include "app/view/session/coarse.h"
 #include "app/view/session/files.h"
 #include "lacedring/lacedring.hpp"
 #include "lacedring/streams.hpp"
@@ -25,37 +26,33 @@ using Clock = std::chrono::steady_clock;
 constexpr double kSoon = 0.25;  // seconds after which something must be seen of a ring that was asked for
 // Two jobs do not compute at once, unless the older one has not noticed for so long that it was stopped.
 constexpr std::chrono::seconds kTurn{1};
+constexpr std::size_t kLarge = 2000000;  // triangles of a mesh that has a stand-in
 constexpr std::size_t kMostReaders = 8;  // files and folders being read, those that nobody waits for any more included
 
-StreamFigures figures(std::size_t triangles, std::size_t bytes, std::size_t references, std::size_t vertices,
-                      const std::vector<std::uint32_t>& indices) {
-    StreamFigures out;
-    const auto count = static_cast<double>(std::max<std::size_t>(1, triangles));
-    out.bytes = bytes;
-    out.references = static_cast<double>(references) / count;
-    out.bits = 8.0 * static_cast<double>(bytes) / count;
-    out.acmr = analyze_fifo32(indices, vertices).acmr;
-    return out;
-}
-
 void measure(Document& document) {
-    const std::size_t triangles = document.mesh->triangle_count() - document.table->topology.degenerate;
-    const std::size_t vertices = document.mesh->vertex_count;
-    document.plain = figures(triangles, 4 * document.mesh->indices.size(), document.mesh->indices.size(), vertices,
-                             document.mesh->indices);
+    const auto figures = [&](std::size_t bytes, std::size_t references, const std::vector<std::uint32_t>& indices) {
+        StreamFigures out;
+        out.bytes = bytes;
+        out.bits = document.bits_per_triangle(bytes);
+        out.references = document.bits_per_triangle(references) / 8;
+        out.acmr = analyze_fifo32(indices, document.mesh->vertex_count).acmr;
+        return out;
+    };
+    const std::vector<std::uint32_t>& listed = document.mesh->indices;
+    document.plain = figures(4 * listed.size(), listed.size(), listed);
     const LeanView& lean = document.views.lean;
     std::vector<std::uint32_t> indices(std::size_t{3} * lean.slots());
     decode_lean(lean, indices);
-    document.lean = figures(triangles, lean.bytes(), lean.references(), vertices, indices);
+    document.lean = figures(lean.bytes(), lean.references(), indices);
     if (document.model->packed.words.empty()) return;
     const PackedView& packed = document.views.packed;
     indices.resize(std::size_t{3} * packed.triangles);
     decode_packed(packed, indices);
-    document.packed = figures(triangles, packed.bytes(), 0, vertices, indices);
+    document.packed = figures(packed.bytes(), 0, indices);
 }
 
 /// A model whose streams are made, and their figures.
-Result<void> set_model(Document& document, std::shared_ptr<const gpu::Model> model) {
+Result<void> set_model(Document& document, std::shared_ptr<const OwningModel> model) {
     const gpu::Source source = model->packed.words.empty() ? gpu::Source::lean : gpu::Source::packed;
     LR_ASSIGN(document.views, gpu::view_streams(*model, source));
     document.model = std::move(model);
@@ -107,8 +104,9 @@ class Loader::Job {
   private:
     void work();
     Result<app::LoadedMesh> read();
-    Result<void> make(Document& document);
+    Result<void> make(Document& document, const std::shared_ptr<const Materials>& materials, bool has_materials);
     Result<void> finish(Document& document, bool quick);
+    void show_stand_in(const app::LoadedMesh& loaded);
     void measure_formats(const Document& document);
     bool begin_computing();
     bool stopped() const { return stop_.load(); }
@@ -297,7 +295,7 @@ Result<void> Loader::Job::finish(Document& document, bool quick) {
         Result<EncodedLean> lean = encode_lean(table, rings, {.wart_skipping = settings.warts});
         if (!lean) return;  // reported when the optimized rings are encoded
         Document early = document;
-        auto model = std::make_shared<gpu::Model>(*document.model);
+        auto model = std::make_shared<OwningModel>(*document.model);
         model->lean = std::move(*lean);
         model->packed = {};
         if (!gpu::encode_seams(*model)) return;
@@ -324,7 +322,7 @@ Result<void> Loader::Job::finish(Document& document, bool quick) {
     auto lean_rings = std::make_shared<Rings>(
         optimize_rings(table, rings, optimise_options(kLeanRingCost, share, 0.8, "optimising the ring")));
     if (stopped()) return {};
-    auto model = std::make_shared<gpu::Model>(*document.model);
+    auto model = std::make_shared<OwningModel>(*document.model);
     LR_ASSIGN(model->lean, encode_lean(table, *lean_rings, {.wart_skipping = settings.warts}));
     if (!quick) {
         const OptimizeOptions optimise =
@@ -345,7 +343,8 @@ Result<void> Loader::Job::finish(Document& document, bool quick) {
 }
 
 /// The corner table and the surface of a mesh, shown with a quick ring.
-Result<void> Loader::Job::make(Document& document) {
+Result<void> Loader::Job::make(Document& document, const std::shared_ptr<const Materials>& materials,
+                               bool has_materials) {
     say("building the corner table", 0.3);
     const Surface& surface = *document.surface;
     const Mesh joined = surface_mesh(*document.mesh, surface);
@@ -353,9 +352,26 @@ Result<void> Loader::Job::make(Document& document) {
     if (stopped()) return {};
     document.table = std::make_shared<const CornerTable>(std::move(table));
     LR_ASSIGN(gpu::Model model, gpu::make_surface(*document.mesh, surface));
-    document.model = std::make_shared<const gpu::Model>(std::move(model));
+    gpu::add_materials(model, *document.mesh, *materials);
+    document.model =
+        std::make_shared<const OwningModel>(OwningModel{std::move(model), document.mesh, materials, has_materials});
     if (stopped()) return {};
     return finish(document, true);
+}
+
+/// A coarse mesh in the place of one that takes long to make a ring of.
+void Loader::Job::show_stand_in(const app::LoadedMesh& loaded) {
+    if (loaded.mesh.triangle_count() < kLarge) return;
+    say("making a coarse stand-in", 0.2);
+    Document document;
+    document.path = path();
+    document.stand_in = loaded.mesh.triangle_count();
+    Mesh mesh = coarse(loaded.mesh);
+    auto surface = std::make_shared<Surface>();
+    surface->vertex_count = mesh.vertex_count;
+    document.mesh = std::make_shared<const Mesh>(std::move(mesh));
+    document.surface = std::move(surface);
+    if (!make(document, std::make_shared<const Materials>(), false)) return;  // the mesh itself will say why
 }
 
 /// The figures of every format, with the ring recommended for each: once for a mesh, unless another ring was asked for
@@ -391,21 +407,28 @@ void Loader::Job::work() {
         if (!read_mesh) return fail(read_mesh.error().message);
         if (!begin_computing()) return;
         document.path = path();
+        show_stand_in(*read_mesh);
+        if (stopped()) return;
         document.mesh = std::make_shared<const Mesh>(std::move(read_mesh->mesh));
         document.surface = std::make_shared<const Surface>(std::move(read_mesh->surface));
-        if (const Result<void> made = make(document); !made) return fail(made.error().message);
+        const bool has_materials = read_mesh->has_materials();
+        const auto materials = std::make_shared<const Materials>(std::move(read_mesh->materials));
+        if (const Result<void> made = make(document, materials, has_materials); !made)
+            return fail(made.error().message);
     } else {
         if (!begin_computing()) return;
         document = *request_.document;
         document.optimised = true;  // shown already: the bar begins with the ring
     }
     if (stopped()) return;
+    if (reads()) document.report = report_topology(*document.table);
     if (const Result<void> done = finish(document, false); !done) return fail(done.error().message);
     if (stopped()) return;
 
     say("making LR tables", 0, true);
     if (Result<EncodedLr> lr = encode_lr(*document.table, ring_options(request_.settings, true))) {
         if (Result<Tables> tables = make_tables(document.mesh, std::move(*lr))) {
+            tables->crease = crease_angle(document);
             const std::lock_guard lock(shared_->mutex);
             if (stop_) return;
             shared_->news.tables = std::make_shared<const Tables>(std::move(*tables));

@@ -1,7 +1,14 @@
 // The LR tables behind a selected corner.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
 #include "app/view/session/document.h"
+#include "app/view/session/vector.h"
 #include "lacedring/lacedring.hpp"
 #include "lacedring/operators.hpp"
 #include "lacedring/streams.hpp"
@@ -35,11 +42,58 @@ CornerId from_lr(const Tables& tables, const Operators<LrView>& operators, const
 
 }  // namespace
 
+double crease_angle(const Document& document) {
+    const CornerTable& table = *document.table;
+    const gpu::Model& model = *document.model;
+    const auto at = [&](CornerId c) {
+        const std::size_t v = document.copy_at(c);
+        return Vector{model.positions[3 * v], model.positions[3 * v + 1], model.positions[3 * v + 2]};
+    };
+    const auto normal = [&](CornerId c) {
+        const Vector a = at(c);
+        return unit(cross(at(next(c)) - a, at(previous(c)) - a));
+    };
+    struct Fold {
+        std::uint32_t a, b;
+        double cosine;
+    };
+    constexpr std::array kAngles{40.0, 55.0, 70.0, 90.0};
+    const auto cosine_of = [](double degrees) { return std::cos(degrees * std::numbers::pi / 180); };
+    std::vector<Fold> folds;
+    for (std::uint32_t i = 0; i < table.corners.size(); ++i) {
+        const CornerId c{i}, o = table.opposite(c);
+        if (o.is_null() || o.value < i) continue;
+        const double cosine = dot(normal(c), normal(o));
+        if (cosine < cosine_of(kAngles[0])) {
+            folds.push_back({table.vertex(next(c)).value, table.vertex(previous(c)).value, cosine});
+        }
+    }
+    // Folds that touch each other form a line; one of few edges is none that a person sees.
+    constexpr std::uint32_t kLine = 6;
+    std::vector<std::uint32_t> root(table.vertex_count), edges(table.vertex_count);
+    const auto find = [&](std::uint32_t v) {
+        while (root[v] != v) v = root[v] = root[root[v]];
+        return v;
+    };
+    for (const double angle : kAngles) {
+        std::iota(root.begin(), root.end(), 0U);
+        std::ranges::fill(edges, 0U);
+        std::erase_if(folds, [&](const Fold& fold) { return fold.cosine >= cosine_of(angle); });
+        for (const Fold& fold : folds) root[find(fold.a)] = find(fold.b);
+        for (const Fold& fold : folds) ++edges[find(fold.a)];
+        const auto lone = std::ranges::count_if(folds, [&](const Fold& fold) { return edges[find(fold.a)] < kLine; });
+        if (5 * static_cast<std::size_t>(lone) <= folds.size()) return angle;
+    }
+    return 180;
+}
+
 Result<Tables> make_tables(std::shared_ptr<const Mesh> mesh, EncodedLr lr) {
     const Result<LrStreamView<LrView>> stream = view_lr(lr.words);
     if (!stream) return stream.error();
     const Operators<LrView> operators(stream->view);
-    Tables out{std::move(mesh), {}, stream->view, {}, {}};
+    Tables out;
+    out.mesh = std::move(mesh);
+    out.view = stream->view;
     out.number.assign(out.mesh->triangle_count(), UINT32_MAX);
     out.triangle.assign(stream->view.triangle_numbers(), UINT32_MAX);
     std::size_t i = 0;

@@ -15,7 +15,10 @@ gpu::UploadOptions options_of(const UploadKey& key) {
     using Lines = gpu::UploadOptions::Lines;
     out.ring = key.with == UploadKey::With::ring || key.with == UploadKey::With::offsets;
     out.offsets = key.with == UploadKey::With::offsets;
-    out.lines = out.ring ? Lines::ring : key.with == UploadKey::With::edges ? Lines::edges : Lines::seams;
+    out.lines = out.ring                             ? Lines::ring
+                : key.with == UploadKey::With::edges ? Lines::edges
+                : key.with == UploadKey::With::seams ? Lines::seams
+                                                     : Lines::none;
     return out;
 }
 
@@ -23,7 +26,7 @@ gpu::UploadOptions options_of(const UploadKey& key) {
 
 Result<std::unique_ptr<Uploader>> Uploader::create(gpu::Context& context, std::function<void()> wake) {
     LR_ASSIGN(gpu::Transfer transfer, gpu::Transfer::create(context));
-    std::unique_ptr<Uploader> out(new Uploader(std::move(transfer), std::move(wake)));
+    std::unique_ptr<Uploader> out(new Uploader(context, std::move(transfer), std::move(wake)));
     out->transfer_.stop_when(&out->stop_);
     LR_ASSIGN(out->thread_, start_thread([uploader = out.get()] { uploader->run(); }));
     return out;
@@ -71,10 +74,28 @@ void Uploader::finish() {
     changed_.wait(lock, [&] { return !working_ && !next_; });
 }
 
+/// Those of another ring's model are the same.
+Result<std::shared_ptr<const UploadedMaterials>> Uploader::materials_of(const OwningModel& model) {
+    std::shared_ptr<const UploadedMaterials> out = materials_.lock();
+    const std::uint32_t triangles = model.triangle_count();
+    if (out && out->of == model.owned_materials && out->triangles == triangles) return out;
+    LR_ASSIGN(gpu::GpuMaterials device, gpu::upload_materials(context_, transfer_, model.materials, triangles));
+    out = std::make_shared<const UploadedMaterials>(
+        UploadedMaterials{model.owned_materials, triangles, std::move(device)});
+    materials_ = out;
+    return out;
+}
+
 Result<void> Uploader::upload(Done& done, gpu::Expander& expander) {
     try {
         for (const UploadKey& key : done.job.keys) {
-            LR_ASSIGN(gpu::ExpandedMesh mesh, expander.upload(transfer_, *done.job.model, key.source, options_of(key)));
+            gpu::UploadOptions options = options_of(key);
+            UploadedMesh mesh;
+            if (key.with == UploadKey::With::materials) {
+                LR_ASSIGN(mesh.materials, materials_of(*done.job.model));
+                options.materials = mesh.materials->device.table.address_words();
+            }
+            LR_ASSIGN(mesh.expanded, expander.upload(transfer_, *done.job.model, key.source, options));
             done.meshes.push_back(std::move(mesh));
         }
     } catch (const std::bad_alloc&) {

@@ -11,18 +11,34 @@
 #include <thread>
 #include <vector>
 
+#include "app/view/session/document.h"
 #include "renderer/decode/expander.h"
+#include "renderer/mesh/gpu_materials.h"
 
 namespace lacedring::view {
+
+/// Materials on the device, and those that they were made of.
+struct UploadedMaterials {
+    std::shared_ptr<const Materials> of;  ///< null: one grey material
+    std::uint32_t triangles = 0;
+    gpu::GpuMaterials device;
+};
+
+/// A mesh on the device, with what it points to there.
+struct UploadedMesh {
+    gpu::ExpandedMesh expanded;
+    std::shared_ptr<const UploadedMaterials> materials;  ///< UploadKey::With::materials
+};
 
 /// What is put there of a model, and with what beside its triangles.
 struct UploadKey {
     enum class With {
-        ring,
-        offsets,
-        edges,
-        seams
-    };  ///< ring order, classes and the ring's lines; sizes of offsets; all edges; seams
+        ring,      ///< ring order, classes and the ring's lines
+        offsets,   ///< sizes of offsets
+        edges,     ///< all edges
+        seams,     ///< seams
+        materials  ///< materials and textures
+    };
     gpu::Source source = gpu::Source::plain;
     gpu::Path path = gpu::Path::compute;
     With with = With::ring;
@@ -33,15 +49,15 @@ struct UploadKey {
 class Uploader {
   public:
     struct Job {
-        std::shared_ptr<const gpu::Model> model;
+        std::shared_ptr<const OwningModel> model;
         std::vector<UploadKey> keys;
 
         bool operator==(const Job&) const = default;
     };
     struct Done {
         Job job;
-        std::vector<gpu::ExpandedMesh> meshes;  ///< one a key
-        std::optional<Error> error;             ///< then there are none
+        std::vector<UploadedMesh> meshes;  ///< one a key
+        std::optional<Error> error;        ///< then there are none
     };
 
     /// `wake` is called by the thread when something is done. Errors: kDeviceFailure (no thread, and Vulkan's).
@@ -63,11 +79,13 @@ class Uploader {
     bool stop(std::chrono::milliseconds patience);
 
   private:
-    Uploader(gpu::Transfer transfer, std::function<void()> wake)
-        : transfer_(std::move(transfer)), wake_(std::move(wake)) {}
+    Uploader(gpu::Context& context, gpu::Transfer transfer, std::function<void()> wake)
+        : context_(context), transfer_(std::move(transfer)), wake_(std::move(wake)) {}
     void run();
     Result<void> upload(Done& done, gpu::Expander& expander);
+    Result<std::shared_ptr<const UploadedMaterials>> materials_of(const OwningModel& model);
 
+    gpu::Context& context_;
     gpu::Transfer transfer_;
     std::function<void()> wake_;
     mutable std::mutex mutex_;
@@ -77,6 +95,7 @@ class Uploader {
     std::optional<Done> done_;
     std::atomic<bool> stop_ = false;  // what is being done
     bool working_ = false, quit_ = false;
+    std::weak_ptr<const UploadedMaterials> materials_;  // uploaded last; the thread's own
     std::thread thread_;
 };
 

@@ -24,24 +24,19 @@ void letter(ImVec2 place, const char* text, std::uint32_t colour) {
 }
 
 void mark_selection(const State& state, const Orbit& orbit, double width, double height) {
-    const Document& document = *state.document;
+    const Document& document = *state.facts.document;
     const auto place = [&](CornerId c, double towards) {
         // A corner is drawn inside its triangle, near its vertex.
         Vector p{};
         const double weight[3] = {towards, (1 - towards) / 2, (1 - towards) / 2};
         const CornerId corners[3] = {c, next(c), previous(c)};
         for (std::size_t j = 0; j < 3; ++j) {
-            const std::size_t v = document.copy_at(corners[j]);
-            for (std::size_t i = 0; i < 3; ++i) {
-                const double x = static_cast<double>(document.model->positions[3 * v + i]) * document.model->radius +
-                                 document.model->centre[i];
-                p[i] += weight[j] * x;
-            }
+            p = p + place_of(document, corners[j]) * weight[j];
         }
         return orbit.project(p, height, width);
     };
     const CornerTable& table = *document.table;
-    const CornerId c = state.selection.corner;
+    const CornerId c = state.facts.selection.corner;
     const std::array<std::tuple<CornerId, const char*, std::uint32_t>, 7> marks{
         {{table.swing(c), "s", kFanColour},
          {table.right(c), "r", kRightColour},
@@ -84,10 +79,10 @@ void tag(const char* text, float x, float y, float side) {
 }  // namespace
 
 void draw_marks(const State& state, const Orbit& orbit, std::uint32_t width, std::uint32_t height) {
-    if (!state.panels) return;
-    if (state.document && state.selection.any()) mark_selection(state, orbit, width, height);
-    if (state.shown.mode != Mode::split) return;
-    const auto x = static_cast<float>(state.divider * width);
+    if (!state.choices.panels) return;
+    if (state.facts.document && state.facts.selection.any()) mark_selection(state, orbit, width, height);
+    if (state.choices.shown.mode != Mode::split) return;
+    const auto x = static_cast<float>(state.choices.divider * width);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     list.AddLine({x, 0}, {x, static_cast<float>(height)}, IM_COL32(20, 21, 24, 255), px(1.5F));
     const float middle = static_cast<float>(height) / 2;
@@ -96,8 +91,12 @@ void draw_marks(const State& state, const Orbit& orbit, std::uint32_t width, std
                            IM_COL32(222, 107, 33, 255));
     list.AddTriangleFilled({x + px(7), middle}, {x + px(2), middle - px(4)}, {x + px(2), middle + px(4)},
                            IM_COL32(222, 107, 33, 255));
-    tag("index list", x, px(14), -1);
-    tag(std::ranges::find(kSources, state.shown.source, &gpu::Named<gpu::Source>::value)->label, x, px(14), 1);
+    const float top = static_cast<float>(state.facts.free.top) + px(14);
+    tag("index list", x, top, -1);
+    tag(state.choices.shown.source == gpu::Source::packed  ? "packed"
+        : state.choices.shown.source == gpu::Source::plain ? "index list"
+                                                           : "lean",
+        x, top, 1);
 }
 
 }  // namespace lacedring::view

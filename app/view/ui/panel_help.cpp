@@ -1,4 +1,4 @@
-// Keys and mouse, over the picture. docs/viewer.md has the same list, viewer_input.cpp does what it says.
+// Keys and mouse, over the picture. docs/viewer.md has the same list, controls.cpp does what it says.
 #include <imgui.h>
 
 #include <algorithm>
@@ -24,6 +24,7 @@ constexpr Line kLines[] = {{nullptr, "Camera"},
                            {"T, shift + T", "turntable; a whole turn as PNG files"},
                            {nullptr, "Picture"},
                            {"V, shift + V", "next view, previous view"},
+                           {"E", "the ring's line on and off"},
                            {"X", "split screen: index list, stream"},
                            {"D", "difference of the two"},
                            {"G", "watch the ring-expander grow"},

@@ -31,9 +31,9 @@ ImU32 linear(float r, float g, float b) {
 /// The ring is drawn black; on this ground only a pale edge shows it.
 const ImU32 kLine = IM_COL32(12, 12, 14, 255), kGrey = IM_COL32(176, 176, 176, 255);
 
-void add_view(const State& state, std::vector<Entry>& out) {
+void add_view(const State& state, bool ring_line, std::vector<Entry>& out) {
     const ImU32 t0 = linear(0.13F, 0.42F, 0.10F), none = linear(0.30F, 0.30F, 0.30F);  // as surface.frag has them
-    switch (state.shown.view) {
+    switch (state.choices.shown.view) {
         case gpu::View::triangle_class:
             out.push_back({Entry::line, {kLine}, "the ring"});
             out.push_back({Entry::swatch, {linear(0.82F, 0.70F, 0.44F)}, "T1 on its left"});
@@ -69,17 +69,21 @@ void add_view(const State& state, std::vector<Entry>& out) {
         default:
             break;
     }
+    if (ring_line) out.push_back({Entry::line, {kLine}, "the ring"});
+    // Edges that are hardly longer than a pixel have no line.
+    if (!ring_line && state.choices.layers().sides == Paint::ring)
+        out.push_back({Entry::text, {}, "the ring: zoom in"});
 }
 
 void add_paint(const State& state, std::vector<Entry>& out) {
     const ImU32 some[] = {IM_COL32(214, 96, 60, 255), IM_COL32(66, 140, 196, 255), IM_COL32(96, 164, 108, 255)};
     const std::vector<ImU32> many(std::begin(some), std::end(some));
-    if (state.paint == Paint::corridors) {
+    if (state.choices.paint == Paint::corridors) {
         out.push_back({Entry::swatch, many, "corridors: strips of T1"});
         out.push_back({Entry::swatch, {kGrey}, "in none: T0, T2"});
-    } else if (state.paint == Paint::blocks) {
+    } else if (state.choices.paint == Paint::blocks) {
         out.push_back({Entry::swatch, many, "blocks of packed: 256 triangles"});
-    } else if (state.paint == Paint::growth) {
+    } else if (state.choices.paint == Paint::growth) {
         const auto swatch = [&](unsigned r, unsigned g, unsigned b, const char* what) {
             out.push_back({Entry::swatch, {IM_COL32(r, g, b, 255)}, what});
         };
@@ -92,51 +96,55 @@ void add_paint(const State& state, std::vector<Entry>& out) {
         swatch(LR_GROWTH_NOT_YET_COLOUR, "not yet reached");
         line(LR_GROWTH_LINE_COLOUR, "the ring, where it will stay");
         line(LR_GROWTH_FRONT_COLOUR, "front: may still be crossed");
-        const double end = state.growth_end();
-        out.push_back({Entry::text,
-                       {},
-                       fmt::format("{} of {} invaded", grouped(static_cast<std::uint64_t>(std::min(state.growth, end))),
-                                   grouped(static_cast<std::uint64_t>(end)))});
+        const double end = state.facts.growth_end();
+        out.push_back(
+            {Entry::text,
+             {},
+             fmt::format("{} of {} invaded", grouped(static_cast<std::uint64_t>(std::min(state.choices.growth, end))),
+                         grouped(static_cast<std::uint64_t>(end)))});
     }
 }
 
 void add_difference(const State& state, std::vector<Entry>& out) {
-    if (state.shown.mode == Mode::single) return;
-    if (state.shown.mode == Mode::difference) {
+    if (state.choices.shown.mode == Mode::single) return;
+    if (state.choices.shown.mode == Mode::difference) {
         out.push_back({Entry::swatch, {IM_COL32(217, 15, 15, 255)}, "index list and stream differ"});
         out.push_back({Entry::swatch, {IM_COL32(236, 236, 236, 255)}, "they are the same"});
     }
-    if (!state.difference) return;
-    out.push_back(
-        {Entry::text,
-         {},
-         fmt::format("{} of {} pixels differ", grouped(state.difference->pixels), grouped(state.difference->covered))});
+    if (!state.facts.difference) return;
     out.push_back({Entry::text,
                    {},
-                   state.difference->triangles == 0
+                   fmt::format("{} of {} pixels differ", grouped(state.facts.difference->pixels),
+                               grouped(state.facts.difference->covered))});
+    out.push_back({Entry::text,
+                   {},
+                   state.facts.difference->triangles == 0
                        ? "all show the same triangle"
-                       : fmt::format("{} show another triangle", grouped(state.difference->triangles))});
+                       : fmt::format("{} show another triangle", grouped(state.facts.difference->triangles))});
 }
 
-std::vector<Entry> entries(const State& state) {
+std::vector<Entry> entries(const State& state, bool ring_line) {
     std::vector<Entry> out;
-    if (state.shown.mode != Mode::difference) {
-        if (state.paint == Paint::none) {
-            add_view(state, out);
+    if (state.choices.shown.mode != Mode::difference) {
+        if (state.choices.paint == Paint::none) {
+            add_view(state, ring_line, out);
         } else {
             add_paint(state, out);
         }
-        if (state.outlines) out.push_back({Entry::line, {kLine}, "silhouettes, borders, creases"});
+        if (state.choices.has_outlines()) out.push_back({Entry::line, {kLine}, "silhouettes, borders, creases"});
     }
     add_difference(state, out);
     return out;
 }
 
-constexpr float kMark = 42;  // nominal pixels before the words
+constexpr float kMark = 42, kBetween = 18;  // nominal pixels before the words, and between entries
 
-void draw(const Entry& entry) {
+float width_of(const Entry& entry) {
+    return ImGui::CalcTextSize(entry.what.c_str()).x + (entry.kind == Entry::text ? 0 : px(kMark));
+}
+
+void draw(const Entry& entry, ImVec2 at) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    const ImVec2 at = ImGui::GetCursorScreenPos();
     const float height = ImGui::GetTextLineHeight(), width = px(kMark) - px(8);
     const float top = at.y + px(2), bottom = at.y + height - px(1), middle = (top + bottom) / 2;
     const auto count = static_cast<float>(entry.colours.size());
@@ -155,34 +163,43 @@ void draw(const Entry& entry) {
                                          entry.colours[i + 1], entry.colours[i]);
         }
     }
-    if (entry.kind != Entry::text) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + px(kMark));
+    ImGui::SetCursorScreenPos({at.x + (entry.kind == Entry::text ? 0 : px(kMark)), at.y});
     ImGui::TextUnformatted(entry.what.c_str());
 }
 
 }  // namespace
 
-void draw_legend(const State& state, float left, float top, float room) {
-    const std::vector<Entry> all = entries(state);
-    if (all.empty()) return;
+float draw_legend(const State& state, bool ring_line, float left, float right, float room) {
+    const std::vector<Entry> all = entries(state, ring_line);
+    if (all.empty()) return 0;
     ImGui::PushFont(small_font());
-    const float line = ImGui::GetTextLineHeight() + px(3);
-    const float height = line * static_cast<float>(all.size()) + px(14);
-    if (height <= room) {
-        ImGui::SetNextWindowPos({left, top});
-        ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, px(4));
-        ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2{px(9), px(7)});
-        ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2{px(6), px(3)});
+    // From left to right, in as many lines as that takes.
+    const float line = ImGui::GetTextLineHeight() + px(3), padding = px(8);
+    std::vector<ImVec2> places;
+    ImVec2 at{left + padding, px(4)};
+    for (const Entry& entry : all) {
+        if (at.x > left + padding && at.x + width_of(entry) > right - padding) at = {left + padding, at.y + line};
+        places.push_back(at);
+        at.x += width_of(entry) + px(kBetween);
+    }
+    const float bottom = at.y + line + px(2);
+    const bool fits = bottom <= room;
+    if (fits) {
+        ImGui::SetNextWindowPos({left, 0});
+        ImGui::SetNextWindowSize({right - left, bottom});
+        ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2{1, 1});
         ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4{0.105F, 0.11F, 0.12F, 0.93F});
         ImGui::Begin("legend", nullptr,
                      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoSavedSettings |
                          ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing |
-                         ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_AlwaysAutoResize);
-        for (const Entry& entry : all) draw(entry);
+                         ImGuiWindowFlags_NoBringToFrontOnFocus);
+        for (std::size_t i = 0; i < all.size(); ++i) draw(all[i], places[i]);
         ImGui::End();
         ImGui::PopStyleColor();
-        ImGui::PopStyleVar(3);
+        ImGui::PopStyleVar();
     }
     ImGui::PopFont();
+    return fits ? bottom : 0;
 }
 
 }  // namespace lacedring::view

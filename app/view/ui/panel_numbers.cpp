@@ -31,18 +31,22 @@ void row(const char* name, const std::string& value, const char* explained) {
 }
 
 void draw_stream_figures(const State& state) {
-    const bool plain = state.shown.source == gpu::Source::plain;
-    const bool packed =
-        state.shown.source == gpu::Source::packed && state.document && state.document->packed.bytes != 0;
+    const bool plain = state.choices.shown.source == gpu::Source::plain;
+    const bool packed = state.choices.shown.source == gpu::Source::packed && state.facts.document &&
+                        state.facts.document->packed.bytes != 0;
     heading(plain    ? "Index list"
             : packed ? "Packed stream"
                      : "Lean stream",
             "The connectivity that is on the screen, with the ring of the panel on the left");
-    if (!state.document) {
+    if (!state.facts.document) {
         ImGui::TextDisabled("no mesh");
         return;
     }
-    const Document& document = *state.document;
+    const Document& document = *state.facts.document;
+    if (document.stand_in != 0) {
+        ImGui::TextDisabled("being made");
+        return;
+    }
     const StreamFigures& figures = plain ? document.plain : packed ? document.packed : document.lean;
     row("bits per triangle", fmt::format("{:.2f}", figures.bits),
         "Of the connectivity, headers included, for each triangle of the file");
@@ -51,10 +55,8 @@ void draw_stream_figures(const State& state) {
             "Vertex numbers that are stored, for each triangle of the file. An index list has three");
     }
     row("bytes", grouped(figures.bytes), "Connectivity alone: positions and other attributes are not counted");
-    if (const EncodedSeams* seams = gpu::seams_of(*document.model, state.shown.source)) {
-        row("seams, bits per triangle",
-            fmt::format("{:.2f}", figures.bits * 4 * static_cast<double>(seams->words.size()) /
-                                      static_cast<double>(std::max<std::size_t>(1, figures.bytes))),
+    if (const EncodedSeams* seams = gpu::seams_of(*document.model, state.choices.shown.source)) {
+        row("seams, bits per triangle", fmt::format("{:.2f}", document.bits_per_triangle(4 * seams->words.size())),
             "Beside the connectivity, which is that of the surface: which copy of its vertex each corner has. View "
             "seams shows them");
     }
@@ -86,7 +88,7 @@ void plot(ImVec2 at, ImVec2 size, const State& state, float FrameCost::*member, 
     list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, ImGui::GetColorU32(ImGuiCol_FrameBg), px(2));
     const float step = size.x / kFrames;
     float right = at.x + size.x;
-    for (auto cost = state.costs.rbegin(); cost != state.costs.rend() && right > at.x + step / 2; ++cost) {
+    for (auto cost = state.facts.costs.rbegin(); cost != state.facts.costs.rend() && right > at.x + step / 2; ++cost) {
         const float height = most > 0 ? (*cost).*member / most * (size.y - px(2)) : 0;
         list.AddRectFilled({right - step, at.y + size.y - std::max(px(1), height)}, {right, at.y + size.y},
                            ImGui::GetColorU32(ImGuiCol_PlotHistogram));
@@ -96,18 +98,18 @@ void plot(ImVec2 at, ImVec2 size, const State& state, float FrameCost::*member, 
 
 void time_row(const char* name, const State& state, float FrameCost::*member, const char* explained, bool tall) {
     float most = 0, sum = 0;
-    for (const FrameCost& cost : state.costs) {
+    for (const FrameCost& cost : state.facts.costs) {
         most = std::max(most, cost.*member);
         sum += cost.*member;
     }
-    const float ms = state.costs.empty() ? 0 : state.costs.back().*member;
-    const std::string last = state.costs.empty() ? "-"
-                             : ms < 1000         ? fmt::format("{:.2f} ms", ms)
-                                                 : fmt::format("{:.2f} s", ms / 1000);
+    const float ms = state.facts.costs.empty() ? 0 : state.facts.costs.back().*member;
+    const std::string last = state.facts.costs.empty() ? "-"
+                             : ms < 1000               ? fmt::format("{:.2f} ms", ms)
+                                                       : fmt::format("{:.2f} s", ms / 1000);
     ImGui::TextDisabled("%s", name);
-    const auto frames = static_cast<float>(std::max<std::size_t>(1, state.costs.size()));
+    const auto frames = static_cast<float>(std::max<std::size_t>(1, state.facts.costs.size()));
     explain(fmt::format("{}.\nThe last {} frames drawn anew: {:.2f} ms on average, at most {:.2f}", explained,
-                        state.costs.size(), sum / frames, most)
+                        state.facts.costs.size(), sum / frames, most)
                 .c_str());
     if (tall) {
         at_right(last);
@@ -126,16 +128,16 @@ void time_row(const char* name, const State& state, float FrameCost::*member, co
 }
 
 void draw_times(const State& state) {
-    heading("Time of a frame", state.device.c_str());
+    heading("Time of a frame", state.facts.device.c_str());
     const bool tall = ImGui::GetWindowHeight() > px(kTall);
     time_row("decode, GPU", state, &FrameCost::decode,
              "Expanding the stream on the device. It is done once, or every frame if asked for on the left", tall);
     time_row("draw, GPU", state, &FrameCost::draw, "Drawing the mesh on the device", tall);
     time_row("CPU", state, &FrameCost::cpu,
              "The program's own time to record a frame's commands, without waiting for the device", tall);
-    row("device memory", bytes_text(state.device_bytes),
+    row("device memory", bytes_text(state.facts.device_bytes),
         fmt::format("Vulkan memory in use for meshes, streams and pictures, of {} that are allocated",
-                    bytes_text(state.device_held))
+                    bytes_text(state.facts.device_held))
             .c_str());
     const std::size_t host = app::resident_bytes();
     row("host memory", host == 0 ? "-" : bytes_text(host), "What the whole program holds of the computer's memory");
@@ -143,6 +145,7 @@ void draw_times(const State& state) {
 
 struct Bar {
     const app::MeasuredFormat* format;
+    std::size_t bytes;
     double bits;
 };
 
@@ -163,8 +166,12 @@ void draw_format(const Bar& bar, float bits_at, float bytes_at) {
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyle().Colors[baseline ? ImGuiCol_TextDisabled : ImGuiCol_Text]);
     ImGui::TextUnformatted(bar.format->name.c_str());
     ImGui::PopStyleColor();
-    explain(fmt::format("{}: {}", bar.format->name, note.what).c_str());
-    put(grouped(bar.format->bytes), bytes_at, ImGuiCol_TextDisabled);
+    const std::string recommended = bar.bytes == bar.format->bytes
+                                        ? ""
+                                        : fmt::format(". Of the ring on the screen; the recommended one takes {} bytes",
+                                                      grouped(bar.format->bytes));
+    explain(fmt::format("{}: {}{}", bar.format->name, note.what, recommended).c_str());
+    put(grouped(bar.bytes), bytes_at, ImGuiCol_TextDisabled);
     put(fmt::format("{:.2f}", bar.bits), bits_at, ImGuiCol_Text);
     const float y = at.y + height;
     ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -178,10 +185,11 @@ void draw_formats(const State& state) {
     ImGui::Dummy({0, px(1)});
     ImGui::TextColored(ImGui::GetStyle().Colors[ImGuiCol_CheckMark], "Every format");
     explain(
-        "Bytes of the connectivity, and bits for each triangle of the file, with the ring that the program recommends "
-        "for each format, as `lacedring stats` has them; the ring on the screen may be another. Orange: LR and what "
-        "this program makes of it. Grey: others. A bar ends at 96 bits");
-    if (state.formats && state.document) {
+        "Bytes of the connectivity, and bits for each triangle of the file. Lean and packed: of the ring on the "
+        "screen. "
+        "The others: of the ring that the program recommends for each, as `lacedring stats` has them. Orange: LR and "
+        "what this program makes of it. Grey: others. A bar ends at 96 bits");
+    if (state.facts.formats && state.facts.document) {
         ImGui::PushFont(small_font());
         for (const auto& [text, right] : {std::pair{"bytes", bytes_at}, std::pair{"bits/tri.", bits_at}}) {
             ImGui::SameLine(right - ImGui::CalcTextSize(text).x);
@@ -190,14 +198,18 @@ void draw_formats(const State& state) {
         ImGui::PopFont();
     }
     ImGui::Separator();
-    if (!state.formats || !state.document) {
-        ImGui::TextDisabled("%s", state.document ? "being measured" : "no mesh");
+    if (!state.facts.formats || !state.facts.document) {
+        ImGui::TextDisabled("%s", state.facts.document ? "being measured" : "no mesh");
         return;
     }
+    // What is on the screen has one figure: that of its ring.
+    const Document& document = *state.facts.document;
     std::vector<Bar> bars;
-    for (const app::MeasuredFormat& format : state.formats->formats) {
-        bars.push_back({&format, 8.0 * static_cast<double>(format.bytes) /
-                                     static_cast<double>(state.document->mesh->triangle_count())});
+    for (const app::MeasuredFormat& format : state.facts.formats->formats) {
+        std::size_t bytes = format.bytes;
+        if (format.name == "lean") bytes = document.lean.bytes;
+        if (format.name == "packed" && document.packed.bytes != 0) bytes = document.packed.bytes;
+        bars.push_back({&format, bytes, document.bits_per_triangle(bytes)});
     }
     std::stable_sort(bars.begin(), bars.end(), [](const Bar& a, const Bar& b) { return a.bits < b.bits; });
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2{px(8), px(6)});

@@ -96,7 +96,7 @@ void draw_operators(const Document& document, CornerId c) {
 }
 
 void draw_streams(const State& state, CornerId c) {
-    const Document& document = *state.document;
+    const Document& document = *state.facts.document;
     const auto part = [](const char* name, const std::string& text, const char* explained) {
         ImGui::TextDisabled("%s", name);
         explain(explained);
@@ -114,7 +114,7 @@ void draw_streams(const State& state, CornerId c) {
             "The file's vertex at this corner: its normal, texture coordinates and the like. Beyond a seam, corners of "
             "the same vertex have another copy");
     }
-    part("LR tables hold", state.tables ? lr_text(*state.tables, *document.table, c) : "being made",
+    part("LR tables hold", state.facts.tables ? lr_text(*state.facts.tables, *document.table, c) : "being made",
          "Their own numbers: L[v] and R[v] are the triangles left and right of ring edge v, VO the T0 triangles");
     part("lean holds", lean_text(document, triangle(c).value),
          "Vertices in ring order. Slot 2v is the triangle left of ring edge v, slot 2v + 1 the one right of it");
@@ -125,16 +125,16 @@ void draw_streams(const State& state, CornerId c) {
 }  // namespace
 
 void draw_selection(const State& state) {
-    const CornerId c = state.selection.corner;
+    const CornerId c = state.facts.selection.corner;
     // Beside each other where there is room.
     const float width = ImGui::GetContentRegionAvail().x;
     if (width < px(560)) {
-        draw_operators(*state.document, c);
+        draw_operators(*state.facts.document, c);
         draw_streams(state, c);
         return;
     }
     ImGui::BeginGroup();
-    draw_operators(*state.document, c);
+    draw_operators(*state.facts.document, c);
     ImGui::EndGroup();
     ImGui::SameLine(px(310));
     ImGui::BeginGroup();

@@ -2,17 +2,19 @@
 #include "app/view/ui/panels.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <imgui.h>
 
 #include <algorithm>
 #include <filesystem>
 
+#include "app/view/ui/settings.h"
 #include "app/view/window/theme.h"
 
 namespace lacedring::view {
 namespace {
 
-constexpr float kLeft = 268, kRight = 316, kBar = 30;  // nominal pixels
+constexpr float kLeft = 268, kRight = 316, kBar = 30, kLegend = 44;  // nominal pixels
 constexpr float kGap = 8;
 constexpr float kNarrow = 900;  // below it the side panels are drawers, opened from the bar
 // Lies over the picture, in front of panels, and takes no focus from them.
@@ -52,26 +54,45 @@ void bar_text(const std::string& text, float x, bool dim = false) {
     }
 }
 
-/// What is open, as much of it as there is room for.
-std::string opened(const State& state, float room) {
-    const Document& document = *state.document;
+std::string counted(std::int64_t count, const char* one, const char* many) {
+    return fmt::format("{} {}", grouped(static_cast<std::uint64_t>(count)), count == 1 ? one : many);
+}
+
+/// What is open, the more important the earlier.
+std::vector<std::string> counts(const Document& document) {
+    if (document.stand_in != 0) return {fmt::format("a coarse stand-in for {} triangles", grouped(document.stand_in))};
+    std::vector<std::string> out{counted(document.mesh->triangle_count(), "triangle", "triangles"),
+                                 counted(document.table->vertex_count, "vertex", "vertices")};
+    if (document.surface->has_seams()) {
+        out.push_back(counted(document.mesh->vertex_count, "copy", "copies"));
+    }
+    if (!document.optimised) return out;
+    const TopologyReport& report = document.report;
+    out.push_back(counted(report.components, "component", "components"));
+    out.push_back(counted(static_cast<std::int64_t>(document.rings->count()), "ring", "rings"));
+    out.push_back(counted(report.border_loops, "border", "borders"));
+    out.push_back(fmt::format("genus {}", report.genus));
+    return out;
+}
+
+/// The file's name and as many counts as there is room for.
+std::string opened(const Document& document, float room) {
     const std::string name = std::filesystem::path(document.path).filename().string();
-    const auto counted = [](std::uint64_t count, const char* one, const char* many) {
-        return fmt::format("   {} {}", grouped(count), count == 1 ? one : many);
-    };
-    const std::string triangles = counted(document.mesh->triangle_count(), "triangle", "triangles");
-    const std::string all =
-        name + triangles + counted(document.table->vertex_count, "vertex", "vertices") +
-        (document.surface->has_seams() ? counted(document.mesh->vertex_count, "copy", "copies") : "");
-    if (ImGui::CalcTextSize(all.c_str()).x <= room) return all;
+    std::string out = name;
+    for (const std::string& count : counts(document)) {
+        std::string longer = out + "   " + count;
+        if (ImGui::CalcTextSize(longer.c_str()).x > room) break;
+        out = std::move(longer);
+    }
+    if (out != name) return out;
+    const std::string triangles = "   " + counts(document)[0];
     const float left = room - ImGui::CalcTextSize(triangles.c_str()).x;
-    if (left > px(120)) return elided(name, left) + triangles;
-    return elided(name, room);
+    return left > px(120) ? elided(name, left) + triangles : elided(name, room);
 }
 
 void draw_progress(State& state, float& right, float window) {
-    const Loader::Progress& progress = state.progress;
-    if (!progress.background && bar_button("Cancel", right)) state.cancel = true;
+    const Loader::Progress& progress = state.facts.progress;
+    if (!progress.background && bar_button("Cancel", right)) state.ask(action::Do::cancel);
     const float length = std::clamp(window / 6, px(60), px(200));
     right -= length;
     ImGui::SetCursorPos({right, px(9)});
@@ -88,36 +109,42 @@ void draw_bar(State& state) {
     const ImVec2 window = ImGui::GetIO().DisplaySize;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2{px(12), px(4)});
     begin_at("bar", {0, window.y - px(kBar)}, {window.x, px(kBar)}, ImGuiWindowFlags_NoScrollbar);
-    const bool told = state.clock < state.note_until;
+    const bool told = state.facts.clock < state.facts.note_until;
     // From the right, then what is left for the left.
     float right = window.x - px(12);
     if (narrow(window.x)) {
         const auto drawer = [&](const char* text, Drawer which) {
-            const bool open = state.drawer == which;
-            if (bar_button(text, right, open)) state.drawer = open ? Drawer::none : which;
+            const bool open = state.choices.drawer == which;
+            if (bar_button(text, right, open))
+                state.ask(set(which == Drawer::choices ? "choices" : "numbers", open ? "off" : "on"));
         };
         if (!told || window.x > px(420)) {
             drawer("Numbers", Drawer::numbers);
             drawer("Choices", Drawer::choices);
         }
     }
-    if (state.progress.busy) {
+    if (state.facts.progress.busy) {
         draw_progress(state, right, window.x);
     } else if (!told && window.x > px(500)) {
-        if (bar_button("? Help", right, state.help)) state.help = !state.help;
+        if (bar_button("? Help", right, state.choices.help)) state.ask(toggle(state.choices, "help"));
     }
     float left = px(12);
     const float room = right - left - px(kGap);
-    if (told && (narrow(window.x) || !state.document)) {
-        bar_text(elided(state.note, room), left);
-    } else if (state.document) {
-        const std::string text = opened(state, told ? room / 2 : room);
+    if (told && (narrow(window.x) || !state.facts.document)) {
+        bar_text(elided(state.facts.note, room), left);
+    } else if (state.facts.document) {
+        const Document& document = *state.facts.document;
+        const std::string text = opened(document, told ? room / 2 : room);
         bar_text(text, left);
-        explain(state.document->path.c_str());
+        explain(fmt::format(
+                    "{}\n{}.\nCopies: vertices of the file, where it has several at a place. Borders: loops. Genus: "
+                    "handles",
+                    document.path, fmt::join(counts(document), ", "))
+                    .c_str());
         left += ImGui::CalcTextSize(text.c_str()).x + px(24);
-        if (told) bar_text(elided(state.note, right - left - px(kGap)), left);
+        if (told) bar_text(elided(state.facts.note, right - left - px(kGap)), left);
     } else {
-        bar_text(state.progress.busy ? "" : "no mesh", left, true);
+        bar_text(state.facts.progress.busy ? "" : "no mesh", left, true);
     }
     ImGui::End();
     ImGui::PopStyleVar();
@@ -153,7 +180,7 @@ void draw_note(const State& state) {
     ImGui::SetNextWindowPos({window.x / 2, window.y - px(16)}, ImGuiCond_Always, {0.5F, 1});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, px(4));
     ImGui::Begin("note", nullptr, kOver | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
-    ImGui::TextUnformatted(elided(state.note, window.x - px(56)).c_str());
+    ImGui::TextUnformatted(elided(state.facts.note, window.x - px(56)).c_str());
     ImGui::End();
     ImGui::PopStyleVar();
 }
@@ -165,8 +192,8 @@ void invite(const State& state, float left, float right, float height) {
         const float width = ImGui::CalcTextSize(text).x * size / ImGui::GetFontSize();
         list.AddText(ImGui::GetFont(), size, {(left + right - width) / 2, y}, colour, text);
     };
-    if (state.progress.busy) {
-        centred(state.progress.what.c_str(), px(18), height / 2 - px(20), IM_COL32(70, 72, 78, 255));
+    if (state.facts.progress.busy) {
+        centred(state.facts.progress.what.c_str(), px(18), height / 2 - px(20), IM_COL32(70, 72, 78, 255));
         return;
     }
     centred("Drop a mesh here", px(22), height / 2 - px(26), IM_COL32(70, 72, 78, 255));
@@ -189,53 +216,48 @@ float draw_selection_box(const State& state, float left, float right, float bott
 
 }  // namespace
 
-std::array<double, 2> free_area(const State& state, double width, double height) {
-    if (!state.panels) return {width, height};
-    const auto bar = static_cast<double>(px(kBar));
-    const double free_height = std::max(0.3 * height, height - 2.0 * bar);
+std::array<double, 2> free_area(double width, double height) {
+    // The mesh stays in the window's middle, so the wider panel counts twice, and so do two lines of a legend.
+    const double free_height = std::max(0.3 * height, height - 2.0 * static_cast<double>(px(kLegend)));
     if (narrow(width)) return {width, free_height};
-    // The mesh stays in the window's middle, so the wider panel counts twice.
-    const double sides = 2.0 * static_cast<double>(px(std::max(kLeft, kRight)));
-    return {std::max(0.3 * width, width - sides), free_height};
+    return {std::max(0.3 * width, width - 2.0 * static_cast<double>(px(std::max(kLeft, kRight)))), free_height};
 }
 
-void draw_panels(State& state, const Orbit&) {
+void draw_panels(State& state, bool ring_line) {
     const ImVec2 window = ImGui::GetIO().DisplaySize;
+    const Choices& choices = state.choices;
     const bool slim = narrow(window.x);
-    const float height = window.y - px(kBar);
-    const bool choices = state.panels && (!slim || state.drawer == Drawer::choices);
-    const bool numbers = state.panels && (!slim || state.drawer == Drawer::numbers);
+    const bool left_panel = choices.panels && (!slim || choices.drawer == Drawer::choices);
+    const bool right_panel = choices.panels && (!slim || choices.drawer == Drawer::numbers);
     // What they leave of the picture.
-    const float left = choices && !slim ? px(kLeft) : 0;
-    const float right = numbers && !slim ? window.x - px(kRight) : window.x;
-    if (choices) {
+    const float left = left_panel && !slim ? px(kLeft) : 0;
+    const float right = right_panel && !slim ? window.x - px(kRight) : window.x;
+    const float height = choices.panels ? window.y - px(kBar) : window.y;
+    float top = 0, bottom = height;
+    if (left_panel) {
         begin_at("choices", {0, 0}, {std::min(px(kLeft), window.x), height});
         draw_choices(state);
         ImGui::End();
     }
-    if (numbers) {
+    if (right_panel) {
         const float width = std::min(px(kRight), window.x);
         begin_at("numbers", {window.x - width, 0}, {width, height});
         draw_numbers(state);
         ImGui::End();
     }
-    if (state.panels) draw_bar(state);
+    if (choices.panels) draw_bar(state);
     // A drawer and help lie over what follows.
-    const bool covered = state.help || (slim && (choices || numbers));
-    float bottom = state.panels ? height : window.y;
-    if (state.panels && state.document && !covered) {
-        if (state.selection.any()) bottom = draw_selection_box(state, left, right, bottom);
-        // Below the names of the two pictures where these are near.
-        const bool near = state.shown.mode == Mode::split &&
-                          state.divider * static_cast<double>(window.x) < static_cast<double>(left + px(350));
-        draw_legend(state, left + px(kGap), near ? px(48) : px(kGap), bottom - px(100));
+    const bool covered = choices.help || (slim && (left_panel || right_panel));
+    if (choices.panels && state.facts.document && !covered) {
+        if (state.facts.selection.any()) bottom = draw_selection_box(state, left, right, bottom);
+        top = draw_legend(state, ring_line, left, right, bottom / 3);
     }
-    state.covered_below = static_cast<double>(window.y - bottom);
-    if (!state.document && !covered) invite(state, left, right, height);
-    if (!state.panels && state.clock < state.note_until) draw_note(state);
-    const float below = draw_error("error", state.error, px(16), left, right);
-    draw_error("shaders", state.shaders.error, below, left, right);
-    if (state.help) draw_help(left, right, state.panels ? height : window.y);
+    state.facts.free = {double{left}, double{top}, double{right}, double{bottom}};
+    if (!state.facts.document && !covered) invite(state, left, right, height);
+    if (!choices.panels && state.facts.clock < state.facts.note_until) draw_note(state);
+    const float below = draw_error("error", state.facts.error, top + px(16), left, right);
+    draw_error("shaders", state.facts.shaders.error, below, left, right);
+    if (choices.help) draw_help(left, right, height);
 }
 
 }  // namespace lacedring::view

@@ -6,16 +6,16 @@
 #include <string_view>
 #include <vector>
 
-#include "app/view/scene/orbit.h"
 #include "app/view/ui/state.h"
 
 namespace lacedring::view {
 
 /// Between ImGui::NewFrame and Render.
-void draw_panels(State& state, const Orbit& orbit);
+/// `ring_line`: the ring is drawn over the surface. Sets state.facts.free.
+void draw_panels(State& state, bool ring_line);
 
-/// How large a picture in the middle of the window no panel covers.
-std::array<double, 2> free_area(const State& state, double width, double height);
+/// How large a picture in the middle of the window no panel covers, nor an ordinary legend.
+std::array<double, 2> free_area(double width, double height);
 
 /// Where a panel was drawn last, and how much of what it holds does not fit.
 struct PanelBox {
@@ -31,9 +31,9 @@ void draw_numbers(State& state);  ///< sizes, times
 /// In the middle of what is left of the window.
 void draw_help(float left, float right, float bottom);
 void draw_selection(const State& state);
-/// What the picture's colours mean, in a box with this upper left corner; nothing where there is nothing to tell or the
-/// box would be higher than `room`.
-void draw_legend(const State& state, float left, float top, float room);
+/// What the picture's colours mean, along the top of the picture; nothing where there is nothing to tell or it would be
+/// higher than `room`. Gives where it ends.
+float draw_legend(const State& state, bool ring_line, float left, float right, float room);
 
 /// "1,234,567"
 std::string grouped(std::uint64_t number);

@@ -1,8 +1,7 @@
 #pragma once
-// What the person chose, what there is to show, and what the panels ask for. No window, no device.
+// What was chosen, what the session knows, and what panels ask for. No window, no device.
 
 #include <deque>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,8 +11,40 @@
 #include "app/view/scene/selection.h"
 #include "app/view/session/document.h"
 #include "app/view/session/loader.h"
+#include "app/view/ui/action.h"
 
 namespace lacedring::view {
+
+/// Which side panel is open where the window is too narrow for both.
+enum class Drawer { none, choices, numbers };
+
+enum class Weld { position, attributes, none };
+
+/// What a person, a script or the command line chose. settings.h gives most of it by name.
+struct Choices {
+    Shown shown;
+    bool view_chosen = false;  ///< else files with materials are drawn with them
+    double divider = 0.5;      ///< of the picture's width
+    RingSettings ring;
+    Weld weld = Weld::position;
+    Paint paint = Paint::none;
+    bool ring_line = true;  ///< over views that do not show the ring
+    bool outlines = false;  ///< silhouettes, borders and creases, from adjacency alone
+    bool panels = true;
+    Drawer drawer = Drawer::none;
+    bool help = false;
+    bool turntable = false;
+    double turntable_speed = 20;   ///< degrees a second
+    std::uint32_t frame_cap = 60;  ///< frames a second; 0: as many as there can be
+    // The ring-expander, corner by corner.
+    double growth = 0;          ///< triangles so far
+    double growth_speed = 500;  ///< triangles a second
+    bool growing = false;
+
+    bool has_outlines() const { return outlines || shown.view == gpu::View::silhouette; }
+    /// Colors and lines laid over the surface.
+    Layers layers() const;
+};
 
 /// Milliseconds of one drawn frame.
 struct FrameCost {
@@ -22,29 +53,22 @@ struct FrameCost {
     float cpu = 0;     ///< of our own thread, without waiting for the device
 };
 
-/// Which side panel is open where the window is too narrow for both.
-enum class Drawer { none, choices, numbers };
+struct ShaderFacts {
+    std::string folder;          ///< watched; empty: none
+    std::string error;           ///< why the last edit is not drawn with
+    std::uint32_t compiled = 0;  ///< so far
+    std::uint32_t reloads = 0;   ///< how often pipelines were recreated
+    std::uint32_t replaced = 0;  ///< shaders in use that are not as built in
+    std::uint64_t looks = 0;     ///< at their files
+};
 
-struct State {
-    // Chosen.
-    Shown shown;
-    double divider = 0.5;  ///< of the picture's width
-    std::uint32_t samples = 1;
-    RingSettings ring;
-    Paint paint = Paint::none;
-    bool outlines = false;  ///< silhouettes, borders and creases, from adjacency alone
-    bool panels = true;
-    Drawer drawer = Drawer::none;
-    bool help = false;
-    bool turntable = false;
-    double turntable_speed = 20;   ///< degrees a second
-    std::uint32_t frame_cap = 60;  ///< pictures a second; 0: as many as there can be
-    // The ring-expander, corner by corner.
-    double growth = 0;          ///< triangles so far
-    double growth_speed = 500;  ///< triangles a second
-    bool growing = false;
+/// Part of the window, in pixels.
+struct Area {
+    double left = 0, top = 0, right = 0, bottom = 0;
+};
 
-    // There.
+/// What the session knows.
+struct Facts {
     std::shared_ptr<const Document> document;
     std::shared_ptr<const Tables> tables;
     std::shared_ptr<const app::FormatSet> formats;
@@ -60,47 +84,30 @@ struct State {
     double longest_frame = 0;  ///< seconds from a look at the events to the picture that answers them
     double started = 0;        ///< seconds from the program's start to its first picture
     std::uint64_t device_bytes = 0, device_held = 0;  ///< in use; allocated
-    double covered_below = 0;                         ///< pixels of the window under bar and selection
+    Area free;                                        ///< of the window: not under a panel
     bool window_too_large = false;                    ///< for the device, which shows nothing in it
     std::string device;
     bool mesh_shaders = false;
     std::optional<gpu::Difference> difference;
     std::vector<std::string> files, recent, sample_files;
     Selection selection;
-    struct TurntableJob {
-        std::string folder;
-        std::uint32_t pictures = 0, done = 0;
-    };
-    std::optional<TurntableJob> turntable_job;  ///< pictures being written
+    ShaderFacts shaders;
 
-    /// Tells something short for so many seconds.
+    /// Shows a short message for so many seconds.
     void tell(std::string text, double seconds = 2) {
         note = std::move(text);
         note_until = clock + seconds;
     }
-
-    /// How far the ring-expander goes: triangles.
+    /// Triangles that the ring-expander invades.
     double growth_end() const { return document ? static_cast<double>(document->expansion->corners.size()) : 0.0; }
-    struct Shaders {
-        std::string folder;          ///< watched; empty: none
-        std::string error;           ///< why what was edited last is not drawn with
-        std::uint32_t compiled = 0;  ///< so far
-        std::uint32_t reloads = 0;   ///< how often pipelines were made anew
-        std::uint32_t replaced = 0;  ///< shaders in use that are not as built in
-        std::uint64_t looks = 0;     ///< at their files
-    } shaders;
+};
 
-    // Asked for by panels and keys; the viewer does it and takes it away.
-    std::optional<std::string> open;
-    bool cancel = false;
-    bool frame_all = false;
-    bool frame_selection = false;
-    bool copy_camera = false;
-    bool screenshot = false;
-    bool turntable_pictures = false;
-    bool reload_shaders = false;
-    bool choices_changed = false;  ///< the picture must be drawn again
-    std::optional<char> step;      ///< n p o s l r: from the selected corner to another
+struct State {
+    Choices choices;
+    Facts facts;
+    std::vector<Action> actions;  ///< asked for by panels, done after they are drawn
+
+    void ask(Action action) { actions.push_back(std::move(action)); }
 };
 
 }  // namespace lacedring::view

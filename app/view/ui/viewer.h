@@ -1,14 +1,16 @@
 #pragma once
-// The viewer: events in, frames out. Knows of no window system, so that a script drives it as a window does.
+// The viewer: events and actions in, frames out. Knows of no window system, so that a script drives it as a window
+// does.
 
 #include <functional>
 #include <memory>
 #include <utility>
 
 #include "app/view/scene/orbit.h"
-#include "app/view/scene/painting.h"
-#include "app/view/session/shader_watch.h"
+#include "app/view/ui/controls.h"
+#include "app/view/ui/shader_reload.h"
 #include "app/view/ui/state.h"
+#include "app/view/ui/turntable.h"
 #include "app/view/window/event.h"
 #include "app/view/window/overlay.h"
 
@@ -19,7 +21,7 @@ struct ViewerOptions {
     gpu::CameraOptions camera;  ///< for the first mesh
     double scale = 1;           ///< pixels a nominal pixel
     bool panels = true;
-    std::uint32_t frame_cap = 60;  ///< pictures a second, 0: none
+    std::uint32_t frame_cap = 60;  ///< frames a second, 0: no limit
     bool keep_recent = true;       ///< files that were opened are remembered
     /// Called by other threads when they have something for the next frame.
     std::function<void()> wake = [] {};
@@ -33,13 +35,14 @@ class Viewer {
                                                   const ViewerOptions& options);
 
     void handle(const Event& event);
-    /// Everything for one picture `seconds` after the last one. Nothing is drawn while the picture has no size.
+    /// Errors: those of the action; nothing is changed then.
+    Result<void> perform(const Action& action);
+    /// Everything for one frame `seconds` after the last one. Nothing is drawn while the picture has no size.
     Result<void> frame(double seconds);
-
-    /// The last picture is on the screen, `seconds` after its frame began.
+    /// The last frame is on the screen, `seconds` after it began.
     void presented(double seconds);
 
-    /// The last picture, panels and all, in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL.
+    /// The last frame, panels and all, in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL.
     const gpu::Image& image() const { return overlay_->image(); }
     /// Pixels of the picture: the window's, or fewer of the same shape where the device draws no picture that large.
     VkExtent2D extent() const { return extent_; }
@@ -47,7 +50,8 @@ class Viewer {
     bool visible() const { return extent_.width != 0 && extent_.height != 0; }
     /// The last picture, with panels if they are on; else with nothing over it. Waits for the device.
     Result<gpu::Picture> picture() {
-        return picture_of(state_.panels || state_.help ? overlay_->image() : scene_.composed());
+        const bool panels = state_.choices.panels || state_.choices.help;
+        return picture_of(panels ? overlay_->image() : scene_.composed());
     }
     /// All that is in the window, notices too.
     Result<gpu::Picture> window_picture() { return picture_of(overlay_->image()); }
@@ -56,64 +60,89 @@ class Viewer {
     /// Stops what threads do for it. False: one of them still uses the device after `patience`, and nothing on the
     /// device may be destroyed.
     bool stop(std::chrono::milliseconds patience) { return scene_.stop(patience); }
-    /// The next picture will be another one by itself.
-    bool moving() const { return quiet_frames_ <= 3 || animated_; }
-    /// Nothing moves, nothing is awaited: the next picture would be the last one.
-    bool idle() const { return !moving() && !busy_ && !state_.progress.busy && !news(); }
-    /// The mesh as it was drawn is as it will stay, but for what a person does.
-    bool settled() const { return settled_; }
+    /// Animating: the next frame differs without input.
+    bool moving() const { return quiet_frames_ <= 3 || animated(); }
+    /// Nothing moves, nothing is awaited: the next frame would be the last one.
+    bool idle() const { return !moving() && !busy() && !state_.facts.progress.busy && !news(); }
+    /// Nothing is pending: only input changes the picture.
+    bool settled() const;
+    /// A whole turn is being saved.
+    bool turning() const { return turn_.running(); }
     /// "NAME - LacedRing"
     std::string title() const;
     /// What is to be put on the clipboard, once.
     std::string take_clipboard() { return std::exchange(clipboard_, {}); }
-    void save(const std::string& path);
-    /// Begins a whole turn in so many pictures without panels, one a frame, each a PNG file in the folder, which is
-    /// made if it is not there. Nothing else may turn the camera meanwhile. Errors: cannot_write, invalid_argument.
-    Result<void> start_turntable(const std::string& folder, std::uint32_t pictures);
 
     State& state() { return state_; }
     Orbit& orbit() { return orbit_; }
     Scene& scene() { return scene_; }
     /// Null: there are no sources of shaders.
-    const ShaderWatch* shaders() const { return watch_.get(); }
+    const ShaderWatch* shaders() const { return shaders_.watch(); }
     /// From a point of the picture.
     Vector ray(double x, double y) const;
-    void pick(double x, double y);
-    Result<void> frame_all(const gpu::CameraOptions& options);
 
   private:
+    /// What the composed image needs before it is as the camera and the choices say.
+    enum class Freshness { redraw, compose, current };
+
     Viewer(gpu::Context& context, Threads& threads, const ViewerOptions& options, Scene scene)
         : options_(options),
           context_(context),
           threads_(threads),
           scene_(std::move(scene)),
           loader_(threads, options.wake),
-          paintings_(threads) {}
-    bool news() const { return loader_.has_news() || news_.document || (watch_ && watch_->has_news()); }
+          paint_(threads) {}
+
+    Result<void> on(action::Do what);
+    Result<void> on(const action::Open& open);
+    Result<void> on(const action::Set& set);
+    Result<void> on(const action::FrameAll& all);
+    Result<void> on(const action::LookFrom& from);
+    Result<void> on(const action::Turn& turn);
+    Result<void> on(const action::Pan& pan);
+    Result<void> on(const action::Zoom& zoom);
+    Result<void> on(const action::Pick& pick);
+    Result<void> on(const action::Step& step);
+    Result<void> on(const action::SavePicture& save);
+    Result<void> on(const action::SaveTurn& save);
+
+    bool news() const { return loader_.has_news() || news_.document || shaders_.has_news(); }
+    bool animated() const;
+    bool busy() const;
+    /// Made of other than what is chosen.
+    bool ring_due() const { return state_.choices.ring != asked_ || state_.choices.weld != asked_weld_; }
+    bool difference_due() const { return scene_.drawn().mode != Mode::single && !state_.facts.difference; }
+    void tell_error(const Result<void>& result);
+    void stale(Freshness freshness) { freshness_ = std::min(freshness_, freshness); }
+    void camera_moved();
+    /// In one pass; exact; exact, with all samples.
+    enum class Quality { rough, exact, fine };
+    Shown shown(Quality quality) const;
+    Shown shown(Quality quality, const gpu::Model& model) const;
+    PaintLayer::Wanted wanted_paint() const;
+
     Result<void> resize();
-    Result<void> make_images(std::uint32_t samples);
     void set_window(VkExtent2D window);
-    Shown shown(bool moving, const gpu::Model* model) const;
+    void cancel();
+    void escape();
+    void frame_selection();
+    void begin_ring();
+    void open_next();
     void take_news();
     void take_document();
-    Result<bool> prepare(const Shown& picture);
-    void watch_shaders();
-    void take_shaders();
-    void handle_mouse(const Event& event);
-    void handle_key(const Event& event);
+    void opened(const Document& document);
     void act();
-    void opened(const std::string& path);
-    void update_outlines();
-    Result<void> update_paint();
-    Result<void> take_paint_away();
     void advance(double seconds);
+    void keep_selection_in_sight();
+    void update_outlines();
+    void update_paint();
+    Result<bool> prepare(const Shown& picture);
     Result<void> draw();
+    void save_turn_picture();
+    void end_turn();
+    Result<void> compare();
     /// Of the window's size, in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL.
     Result<gpu::Picture> picture_of(const gpu::Image& image);
-    void aim_turntable();
-    void save_turntable_picture();
-    void end_turntable();
-    Result<void> compare();
 
     ViewerOptions options_;
     gpu::Context& context_;
@@ -123,43 +152,35 @@ class Viewer {
     std::optional<gpu::Commands> commands_;
     State state_;
     Orbit orbit_;
+    Controls controls_;
     Loader loader_;
-    std::unique_ptr<ShaderWatch> watch_;
-    RingSettings asked_;
-    std::vector<std::string> queue_;  // dropped, to be tried in turn
-
-    VkExtent2D window_{}, extent_{}, made_{};
-    std::uint32_t largest_ = 0;  // side of a picture; less than the device's limit where its memory does not hold that
-    std::uint32_t made_samples_ = 0;
-    int dragging_ = -1;
-    bool dragging_divider_ = false;
-    double mouse_x_ = 0, mouse_y_ = 0, press_x_ = 0, press_y_ = 0;
-    bool dirty_ = true, compose_ = true, moved_ = false, settled_ = false, closing_ = false, busy_ = false,
-         animated_ = false;
-    bool difference_due_ = false;
-    bool fresh_ = false;        // the model has not been drawn yet
-    Shown drawn_;               // the last picture
-    double exact_seconds_ = 0;  // that the last exact one took
-    double still_seconds_ = 1;  // since the camera moved; 0: in this frame
-    int quiet_frames_ = 0;
     Loader::News news_;  // not on the screen yet
-    Paintings paintings_;
-    std::shared_ptr<const Painting> laid_;  // what is laid over the triangles; kept until its successor is made
-    struct Painted {
-        CornerId corner = kNullCorner;
-        Paint paint = Paint::none;
-        std::uint32_t growth = 0;
-        const Document* document = nullptr;
-        bool operator==(const Painted&) const = default;
-    } painted_;
-    Painted wanted_paint() const;
-    bool laid() const;
-    CornerId marked_ = kNullCorner;  // the corner whose marks are laid
-    Orbit before_turntable_;
-    const Tables* outlined_ = nullptr;  // whose outlines are drawn
-    const Document* shown_ = nullptr;   // was on the screen
-    std::chrono::steady_clock::time_point shown_asked_{};
+    ShaderReload shaders_;
+    PaintLayer paint_;
+    TurnSaver turn_;
+    RingSettings asked_;
+    Weld asked_weld_ = Weld::position;
+    std::vector<std::string> queue_;  // files to be tried in turn
+
+    VkExtent2D window_{}, extent_{};
+    // Less than the device's limits where its memory does not hold that: side of a picture, samples of a pixel.
+    std::uint32_t largest_ = 0, most_samples_ = 3;
+    struct Made {
+        VkExtent2D extent{};
+        std::uint32_t samples = 1;
+        int sides = 0;
+    } made_;
+    Freshness freshness_ = Freshness::redraw;
+    double divider_ = 0;                           // of the composed image
+    const OwningModel* drawn_model_ = nullptr;     // in the last picture
+    double exact_seconds_ = 0, fine_seconds_ = 1;  // that the last exact picture took, of one sample and of several
+    double still_seconds_ = 1;                     // since the camera moved; negative: it has since the last frame
+    int quiet_frames_ = 0, recentre_frames_ = 0;   // without events; in which a new selection is brought into sight
+    std::shared_ptr<const Tables> outlined_;       // whose outlines are drawn
+    const Document* presented_ = nullptr;          // was on the screen
+    std::chrono::steady_clock::time_point presented_asked_{};
     std::string clipboard_;
+    bool closing_ = false;
 };
 
 }  // namespace lacedring::view
