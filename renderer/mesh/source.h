@@ -43,10 +43,11 @@ constexpr std::array<Named<Path>, 4> kPaths{{{"compute", Path::compute, "compute
                                              {"pull", Path::pull, "vertex pulling"},
                                              {"geometry", Path::geometry, "geometry shader"},
                                              {"mesh", Path::mesh, "mesh shader"}}};
-constexpr std::array<Named<Source>, 4> kSources{{{"plain", Source::plain, "index list"},
-                                                 {"lean", Source::lean, "lean"},
-                                                 {"packed", Source::packed, "packed"},
-                                                 {"packed_vertices", Source::packed_vertices, "packed, with vertices"}}};
+constexpr std::array<Named<Source>, 4> kSources{
+    {{"plain", Source::plain, "index list"},
+     {"lean", Source::lean, "lean"},
+     {"packed", Source::packed, "packed"},
+     {"packed_vertices", Source::packed_vertices, "packed, with vertices"}}};
 
 /// Is this source there in the model?
 bool has_source(const Model& model, Source source);

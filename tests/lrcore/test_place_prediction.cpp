@@ -11,9 +11,9 @@
 #include "lrcore/codec/storage/place_prediction.h"
 #include "lrcore/codec/storage/vertex_storage.h"
 #include "tests/support/capture.h"
+#include "tests/support/check_stored_in_c.h"
 #include "tests/support/damage.h"
 #include "tests/support/meshes.h"
-#include "tests/support/check_stored_in_c.h"
 
 using namespace lacedring;
 using storage::VertexPlaces;
