@@ -186,7 +186,8 @@ void add_render(CLI::App& program, Action& action) {
     command->add_flag("--json", options->json, "one JSON document on standard output");
 
     const auto shows_ring = [options] {
-        return options->view == "class" || options->view == "ring" || options->view == "offsets";
+        const auto view = gpu::find_named(gpu::kViews, options->view);
+        return view && gpu::has_ring(*view);
     };
     auto rules = std::make_shared<OptionRules>(*command);
     rules->forbid("--json goes with one mesh, and not with -o -",

@@ -1,13 +1,10 @@
 #include "renderer/draw/view.h"
 
 namespace lacedring::gpu {
-namespace {
 
 bool has_ring(View view) {
     return view == View::triangle_class || view == View::ring || view == View::offsets;
 }
-
-}  // namespace
 
 bool has_lines(View view) {
     return has_ring(view) || view == View::wire || view == View::seams || view == View::silhouette;

@@ -22,18 +22,21 @@ enum class View : std::uint32_t {
     material = LR_VIEW_MATERIAL,      ///< colors, textures and light as the file's materials say
 };
 
-constexpr std::array<Named<View>, 9> kViews{{{"smooth", View::smooth, "smooth"},
+/// To add one: docs/renderer.md, "Views".
+constexpr std::array<Named<View>, 9> kViews{{{"material", View::material, "material"},
+                                             {"smooth", View::smooth, "smooth"},
                                              {"flat", View::flat, "flat"},
                                              {"class", View::triangle_class, "triangle classes"},
                                              {"ring", View::ring, "ring order"},
                                              {"wire", View::wire, "wireframe"},
                                              {"offsets", View::offsets, "offsets"},
                                              {"seams", View::seams, "seams"},
-                                             {"silhouette", View::silhouette, "silhouette"},
-                                             {"material", View::material, "materials"}}};
+                                             {"silhouette", View::silhouette, "silhouette"}}};
 
 /// What a view needs on the device beside the triangles.
 UploadOptions upload_options(View view);
+/// Does it show the ring?
+bool has_ring(View view);
 /// Are lines drawn over the surface? It is pushed back a little then.
 bool has_lines(View view);
 

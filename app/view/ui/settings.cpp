@@ -16,25 +16,20 @@ constexpr NamedValue named(const char* name, const char* label, T value) {
 }
 
 constexpr NamedValue kOnOff[] = {named("off", "off", 0), named("on", "on", 1)};
-using gpu::View;
-constexpr NamedValue kViews[] = {named("material", "material", View::material),
-                                 named("smooth", "smooth", View::smooth),
-                                 named("flat", "flat", View::flat),
-                                 named("class", "triangle classes", View::triangle_class),
-                                 named("ring", "ring order", View::ring),
-                                 named("wire", "wireframe", View::wire),
-                                 named("offsets", "offsets", View::offsets),
-                                 named("seams", "seams", View::seams),
-                                 named("silhouette", "silhouette", View::silhouette)};
+/// The renderer's names and labels.
+template <class Choice, std::size_t N>
+constexpr std::array<NamedValue, N> values_of(const std::array<gpu::Named<Choice>, N>& table) {
+    std::array<NamedValue, N> out;
+    for (std::size_t i = 0; i < N; ++i) out[i] = named(table[i].name, table[i].label, table[i].value);
+    return out;
+}
+constexpr auto kViews = values_of(gpu::kViews);
+constexpr auto kAllSources = values_of(gpu::kSources);
+constexpr auto kSources = std::span(kAllSources).first<3>();  // packed vertices are not drawn here
+static_assert(gpu::kSources[2].value == gpu::Source::packed);
+constexpr auto kPaths = values_of(gpu::kPaths);
 constexpr NamedValue kModes[] = {named("single", "off", Mode::single), named("split", "side by side", Mode::split),
                                  named("difference", "difference", Mode::difference)};
-using gpu::Source;
-constexpr NamedValue kSources[] = {named("plain", "index list", Source::plain), named("lean", "lean", Source::lean),
-                                   named("packed", "packed", Source::packed)};
-using gpu::Path;
-constexpr NamedValue kPaths[] = {
-    named("compute", "compute", Path::compute), named("pull", "vertex pulling", Path::pull),
-    named("geometry", "geometry shader", Path::geometry), named("mesh", "mesh shader", Path::mesh)};
 constexpr NamedValue kPaints[] = {named("none", "none", Paint::none), named("corridors", "corridors", Paint::corridors),
                                   named("blocks", "blocks", Paint::blocks),
                                   named("growth", "ring-expander", Paint::growth)};
@@ -150,8 +145,7 @@ Error wrong_value(const std::string& why) {
 }  // namespace
 
 Layers Choices::layers() const {
-    const bool shows_ring = shown.view == View::triangle_class || shown.view == View::ring ||
-                            shown.view == View::offsets || shown.view == View::silhouette;
+    const bool shows_ring = gpu::has_ring(shown.view) || shown.view == gpu::View::silhouette;
     return {paint == Paint::growth ? Paint::none : paint, paint == Paint::growth     ? Paint::growth
                                                           : ring_line && !shows_ring ? Paint::ring
                                                                                      : Paint::none};

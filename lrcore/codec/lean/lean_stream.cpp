@@ -14,12 +14,18 @@
 #include "lrcore/base/message.h"
 #include "lrcore/base/signature.h"
 #include "lrcore/codec/lean/lean_format.h"
+#include "lrcore/codec/packed/packed_format.h"
 
 namespace lacedring {
 namespace {
 
 static_assert(LR_LEAN_MAGIC == magic::kLean);
 static_assert(LR_LEAN_HEADER_WORDS == LACEDRING_LEAN_HEADER_WORDS);
+// Of the packed stream's decoder, which is in the same C file, what only its implementation names.
+static_assert(LACEDRING_SPLIT_ == LR_PACKED_SPLIT && LACEDRING_BESIDE_ == LR_PACKED_BESIDE &&
+              LACEDRING_START_ == LR_PACKED_START && LACEDRING_FAR_ == LR_PACKED_FAR &&
+              LACEDRING_JUMP_ == LR_PACKED_JUMP && LACEDRING_TURN_ == LR_PACKED_TURN &&
+              LACEDRING_FLIPS_ == LR_PACKED_FLIPS && LACEDRING_NO_EVENT_ == LR_PACKED_EVENT_CODES);
 
 lacedring_lean as_c(const LeanView& view) {
     return {view.payload.data(), view.vertices, view.rings2, view.rings1, view.verbatim, view.triangles};

@@ -1,3 +1,5 @@
+// Decodes whole streams and ranges by lacedring_decode.h, where the decoder is.
+
 #include <algorithm>
 #include <cassert>
 

@@ -51,7 +51,9 @@
 #define LR_PACKED_MAX_PART 200u
 #define LR_PACKED_PART 64u  // triangles of a part
 
-// Event codes: so many ones before the zero. The last code has no zero.
+// Event codes: so many ones before the zero. The last code has no zero. What another one changes:
+// docs/packed-format.md, "Changing the format".
+#define LR_PACKED_EVENT_CODES 7u
 #define LR_PACKED_SPLIT 0u   // at its triangle: a T0; the polygon's smaller part comes next
 #define LR_PACKED_BESIDE 1u  // before its triangle: a corridor that begins where the one before began or ended
 #define LR_PACKED_START 2u   // before its triangle: another corridor

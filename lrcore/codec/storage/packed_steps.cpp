@@ -150,7 +150,7 @@ class StepReader {
         PackedEvent e{};
         at += bits.rice(gap_bits_);
         e.triangle = static_cast<std::uint8_t>(at);
-        e.code = static_cast<std::uint8_t>(bits.unary(7));
+        e.code = static_cast<std::uint8_t>(bits.unary(LR_PACKED_EVENT_CODES));
         switch (e.code) {
             case LR_PACKED_SPLIT:
                 e.v = 3 + bits.golomb(split_order_);
