@@ -137,6 +137,19 @@ def gltf_seeds():
     yield "meshopt-filters", meshopt_gltf("exponential", "indices", "KHR_meshopt_compression")
     for method in DRACO:
         yield "draco-" + method, draco_gltf(method)
+    moved = {"index": 1, "texCoord": 1, "extensions": {"KHR_texture_transform": {"offset": [1, 2], "rotation": 1, "scale": [3, 4]}}}
+    yield "materials", gltf_with(
+        {"POSITION": (5126, "VEC3", 4, position, 0), "TEXCOORD_1": (5126, "VEC2", 4, position[:32], 0),
+         "COLOR_0": (5121, "VEC4", 4, bytes(range(16)), 0)}, flat, {"material": 0},
+        materials=[{"pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0.25, 1], "metallicFactor": 0.5, "roughnessFactor": 0.5,
+                                             "baseColorTexture": {"index": 0}, "metallicRoughnessTexture": moved},
+                    "normalTexture": {"index": 0, "scale": 2}, "occlusionTexture": {"index": 1, "strength": 0.5},
+                    "emissiveTexture": {"index": 2}, "emissiveFactor": [1, 1, 0], "alphaMode": "MASK", "alphaCutoff": 0.25,
+                    "doubleSided": True, "extensions": {"KHR_materials_unlit": {}, "KHR_materials_emissive_strength":
+                                                        {"emissiveStrength": 2}}}],
+        textures=[{"source": 0, "sampler": 0}, {"source": 1}, {"extensions": {"KHR_texture_basisu": {"source": 0}}}],
+        samplers=[{"wrapS": 33071, "wrapT": 33648, "magFilter": 9728}],
+        images=[{"uri": "data:image/png;base64,iVBORw0KGgo="}, {"bufferView": 0, "mimeType": "image/png"}])
     yield "no-view", gltf_with({"POSITION": (5126, "VEC3", 4, position, 0)}, flat, accessor={"min": [0], "max": [1]})
 
 
