@@ -86,8 +86,8 @@ TEST_CASE("materials: of each triangle, with what they are drawn with") {
     CHECK(materials.images[0].size() == 16);
     CHECK(materials.images[1].empty());
     CHECK(materials.images[2].size() == 4);
-    const auto said = [&](std::string_view text) {
-        return std::ranges::any_of(report.left_out, [&](const std::string& s) { return s.find(text) != s.npos; });
+    const auto said = [&left_out = report.left_out](std::string_view text) {
+        return std::ranges::any_of(left_out, [&](const std::string& s) { return s.find(text) != s.npos; });
     };
     CHECK(said("image 1: '../outside.png'"));
     CHECK(said("1 texture without an image"));
