@@ -31,7 +31,6 @@ from vertex_reader import LATTICE, OCTAHEDRAL, Vertices
 LACEDRING = None
 FORMATS = ("lean", "packed", "lr", "lr-compact")
 ASSETS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "assets")
-SANITIZED = os.environ.get("LACEDRING_SANITIZED", "0") == "1"  # ten times slower
 KINDS = ("sphere", "torus", "genus", "terrain", "blob", "parts", "moebius", "soup")
 VERTICES, WIDTH = 1024, 10  # of the packed streams made here
 GAP_BITS, WART_BITS, SPLIT_ORDER, COUNT_ORDER = 3, 1, 2, 1
@@ -636,7 +635,7 @@ class VertexStreams(WithProgram):
 
     def test_every_kind(self):
         mappings = set()
-        for i, kind in enumerate(("soup", "moebius") if SANITIZED else KINDS):
+        for i, kind in enumerate(KINDS):
             wanted = self.make(kind, 600 if i % 2 else 4500)  # the latter have more than 16 blocks
             long = {"17 bytes", "9 doubles"}
             names = {attribute.name for attribute in wanted} - long
@@ -681,7 +680,7 @@ class VertexStreams(WithProgram):
 
     def test_changed_bits(self):
         generator = random.Random(1)
-        cases = (("sphere", 300, 20, ()), ("torus", 300, 20, BITS), ("blob", 4500, 2, BITS))[:1 if SANITIZED else 3]
+        cases = (("sphere", 300, 20, ()), ("torus", 300, 20, BITS), ("blob", 4500, 2, BITS))
         for kind, triangles, count, options in cases:
             self.make(kind, triangles)
             data = self.encode("packed", *options)
@@ -746,10 +745,10 @@ class VertexStreams(WithProgram):
 
     def test_seams(self):
         kinds = set()
-        for i, kind in enumerate(("soup", "moebius") if SANITIZED else KINDS):
+        for i, kind in enumerate(KINDS):
             wanted = self.make(kind, 200 + 180 * (i % 3), with_seams=True)  # the last in two blocks
             indices = check_decode.read(self.path("m.ply")).indices
-            formats = FORMATS if SANITIZED else FORMATS[i // 2 % 2::2]
+            formats = FORMATS[i // 2 % 2::2]
             for data in self.check_seams(wanted, indices, self.path("m.ply"), (((), BITS)[i % 2],), formats):
                 parts = lr_reader.sections(data)
                 kinds |= {part[0] for part in parts}
