@@ -61,7 +61,7 @@ Candidates construction(const Subject& subject) {
 
 Result<Candidates> decoding(const Subject& subject, const VertexOptions& positions) {
     const Subject& s = subject;
-    /// What candidates decode to and from.
+    /// Memory that the candidates share: inputs and results of decoding.
     struct Buffers {
         std::vector<std::uint32_t> indices, copy, unpacked, decoded;
         CodedIndices codec;

@@ -1,5 +1,5 @@
 #pragma once
-// What bench times on the CPU: lists of named candidates, the rivals' among them.
+// The lists of candidates that bench times on the CPU; rivals are among them.
 
 #include <map>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// How long the device takes to decode and to draw.
+// Measures decoding and drawing on the device, for tests and bench.
 
 #include <cstdint>
 #include <functional>

@@ -1,5 +1,5 @@
 #pragma once
-// What a device takes to decode and to draw, for bench.
+// The part of bench that needs a device: its times and its memory.
 
 #include <memory>
 #include <optional>

@@ -23,7 +23,7 @@ struct Subject {
     PackedView packed_view, packed_cache_view;
 };
 
-/// How the packed stream's ring is optimised.
+/// The options by which the packed stream's ring is optimised.
 OptimizeOptions packed_optimization();
 
 /// Errors: build_corner_table's.

@@ -50,7 +50,7 @@ struct Figures {
     std::string gpu_skipped;  ///< why there are none of the device
     Json peak = Json::object(), absent = Json::object();
 
-    // How the first of two compares with the second.
+    // Seconds of the first one over those of the second.
     Json construct_ratio() const { return construct.ratio("strips", "lean"); }
     Json decode_cpu_ratio() const { return decode.ratio("meshopt_vertex_codec", "vertices"); }
     Json unpack_ratio() const { return unpack.ratio("draco", "lacedring"); }

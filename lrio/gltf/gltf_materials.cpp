@@ -123,7 +123,6 @@ class MaterialReader {
         const Json& texture = textures[number];
         const std::size_t images = list("images").size(), source = index(texture, "source", images);
         if (source == images) {
-            expect(member(texture, "extensions") != nullptr || member(texture, "source") == nullptr, name);
             ++without_image_;
         } else {
             out.image = static_cast<std::uint32_t>(source);

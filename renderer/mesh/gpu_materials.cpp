@@ -44,8 +44,8 @@ MaterialConstants constants_of(const Material& m, const Textures& textures) {
     return out;
 }
 
-/// Of a mesh that has none.
-Materials grey(std::uint32_t triangles) {
+/// The materials of a mesh that has none.
+Materials gray_material(std::uint32_t triangles) {
     Materials out;
     Material& m = out.materials.emplace_back();
     m.base_color = {0.62F, 0.60F, 0.565F, 1};
@@ -61,7 +61,7 @@ Materials grey(std::uint32_t triangles) {
 Result<GpuMaterials> upload_materials(Context& context, Transfer& transfer, const Materials* materials,
                                       std::uint32_t triangles) {
     if (materials == nullptr || materials->of_triangle.empty()) {
-        const Materials made = grey(triangles);
+        const Materials made = gray_material(triangles);
         return upload_materials(context, transfer, &made, triangles);
     }
     const std::vector<std::uint32_t>& of = materials->of_triangle;

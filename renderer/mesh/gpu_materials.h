@@ -17,7 +17,7 @@ struct GpuMaterials {
     std::vector<std::string> notes;  ///< Textures::notes
 };
 
-/// Decodes the images and uploads all. `materials` may be null, or of no triangle: one grey material is of all
+/// Decodes the images and uploads all. `materials` may be null, or of no triangle: one gray material is of all
 /// `triangles`. Errors: kNoDevice (memory), invalid_argument (materials of another mesh).
 Result<GpuMaterials> upload_materials(Context& context, Transfer& transfer, const Materials* materials,
                                       std::uint32_t triangles);

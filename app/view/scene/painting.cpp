@@ -41,7 +41,8 @@ std::vector<gpu::GrowthTriangle> growth(const Document& document) {
     return out;
 }
 
-/// Which triangles lie left of the finished rings: those that the others are reached from without crossing one.
+/// Says of each triangle whether it is left or right of the finished rings. Triangles that are connected without
+/// crossing a ring are on one side.
 std::vector<gpu::GrowthTriangle> ring_sides(const Document& document) {
     const CornerTable& table = *document.table;
     std::vector<gpu::GrowthTriangle> out = triangles_across(table);

@@ -12,10 +12,10 @@
 
 namespace lacedring::view {
 
-/// What is laid over the triangles. `ring` is the ring's line alone.
+/// A layer over the triangles. `ring` is the ring's line alone.
 enum class Paint { none, corridors, blocks, growth, ring };
 
-/// What one Paint lays over one document. Either may be empty.
+/// The layer of one Paint over one document. Both vectors may be empty.
 struct Painting {
     std::vector<std::uint32_t> colours;      ///< RGBA a triangle of the mesh; 0: as it is drawn
     std::vector<gpu::GrowthTriangle> sides;  ///< of the ring, a triangle of the mesh each

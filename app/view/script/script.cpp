@@ -285,7 +285,7 @@ Result<bool> Script::wait(const Words& words, const Stage& stage) {
     const std::shared_ptr<const Document>& document = facts.document;
     const bool settled = stage.viewer.settled();
     const bool failed = !facts.error.empty() && !facts.progress.busy;
-    // What lines before this one changed shows in the next frame.
+    // Changes by earlier lines are visible from the next frame on.
     const bool changing = what == "settled" || what == "optimised" || what == "ready";
     if (changing && waited_ < 2) return false;
     if (what == "mesh") return (document && document->stand_in == 0) || failed;

@@ -31,7 +31,7 @@ class Script {
         std::size_t number;
         Words words;
     };
-    /// What lines act on.
+    /// The objects that a line acts on.
     struct Stage {
         Viewer& viewer;
         Window& window;

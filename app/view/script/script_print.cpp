@@ -1,4 +1,4 @@
-// What the line `print` of a script says.
+// The output of the line `print` of a script: the viewer's state as JSON.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
