@@ -285,6 +285,12 @@ Result<void> Scene::record_draw(VkCommandBuffer commands, const Shown& shown, co
     return {};
 }
 
+const gpu::GpuMaterials* Scene::materials() const {
+    const auto found = entries_.find(key_of(drawn_, drawn_.sides() - 1));
+    const UploadedMaterials* const of = found != entries_.end() ? found->second.mesh.materials.get() : nullptr;
+    return of != nullptr ? &of->device : nullptr;
+}
+
 bool Scene::has_ring_line() const {
     return parted_ && edge_pixels_ > kLeastEdge;
 }

@@ -178,6 +178,11 @@ void draw_view(State& state) {
     choose_number(state, "samples", "Samples", kSamples,
                   "Of each pixel, once nothing moves: more make edges smooth, and take longer. Fewer are drawn where "
                   "the window is too large for them");
+    const std::uint32_t drawn = state.facts.samples;
+    if (drawn != 0 && drawn < state.choices.shown.samples) {
+        ImGui::SetCursorPosX(px(kLabel));
+        ImGui::TextDisabled("%u at this size", drawn * drawn);
+    }
     constexpr std::pair<const char*, int> kCaps[] = {
         {"30 a second", 30}, {"60 a second", 60}, {"120 a second", 120}, {"no limit", 0}};
     choose_number(state, "fps", "Pictures", kCaps, "At most so many are drawn while something moves");

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 
+#include "app/view/scene/read_picture.h"
 #include "app/view/session/files.h"
 #include "app/view/ui/overlays.h"
 #include "app/view/ui/panels.h"
@@ -23,8 +23,6 @@ namespace {
 constexpr std::size_t kHistory = 120;            // frames of the plot
 constexpr double kNoticed = 0.03;                // seconds of a picture that a person waits for
 constexpr double kRest = 0.15, kLongRest = 0.4;  // seconds without a movement
-// Samples of the picture at rest: 24 bytes each, of images and their copies.
-constexpr std::uint64_t kMostSamples = 24000000;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -47,7 +45,6 @@ Result<std::unique_ptr<Viewer>> Viewer::create(gpu::Context& context, Threads& t
     facts.mesh_shaders = context.info().max_mesh_groups != 0;
     facts.recent = read_recent();
     facts.sample_files = sample_meshes();
-    out->largest_ = context.limits().maxImageDimension2D;
     const std::string& path = options.input.path;
     std::error_code error;
     out->loader_.list(path.empty() ? std::filesystem::current_path(error).string() : path);
@@ -56,6 +53,15 @@ Result<std::unique_ptr<Viewer>> Viewer::create(gpu::Context& context, Threads& t
     out->asked_weld_ = choices.weld;
     if (!path.empty()) LR_TRY(out->perform(action::Open{{path}}));
     return out;
+}
+
+Result<gpu::Picture> Viewer::picture() {
+    const bool panels = state_.choices.panels || state_.choices.help;
+    return panels ? window_picture() : read_picture(context_, *commands_, scene_.composed(), size_.made());
+}
+
+Result<gpu::Picture> Viewer::window_picture() {
+    return read_picture(context_, *commands_, overlay_->image(), size_.made());
 }
 
 std::string Viewer::title() const {
@@ -94,7 +100,7 @@ void Viewer::camera_moved() {
 Shown Viewer::shown(Quality quality, const gpu::Model& model) const {
     Shown out = state_.choices.shown;
     out.exact = quality != Quality::rough || out.mode != Mode::single;
-    out.samples = quality == Quality::fine ? std::min(out.samples, made_.samples) : 1;
+    out.samples = quality == Quality::fine ? size_.samples(out.samples) : 1;
     if (!gpu::has_source(model, out.source)) out.source = gpu::Source::lean;  // it is being made
     return out;
 }
@@ -120,22 +126,21 @@ void Viewer::handle(const Event& in_window) {
     quiet_frames_ = 0;
     Event event = in_window;
     if ((event.kind == Event::move || event.kind == Event::button) && visible()) {
-        event.x *= static_cast<double>(extent_.width) / window_.width;
-        event.y *= static_cast<double>(extent_.height) / window_.height;
+        event.x *= static_cast<double>(extent().width) / window().width;
+        event.y *= static_cast<double>(extent().height) / window().height;
     }
     Overlay::feed(event);
     const auto act_on = [this](const Action& action) { tell_error(perform(action)); };
     if (event.kind == Event::resize) {
-        largest_ = context_.limits().maxImageDimension2D;
-        most_samples_ = 3;
-        set_window(
-            {static_cast<std::uint32_t>(std::max(0.0, event.x)), static_cast<std::uint32_t>(std::max(0.0, event.y))});
+        size_.set_window(
+            {static_cast<std::uint32_t>(std::max(0.0, event.x)), static_cast<std::uint32_t>(std::max(0.0, event.y))},
+            context_.limits().maxImageDimension2D);
     } else if (event.kind == Event::close) {
         act_on(action::Do::close);
     } else if (event.kind == Event::drop) {
         if (!event.paths.empty()) act_on(action::Open{event.paths});
     } else {
-        controls_.handle(event, state_, extent_, orbit_.options().up, act_on);
+        controls_.handle(event, state_, extent(), orbit_.options().up, act_on);
     }
 }
 
@@ -153,7 +158,7 @@ Result<void> Viewer::on(action::Do what) {
             escape();
             break;
         case action::Do::frame_selection:
-            frame_selection();
+            if (frame_selection(state_.facts, orbit_, area())) stale(Freshness::redraw);
             break;
         case action::Do::begin_ring:
             begin_ring();
@@ -226,24 +231,12 @@ void Viewer::escape() {
 
 Result<void> Viewer::on(const action::FrameAll& all) {
     if (!state_.facts.document) return {};
-    const double width = std::max(1U, extent_.width), height = std::max(1U, extent_.height);
+    const double width = std::max(1U, extent().width), height = std::max(1U, extent().height);
     std::array<double, 2> fit{width, height};
     if (state_.choices.panels && !all.camera.position) fit = free_area(width, height);
     LR_TRY(orbit_.frame(*state_.facts.document->model, all.camera, {width, height}, fit));
     stale(Freshness::redraw);
     return {};
-}
-
-void Viewer::frame_selection() {
-    if (!state_.facts.document || !state_.facts.selection.any()) return;
-    const auto [centre, radius] = ball(*state_.facts.document, state_.facts.selection.corner);
-    // In the middle of what panels leave of the window.
-    const Area& free = state_.facts.free;
-    const double width = extent_.width, height = extent_.height;
-    const double seen = std::max(0.3 * height, std::min(free.right - free.left, free.bottom - free.top));
-    orbit_.look_at(centre, radius * std::min(width, height) / seen);
-    orbit_.pan((free.left + free.right - width) / 2, (free.top + free.bottom - height) / 2, height, width);
-    stale(Freshness::redraw);
 }
 
 Result<void> Viewer::on(const action::LookFrom& from) {
@@ -253,63 +246,30 @@ Result<void> Viewer::on(const action::LookFrom& from) {
 }
 
 Result<void> Viewer::on(const action::Turn& turn) {
-    orbit_.turn(turn.dx, turn.dy, extent_.height);
+    orbit_.turn(turn.dx, turn.dy, extent().height);
     camera_moved();
     return {};
 }
 
 Result<void> Viewer::on(const action::Pan& pan) {
-    orbit_.pan(pan.dx, pan.dy, extent_.height, extent_.width);
+    orbit_.pan(pan.dx, pan.dy, extent().height, extent().width);
     camera_moved();
     return {};
 }
 
 Result<void> Viewer::on(const action::Zoom& zoom) {
-    const double width = extent_.width, height = extent_.height;
+    const double width = extent().width, height = extent().height;
     orbit_.zoom(zoom.factor, zoom.x + 0.5 - width / 2, height / 2 - zoom.y - 0.5, height, width);
     camera_moved();
     return {};
 }
 
-Vector Viewer::ray(double x, double y) const {
-    // Through the middle of the sample that triangle_at reads.
-    const double n = scene_.drawn().samples;
-    const double within = (std::floor(n / 2) + 0.5) / n;
-    return orbit_.ray(std::floor(x) + within - extent_.width / 2.0, extent_.height / 2.0 - std::floor(y) - within,
-                      extent_.height, extent_.width);
-}
-
 Result<void> Viewer::on(const action::Pick& pick) {
-    const auto& document = state_.facts.document;
-    const double x = pick.x, y = pick.y;
-    if (!document || x < 0 || y < 0 || x >= extent_.width || y >= extent_.height) return {};
-    const bool right = scene_.drawn().mode == Mode::split && x >= state_.choices.divider * extent_.width;
-    LR_ASSIGN(const std::optional<std::uint32_t> hit,
-              scene_.triangle_at(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), right));
-    state_.facts.selection = {};
-    if (!hit || *hit >= document->mesh->triangle_count()) return {};
-    std::uint32_t t = *hit;
-    const Vector along = ray(x, y);
-    // A device rounds vertices to parts of a pixel: near an edge the ray through the sample may meet the neighbour.
-    if (!ray_meets(*document, t, orbit_.eye(), along)) t = ray_hit(*document, orbit_.eye(), along).value_or(t);
-    state_.facts.selection.corner = nearest_corner(*document, t, orbit_.eye(), along);
-    recentre_frames_ = 4;
-    return {};
+    return selecting_.pick(state_, scene_, orbit_, area(), pick.x, pick.y);
 }
 
 Result<void> Viewer::on(const action::Step& by) {
-    Selection& selection = state_.facts.selection;
-    if (!state_.facts.document || !selection.any()) {
-        state_.facts.tell("click a triangle first");
-        return {};
-    }
-    const CornerId to = step(*state_.facts.document, selection.corner, by.operation);
-    if (to.is_null()) {
-        state_.facts.tell("a border: there is no such corner");
-    } else {
-        selection.corner = to;
-        recentre_frames_ = 4;
-    }
+    selecting_.step(state_.facts, by.operation);
     return {};
 }
 
@@ -432,50 +392,17 @@ void Viewer::opened(const Document& document) {
 
 // Frames.
 
-void Viewer::set_window(VkExtent2D window) {
-    window_ = window;
-    extent_ = window;
-    const std::uint32_t side = std::max(window.width, window.height);
-    if (side <= largest_) return;
-    const auto fitting = [&](std::uint32_t n) {
-        return static_cast<std::uint32_t>(std::max<std::uint64_t>(1, std::uint64_t{n} * largest_ / side));
-    };
-    if (visible()) extent_ = {fitting(window.width), fitting(window.height)};
-}
-
-/// Makes images of the picture's size. What the device does not hold has fewer samples, then it is made smaller, and
-/// scaled up by the window.
 Result<void> Viewer::resize() {
-    constexpr std::uint32_t kSmallest = 64;
-    for (;;) {
-        Made wanted{extent_, std::min(state_.choices.shown.samples, most_samples_), state_.choices.shown.sides()};
-        const std::uint64_t pixels = std::uint64_t{extent_.width} * extent_.height;
-        while (wanted.samples > 1 && pixels * wanted.samples * wanted.samples > kMostSamples) --wanted.samples;
-        wanted.samples = gpu::Target::fitting_samples(context_, extent_, wanted.samples);
-        const bool other_size = made_.extent.width != extent_.width || made_.extent.height != extent_.height;
-        if (!other_size && made_.samples == wanted.samples && made_.sides >= wanted.sides) return {};
-        if (other_size) end_turn();  // its pictures are of one size
-        context_.wait_idle();        // the window may still be taking the last picture
-        Result<void> made = scene_.resize(extent_, wanted.samples, wanted.sides);
-        if (made && other_size) made = overlay_->resize(extent_);
-        if (made) {
-            made_ = wanted;
-            break;
-        }
-        if (made.error().code == gpu::kDeviceFailure) return made;
-        if (wanted.samples > 1) {
-            most_samples_ = wanted.samples - 1;  // until the window changes
-            continue;
-        }
-        largest_ = std::max(extent_.width, extent_.height) / 2;  // likewise
-        if (largest_ < kSmallest) return made;
-        set_window(window_);
-        most_samples_ = 3;
-    }
-    if (extent_.width != window_.width) {
+    const Shown& chosen = state_.choices.shown;
+    LR_ASSIGN(const PictureSize::Change change,
+              size_.make(context_, scene_, *overlay_, chosen.samples, chosen.sides()));
+    if (change == PictureSize::Change::none) return {};
+    if (change == PictureSize::Change::size) end_turn();  // its pictures are of one size
+    if (size_.smaller_than_window()) {
         state_.facts.tell(
-            fmt::format("drawn at {} x {}: the device draws no larger picture", extent_.width, extent_.height), 4);
+            fmt::format("drawn at {} x {}: the device draws no larger picture", extent().width, extent().height), 4);
     }
+    state_.facts.samples = size_.samples(chosen.samples);
     stale(Freshness::redraw);
     return {};
 }
@@ -509,21 +436,6 @@ void Viewer::advance(double seconds) {
         if (choices.growth >= end) choices.growing = false;
     }
     still_seconds_ = still_seconds_ < 0 ? 0 : still_seconds_ + seconds;
-}
-
-/// A selected corner that panels cover, or that is outside the window, goes to the middle of what they leave.
-void Viewer::keep_selection_in_sight() {
-    if (recentre_frames_ == 0) return;
-    --recentre_frames_;  // the panel takes some frames to get its size
-    const Facts& facts = state_.facts;
-    if (!facts.document || !facts.selection.any()) return;
-    const auto at = orbit_.project(place_of(*facts.document, facts.selection.corner), extent_.height, extent_.width);
-    const Area& free = facts.free;
-    if (!at || ((*at)[0] >= free.left && (*at)[0] < free.right && (*at)[1] >= free.top && (*at)[1] < free.bottom))
-        return;
-    orbit_.pan((free.left + free.right) / 2 - (*at)[0], (free.top + free.bottom) / 2 - (*at)[1], extent_.height,
-               extent_.width);
-    stale(Freshness::redraw);
 }
 
 void Viewer::update_outlines() {
@@ -589,7 +501,7 @@ Result<void> Viewer::draw() {
         scene_.record_clear(commands);
         stale(Freshness::compose);
     }
-    const double divider = std::floor(state_.choices.divider * extent_.width + 0.5);
+    const double divider = std::floor(state_.choices.divider * extent().width + 0.5);
     const bool compose = draw_scene || freshness_ != Freshness::current || divider != divider_;
     if (compose) LR_TRY(scene_.record_compose(commands, static_cast<std::uint32_t>(divider)));
     divider_ = divider;
@@ -602,6 +514,7 @@ Result<void> Viewer::draw() {
     if (draw_model) {
         drawn_model_ = scene_.model();
         state_.facts.frame_seconds = seconds_since(begun);
+        tell_materials();
         if (picture.exact) (picture.samples > 1 ? fine_seconds_ : exact_seconds_) = state_.facts.frame_seconds;
         if (const auto times = scene_.times()) {
             std::deque<FrameCost>& costs = state_.facts.costs;
@@ -614,9 +527,17 @@ Result<void> Viewer::draw() {
     return {};
 }
 
+/// What is not drawn of the file's materials, once.
+void Viewer::tell_materials() {
+    const gpu::GpuMaterials* materials = scene_.materials();
+    if (materials == nullptr || materials == told_materials_) return;
+    told_materials_ = materials;
+    if (!materials->notes.empty()) state_.facts.tell(materials->notes.front(), 6);
+}
+
 /// The composed picture has no panels yet.
 void Viewer::save_turn_picture() {
-    const Result<gpu::Picture> taken = picture_of(scene_.composed());
+    const Result<gpu::Picture> taken = read_picture(context_, *commands_, scene_.composed(), size_.made());
     const Result<void> saved = taken ? turn_.save(*taken) : Result<void>(taken.error());
     tell_error(saved);
     if (!saved || turn_.done()) end_turn();
@@ -649,12 +570,12 @@ Result<void> Viewer::frame(double seconds) {
         state_.facts.device_bytes = context_.arena().used();
         state_.facts.device_held = context_.arena().held();
         ImGuiIO& io = ImGui::GetIO();
-        io.DisplaySize = {static_cast<float>(extent_.width), static_cast<float>(extent_.height)};
+        io.DisplaySize = {static_cast<float>(extent().width), static_cast<float>(extent().height)};
         io.DeltaTime = static_cast<float>(std::max(1e-4, seconds));
         ImGui::NewFrame();
         draw_panels(state_, scene_.has_ring_line());
-        keep_selection_in_sight();
-        draw_marks(state_, orbit_, extent_.width, extent_.height);
+        if (selecting_.keep_in_sight(state_.facts, orbit_, area())) stale(Freshness::redraw);
+        draw_marks(state_, orbit_, extent().width, extent().height);
         ImGui::Render();
     }
     act();
@@ -677,26 +598,6 @@ void Viewer::presented(double seconds) {
     presented_asked_ = document->asked;
     facts.shown_seconds = seconds_since(presented_asked_);
     if (first) facts.first_seconds = facts.shown_seconds;
-}
-
-Result<gpu::Picture> Viewer::picture_of(const gpu::Image& image) {
-    LR_ASSIGN(const gpu::Buffer bytes,
-              gpu::Buffer::create(context_, "screenshot", VkDeviceSize{4} * made_.extent.width * made_.extent.height, 0,
-                                  gpu::Memory::readback));
-    LR_ASSIGN(const VkCommandBuffer commands, commands_->begin());
-    VkBufferImageCopy region{};
-    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    region.imageExtent = {made_.extent.width, made_.extent.height, 1};
-    vkCmdCopyImageToBuffer(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, bytes.handle(), 1, &region);
-    gpu::memory_barrier(commands, {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
-                        {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
-    LR_TRY(commands_->run());
-    gpu::Picture out;
-    out.width = made_.extent.width;
-    out.height = made_.extent.height;
-    out.rgba.resize(4 * out.pixels());
-    std::memcpy(out.rgba.data(), bytes.mapped(), out.rgba.size());
-    return out;
 }
 
 }  // namespace lacedring::view

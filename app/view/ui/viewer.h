@@ -8,6 +8,8 @@
 
 #include "app/view/scene/orbit.h"
 #include "app/view/ui/controls.h"
+#include "app/view/ui/picture_size.h"
+#include "app/view/ui/selecting.h"
 #include "app/view/ui/shader_reload.h"
 #include "app/view/ui/state.h"
 #include "app/view/ui/turntable.h"
@@ -45,16 +47,13 @@ class Viewer {
     /// The last frame, panels and all, in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL.
     const gpu::Image& image() const { return overlay_->image(); }
     /// Pixels of the picture: the window's, or fewer of the same shape where the device draws no picture that large.
-    VkExtent2D extent() const { return extent_; }
-    VkExtent2D window() const { return window_; }
-    bool visible() const { return extent_.width != 0 && extent_.height != 0; }
+    VkExtent2D extent() const { return size_.extent(); }
+    VkExtent2D window() const { return size_.window(); }
+    bool visible() const { return size_.visible(); }
     /// The last picture, with panels if they are on; else with nothing over it. Waits for the device.
-    Result<gpu::Picture> picture() {
-        const bool panels = state_.choices.panels || state_.choices.help;
-        return picture_of(panels ? overlay_->image() : scene_.composed());
-    }
+    Result<gpu::Picture> picture();
     /// All that is in the window, notices too.
-    Result<gpu::Picture> window_picture() { return picture_of(overlay_->image()); }
+    Result<gpu::Picture> window_picture();
 
     bool closing() const { return closing_; }
     /// Stops what threads do for it. False: one of them still uses the device after `patience`, and nothing on the
@@ -79,7 +78,7 @@ class Viewer {
     /// Null: there are no sources of shaders.
     const ShaderWatch* shaders() const { return shaders_.watch(); }
     /// From a point of the picture.
-    Vector ray(double x, double y) const;
+    Vector ray(double x, double y) const { return ray_through(scene_, orbit_, area(), x, y); }
 
   private:
     /// What the composed image needs before it is as the camera and the choices say.
@@ -121,11 +120,10 @@ class Viewer {
     Shown shown(Quality quality, const gpu::Model& model) const;
     PaintLayer::Wanted wanted_paint() const;
 
+    PictureArea area() const { return {static_cast<double>(extent().width), static_cast<double>(extent().height)}; }
     Result<void> resize();
-    void set_window(VkExtent2D window);
     void cancel();
     void escape();
-    void frame_selection();
     void begin_ring();
     void open_next();
     void take_news();
@@ -133,16 +131,14 @@ class Viewer {
     void opened(const Document& document);
     void act();
     void advance(double seconds);
-    void keep_selection_in_sight();
     void update_outlines();
     void update_paint();
     Result<bool> prepare(const Shown& picture);
     Result<void> draw();
+    void tell_materials();
     void save_turn_picture();
     void end_turn();
     Result<void> compare();
-    /// Of the window's size, in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL.
-    Result<gpu::Picture> picture_of(const gpu::Image& image);
 
     ViewerOptions options_;
     gpu::Context& context_;
@@ -162,22 +158,17 @@ class Viewer {
     Weld asked_weld_ = Weld::position;
     std::vector<std::string> queue_;  // files to be tried in turn
 
-    VkExtent2D window_{}, extent_{};
-    // Less than the device's limits where its memory does not hold that: side of a picture, samples of a pixel.
-    std::uint32_t largest_ = 0, most_samples_ = 3;
-    struct Made {
-        VkExtent2D extent{};
-        std::uint32_t samples = 1;
-        int sides = 0;
-    } made_;
+    PictureSize size_;
+    Selecting selecting_;
     Freshness freshness_ = Freshness::redraw;
     double divider_ = 0;                           // of the composed image
     const OwningModel* drawn_model_ = nullptr;     // in the last picture
     double exact_seconds_ = 0, fine_seconds_ = 1;  // that the last exact picture took, of one sample and of several
     double still_seconds_ = 1;                     // since the camera moved; negative: it has since the last frame
-    int quiet_frames_ = 0, recentre_frames_ = 0;   // without events; in which a new selection is brought into sight
-    std::shared_ptr<const Tables> outlined_;       // whose outlines are drawn
-    const Document* presented_ = nullptr;          // was on the screen
+    int quiet_frames_ = 0;                         // without events
+    const gpu::GpuMaterials* told_materials_ = nullptr;
+    std::shared_ptr<const Tables> outlined_;  // whose outlines are drawn
+    const Document* presented_ = nullptr;     // was on the screen
     std::chrono::steady_clock::time_point presented_asked_{};
     std::string clipboard_;
     bool closing_ = false;

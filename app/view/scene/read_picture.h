@@ -1,0 +1,14 @@
+#pragma once
+// A picture from the device.
+
+#include "renderer/draw/picture.h"
+#include "renderer/vk/commands.h"
+#include "renderer/vk/image.h"
+
+namespace lacedring::view {
+
+/// Of an RGBA image of that size, in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL. Waits for the device.
+Result<gpu::Picture> read_picture(gpu::Context& context, gpu::Commands& commands, const gpu::Image& image,
+                                  VkExtent2D extent);
+
+}  // namespace lacedring::view
