@@ -136,6 +136,7 @@ int run(Options& options, Threads& threads) {
     options.viewer.scale = options.scale > 0 ? options.scale : (*window)->scale();
     options.viewer.panels = !options.no_panels;
     options.viewer.keep_recent = !script.has_value();
+    if (!script) options.viewer.patience = 4;
     options.viewer.wake = Window::wake;
     const auto exit_code = [&](const std::string& failed_on, const Result<void>& done) {
         const std::size_t messages = app::print_validation(**context);

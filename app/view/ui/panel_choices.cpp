@@ -176,12 +176,12 @@ void draw_view(State& state) {
            "The same picture from the index list and from the stream: side by side, or red where they differ");
     constexpr std::pair<const char*, int> kSamples[] = {{"1", 1}, {"4", 2}, {"9", 3}};
     choose_number(state, "samples", "Samples", kSamples,
-                  "Of each pixel, once nothing moves: more make edges smooth, and take longer. Fewer are drawn where "
-                  "the window is too large for them");
+                  "Of each pixel, once nothing moves: more make edges smooth, and take longer. Fewer are drawn in a "
+                  "window too large for them, and where that would take longer than four seconds");
     const std::uint32_t drawn = state.facts.samples;
     if (drawn != 0 && drawn < state.choices.shown.samples) {
         ImGui::SetCursorPosX(px(kLabel));
-        ImGui::TextDisabled("%u at this size", drawn * drawn);
+        ImGui::TextDisabled("%u drawn", drawn * drawn);
     }
     constexpr std::pair<const char*, int> kCaps[] = {
         {"30 a second", 30}, {"60 a second", 60}, {"120 a second", 120}, {"no limit", 0}};

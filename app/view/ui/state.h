@@ -86,7 +86,7 @@ struct Facts {
     std::uint64_t device_bytes = 0, device_held = 0;  ///< in use; allocated
     Area free;                                        ///< of the window: not under a panel
     bool window_too_large = false;                    ///< for the device, which shows nothing in it
-    std::uint32_t samples = 0;                        ///< along each side of a pixel at rest, in a window of this size
+    std::uint32_t samples = 0;                        ///< along each side of a pixel that a picture at rest has
     std::string device;
     bool mesh_shaders = false;
     std::optional<gpu::Difference> difference;

@@ -101,6 +101,7 @@ Shown Viewer::shown(Quality quality, const gpu::Model& model) const {
     Shown out = state_.choices.shown;
     out.exact = quality != Quality::rough || out.mode != Mode::single;
     out.samples = quality == Quality::fine ? size_.samples(out.samples) : 1;
+    while (out.samples > 1 && exact_seconds_ * out.samples * out.samples > options_.patience) --out.samples;
     if (!gpu::has_source(model, out.source)) out.source = gpu::Source::lean;  // it is being made
     return out;
 }
@@ -402,7 +403,6 @@ Result<void> Viewer::resize() {
         state_.facts.tell(
             fmt::format("drawn at {} x {}: the device draws no larger picture", extent().width, extent().height), 4);
     }
-    state_.facts.samples = size_.samples(chosen.samples);
     stale(Freshness::redraw);
     return {};
 }
@@ -509,6 +509,7 @@ Result<void> Viewer::draw() {
     const double cpu = seconds_since(begun);
     LR_TRY(commands_->run());
     if (draw_scene || freshness_ == Freshness::compose) freshness_ = Freshness::current;
+    state_.facts.samples = shown(Quality::fine).samples;
     if (!draw_scene) return {};
     state_.facts.difference.reset();
     if (draw_model) {

@@ -3,6 +3,7 @@
 // does.
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -25,6 +26,9 @@ struct ViewerOptions {
     bool panels = true;
     std::uint32_t frame_cap = 60;  ///< frames a second, 0: no limit
     bool keep_recent = true;       ///< files that were opened are remembered
+    /// Seconds. Of several samples, a picture at rest has as many as do not take longer, by the time that it took with
+    /// one. Scripts wait for all: what they save does not depend on the machine.
+    double patience = std::numeric_limits<double>::infinity();
     /// Called by other threads when they have something for the next frame.
     std::function<void()> wake = [] {};
     std::filesystem::path shaders;  ///< folder of sources to be watched; empty: those that the program was built from
