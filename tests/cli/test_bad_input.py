@@ -16,8 +16,8 @@ import check_decode
 import mesh_writers as write
 
 SEED = int(os.environ.get("LACEDRING_TEST_SEED") or random.SystemRandom().randrange(1 << 32))
-CUTS = 50 if SANITIZED else 200  # places at which every format is cut off
-FLIPS = 50 if SANITIZED else 200
+CUTS = 25 if SANITIZED else 200  # places at which every format is cut off
+FLIPS = 25 if SANITIZED else 200
 
 POINTS = [(0.0, 0.0, 0.0), (1.5, 0.0, 0.0), (1.0, 1.0, 0.25), (0.0, 1.0, 0.0), (0.1, 0.2, -3e-7)]
 TRIANGLES = [(0, 1, 2), (0, 2, 3), (0, 4, 1), (1, 4, 2)]

@@ -6,7 +6,7 @@ import os
 import struct
 import unittest
 
-from cli_support import DONE, KINDS, NO_DEVICE, SANITIZED, WRONG_USAGE, CliTest, in_parallel, main, run
+from cli_support import DONE, KINDS, NO_DEVICE, WRONG_USAGE, CliTest, in_parallel, main, run
 
 import mesh_writers as write
 
@@ -111,12 +111,12 @@ class RoundTrip(CliTest):
             with open(lr, "rb") as a, open(again, "rb") as b:
                 self.assertEqual(a.read(), b.read(), f"{kind}: encoding twice gives two files")
 
-        in_parallel(check, [(k, n, s) for k in KINDS for n, s in ((1, 1), (50, 2), (400, 3), (5000, 4))[:3 if SANITIZED else 4]])
+        in_parallel(check, [(k, n, s) for k in KINDS for n, s in ((1, 1), (50, 2), (400, 3), (5000, 4))])
 
     def test_lr_tables_and_packed(self):
         def check(item):
             kind, form, *options = item
-            source = self.generate(kind, 600 if SANITIZED else 3000, 2)
+            source = self.generate(kind, 3000, 2)
             name = "-".join(item)
             lr, out, ordered = (self.path(name + end) for end in (".lr", ".ply", "-ordered.ply"))
             self.ok("encode", source, "-o", lr, "--format", form, "--keep-order", *options)
@@ -171,7 +171,7 @@ class RoundTrip(CliTest):
         self.assertEqual(self.json("stats", source, "--json")["meshes"][0]["degenerate_dropped"], 2)
 
     def test_large(self):
-        self.round_trip(self.generate("blob", 6000 if SANITIZED else 140000, 1))  # more than 65,536 vertices
+        self.round_trip(self.generate("blob", 140000, 1))  # more than 65,536 vertices
 
     def test_input_formats(self):
         shifted, blob = write.gltf([(9, 9, 9)] + POINTS[1:], [(4, write.flat(TRIANGLES))], uri="a%20b.bin",
@@ -284,7 +284,6 @@ class Json(CliTest):
             with self.subTest(options):
                 self.check_stats(self.json("stats", path, *options, "--json")["meshes"][0])
 
-    @unittest.skipIf(SANITIZED, "takes long, and has nothing of its own to overrun")
     def test_index_u16_is_absent_where_it_does_not_fit(self):
         mesh = self.json("stats", self.generate("sphere", 140000), "--json")["meshes"][0]
         self.assertNotIn("index_u16", mesh["formats"])

@@ -11,7 +11,7 @@ import time
 import unittest
 
 import cli_support
-from cli_support import BAD_INPUT, DONE, SANITIZED, WRONG_USAGE, CliTest, main, run
+from cli_support import BAD_INPUT, DONE, WRONG_USAGE, CliTest, main, run
 
 import mesh_writers as write
 
@@ -401,7 +401,7 @@ class Faults(CliTest):
             took = time.monotonic() - started
             with open(path, "rb") as file:
                 whole = file.read()
-            for i in range(0, 6, 4 if SANITIZED else 1):
+            for i in range(6):
                 with self.subTest(command=command, i=i):
                     self.write(name, b"old")
                     process = subprocess.Popen([cli_support.program, *command, path], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -426,7 +426,6 @@ class Faults(CliTest):
                 self.write(name, b"old")
                 self.fails(*command, self.path(name), mentions=[name], preexec_fn=small_files)
 
-    @unittest.skipIf(SANITIZED, "the sanitizer takes terabytes of addresses")
     def test_little_memory(self):
         """With 12 to 64 MiB of data: the whole output, or one line and the old file."""
         import resource

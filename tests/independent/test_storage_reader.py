@@ -16,10 +16,9 @@ from mesh_readers import BadFile, read_ply
 from storage_reader import read_stored_packed
 
 LACEDRING = None
-SANITIZED = os.environ.get("LACEDRING_SANITIZED", "0") == "1"  # ten times slower
 KINDS = ("sphere", "torus", "genus", "terrain", "blob", "parts", "moebius", "soup")
-SIZES = (300, 1000) if SANITIZED else (300, 700, 1500, 3000)
-LARGE = () if SANITIZED else (("genus", 12000), ("terrain", 12000))
+SIZES = (300, 700, 1500, 3000)
+LARGE = (("genus", 12000), ("terrain", 12000))
 SEED = 20261
 
 
