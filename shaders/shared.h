@@ -162,6 +162,7 @@ struct MaterialConstants {
 #define LR_MATERIAL_UNLIT 2u
 #define LR_MATERIAL_MASK 4u
 #define LR_MATERIAL_BLEND 8u
+#define LR_MATERIAL_FLAT 16u
 
 // The picture of triangle numbers: 0 is the background, else the original triangle + 1 and which side of it is seen.
 #define LR_FRONT_FLAG 0x80000000u

@@ -42,6 +42,7 @@ class GltfJoiner {
         if (reading_.materials != nullptr) {
             LR_ASSIGN(auto materials, read_materials(file_, reading_));
             *reading_.materials = std::move(materials);
+            flat_.resize(reading_.materials->materials.size());
         }
         LR_TRY(allocate(instances));
         for (const MeshInstance& instance : instances) {
@@ -201,14 +202,28 @@ class GltfJoiner {
             if (instance.transform.determinant() < 0) turn_round(added);
             if (reading_.materials != nullptr) {
                 const int said = file_.model.meshes[instance.mesh].primitives[primitive.number].material;
-                const std::size_t usual = reading_.materials->materials.size() - 1;
-                const std::size_t material = said < 0 ? usual : std::min(static_cast<std::size_t>(said), usual);
-                reading_.materials->of_triangle.resize(mesh_.indices.size() / 3, static_cast<std::uint32_t>(material));
+                const std::uint32_t material = material_of(said, has_normals(block));
+                reading_.materials->of_triangle.resize(mesh_.indices.size() / 3, material);
             }
             if (makes_normals_ && !has_normals(block))
                 without_normals_.insert(without_normals_.end(), added.begin(), added.end());
         }
         return {};
+    }
+
+    /// The number of a primitive's material, or of its flat twin, which is made where it is needed. The last one of the
+    /// file's is for primitives without.
+    std::uint32_t material_of(int said, bool smooth) {
+        const std::size_t usual = flat_.size() - 1;
+        const std::size_t material = said < 0 ? usual : std::min(static_cast<std::size_t>(said), usual);
+        std::vector<Material>& all = reading_.materials->materials;
+        if (smooth) return static_cast<std::uint32_t>(material);
+        if (flat_[material] == 0) {
+            flat_[material] = static_cast<std::uint32_t>(all.size());
+            all.push_back(Material(all[material]));
+            all.back().flat = true;
+        }
+        return flat_[material];
     }
 
     /// Gives the vertices of primitives without normals those of the surface that these primitives form together.
@@ -253,6 +268,7 @@ class GltfJoiner {
     Mesh mesh_;
     bool makes_normals_ = false;                  ///< some primitives have normals, and others get some
     std::vector<std::uint32_t> without_normals_;  ///< indices of triangles of the others
+    std::vector<std::uint32_t> flat_;             ///< of each of the file's materials: its flat twin; 0: none yet
     std::set<std::string> dropped_;               ///< attributes
 };
 

@@ -35,7 +35,7 @@ MaterialConstants constants_of(const Material& m, const Textures& textures) {
     out.surface = {m.metallic, m.roughness, m.normal_scale, m.occlusion};
     out.flags[0] = (m.double_sided ? LR_MATERIAL_DOUBLE_SIDED : 0U) | (m.unlit ? LR_MATERIAL_UNLIT : 0U) |
                    (m.alpha == AlphaMode::mask ? LR_MATERIAL_MASK : 0U) |
-                   (m.alpha == AlphaMode::blend ? LR_MATERIAL_BLEND : 0U);
+                   (m.alpha == AlphaMode::blend ? LR_MATERIAL_BLEND : 0U) | (m.flat ? LR_MATERIAL_FLAT : 0U);
     out.base = constants_of(m.base, textures);
     out.metallic_roughness = constants_of(m.metallic_roughness, textures);
     out.normal = constants_of(m.normal, textures);

@@ -29,6 +29,10 @@ vec3 sky(vec3 from, float rough) {
 vec3 normal_of(MaterialConstants m, Steps steps, vec3 dx, vec3 dy) {
     vec3 n = normalize(in_normal);
     if (!gl_FrontFacing) n = -n;
+    if ((m.flags.x & LR_MATERIAL_FLAT) != 0u) {
+        vec3 facet = cross(dx, dy);
+        if (dot(facet, facet) > 0.0) n = normalize(dot(facet, in_position) > 0.0 ? -facet : facet);
+    }
     if (m.normal.size == 0u) return n;
     vec2 sx = set_of(m.normal, steps.x), sy = set_of(m.normal, steps.y);
     sx = vec2(dot(m.normal.u.xy, sx), dot(m.normal.v.xy, sx));

@@ -200,12 +200,26 @@ TEST_CASE_FIXTURE(GpuTest, "materials: each property of one is seen") {
     m = Material{};
     m.roughness = 0.2F;
     CHECK(square.pixel(*renderer, 0.5, 0.5)[1] > 60);
+
+    // Flat: whatever the normals of vertices are.
+    m = Material{};
+    m.metallic = 0;
+    const Color straight = square.pixel(*renderer, 0.5, 0.5);
+    constexpr std::array<float, 12> kTilted{0.8F, 0, 0.6F, 0.8F, 0, 0.6F, 0.8F, 0, 0.6F, 0.8F, 0, 0.6F};
+    const auto bytes = std::as_bytes(std::span(kTilted));
+    square.mesh.attributes.push_back({"NORMAL", ComponentType::f32, 3, false, {bytes.begin(), bytes.end()}});
+    CHECK_FALSE(near(square.pixel(*renderer, 0.5, 0.5), straight));
+    m.flat = true;
+    CHECK(near(square.pixel(*renderer, 0.5, 0.5), straight));
+    m.double_sided = true;
+    CHECK_FALSE(near(square.pixel(*renderer, 0.5, 0.5, true), Color{}));
 }
 
 TEST_CASE_FIXTURE(GpuTest, "materials: one picture from every source, by every path") {
-    for (const char* name : {"materials.glb", "globe.glb"}) {
+    for (const auto& [name, flat] : {std::pair("materials.glb", false), std::pair("globe.glb", true)}) {
         CAPTURE(name);
-        const DrawnMesh drawn = asset(name);
+        DrawnMesh drawn = asset(name);
+        for (Material& m : drawn.materials.materials) m.flat = flat;
         gpu::ModelOptions options{.packed = true, .vertices = VertexOptions{}, .surface = drawn.surface};
         Result<gpu::Model> model = gpu::make_model(drawn.mesh, options);
         REQUIRE_MESSAGE(model, model.error().message);

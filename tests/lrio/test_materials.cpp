@@ -58,9 +58,12 @@ TEST_CASE("materials: of each triangle, with what they are drawn with") {
         "extensions":{"KHR_materials_unlit":{},"KHR_materials_emissive_strength":{"emissiveStrength":2},
                       "KHR_materials_sheen":{}}})",
                                                            textures));
-    REQUIRE(materials.materials.size() == 2);
-    CHECK(materials.of_triangle == std::vector<std::uint32_t>{1, 1, 0, 0, 1, 1, 0, 0});
-    const Material& m = materials.materials[0];
+    // Without normals each has a flat twin.
+    REQUIRE(materials.materials.size() == 4);
+    CHECK(materials.of_triangle == std::vector<std::uint32_t>{2, 2, 3, 3, 2, 2, 3, 3});
+    CHECK_FALSE(materials.materials[0].flat);
+    CHECK((materials.materials[2].flat && materials.materials[3].flat));
+    const Material& m = materials.materials[3];
     CHECK(m.base_color == std::array<float, 4>{0.5F, 0.25F, 1, 0.75F});
     CHECK(m.emissive == std::array<float, 3>{0, 1, 2});
     CHECK(m.metallic == 0.5F);

@@ -41,6 +41,7 @@ struct Material {
     AlphaMode alpha = AlphaMode::opaque;
     bool double_sided = false;  ///< triangles are seen from behind, too
     bool unlit = false;         ///< base color alone, without light
+    bool flat = false;          ///< each triangle has its own normal: of primitives without normals
     TextureUse base, metallic_roughness, normal, occluding, emitting;
 };
 
