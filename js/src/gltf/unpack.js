@@ -1,4 +1,5 @@
-import { EXTENSION, extensionOf, listOf, numberBelow, objectOf, refuse, removeAllExtensions } from "./document.js";
+import { decodeMesh as decodeAtOnce, ready } from "../lacedring.js";
+import { extensionOf, listOf, numberBelow, objectOf, refuse, removeAllExtensions } from "./document.js";
 import { BufferViews } from "./buffer-views.js";
 import { inflate } from "./inflate.js";
 import { decodePartCodes } from "./part-codes.js";
@@ -7,6 +8,11 @@ import { readDocument } from "./streams.js";
 
 const ARRAY_BUFFER = 34962, ELEMENT_ARRAY_BUFFER = 34963;
 const OTHERS = ["EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_draco_mesh_compression"];
+
+async function decodeWhenReady(bytes, options) {
+  await ready;
+  return decodeAtOnce(bytes, options);
+}
 
 /** Counts memory against a limit. */
 class Budget {
@@ -94,7 +100,7 @@ function putBounds(accessor, values, components) {
 /** Decodes a stream. Returns what to write: {accessor, count, bytes, stride, values} of each accessor. */
 async function decodeStream(stream, json, views, decodeMesh, budget) {
   const file = await views.stored(stream.view);
-  const mesh = await decodeMesh(file, { limits: { maxBytes: budget.left } });
+  const mesh = await decodeMesh(file, { limits: { maxMemory: budget.left } });
   const { indices, attributes, vertexCount } = mesh;
   // Once as decoded and once more as split.
   budget.take(2 * (indices.byteLength + attributes.reduce((sum, { values }) => sum + values.byteLength, 0)) + 16 * vertexCount);
@@ -125,15 +131,16 @@ async function decodeStream(stream, json, views, decodeMesh, budget) {
  * @param {object} json the document, an object that JSON.parse returned. It becomes the plain document, the inner one if it is packed
  * @param {Uint8Array} [binaryChunk] of a GLB
  * @param {(buffer: number, uri: string) => Promise<Uint8Array>} [loadBuffer] the bytes of a buffer that has a uri
- * @param {object} options
- * @param {function} options.decodeMesh of "lacedring", or one that returns a promise of the same
- * @param {number} [options.maxBytes] memory for what is decoded; 512 MiB, or 128 times the binary chunk if that is more
+ * @param {object} [options]
+ * @param {function} [options.decodeMesh] decodeMesh of "lacedring" unless given; decodeMeshAsync decodes in a worker
+ * @param {{maxMemory?: number}} [options.limits] bytes of memory for what is decoded: 512 MiB unless given, or 128 times the binary
+ *   chunk if that is more
  * @returns {Promise<{json: object, views: (Uint8Array | undefined)[]}>} `json`, and the bytes of its buffer views, undefined where
  *   they lie in the view's buffer. Buffers that were placeholders have no bytes. Rejects with an Error in one line. Untrusted input
  *   is safe.
  */
-export async function unpackGltf(json, binaryChunk, loadBuffer, { decodeMesh, maxBytes } = {}) {
-  const budget = new Budget(maxBytes ?? Math.max(2 ** 29, 128 * (binaryChunk?.length ?? 0)));
+export async function unpackGltf(json, binaryChunk, loadBuffer, { decodeMesh = decodeWhenReady, limits } = {}) {
+  const budget = new Budget(limits?.maxMemory ?? Math.max(2 ** 29, 128 * (binaryChunk?.length ?? 0)));
   const isPacked = extensionOf(json)?.document !== undefined;
   if (isPacked) await openDocument(json, binaryChunk, budget.left / 64);
   if ([json.extensionsUsed].flat().some((name) => OTHERS.includes(name))) refuse("another compression of meshes is beside it");
@@ -167,5 +174,3 @@ export async function unpackGltf(json, binaryChunk, loadBuffer, { decodeMesh, ma
   removeAllExtensions(json);
   return { json, views: contents };
 }
-
-export { EXTENSION };

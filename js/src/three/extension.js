@@ -7,7 +7,7 @@ const HANDLERS = ["KHR_materials_unlit", "KHR_texture_transform", "KHR_mesh_quan
 /**
  * Lets three's GLTFLoader read glTF files with LACEDRING_mesh_compression:
  *
- *     loader.register((parser) => new LacedRingExtension(parser, { decodeMesh }));
+ *     loader.register((parser) => new LacedRingExtension(parser));
  *
  * Streams, coded buffer views and a packed document are decoded before the loader reads any node. A fallback is not read.
  */
@@ -19,7 +19,7 @@ export class LacedRingExtension {
 
   /**
    * @param {object} parser GLTFLoader's
-   * @param {object} options unpackGltf's: decodeMesh, maxBytes
+   * @param {object} [options] unpackGltf's: decodeMesh, limits
    */
   constructor(parser, options) {
     this.#parser = parser;
@@ -33,7 +33,7 @@ export class LacedRingExtension {
 
   beforeRoot() {
     const { extensionsUsed } = this.#parser.json;
-    return Array.isArray(extensionsUsed) && extensionsUsed.includes(EXTENSION) ? this.#unpack() : undefined;
+    return Array.isArray(extensionsUsed) && extensionsUsed.includes(EXTENSION) ? this.#unpack() : null;
   }
 
   async #unpack() {

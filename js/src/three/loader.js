@@ -1,3 +1,4 @@
+import { decodeMesh, ready } from "../lacedring.js";
 import { BufferAttribute, BufferGeometry, FileLoader, Loader } from "three";
 
 /** three's names of attributes; others keep theirs, in lower case. */
@@ -26,15 +27,8 @@ export function geometryOf({ indices, attributes, vertexCount }) {
   return geometry;
 }
 
-/** Loads .lr files: `await new LacedRingLoader(decodeMesh).loadAsync(url)` is a BufferGeometry. */
+/** Loads .lr files: `await new LacedRingLoader().loadAsync(url)` is a BufferGeometry. */
 export class LacedRingLoader extends Loader {
-  #decodeMesh;
-
-  constructor(decodeMesh, manager) {
-    super(manager);
-    this.#decodeMesh = decodeMesh;
-  }
-
   load(url, onLoad, onProgress, onError = console.error) {
     const loader = new FileLoader(this.manager).setPath(this.path).setResponseType("arraybuffer")
       .setRequestHeader(this.requestHeader).setWithCredentials(this.withCredentials);
@@ -42,11 +36,12 @@ export class LacedRingLoader extends Loader {
       onError(error);
       this.manager.itemError(url);
     };
-    loader.load(url, (buffer) => this.parse(new Uint8Array(buffer)).then(onLoad, fail), onProgress, onError);
+    loader.load(url, (buffer) => this.parse(new Uint8Array(buffer)).then(onLoad).catch(fail), onProgress, onError);
   }
 
   /** @returns {Promise<BufferGeometry>} Rejects with an Error in one line: the bytes are not valid. */
   async parse(bytes) {
-    return geometryOf(await this.#decodeMesh(bytes));
+    await ready;
+    return geometryOf(decodeMesh(bytes));
   }
 }
