@@ -1,11 +1,11 @@
-import type { Limits, Mesh } from "../lacedring.js";
+import type { Mesh, Options } from "../lacedring.js";
 
 export const EXTENSION: "LACEDRING_mesh_compression";
 
 export interface UnpackOptions {
   /** decodeMesh of "lacedring" unless given; decodeMeshAsync decodes in a worker. */
-  decodeMesh?: (bytes: Uint8Array, options: { limits: Limits }) => Mesh | Promise<Mesh>;
-  limits?: Limits;
+  decodeMesh?: (bytes: Uint8Array, options: Options) => Mesh | Promise<Mesh>;
+  limits?: Options["limits"];
 }
 
 /** The bytes of a buffer that has a uri. */
