@@ -97,13 +97,13 @@ export class Kernel {
 
 /** A render pipeline; entry points `vertex` and `fragment` unless told otherwise. */
 export class Draw {
-  static async create(device, table, code, { format, topology = "triangle-list", vertex = "vertex", fragment = "fragment" }) {
+  static async create(device, table, code, { format, topology = "triangle-list", vertex = "vertex", fragment = "fragment", constants = {} }) {
     const draw = new Draw();
     draw.bindings = new Bindings(device, table, GPUShaderStage.VERTEX | GPUShaderStage.FRAGMENT);
     const module = device.createShaderModule({ code: draw.bindings.code + code });
     draw.pipeline = await device.createRenderPipelineAsync({
       layout: draw.bindings.pipelineLayout,
-      vertex: { module, entryPoint: vertex },
+      vertex: { module, entryPoint: vertex, constants },
       fragment: { module, entryPoint: fragment, targets: [{ format }] },
       primitive: { topology },
       depthStencil: { format: "depth32float", depthWriteEnabled: true, depthCompare: "less" },
