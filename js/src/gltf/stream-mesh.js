@@ -1,0 +1,139 @@
+// From a decoded .lr file to vertex sets and index lists.
+import { refuse } from "./document.js";
+
+/** Types of components by glTF's numbers. */
+const COMPONENTS = {
+  __proto__: null, 5120: Int8Array, 5121: Uint8Array, 5122: Int16Array, 5123: Uint16Array, 5125: Uint32Array, 5126: Float32Array,
+};
+const SHAPES = { __proto__: null, SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MAT2: 4, MAT3: 9, MAT4: 16 };
+
+/** Numbers of 0 to count - 1, each once? */
+function checkPermutation(numbers, count) {
+  const seen = new Uint8Array(count);
+  for (const number of numbers) {
+    if (number >= count || seen[number]) refuse("the vertex order is no permutation");
+    seen[number] = 1;
+  }
+  if (numbers.length !== count) refuse("the vertex order is no permutation");
+}
+
+/** Where triangles come from, in the order of the source: entries of the corner order sorted. */
+function sortTriangles(cornerOrder) {
+  const order = Uint32Array.from(cornerOrder, (_, i) => i).sort((a, b) => cornerOrder[a] - cornerOrder[b]);
+  for (let i = 1; i < order.length; i++) {
+    if (Math.floor(cornerOrder[order[i]] / 3) === Math.floor(cornerOrder[order[i - 1]] / 3)) refuse("the corner order has a triangle twice");
+  }
+  return order;
+}
+
+/** Set and place of each vertex, where the stream keeps the order: the sets follow each other. */
+function placeInOrder(mesh, stream, counts) {
+  if (counts.some((count) => count === undefined)) refuse("an ordered stream, and a set without a count");
+  if (counts.reduce((sum, count) => sum + count, 0) !== mesh.vertexCount) refuse("the sets and the stream have different numbers of vertices");
+  checkPermutation(mesh.vertexOrder, mesh.vertexCount);
+  const ends = [];
+  counts.reduce((sum, count) => ends[ends.length] = sum + count, 0);
+  const setAt = new Uint32Array(mesh.vertexCount);
+  ends.forEach((end, set) => setAt.fill(set, end - counts[set], end));
+  return {
+    setOf: setAt.map((_, v) => setAt[mesh.vertexOrder[v]]),
+    place: setAt.map((_, v) => mesh.vertexOrder[v] - ends[setAt[mesh.vertexOrder[v]]] + counts[setAt[mesh.vertexOrder[v]]]),
+    counts,
+  };
+}
+
+/** Set and place of each vertex, where the stream does not keep the order: a vertex is of the set of its triangles. */
+function placeByTriangles({ vertexCount, indices }, stream, partOf) {
+  const none = 0xffffffff, setOf = new Uint32Array(vertexCount).fill(none), place = new Uint32Array(vertexCount);
+  indices.forEach((v, i) => {
+    const { set } = stream.parts[partOf[Math.floor(i / 3)]];
+    if (setOf[v] !== none && setOf[v] !== set) refuse("a vertex of two sets");
+    setOf[v] = set;
+  });
+  const counts = stream.sets.map(() => 0);
+  setOf.forEach((set, v) => {
+    if (set === none) refuse("a vertex is in no triangle");
+    place[v] = counts[set]++;
+  });
+  return { setOf, place, counts };
+}
+
+/**
+ * Splits a decoded mesh into the vertex sets and the parts of its stream.
+ * @param {object} mesh what decodeMesh returns
+ * @param {import("./streams.js").Stream} stream
+ * @param {Uint32Array} [partOf] of each triangle; undefined: there is one part
+ * @param {(number | undefined)[]} counts vertices that the document says each set has, where it does
+ * @returns {{rows: (Uint32Array | undefined)[], parts: Uint32Array[]}} of each set, the vertices of the mesh that are its
+ *   elements (undefined: all, in order); of each part, its triangles of elements. Throws an Error in one line.
+ */
+export function splitMesh(mesh, stream, partOf, counts) {
+  const { vertexCount, indices, vertexOrder, cornerOrder } = mesh;
+  const isOrdered = vertexOrder?.length > 0 && cornerOrder?.length > 0;
+  if (isOrdered !== stream.ordered) refuse("the document and the stream differ about the order");
+  if (partOf === undefined && stream.sets.length > 1) refuse("a set without a part");
+  if (!isOrdered && stream.sets.length === 1) {
+    if ((counts[0] ?? vertexCount) !== vertexCount) refuse(`${vertexCount} vertices of a set, where its accessors have ${counts[0]}`);
+    if (!partOf) return { rows: [undefined], parts: [indices] };
+  }
+  const places = isOrdered ? placeInOrder(mesh, stream, counts) : placeByTriangles(mesh, stream, partOf);
+  const { setOf, place } = places;
+  places.counts.forEach((count, set) => {
+    if ((counts[set] ?? count) !== count) refuse(`${count} vertices of a set, where its accessors have ${counts[set]}`);
+  });
+  const rows = places.counts.map((count) => new Uint32Array(count));
+  setOf.forEach((set, v) => rows[set][place[v]] = v);
+
+  const triangles = isOrdered ? sortTriangles(cornerOrder) : undefined;
+  const corners = stream.parts.map(() => 0);
+  if (partOf) partOf.forEach((part) => corners[part] += 3);
+  else corners[0] = indices.length;
+  const parts = corners.map((count) => new Uint32Array(count));
+  corners.fill(0);
+  for (let i = 0; i < indices.length / 3; i++) {
+    const from = triangles ? triangles[i] : i, part = partOf ? partOf[from] : 0;
+    const first = isOrdered ? cornerOrder[from] % 3 : 0;  // corner that the triangle's first one becomes
+    for (let c = 0; c < 3; c++) {
+      const v = indices[3 * from + c];
+      if (setOf[v] !== stream.parts[part].set) refuse("a triangle with a vertex of another set");
+      parts[part][corners[part] + (first + c) % 3] = place[v];
+    }
+    corners[part] += 3;
+  }
+  return { rows, parts };
+}
+
+/** The values of a set's elements, tightly packed. */
+export function valuesOf({ values, components }, rows) {
+  if (!rows) return values;
+  const out = new values.constructor(rows.length * components);
+  let at = 0;
+  for (const row of rows) {
+    for (let c = 0; c < components; c++) out[at++] = values[row * components + c];
+  }
+  return out;
+}
+
+/** The values as an accessor's component type has them: its own, or integers that floats stand for. */
+export function asComponents(values, accessor, attribute) {
+  const Type = COMPONENTS[accessor.componentType];
+  if (SHAPES[accessor.type] !== attribute.components || !Type || attribute.vUp) refuse(`${attribute.name} does not fit its accessor`);
+  const isFloat = values instanceof Float32Array;
+  if (!isFloat && (accessor.normalized ?? false) !== attribute.normalized) {
+    refuse(`${attribute.name} is normalized in the stream or in its accessor, not in both`);
+  }
+  if (values instanceof Type) return values;
+  if (!isFloat || Type === Uint32Array) refuse(`${attribute.name} has another type than its accessor`);
+  const out = Type.from(values);
+  if (!values.every((value, i) => out[i] === value)) refuse(`${attribute.name} has values that its accessor's type does not hold`);
+  return out;
+}
+
+/** An index list in the type of its accessor. */
+export function asIndices(indices, accessor) {
+  const Type = COMPONENTS[accessor.componentType];
+  if (accessor.type !== "SCALAR" || ![Uint8Array, Uint16Array, Uint32Array].includes(Type)) refuse("a part's accessor is not of indices");
+  const end = 256 ** Type.BYTES_PER_ELEMENT - 1;
+  if (!indices.every((v) => v < end)) refuse("a part's accessor does not hold its indices");
+  return Type === Uint32Array ? indices : Type.from(indices);
+}

@@ -1,0 +1,75 @@
+// Draws .lr files by every path of web/gpu, and from the index buffer that the CPU decodes, and counts the pixels that differ.
+import { Orbit } from "/gpu/camera.js";
+import { createBuffer, openDevice } from "/gpu/gpu.js";
+import { readLr } from "/gpu/lr-file.js";
+import { GpuMesh } from "/gpu/mesh.js";
+import { Renderer } from "/gpu/renderer.js";
+import { loadIncludes } from "/gpu/shaders.js";
+
+const WIDTH = 640, HEIGHT = 480, BACKGROUND = [0, 0, 0, 0];
+
+let device, includes, renderer, target;
+window.open_ = async () => {
+  [device, includes] = await Promise.all([openDevice(), loadIncludes()]);
+  device.addEventListener("uncapturederror", ({ error }) => console.error(error.message));
+  renderer = new Renderer(device, "rgba8unorm");
+  target = device.createTexture({ size: [WIDTH, HEIGHT], format: "rgba8unorm", usage: GPUTextureUsage.RENDER_ATTACHMENT | GPUTextureUsage.COPY_SRC });
+};
+
+/** The pixels of the target, a word each. */
+async function pixels() {
+  const size = 4 * WIDTH * HEIGHT;  // rows are multiples of 256 bytes
+  const buffer = device.createBuffer({ size, usage: GPUBufferUsage.COPY_DST | GPUBufferUsage.MAP_READ });
+  const encoder = device.createCommandEncoder();
+  encoder.copyTextureToBuffer({ texture: target }, { buffer, bytesPerRow: 4 * WIDTH }, [WIDTH, HEIGHT]);
+  device.queue.submit([encoder.finish()]);
+  await buffer.mapAsync(GPUMapMode.READ);
+  const out = new Uint32Array(buffer.getMappedRange().slice(0));
+  buffer.destroy();
+  return out;
+}
+
+/** Milliseconds of a draw, the least of `times`. */
+async function timed(times, work) {
+  let least = Infinity;
+  for (let i = 0; i < times; i++) {
+    await device.queue.onSubmittedWorkDone();
+    const start = performance.now();
+    await work();
+    await device.queue.onSubmittedWorkDone();
+    least = Math.min(least, performance.now() - start);
+  }
+  return Math.round(10 * least) / 10;
+}
+
+const differing = (a, b) => a.reduce((count, pixel, i) => count + (pixel !== b[i]), 0);
+
+/**
+ * Compares the paths: for each view { view, covered: pixels, of each path that differ from the CPU's index buffer: { NAME: pixels } }, bytes, and
+ * with `times` > 0 milliseconds. The index buffer, of u32, is URL.indices.
+ */
+window.pictures = async (url, { views, blocks, times = 0 }) => {
+  const load = async (from) => new Uint8Array(await (await fetch(from)).arrayBuffer());
+  const mesh = await GpuMesh.create(device, readLr(await load(url)), includes);
+  const list = await load(`${url}.indices`), plain = { indices: createBuffer(device, "indices", list.length, list), count: list.length / 4 };
+  const camera = new Orbit(mesh.bounds), out = { views: [], bytes: {}, times: {} };
+  const choices = { plain: { path: "expand", plain }, expand: { path: "expand" }, pull: { path: "pull" },
+    ...(blocks ? { "pull, blocks": { path: "pull", blocks } } : {}) };
+  for (const view of views) {
+    const drawn = {};
+    for (const [name, choice] of Object.entries(choices)) {
+      const draw = await renderer.prepare(mesh, { ...choice, view });
+      renderer.draw(target, draw, camera, BACKGROUND);
+      drawn[name] = await pixels();
+      out.bytes[`${view}, ${name}`] = mesh.bytes();
+      if (times) out.times[`${view}, ${name}`] = await timed(times, () => renderer.draw(target, draw, camera, BACKGROUND));
+      if (times && name === "expand") out.times.expanding = await timed(times, () => mesh.expandAgain());
+    }
+    const { plain: reference, ...others } = drawn;
+    out.views.push({ view, covered: reference.reduce((count, pixel) => count + (pixel !== 0), 0),
+      different: Object.fromEntries(Object.entries(others).map(([name, picture]) => [name, differing(picture, reference)])) });
+  }
+  mesh.destroy();
+  plain.indices.destroy();
+  return out;
+};
