@@ -70,7 +70,7 @@ function freeViews(json, views, streams) {
     if (hollow.has(view)) refuse(`${what} refers to buffer view ${view}, which is a stream's or has no contents`);
     (decoded.has(accessor) ? fallback : kept).add(view);
   });
-  return [...hollow, ...fallback].filter((view) => !kept.has(view) && views.list[view]).sort((a, b) => a - b);
+  return [...hollow, ...fallback].filter((view) => Number.isInteger(view) && !kept.has(view) && views.list[view]).sort((a, b) => a - b);
 }
 
 /** Rows of bytes as glTF wants vertices: each at a multiple of 4. */
