@@ -82,7 +82,9 @@ try {
   const host = `http://127.0.0.1:${server.address().port}`;
   await page.open(`${host}/tests/webgpu-pictures.html`);
   await page.evaluate("open_()");
-  for (const mesh of args) await compare(page, mesh, "packed", ["--positions", "14"], times ? ["flat"] : ["smooth", "flat"]);
+  for (const mesh of args) {
+    for (const format of ["packed", "lean"]) await compare(page, mesh, format, ["--positions", "14"], times ? ["flat"] : ["smooth", "flat"]);
+  }
   if (args.length === 0) {
     const views = ["smooth", "flat", "ring", "classes"], blob = join(work, "blob.ply");
     run("generate", "blob", "-o", blob, "--triangles", "2500");
