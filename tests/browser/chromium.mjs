@@ -7,8 +7,8 @@ import { join } from "node:path";
 // WebGL2 without a GPU (SwiftShader), the same pixels on every machine. The sandbox needs rights that containers lack.
 const FLAGS = ["--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-first-run",
   "--disable-extensions", "--remote-debugging-pipe"];
-// WebGPU in the same way. Pages come from 127.0.0.1: elsewhere there is none.
-export const WEBGPU = ["--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader"];
+// WebGPU in the same way. Pages come from 127.0.0.1: elsewhere there is none. Without Vulkan the GPU process ends when a canvas is shown.
+export const WEBGPU = ["--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "--enable-features=Vulkan", "--use-vulkan=swiftshader"];
 
 export class Page {
   #process;
@@ -94,6 +94,18 @@ export class Page {
     await this.#send("HeapProfiler.collectGarbage");
     const { usedSize, backingStorageSize } = await this.#send("Runtime.getHeapUsage");
     return { objects: usedSize, arrays: backingStorageSize };
+  }
+
+  /** Makes the page so large, in pixels, and light or dark. */
+  async show(width, height, scheme = "light") {
+    await this.#send("Emulation.setDeviceMetricsOverride", { width, height, deviceScaleFactor: 1, mobile: false });
+    await this.#send("Emulation.setEmulatedMedia", { features: [{ name: "prefers-color-scheme", value: scheme }] });
+  }
+
+  /** The page as a PNG file's bytes. */
+  async screenshot() {
+    const { data } = await this.#send("Page.captureScreenshot", { format: "png" });
+    return Buffer.from(data, "base64");
   }
 
   async close() {

@@ -1,7 +1,7 @@
 // Decodes all that an .lr file holds with shaders/include/*.wgsl in compute shaders, and compares every integer with what the readers in
 // tests/independent decode.
 import { Kernel, createBuffer, openDevice, readBuffer } from "/gpu/gpu.js";
-import { readLr } from "/gpu/lr-file.js";
+import { crc32, readLr } from "/gpu/lr-file.js";
 
 const NULL = 0xffffffff, GUARD = 0xdeadbeef;
 const include = async (name) => (await fetch(`/shaders/${name}.wgsl`)).text();
@@ -220,4 +220,79 @@ window.check = async (url) => {
   if (streams.length !== expected.attributes.length) check.problems.push("another number of vertex streams");
   for (const [i, stream] of streams.entries()) await checkVertices(check, stream, expected.attributes[i]);
   return { problems: check.problems, values: check.values, slots: file.slots };
+};
+
+/** SplitMix32: numbers below a bound. */
+function random(seed) {
+  return (bound) => {
+    seed = seed + 0x9e3779b9 | 0;
+    let z = Math.imul(seed ^ seed >>> 16, 0x21f0aaad);
+    z = Math.imul(z ^ z >>> 15, 0x735a2d97);
+    return ((z ^ z >>> 15) >>> 0) % bound;
+  };
+}
+
+/**
+ * Decodes a file's streams with bits of theirs flipped, or words at random: whatever comes out, every shader ends and the device stays.
+ * Returns the milliseconds of the slowest.
+ */
+window.damage = async (url, trials, seed) => {
+  const file = readLr(new Uint8Array(await (await fetch(url)).arrayBuffer())), below = random(seed);
+  const expected = await (await fetch(`${url}.json`)).json();
+  let slowest = 0;
+  const damaged = (words, first) => {
+    const out = words.slice();
+    for (let k = 0; k <= below(20); k++) {
+      const at = first + below(out.length - first);
+      out[at] = below(2) ? out[at] ^ 1 << below(32) : below(2 ** 32);
+    }
+    return out;
+  };
+  for (let trial = 0; trial < trials; trial++) {
+    const start = performance.now(), check = new Check();
+    const stream = damaged(file.stream, file.kind === "packed" ? 3 : 7);
+    if (file.kind === "lr") {
+      await runOver("lr", stream, 4 * file.slots, 8);
+      await runOver("stars", stream, file.vertices, 3);
+    } else {
+      await runOver(file.kind, stream, file.slots, 3);
+      if (file.kind === "packed") await runOver("quads", stream, Math.ceil(file.slots / 4), 12);
+    }
+    if (file.seams) await checkSeams(check, { ...file, seams: damaged(file.seams, 2) }, expected);
+    const { words, ...position } = file.attributes[0];
+    await checkVertices(check, { ...position, words: damaged(words, 4) }, expected.attributes[0]);
+    slowest = Math.max(slowest, performance.now() - start);
+  }
+  return slowest;
+};
+
+/** The file with a word of it changed and checksums that are right again. */
+function changed(bytes, below) {
+  const out = bytes.slice(), view = new DataView(out.buffer);
+  const at = 4 * below(below(2) ? out.length >> 2 : Math.min(100, out.length >> 2));
+  view.setUint32(at, below(2) ? view.getUint32(at, true) ^ 1 << below(32) : below(2 ** 32), true);
+  const count = Math.min(view.getUint32(8, true), out.length - 32 >> 5);
+  for (let i = 0; i < count; i++) {
+    const entry = 32 + 32 * i, offset = view.getUint32(entry + 8, true);
+    view.setUint32(entry + 4, crc32(out.subarray(offset, offset + view.getUint32(entry + 16, true))), true);
+  }
+  view.setUint32(24, crc32(out.subarray(32, 32 + 32 * count)), true);
+  view.setUint32(28, crc32(out.subarray(0, 28)), true);
+  return below(20) === 0 ? out.subarray(0, below(out.length)) : out;
+}
+
+/** Reads changed files: each is refused by an Error of one line, or asks for no more than its bytes can hold. Returns what is wrong. */
+window.changeFile = async (url, trials, seed) => {
+  const bytes = new Uint8Array(await (await fetch(url)).arrayBuffer()), below = random(seed), wrong = [];
+  let refused = 0;
+  for (let trial = 0; trial < trials; trial++) {
+    try {
+      const { slots, vertices, copies } = readLr(changed(bytes, below));
+      if (slots > 64 * bytes.length || vertices > 256 * bytes.length || copies > 256 * bytes.length) wrong.push(`trial ${trial}: ${slots} ${vertices} ${copies}`);
+    } catch (error) {
+      refused++;
+      if (error.constructor !== Error || error.message.includes("\n")) wrong.push(`trial ${trial}: ${error}`);
+    }
+  }
+  return { wrong, refused };
 };

@@ -7,6 +7,7 @@ import { Renderer } from "/gpu/renderer.js";
 import { loadIncludes } from "/gpu/shaders.js";
 
 const WIDTH = 640, HEIGHT = 480, BACKGROUND = [0, 0, 0, 0];
+const MOST_BLOCKS = 100000;  // slots that are drawn with positions out of their blocks: half a block is read for each corner
 
 let device, includes, renderer, target;
 window.open_ = async () => {
@@ -48,22 +49,23 @@ const differing = (a, b) => a.reduce((count, pixel, i) => count + (pixel !== b[i
  * Compares the paths: for each view { view, covered: pixels, of each path that differ from the CPU's index buffer: { NAME: pixels } }, bytes, and
  * with `times` > 0 milliseconds. The index buffer, of u32, is URL.indices.
  */
-window.pictures = async (url, { views, blocks, times = 0 }) => {
+window.pictures = async (url, { views, times = 0 }) => {
   const load = async (from) => new Uint8Array(await (await fetch(from)).arrayBuffer());
   const mesh = await GpuMesh.create(device, readLr(await load(url)), includes);
   const list = await load(`${url}.indices`), plain = { indices: createBuffer(device, "indices", list.length, list), count: list.length / 4 };
   const camera = new Orbit(mesh.bounds), out = { views: [], bytes: {}, times: {} };
   const choices = { plain: { path: "expand", plain }, expand: { path: "expand" }, pull: { path: "pull" },
-    ...(blocks ? { "pull, blocks": { path: "pull", blocks } } : {}) };
+    ...(mesh.position.words && mesh.file.slots < MOST_BLOCKS ? { "pull, blocks": { path: "pull", blocks: true } } : {}) };
   for (const view of views) {
     const drawn = {};
     for (const [name, choice] of Object.entries(choices)) {
       const draw = await renderer.prepare(mesh, { ...choice, view });
       renderer.draw(target, draw, camera, BACKGROUND);
       drawn[name] = await pixels();
-      out.bytes[`${view}, ${name}`] = mesh.bytes();
+      const list = Object.entries(mesh.buffers).filter(([buffer]) => draw.needs.has(buffer)).map(([buffer, { size }]) => [buffer, size]);
+      out.bytes[`${view}, ${name}`] = { list, plain: mesh.plainBytes };
       if (times) out.times[`${view}, ${name}`] = await timed(times, () => renderer.draw(target, draw, camera, BACKGROUND));
-      if (times && name === "expand") out.times.expanding = await timed(times, () => mesh.expandAgain());
+      if (times && name === "expand") out.times.expanding = await timed(times, () => mesh.expand());
     }
     const { plain: reference, ...others } = drawn;
     out.views.push({ view, covered: reference.reduce((count, pixel) => count + (pixel !== 0), 0),

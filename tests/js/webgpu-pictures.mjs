@@ -36,8 +36,7 @@ async function compare(page, mesh, format, options, views) {
   run("encode", "--resident", "--force", "--format", format, ...options, mesh, "-o", file);
   run("decode", "--force", file, "-o", join(work, "decoded.glb"));
   writeFileSync(`${file}.indices`, indicesOf(join(work, "decoded.glb")));
-  const blocks = options.includes("--positions") || format !== "lr";
-  const result = await page.evaluate(`pictures("/data/${name}", ${JSON.stringify({ views, blocks: blocks && (times === 0 || views.length === 1), times })})`);
+  const result = await page.evaluate(`pictures("/data/${name}", ${JSON.stringify({ views, times })})`);
   for (const { view, covered, different } of result.views) {
     const wrong = covered < 1000 || Object.values(different).some((pixels) => pixels > 0);
     const text = `${name}, ${view}: ${covered} pixels covered; different: ${Object.entries(different).map(([path, n]) => `${path} ${n}`).join(", ")}`;
@@ -51,19 +50,49 @@ async function compare(page, mesh, format, options, views) {
   }
 }
 
+/** The example page: every view by every path draws something; files that it does not take are refused in one line. */
+async function checkPage(page, host) {
+  run("encode", join(work, "blob.ply"), "-o", join(work, "stored.lr"));
+  writeFileSync(join(work, "garbage.lr"), Buffer.alloc(100, "garbage"));
+  const shown = (expression) => page.evaluate(`idle().then(() => ${expression})`);
+  const error = `document.getElementById("error").hidden ? "" : document.getElementById("error").textContent`;
+  await page.show(800, 600);
+  for (const [name, expected] of [["stored.lr", "--resident"], ["garbage.lr", "not a valid .lr file"], ["missing.lr", "404"]]) {
+    await page.open(`${host}/gpu/?file=/data/${name}`);
+    const told = await shown(error);
+    if (!told.includes(expected) || told.includes("\n")) fail(`the page says of ${name}: ${told}`);
+  }
+  page.problems = page.problems.filter((problem) => !problem.includes("404"));
+  await page.open(`${host}/gpu/?file=/data/blob.ply-packed.lr`);
+  for (const path of ["pull", "expand"]) {
+    for (const view of ["smooth", "flat", "ring", "classes"]) {
+      await page.evaluate(`["${path}", "${view}"].forEach((value) => document.querySelector(\`[value=\${value}]\`).click())`);
+      const told = await shown(error);
+      if (told) fail(`the page says of ${path}, ${view}: ${told}`);
+      const size = (await page.screenshot()).length;
+      if (size < 40000) fail(`the page shows little of ${path}, ${view}: ${size} bytes of PNG`);
+    }
+  }
+  if (process.env.SCREENSHOT) writeFileSync(process.env.SCREENSHOT, await page.screenshot());
+}
+
 const server = await serve({ ...FOLDERS, tests: here, data: work });
 const page = new Page(WEBGPU);
 try {
   const host = `http://127.0.0.1:${server.address().port}`;
   await page.open(`${host}/tests/webgpu-pictures.html`);
   await page.evaluate("open_()");
-  for (const mesh of args) await compare(page, mesh, "packed", ["--positions", "14"], times ? ["flat"] : ["smooth", "flat"]);
+  for (const mesh of args) {
+    for (const format of ["packed", "lean"]) await compare(page, mesh, format, ["--positions", "14"], times ? ["flat"] : ["smooth", "flat"]);
+  }
   if (args.length === 0) {
-    const views = ["smooth", "flat", "ring", "classes"], asset = (name) => join(assets, name);
-    await compare(page, asset("blob.ply"), "packed", ["--positions", "12"], views);
-    await compare(page, asset("globe.glb"), "packed", ["--normals", "10"], ["smooth"]);
-    await compare(page, asset("cut_torus.ply"), "lean", [], views);
-    await compare(page, asset("blob.ply"), "lr", [], [...views, "outlines"]);
+    const views = ["smooth", "flat", "ring", "classes"], blob = join(work, "blob.ply");
+    run("generate", "blob", "-o", blob, "--triangles", "2500");
+    await compare(page, blob, "packed", ["--positions", "12"], views);
+    await compare(page, join(assets, "globe.glb"), "packed", ["--normals", "10"], ["smooth"]);
+    await compare(page, join(assets, "cut_torus.ply"), "lean", [], ["flat", "classes"]);
+    await compare(page, blob, "lr", [], [...views, "outlines"]);
+    await checkPage(page, host);
   }
   page.problems.forEach(fail);
 } finally {

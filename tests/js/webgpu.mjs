@@ -1,5 +1,6 @@
 // node webgpu.mjs LACEDRING: shaders/include/*.wgsl in headless Chromium's WebGPU. Every triangle, attribute value, copy and operator of files
-// that LACEDRING writes, and of the golden streams, is, integer for integer, that of the readers in tests/independent. Exit code 1 if one is not.
+// that LACEDRING writes, and of the golden streams, is, integer for integer, that of the readers in tests/independent, and damaged
+// streams neither hang nor lose the device. Exit code 1 otherwise.
 import { execFileSync } from "node:child_process";
 import { copyFileSync, mkdtempSync, readFileSync, readdirSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -77,8 +78,15 @@ try {
     values += result.values;
     slots += result.slots;
   }
+  for (const [i, name] of ["soup.ply-1.lr", "globe.glb-2.lr", "torus.ply-0.lr", "moebius.ply-4.lr"].entries()) {
+    const slowest = await page.evaluate(`damage("/data/${name}", 25, ${i})`);
+    const { wrong, refused } = await page.evaluate(`changeFile("/data/${name}", 500, ${i})`);
+    wrong.slice(0, 3).forEach((problem) => fail(`${name}, changed: ${problem}`));
+    if (refused < 50 || refused === 500) fail(`${name}: ${refused} of 500 changed files are refused`);
+    if (slowest > 20000) fail(`${name}, damaged: ${Math.round(slowest)} ms`);
+  }
   page.problems.forEach(fail);
-  console.log(`${names.length} files, ${slots.toLocaleString("en-US")} triangles, ${values.toLocaleString("en-US")} integers compared`);
+  console.log(`${names.length} files, 100 damaged ones, 2,000 changed ones, ${slots.toLocaleString("en-US")} triangles, ${values.toLocaleString("en-US")} integers compared`);
 } finally {
   await page.close();
   server.close();

@@ -95,9 +95,10 @@ export class Kernel {
   }
 }
 
-/** A render pipeline; entry points `vertex` and `fragment` unless told otherwise. */
+/** A render pipeline; entry points `vertex` and `fragment` unless told otherwise, constants for the vertex stage. */
 export class Draw {
-  static async create(device, table, code, { format, topology = "triangle-list", vertex = "vertex", fragment = "fragment", constants = {} }) {
+  static async create(device, table, code, options) {
+    const { format, samples = 1, topology = "triangle-list", vertex = "vertex", fragment = "fragment", constants = {} } = options;
     const draw = new Draw();
     draw.bindings = new Bindings(device, table, GPUShaderStage.VERTEX | GPUShaderStage.FRAGMENT);
     const module = device.createShaderModule({ code: draw.bindings.code + code });
@@ -106,6 +107,7 @@ export class Draw {
       vertex: { module, entryPoint: vertex, constants },
       fragment: { module, entryPoint: fragment, targets: [{ format }] },
       primitive: { topology },
+      multisample: { count: samples },
       depthStencil: { format: "depth32float", depthWriteEnabled: true, depthCompare: "less" },
     });
     return draw;

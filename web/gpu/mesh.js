@@ -42,7 +42,7 @@ export class GpuMesh {
   /** Makes a buffer if it is not there: "indices", "positions", "normals", or "copies" (with "vertex_of"). */
   async ensure(name) {
     if (this.buffers[name]) return;
-    if (name === "indices") await this.#expand();
+    if (name === "indices") await this.expand();
     if (name === "positions") await this.#decode("positions", "position", this.position);
     if (name === "copies") await this.#decodeSeams();
     if (name === "normals") await (this.normal ? this.#decode("normals", "normal", this.normal) : this.#computeNormals());
@@ -60,17 +60,11 @@ export class GpuMesh {
     this.drop(...Object.keys(this.buffers));
   }
 
-  async #expand() {
+  /** Expands the stream into the index buffer, again if it is there: to be timed. */
+  async expand() {
     const { kind, slots } = this.file;
     const kernel = await this.#kernel("expand", expandShader(this.includes, kind));
-    this.buffers.indices = createBuffer(this.device, "index buffer", 12 * slots);
-    kernel.run({ stream: this.buffers.stream, expanded: this.buffers.indices }, kind === "packed" ? Math.ceil(slots / 4) : slots);
-  }
-
-  /** Expands again into the buffer that is there: to be timed. */
-  async expandAgain() {
-    const { kind, slots } = this.file;
-    const kernel = await this.#kernel("expand", expandShader(this.includes, kind));
+    this.buffers.indices ??= createBuffer(this.device, "index buffer", 12 * slots);
     kernel.run({ stream: this.buffers.stream, expanded: this.buffers.indices }, kind === "packed" ? Math.ceil(slots / 4) : slots);
   }
 
@@ -110,12 +104,10 @@ export class GpuMesh {
     sums.destroy();
   }
 
-  /** Bytes on the GPU now, [what, bytes, whether they lie in the file so], and those of plain indexed buffers for the same picture. */
-  bytes() {
-    const inFile = ["stream", "seams", "position_words", "normal_words"];
-    const list = Object.entries(this.buffers).map(([name, { size }]) => [name, size, inFile.includes(name)]);
-    const { file } = this, vertices = file.copies || file.vertices, floats = this.normal || this.buffers.normals ? 6 : 3;
-    return { list, plain: 12 * file.triangles + 4 * floats * (this.hasCopies ? vertices : file.vertices) };
+  /** Bytes of plain buffers for the same picture: three indices a triangle, floats for positions and, where it has them, normals. */
+  get plainBytes() {
+    const { file } = this, vertices = this.hasCopies ? file.copies : file.vertices;
+    return 12 * file.triangles + (this.buffers.normals ? 24 : 12) * vertices;
   }
 }
 

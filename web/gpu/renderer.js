@@ -9,20 +9,23 @@ const CREASE_COS = Math.cos(40 * Math.PI / 180);
 
 export class Renderer {
   #draws = new Map();
-  #depth;
+  #targets = {};  // depth and, of several samples a pixel, color
 
-  constructor(device, format) {
-    Object.assign(this, { device, format });
+  constructor(device, format, samples = 1) {
+    Object.assign(this, { device, format, samples });
     this.frame = device.createBuffer({ size: 96, usage: GPUBufferUsage.UNIFORM | GPUBufferUsage.COPY_DST });
   }
 
   async #pipeline(key, shader, options) {
-    if (!this.#draws.has(key)) this.#draws.set(key, await Draw.create(this.device, shader.table, shader.code, { format: this.format, ...options }));
+    if (!this.#draws.has(key)) {
+      const { device, format, samples } = this;
+      this.#draws.set(key, await Draw.create(device, shader.table, shader.code, { format, samples, ...options }));
+    }
     return this.#draws.get(key);
   }
 
   /**
-   * Has the mesh hold just what a picture needs, and compiles: returns a function (pass) that draws it. choice: { path: "pull" or "expand",
+   * Has the mesh hold what a picture needs, and compiles. Returns { record, needs }: record(pass) draws it from the buffers named by needs. choice: { path: "pull" or "expand",
    * blocks: positions out of the vertex blocks, in the vertex stage; view: one of VIEWS; plain: { indices, count }, an index buffer in place of
    * the expanded one }.
    */
@@ -36,7 +39,10 @@ export class Renderer {
     if (hasCopies) await mesh.ensure("copies");
     if (expand) await mesh.ensure("indices");
     if (!blocks) await mesh.ensure("positions");
-    mesh.drop(...[!expand && "indices", !hasNormals && "normals", !hasCopies && "copies", !hasCopies && "vertex_of", blocks && "positions"].filter(Boolean));
+    if (!expand) mesh.drop("indices");
+    if (!hasNormals) mesh.drop("normals");
+    if (!hasCopies) mesh.drop("copies", "vertex_of");
+    if (blocks) mesh.drop("positions");
 
     const key = JSON.stringify([file.kind, expand, blocks, view, hasCopies]), positions = blocks ? "blocks" : "floats";
     const shader = surfaceShader(mesh.includes, { kind: file.kind, indices: expand, positions, hasCopies, hasNormals });
@@ -47,10 +53,16 @@ export class Renderer {
       { topology: "line-list", constants: blocks ? { LR_VERTEX_MAPPING: mesh.position.mapping } : {} });
     const buffers = { ...mesh.buffers, ...(plain ? { indices: plain.indices, copies: plain.indices } : {}), frame: this.frame };
     const count = plain?.count ?? 3 * file.slots;
-    return (pass) => {
+    const list = hasCopies ? "copies" : "indices";
+    const needs = new Set([...surface.bindings.names, ...(outlines?.bindings.names ?? [])].filter((name) => name in mesh.buffers));
+    if (isIndexed) {
+      ["stream", "indices", "copies"].forEach((name) => needs.delete(name));
+      needs.add(list);
+    }
+    const record = (pass) => {
       surface.use(pass, buffers);
       if (isIndexed) {
-        pass.setIndexBuffer(hasCopies ? buffers.copies : buffers.indices, "uint32");
+        pass.setIndexBuffer(buffers[list], "uint32");
         pass.drawIndexed(count);
       } else {
         pass.draw(count);
@@ -59,23 +71,33 @@ export class Renderer {
       outlines.use(pass, buffers);
       pass.draw(6 * file.slots);
     };
+    return { record, needs };
   }
 
-  /** Draws into a texture. draw: of prepare. */
-  draw(texture, draw, camera, background) {
+  /** Draws what was prepared into a texture. */
+  draw(texture, { record }, camera, background) {
     const { device } = this, { width, height } = texture, { clipFromWorld, eye } = camera.matrices(width / height);
-    if (this.#depth?.width !== width || this.#depth?.height !== height) {
-      this.#depth?.destroy();
-      this.#depth = device.createTexture({ size: [width, height], format: "depth32float", usage: GPUTextureUsage.RENDER_ATTACHMENT });
-    }
+    this.#resize(width, height);
     device.queue.writeBuffer(this.frame, 0, new Float32Array([...clipFromWorld, ...eye, 1, CREASE_COS, 0, 0, 0]));
     const encoder = device.createCommandEncoder();
     const pass = encoder.beginRenderPass({
-      colorAttachments: [{ view: texture.createView(), clearValue: background, loadOp: "clear", storeOp: "store" }],
-      depthStencilAttachment: { view: this.#depth.createView(), depthClearValue: 1, depthLoadOp: "clear", depthStoreOp: "discard" },
+      colorAttachments: [{ ...this.#color(texture.createView()), clearValue: background, loadOp: "clear", storeOp: "store" }],
+      depthStencilAttachment: { view: this.#targets.depth.createView(), depthClearValue: 1, depthLoadOp: "clear", depthStoreOp: "discard" },
     });
-    draw(pass);
+    record(pass);
     pass.end();
     device.queue.submit([encoder.finish()]);
+  }
+
+  #resize(width, height) {
+    if (this.#targets.depth?.width === width && this.#targets.depth.height === height) return;
+    Object.values(this.#targets).forEach((texture) => texture.destroy());
+    const usage = GPUTextureUsage.RENDER_ATTACHMENT;
+    const make = (format) => this.device.createTexture({ size: [width, height], format, sampleCount: this.samples, usage });
+    this.#targets = { depth: make("depth32float"), ...(this.samples > 1 ? { color: make(this.format) } : {}) };
+  }
+
+  #color(view) {
+    return this.samples > 1 ? { view: this.#targets.color.createView(), resolveTarget: view } : { view };
   }
 }

@@ -1,5 +1,5 @@
 import { listOf, refuse } from "./document.js";
-import { unpackGltf } from "./unpack.js";
+import { memoryLimit, unpackGltf } from "./unpack.js";
 
 const GLB = 0x46546c67, JSON_CHUNK = 0x4e4f534a, BINARY_CHUNK = 0x004e4942;
 
@@ -52,6 +52,7 @@ export async function unpackGlb(bytes, loadBuffer, options) {
   const loaded = [];
   const open = (buffer) => loaded[buffer] ??= buffer === 0 && source.binaryChunk ? source.binaryChunk :
     loadBuffer?.(buffer, json.buffers[buffer].uri) ?? refuse(`buffer ${buffer} has no bytes`);
+  const most = Math.min(memoryLimit(options?.limits, bytes.length), 2 ** 32 - 2 ** 16);
   let size = 0;
   const pieces = [];
   for (const [i, view] of listOf(json, "bufferViews").entries()) {
@@ -61,7 +62,7 @@ export async function unpackGlb(bytes, loadBuffer, options) {
     Object.assign(view, { buffer: 0, byteOffset: size });
     pieces.push(piece);
     size = Math.ceil((size + byteLength) / 8) * 8;
-    if (size > 2 ** 32 - 2 ** 16) refuse("the plain file has 4 GiB or more");
+    if (size > most) refuse(`the plain file has more than ${most} bytes`);
   }
   const binary = new Uint8Array(size);
   pieces.forEach((piece, i) => binary.set(piece, json.bufferViews[i].byteOffset));

@@ -7,30 +7,20 @@ const COMPONENTS = {
 };
 const SHAPES = { __proto__: null, SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MAT2: 4, MAT3: 9, MAT4: 16 };
 
-/** Numbers of 0 to count - 1, each once? */
-function checkPermutation(numbers, count) {
-  const seen = new Uint8Array(count);
-  for (const number of numbers) {
-    if (number >= count || seen[number]) refuse("the vertex order is no permutation");
-    seen[number] = 1;
-  }
-  if (numbers.length !== count) refuse("the vertex order is no permutation");
-}
-
-/** Where triangles come from, in the order of the source: entries of the corner order sorted. */
+/** Where triangles come from, in the order of the source. */
 function sortTriangles(cornerOrder) {
-  const order = Uint32Array.from(cornerOrder, (_, i) => i).sort((a, b) => cornerOrder[a] - cornerOrder[b]);
-  for (let i = 1; i < order.length; i++) {
-    if (Math.floor(cornerOrder[order[i]] / 3) === Math.floor(cornerOrder[order[i - 1]] / 3)) refuse("the corner order has a triangle twice");
-  }
-  return order;
+  const numbers = cornerOrder.map((entry) => Math.floor(entry / 3)), order = cornerOrder.map((_, i) => i);
+  const end = numbers.reduce((most, number) => Math.max(most, number), 0) + 1;
+  if (end > 16 * order.length) return order.sort((a, b) => numbers[a] - numbers[b]);  // most of the source's were degenerate
+  const none = 0xffffffff, from = new Uint32Array(end).fill(none);
+  order.forEach((i) => from[numbers[i]] = i);
+  return from.filter((i) => i !== none);
 }
 
 /** Set and place of each vertex, where the stream keeps the order: the sets follow each other. */
 function placeInOrder(mesh, stream, counts) {
   if (counts.some((count) => count === undefined)) refuse("an ordered stream, and a set without a count");
   if (counts.reduce((sum, count) => sum + count, 0) !== mesh.vertexCount) refuse("the sets and the stream have different numbers of vertices");
-  checkPermutation(mesh.vertexOrder, mesh.vertexCount);
   const ends = [];
   counts.reduce((sum, count) => ends[ends.length] = sum + count, 0);
   const setAt = new Uint32Array(mesh.vertexCount);
@@ -129,11 +119,11 @@ export function asComponents(values, accessor, attribute) {
   return out;
 }
 
-/** An index list in the type of its accessor. */
-export function asIndices(indices, accessor) {
+/** An index list of a set of `elements` in the type of its accessor. */
+export function asIndices(indices, accessor, elements) {
   const Type = COMPONENTS[accessor.componentType];
   if (accessor.type !== "SCALAR" || ![Uint8Array, Uint16Array, Uint32Array].includes(Type)) refuse("a part's accessor is not of indices");
   const end = 256 ** Type.BYTES_PER_ELEMENT - 1;
-  if (!indices.every((v) => v < end)) refuse("a part's accessor does not hold its indices");
+  if (elements > end && !indices.every((v) => v < end)) refuse("a part's accessor does not hold its indices");
   return Type === Uint32Array ? indices : Type.from(indices);
 }

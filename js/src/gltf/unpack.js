@@ -14,6 +14,11 @@ async function decodeWhenReady(bytes, options) {
   return decodeAtOnce(bytes, options);
 }
 
+/** Bytes of memory that decoding a file may take, unless the caller says: as lacedring's --max-memory. */
+export function memoryLimit(limits, fileBytes) {
+  return limits?.maxMemory ?? Math.max(2 ** 29, 128 * fileBytes);
+}
+
 /** Counts memory against a limit. */
 class Budget {
   constructor(most) {
@@ -70,7 +75,7 @@ function freeViews(json, views, streams) {
     if (hollow.has(view)) refuse(`${what} refers to buffer view ${view}, which is a stream's or has no contents`);
     (decoded.has(accessor) ? fallback : kept).add(view);
   });
-  return [...hollow, ...fallback].filter((view) => !kept.has(view) && views.list[view]).sort((a, b) => a - b);
+  return [...hollow, ...fallback].filter((view) => Number.isInteger(view) && !kept.has(view) && views.list[view]).sort((a, b) => a - b);
 }
 
 /** Rows of bytes as glTF wants vertices: each at a multiple of 4. */
@@ -87,11 +92,13 @@ function padRows(values, components) {
 function putBounds(accessor, values, components) {
   const min = new Array(components).fill(Infinity), max = new Array(components).fill(-Infinity);
   let isFinite = values.length > 0;
-  for (let i = 0; i < values.length; i++) {
-    const value = values[i], c = i % components;
-    isFinite &&= Number.isFinite(value);
-    if (value < min[c]) min[c] = value;
-    if (value > max[c]) max[c] = value;
+  for (let c = 0; c < components; c++) {
+    for (let i = c; i < values.length; i += components) {
+      const value = values[i];
+      if (value < min[c]) min[c] = value;
+      if (value > max[c]) max[c] = value;
+      isFinite &&= value - value === 0;
+    }
   }
   if (isFinite) Object.assign(accessor, { min, max });
   else delete accessor.min, delete accessor.max;
@@ -120,7 +127,7 @@ async function decodeStream(stream, json, views, decodeMesh, budget) {
     });
   });
   stream.parts.forEach((part, i) => {
-    const values = asIndices(parts[i], json.accessors[part.indices]);
+    const values = asIndices(parts[i], json.accessors[part.indices], rows[part.set]?.length ?? vertexCount);
     out.push({ number: part.indices, count: values.length, bytes: new Uint8Array(values.buffer, values.byteOffset, values.byteLength) });
   });
   return out;
@@ -140,9 +147,9 @@ async function decodeStream(stream, json, views, decodeMesh, budget) {
  *   is safe.
  */
 export async function unpackGltf(json, binaryChunk, loadBuffer, { decodeMesh = decodeWhenReady, limits } = {}) {
-  const budget = new Budget(limits?.maxMemory ?? Math.max(2 ** 29, 128 * (binaryChunk?.length ?? 0)));
+  const budget = new Budget(memoryLimit(limits, binaryChunk?.length ?? 0));
   const isPacked = extensionOf(json)?.document !== undefined;
-  if (isPacked) await openDocument(json, binaryChunk, budget.left / 64);
+  if (isPacked) await openDocument(json, binaryChunk, Math.floor(budget.left / 32));
   if ([json.extensionsUsed].flat().some((name) => OTHERS.includes(name))) refuse("another compression of meshes is beside it");
   const views = new BufferViews(json, binaryChunk, loadBuffer && ((buffer) => loadBuffer(buffer, json.buffers[buffer].uri)));
   const { streams, positions } = readDocument(json, isPacked);
