@@ -6,7 +6,7 @@ import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { brotliCompressSync } from "node:zlib";
 
-const SAMPLES = [["Globe", "globe.glb", "globe.packed.glb"], ["Materials", "materials.glb", "materials.packed.glb"], ["Blob", "blob.ply", "blob.lr"]];
+const SAMPLES = [["Blob", "blob.ply", "blob.lr"], ["Globe", "globe.glb", "globe.packed.glb"], ["Materials", "materials.glb", "materials.packed.glb"]];
 
 const [program, folder] = process.argv.slice(2);
 const assets = join(dirname(fileURLToPath(import.meta.url)), "../assets");

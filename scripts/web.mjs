@@ -8,8 +8,9 @@ const ROOT = join(dirname(fileURLToPath(import.meta.url)), "..");
 const TYPES = { html: "text/html", js: "text/javascript", mjs: "text/javascript", css: "text/css", json: "application/json", wasm: "application/wasm",
   svg: "image/svg+xml", png: "image/png", gltf: "model/gltf+json", glb: "model/gltf-binary", wgsl: "text/plain", glsl: "text/plain" };
 
-/** Where the page's parts are: the page, the package, the shaders that it loads. */
-export const FOLDERS = { "": join(ROOT, "web"), lacedring: join(ROOT, "build/js"), shaders: join(ROOT, "shaders/include") };
+/** Where the page's parts are: the page, the package, the shaders that it loads, three.js, and its samples. */
+export const FOLDERS = { "": join(ROOT, "web"), lacedring: join(ROOT, "build/js"), shaders: join(ROOT, "shaders/include"),
+  three: join(ROOT, "build/node/node_modules/three"), samples: join(ROOT, "build/samples") };
 
 function find(folders, path) {
   let parts;

@@ -34,15 +34,17 @@ function showSizes({ plain, ours, ourName }, brotli) {
 }
 
 function showFigures(title, result, brotli) {
-  const { triangles, vertices, plain, ours, decodeMs, encodeMs, whole, kind } = result;
+  const { triangles, vertices, plain, ours, decodeMs, encodeMs, whole, images, kind } = result;
   name.textContent = title;
   summary.textContent = `${share(ours.bytes, plain.bytes)} of plain glTF, decoded in ${time(decodeMs)}`;
   showSizes(result, brotli);
-  const rows = [["triangles", count.format(triangles)], ["vertices", count.format(vertices)], ["bits a triangle", (8 * ours.bytes / triangles).toFixed(1)],
-    ["time to decode", time(decodeMs)], ...(encodeMs ? [["time to encode", time(encodeMs)]] : [])];
+  const rows = [["triangles", count.format(triangles)], ["vertices", count.format(vertices)], 
+    ...(images === undefined ? [["bits a triangle", (8 * ours.bytes / triangles).toFixed(1)]] : []),
+    ...(encodeMs ? [["time to encode", time(encodeMs)]] : [])];
   numbers.replaceChildren(...rows.flatMap((row) => row.map((text, i) => Object.assign(document.createElement(i ? "dd" : "dt"), { textContent: text }))));
+  const both = images ? `${count.format(images)} bytes of both are images.` : "";
   note.textContent = whole ? `Triangles and vertices alone, ${lossless.checked ? "bit for bit" : "positions rounded to 14 bits, normals to 10, texture coordinates to 12"}. ` +
-    `The file has ${count.format(whole)} bytes with images and the rest. Packed by lacedring pack, it stays one .glb.` : "";
+    `Images and all else make the file ${count.format(whole)} bytes; lacedring pack makes one packed .glb of it all.` : both;
   document.getElementById("losslessSwitch").hidden = !["glb", "gltf"].includes(kind);
   canvas.setAttribute("aria-label", `${title}: ${count.format(triangles)} triangles`);
 }

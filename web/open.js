@@ -14,10 +14,8 @@ const LARGE = 200000;  // triangles for which good rings are looked for less lon
 function kindOf(bytes) {
   const text = String.fromCharCode(...bytes.subarray(0, 4));
   const isGlb = text === "glTF", isJson = /^(\uFEFF|ï»¿)?\s*\{/.test(text);
-  if (!isGlb && !isJson) {
-    if (new DataView(bytes.buffer, bytes.byteOffset, bytes.length).byteLength >= 32) return "lr";
-    throw new Error("it is no .lr, .glb or .gltf file");
-  }
+  if (text === "LRF1") return "lr";
+  if (!isGlb && !isJson) throw new Error("it is no .lr, .glb or .gltf file");
   const { json } = splitGltf(bytes);
   if (json.extensionsUsed?.includes?.(EXTENSION)) return "packed";
   if (json.buffers?.some?.(({ uri }) => uri && !uri.startsWith("data:"))) throw new Error("its data lie in other files: drop a .glb, or a .gltf with its data inside");
@@ -65,6 +63,12 @@ async function load(bytes, decode) {
   return { object: scene, animations };
 }
 
+/** Bytes of the images in a plain GLB. */
+function imageBytes(plain) {
+  const { images = [], bufferViews } = splitGltf(plain).json;
+  return images.reduce((sum, { bufferView }) => sum + (bufferViews?.[bufferView]?.byteLength ?? 0), 0);
+}
+
 async function openPacked(bytes) {
   let decodeMs = 0;
   const scene = await load(bytes, (stream, options) => {
@@ -72,7 +76,8 @@ async function openPacked(bytes) {
     decodeMs += ms;
     return result;
   });
-  return { ...scene, plain: await unpackGlb(bytes), ours: [bytes], ourName: "packed glTF", decodeMs };
+  const plain = await unpackGlb(bytes);
+  return { ...scene, plain, ours: [bytes], ourName: "packed glTF", decodeMs, images: imageBytes(plain) };
 }
 
 /** Encodes each geometry of a scene and puts what it decodes to in its place. `progress(done, of)` is called before each. */
@@ -99,7 +104,7 @@ async function openPlain(bytes, { isLossless, progress }) {
 }
 
 /**
- * Opens a file. Resolves to {object, animations, triangles, vertices, plain, ours, ourName, decodeMs, encodeMs, whole}: `plain` and
+ * Opens a file. Resolves to {object, animations, triangles, vertices, plain, ours, ourName, decodeMs, encodeMs, whole, images}: `plain` and
  * `ours` are sizes {bytes, gzip}. Rejects with an Error of one line: the file is damaged, or is no mesh.
  */
 export async function open(bytes, options) {

@@ -51,6 +51,7 @@ export class Viewer {
   #isWaiting = false;
   #ringMaterial = new THREE.LineBasicMaterial();
   #hasRing = true;
+  #isFramed = false;  // nobody has moved the camera since frame()
 
   constructor(canvas) {
     this.#renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
@@ -59,7 +60,8 @@ export class Viewer {
     this.#scene.environment = generator.fromScene(room, 0.04).texture;
     room.dispose();
     generator.dispose();
-    const sun = new THREE.DirectionalLight(0xffffff, 1.5);
+    this.#scene.environmentIntensity = 0.5;
+    const sun = new THREE.DirectionalLight(0xffffff, 1.2);
     sun.position.set(-2, 4, 3);
     this.#camera.add(sun);
     this.#scene.add(this.#camera);
@@ -67,6 +69,7 @@ export class Viewer {
     this.#controls.enablePan = false;
     this.#controls.autoRotateSpeed = 1.5;
     this.#controls.addEventListener("change", () => this.draw());
+    this.#controls.addEventListener("start", () => { this.#isFramed = false; });
     new ResizeObserver(() => this.#resize()).observe(canvas);
     canvas.addEventListener("keydown", (event) => this.#press(event));
     this.setColors();
@@ -99,6 +102,8 @@ export class Viewer {
     this.#mixer?.clipAction(animations[0]).play();
     this.setRing(this.#hasRing);
     this.setColors();
+    this.#camera.position.set(0.5, 0.35, 1);
+    this.#controls.target.set(0, 0, 0);
     this.frame();
   }
 
@@ -123,7 +128,7 @@ export class Viewer {
     this.draw();
   }
 
-  /** Moves the camera so that the whole model is seen. */
+  /** Moves the camera, which keeps its direction, so that the whole model is seen. */
   frame() {
     if (!this.#model) return;
     this.#model.updateMatrixWorld(true);
@@ -133,7 +138,8 @@ export class Viewer {
     this.#camera.near = distance / 100;
     this.#camera.far = distance * 100;
     this.#camera.updateProjectionMatrix();
-    this.#camera.position.set(0.5, 0.35, 1).normalize().multiplyScalar(distance).add(center);
+    this.#camera.position.sub(this.#controls.target).setLength(distance).add(center);
+    this.#isFramed = true;
     this.#controls.minDistance = size / 20;
     this.#controls.maxDistance = distance * 8;
     this.#controls.target.copy(center);
@@ -162,6 +168,7 @@ export class Viewer {
     this.#renderer.setSize(clientWidth, clientHeight, false);
     this.#camera.aspect = clientWidth / clientHeight;
     this.#camera.updateProjectionMatrix();
+    if (this.#isFramed) this.frame();
     this.draw();
   }
 
@@ -173,6 +180,7 @@ export class Viewer {
     if (!step && event.key !== "Home") return;
     event.preventDefault();
     if (!step) return;
+    this.#isFramed = false;
     const { target } = this.#controls, offset = this.#camera.position.clone().sub(target);
     const at = new THREE.Spherical().setFromVector3(offset);
     at.theta += step[0];

@@ -96,6 +96,12 @@ export class Page {
     return { objects: usedSize, arrays: backingStorageSize };
   }
 
+  /** Chooses files for an input, as a person does. `input` is an expression. */
+  async choose(input, files) {
+    const { result } = await this.#send("Runtime.evaluate", { expression: input });
+    await this.#send("DOM.setFileInputFiles", { objectId: result.objectId, files });
+  }
+
   /** Makes the page so large, in pixels, and light or dark. */
   async show(width, height, scheme = "light") {
     await this.#send("Emulation.setDeviceMetricsOverride", { width, height, deviceScaleFactor: 1, mobile: false });
