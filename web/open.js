@@ -14,7 +14,7 @@ const LARGE = 200000;  // triangles for which good rings are looked for less lon
 function kindOf(bytes) {
   const text = String.fromCharCode(...bytes.subarray(0, 4));
   const isGlb = text === "glTF", isJson = /^(\uFEFF|ï»¿)?\s*\{/.test(text);
-  if (text === "LRF1") return "lr";
+  if (text === "LRFL") return "lr";
   if (!isGlb && !isJson) throw new Error("it is no .lr, .glb or .gltf file");
   const { json } = splitGltf(bytes);
   if (json.extensionsUsed?.includes?.(EXTENSION)) return "packed";
