@@ -11,6 +11,14 @@ function defaultMemory(size) {
   return Math.max(512 * 2 ** 20, 128 * size);
 }
 
+/** Leaves out the words of slots that have no triangle. */
+function closeRanks(slots) {
+  let end = 0;
+  for (const vertex of slots) {
+    if (vertex !== 0xffffffff) slots[end++] = vertex;
+  }
+}
+
 /** Decodes one file with an engine. Addresses are of its memory; numbers are checked before memory is taken for them. */
 class Reader {
   constructor(engine, bytes, limits = {}) {
@@ -77,8 +85,8 @@ class Reader {
     if (seams) {
       this.#readSeams(seams, slots, slotCount);
       if (this.triangleCount < slotCount) {
-        engine.run("lr_close_ranks", slots, slotCount);
-        engine.run("lr_close_ranks", this.corners, slotCount);
+        closeRanks(engine.words(slots, 3 * slotCount));
+        closeRanks(engine.words(this.corners, 3 * slotCount));
       }
     }
     this.triangles = slots;

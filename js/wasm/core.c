@@ -14,31 +14,37 @@ uint32_t* LR_EXPORT(lr_result)(void) {
     return result;
 }
 
-static uint32_t crc_tables[8][256];
-
-/* CRC-32 of more bytes, eight at a time; it begins with 0. */
+/* CRC-32 of more bytes; it begins with 0. */
 uint32_t LR_EXPORT(lr_crc)(const uint8_t* bytes, size_t size, uint32_t crc) {
+#ifdef LACEDRING_TINY
+    enum { kTables = 1 };
+#else
+    enum { kTables = 8 };
+#endif
+    static uint32_t tables[kTables][256];
     uint32_t i, k;
-    if (crc_tables[0][1] == 0) {
+    if (tables[0][1] == 0) {
         for (i = 0; i < 256; ++i) {
             uint32_t entry = i;
             for (k = 0; k < 8; ++k) entry = (entry >> 1) ^ (0xedb88320u & (0 - (entry & 1)));
-            crc_tables[0][i] = entry;
+            tables[0][i] = entry;
         }
-        for (i = 0; i < 7 * 256; ++i)
-            crc_tables[1][i] = (crc_tables[0][i] >> 8) ^ crc_tables[0][crc_tables[0][i] & 255];
+        for (k = 1; k < kTables; ++k) {
+            for (i = 0; i < 256; ++i) tables[k][i] = (tables[k - 1][i] >> 8) ^ tables[0][tables[k - 1][i] & 255];
+        }
     }
     crc = ~crc;
+#ifndef LACEDRING_TINY
     for (; size >= 8; size -= 8, bytes += 8) {
         uint32_t low, high;
         memcpy(&low, bytes, 4);
         memcpy(&high, bytes + 4, 4);
         low ^= crc;
-        crc = crc_tables[7][low & 255] ^ crc_tables[6][low >> 8 & 255] ^ crc_tables[5][low >> 16 & 255] ^
-              crc_tables[4][low >> 24] ^ crc_tables[3][high & 255] ^ crc_tables[2][high >> 8 & 255] ^
-              crc_tables[1][high >> 16 & 255] ^ crc_tables[0][high >> 24];
+        crc = tables[7][low & 255] ^ tables[6][low >> 8 & 255] ^ tables[5][low >> 16 & 255] ^ tables[4][low >> 24] ^
+              tables[3][high & 255] ^ tables[2][high >> 8 & 255] ^ tables[1][high >> 16 & 255] ^ tables[0][high >> 24];
     }
-    for (; size > 0; --size) crc = (crc >> 8) ^ crc_tables[0][(crc ^ *bytes++) & 255];
+#endif
+    for (; size > 0; --size) crc = (crc >> 8) ^ tables[0][(crc ^ *bytes++) & 255];
     return ~crc;
 }
 
@@ -76,8 +82,7 @@ uint32_t LR_EXPORT(lr_connectivity_open)(const uint32_t* words, size_t count) {
 uint32_t LR_EXPORT(lr_connectivity_decode)(uint32_t* out) {
     uint32_t status;
     if (is_packed) {
-        status = lacedring_packed_check(&packed, LR_WHERE);
-        if (status == LACEDRING_STATUS_OK) lacedring_packed_triangles_u32(&packed, out);
+        status = lacedring_packed_decode_checked(&packed, out, LR_WHERE);
     } else {
         status = lacedring_lean_check(&lean, LR_WHERE);
         if (status == LACEDRING_STATUS_OK) lacedring_lean_triangles_u32(&lean, out);
@@ -88,7 +93,18 @@ uint32_t LR_EXPORT(lr_connectivity_decode)(uint32_t* out) {
 /* One triangle of the stream opened last, which lr_connectivity_decode accepted. */
 void LR_EXPORT(lr_triangle)(uint32_t triangle) {
     if (is_packed) {
+#ifdef LACEDRING_TINY /* a block for one triangle */
+        uint32_t block[3 * LACEDRING_PACKED_BLOCK], run = 0, turned = 0;
+        if (triangle >= packed.own) {
+            while (triangle >= lacedring_run_end_(&packed, run)) ++run;
+            turned = packed.doubles[2 * run + 1] >> 31;
+            triangle += (packed.doubles[2 * run + 1] & 0x7fffffff) - packed.doubles[2 * run];
+        }
+        lacedring_own_blocks_(&packed, triangle / LACEDRING_PACKED_BLOCK, triangle / LACEDRING_PACKED_BLOCK + 1, block);
+        lacedring_double_(block + 3 * (triangle % LACEDRING_PACKED_BLOCK), turned, result);
+#else
         lacedring_packed_triangle(&packed, triangle, result);
+#endif
     } else {
         lacedring_lean_slot(&lean, triangle, result);
     }

@@ -36,27 +36,14 @@ void LR_EXPORT(lr_vertices_integers)(uint32_t* out) {
     lacedring_vertices_blocks(&attribute, 0, lacedring_vertex_blocks_(&attribute), out);
 }
 
-/* The slots of the stream opened last, which lr_connectivity_decode accepted: three vertices each, or UINT32_MAX. */
+/* The slots of the lean stream opened last, which lr_connectivity_decode accepted: three vertices each, or UINT32_MAX. */
 void LR_EXPORT(lr_slots)(uint32_t* out) {
     const uint32_t slots = lacedring_lean_slots(&lean);
     uint32_t slot;
-    if (is_packed) {
-        lacedring_packed_triangles_u32(&packed, out);
-        return;
-    }
     for (slot = 0; slot < slots; ++slot, out += 3) {
         lacedring_lean_slot(&lean, slot, out);
         if (out[0] == out[1]) out[0] = out[1] = out[2] = UINT32_MAX;
     }
-}
-
-/* Leaves slots without a triangle out. Returns how many triangles there are. */
-uint32_t LR_EXPORT(lr_close_ranks)(uint32_t* triangles, uint32_t slots) {
-    uint32_t i, count = 0;
-    for (i = 0; i < slots; ++i) {
-        if (triangles[3 * (size_t)i] != UINT32_MAX) memmove(triangles + 3 * (size_t)count++, triangles + 3 * (size_t)i, 12);
-    }
-    return count;
 }
 
 static struct lacedring_seams seams;
@@ -77,14 +64,15 @@ uint32_t LR_EXPORT(lr_seams_decode)(const uint32_t* slots, uint32_t* scratch, ui
 
 /* out[i] = values[of[i]], of values of `size` bytes. */
 void LR_EXPORT(lr_gather)(const uint8_t* values, uint32_t size, const uint32_t* of, uint32_t count, uint8_t* out) {
-    uint32_t i, k;
+    uint32_t i;
+#ifndef LACEDRING_TINY
+    uint32_t k;
     if (size % 4 == 0) {
         for (i = 0; i < count; ++i) {
             for (k = 0; k < size; k += 4, out += 4) memcpy(out, values + (size_t)of[i] * size + k, 4);
         }
-    } else {
-        for (i = 0; i < count; ++i) {
-            for (k = 0; k < size; ++k) *out++ = values[(size_t)of[i] * size + k];
-        }
+        return;
     }
+#endif
+    for (i = 0; i < count; ++i, out += size) memcpy(out, values + (size_t)of[i] * size, size);
 }
