@@ -12,6 +12,13 @@ window.open_ = async () => {
   device.addEventListener("uncapturederror", ({ error }) => console.error(error.message));
 };
 
+/** What the compiler says of a shader that is put together from includes and a text. */
+window.compile = async (names, text) => {
+  const includes = await Promise.all(names.map(include));
+  const { messages } = await device.createShaderModule({ code: includes.join("") + text }).getCompilationInfo();
+  return messages.map(({ message, lineNum }) => `line ${lineNum}: ${message}`);
+};
+
 const kernels = new Map();
 /** The kernel of this name, made once. */
 async function kernel(name, ...parts) {

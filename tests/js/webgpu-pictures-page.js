@@ -1,6 +1,7 @@
 // Draws .lr files by every path of web/gpu, and from the index buffer that the CPU decodes, and counts the pixels that differ.
 import { Orbit } from "/gpu/camera.js";
-import { createBuffer, openDevice } from "/gpu/gpu.js";
+import { Gl2Mesh, loadGlsl } from "/gpu/gl2.js";
+import { createBuffer, openDevice, readBuffer } from "/gpu/gpu.js";
 import { readLr } from "/gpu/lr-file.js";
 import { GpuMesh } from "/gpu/mesh.js";
 import { Renderer } from "/gpu/renderer.js";
@@ -73,5 +74,28 @@ window.pictures = async (url, { views, times = 0 }) => {
   }
   mesh.destroy();
   plain.indices.destroy();
+  return out;
+};
+
+/** The same in WebGL2, flat: { covered, different: pixels between stream and index buffer, floats: words of positions that differ from expected }. */
+window.picturesGl2 = async (url) => {
+  const load = async (from) => new Uint8Array(await (await fetch(from)).arrayBuffer());
+  const gl = new OffscreenCanvas(WIDTH, HEIGHT).getContext("webgl2", { antialias: false });
+  const mesh = new Gl2Mesh(gl, readLr(await load(url)), await loadGlsl()), list = await load(`${url}.indices`);
+  const indices = gl.createBuffer(), camera = new Orbit(mesh.bounds).matrices(WIDTH / HEIGHT);
+  gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, indices);
+  gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, list, gl.STATIC_DRAW);
+  const pictures = [[], [indices, list.length / 4]].map((from) => {
+    mesh.draw(camera, BACKGROUND, ...from);
+    const out = new Uint32Array(WIDTH * HEIGHT);
+    gl.readPixels(0, 0, WIDTH, HEIGHT, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(out.buffer));
+    return out;
+  });
+  const gpu = await GpuMesh.create(device, mesh.file, includes);
+  const words = new Uint32Array(mesh.floats.buffer), expected = await readBuffer(device, gpu.buffers.positions);
+  const out = { covered: pictures[1].reduce((count, pixel) => count + (pixel !== 0), 0), different: differing(...pictures), floats: differing(words, expected),
+    error: gl.getError() };
+  gpu.destroy();
+  mesh.destroy();
   return out;
 };

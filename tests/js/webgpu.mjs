@@ -57,6 +57,12 @@ function differentConstants() {
   });
 }
 
+/** The shaders that docs/webgpu.md shows, each behind the names of its includes. */
+function shownShaders() {
+  const text = readFileSync(join(here, "../../docs/webgpu.md"), "utf8");
+  return [...text.matchAll(/```wgsl ([\w ]+)\n(.*?)```/gs)].map(([, names, code]) => [names.split(" "), code]);
+}
+
 let failed = 0;
 function fail(text) {
   failed++;
@@ -71,6 +77,10 @@ try {
   execFileSync("python3", ["-B", join(here, "webgpu_expected.py"), ...names.map((name) => join(work, name))]);
   await page.open(`http://127.0.0.1:${server.address().port}/tests/webgpu.html`);
   await page.evaluate("open_()");
+  if (shownShaders().length < 3) fail("docs/webgpu.md shows no shaders");
+  for (const [names, code] of shownShaders()) {
+    for (const message of await page.evaluate(`compile(${JSON.stringify(names)}, ${JSON.stringify(code)})`)) fail(`docs/webgpu.md: ${message}`);
+  }
   let values = 0, slots = 0;
   for (const name of names) {
     const result = await page.evaluate(`check("/data/${name}")`);

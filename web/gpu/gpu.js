@@ -2,7 +2,7 @@
 
 /** WebGPU's device with the limits of its adapter, or an Error with one line. */
 export async function openDevice() {
-  if (!navigator.gpu) throw new Error("This browser has no WebGPU. Chrome, Edge and Safari 26 have it; Firefox on Windows and macOS.");
+  if (!navigator.gpu) throw new Error("This browser has no WebGPU: webgl2.html, beside this page, draws the same files in WebGL2.");
   const adapter = await navigator.gpu.requestAdapter();
   if (!adapter) throw new Error("WebGPU is there, but no adapter: the browser has switched off this machine's GPU.");
   const { maxStorageBufferBindingSize, maxBufferSize } = adapter.limits;

@@ -3,12 +3,11 @@ import { Orbit } from "./camera.js";
 import { openDevice } from "./gpu.js";
 import { readLr } from "./lr-file.js";
 import { GpuMesh } from "./mesh.js";
+import { element, listenForFiles, showError, showTable, sizeOf } from "./page.js";
 import { Renderer } from "./renderer.js";
 import { loadIncludes } from "./shaders.js";
 
-const element = (id) => document.getElementById(id);
 const canvas = element("picture"), panel = element("panel");
-const MOST_PIXELS = 4e6;  // of the canvas
 const NAMES = { stream: "connectivity, as in the file", seams: "seams, as in the file", position_words: "positions, as in the file",
   normal_words: "normals, as in the file", indices: "index buffer, expanded", copies: "index buffer over copies", vertex_of: "vertices of copies",
   positions: "positions, floats", normals: "normals, floats" };
@@ -20,11 +19,6 @@ const LEGENDS = {
 
 let device, includes, renderer, context, mesh, camera, draw, name = "";
 
-function fail(error) {
-  element("error").textContent = error.message ?? String(error);
-  element("error").hidden = false;
-}
-
 const grouped = (n) => Math.round(n).toLocaleString("en-US");
 
 /** What lies on the GPU: what this picture is drawn from, and fainter what is kept for the others. */
@@ -35,12 +29,7 @@ function showBytes() {
   const rows = [...needed.map(([buffer, { size }]) => [NAMES[buffer], size, ""]), ["for this picture", sum, "sum"],
     [`plain indexed buffers (${(plain / sum).toFixed(1)} times)`, plain, ""],
     ...kept.map(([buffer, { size }]) => [`kept: ${NAMES[buffer]}`, size, "faint"])];
-  element("bytes").replaceChildren(...rows.map(([what, bytes, style]) => {
-    const row = document.createElement("tr");
-    row.className = style;
-    for (const text of [what, grouped(bytes)]) row.append(Object.assign(document.createElement("td"), { textContent: text }));
-    return row;
-  }));
+  showTable(rows);
   const bits = (8 * 4 * mesh.file.stream.length / mesh.file.triangles).toFixed(2);
   element("status").textContent = `${name}: ${mesh.file.kind}, ${grouped(mesh.file.triangles)} triangles` +
     `${slots > mesh.file.triangles ? ` in ${grouped(slots)} slots` : ""}, ${bits} bits each`;
@@ -58,7 +47,7 @@ function showLegend(view) {
 let working = Promise.resolve();
 /** One piece of work after the other; errors are shown. */
 function later(work) {
-  working = working.then(work).catch(fail);
+  working = working.then(work).catch(showError);
   return working;
 }
 
@@ -66,7 +55,7 @@ function later(work) {
 async function choose() {
   if (!mesh) return;
   const choice = Object.fromEntries(new FormData(panel));
-  element("error").hidden = true;
+  showError();
   try {
     draw = await renderer.prepare(mesh, { ...choice, blocks: choice.blocks !== undefined });
   } finally {
@@ -89,15 +78,12 @@ function changed() {
 }
 
 function resize() {
-  const { clientWidth, clientHeight } = canvas;
-  const scale = Math.min(devicePixelRatio, Math.sqrt(MOST_PIXELS / Math.max(clientWidth * clientHeight, 1)));
-  canvas.width = Math.max(1, Math.round(clientWidth * scale));
-  canvas.height = Math.max(1, Math.round(clientHeight * scale));
+  Object.assign(canvas, sizeOf(canvas));
   changed();
 }
 
 async function open(bytes, called) {
-  element("error").hidden = true;
+  showError();
   const next = await GpuMesh.create(device, readLr(bytes), includes);
   mesh?.destroy();
   [mesh, draw, name] = [next, undefined, called];
@@ -112,12 +98,10 @@ async function open(bytes, called) {
   await choose();
 }
 
-const openFile = (file) => file && later(async () => open(new Uint8Array(await file.arrayBuffer()), file.name));
-
 async function start() {
   [device, includes] = await Promise.all([openDevice(), loadIncludes()]);
-  device.lost.then(({ message, reason }) => reason !== "destroyed" && fail(new Error(`The GPU was lost: ${message} Load the page again.`)));
-  device.addEventListener("uncapturederror", ({ error }) => fail(error));
+  device.lost.then(({ message, reason }) => reason !== "destroyed" && showError(new Error(`The GPU was lost: ${message} Load the page again.`)));
+  device.addEventListener("uncapturederror", ({ error }) => showError(error));
   const format = navigator.gpu.getPreferredCanvasFormat();
   renderer = new Renderer(device, format, 4);
   context = canvas.getContext("webgpu");
@@ -127,17 +111,7 @@ async function start() {
   new ResizeObserver(resize).observe(canvas);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", changed);
   panel.addEventListener("change", () => later(choose));
-  element("file").addEventListener("change", ({ target }) => openFile(target.files[0]));
-  addEventListener("dragover", (event) => event.preventDefault());
-  addEventListener("drop", (event) => {
-    event.preventDefault();
-    openFile(event.dataTransfer.files[0]);
-  });
-  const url = new URLSearchParams(location.search).get("file");
-  if (!url) return;
-  const response = await fetch(url);
-  if (!response.ok) throw new Error(`${url}: ${response.status}`);
-  await open(new Uint8Array(await response.arrayBuffer()), url.split("/").at(-1));
+  await listenForFiles(later, open);
 }
 
 /** For tests: resolves when the page has done what it was asked to, and has drawn. */

@@ -112,7 +112,7 @@ export class GpuMesh {
 }
 
 /** The middle and radius of a box around positions. */
-function boundsOf(positions) {
+export function boundsOf(positions) {
   const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
   for (let i = 0; i < positions.length; i++) {
     low[i % 3] = Math.min(low[i % 3], positions[i]);

@@ -1,4 +1,4 @@
-import { EXTENSION, extensionOf } from "../gltf/document.js";
+import { EXTENSION } from "../gltf/document.js";
 import { unpackGltf } from "../gltf/unpack.js";
 
 // GLTFLoader makes its own handlers of these by the outer document, before an inner one can be read.
@@ -24,11 +24,12 @@ export class LacedRingExtension {
   constructor(parser, options) {
     this.#parser = parser;
     this.#options = options;
-    if (this.#isDocumentPacked()) parser.json.extensionsUsed = [...new Set([...parser.json.extensionsUsed ?? [], ...HANDLERS])];
+    const { json } = parser;
+    if (this.#isDocumentPacked() && Array.isArray(json.extensionsUsed)) json.extensionsUsed = [...json.extensionsUsed, ...HANDLERS];
   }
 
   #isDocumentPacked() {
-    return extensionOf(this.#parser.json)?.document !== undefined;
+    return this.#parser.json.extensions?.[EXTENSION]?.document !== undefined;
   }
 
   beforeRoot() {
