@@ -52,7 +52,7 @@ function attributesOf({ positions, normals, texcoords, colors, attributes = [] }
     const type = ARRAYS.findIndex((Type) => values instanceof Type);
     if (type < 0) throw wrong(`${name}: its values are no typed array`);
     if (!(Number.isInteger(components) && components >= 1 && components <= 255)) throw wrong(`${name}: ${components} components`);
-    if (values.length !== vertices * components) throw wrong(`${name}: ${values.length} values for ${vertices} vertices of ${components}`);
+    if (!Number.isInteger(vertices) || values.length !== vertices * components) throw wrong(`${name}: ${values.length} values are not ${components} for each vertex`);
     if (seen.has(name)) throw wrong(`${name} occurs twice`);
     seen.add(name);
     attribute.type = type;
