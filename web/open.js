@@ -56,11 +56,13 @@ async function openLr(bytes) {
 async function load(bytes, decode) {
   const loader = new GLTFLoader().register((parser) => new LacedRingExtension(parser, { decodeMesh: decode }));
   const buffer = bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length);
-  const { scene, animations } = await loader.parseAsync(buffer, "");
-  scene.traverse(({ geometry, isMesh }) => {
+  const { scene, scenes, animations } = await loader.parseAsync(buffer, "");
+  const object = scene ?? scenes[0];
+  if (!object) throw new Error("there are no triangles in it");
+  object.traverse(({ geometry, isMesh }) => {
     if (isMesh && !geometry.index) geometry.setIndex(Array.from({ length: geometry.attributes.position.count }, (_, i) => i));
   });
-  return { object: scene, animations };
+  return { object, animations };
 }
 
 /** Bytes of the images in a plain GLB. */

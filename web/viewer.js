@@ -123,6 +123,11 @@ export class Viewer {
     this.draw();
   }
 
+  /** Lines of rings that are drawn. */
+  get lines() {
+    return this.#rings.reduce((sum, { visible, geometry }) => sum + (visible ? geometry.index.count / 2 : 0), 0);
+  }
+
   setTurning(isTurning) {
     this.#controls.autoRotate = isTurning;
     this.draw();
