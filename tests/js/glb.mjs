@@ -1,7 +1,8 @@
 // Reads and writes plain GLB files, for tests; shares no code with the package.
 
 const pad = (size) => Math.ceil(size / 4) * 4;
-const SIZES = { 5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4 }, SHAPES = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MAT2: 4, MAT3: 9, MAT4: 16 };
+const SIZES = { 5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4 };
+const SHAPES = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MAT2: 4, MAT3: 9, MAT4: 16 };
 
 /** A GLB of a document without buffers, and of the contents of its buffer views. */
 export function makeGlb(json, views) {
@@ -18,8 +19,9 @@ export function makeGlb(json, views) {
 export function joinGlb(json, binary) {
   const text = Buffer.from(JSON.stringify(json)), length = pad(text.length), rest = pad(binary.length);
   const words = (...values) => Buffer.from(Uint32Array.from(values).buffer);
-  return new Uint8Array(Buffer.concat([words(0x46546c67, 2, 28 + length + rest, length, 0x4e4f534a), text, Buffer.alloc(length - text.length, " "),
-    words(rest, 0x004e4942), binary, Buffer.alloc(rest - binary.length)]));
+  const head = words(0x46546c67, 2, 28 + length + rest, length, 0x4e4f534a);
+  return new Uint8Array(Buffer.concat([head, text, Buffer.alloc(length - text.length, " "), words(rest, 0x004e4942), binary,
+    Buffer.alloc(rest - binary.length)]));
 }
 
 export function splitGlb(bytes) {
@@ -43,6 +45,6 @@ export function accessorBytes({ json, view }, i) {
   const size = SIZES[componentType] * SHAPES[type], out = new Uint8Array(count * size);
   if (bufferView === undefined) return out;
   const bytes = view(bufferView), stride = json.bufferViews[bufferView].byteStride ?? size;
-  for (let row = 0; row < count; row++) out.set(bytes.subarray(byteOffset + row * stride, byteOffset + row * stride + size), row * size);
+  for (let row = 0, at = byteOffset; row < count; row++, at += stride) out.set(bytes.subarray(at, at + size), row * size);
   return out;
 }
