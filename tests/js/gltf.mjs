@@ -6,7 +6,7 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { basename, dirname, join, resolve } from "node:path";
 import { deflateSync } from "node:zlib";
-import { accessorBytes, makeGlb, readScene } from "./glb.mjs";
+import { accessorBytes, makeGlb, readScene } from "./gltf_files.mjs";
 
 const [packagePath, program, ...scenes] = process.argv.slice(2);
 const load = (path) => import(resolve(packagePath, path));

@@ -6,7 +6,7 @@ import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { deflateSync, inflateSync } from "node:zlib";
 import { parseArgs } from "node:util";
-import { joinGlb, splitGlb } from "./glb.mjs";
+import { joinGlb, splitGlb } from "./gltf_files.mjs";
 
 const { values, positionals } = parseArgs({
   allowPositionals: true, options: { runs: { type: "string", default: "300" }, seed: { type: "string" } },
