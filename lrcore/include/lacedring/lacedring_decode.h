@@ -125,6 +125,10 @@ enum lacedring_status lacedring_packed_check(const struct lacedring_packed* pack
 enum lacedring_status lacedring_packed_validate(const uint32_t* words, size_t count, struct lacedring_packed* packed,
                                                 uint64_t* where);
 
+/* The check and lacedring_packed_triangles_u32 in one pass. Where it finds a fault, what `indices` holds is of no use. */
+enum lacedring_status lacedring_packed_decode_checked(const struct lacedring_packed* packed, uint32_t* indices,
+                                                      uint64_t* where);
+
 /* 3 * packed->triangles indices; of 16 bits only where packed->vertices <= 65536. Linear time. */
 void lacedring_packed_triangles_u32(const struct lacedring_packed* packed, uint32_t* indices);
 void lacedring_packed_triangles_u16(const struct lacedring_packed* packed, uint16_t* indices);
@@ -405,8 +409,9 @@ enum {
 #define LACEDRING_HOT_ static
 #endif
 
-/* What is smaller inlined than called, though compilers think otherwise. */
-#if defined(__GNUC__)
+/* What is smaller inlined than called on most machines, though compilers think otherwise. LACEDRING_TINY: the smallest
+   code, for WebAssembly, where calls are short. */
+#if defined(__GNUC__) && !defined(LACEDRING_TINY)
 #define LACEDRING_SMALL_ static inline __attribute__((always_inline))
 #else
 #define LACEDRING_SMALL_ static
@@ -1699,10 +1704,12 @@ static enum lacedring_status lacedring_check_doubles_(const struct lacedring_pac
     return LACEDRING_STATUS_OK;
 }
 
-enum lacedring_status lacedring_packed_check(const struct lacedring_packed* p, uint64_t* where) {
+/* Checks all blocks, and writes the own triangles, too, if `out` is not null. */
+static enum lacedring_status lacedring_check_packed_(const struct lacedring_packed* p, uint32_t* out, uint64_t* where) {
     struct lacedring_group_ g;
     struct lacedring_block_ b;
-    uint32_t indices[3 * LACEDRING_PACKED_BLOCK], block, blocks = lacedring_blocks_of_(p->own), i, left, plain = 0;
+    uint32_t room[3 * LACEDRING_PACKED_BLOCK], block, blocks = lacedring_blocks_of_(p->own), i, left, plain = 0;
+    uint32_t* indices = out != NULL ? out : room;
     uint64_t end = 0;
     if (lacedring_check_doubles_(p, where) != LACEDRING_STATUS_OK) return LACEDRING_STATUS_DOUBLES;
     for (block = 0; block < blocks; ++block) {
@@ -1732,11 +1739,42 @@ enum lacedring_status lacedring_packed_check(const struct lacedring_packed* p, u
             if (t[0] >= n || t[1] >= n || t[2] >= n || t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
                 return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
         }
+        if (out != NULL) indices += (size_t)3 * LACEDRING_PACKED_BLOCK;
     }
     if (p->own % 32 != 0 && p->turns[p->own / 32] >> (p->own % 32) != 0)
         return lacedring_at_(where, p->own, LACEDRING_STATUS_TURNS);
     if (end != p->group_bytes) return lacedring_at_(where, end, LACEDRING_STATUS_SIZE);
     return LACEDRING_STATUS_OK;
+}
+
+enum lacedring_status lacedring_packed_check(const struct lacedring_packed* p, uint64_t* where) {
+    return lacedring_check_packed_(p, NULL, where);
+}
+
+static void lacedring_double_(const uint32_t* of, uint32_t turned, uint32_t* out) {
+    const uint32_t b = of[1], c = of[2];
+    out[0] = of[0];
+    out[1] = turned ? c : b;
+    out[2] = turned ? b : c;
+}
+
+/* Writes all doubles behind the own triangles. */
+static void lacedring_write_doubles_(const struct lacedring_packed* p, uint32_t* triangles) {
+    uint32_t run, i;
+    for (run = 0; run < p->runs; ++run) {
+        const uint32_t* r = p->doubles + (size_t)2 * run;
+        const uint32_t end = lacedring_run_end_(p, run), from = r[1] & ~LACEDRING_DOUBLES_;
+        for (i = r[0]; i < end; ++i)
+            lacedring_double_(triangles + (size_t)3 * (from + (i - r[0])), r[1] & LACEDRING_DOUBLES_,
+                              triangles + (size_t)3 * i);
+    }
+}
+
+enum lacedring_status lacedring_packed_decode_checked(const struct lacedring_packed* p, uint32_t* indices,
+                                                      uint64_t* where) {
+    const enum lacedring_status status = lacedring_check_packed_(p, indices, where);
+    if (status == LACEDRING_STATUS_OK) lacedring_write_doubles_(p, indices);
+    return status;
 }
 
 enum lacedring_status lacedring_packed_validate(const uint32_t* words, size_t count, struct lacedring_packed* p,
@@ -1776,13 +1814,6 @@ static uint32_t lacedring_run_of_(const struct lacedring_packed* p, uint32_t tri
         }
     }
     return low;
-}
-
-static void lacedring_double_(const uint32_t* of, uint32_t turned, uint32_t* out) {
-    const uint32_t b = of[1], c = of[2];
-    out[0] = of[0];
-    out[1] = turned ? c : b;
-    out[2] = turned ? b : c;
 }
 
 /* Triangles [t, end), all of them doubles. */
