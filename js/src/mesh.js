@@ -177,7 +177,7 @@ class Reader {
     const values = engine.take(count * components * TYPES[type][1].BYTES_PER_ELEMENT);
     this.#call(section, "lr_vertices_decode", values);
     if (predicts) engine.run("lr_vertices_integers", places);
-    return { type, components, normalized: normalized !== 0, values };
+    return { type, components, normalized: normalized !== 0, values, mapping };
   }
 
   #readStoredVertices(section, count, isFirst) {
@@ -188,15 +188,17 @@ class Reader {
     if (isFirst && integers === 3 && (mapping === LATTICE || mapping === DECIMALS)) this.#hold(places);
     const values = engine.take(count * components * TYPES[type][1].BYTES_PER_ELEMENT);
     this.#call(section, "lr_stored_vertices_decode", section.perCopy ? this.corners : this.triangles, this.triangleCount, engine.take(scratch), places, values);
-    return { type, components, normalized: normalized !== 0, values };
+    return { type, components, normalized: normalized !== 0, values, mapping };
   }
 
   /** POSITION: three floats or doubles for each vertex, finite as floats. */
-  #checkPosition(section, { type, components, values }, count) {
+  #checkPosition(section, { type, components, values, mapping }, count) {
     const Type = TYPES[type][1];
     if (components !== 3 || type < 6 || section.perCopy) throw malformed("POSITION is not three floats or doubles of each vertex");
-    for (const x of new Type(this.engine.buffer, values, 3 * count)) {
-      if (!Number.isFinite(type === 6 ? x : Math.fround(x))) throw malformed("a coordinate that is not finite");
+    if (mapping === LATTICE) return;  // always finite
+    const coordinates = new Type(this.engine.buffer, values, 3 * count);
+    for (let i = 0; i < coordinates.length; ++i) {
+      if (!Number.isFinite(Math.fround(coordinates[i]))) throw malformed("a coordinate that is not finite");
     }
   }
 

@@ -3,7 +3,9 @@ import * as THREE from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 
 const [WIDTH, HEIGHT] = [640, 480];
-const VIEWS = [{ direction: [0.25, 0.2, 1], time: 0 }, { direction: [-0.8, 0.4, -0.6], time: 0.7 }, { direction: [0.9, 0.1, 0.4], time: 1.6 }];
+const VIEWS = [
+  { direction: [0.25, 0.2, 1], time: 0 }, { direction: [-0.8, 0.4, -0.6], time: 0.7 }, { direction: [0.9, 0.1, 0.4], time: 1.6 },
+];
 
 const renderer = new THREE.WebGLRenderer({ antialias: false, preserveDrawingBuffer: true });
 renderer.setSize(WIDTH, HEIGHT);

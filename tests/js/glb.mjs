@@ -1,48 +1,22 @@
-// Reads and writes plain GLB files, for tests; shares no code with the package.
+// Reads what the tests need of a plain GLB: the first primitive.
+import { readFileSync } from "node:fs";
 
-const pad = (size) => Math.ceil(size / 4) * 4;
-const SIZES = { 5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4 }, SHAPES = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MAT2: 4, MAT3: 9, MAT4: 16 };
+const TYPES = { 5120: Int8Array, 5121: Uint8Array, 5122: Int16Array, 5123: Uint16Array, 5125: Uint32Array, 5126: Float32Array };
+const COMPONENTS = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4 };
 
-/** A GLB of a document without buffers, and of the contents of its buffer views. */
-export function makeGlb(json, views) {
-  let size = 0;
-  json.bufferViews = views.map(({ length }) => {
-    const view = { buffer: 0, byteOffset: size, byteLength: length };
-    size = pad(size + length);
-    return view;
-  });
-  json.buffers = [{ byteLength: size }];
-  return joinGlb(json, Buffer.concat(views.flatMap((view) => [view, Buffer.alloc(-view.length & 3)])));
-}
-
-export function joinGlb(json, binary) {
-  const text = Buffer.from(JSON.stringify(json)), length = pad(text.length), rest = pad(binary.length);
-  const words = (...values) => Buffer.from(Uint32Array.from(values).buffer);
-  return new Uint8Array(Buffer.concat([words(0x46546c67, 2, 28 + length + rest, length, 0x4e4f534a), text, Buffer.alloc(length - text.length, " "),
-    words(rest, 0x004e4942), binary, Buffer.alloc(rest - binary.length)]));
-}
-
-export function splitGlb(bytes) {
-  const data = Buffer.from(bytes.buffer, bytes.byteOffset, bytes.length), end = 20 + data.readUInt32LE(12);
-  return { json: JSON.parse(data.subarray(20, end)), binary: bytes.subarray(end + 8) };
-}
-
-/** The document of a GLB, and the contents of its buffer views. */
-export function readScene(bytes) {
-  const { json, binary } = splitGlb(bytes);
-  const view = (i) => {
-    const { byteOffset = 0, byteLength } = json.bufferViews[i];
-    return binary.subarray(byteOffset, byteOffset + byteLength);
+/** { indices, attributes: { NAME: { values, components, normalized } } }, values tightly packed. */
+export function readGlb(file) {
+  const data = readFileSync(file), length = data.readUInt32LE(12), json = JSON.parse(data.toString("utf8", 20, 20 + length)), begin = 28 + length;
+  const read = (index) => {
+    const { bufferView, byteOffset = 0, componentType, type, count, normalized = false } = json.accessors[index];
+    const view = json.bufferViews[bufferView], Type = TYPES[componentType], components = COMPONENTS[type], size = components * Type.BYTES_PER_ELEMENT;
+    const stride = view.byteStride ?? size, bytes = new Uint8Array(count * size);
+    for (let i = 0; i < count; ++i) {
+      const at = begin + (view.byteOffset ?? 0) + byteOffset + i * stride;
+      bytes.set(data.subarray(at, at + size), i * size);
+    }
+    return { values: new Type(bytes.buffer), components, normalized };
   };
-  return { json, view };
-}
-
-/** The values of an accessor, tightly packed, without its sparse ones. */
-export function accessorBytes({ json, view }, i) {
-  const { bufferView, byteOffset = 0, componentType, type, count } = json.accessors[i];
-  const size = SIZES[componentType] * SHAPES[type], out = new Uint8Array(count * size);
-  if (bufferView === undefined) return out;
-  const bytes = view(bufferView), stride = json.bufferViews[bufferView].byteStride ?? size;
-  for (let row = 0; row < count; row++) out.set(bytes.subarray(byteOffset + row * stride, byteOffset + row * stride + size), row * size);
-  return out;
+  const [{ attributes, indices }] = json.meshes[0].primitives;
+  return { indices: read(indices).values, attributes: Object.fromEntries(Object.entries(attributes).map(([name, index]) => [name, read(index)])) };
 }

@@ -6,7 +6,7 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { basename, dirname, join, resolve } from "node:path";
 import { deflateSync } from "node:zlib";
-import { accessorBytes, makeGlb, readScene } from "./glb.mjs";
+import { accessorBytes, makeGlb, readScene } from "./gltf_files.mjs";
 
 const [packagePath, program, ...scenes] = process.argv.slice(2);
 const load = (path) => import(resolve(packagePath, path));
@@ -30,8 +30,10 @@ async function compare(packed) {
   assert.equal(ours.json.accessors.length, theirs.json.accessors.length);
   ours.json.accessors.forEach((a, i) => {
     const b = theirs.json.accessors[i];
-    for (const name of ["componentType", "type", "normalized", "count"]) assert.equal(a[name], b[name], `accessor ${i}: ${name}`);
-    for (const name of ["min", "max"]) assert.equal(`${a[name]?.map(Math.fround)}`, `${b[name]?.map(Math.fround)}`, `accessor ${i}: ${name}`);
+    for (const name of ["componentType", "type", "normalized", "count", "min", "max"]) {
+      const [mine, other] = [a[name], b[name]].map((value) => (Array.isArray(value) ? value.map(Math.fround) : value));
+      assert.equal(`${mine}`, `${other}`, `accessor ${i}: ${name}`);
+    }
     assert(Buffer.compare(accessorBytes(ours, i), accessorBytes(theirs, i)) === 0, `accessor ${i}: values`);
   });
   (ours.json.images ?? []).forEach(({ bufferView }, i) => {
@@ -72,13 +74,15 @@ function encodePartCodes(runs) {
 
 function testPartCodes() {
   const runs = [];
-  for (let i = 0; i < 300; i++) runs.push([(i * 77) % 300, 1 + (i % 200)]);           // parts out of order
+  for (let i = 0; i < 300; i++) runs.push([(i * 77) % 300, 1 + (i % 200)]);  // parts out of order
   for (let i = 0; i < 2000; i++) runs.push([(i * i * 31 + 7 * i) % 300, 1 + (i % 3)]);  // near and far ones again
   const merged = runs.filter(([part], i) => i === 0 || part !== runs[i - 1][0]);
   const expected = merged.flatMap(([part, triangles]) => new Array(triangles).fill(part));
   assert.deepEqual([...decodePartCodes(encodePartCodes(merged), expected.length, 300)], expected);
-  const invalid = [[[0, 0, 0], 2, 1], [[0, 0, 1], 1, 1], [[0, 0], 1, 1], [[0, 0, 0, 66, 0], 2, 1], [[1, 0], 1, 1], [[0, 0, 0, 0, 1, 0], 2, 2],
-    [[0, 0, 0], 1, 2], [[0, 2, 0], 1, 1], [[128], 1, 1], [[0, 255, 255, 255, 255, 16, 0], 1, 1], [[], 1, 1]];
+  const invalid = [  // bytes, triangles, parts
+    [[0, 0, 0], 2, 1], [[0, 0, 1], 1, 1], [[0, 0], 1, 1], [[0, 0, 0, 65, 0], 2, 1], [[0, 0, 0, 66, 0], 2, 1], [[1, 0], 1, 1],
+    [[0, 0, 0, 0, 1, 0], 2, 2], [[0, 0, 0], 1, 2], [[0, 2, 0], 1, 1], [[128], 1, 1], [[0, 255, 255, 255, 255, 16, 0], 1, 1], [[], 1, 1],
+  ];
   for (const [bytes, triangles, parts] of invalid) {
     assert.throws(() => decodePartCodes(Uint8Array.from(bytes), triangles, parts), /^Error: LACEDRING_mesh_compression: .*$/, `${bytes}`);
   }
@@ -116,17 +120,45 @@ function animatedScene() {
   return makeGlb({
     asset: { version: "2.0" }, scene: 0, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0 }], accessors,
     meshes: [{ primitives: [{ attributes: { POSITION: 3 }, indices: 4 }] }],
-    animations: [{ samplers: [{ input: 0, output: 1 }, { input: 0, output: 2 }], channels: [channel(0, "translation"), channel(1, "rotation")] }],
+    animations: [{
+      samplers: [{ input: 0, output: 1 }, { input: 0, output: 2 }], channels: [channel(0, "translation"), channel(1, "rotation")],
+    }],
   }, views);
+}
+
+/** A scene of many small meshes, which share streams: more parts than the list of those used lately holds. Each has two primitives. */
+function crowdScene() {
+  const size = 5, accessors = [], views = [], meshes = [];
+  const add = (array, accessor) => {
+    views.push(new Uint8Array(array.buffer));
+    return accessors.push({ bufferView: views.length - 1, ...accessor }) - 1;
+  };
+  for (let mesh = 0; mesh < 150; mesh++) {
+    const positions = new Float32Array(3 * size * size);
+    const halves = [[], []];
+    for (let i = 0; i < size * size; i++) {
+      const [x, y] = [i % size, Math.floor(i / size)];
+      positions.set([x, y, Math.sin(mesh + i)], 3 * i);
+      if (x + 1 < size && y + 1 < size) halves[(x + y * mesh) % 2].push(i, i + 1, i + size, i + 1, i + size + 1, i + size);
+    }
+    const [min, max] = [Math.min, Math.max].map((pick) => [0, 1, 2].map((c) => pick(...positions.filter((_, i) => i % 3 === c))));
+    const position = add(positions, { componentType: 5126, type: "VEC3", count: size * size, min, max });
+    const primitives = halves.map((half) => (
+      { attributes: { POSITION: position }, indices: add(Uint32Array.from(half), { componentType: 5125, type: "SCALAR", count: half.length }) }));
+    meshes.push({ primitives });
+  }
+  const nodes = meshes.map((_, mesh) => ({ mesh }));
+  return makeGlb({ asset: { version: "2.0" }, scenes: [{ nodes: nodes.map((_, i) => i) }], nodes, accessors, meshes }, views);
 }
 
 try {
   testPartCodes();
   await testInflate();
-  const animated = join(folder, "animated.glb");
+  const [animated, crowd] = ["animated.glb", "crowd.glb"].map((name) => join(folder, name));
   writeFileSync(animated, animatedScene());
+  writeFileSync(crowd, crowdScene());
   let count = 0;
-  for (const scene of [animated, ...scenes]) {
+  for (const scene of [animated, crowd, ...scenes]) {
     for (const [i, options] of OPTIONS.entries()) {
       const packed = join(folder, `${basename(scene)}.${i}.glb`);
       run("pack", ...options, scene, "-o", packed);

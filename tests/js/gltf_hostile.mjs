@@ -1,14 +1,16 @@
-// node gltf_hostile.mjs PACKAGE LACEDRING SCENE... [--runs N] [--seed N]: packs scenes, damages their documents and their bytes at random,
-// and has the package decode them. It may refuse them, in one line, and do nothing else. Exit code 1 otherwise.
+// node gltf_hostile.mjs PACKAGE LACEDRING SCENE... [--runs N] [--seed N]: packs scenes, damages their documents and their bytes at
+// random, and has the package decode them. It may refuse them, in one line, and do nothing else. Exit code 1 otherwise.
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { deflateSync, inflateSync } from "node:zlib";
 import { parseArgs } from "node:util";
-import { joinGlb, splitGlb } from "./glb.mjs";
+import { joinGlb, splitGlb } from "./gltf_files.mjs";
 
-const { values, positionals } = parseArgs({ allowPositionals: true, options: { runs: { type: "string", default: "300" }, seed: { type: "string" } } });
+const { values, positionals } = parseArgs({
+  allowPositionals: true, options: { runs: { type: "string", default: "300" }, seed: { type: "string" } },
+});
 const [packagePath, program, ...scenes] = positionals;
 const { EXTENSION, unpackGlb } = await import(resolve(packagePath, "gltf/lacedring-gltf.js"));
 const { LacedRingError } = await import(resolve(packagePath, "lacedring.js"));
@@ -23,8 +25,13 @@ function random(below) {
 }
 
 const pick = (list) => list[random(list.length)];
-const VALUES = [0, 1, 2, 3, -1, 0.5, 1e300, 2 ** 32, 2 ** 31, 2 ** 53, 255, 65536, "", "POSITION", "constructor", "__proto__", null, true, false, [], {}, [[]], [[0]],
-  [{}], "deflate", "floats"];
+const VALUES = [0, 1, 2, 3, -1, 0.5, 1e300, 2 ** 32, 2 ** 31, 2 ** 53, 255, 65536, "", "POSITION", "constructor", "__proto__", null, true,
+  false, [], {}, [[]], [[0]], [{}], "deflate", "floats"];
+// Most of a document is nothing to the extension. What it reads:
+const READ = new Set(["bufferView", "bufferViews", "buffer", "buffers", "accessors", "sets", "part", "parts", "stream", "streams", "count",
+  "coding", "document", "indices", "byteLength", "byteOffset", "componentType", "type", "ordered", "placeholder", "mode"]);
+
+const OPTIONS = [["--document", "plain"], ["--document", "packed"], ["--keep-order", "--document", "packed"], ["--resident", "--fallback"]];
 
 /** All places of a document: [owner, name]. */
 function places(value, out = []) {
@@ -37,9 +44,8 @@ function places(value, out = []) {
 
 function damageDocument(json) {
   const all = places(json);
-  // Most of a document is nothing to the extension: what it reads is chosen more often.
-  const near = all.filter(([owner, name]) => /^(bufferViews?|buffers?|accessors|sets|parts?|streams?|count|coding|document|indices|byteLength|byteOffset|componentType|type|ordered|placeholder|mode|\d+)$/.test(name));
-  const [owner, name] = pick(random(4) ? near : all);
+  const read = all.filter(([, name]) => READ.has(name) || /^\d+$/.test(name));
+  const [owner, name] = pick(random(4) ? read : all);
   const kind = random(6);
   if (kind === 0) delete owner[name];
   else if (kind === 1 && typeof owner[name] === "number") owner[name] += pick([-1, 1, 2, 10]);
@@ -87,7 +93,7 @@ const counts = { decoded: 0, refused: 0, failed: 0 };
 const isOurs = (error) => error instanceof LacedRingError || error.message.startsWith(`${EXTENSION}: `);
 try {
   for (const scene of scenes) {
-    for (const options of [["--document", "plain"], ["--document", "packed"], ["--keep-order", "--document", "packed"], ["--resident", "--fallback"]]) {
+    for (const options of OPTIONS) {
       const file = join(folder, "packed.glb");
       execFileSync(program, ["pack", "--force", ...options, scene, "-o", file], { stdio: "pipe" });
       const source = new Uint8Array(readFileSync(file));

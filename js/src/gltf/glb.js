@@ -42,7 +42,7 @@ function writeGlb(json, binary) {
 /**
  * Makes a plain GLB of a glTF file with LACEDRING_mesh_compression, for loaders that have no plug-in for it.
  * @param {Uint8Array} bytes of a .glb or .gltf file
- * @param {(buffer: number, uri: string) => Promise<Uint8Array>} [loadBuffer] the bytes of a buffer that has a uri. Images keep their uris.
+ * @param {(buffer: number, uri: string) => Promise<Uint8Array>} [loadBuffer] the bytes of a buffer that has a uri. Images keep theirs.
  * @param {object} options unpackGltf's
  * @returns {Promise<Uint8Array>} Rejects with an Error in one line. Untrusted input is safe.
  */

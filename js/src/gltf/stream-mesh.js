@@ -18,18 +18,18 @@ function sortTriangles(cornerOrder) {
 }
 
 /** Set and place of each vertex, where the stream keeps the order: the sets follow each other. */
-function placeInOrder(mesh, stream, counts) {
+function placeInOrder({ vertexCount, vertexOrder }, counts) {
   if (counts.some((count) => count === undefined)) refuse("an ordered stream, and a set without a count");
-  if (counts.reduce((sum, count) => sum + count, 0) !== mesh.vertexCount) refuse("the sets and the stream have different numbers of vertices");
-  const ends = [];
-  counts.reduce((sum, count) => ends[ends.length] = sum + count, 0);
-  const setAt = new Uint32Array(mesh.vertexCount);
-  ends.forEach((end, set) => setAt.fill(set, end - counts[set], end));
-  return {
-    setOf: setAt.map((_, v) => setAt[mesh.vertexOrder[v]]),
-    place: setAt.map((_, v) => mesh.vertexOrder[v] - ends[setAt[mesh.vertexOrder[v]]] + counts[setAt[mesh.vertexOrder[v]]]),
-    counts,
-  };
+  const all = counts.reduce((sum, count) => sum + count, 0);
+  if (all !== vertexCount) refuse(`${vertexCount} vertices of a stream, where its accessors have ${all}`);
+  const setAt = new Uint32Array(vertexCount), firstOf = [];
+  let first = 0;
+  counts.forEach((count, set) => {
+    firstOf.push(first);
+    setAt.fill(set, first, first += count);
+  });
+  const setOf = vertexOrder.map((number) => setAt[number]);
+  return { setOf, place: vertexOrder.map((number, v) => number - firstOf[setOf[v]]), counts };
 }
 
 /** Set and place of each vertex, where the stream does not keep the order: a vertex is of the set of its triangles. */
@@ -62,15 +62,16 @@ export function splitMesh(mesh, stream, partOf, counts) {
   const isOrdered = vertexOrder?.length > 0 && cornerOrder?.length > 0;
   if (isOrdered !== stream.ordered) refuse("the document and the stream differ about the order");
   if (partOf === undefined && stream.sets.length > 1) refuse("a set without a part");
-  if (!isOrdered && stream.sets.length === 1) {
-    if ((counts[0] ?? vertexCount) !== vertexCount) refuse(`${vertexCount} vertices of a set, where its accessors have ${counts[0]}`);
-    if (!partOf) return { rows: [undefined], parts: [indices] };
-  }
-  const places = isOrdered ? placeInOrder(mesh, stream, counts) : placeByTriangles(mesh, stream, partOf);
-  const { setOf, place } = places;
-  places.counts.forEach((count, set) => {
+  const check = (count, set) => {
     if ((counts[set] ?? count) !== count) refuse(`${count} vertices of a set, where its accessors have ${counts[set]}`);
-  });
+  };
+  if (!isOrdered && !partOf) {
+    check(vertexCount, 0);
+    return { rows: [undefined], parts: [indices] };
+  }
+  const places = isOrdered ? placeInOrder(mesh, counts) : placeByTriangles(mesh, stream, partOf);
+  const { setOf, place } = places;
+  places.counts.forEach(check);
   const rows = places.counts.map((count) => new Uint32Array(count));
   setOf.forEach((set, v) => rows[set][place[v]] = v);
 
@@ -115,14 +116,15 @@ export function asComponents(values, accessor, attribute) {
   if (values instanceof Type) return values;
   if (!isFloat || Type === Uint32Array) refuse(`${attribute.name} has another type than its accessor`);
   const out = Type.from(values);
-  if (!values.every((value, i) => out[i] === value)) refuse(`${attribute.name} has values that its accessor's type does not hold`);
+  if (!values.every((value, i) => out[i] === value)) refuse(`${attribute.name} has values that its accessor's type cannot hold`);
   return out;
 }
 
 /** An index list of a set of `elements` in the type of its accessor. */
 export function asIndices(indices, accessor, elements) {
   const Type = COMPONENTS[accessor.componentType];
-  if (accessor.type !== "SCALAR" || ![Uint8Array, Uint16Array, Uint32Array].includes(Type)) refuse("a part's accessor is not of indices");
+  const isIndex = accessor.type === "SCALAR" && [Uint8Array, Uint16Array, Uint32Array].includes(Type);
+  if (!isIndex) refuse("a part's accessor is not of indices");
   const end = 256 ** Type.BYTES_PER_ELEMENT - 1;
   if (elements > end && !indices.every((v) => v < end)) refuse("a part's accessor does not hold its indices");
   return Type === Uint32Array ? indices : Type.from(indices);

@@ -75,7 +75,8 @@ function freeViews(json, views, streams) {
     if (hollow.has(view)) refuse(`${what} refers to buffer view ${view}, which is a stream's or has no contents`);
     (decoded.has(accessor) ? fallback : kept).add(view);
   });
-  return [...hollow, ...fallback].filter((view) => Number.isInteger(view) && !kept.has(view) && views.list[view]).sort((a, b) => a - b);
+  const isFree = (view) => Number.isInteger(view) && views.list[view] && !kept.has(view);
+  return [...hollow, ...fallback].filter(isFree).sort((a, b) => a - b);
 }
 
 /** Rows of bytes as glTF wants vertices: each at a multiple of 4. */
@@ -121,9 +122,9 @@ async function decodeStream(stream, json, views, decodeMesh, budget) {
   stream.sets.forEach((numbers, set) => {
     if (numbers.length !== attributes.length) refuse(`${numbers.length} accessors of a set for ${attributes.length} attributes`);
     numbers.forEach((number, i) => {
+      const { components } = attributes[i];
       const values = asComponents(valuesOf(attributes[i], rows[set]), json.accessors[number], attributes[i]);
-      const count = values.length / attributes[i].components;
-      out.push({ number, count, values, components: attributes[i].components, ...padRows(values, attributes[i].components) });
+      out.push({ number, count: values.length / components, values, components, ...padRows(values, components) });
     });
   });
   stream.parts.forEach((part, i) => {
