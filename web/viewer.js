@@ -139,7 +139,7 @@ export class Viewer {
     this.#model.updateMatrixWorld(true);
     const { center, radius } = new THREE.Box3().setFromObject(this.#model, true).getBoundingSphere(new THREE.Sphere());
     const size = radius > 0 ? radius : 1, half = Math.tan(THREE.MathUtils.degToRad(this.#camera.fov / 2)) * Math.min(1, this.#camera.aspect);
-    const distance = size / Math.sin(Math.atan(half)) * 0.95;
+    const distance = size / Math.sin(Math.atan(half));
     this.#camera.near = distance / 100;
     this.#camera.far = distance * 100;
     this.#camera.updateProjectionMatrix();

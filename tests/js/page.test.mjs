@@ -2,7 +2,7 @@
 // and a plain .glb; it says in one line why a file cannot be shown, and keeps no memory of files before. --keep writes screenshots of
 // it, large and small, light and dark. Exit code 1: something is wrong.
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
+import { execFileSync, spawnSync } from "node:child_process";
 import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join, resolve } from "node:path";
@@ -90,6 +90,8 @@ async function checkMemory() {
   assert(after < before + 4 * 2 ** 20, "memory grows");
 }
 
+const packages = spawnSync(join(root, "scripts/node-packages"), { stdio: ["ignore", "ignore", "inherit"] });
+if (packages.status !== 0) process.exit(packages.status ?? 1);
 run("encode", "--positions", "14", asset("blob.ply"), "-o", made("blob.lr"));
 run("pack", asset("globe.glb"), "-o", made("globe.glb"));
 execFileSync("node", [join(root, "scripts/web-samples.mjs"), program, made("samples")]);
