@@ -99,6 +99,8 @@ const server = await serve({ ...FOLDERS, samples: made("samples") }), page = new
 try {
   await page.open(`http://127.0.0.1:${server.address().port}/`);
   await page.evaluate("page.started");
+  await page.show(640, 700);  // small, and still unless asked: software draws
+  await page.evaluate(`document.getElementById("turn").checked && document.getElementById("turn").click()`);
   assert.equal(await text("name"), "Blob");
   assert(await page.evaluate(COVERED) > 10000, "the sample is not drawn");
   await checkRing();
@@ -111,6 +113,7 @@ try {
   await checkMemory();
   if (keep) {
     mkdirSync(keep, { recursive: true });
+    await page.evaluate(`document.querySelector("#samples button").click(), new Promise((done) => setTimeout(done, 1000))`);
     for (const [name, size] of Object.entries(SIZES)) {
       for (const scheme of ["light", "dark"]) {
         await page.show(...size, scheme);
