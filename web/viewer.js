@@ -39,6 +39,20 @@ function ringLines(mesh, material) {
   return lines;
 }
 
+/** The largest distance of a vertex from a point; Infinity where there are instances. */
+function farthest(object, center) {
+  const position = new THREE.Vector3();
+  let most = 0;
+  object.traverse((mesh) => {
+    if (mesh.isInstancedMesh) most = Infinity;
+    if (!mesh.isMesh) return;
+    for (let v = 0; v < mesh.geometry.attributes.position.count; v++) {
+      most = Math.max(most, mesh.getVertexPosition(v, position).applyMatrix4(mesh.matrixWorld).distanceTo(center));
+    }
+  });
+  return most;
+}
+
 export class Viewer {
   #renderer;
   #scene = new THREE.Scene();
@@ -137,9 +151,10 @@ export class Viewer {
   frame() {
     if (!this.#model) return;
     this.#model.updateMatrixWorld(true);
-    const { center, radius } = new THREE.Box3().setFromObject(this.#model, true).getBoundingSphere(new THREE.Sphere());
+    const sphere = new THREE.Box3().setFromObject(this.#model, true).getBoundingSphere(new THREE.Sphere()), { center } = sphere;
+    const radius = Math.min(sphere.radius, farthest(this.#model, center));
     const size = radius > 0 ? radius : 1, half = Math.tan(THREE.MathUtils.degToRad(this.#camera.fov / 2)) * Math.min(1, this.#camera.aspect);
-    const distance = size / Math.sin(Math.atan(half));
+    const distance = size / Math.sin(Math.atan(half)) * 1.05;
     this.#camera.near = distance / 100;
     this.#camera.far = distance * 100;
     this.#camera.updateProjectionMatrix();
