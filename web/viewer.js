@@ -39,6 +39,20 @@ function ringLines(mesh, material) {
   return lines;
 }
 
+/** The mean length of the lines of rings in the world. */
+function meanLength(rings) {
+  const [a, b] = [new THREE.Vector3(), new THREE.Vector3()];
+  let sum = 0, count = 0;
+  for (const { geometry: { index, attributes: { position } }, matrixWorld } of rings) {
+    const scale = matrixWorld.getMaxScaleOnAxis();
+    for (let i = 0; i < index.count; i += 2) {
+      sum += scale * a.fromBufferAttribute(position, index.array[i]).distanceTo(b.fromBufferAttribute(position, index.array[i + 1]));
+    }
+    count += index.count / 2;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
 /** The largest distance of a vertex from a point; Infinity where there are instances. */
 function farthest(object, center) {
   const position = new THREE.Vector3();
@@ -63,7 +77,8 @@ export class Viewer {
   #mixer;
   #clock = new THREE.Timer();
   #isWaiting = false;
-  #ringMaterial = new THREE.LineBasicMaterial();
+  #ringMaterial = new THREE.LineBasicMaterial({ transparent: true });
+  #ringLength = 0;  // of a line, on average
   #hasRing = true;
   #isFramed = false;  // nobody has moved the camera since frame()
 
@@ -132,6 +147,8 @@ export class Viewer {
         this.#rings.push(lines);
         mesh.add(lines);
       }
+      this.#model?.updateMatrixWorld(true);
+      this.#ringLength = meanLength(this.#rings);
     }
     this.#rings.forEach((lines) => { lines.visible = hasRing; });
     this.draw();
@@ -177,9 +194,17 @@ export class Viewer {
       const seconds = Math.min(this.#clock.getDelta(), 0.1);
       this.#mixer?.update(seconds);
       this.#controls.update(seconds);
+      this.#fadeRing();
       this.#renderer.render(this.#scene, this.#camera);
       if (this.#mixer || (this.#controls.autoRotate && this.#model)) this.draw();
     });
+  }
+
+  /** Lines that are hardly longer than a pixel would cover the mesh. */
+  #fadeRing() {
+    const { position, fov } = this.#camera, height = this.#renderer.domElement.clientHeight;
+    const seen = 2 * position.distanceTo(this.#controls.target) * Math.tan(THREE.MathUtils.degToRad(fov / 2));
+    this.#ringMaterial.opacity = THREE.MathUtils.clamp(this.#ringLength * height / seen / 6, 0.1, 1);
   }
 
   #resize() {

@@ -80,6 +80,7 @@ function readName(bytes, section, copies) {
   if (bytes.subarray(section.offset + name.length, section.offset + size).some((byte) => byte !== 0))
     throw malformed(`${section.what}: name not padded with zeros`);
   section.name = new TextDecoder().decode(name);
+  section.begin = section.offset;
   section.offset += size;
   section.size -= size;
   if (section.perCopy && copies === 0) throw malformed(`${section.what}: of copies where there are none`);

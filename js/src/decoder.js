@@ -34,7 +34,8 @@ export function makeDecoder(loadScalar, loadSimd) {
     const opened = newEngine();
     if (!(stream instanceof Uint8Array) || stream.length % 4 !== 0) throw new LacedRingError("SIZE", "stream: no whole number of words");
     opened.begin(Infinity);
-    const [, triangles, slots] = opened.call("stream", "lr_connectivity_open", opened.put(stream), stream.length / 4);
+    const address = opened.put(stream), crc = opened.run("lr_crc", address, stream.length, 0);
+    const [, triangles, slots] = opened.call("stream", "lr_connectivity_open", address, stream.length / 4, crc);
     const mark = opened.mark;
     opened.call("stream", "lr_connectivity_decode", opened.take(12 * triangles));
     opened.release(mark);

@@ -83,7 +83,7 @@ export class Engine {
 
   /** A typed array of its own of `count` numbers at an address. */
   array(Type, address, count) {
-    return new Type(this.buffer, address, count).slice();
+    return new Type(new Type(this.buffer, address, count));
   }
 
   /** A view of `count` words; not to be held while memory is taken. */

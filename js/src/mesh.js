@@ -98,7 +98,7 @@ class Reader {
 
   #readResident(section, seams) {
     const { engine } = this;
-    const [vertices, triangles, slots] = this.#call(section, "lr_connectivity_open", ...this.#words(section));
+    const [vertices, triangles, slots] = this.#call(section, "lr_connectivity_open", ...this.#words(section), section.crc);
     this.#checkVertices(section, vertices);
     const out = engine.take(12 * Math.max(triangles, slots));
     this.#call(section, "lr_connectivity_decode", out);
@@ -124,7 +124,7 @@ class Reader {
     const { engine, file } = this;
     const words = this.#words(section);
     const [copies, scratch] = section.isStored ? this.#call(section, "lr_stored_seams_open", ...words, file.vertices, slotCount, file.copies)
-      : this.#call(section, "lr_seams_open", ...words, file.vertices, slotCount);
+      : this.#call(section, "lr_seams_open", ...words, section.crc, file.vertices, slotCount);
     this.corners = engine.take(12 * slotCount);
     this.vertexOf = engine.take(4 * copies);
     const mark = engine.mark;
@@ -170,7 +170,7 @@ class Reader {
 
   #readVertices(section, count, isFirst) {
     const { engine } = this;
-    const [components, type, normalized, integers, mapping] = this.#call(section, "lr_vertices_open", ...this.#words(section), count);
+    const [components, type, normalized, integers, mapping] = this.#call(section, "lr_vertices_open", ...this.#words(section), this.address + section.begin, section.crc, count);
     const predicts = isFirst && integers === 3 && (mapping === LATTICE || mapping === DECIMALS) && this.file.sections.some(({ kind, isStored }) => kind === VERTICES && isStored);
     const places = predicts ? engine.take(12 * count) : 0;
     if (predicts) this.#hold(places);

@@ -14,16 +14,17 @@ static void describe(const struct lacedring_vertices* stream) {
     result[4] = stream->mapping;
 }
 
-/* Opens a vertex stream of so many vertices. A block takes at least 8 bits for each of its components but the first
+/* Opens a vertex stream of so many vertices, the end of a section that begins at `contents` and has this CRC. A block takes at least 8 bits for each of its components but the first
    one's predictor: what is decoded is never more than 700 times the stream. */
-uint32_t LR_EXPORT(lr_vertices_open)(const uint32_t* words, size_t count, uint32_t vertices) {
+uint32_t LR_EXPORT(lr_vertices_open)(const uint32_t* words, size_t count, const uint8_t* contents, uint32_t crc,
+                                     uint32_t vertices) {
     const uint32_t status = lacedring_vertices_open(words, count, &attribute, LR_WHERE);
     if (status != LACEDRING_STATUS_OK) return status;
     if (attribute.vertices != vertices) return LACEDRING_STATUS_VERTICES;
     if ((uint64_t)8 * attribute.components * (vertices / LACEDRING_VERTICES_BLOCK) > (uint64_t)32 * attribute.data_words)
         return LACEDRING_STATUS_SIZE;
     describe(&attribute);
-    return checksum_of(words, count, 3);
+    return checksum_of(words, count, 0, 3, contents, crc);
 }
 
 /* Checks the stream opened last, and writes its values. */
@@ -48,14 +49,14 @@ void LR_EXPORT(lr_slots)(uint32_t* out) {
 
 static struct lacedring_seams seams;
 
-/* Opens a section of seams. Result: copies, bytes of scratch. */
-uint32_t LR_EXPORT(lr_seams_open)(const uint32_t* words, size_t count, uint32_t vertices, uint32_t slots) {
+/* Opens a section of seams that has this CRC. Result: copies, bytes of scratch. */
+uint32_t LR_EXPORT(lr_seams_open)(const uint32_t* words, size_t count, uint32_t crc, uint32_t vertices,
+                                  uint32_t slots) {
     const uint32_t status = lacedring_seams_open(words, count, vertices, slots, &seams, LR_WHERE);
     if (status != LACEDRING_STATUS_OK) return status;
     result[0] = seams.copies;
     result[1] = (uint32_t)(4 * lacedring_seams_scratch(&seams));
-    return lr_crc((const uint8_t*)(words + 2), 4 * (count - 2), 0) == words[1] ? LACEDRING_STATUS_OK
-                                                                            : LACEDRING_STATUS_CHECKSUM;
+    return checksum_of(words, count, 1, 1, (const uint8_t*)words, crc);
 }
 
 /* The copies of the slots' corners, and the vertex of each copy. */

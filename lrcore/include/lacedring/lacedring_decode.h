@@ -428,6 +428,9 @@ LACEDRING_HOT_ uint32_t lacedring_ones_(uint64_t bits) { /* before the lowest ze
 }
 
 LACEDRING_HOT_ uint32_t lacedring_popcount_(uint32_t bits) {
+#if defined(__wasm__) && !defined(LACEDRING_PLAIN) /* an instruction there */
+    return (uint32_t)__builtin_popcount(bits);
+#endif
     bits -= (bits >> 1) & 0x55555555u;
     bits = (bits & 0x33333333u) + ((bits >> 2) & 0x33333333u);
     return (((bits + (bits >> 4)) & 0x0f0f0f0fu) * 0x01010101u) >> 24;
@@ -856,6 +859,8 @@ LACEDRING_HOT_ uint64_t lacedring_counts_(uint64_t bits) {
 LACEDRING_HOT_ uint32_t lacedring_count_(uint64_t bits, int wide) {
 #ifdef LACEDRING_AVX2_
     if (wide) return (uint32_t)__builtin_popcountll(bits);
+#elif defined(__wasm__) && !defined(LACEDRING_PLAIN)
+    return (uint32_t)__builtin_popcountll(bits);
 #endif
     (void)wide;
     return (uint32_t)(lacedring_counts_(bits) >> 56);
@@ -1704,6 +1709,30 @@ static enum lacedring_status lacedring_check_doubles_(const struct lacedring_pac
     return LACEDRING_STATUS_OK;
 }
 
+/* Has each of so many triangles three vertices? */
+LACEDRING_SMALL_ int lacedring_have_vertices_(const uint32_t* t, uint32_t count, uint32_t vertices) {
+#if defined(__wasm_simd128__) && defined(LACEDRING_VECTORS_)
+    lacedring_four_ most = {0, 0, 0, 0}, equal = most;
+    for (; count >= 4; count -= 4, t += 12) { /* a to c are words 0 to 11: each beside the one that follows in its triangle */
+        lacedring_four_ a, b, c;
+        memcpy(&a, t, 16);
+        memcpy(&b, t + 4, 16);
+        memcpy(&c, t + 8, 16);
+        most = __builtin_wasm_max_u_i32x4(__builtin_wasm_max_u_i32x4(most, a), __builtin_wasm_max_u_i32x4(b, c));
+        equal |= (lacedring_four_)(a == __builtin_shufflevector(a, b, 1, 2, 0, 4));
+        equal |= (lacedring_four_)(b == __builtin_shufflevector(__builtin_shufflevector(a, b, 5, 3, 7, 3), c, 0, 1, 2, 4));
+        equal |= (lacedring_four_)(c == __builtin_shufflevector(b, c, 2, 6, 7, 5));
+    }
+    equal |= (lacedring_four_)(most >= vertices);
+    if (equal[0] | equal[1] | equal[2] | equal[3]) return 0;
+#endif
+    for (; count > 0; --count, t += 3) {
+        if (t[0] >= vertices || t[1] >= vertices || t[2] >= vertices || t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
+            return 0;
+    }
+    return 1;
+}
+
 /* Checks all blocks, and writes the own triangles, too, if `out` is not null. */
 static enum lacedring_status lacedring_check_packed_(const struct lacedring_packed* p, uint32_t* out, uint64_t* where) {
     struct lacedring_group_ g;
@@ -1734,11 +1763,8 @@ static enum lacedring_status lacedring_check_packed_(const struct lacedring_pack
         if (b.begin + b.bytes > p->group_bytes || !lacedring_unused_clear_(p, &g, &b) ||
             (plain && b.kind != LACEDRING_PLAIN_) || !lacedring_expand_block_(p, &g, &b, indices))
             return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
-        for (i = 0; i < 3 * left; i += 3) {
-            const uint32_t *t = indices + i, n = p->vertices;
-            if (t[0] >= n || t[1] >= n || t[2] >= n || t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
-                return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
-        }
+        if (!lacedring_have_vertices_(indices, left, p->vertices))
+            return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
         if (out != NULL) indices += (size_t)3 * LACEDRING_PACKED_BLOCK;
     }
     if (p->own % 32 != 0 && p->turns[p->own / 32] >> (p->own % 32) != 0)

@@ -417,32 +417,58 @@ static uint32_t lacedring_any_codes_(const struct lacedring_data_* d, struct lac
     return bad;
 }
 
+/* A vertex, and how the next one is made of its codes. */
+struct lacedring_vertex_lanes_ {
+    lacedring_u4_ value, d1, d2, alpha, beta;
+    lacedring_u4_ slopes, axis;           /* of the plane */
+    lacedring_u4_ base, more, over, high; /* the largest integers so far less base, and plus more */
+};
+
+LACEDRING_HOT_ void lacedring_vertex_step_(struct lacedring_vertex_lanes_* p, uint32_t n, uint32_t has_plane,
+                                           const uint32_t* code) {
+    lacedring_u4_ residual = {0, 0, 0, 0};
+    uint32_t c;
+    LACEDRING_EACH_ for (c = 0; c < n; ++c) residual[c] = code[c];
+    residual = (residual >> 1) ^ (0u - (residual & 1)); /* 0, -1, 1, -2 ... */
+    if (n == 3 && has_plane) {
+        const lacedring_u4_ product = p->slopes * residual;
+        const lacedring_u4_ sum = product + __builtin_shufflevector(product, product, 1, 2, 0, 3) +
+                                  __builtin_shufflevector(product, product, 2, 0, 1, 3);
+        residual += lacedring_quarters_(sum) & p->axis;
+    }
+    residual += lacedring_quarters_(p->alpha * p->d1 + p->beta * p->d2);
+    p->d2 = p->d1;
+    p->d1 = residual;
+    p->value += residual;
+    p->over = __builtin_wasm_max_u_i32x4(p->over, p->value - p->base);
+    p->high = __builtin_wasm_max_u_i32x4(p->high, p->value + p->more);
+}
+
 /* As lacedring_vertex_block_. `ranges` are checked; up to three more integers are written behind. */
 LACEDRING_HOT_ uint32_t lacedring_vertex_block_4_(const struct lacedring_vertices* s, const struct lacedring_data_* d,
                                                   uint32_t n, uint32_t count, const struct lacedring_ranges_* ranges,
                                                   uint64_t* at, uint32_t* out) {
-    lacedring_u4_ value = {0, 0, 0, 0}, d1 = value, d2 = value, alpha = value, beta = value, base = value, more = value;
-    lacedring_u4_ over, high; /* the largest integers less base, and plus more */
-    lacedring_u4_ slopes = value, axis = value;
+    struct lacedring_vertex_lanes_ lanes;
     uint32_t bits[4], c, i, k, length, plane = 4 << 4 | 4 << 7, has_plane = 0, bad = 0;
     struct lacedring_codes_ run;
+    memset(&lanes, 0, sizeof lanes);
     memset(&run, 0, sizeof run);
     LACEDRING_EACH_ for (c = 0; c < n; ++c) {
         const uint32_t said = s->parameters[2 * c + 1];
         uint32_t predictor = said >> 11 & 31;
         if (lacedring_data_take_(d, at, 1)) predictor = lacedring_data_take_(d, at, 5);
-        alpha[c] = (predictor & 7) - 2;
-        beta[c] = (predictor >> 3) - 2;
+        lanes.alpha[c] = (predictor & 7) - 2;
+        lanes.beta[c] = (predictor >> 3) - 2;
         bits[c] = said >> 6 & 31;
-        base[c] = s->parameters[2 * c];
-        more[c] = ranges->more[c];
+        lanes.base[c] = s->parameters[2 * c];
+        lanes.more[c] = ranges->more[c];
     }
     length = 4u << lacedring_data_take_(d, at, 2);
     LACEDRING_EACH_ for (c = 0; c < n; ++c)
-        value[c] = base[c] + lacedring_data_take_(d, at, s->parameters[2 * c + 1] & 63);
-    over = value - base;
-    high = value + more;
-    memcpy(out, &value, 16);
+        lanes.value[c] = lanes.base[c] + lacedring_data_take_(d, at, s->parameters[2 * c + 1] & 63);
+    lanes.over = lanes.value - lanes.base;
+    lanes.high = lanes.value + lanes.more;
+    memcpy(out, &lanes.value, 16);
     out += n;
     for (i = 1; i < count; i += length) {
         const uint32_t here = count - i < length ? count - i : length;
@@ -456,8 +482,8 @@ LACEDRING_HOT_ uint32_t lacedring_vertex_block_4_(const struct lacedring_vertice
                 const uint32_t of = plane >> 2 & 3;
                 bad |= of == 3;
                 LACEDRING_EACH_ for (c = 0; c < 3; ++c) {
-                    axis[c] = of == c ? UINT32_MAX : 0;
-                    slopes[c] = of == (c == 0 ? 2 : c - 1)   ? (plane >> 4 & 7) - 4
+                    lanes.axis[c] = of == c ? UINT32_MAX : 0;
+                    lanes.slopes[c] = of == (c == 0 ? 2 : c - 1)   ? (plane >> 4 & 7) - 4
                                 : of == (c == 2 ? 0 : c + 1) ? (plane >> 7 & 7) - 4
                                                              : 0;
                 }
@@ -486,53 +512,49 @@ LACEDRING_HOT_ uint32_t lacedring_vertex_block_4_(const struct lacedring_vertice
         *at += used;
         run.low_at = *at;
         run.unary_at = run.low_at + (uint64_t)row * here;
-        /* Where nearly all vertices are read by two loads. */
-        is_plain = run.present == (1u << n) - 1 && row <= 57 && run.unary_at + 57 * (uint64_t)here <= d->last;
-        for (k = 0; k < here; ++k) {
-            uint32_t code[4], end = UINT32_MAX;
-            lacedring_u4_ residual = {0, 0, 0, 0}, step;
-            if (is_plain) {
+        is_plain = run.present == (1u << n) - 1 && row <= 28 && run.unary_at + 57 * (uint64_t)here <= d->last;
+        for (k = 0; k < here;) {
+            uint32_t any[4];
+            if (is_plain && here - k >= 2) { /* two vertices by two loads */
+                uint32_t code[8], end[2] = {0, 0}, v;
                 uint64_t low, zeros;
                 memcpy(&low, d->bytes + (size_t)(run.low_at >> 3), 8);
                 memcpy(&zeros, d->bytes + (size_t)(run.unary_at >> 3), 8);
                 low >>= run.low_at & 7;
-                zeros = zeros >> (run.unary_at & 7) | UINT64_C(15) << 57;
-                end = 0;
-                LACEDRING_EACH_ for (c = 0; c < n; ++c) {
-                    const uint32_t next = lacedring_zeros_(zeros);
-                    code[c] = (next - end) << run.width[c] | ((uint32_t)low & run.mask[c]);
-                    zeros &= zeros - 1;
-                    low >>= run.width[c];
-                    end = next + 1;
+                zeros = zeros >> (run.unary_at & 7) | UINT64_C(255) << 56;
+                LACEDRING_EACH_ for (v = 0; v < 2; ++v) {
+                    if (v == 1) end[1] = end[0];
+                    LACEDRING_EACH_ for (c = 0; c < n; ++c) {
+                        const uint32_t next = lacedring_zeros_(zeros);
+                        code[4 * v + c] = (next - end[v]) << run.width[c] | ((uint32_t)low & run.mask[c]);
+                        zeros &= zeros - 1;
+                        low >>= run.width[c];
+                        end[v] = next + 1;
+                    }
+                }
+                /* No number of zeros is above `most` if those of a vertex are not together. */
+                if ((end[0] <= most) & (end[1] - end[0] <= most) & (end[1] <= 56)) {
+                    LACEDRING_EACH_ for (v = 0; v < 2; ++v) {
+                        lacedring_vertex_step_(&lanes, n, has_plane, code + 4 * v);
+                        memcpy(out + v * n, &lanes.value, 16);
+                    }
+                    out += 2 * n;
+                    run.low_at += 2 * row;
+                    run.unary_at += end[1];
+                    k += 2;
+                    continue;
                 }
             }
-            if (end <= most) { /* so all numbers of zeros are */
-                run.low_at += row;
-                run.unary_at += end;
-            } else {
-                bad |= lacedring_any_codes_(d, &run, n, code);
-            }
-            LACEDRING_EACH_ for (c = 0; c < n; ++c) residual[c] = code[c];
-            residual = (residual >> 1) ^ (0u - (residual & 1)); /* 0, -1, 1, -2 ... */
-            if (n == 3 && has_plane) {
-                const lacedring_u4_ product = slopes * residual;
-                const lacedring_u4_ sum = product + __builtin_shufflevector(product, product, 1, 2, 0, 3) +
-                                          __builtin_shufflevector(product, product, 2, 0, 1, 3);
-                residual += lacedring_quarters_(sum) & axis;
-            }
-            step = residual + lacedring_quarters_(alpha * d1 + beta * d2);
-            d2 = d1;
-            d1 = step;
-            value += step;
-            over = __builtin_wasm_max_u_i32x4(over, value - base);
-            high = __builtin_wasm_max_u_i32x4(high, value + more);
-            memcpy(out, &value, 16);
+            bad |= lacedring_any_codes_(d, &run, n, any);
+            lacedring_vertex_step_(&lanes, n, has_plane, any);
+            memcpy(out, &lanes.value, 16);
             out += n;
+            ++k;
         }
         *at = run.unary_at;
     }
     LACEDRING_EACH_ for (c = 0; c < n; ++c)
-        bad |= (uint32_t)(over[c] > ranges->mask[c]) | (uint32_t)(high[c] > ranges->most[c]);
+        bad |= (uint32_t)(lanes.over[c] > ranges->mask[c]) | (uint32_t)(lanes.high[c] > ranges->most[c]);
     return bad;
 }
 #undef LACEDRING_EACH_
