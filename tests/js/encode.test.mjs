@@ -5,7 +5,7 @@ import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
-import { makeGlb } from "./glb.mjs";
+import { makeGlb } from "./gltf_files.mjs";
 
 const [packagePath, program] = process.argv.slice(2);
 const load = (path) => import(resolve(packagePath, path));
