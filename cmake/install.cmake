@@ -16,6 +16,6 @@ install(FILES ${PROJECT_BINARY_DIR}/cmake/lacedring-config.cmake ${PROJECT_BINAR
 file(RELATIVE_PATH to_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 configure_file(${PROJECT_SOURCE_DIR}/cmake/lacedring.pc.in ${PROJECT_BINARY_DIR}/cmake/lacedring.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/cmake/lacedring.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
-# The GLSL that decodes streams, for a program's own shaders: glslangValidator -I${lacedring_GLSL_DIR}.
+# The GLSL and WGSL that decode streams, for a program's own shaders: glslangValidator -I${lacedring_GLSL_DIR}.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/shaders/include/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lacedring)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

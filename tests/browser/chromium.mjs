@@ -7,6 +7,8 @@ import { join } from "node:path";
 // WebGL2 without a GPU (SwiftShader), the same pixels on every machine. The sandbox needs rights that containers lack.
 const FLAGS = ["--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-first-run",
   "--disable-extensions", "--remote-debugging-pipe"];
+// WebGPU in the same way. Pages come from 127.0.0.1: elsewhere there is none. Without Vulkan the GPU process ends when a canvas is shown.
+export const WEBGPU = ["--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "--enable-features=Vulkan", "--use-vulkan=swiftshader"];
 
 export class Page {
   #process;
@@ -17,9 +19,11 @@ export class Page {
   #last = 0;  // id of a message
   #ended;
   #why;  // it has ended; undefined while it runs
+  /** Errors and warnings of the page's console, and what was thrown and not caught. */
+  problems = [];
 
-  constructor() {
-    this.#process = spawn(process.env.CHROMIUM ?? "chromium", [...FLAGS, `--user-data-dir=${this.#profile}`, "about:blank"],
+  constructor(flags = []) {
+    this.#process = spawn(process.env.CHROMIUM ?? "chromium", [...FLAGS, ...flags, `--user-data-dir=${this.#profile}`, "about:blank"],
       { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] });
     let text = "";
     this.#process.stdio[4].setEncoding("utf8").on("data", (more) => {
@@ -62,6 +66,16 @@ export class Page {
     const { targetId } = await this.#send("Target.createTarget", { url: "about:blank" });
     this.#session = (await this.#send("Target.attachToTarget", { targetId, flatten: true })).sessionId;
     await this.#send("Page.enable");
+    const tell = (text) => this.problems.push(text);
+    this.#listeners.set("Runtime.consoleAPICalled", ({ type, args }) => {
+      if (type === "error" || type === "warning") tell(args.map(({ value, description }) => value ?? description).join(" "));
+    });
+    this.#listeners.set("Runtime.exceptionThrown", ({ exceptionDetails }) => tell(exceptionDetails.exception?.description ?? exceptionDetails.text));
+    this.#listeners.set("Log.entryAdded", ({ entry }) => {
+      if (entry.level === "error" || entry.level === "warning") tell(`${entry.text} ${entry.url ?? ""}`);
+    });
+    await this.#send("Runtime.enable");
+    await this.#send("Log.enable");
     const loaded = new Promise((resolve) => this.#listeners.set("Page.loadEventFired", resolve));
     await this.#send("Page.navigate", { url });
     await loaded;
@@ -73,6 +87,31 @@ export class Page {
       { expression, awaitPromise: true, returnByValue: true });
     if (exceptionDetails) throw new Error(exceptionDetails.exception?.description ?? exceptionDetails.text);
     return result.value;
+  }
+
+  /** Bytes in use after a garbage collection: of JavaScript's objects, and of arrays and wasm memories. */
+  async memory() {
+    await this.#send("HeapProfiler.collectGarbage");
+    const { usedSize, backingStorageSize } = await this.#send("Runtime.getHeapUsage");
+    return { objects: usedSize, arrays: backingStorageSize };
+  }
+
+  /** Chooses files for an input, as a person does. `input` is an expression. */
+  async choose(input, files) {
+    const { result } = await this.#send("Runtime.evaluate", { expression: input });
+    await this.#send("DOM.setFileInputFiles", { objectId: result.objectId, files });
+  }
+
+  /** Makes the page so large, in pixels, and light or dark. */
+  async show(width, height, scheme = "light") {
+    await this.#send("Emulation.setDeviceMetricsOverride", { width, height, deviceScaleFactor: 1, mobile: false });
+    await this.#send("Emulation.setEmulatedMedia", { features: [{ name: "prefers-color-scheme", value: scheme }] });
+  }
+
+  /** The page as a PNG file's bytes. */
+  async screenshot() {
+    const { data } = await this.#send("Page.captureScreenshot", { format: "png" });
+    return Buffer.from(data, "base64");
   }
 
   async close() {

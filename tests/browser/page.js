@@ -1,9 +1,11 @@
-// Draws a glTF file from fixed directions at fixed times of its animations, and compares pictures with those of the first one.
+// Draws a glTF file from fixed directions at fixed times of its animations, and compares pictures with those of other files.
 import * as THREE from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 
 const [WIDTH, HEIGHT] = [640, 480];
-const VIEWS = [{ direction: [0.25, 0.2, 1], time: 0 }, { direction: [-0.8, 0.4, -0.6], time: 0.7 }];
+const VIEWS = [
+  { direction: [0.25, 0.2, 1], time: 0 }, { direction: [-0.8, 0.4, -0.6], time: 0.7 }, { direction: [0.9, 0.1, 0.4], time: 1.6 },
+];
 
 const renderer = new THREE.WebGLRenderer({ antialias: false, preserveDrawingBuffer: true });
 renderer.setSize(WIDTH, HEIGHT);
@@ -29,11 +31,31 @@ function pixels() {
   return out;
 }
 
-let sphere, reference;
+/** A mesh of an .lr file, with the material that GLTFLoader gives to a mesh without one. */
+async function loadLr(url) {
+  const { LacedRingLoader } = await import("lacedring/three");
+  const geometry = await new LacedRingLoader().loadAsync(url);
+  const { normal, color } = geometry.attributes;
+  const material = new THREE.MeshStandardMaterial({ metalness: 1, roughness: 1, flatShading: !normal, vertexColors: !!color });
+  return { scene: new THREE.Group().add(new THREE.Mesh(geometry, material)), animations: [] };
+}
 
-/** Draws a file. The first one is the reference: its bounds place the camera for all. */
-async function draw(url) {
-  const { scene: model, animations } = await new GLTFLoader().loadAsync(url);
+/** Loads a file; with the package lacedring if `isPacked`. */
+async function load(url, isPacked) {
+  if (url.endsWith(".lr")) return loadLr(url);
+  const loader = new GLTFLoader();
+  if (isPacked) {
+    const { LacedRingExtension } = await import("lacedring/three");
+    loader.register((parser) => new LacedRingExtension(parser));
+  }
+  return loader.loadAsync(url);
+}
+
+let sphere, reference, last;  // last: drawn without the plug-in
+
+/** Draws a file. The first one is the reference: its bounds place the camera for all. It stays on the GPU, and so do its shaders. */
+async function draw(url, isPacked, views = VIEWS) {
+  const { scene: model, animations } = await load(url, isPacked);
   const scene = new THREE.Scene();
   scene.background = new THREE.Color(0x8090a0);
   const sun = new THREE.DirectionalLight(0xffffff, 2);
@@ -42,13 +64,30 @@ async function draw(url) {
   sphere ??= bounds(model);
   const mixer = new THREE.AnimationMixer(model);
   animations.forEach((clip) => mixer.clipAction(clip).play());
-  const drawn = VIEWS.map(({ direction, time }) => {
+  const drawn = views.map(({ direction, time }) => {
     mixer.setTime(time);
     renderer.render(scene, cameraOf(sphere, direction));
     return { pixels: pixels(), png: renderer.domElement.toDataURL("image/png") };
   });
+  mixer.stopAllAction();
+  if (reference) dispose(model);
   reference ??= drawn;
   return drawn;
+}
+
+/** Takes a model off the GPU. */
+function dispose(model) {
+  model.traverse(({ geometry, material, skeleton }) => {
+    geometry?.dispose();
+    skeleton?.dispose();
+    for (const one of [material ?? []].flat()) {
+      Object.values(one).filter((value) => value?.isTexture).forEach((texture) => {
+        texture.source.data?.close?.();
+        texture.dispose();
+      });
+      one.dispose();
+    }
+  });
 }
 
 function statistics(ours, theirs) {
@@ -67,9 +106,20 @@ function statistics(ours, theirs) {
   return { different, over, largest, covered };
 }
 
-/** For each view: pixels that differ from the reference's, by more than 16 of 255, the largest difference, pixels covered. */
-window.compare = async (url) => {
-  const drawn = await draw(url);
-  return drawn.map(({ pixels, png }, view) => ({ ...statistics(pixels, reference[view].pixels), png }));
+/**
+ * For each view: pixels that differ, by more than 16 of 255, the largest difference, pixels covered. A packed file is compared with
+ * the last one that was not, others with the reference.
+ */
+window.compare = async (url, isPacked) => {
+  const drawn = await draw(url, isPacked);
+  if (!isPacked) last = drawn;
+  const others = isPacked ? last : reference;
+  return drawn.map(({ pixels, png }, view) => ({ ...statistics(pixels, others[view].pixels), png }));
 };
 window.reset = () => { sphere = reference = undefined; };
+
+/** Loads and draws a packed file again and again; what is on the GPU afterwards. */
+window.repeat = async (url, times) => {
+  for (let i = 0; i < times; i++) await draw(url, true, VIEWS.slice(0, 1));
+  return { ...renderer.info.memory };
+};

@@ -1,45 +1,25 @@
-// node pictures.mjs PACKAGES [--keep FOLDER] [--source SOURCE [--exact FILE | --close FILE]...]...
-// Draws glTF files with three.js in headless Chromium and compares the pictures with those of their source. Exit code 1 if one
-// differs too much. PACKAGES is what scripts/node-packages prints; --keep writes the pictures as PNG files.
-import { createReadStream, existsSync, mkdirSync, writeFileSync } from "node:fs";
-import { createServer } from "node:http";
-import { basename, dirname, join, resolve } from "node:path";
-import { fileURLToPath } from "node:url";
+// node pictures.mjs PACKAGES PLUGIN [--keep FOLDER] [--source SOURCE [--exact FILE | --close FILE | --packed FILE]...]...
+// Draws glTF files with three.js in headless Chromium and compares the pictures with those of their source; --packed draws with the
+// plug-in and allows no pixel of difference from the file before. Exit code 1 if one differs too much, or if the page's console has an
+// error. PACKAGES is what scripts/node-packages prints, PLUGIN the package that scripts/build-js writes; --keep writes the pictures as
+// PNG files.
+import { mkdirSync, writeFileSync } from "node:fs";
+import { basename, dirname, join } from "node:path";
 import { Page } from "./chromium.mjs";
+import { serve } from "./server.mjs";
 
 // The share of the covered pixels that may differ by more than 16 of 255. Even of equal triangles some may, where two are as near
 // to the eye or a texel ends: their order and first corners decide about the last bit.
-const LIMITS = { "--exact": 0.0002, "--close": 0.01 };
-const TYPES = { html: "text/html", js: "text/javascript", gltf: "model/gltf+json", glb: "model/gltf-binary" };
+const LIMITS = { "--exact": 0.0002, "--close": 0.01, "--packed": 0 };
 
-const here = dirname(fileURLToPath(import.meta.url));
-const [packages, ...args] = process.argv.slice(2);
-const folders = [];  // /N/NAME is NAME in folders[N], or else in the folder of its source
-
-function find(path) {
-  const [, place, ...rest] = decodeURIComponent(path).split("/");
-  if (place === "three") return join(packages, "node_modules/three", ...rest);
-  if (folders[place]) return folders[place].map((folder) => join(folder, ...rest)).find(existsSync);
-  return join(here, place);
-}
-
-const server = createServer((request, response) => {
-  const file = find(new URL(request.url, "http://127.0.0.1").pathname);
-  if (!file || !existsSync(file)) {
-    response.writeHead(404).end();
-    return;
-  }
-  response.writeHead(200, { "content-type": TYPES[file.split(".").pop()] ?? "application/octet-stream" });
-  createReadStream(file).pipe(response);
-});
-await new Promise((listening) => server.listen(0, "127.0.0.1", listening));
-
+const [packages, plugin, ...args] = process.argv.slice(2);
+const server = await serve(packages, plugin);
 const page = new Page();
 let failed = 0, keep, source;
 try {
-  await page.open(`http://127.0.0.1:${server.address().port}/page.html`);
+  await page.open(server.url("page.html"));
   for (let i = 0; i < args.length; i += 2) {
-    const [option, file] = [args[i], args[i + 1]];
+    const [option, file] = [args[i], args[i + 1]], isPacked = option === "--packed";
     if (option === "--keep") {
       mkdirSync(keep = file, { recursive: true });
       continue;
@@ -48,17 +28,19 @@ try {
       source = file;
       await page.evaluate("reset()");
     }
-    folders.push([resolve(dirname(file)), resolve(dirname(source))]);
-    const views = await page.evaluate(`compare(${JSON.stringify(`/${folders.length - 1}/${encodeURIComponent(basename(file))}`)})`);
+    const url = JSON.stringify(server.add(file, dirname(source)));
+    const views = await page.evaluate(`compare(${url}, ${isPacked})`);
     views.forEach(({ png, different, over, largest, covered }, view) => {
       const limit = LIMITS[option];
-      const wrong = limit ? over > limit * covered : covered < 100;
+      const wrong = isPacked ? different > 0 : limit ? over > limit * covered : covered < 100;
       failed += wrong;
       console.log(`${wrong ? "FAILED " : ""}${basename(file)}, view ${view}: ${covered} pixels covered` +
-        (limit ? `, ${different} differ, ${over} of them by more than 16, largest difference ${largest}` : ""));
+        (option !== "--source" ? `, ${different} differ, ${over} of them by more than 16, largest difference ${largest}` : ""));
       if (keep) writeFileSync(join(keep, `${basename(file)}-${view}.png`), Buffer.from(png.split(",")[1], "base64"));
     });
   }
+  failed += page.problems.length;
+  page.problems.forEach((text) => console.log(`FAILED console: ${text}`));
 } finally {
   await page.close();
   server.close();

@@ -125,6 +125,10 @@ enum lacedring_status lacedring_packed_check(const struct lacedring_packed* pack
 enum lacedring_status lacedring_packed_validate(const uint32_t* words, size_t count, struct lacedring_packed* packed,
                                                 uint64_t* where);
 
+/* The check and lacedring_packed_triangles_u32 in one pass. Where it finds a fault, what `indices` holds is of no use. */
+enum lacedring_status lacedring_packed_decode_checked(const struct lacedring_packed* packed, uint32_t* indices,
+                                                      uint64_t* where);
+
 /* 3 * packed->triangles indices; of 16 bits only where packed->vertices <= 65536. Linear time. */
 void lacedring_packed_triangles_u32(const struct lacedring_packed* packed, uint32_t* indices);
 void lacedring_packed_triangles_u16(const struct lacedring_packed* packed, uint16_t* indices);
@@ -405,8 +409,9 @@ enum {
 #define LACEDRING_HOT_ static
 #endif
 
-/* What is smaller inlined than called, though compilers think otherwise. */
-#if defined(__GNUC__)
+/* What is smaller inlined than called on most machines, though compilers think otherwise. LACEDRING_TINY: the smallest
+   code, for WebAssembly, where calls are short. */
+#if defined(__GNUC__) && !defined(LACEDRING_TINY)
 #define LACEDRING_SMALL_ static inline __attribute__((always_inline))
 #else
 #define LACEDRING_SMALL_ static
@@ -423,6 +428,9 @@ LACEDRING_HOT_ uint32_t lacedring_ones_(uint64_t bits) { /* before the lowest ze
 }
 
 LACEDRING_HOT_ uint32_t lacedring_popcount_(uint32_t bits) {
+#if defined(__wasm__) && !defined(LACEDRING_PLAIN) /* an instruction there */
+    return (uint32_t)__builtin_popcount(bits);
+#endif
     bits -= (bits >> 1) & 0x55555555u;
     bits = (bits & 0x33333333u) + ((bits >> 2) & 0x33333333u);
     return (((bits + (bits >> 4)) & 0x0f0f0f0fu) * 0x01010101u) >> 24;
@@ -851,6 +859,8 @@ LACEDRING_HOT_ uint64_t lacedring_counts_(uint64_t bits) {
 LACEDRING_HOT_ uint32_t lacedring_count_(uint64_t bits, int wide) {
 #ifdef LACEDRING_AVX2_
     if (wide) return (uint32_t)__builtin_popcountll(bits);
+#elif defined(__wasm__) && !defined(LACEDRING_PLAIN)
+    return (uint32_t)__builtin_popcountll(bits);
 #endif
     (void)wide;
     return (uint32_t)(lacedring_counts_(bits) >> 56);
@@ -1699,10 +1709,36 @@ static enum lacedring_status lacedring_check_doubles_(const struct lacedring_pac
     return LACEDRING_STATUS_OK;
 }
 
-enum lacedring_status lacedring_packed_check(const struct lacedring_packed* p, uint64_t* where) {
+/* Has each of so many triangles three vertices? */
+LACEDRING_SMALL_ int lacedring_have_vertices_(const uint32_t* t, uint32_t count, uint32_t vertices) {
+#if defined(__wasm_simd128__) && defined(LACEDRING_VECTORS_)
+    lacedring_four_ most = {0, 0, 0, 0}, equal = most;
+    for (; count >= 4; count -= 4, t += 12) { /* a to c are words 0 to 11: each beside the one that follows in its triangle */
+        lacedring_four_ a, b, c;
+        memcpy(&a, t, 16);
+        memcpy(&b, t + 4, 16);
+        memcpy(&c, t + 8, 16);
+        most = __builtin_wasm_max_u_i32x4(__builtin_wasm_max_u_i32x4(most, a), __builtin_wasm_max_u_i32x4(b, c));
+        equal |= (lacedring_four_)(a == __builtin_shufflevector(a, b, 1, 2, 0, 4));
+        equal |= (lacedring_four_)(b == __builtin_shufflevector(__builtin_shufflevector(a, b, 5, 3, 7, 3), c, 0, 1, 2, 4));
+        equal |= (lacedring_four_)(c == __builtin_shufflevector(b, c, 2, 6, 7, 5));
+    }
+    equal |= (lacedring_four_)(most >= vertices);
+    if (equal[0] | equal[1] | equal[2] | equal[3]) return 0;
+#endif
+    for (; count > 0; --count, t += 3) {
+        if (t[0] >= vertices || t[1] >= vertices || t[2] >= vertices || t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
+            return 0;
+    }
+    return 1;
+}
+
+/* Checks all blocks, and writes the own triangles, too, if `out` is not null. */
+static enum lacedring_status lacedring_check_packed_(const struct lacedring_packed* p, uint32_t* out, uint64_t* where) {
     struct lacedring_group_ g;
     struct lacedring_block_ b;
-    uint32_t indices[3 * LACEDRING_PACKED_BLOCK], block, blocks = lacedring_blocks_of_(p->own), i, left, plain = 0;
+    uint32_t room[3 * LACEDRING_PACKED_BLOCK], block, blocks = lacedring_blocks_of_(p->own), i, left, plain = 0;
+    uint32_t* indices = out != NULL ? out : room;
     uint64_t end = 0;
     if (lacedring_check_doubles_(p, where) != LACEDRING_STATUS_OK) return LACEDRING_STATUS_DOUBLES;
     for (block = 0; block < blocks; ++block) {
@@ -1727,16 +1763,44 @@ enum lacedring_status lacedring_packed_check(const struct lacedring_packed* p, u
         if (b.begin + b.bytes > p->group_bytes || !lacedring_unused_clear_(p, &g, &b) ||
             (plain && b.kind != LACEDRING_PLAIN_) || !lacedring_expand_block_(p, &g, &b, indices))
             return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
-        for (i = 0; i < 3 * left; i += 3) {
-            const uint32_t *t = indices + i, n = p->vertices;
-            if (t[0] >= n || t[1] >= n || t[2] >= n || t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
-                return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
-        }
+        if (!lacedring_have_vertices_(indices, left, p->vertices))
+            return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
+        if (out != NULL) indices += (size_t)3 * LACEDRING_PACKED_BLOCK;
     }
     if (p->own % 32 != 0 && p->turns[p->own / 32] >> (p->own % 32) != 0)
         return lacedring_at_(where, p->own, LACEDRING_STATUS_TURNS);
     if (end != p->group_bytes) return lacedring_at_(where, end, LACEDRING_STATUS_SIZE);
     return LACEDRING_STATUS_OK;
+}
+
+enum lacedring_status lacedring_packed_check(const struct lacedring_packed* p, uint64_t* where) {
+    return lacedring_check_packed_(p, NULL, where);
+}
+
+static void lacedring_double_(const uint32_t* of, uint32_t turned, uint32_t* out) {
+    const uint32_t b = of[1], c = of[2];
+    out[0] = of[0];
+    out[1] = turned ? c : b;
+    out[2] = turned ? b : c;
+}
+
+/* Writes all doubles behind the own triangles. */
+static void lacedring_write_doubles_(const struct lacedring_packed* p, uint32_t* triangles) {
+    uint32_t run, i;
+    for (run = 0; run < p->runs; ++run) {
+        const uint32_t* r = p->doubles + (size_t)2 * run;
+        const uint32_t end = lacedring_run_end_(p, run), from = r[1] & ~LACEDRING_DOUBLES_;
+        for (i = r[0]; i < end; ++i)
+            lacedring_double_(triangles + (size_t)3 * (from + (i - r[0])), r[1] & LACEDRING_DOUBLES_,
+                              triangles + (size_t)3 * i);
+    }
+}
+
+enum lacedring_status lacedring_packed_decode_checked(const struct lacedring_packed* p, uint32_t* indices,
+                                                      uint64_t* where) {
+    const enum lacedring_status status = lacedring_check_packed_(p, indices, where);
+    if (status == LACEDRING_STATUS_OK) lacedring_write_doubles_(p, indices);
+    return status;
 }
 
 enum lacedring_status lacedring_packed_validate(const uint32_t* words, size_t count, struct lacedring_packed* p,
@@ -1776,13 +1840,6 @@ static uint32_t lacedring_run_of_(const struct lacedring_packed* p, uint32_t tri
         }
     }
     return low;
-}
-
-static void lacedring_double_(const uint32_t* of, uint32_t turned, uint32_t* out) {
-    const uint32_t b = of[1], c = of[2];
-    out[0] = of[0];
-    out[1] = turned ? c : b;
-    out[2] = turned ? b : c;
 }
 
 /* Triangles [t, end), all of them doubles. */

@@ -541,7 +541,7 @@ enum lacedring_status lacedring_stored_packed_decode(const struct lacedring_stor
                                                      uint32_t* triangles, uint64_t* where) {
     struct lacedring_steps_ w;
     struct lacedring_packed p;
-    uint32_t i, run;
+    uint32_t i;
     memset(&w, 0, sizeof w);
     memset(&p, 0, sizeof p);
     w.coded = s->steps;
@@ -573,12 +573,7 @@ enum lacedring_status lacedring_stored_packed_decode(const struct lacedring_stor
     p.triangles = s->triangles;
     p.runs = s->runs;
     p.doubles = s->doubles;
-    for (run = 0; run < s->runs; ++run) {
-        const uint32_t* r = s->doubles + 2 * (size_t)run;
-        const uint32_t end = lacedring_run_end_(&p, run), from = r[1] & 0x7fffffffu;
-        for (i = r[0]; i < end; ++i)
-            lacedring_double_(triangles + 3 * (size_t)(from + (i - r[0])), r[1] >> 31, triangles + 3 * (size_t)i);
-    }
+    lacedring_write_doubles_(&p, triangles);
     return LACEDRING_STATUS_OK;
 }
 

@@ -384,6 +384,182 @@ LACEDRING_HOT_ uint32_t lacedring_vertex_block_(const struct lacedring_vertices*
     return bad;
 }
 
+#ifdef __wasm_simd128__
+/* WebAssembly has vectors of four lanes: one for each component of at most four. */
+typedef uint32_t lacedring_u4_ __attribute__((vector_size(16)));
+typedef int32_t lacedring_i4_ __attribute__((vector_size(16)));
+#define LACEDRING_EACH_ _Pragma("clang loop unroll(full)") /* lanes are numbered by constants */
+
+LACEDRING_HOT_ lacedring_u4_ lacedring_quarters_(lacedring_u4_ x) {
+    return (lacedring_u4_)((lacedring_i4_)(x + 2) >> 2);
+}
+
+/* Where the codes of a run are read. */
+struct lacedring_codes_ {
+    uint64_t low_at, unary_at;
+    uint32_t present; /* components whose residuals are not all 0: a bit each */
+    uint32_t width[4], mask[4];
+};
+
+/* The codes of any vertex. Returns what is not 0 if one is impossible. */
+static uint32_t lacedring_any_codes_(const struct lacedring_data_* d, struct lacedring_codes_* r, uint32_t n,
+                                     uint32_t code[4]) {
+    uint32_t c, bad = 0;
+    for (c = 0; c < n; ++c) {
+        uint32_t zeros;
+        code[c] = 0;
+        if (!(r->present >> c & 1)) continue;
+        zeros = lacedring_zeros_(lacedring_data_at_(d, r->unary_at) | UINT64_C(1) << 57);
+        r->unary_at += zeros + 1;
+        bad |= zeros > LACEDRING_VERTICES_MOST_ || (uint64_t)zeros << r->width[c] >> 32 != 0;
+        code[c] = zeros << r->width[c] | lacedring_data_take_(d, &r->low_at, r->width[c]);
+    }
+    return bad;
+}
+
+/* A vertex, and how the next one is made of its codes. */
+struct lacedring_vertex_lanes_ {
+    lacedring_u4_ value, d1, d2, alpha, beta;
+    lacedring_u4_ slopes, axis;           /* of the plane */
+    lacedring_u4_ base, more, over, high; /* the largest integers so far less base, and plus more */
+};
+
+LACEDRING_HOT_ void lacedring_vertex_step_(struct lacedring_vertex_lanes_* p, uint32_t n, uint32_t has_plane,
+                                           const uint32_t* code) {
+    lacedring_u4_ residual = {0, 0, 0, 0};
+    uint32_t c;
+    LACEDRING_EACH_ for (c = 0; c < n; ++c) residual[c] = code[c];
+    residual = (residual >> 1) ^ (0u - (residual & 1)); /* 0, -1, 1, -2 ... */
+    if (n == 3 && has_plane) {
+        const lacedring_u4_ product = p->slopes * residual;
+        const lacedring_u4_ sum = product + __builtin_shufflevector(product, product, 1, 2, 0, 3) +
+                                  __builtin_shufflevector(product, product, 2, 0, 1, 3);
+        residual += lacedring_quarters_(sum) & p->axis;
+    }
+    residual += lacedring_quarters_(p->alpha * p->d1 + p->beta * p->d2);
+    p->d2 = p->d1;
+    p->d1 = residual;
+    p->value += residual;
+    p->over = __builtin_wasm_max_u_i32x4(p->over, p->value - p->base);
+    p->high = __builtin_wasm_max_u_i32x4(p->high, p->value + p->more);
+}
+
+/* As lacedring_vertex_block_. `ranges` are checked; up to three more integers are written behind. */
+LACEDRING_HOT_ uint32_t lacedring_vertex_block_4_(const struct lacedring_vertices* s, const struct lacedring_data_* d,
+                                                  uint32_t n, uint32_t count, const struct lacedring_ranges_* ranges,
+                                                  uint64_t* at, uint32_t* out) {
+    struct lacedring_vertex_lanes_ lanes;
+    uint32_t bits[4], c, i, k, length, plane = 4 << 4 | 4 << 7, has_plane = 0, bad = 0;
+    struct lacedring_codes_ run;
+    memset(&lanes, 0, sizeof lanes);
+    memset(&run, 0, sizeof run);
+    LACEDRING_EACH_ for (c = 0; c < n; ++c) {
+        const uint32_t said = s->parameters[2 * c + 1];
+        uint32_t predictor = said >> 11 & 31;
+        if (lacedring_data_take_(d, at, 1)) predictor = lacedring_data_take_(d, at, 5);
+        lanes.alpha[c] = (predictor & 7) - 2;
+        lanes.beta[c] = (predictor >> 3) - 2;
+        bits[c] = said >> 6 & 31;
+        lanes.base[c] = s->parameters[2 * c];
+        lanes.more[c] = ranges->more[c];
+    }
+    length = 4u << lacedring_data_take_(d, at, 2);
+    LACEDRING_EACH_ for (c = 0; c < n; ++c)
+        lanes.value[c] = lanes.base[c] + lacedring_data_take_(d, at, s->parameters[2 * c + 1] & 63);
+    lanes.over = lanes.value - lanes.base;
+    lanes.high = lanes.value + lanes.more;
+    memcpy(out, &lanes.value, 16);
+    out += n;
+    for (i = 1; i < count; i += length) {
+        const uint32_t here = count - i < length ? count - i : length;
+        uint64_t window = lacedring_data_at_(d, *at); /* of 57 bits or more; the plane takes 10, a width 9 */
+        uint32_t used = 0, row = 0, most = LACEDRING_VERTICES_MOST_, is_plain;
+        if (n == 3 && ((i - 1) & 15) == 0) {
+            used = window & 1 ? window & 2 ? 10 : 2 : 1;
+            has_plane = used > 1;
+            if (used == 10) plane = (uint32_t)window;
+            if (has_plane) {
+                const uint32_t of = plane >> 2 & 3;
+                bad |= of == 3;
+                LACEDRING_EACH_ for (c = 0; c < 3; ++c) {
+                    lanes.axis[c] = of == c ? UINT32_MAX : 0;
+                    lanes.slopes[c] = of == (c == 0 ? 2 : c - 1)   ? (plane >> 4 & 7) - 4
+                                : of == (c == 2 ? 0 : c + 1) ? (plane >> 7 & 7) - 4
+                                                             : 0;
+                }
+            }
+        }
+        run.present = 0;
+        LACEDRING_EACH_ for (c = 0; c < n; ++c) {
+            uint64_t code;
+            uint32_t ones;
+            if (used > 57 - 9) {
+                *at += used;
+                window = lacedring_data_at_(d, *at);
+                used = 0;
+            }
+            code = window >> used;
+            ones = lacedring_zeros_(~code | 16); /* 0: as before, 1: none, 2: one more, 3: one less, 4: given */
+            used += ones < 4 ? ones + 1 : 9;
+            bad |= (ones == 2 && bits[c] == 31) || (ones == 3 && bits[c] == 0);
+            bits[c] = ones == 4 ? (uint32_t)(code >> 4) & 31 : (bits[c] + (ones == 2) - (ones == 3)) & 31;
+            run.present |= (uint32_t)(ones != 1) << c;
+            run.width[c] = ones == 1 ? 0 : bits[c];
+            run.mask[c] = (1u << run.width[c]) - 1;
+            row += run.width[c];
+            if (UINT32_MAX >> run.width[c] < most) most = UINT32_MAX >> run.width[c];
+        }
+        *at += used;
+        run.low_at = *at;
+        run.unary_at = run.low_at + (uint64_t)row * here;
+        is_plain = run.present == (1u << n) - 1 && row <= 28 && run.unary_at + 57 * (uint64_t)here <= d->last;
+        for (k = 0; k < here;) {
+            uint32_t any[4];
+            if (is_plain && here - k >= 2) { /* two vertices by two loads */
+                uint32_t code[8], end[2] = {0, 0}, v;
+                uint64_t low, zeros;
+                memcpy(&low, d->bytes + (size_t)(run.low_at >> 3), 8);
+                memcpy(&zeros, d->bytes + (size_t)(run.unary_at >> 3), 8);
+                low >>= run.low_at & 7;
+                zeros = zeros >> (run.unary_at & 7) | UINT64_C(255) << 56;
+                LACEDRING_EACH_ for (v = 0; v < 2; ++v) {
+                    if (v == 1) end[1] = end[0];
+                    LACEDRING_EACH_ for (c = 0; c < n; ++c) {
+                        const uint32_t next = lacedring_zeros_(zeros);
+                        code[4 * v + c] = (next - end[v]) << run.width[c] | ((uint32_t)low & run.mask[c]);
+                        zeros &= zeros - 1;
+                        low >>= run.width[c];
+                        end[v] = next + 1;
+                    }
+                }
+                /* No number of zeros is above `most` if those of a vertex are not together. */
+                if ((end[0] <= most) & (end[1] - end[0] <= most) & (end[1] <= 56)) {
+                    LACEDRING_EACH_ for (v = 0; v < 2; ++v) {
+                        lacedring_vertex_step_(&lanes, n, has_plane, code + 4 * v);
+                        memcpy(out + v * n, &lanes.value, 16);
+                    }
+                    out += 2 * n;
+                    run.low_at += 2 * row;
+                    run.unary_at += end[1];
+                    k += 2;
+                    continue;
+                }
+            }
+            bad |= lacedring_any_codes_(d, &run, n, any);
+            lacedring_vertex_step_(&lanes, n, has_plane, any);
+            memcpy(out, &lanes.value, 16);
+            out += n;
+            ++k;
+        }
+        *at = run.unary_at;
+    }
+    LACEDRING_EACH_ for (c = 0; c < n; ++c)
+        bad |= (uint32_t)(lanes.over[c] > ranges->mask[c]) | (uint32_t)(lanes.high[c] > ranges->most[c]);
+    return bad;
+}
+#undef LACEDRING_EACH_
+#endif
+
 #ifdef LACEDRING_AVX2_
 /* Eight blocks at once, one in each lane of vectors. Runs begin at vertices 1 + 4 k in every block, so that lanes whose
    runs have other lengths meet at each fourth vertex. */
@@ -803,6 +979,15 @@ static uint32_t lacedring_vertex_some_(const struct lacedring_vertices* s, const
 #else
     (void)end;
     (void)purpose;
+#endif
+#ifdef __wasm_simd128__
+    if (ranges != NULL && n <= 4) {
+        *bad = n == 3   ? lacedring_vertex_block_4_(s, d, 3, count, ranges, ends, out)
+               : n == 2 ? lacedring_vertex_block_4_(s, d, 2, count, ranges, ends, out)
+               : n == 1 ? lacedring_vertex_block_4_(s, d, 1, count, ranges, ends, out)
+                        : lacedring_vertex_block_4_(s, d, 4, count, ranges, ends, out);
+        return 1;
+    }
 #endif
     *bad = n == 3   ? lacedring_vertex_block_(s, d, 3, count, ends, out)
            : n == 2 ? lacedring_vertex_block_(s, d, 2, count, ends, out)

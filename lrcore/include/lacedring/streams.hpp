@@ -199,7 +199,7 @@ struct LrView {
             if (w[2] == u) return corner + 8 + (side == 0 ? 2 : 0U - 2);
             if (u < 2 || u >= ring_vertices) return kNotPlain;
             const std::uint32_t* far = lr.data() + 2 * std::size_t{u - 1};
-            return far[side] == v + 1 && !skips(far[std::ptrdiff_t{side} - 2]) && !closing(far[0])
+            return far[side] == v + 1 && !skips(far[static_cast<std::ptrdiff_t>(side) - 2]) && !closing(far[0])
                        ? 8 * (u - 1) + corner % 8
                        : kNotPlain;
         }

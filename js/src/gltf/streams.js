@@ -1,0 +1,86 @@
+import { extensionOf, listOf, numberBelow, objectOf, refuse } from "./document.js";
+
+/**
+ * What a document says of a stream.
+ * @typedef {object} Stream
+ * @property {number} view the buffer view of its .lr file
+ * @property {number} [partsView] that of its part codes
+ * @property {boolean} ordered
+ * @property {number[][]} sets accessors of each vertex set, in the order of the stream's attributes
+ * @property {{set: number, indices: number}[]} parts the set and the index accessor of each
+ */
+
+/** Reads streams and their sets. `setOf` gets {stream, set} of each accessor. */
+function readStreams(extension, accessors, setOf) {
+  return listOf(extension, "streams").map(({ bufferView, parts, sets, ordered = false }, stream) => {
+    if (!Array.isArray(sets) || sets.length === 0 || !sets.every(Array.isArray)) refuse(`stream ${stream} has no sets`);
+    if (typeof ordered !== "boolean") refuse(`stream ${stream}: "ordered" is neither true nor false`);
+    sets.forEach((numbers, set) => {
+      if (numbers.length === 0) refuse(`stream ${stream} has a set without accessors`);
+      for (const accessor of numbers) {
+        numberBelow(accessors.length, accessor, `an accessor of stream ${stream}`);
+        if (setOf.has(accessor)) refuse(`accessor ${accessor} is in two places of sets`);
+        setOf.set(accessor, { stream, set });
+      }
+    });
+    return { view: bufferView, partsView: parts, ordered, sets, parts: [] };
+  });
+}
+
+/** Names and numbers of the accessors of a primitive's attributes and morph targets. */
+function* attributesOf(primitive) {
+  for (const names of [objectOf(primitive, "attributes"), ...listOf(primitive, "targets")]) yield* Object.entries(names);
+}
+
+/** Stream and set of a primitive's accessors; undefined: they have none. */
+function setOfPrimitive(primitive, setOf) {
+  const found = [...attributesOf(primitive)].map(([, accessor]) => setOf.get(accessor));
+  if (found.some((one) => one?.stream !== found[0]?.stream || one?.set !== found[0]?.set)) {
+    refuse("a primitive has accessors of different sets");
+  }
+  return found[0];
+}
+
+/**
+ * Reads what a document says of its streams, and checks that it fits together.
+ * @param {object} json the document; the inner one if it is packed
+ * @param {boolean} isPacked is it a packed document, whose primitives do not say which part they have?
+ * @returns {{streams: Stream[], positions: Set<number>}} and the accessors of streams that are positions or displacements
+ */
+export function readDocument(json, isPacked) {
+  const accessors = listOf(json, "accessors"), setOf = new Map(), positions = new Set();
+  const streams = readStreams(extensionOf(json) ?? {}, accessors, setOf);
+  const partOf = new Map();  // {stream, part} of an index accessor
+  for (const mesh of listOf(json, "meshes")) {
+    for (const primitive of listOf(mesh, "primitives")) {
+      const extension = extensionOf(primitive), { indices, mode = 4 } = primitive;
+      if (isPacked && extension) refuse("a primitive of a packed document names its part");
+      if (isPacked ? mode !== 4 : !extension) continue;
+      const of = setOfPrimitive(primitive, setOf);
+      if (!of && isPacked) continue;
+      if (!of || mode !== 4) refuse("a primitive has a part but no set, or is no list of triangles");
+      numberBelow(accessors.length, indices, "the index accessor of a part");
+      if (setOf.has(indices)) refuse(`accessor ${indices} is in a set, and has indices`);
+      const { parts } = streams[of.stream];
+      const known = partOf.get(indices);
+      const part = isPacked ? known?.part ?? parts.length : extension.part;
+      // Part numbers have no gaps, so there are no more of them than primitives: `parts` is an array with holes till then.
+      numberBelow(2 ** 31, part, "the number of a part");
+      if ((known ?? of).stream !== of.stream || (known && known.part !== part)) refuse(`accessor ${indices} is of two parts`);
+      if (!isPacked && extension.stream !== of.stream) refuse("a primitive names another stream than its attributes'");
+      partOf.set(indices, { stream: of.stream, part });
+      parts[part] ??= { set: of.set, indices };
+      if (parts[part].set !== of.set || parts[part].indices !== indices) {
+        refuse(`part ${part} of stream ${of.stream} has two sets or index accessors`);
+      }
+      for (const [name, accessor] of attributesOf(primitive)) {
+        if (name === "POSITION") positions.add(accessor);
+      }
+    }
+  }
+  streams.forEach(({ parts, partsView }, i) => {
+    if (parts.length === 0 || Object.keys(parts).length !== parts.length) refuse(`stream ${i} has a part without a primitive`);
+    if ((partsView !== undefined) !== parts.length > 1) refuse(`stream ${i} has part codes for one part, or none for several`);
+  });
+  return { streams, positions };
+}

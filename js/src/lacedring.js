@@ -1,0 +1,6 @@
+// The whole decoder.
+import { makeDecoder } from "./decoder.js";
+
+export { LacedRingError } from "./errors.js";
+export { decodeMeshAsync } from "./pool.js";
+export const { ready, decodeMesh, validate, decodeTriangle } = makeDecoder(() => import("./wasm/storage.js"), () => import("./wasm/storage-simd.js"));

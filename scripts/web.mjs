@@ -1,0 +1,56 @@
+// Serves folders from 127.0.0.1: what scripts/web and the tests in Chromium load pages from.
+import { createReadStream, statSync } from "node:fs";
+import { createServer } from "node:http";
+import { dirname, join, normalize, sep } from "node:path";
+import { fileURLToPath } from "node:url";
+
+const ROOT = join(dirname(fileURLToPath(import.meta.url)), "..");
+const TYPES = { html: "text/html", js: "text/javascript", mjs: "text/javascript", css: "text/css", json: "application/json", wasm: "application/wasm",
+  svg: "image/svg+xml", png: "image/png", gltf: "model/gltf+json", glb: "model/gltf-binary", wgsl: "text/plain", glsl: "text/plain" };
+
+/** Where the page's parts are: the page, the package, the shaders that it loads, three.js, and its samples. */
+export const FOLDERS = { "": join(ROOT, "web"), lacedring: join(ROOT, "build/js"), shaders: join(ROOT, "shaders/include"),
+  three: join(ROOT, "build/node/node_modules/three"), samples: join(ROOT, "build/samples") };
+
+function find(folders, path) {
+  let parts;
+  try {
+    parts = decodeURIComponent(path).split("/").slice(1);
+  } catch {
+    return undefined;
+  }
+  const folder = parts[0] in folders && parts[0] !== "" ? folders[parts.shift()] : folders[""];
+  if (!folder) return undefined;
+  const file = normalize(join(folder, ...parts));
+  if (file !== normalize(folder) && !file.startsWith(normalize(folder + sep))) return undefined;
+  const info = statSync(file, { throwIfNoEntry: false });
+  if (info?.isDirectory()) return find({ "": file }, "/index.html");
+  return info?.isFile() ? file : undefined;
+}
+
+/**
+ * Serves /NAME/... from the folder of that name, anything else from that of the name "". Port 0: any that is free.
+ * Resolves with the server; its address().port is the port.
+ */
+export function serve(folders, port = 0) {
+  const server = createServer((request, response) => {
+    const { pathname } = new URL(request.url, "http://127.0.0.1");
+    const file = find(folders, pathname);
+    if (!file) return response.writeHead(404).end();
+    if (!pathname.endsWith("/") && file.endsWith("index.html") && !pathname.endsWith("index.html"))
+      return response.writeHead(301, { location: `${pathname}/` }).end();
+    response.writeHead(200, { "content-type": TYPES[file.split(".").pop()] ?? "application/octet-stream", "cache-control": "no-store" });
+    createReadStream(file).pipe(response);
+  });
+  return new Promise((resolve, reject) => server.on("error", reject).listen(port, "127.0.0.1", () => resolve(server)));
+}
+
+if (process.argv[1] === fileURLToPath(import.meta.url)) {
+  const port = Number(process.argv[2] ?? 8080);
+  serve(FOLDERS, port).then(
+    () => console.log(`http://127.0.0.1:${port}/ and http://127.0.0.1:${port}/gpu/ (control + C ends it)`),
+    ({ message }) => {
+      console.error(`web: ${message}`);
+      process.exit(1);
+    });
+}

@@ -1,0 +1,32 @@
+// node memory.mjs PACKAGES PLUGIN FILE: loads and draws a packed glTF file 100 times with the plug-in in headless Chromium, frees it
+// each time, and looks at the memory that is in use after 20 times and after 100. Exit code 1 if it grows. PACKAGES and PLUGIN are
+// those of pictures.mjs.
+import { Page } from "./chromium.mjs";
+import { serve } from "./server.mjs";
+
+const [packages, plugin, file] = process.argv.slice(2);
+const MOST = 1 << 20;  // bytes that it may grow by: three.js itself leaves 1 to 3 KB of objects a time
+
+const server = await serve(packages, plugin);
+const page = new Page();
+let failed = false;
+try {
+  await page.open(server.url("page.html"));
+  const url = JSON.stringify(server.add(file));
+  const after = async (times) => {
+    const gpu = await page.evaluate(`repeat(${url}, ${times})`);
+    return { ...gpu, ...await page.memory() };
+  };
+  const first = await after(20), last = await after(80);
+  for (const name of Object.keys(first)) {
+    const grows = last[name] > first[name] + (["objects", "arrays"].includes(name) ? MOST : 0);
+    failed ||= grows;
+    console.log(`${grows ? "FAILED " : ""}${name}: ${first[name]} after 20 times, ${last[name]} after 100`);
+  }
+  failed ||= page.problems.length > 0;
+  page.problems.forEach((text) => console.log(`FAILED console: ${text}`));
+} finally {
+  await page.close();
+  server.close();
+}
+process.exit(failed ? 1 : 0);

@@ -1,0 +1,33 @@
+// Encodes in a worker, so that the page can be used meanwhile.
+
+let worker, last = 0;
+const waiting = new Map();
+
+function end(error) {
+  worker?.terminate();
+  worker = undefined;
+  for (const { reject } of waiting.values()) reject(error);
+  waiting.clear();
+}
+
+/** Ends what is being encoded: its promises reject. */
+export function cancel() {
+  if (waiting.size > 0) end(new DOMException("another file was opened", "AbortError"));
+}
+
+/** As encodeMesh. Resolves to {bytes, ms}; `source` is copied. */
+export function encode(source, options) {
+  if (!worker) {
+    worker = new Worker(new URL("encode-worker.js", import.meta.url), { type: "module" });
+    worker.onmessage = ({ data: { id, error, ...result } }) => {
+      const { resolve, reject } = waiting.get(id);
+      waiting.delete(id);
+      error ? reject(new Error(error)) : resolve(result);
+    };
+    worker.onerror = ({ message }) => end(new Error(`the encoder ended: ${message ?? "it could not be loaded"}`));
+  }
+  return new Promise((resolve, reject) => {
+    waiting.set(++last, { resolve, reject });
+    worker.postMessage({ id: last, source, options });
+  });
+}

@@ -1,0 +1,125 @@
+// Reads .lr files (docs/lr-file.md) whose sections are resident: what a GPU takes as it lies there. Checks checksums, places and sizes, so
+// that no number in a file asks for more memory than its bytes can mean; the shaders stay inside their buffers by themselves.
+
+const LEAN = 1, ATTRIBUTE = 2, TABLES = 5, COMPACT_TABLES = 6, PACKED = 7, VERTICES = 8, SEAMS = 9;
+const KINDS = { [LEAN]: "lean", [TABLES]: "lr", [PACKED]: "packed" };
+const PER_COPY = 1 << 18, F32 = 6, F64 = 7;
+
+const CRC_TABLE = Uint32Array.from({ length: 256 }, (_, i) => {
+  for (let k = 0; k < 8; k++) i = i & 1 ? i >>> 1 ^ 0xedb88320 : i >>> 1;
+  return i;
+});
+
+/** CRC-32 as zlib has it. */
+export function crc32(bytes) {
+  let crc = 0xffffffff;
+  for (let i = 0; i < bytes.length; i++) crc = crc >>> 8 ^ CRC_TABLE[(crc ^ bytes[i]) & 255];
+  return ~crc >>> 0;
+}
+
+function require(condition, message) {
+  if (!condition) throw new Error(`not a valid .lr file: ${message}`);
+}
+
+/**
+ * Reads a file. `bytes`: a Uint8Array.
+ * Returns { kind: "lean", "packed" or "lr", stream, slots, vertices, triangles, copies, seams, attributes }, in which stream and seams are
+ * Uint32Arrays of words (seams is undefined where there are none), slots what a draw counts, and attributes a list of
+ * { name, perCopy, count, components, bytes } with either `words`, a vertex stream, and its `mapping`, or `values`, a Float32Array.
+ * Attributes of other types in memory have neither. Throws an Error with one line.
+ */
+export function readLr(bytes) {
+  bytes = bytes.byteOffset % 4 === 0 ? bytes : bytes.slice();
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  require(bytes.length >= 32 && view.getUint32(0, true) === 0x4c46524c, "wrong magic");
+  require(view.getUint32(4, true) === 4, `version ${view.getUint32(4, true)}`);
+  const [count, vertices, triangles, copies, tableCrc, headerCrc] = [8, 12, 16, 20, 24, 28].map((at) => view.getUint32(at, true));
+  require(bytes.length >= 32 + 32 * count, "shorter than its section table");
+  require(headerCrc === crc32(bytes.subarray(0, 28)) && tableCrc === crc32(bytes.subarray(32, 32 + 32 * count)), "damaged header");
+  const file = { vertices, triangles, copies, attributes: [] };
+  let end = 32 + 32 * count;
+  for (let i = 0; i < count; i++) {
+    const at = 32 + 32 * i;
+    const [offset, size] = [8, 16].map((k) => view.getUint32(at + k, true) + 2 ** 32 * view.getUint32(at + k + 4, true));
+    require(offset === Math.ceil(end / 8) * 8 && offset + size <= bytes.length, `section ${i} is not where it should be`);
+    end = offset + size;
+    const section = { kind: view.getUint16(at, true), contents: bytes.subarray(offset, end), layout: view.getUint32(at + 24, true),
+      nameLength: view.getUint32(at + 28, true) };
+    require(view.getUint32(at + 4, true) === crc32(section.contents), `section ${i} is damaged`);
+    if (view.getUint16(at + 2, true) !== 0) throw new Error("This file is in storage form; write it with `lacedring encode --resident`.");
+    readSection(file, section);
+  }
+  require(file.stream, "no connectivity");
+  const copyCount = checkConnectivity(file);
+  require(copies === 0 || (file.seams && copies >= vertices && copies <= copyCount), "impossible number of copies");
+  const position = file.attributes.find(({ name }) => name === "POSITION");
+  require(position && position.components === 3 && !position.perCopy, "no positions");
+  if (!position.values && !(position.mapping >= 1 && position.mapping <= 4 && position.mapping !== 2))
+    throw new Error("The positions of this file are doubles: nothing that a GPU draws.");
+  return file;
+}
+
+function wordsOf(contents) {
+  require(contents.length % 4 === 0, "not a whole number of words");
+  return new Uint32Array(contents.buffer, contents.byteOffset, contents.length / 4);
+}
+
+function readSection(file, { kind, contents, layout, nameLength }) {
+  if (kind === COMPACT_TABLES) throw new Error("Bit-efficient LR tables are not drawn here; write the file with --format lr, lean or packed.");
+  if (kind in KINDS) {
+    require(!file.stream, "two connectivities");
+    Object.assign(file, { kind: KINDS[kind], stream: wordsOf(contents) });
+  } else if (kind === SEAMS && contents.length > 0) {
+    file.seams = wordsOf(contents);
+  } else if (kind === ATTRIBUTE || kind === VERTICES) {
+    const begin = Math.ceil(nameLength / 8) * 8;
+    require(begin <= contents.length, "a name longer than its section");
+    const attribute = { name: new TextDecoder().decode(contents.subarray(0, nameLength)), perCopy: (layout & PER_COPY) !== 0 };
+    attribute.count = attribute.perCopy ? file.copies : file.vertices;
+    attribute.bytes = contents.length - begin;
+    (kind === VERTICES ? readVertexStream : readValues)(attribute, contents.subarray(begin), layout);
+    file.attributes.push(attribute);
+  }
+}
+
+function readValues(attribute, values, layout) {
+  attribute.components = layout >> 8 & 255;
+  if ((layout & 255) === F32) {
+    require(values.length === 4 * attribute.components * attribute.count, "an attribute has not one entry for each vertex");
+    attribute.values = new Float32Array(values.buffer, values.byteOffset, values.length / 4);
+  } else if ((layout & 255) === F64 && attribute.name === "POSITION") {
+    throw new Error("The positions of this file are doubles: nothing that a GPU draws.");
+  }
+}
+
+function readVertexStream(attribute, contents) {
+  const words = wordsOf(contents);
+  require(words.length >= 9 && words[0] === 0x3156524c, "not a vertex stream");
+  const n = words[2] & 31, blocks = Math.ceil(words[1] / 128), groupWords = 1 + Math.ceil(15 * (words[2] >>> 18 & 31) / 32);
+  const data = 7 + 2 * n + 2 * words[6] + Math.ceil(blocks / 16) * groupWords;
+  require(n >= 1 && n <= 16 && words[1] === attribute.count, "a vertex stream of another number of vertices");
+  require(data + 2 <= words.length && blocks * (n + 2) <= 32 * (words.length - data), "a vertex stream that is too short");
+  const mapping = words[2] >>> 5 & 7;
+  Object.assign(attribute, { words, mapping, components: mapping === 2 ? n + 1 : n, integers: n });
+}
+
+/** Compares what the stream's header says with its size; sets file.slots. Returns the most copies that there can be. */
+function checkConnectivity(file) {
+  const w = file.stream, { kind } = file;
+  if (kind === "lean") {
+    require(w.length >= 8 && w[0] === 0x4e4c524c && w.length === 8 + 2 * w[3] + w[4] + 3 * w[5], "a lean stream of another size");
+    file.slots = 2 * w[3] + w[4] + w[5];
+  } else if (kind === "lr") {
+    require(w.length >= 10 && w[0] === 0x5443524c && w.length === 10 + 2 * w[3] + 6 * w[4] + w[5] + w[6] + 2 * w[7], "LR tables of another size");
+    file.slots = 2 * w[3] + w[4];
+  } else {
+    require(w.length >= 4 && w[0] === 0x3250524c, "not a packed stream");
+    const table = 4 + Math.ceil(w[2] / 32), doubles = table + Math.max(Math.ceil(w[2] / 4096), 1) - 1;
+    const more = w[1] >>> 31 ? w[doubles] : 0;
+    require(doubles + (w[1] >>> 31 ? 2 + 2 * w[doubles + 1] : 0) <= w.length && more <= w[2], "a packed stream that is too short");
+    file.slots = w[2] + more;
+  }
+  require(file.vertices === (kind === "packed" ? w[1] & 0x7fffffff : w[2]), "connectivity of another number of vertices");
+  require(!file.seams || (file.seams.length >= 8 && file.seams[0] === 0x3153524c), "not a seam section");
+  return file.vertices + 3 * file.slots;
+}
