@@ -3,8 +3,11 @@ import { ATTRIBUTE, CORNER_ORDER, LEAN, LR, LR_COMPACT, PACKED, SEAMS, TYPES, VE
 import { LacedRingError } from "./errors.js";
 
 const LATTICE = 1, DECIMALS = 4;  // mappings of integers that predict others
-/** A triangle in storage form takes two symbols of at least 1/710 bit each: more triangles than these a byte cannot be. */
-const TRIANGLES_A_BYTE = 8 * 710;
+/**
+ * What the storage form can hold at most: a triangle takes a bit of a model, 1/710 bit or more of the coder's, and a value of a vertex
+ * one of 16 symbols, 1/1513 bit or more. So no header makes more memory be taken than its bytes may need.
+ */
+const TRIANGLES_A_BYTE = 8 * 710, VERTICES_A_BYTE = 8 * 1514;
 
 /** Memory that a file may take unless the caller says: as lacedring's --max-memory. */
 function defaultMemory(size) {
@@ -34,6 +37,9 @@ class Reader {
     const { sections, vertices, copies } = this.file;
     const tables = sections.find(({ kind }) => kind === LR || kind === LR_COMPACT);
     if (tables) throw new LacedRingError("UNSUPPORTED", `lr file: ${tables.what}: not read here; lacedring decode reads them`);
+    for (const { kind, perCopy, size, what } of sections) {
+      if ((kind === ATTRIBUTE || kind === VERTICES) && (perCopy ? copies : vertices) > VERTICES_A_BYTE * size) throw malformed(`${what}: too short for its vertices`, "SIZE");
+    }
     const of = (...kinds) => sections.filter(({ kind }) => kinds.includes(kind));
     const connectivity = of(LEAN, PACKED);
     if (connectivity.length !== 1) throw malformed(connectivity.length === 0 ? "no connectivity" : "connectivity occurs twice");
