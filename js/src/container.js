@@ -1,7 +1,8 @@
 // The .lr file (docs/lr-file.md): header, section table, and where contents lie.
 import { LacedRingError } from "./errors.js";
 
-export const LEAN = 1, ATTRIBUTE = 2, VERTEX_ORDER = 3, CORNER_ORDER = 4, LR = 5, LR_COMPACT = 6, PACKED = 7, VERTICES = 8, SEAMS = 9;
+export const LEAN = 1, ATTRIBUTE = 2, VERTEX_ORDER = 3, CORNER_ORDER = 4, LR = 5, LR_COMPACT = 6, PACKED = 7, VERTICES = 8,
+  SEAMS = 9;
 const NAMES = ["", "lean stream", "attribute", "vertex order", "corner order", "LR tables", "LR tables", "packed stream", "vertex stream", "seams"];
 const MAGIC = 0x4c46524c, VERSION = 4, HEADER = 32, ENTRY = 32;
 const NORMALIZED = 1 << 16, V_UP = 1 << 17, PER_COPY = 1 << 18;
@@ -38,7 +39,8 @@ export function readContainer(bytes, engine, address) {
   for (let i = 0; i < count; ++i) {
     const at = HEADER + ENTRY * i;
     const section = readEntry(view, at, i);
-    if (section.offset !== padded(end) || section.offset + section.size > bytes.length) throw malformed(`section ${i} lies outside the file`, "SIZE");
+    if (section.offset !== padded(end) || section.offset + section.size > bytes.length)
+      throw malformed(`section ${i} lies outside the file`, "SIZE");
     if (bytes.subarray(end, section.offset).some((byte) => byte !== 0)) throw malformed(`padding before section ${i}`);
     end = section.offset + section.size;
     if (section.crc !== crc(section.offset, section.size)) throw malformed(`${section.what} is damaged`, "CHECKSUM");
@@ -53,8 +55,8 @@ function readEntry(view, at, i) {
   const kind = view.getUint16(at, true), coding = view.getUint16(at + 2, true), layout = view.getUint32(at + 24, true);
   const nameLength = view.getUint32(at + 28, true);
   const large = (from) => view.getUint32(from, true) + view.getUint32(from + 4, true) * 2 ** 32;
-  const section = { what: `section ${i}, ${NAMES[kind] ?? "unknown"}`, kind, isStored: coding === 1, crc: view.getUint32(at + 4, true), offset: large(at + 8),
-    size: large(at + 16) };
+  const section = { what: `section ${i}, ${NAMES[kind] ?? "unknown"}`, kind, isStored: coding === 1,
+    crc: view.getUint32(at + 4, true), offset: large(at + 8), size: large(at + 16) };
   if (kind === 0 || kind >= NAMES.length) throw malformed(`section ${i}: unknown kind ${kind}`, "KIND");
   if (coding > 1 || (coding === 1 && kind < PACKED)) throw malformed(`${section.what}: unknown coding ${coding}`, "KIND");
   if (kind !== ATTRIBUTE && kind !== VERTICES) {

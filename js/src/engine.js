@@ -6,7 +6,8 @@ const PAGE = 65536;
 const KEPT = 64 * 1024 * 1024;
 
 /** A module with one function, which has an i8x16 constant: valid where there is SIMD. */
-const SIMD_PROBE = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11]);
+const SIMD_PROBE = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10,
+  1, 8, 0, 65, 0, 253, 15, 253, 98, 11]);
 
 /**
  * Compiles one of two variants of a module. Each loader imports a script whose default export is the wasm in base64; only
@@ -61,7 +62,8 @@ export class Engine {
   /** The address of so many bytes, a multiple of 16. Throws LIMIT. */
   take(bytes) {
     const address = this.#top, end = address + Math.ceil(bytes / 16) * 16;
-    if (!(end <= this.#most)) throw new LacedRingError("LIMIT", `lr file: it would take more than ${Math.floor((this.#most - this.#heap) / 2 ** 20)} MiB of memory`);
+    if (!(end <= this.#most))
+      throw new LacedRingError("LIMIT", `lr file: it would take more than ${Math.floor((this.#most - this.#heap) / 2 ** 20)} MiB of memory`);
     const missing = end - this.buffer.byteLength;
     if (missing > 0) {
       try {

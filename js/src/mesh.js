@@ -1,10 +1,14 @@
 // From the bytes of an .lr file to typed arrays.
-import { ATTRIBUTE, CORNER_ORDER, LEAN, LR, LR_COMPACT, PACKED, SEAMS, TYPES, VERTEX_ORDER, VERTICES, malformed, readContainer } from "./container.js";
+import { ATTRIBUTE, CORNER_ORDER, LEAN, LR, LR_COMPACT, PACKED, SEAMS, TYPES, VERTEX_ORDER, VERTICES, malformed,
+  readContainer } from "./container.js";
 import { LacedRingError } from "./errors.js";
 
 const LATTICE = 1, DECIMALS = 4;  // mappings of integers that predict others
-/** A triangle in storage form takes two symbols of at least 1/710 bit each: more triangles than these a byte cannot be. */
-const TRIANGLES_A_BYTE = 8 * 710;
+/**
+ * What the storage form can hold at most: a triangle takes a bit of a model, 1/710 bit or more of the coder's, and a value of a vertex
+ * one of 16 symbols, 1/1513 bit or more. So no header makes more memory be taken than its bytes may need.
+ */
+const TRIANGLES_A_BYTE = 8 * 710, VERTICES_A_BYTE = 8 * 1514;
 
 /** Memory that a file may take unless the caller says: as lacedring's --max-memory. */
 function defaultMemory(size) {
@@ -34,6 +38,10 @@ class Reader {
     const { sections, vertices, copies } = this.file;
     const tables = sections.find(({ kind }) => kind === LR || kind === LR_COMPACT);
     if (tables) throw new LacedRingError("UNSUPPORTED", `lr file: ${tables.what}: not read here; lacedring decode reads them`);
+    for (const { kind, perCopy, size, what } of sections) {
+      if ((kind === ATTRIBUTE || kind === VERTICES) && (perCopy ? copies : vertices) > VERTICES_A_BYTE * size)
+        throw malformed(`${what}: too short for its vertices`, "SIZE");
+    }
     const of = (...kinds) => sections.filter(({ kind }) => kinds.includes(kind));
     const connectivity = of(LEAN, PACKED);
     if (connectivity.length !== 1) throw malformed(connectivity.length === 0 ? "no connectivity" : "connectivity occurs twice");
@@ -43,7 +51,10 @@ class Reader {
     if (this.triangleCount > this.file.triangles) throw malformed("more triangles than the input had", "TRIANGLES");
     const vertexCount = seams ? copies : vertices;
     const mesh = { vertexCount, triangleCount: this.triangleCount, indices: this.#indices(this.corners, isCheck), attributes: [] };
-    if (seams) mesh.surface = { vertexCount: vertices, indices: this.#indices(this.triangles, isCheck), vertexOf: this.#array(Uint32Array, this.vertexOf, copies, isCheck) };
+    if (seams) {
+      const vertexOf = this.#array(Uint32Array, this.vertexOf, copies, isCheck);
+      mesh.surface = { vertexCount: vertices, indices: this.#indices(this.triangles, isCheck), vertexOf };
+    }
     for (const section of of(ATTRIBUTE, VERTICES)) mesh.attributes.push(this.#readAttribute(section, mesh.attributes.length === 0, isCheck));
     if (mesh.attributes.length === 0) throw malformed("no POSITION");
     if (vertexOrder) mesh.vertexOrder = this.#readOrder(vertexOrder, vertexCount, vertexCount, 1);
@@ -67,7 +78,8 @@ class Reader {
   }
 
   #call(section, name, ...values) {
-    if (!this.engine.has(name)) throw new LacedRingError("UNSUPPORTED", `lr file: ${section.what}: this module does not read it; "lacedring" does`);
+    if (!this.engine.has(name)) 
+      throw new LacedRingError("UNSUPPORTED", `lr file: ${section.what}: this module does not read it; "lacedring" does`);
     return this.engine.call(section.what, name, ...values);
   }
 
@@ -123,12 +135,14 @@ class Reader {
   #readSeams(section, slots, slotCount) {
     const { engine, file } = this;
     const words = this.#words(section);
-    const [copies, scratch] = section.isStored ? this.#call(section, "lr_stored_seams_open", ...words, file.vertices, slotCount, file.copies)
+    const [copies, scratch] = section.isStored
+      ? this.#call(section, "lr_stored_seams_open", ...words, file.vertices, slotCount, file.copies)
       : this.#call(section, "lr_seams_open", ...words, section.crc, file.vertices, slotCount);
     this.corners = engine.take(12 * slotCount);
     this.vertexOf = engine.take(4 * copies);
     const mark = engine.mark;
-    const [made] = this.#call(section, section.isStored ? "lr_stored_seams_decode" : "lr_seams_decode", slots, engine.take(scratch), this.corners, this.vertexOf);
+    const [made] = this.#call(section, section.isStored ? "lr_stored_seams_decode" : "lr_seams_decode", slots, engine.take(scratch),
+      this.corners, this.vertexOf);
     engine.release(mark);
     if ((section.isStored ? made : copies) !== file.copies) throw malformed(`${section.what}: another number of copies than the file has`, "COPY");
   }
@@ -149,7 +163,8 @@ class Reader {
       values = engine.take(all * size);
       engine.run("lr_gather", made.values, size, this.vertexOf, all, values);
     }
-    const attribute = { name: section.name, components, type: typeName, normalized, values: this.#array(Type, values, all * components, isCheck), vUp: section.vUp };
+    const array = this.#array(Type, values, all * components, isCheck);
+    const attribute = { name: section.name, components, type: typeName, normalized, values: array, vUp: section.vUp };
     engine.release(this.held ?? mark);
     this.held = undefined;
     return attribute;
@@ -170,8 +185,10 @@ class Reader {
 
   #readVertices(section, count, isFirst) {
     const { engine } = this;
-    const [components, type, normalized, integers, mapping] = this.#call(section, "lr_vertices_open", ...this.#words(section), this.address + section.begin, section.crc, count);
-    const predicts = isFirst && integers === 3 && (mapping === LATTICE || mapping === DECIMALS) && this.file.sections.some(({ kind, isStored }) => kind === VERTICES && isStored);
+    const [components, type, normalized, integers, mapping] = this.#call(section, "lr_vertices_open", ...this.#words(section),
+      this.address + section.begin, section.crc, count);
+    const predicts = isFirst && integers === 3 && (mapping === LATTICE || mapping === DECIMALS) &&
+      this.file.sections.some(({ kind, isStored }) => kind === VERTICES && isStored);
     const places = predicts ? engine.take(12 * count) : 0;
     if (predicts) this.#hold(places);
     const values = engine.take(count * components * TYPES[type][1].BYTES_PER_ELEMENT);
@@ -182,12 +199,13 @@ class Reader {
 
   #readStoredVertices(section, count, isFirst) {
     const { engine, file } = this;
-    const [components, type, normalized, integers, mapping, scratch] = this.#call(section, "lr_stored_vertices_open", ...this.#words(section), count,
-      this.triangleCount, this.positions ?? 0, file.vertices, section.perCopy ? this.vertexOf : 0);
+    const [components, type, normalized, integers, mapping, scratch] = this.#call(section, "lr_stored_vertices_open",
+      ...this.#words(section), count, this.triangleCount, this.positions ?? 0, file.vertices, section.perCopy ? this.vertexOf : 0);
     const places = engine.take(4 * count * integers);
     if (isFirst && integers === 3 && (mapping === LATTICE || mapping === DECIMALS)) this.#hold(places);
     const values = engine.take(count * components * TYPES[type][1].BYTES_PER_ELEMENT);
-    this.#call(section, "lr_stored_vertices_decode", section.perCopy ? this.corners : this.triangles, this.triangleCount, engine.take(scratch), places, values);
+    this.#call(section, "lr_stored_vertices_decode", section.perCopy ? this.corners : this.triangles, this.triangleCount,
+      engine.take(scratch), places, values);
     return { type, components, normalized: normalized !== 0, values, mapping };
   }
 
@@ -208,7 +226,8 @@ class Reader {
     if (words !== count || count > range) throw malformed(`${section.what}: of another size`, "SIZE");
     const order = this.engine.array(Uint32Array, address, words);
     const sorted = order.map((entry) => Math.floor(entry / each)).sort();
-    if (sorted.some((entry, i) => entry >= range || (i > 0 && entry === sorted[i - 1]))) throw malformed(`${section.what}: no permutation`, "ORDER");
+    if (sorted.some((entry, i) => entry >= range || (i > 0 && entry === sorted[i - 1])))
+      throw malformed(`${section.what}: no permutation`, "ORDER");
     return order;
   }
 }

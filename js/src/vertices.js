@@ -2,4 +2,5 @@
 import { makeDecoder } from "./decoder.js";
 
 export { LacedRingError } from "./errors.js";
-export const { ready, decodeMesh, validate, decodeTriangle } = makeDecoder(() => import("./wasm/vertices.js"), () => import("./wasm/vertices-simd.js"));
+export const { ready, decodeMesh, validate, decodeTriangle } = makeDecoder(
+  () => import("./wasm/vertices.js"), () => import("./wasm/vertices-simd.js"));

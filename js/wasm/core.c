@@ -1,7 +1,6 @@
 /* The module of js/src/core.js: lean and packed streams. JavaScript puts a file into memory, calls these functions with
    addresses behind it (js/src/engine.js hands them out), and reads numbers from `lr_result` and arrays from where it
    said. All input is checked; each function returns an enum lacedring_status. */
-#define LACEDRING_DECODE_IMPLEMENTATION
 #include "lacedring_decode.h"
 
 #define LR_EXPORT(name) __attribute__((export_name(#name))) name

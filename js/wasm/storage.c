@@ -1,7 +1,7 @@
 /* The module of js/src/lacedring.js: vertices.c, and all of that in storage form. */
-#include "vertices.c"
 #include "lacedring_storage.h"
 #include "lacedring_stored_seams.h"
+#include "vertices.c"
 
 static struct lacedring_stored_packed stored_packed;
 static struct lacedring_stored_vertices stored_vertices;
@@ -41,8 +41,8 @@ uint32_t LR_EXPORT(lr_stored_seams_decode)(const uint32_t* slots, void* scratch,
     return status;
 }
 
-/* Opens a vertex stream in storage form. `integers`: of `vertices` positions that may predict, or null; `vertex_of`: the
-   vertex of each value, or null. Result: describe's, bytes of scratch, and whether positions predict. */
+/* Opens a vertex stream in storage form. `integers`: of `vertices` positions that may predict, or null; `vertex_of`:
+   the vertex of each value, or null. Result: describe's, bytes of scratch, and whether positions predict. */
 uint32_t LR_EXPORT(lr_stored_vertices_open)(const uint32_t* words, size_t count, uint32_t values, uint32_t triangles,
                                             const uint32_t* integers, uint32_t vertices, const uint32_t* vertex_of) {
     const uint32_t status = lacedring_stored_vertices_open(words, count, values, &stored_vertices, LR_WHERE);

@@ -14,14 +14,16 @@ static void describe(const struct lacedring_vertices* stream) {
     result[4] = stream->mapping;
 }
 
-/* Opens a vertex stream of so many vertices, the end of a section that begins at `contents` and has this CRC. A block takes at least 8 bits for each of its components but the first
-   one's predictor: what is decoded is never more than 700 times the stream. */
+/* Opens a vertex stream of so many vertices, the end of a section that begins at `contents` and has this CRC. A block
+   takes at least 8 bits for each of its components but the first one's predictor: what is decoded is never more than
+   700 times the stream. */
 uint32_t LR_EXPORT(lr_vertices_open)(const uint32_t* words, size_t count, const uint8_t* contents, uint32_t crc,
                                      uint32_t vertices) {
     const uint32_t status = lacedring_vertices_open(words, count, &attribute, LR_WHERE);
     if (status != LACEDRING_STATUS_OK) return status;
     if (attribute.vertices != vertices) return LACEDRING_STATUS_VERTICES;
-    if ((uint64_t)8 * attribute.components * (vertices / LACEDRING_VERTICES_BLOCK) > (uint64_t)32 * attribute.data_words)
+    if ((uint64_t)8 * attribute.components * (vertices / LACEDRING_VERTICES_BLOCK) >
+        (uint64_t)32 * attribute.data_words)
         return LACEDRING_STATUS_SIZE;
     describe(&attribute);
     return checksum_of(words, count, 0, 3, contents, crc);
@@ -37,7 +39,8 @@ void LR_EXPORT(lr_vertices_integers)(uint32_t* out) {
     lacedring_vertices_blocks(&attribute, 0, lacedring_vertex_blocks_(&attribute), out);
 }
 
-/* The slots of the lean stream opened last, which lr_connectivity_decode accepted: three vertices each, or UINT32_MAX. */
+/* The slots of the lean stream opened last, which lr_connectivity_decode accepted: three vertices each, or UINT32_MAX.
+ */
 void LR_EXPORT(lr_slots)(uint32_t* out) {
     const uint32_t slots = lacedring_lean_slots(&lean);
     uint32_t slot;

@@ -1,6 +1,6 @@
 // The .lr files that the tests decode: what lacedring makes of generated meshes and of the project's assets.
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { basename, dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -42,8 +42,10 @@ export const VARIANTS = {
   "stored, order kept": ["--keep-order", ...BITS],
 };
 
-/** Meshes of every kind, by name. */
+/** Meshes of every kind, or, by hand, those of the folder LACEDRING_MESHES. */
 export function sources() {
+  const folder = process.env.LACEDRING_MESHES;
+  if (folder) return readdirSync(folder).filter((name) => /\.(glb|gltf|obj|off|ply|stl)$/.test(name)).map((name) => join(folder, name));
   const files = ["globe.glb", "materials.glb", "cut_torus.ply"].map((name) => join(root, "assets", name));
   for (const kind of ["blob", "terrain", "parts", "soup", "moebius", "genus"]) {
     const file = join(work, `${kind}.glb`);

@@ -125,7 +125,8 @@ enum lacedring_status lacedring_packed_check(const struct lacedring_packed* pack
 enum lacedring_status lacedring_packed_validate(const uint32_t* words, size_t count, struct lacedring_packed* packed,
                                                 uint64_t* where);
 
-/* The check and lacedring_packed_triangles_u32 in one pass. Where it finds a fault, what `indices` holds is of no use. */
+/* The check and lacedring_packed_triangles_u32 in one pass. Where it finds a fault, what `indices` holds is of no use.
+ */
 enum lacedring_status lacedring_packed_decode_checked(const struct lacedring_packed* packed, uint32_t* indices,
                                                       uint64_t* where);
 
@@ -1713,14 +1714,16 @@ static enum lacedring_status lacedring_check_doubles_(const struct lacedring_pac
 LACEDRING_SMALL_ int lacedring_have_vertices_(const uint32_t* t, uint32_t count, uint32_t vertices) {
 #if defined(__wasm_simd128__) && defined(LACEDRING_VECTORS_)
     lacedring_four_ most = {0, 0, 0, 0}, equal = most;
-    for (; count >= 4; count -= 4, t += 12) { /* a to c are words 0 to 11: each beside the one that follows in its triangle */
+    for (; count >= 4;
+         count -= 4, t += 12) { /* a to c are words 0 to 11: each beside the one that follows in its triangle */
         lacedring_four_ a, b, c;
         memcpy(&a, t, 16);
         memcpy(&b, t + 4, 16);
         memcpy(&c, t + 8, 16);
         most = __builtin_wasm_max_u_i32x4(__builtin_wasm_max_u_i32x4(most, a), __builtin_wasm_max_u_i32x4(b, c));
         equal |= (lacedring_four_)(a == __builtin_shufflevector(a, b, 1, 2, 0, 4));
-        equal |= (lacedring_four_)(b == __builtin_shufflevector(__builtin_shufflevector(a, b, 5, 3, 7, 3), c, 0, 1, 2, 4));
+        equal |=
+            (lacedring_four_)(b == __builtin_shufflevector(__builtin_shufflevector(a, b, 5, 3, 7, 3), c, 0, 1, 2, 4));
         equal |= (lacedring_four_)(c == __builtin_shufflevector(b, c, 2, 6, 7, 5));
     }
     equal |= (lacedring_four_)(most >= vertices);

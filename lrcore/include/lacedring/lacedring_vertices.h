@@ -464,8 +464,8 @@ LACEDRING_HOT_ uint32_t lacedring_vertex_block_4_(const struct lacedring_vertice
         lanes.more[c] = ranges->more[c];
     }
     length = 4u << lacedring_data_take_(d, at, 2);
-    LACEDRING_EACH_ for (c = 0; c < n; ++c)
-        lanes.value[c] = lanes.base[c] + lacedring_data_take_(d, at, s->parameters[2 * c + 1] & 63);
+    LACEDRING_EACH_ for (c = 0; c < n; ++c) lanes.value[c] =
+        lanes.base[c] + lacedring_data_take_(d, at, s->parameters[2 * c + 1] & 63);
     lanes.over = lanes.value - lanes.base;
     lanes.high = lanes.value + lanes.more;
     memcpy(out, &lanes.value, 16);
@@ -484,8 +484,8 @@ LACEDRING_HOT_ uint32_t lacedring_vertex_block_4_(const struct lacedring_vertice
                 LACEDRING_EACH_ for (c = 0; c < 3; ++c) {
                     lanes.axis[c] = of == c ? UINT32_MAX : 0;
                     lanes.slopes[c] = of == (c == 0 ? 2 : c - 1)   ? (plane >> 4 & 7) - 4
-                                : of == (c == 2 ? 0 : c + 1) ? (plane >> 7 & 7) - 4
-                                                             : 0;
+                                      : of == (c == 2 ? 0 : c + 1) ? (plane >> 7 & 7) - 4
+                                                                   : 0;
                 }
             }
         }
@@ -553,8 +553,8 @@ LACEDRING_HOT_ uint32_t lacedring_vertex_block_4_(const struct lacedring_vertice
         }
         *at = run.unary_at;
     }
-    LACEDRING_EACH_ for (c = 0; c < n; ++c)
-        bad |= (uint32_t)(lanes.over[c] > ranges->mask[c]) | (uint32_t)(lanes.high[c] > ranges->most[c]);
+    LACEDRING_EACH_ for (c = 0; c < n; ++c) bad |=
+        (uint32_t)(lanes.over[c] > ranges->mask[c]) | (uint32_t)(lanes.high[c] > ranges->most[c]);
     return bad;
 }
 #undef LACEDRING_EACH_
