@@ -111,7 +111,7 @@ class RoundTrip(CliTest):
             with open(lr, "rb") as a, open(again, "rb") as b:
                 self.assertEqual(a.read(), b.read(), f"{kind}: encoding twice gives two files")
 
-        in_parallel(check, [(k, n, s) for k in KINDS for n, s in ((1, 1), (50, 2), (400, 3), (5000, 4))])
+        in_parallel(check, [(k, n, s) for k in KINDS for n, s in ((1, 1), (50, 2), (400, 3), (3000, 4))])
 
     def test_lr_tables_and_packed(self):
         def check(item):

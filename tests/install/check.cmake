@@ -76,7 +76,7 @@ expect("^8 vertices, 24 copies, 12 sharp edges\n$")
 
 # add_subdirectory, where no package can be found.
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/subdirectory -B ${WORK}/subdirectory -DLACEDRING=${SOURCE}
-    -DCMAKE_UNITY_BUILD=ON -DCMAKE_BUILD_TYPE=Debug ${no_packages})
+    -DCMAKE_UNITY_BUILD=ON -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 ${no_packages})
 run(${CMAKE_COMMAND} --build ${WORK}/subdirectory)
 run(${WORK}/subdirectory/encode)
 expect("${encode_prints}")
@@ -98,7 +98,7 @@ run(${CC} -std=c99 ${SOURCE}/tests/c/c_interface.c -o ${WORK}/c_by_pkg_config ${
 run(${WORK}/c_by_pkg_config)
 
 # The core installed alone: a package without io.
-run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/alone -DLACEDRING_IO=OFF -DCMAKE_UNITY_BUILD=ON -DCMAKE_BUILD_TYPE=Debug ${no_packages})
+run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/alone -DLACEDRING_IO=OFF -DCMAKE_UNITY_BUILD=ON -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 ${no_packages})
 run(${CMAKE_COMMAND} --build ${WORK}/alone)
 run(${CMAKE_COMMAND} --install ${WORK}/alone --prefix ${WORK}/alone_prefix)
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/alone -B ${WORK}/find -Dlacedring_DIR=${WORK}/alone_prefix/lib/cmake/lacedring ${no_packages})

@@ -93,6 +93,7 @@ constexpr RingCost kCosts[] = {kLeanRingCost, kLrRingCost, kPackedRingCost, {1, 
 TEST_CASE("optimised rings of named meshes") {
     for (const auto& [name, mesh] : test::named_meshes()) {
         CAPTURE_COPY(name);
+        if (test::kSanitized && mesh.triangle_count() > 1500) continue;
         for (const RingCost& cost : kCosts) check_optimized(mesh, {}, options_of(cost, 12, 1));
         check_optimized(mesh, {}, options_of(kLeanRingCost, 5, 2, false));
         RingOptions per_shell;
@@ -117,7 +118,7 @@ TEST_CASE("optimised rings of random soups") {
 TEST_CASE("rings and words are the same for any number of threads") {
     for (const char* kind : {"blob", "terrain", "genus", "parts", "moebius"}) {
         CAPTURE(kind);
-        const Result<Mesh> mesh = generate(kind, test::kSanitized ? 20000 : 60000, 3);
+        const Result<Mesh> mesh = generate(kind, test::kSanitized ? 8000 : 60000, 3);
         REQUIRE(mesh);
         const Result<CornerTable> table = build_corner_table(mesh->indices, mesh->vertex_count);
         REQUIRE(table);
