@@ -1,4 +1,4 @@
-// What runs in the worker of pool.js.
+// The worker that pool.js starts: decodes the files that it is sent.
 import { decodeMesh, ready } from "./lacedring.js";
 
 const port = typeof self === "object" ? self : (await import(/* webpackIgnore: true */ /* @vite-ignore */ "node:worker_threads")).parentPort;

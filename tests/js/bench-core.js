@@ -1,4 +1,4 @@
-// What is timed by bench.mjs, in node and in pages: bytes to typed arrays by each library.
+// Decodes bytes to typed arrays by each library: what bench.mjs times, in node and in pages.
 
 /** Milliseconds of one call: enough calls in a row to take 5 ms. */
 function time(work) {

@@ -1,4 +1,4 @@
-// What both pages share: files that are dropped, opened or named in the address; the error line; the table of bytes.
+// Used by both pages: opens files that are dropped, chosen or named in the address; shows the error line and the table of bytes.
 
 export const element = (id) => document.getElementById(id);
 

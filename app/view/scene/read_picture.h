@@ -7,7 +7,7 @@
 
 namespace lacedring::view {
 
-/// Of an RGBA image of that size, in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL. Waits for the device.
+/// Copies an RGBA image of this size, which is in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, from the device. Waits for it.
 Result<gpu::Picture> read_picture(gpu::Context& context, gpu::Commands& commands, const gpu::Image& image,
                                   VkExtent2D extent);
 

@@ -89,7 +89,7 @@ class Scene {
     Result<void> record_compose(VkCommandBuffer commands, std::uint32_t divider);
     /// The last picture.
     const Shown& drawn() const { return drawn_; }
-    /// That its materials were made of; null: it was drawn without.
+    /// Materials of the picture drawn last; null: it was drawn without them.
     const gpu::GpuMaterials* materials() const;
     /// The ring's line is laid over it: its edges are long enough.
     bool has_ring_line() const;

@@ -1,5 +1,5 @@
 #pragma once
-// How large a picture of the window is, and how many samples it has: the window's pixels, as far as the device goes.
+// Size of the picture that is drawn for a window, and its samples: as large as the window where the device allows it.
 
 #include <algorithm>
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace lacedring::view {
 
 class PictureSize {
   public:
-    /// The window has another size, or this may be tried again.
+    /// The window has this size now. `device_limit`: pixels of the largest image side.
     void set_window(VkExtent2D window, std::uint32_t device_limit);
 
     VkExtent2D window() const { return window_; }
@@ -19,7 +19,7 @@ class PictureSize {
     VkExtent2D extent() const { return extent_; }
     bool visible() const { return extent_.width != 0 && extent_.height != 0; }
     bool smaller_than_window() const { return extent_.width != window_.width; }
-    /// Of the images there are.
+    /// Pixels of the images that were made last.
     VkExtent2D made() const { return made_; }
     /// Samples along each side of a pixel that pictures at rest have where so many are chosen.
     std::uint32_t samples(std::uint32_t chosen) const { return std::min(chosen, samples_); }

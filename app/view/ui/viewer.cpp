@@ -528,7 +528,7 @@ Result<void> Viewer::draw() {
     return {};
 }
 
-/// What is not drawn of the file's materials, once.
+/// Tells once what is not drawn of the file's materials.
 void Viewer::tell_materials() {
     const gpu::GpuMaterials* materials = scene_.materials();
     if (materials == nullptr || materials == told_materials_) return;

@@ -68,7 +68,8 @@ Result<void> check() {
     const std::size_t bad = position.type == ComponentType::f64 ? first_not_finite<double>(position.data)
                                                                 : first_not_finite<float>(position.data);
     if (bad == SIZE_MAX) return {};
-    return malformed("vertex " + std::to_string(bad / 3) + ": the position is not finite, or beyond the range of floats");
+    return malformed("vertex " + std::to_string(bad / 3) +
+                     ": the position is not finite, or beyond the range of floats");
 }
 
 /// app/commands/encode.cpp's steps.
