@@ -4,7 +4,7 @@
 
 namespace lacedring {
 
-Result<Mesh> read_mesh(const std::filesystem::path&, const ReadOptions&, ReadReport*) {
+Result<Mesh> read_mesh(const std::filesystem::path&, const ReadOptions&, ReadReport*, Materials*) {
     return Error{ErrorCode::unsupported, "no files here"};
 }
 
