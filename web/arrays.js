@@ -30,20 +30,24 @@ function listAttributes({ attributes, morphAttributes }) {
     ...Object.entries(morphAttributes).flatMap(([key, targets]) => targets.flatMap((attribute, target) => of([[key, attribute]], target)))];
 }
 
+/** The name that an attribute, or that of a morph target, has in files. */
+const fileNameOf = ({ key, target }) => target === undefined ? nameOf(key) : `_${key}_${target}`;
+
+/** All attributes of a geometry as files have them. `rows`: of these vertices alone. */
+function attributesOf(geometry, rows) {
+  return listAttributes(geometry).map((one) => ({ name: fileNameOf(one), values: valuesOf(one.attribute, rows), components: one.attribute.itemSize,
+    normalized: one.attribute.normalized }));
+}
+
 /** A geometry's arrays as they are, with the objects that several geometries may share: for plainGlb. */
 export function plainOf(geometry) {
-  const attributes = listAttributes(geometry).map(({ key, target, attribute }) => ({
-    name: target === undefined ? nameOf(key) : `_${key}_${target}`, values: valuesOf(attribute), components: attribute.itemSize, normalized: attribute.normalized,
-  }));
-  return { indices: geometry.index.array, attributes };
+  return { indices: geometry.index.array, attributes: attributesOf(geometry) };
 }
 
 /** What encodeMesh takes, of the vertices that triangles use. */
 export function sourceOf(geometry) {
   const { rows, indices } = usedVertices(geometry.index.array, geometry.attributes.position.count);
-  const attributes = listAttributes(geometry).map(({ key, target, attribute }) => ({
-    name: target === undefined ? nameOf(key) : `_${key}_${target}`, values: valuesOf(attribute, rows), components: attribute.itemSize, normalized: attribute.normalized,
-  }));
+  const attributes = attributesOf(geometry, rows);
   const position = attributes.find(({ name }) => name === "POSITION");
   if (!(position.values instanceof Float32Array)) position.values = decoded(geometry.attributes.position, rows);
   return { indices: Uint32Array.from(indices), attributes };
@@ -62,7 +66,7 @@ function decoded(attribute, rows) {
 /** A geometry of decoded arrays with the attributes of the one that was encoded: both lists are in the same order. */
 export function geometryLike(before, { indices, attributes }) {
   const geometry = new BufferGeometry();
-  const wanted = new Map(listAttributes(before).map((one) => [one.target === undefined ? nameOf(one.key) : `_${one.key}_${one.target}`, one]));
+  const wanted = new Map(listAttributes(before).map((one) => [fileNameOf(one), one]));
   for (const { name, values, components, normalized } of attributes) {
     const { key, target } = wanted.get(name);
     const attribute = new BufferAttribute(values instanceof Float64Array ? Float32Array.from(values) : values, components, normalized);
