@@ -30,16 +30,20 @@ function find(folders, path) {
 
 /**
  * Serves /NAME/... from the folder of that name, anything else from that of the name "". Port 0: any that is free.
- * Resolves with the server; its address().port is the port.
+ * `files`: bytes by name, at /files/NAME. `isolated`: clocks of pages have 5 microseconds. Resolves with the server; its
+ * address().port is the port.
  */
-export function serve(folders, port = 0) {
+export function serve(folders, port = 0, { files = {}, isolated = false } = {}) {
+  const more = isolated ? { "cross-origin-opener-policy": "same-origin", "cross-origin-embedder-policy": "require-corp" } : {};
   const server = createServer((request, response) => {
     const { pathname } = new URL(request.url, "http://127.0.0.1");
+    const held = pathname.startsWith("/files/") ? files[pathname.slice(7)] : undefined;
+    if (held) return response.writeHead(200, { "content-type": "application/octet-stream", ...more }).end(held);
     const file = find(folders, pathname);
     if (!file) return response.writeHead(404).end();
     if (!pathname.endsWith("/") && file.endsWith("index.html") && !pathname.endsWith("index.html"))
       return response.writeHead(301, { location: `${pathname}/` }).end();
-    response.writeHead(200, { "content-type": TYPES[file.split(".").pop()] ?? "application/octet-stream", "cache-control": "no-store" });
+    response.writeHead(200, { "content-type": TYPES[file.split(".").pop()] ?? "application/octet-stream", "cache-control": "no-store", ...more });
     createReadStream(file).pipe(response);
   });
   return new Promise((resolve, reject) => server.on("error", reject).listen(port, "127.0.0.1", () => resolve(server)));

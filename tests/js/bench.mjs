@@ -8,7 +8,7 @@ import { basename, dirname, extname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { Page } from "../browser/chromium.mjs";
 import { bench } from "./bench-core.js";
-import { serve } from "./server.mjs";
+import { serve } from "../../scripts/web.mjs";
 
 const [program, packages, bits, rounds, ...files] = process.argv.slice(2);
 const here = dirname(fileURLToPath(import.meta.url)), root = join(here, "../.."), modules = join(packages, "node_modules");
@@ -66,11 +66,11 @@ function encodeDraco(positions, indices) {
 }
 
 const page = new Page(), served = {};
-const server = await serve({ tests: here, package: join(root, "build/js"), packages: modules }, served);
+const server = await serve({ tests: here, package: join(root, "build/js"), packages: modules }, 0, { files: served, isolated: true });
 console.log(`positions of ${bits} bits; milliseconds, least (median) of ${rounds} rounds; "x" are ratios of medians, above 1 where LacedRing is faster`);
 console.log("| mesh | where | resident | stored | meshoptimizer | Draco | resident/meshopt x | resident/Draco x | stored/Draco x |\n|---|---|---|---|---|---|---|---|---|");
 try {
-  await page.open(`${server.url}/tests/bench.html`);
+  await page.open(`http://127.0.0.1:${server.address().port}/tests/bench.html`);
   for (const file of files) {
     const name = basename(file, extname(file));
     const all = lacedring.decodeMesh(encode(file, "all.lr", "--resident"));

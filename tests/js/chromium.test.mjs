@@ -4,7 +4,7 @@ import { createHash } from "node:crypto";
 import { join } from "node:path";
 import { Page } from "../browser/chromium.mjs";
 import { VARIANTS, encode, root, sources } from "./files.mjs";
-import { serve } from "./server.mjs";
+import { serve } from "../../scripts/web.mjs";
 
 const { ready, decodeMesh } = await import(join(root, "build/js/lacedring.js"));
 await ready;
@@ -23,9 +23,9 @@ for (const source of sources().slice(0, 4)) {
     expected[name] = hash([mesh.indices, ...mesh.attributes.map(({ values }) => values)]);
   }
 }
-const page = new Page(), server = await serve({ package: join(root, "build/js"), tests: join(root, "tests/js") }, files);
+const page = new Page(), server = await serve({ package: join(root, "build/js"), tests: join(root, "tests/js") }, 0, { files });
 try {
-  await page.open(`${server.url}/tests/decode.html`);
+  await page.open(`http://127.0.0.1:${server.address().port}/tests/decode.html`);
   for (const name of Object.keys(files)) {
     for (const how of ["decodeMesh", "decodeMeshAsync"]) assert.equal(await page.evaluate(`hashOf("${name}", "${how}")`), expected[name], `${name}, ${how}`);
   }
