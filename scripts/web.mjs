@@ -1,7 +1,7 @@
 // Serves folders from 127.0.0.1: what scripts/web and the tests in Chromium load pages from.
 import { createReadStream, statSync } from "node:fs";
 import { createServer } from "node:http";
-import { dirname, join, normalize, sep } from "node:path";
+import { basename, dirname, join, normalize, resolve, sep } from "node:path";
 import { fileURLToPath } from "node:url";
 
 const ROOT = join(dirname(fileURLToPath(import.meta.url)), "..");
@@ -12,6 +12,14 @@ const TYPES = { html: "text/html", js: "text/javascript", mjs: "text/javascript"
 export const FOLDERS = { "": join(ROOT, "web"), lacedring: join(ROOT, "build/js"), shaders: join(ROOT, "shaders/include"),
   three: join(ROOT, "build/node/node_modules/three"), samples: join(ROOT, "build/samples") };
 
+/** A file of a folder, or the index.html of a folder in it; undefined if there is none. */
+function fileIn(folder, parts) {
+  const file = normalize(join(folder, ...parts));
+  if (file !== normalize(folder) && !file.startsWith(normalize(folder + sep))) return undefined;
+  const info = statSync(file, { throwIfNoEntry: false });
+  return info?.isDirectory() ? fileIn(file, ["index.html"]) : info?.isFile() ? file : undefined;
+}
+
 function find(folders, path) {
   let parts;
   try {
@@ -19,19 +27,25 @@ function find(folders, path) {
   } catch {
     return undefined;
   }
-  const folder = parts[0] in folders && parts[0] !== "" ? folders[parts.shift()] : folders[""];
-  if (!folder) return undefined;
-  const file = normalize(join(folder, ...parts));
-  if (file !== normalize(folder) && !file.startsWith(normalize(folder + sep))) return undefined;
-  const info = statSync(file, { throwIfNoEntry: false });
-  if (info?.isDirectory()) return find({ "": file }, "/index.html");
-  return info?.isFile() ? file : undefined;
+  const name = parts[0] in folders && parts[0] !== "" ? parts.shift() : "";
+  for (const folder of [folders[name] ?? []].flat()) {
+    const file = fileIn(folder, parts);
+    if (file) return file;
+  }
+  return undefined;
+}
+
+/** Adds a file to folders that are served, and returns its path. Files that it refers to are looked for beside it, then in `others`. */
+export function share(folders, file, ...others) {
+  const name = `shared-${Object.keys(folders).length}`;
+  folders[name] = [dirname(resolve(file)), ...others.map((folder) => resolve(folder))];
+  return `/${name}/${encodeURIComponent(basename(file))}`;
 }
 
 /**
- * Serves /NAME/... from the folder of that name, anything else from that of the name "". Port 0: any that is free.
- * `files`: bytes by name, at /files/NAME. `isolated`: clocks of pages have 5 microseconds. Resolves with the server; its
- * address().port is the port.
+ * Serves /NAME/... from folders[NAME], anything else from folders[""]; several folders are an array, and the first that has a file
+ * serves it. Port 0: any free port. `files`: bytes by name, at /files/NAME. `isolated`: the page's clock has a resolution of 5
+ * microseconds. Resolves to the server; its address().port is the port.
  */
 export function serve(folders, port = 0, { files = {}, isolated = false } = {}) {
   const more = isolated ? { "cross-origin-opener-policy": "same-origin", "cross-origin-embedder-policy": "require-corp" } : {};

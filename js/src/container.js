@@ -20,13 +20,13 @@ function padded(size) {
 }
 
 /**
- * Reads a file that was put into memory and checks all but what sections hold: checksums, places, padding, names.
+ * Reads a file and checks all but what sections hold: checksums, places, padding, names. `crc(offset, size)` is the CRC-32 of bytes
+ * of the file.
  * @returns header, and sections { kind, isStored, offset, size, and of attributes: name, vUp, perCopy, type, components, normalized },
  *   whose offset is that of the contents behind the name, in the file.
  */
-export function readContainer(bytes, engine, address) {
+export function readContainer(bytes, crc) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  const crc = (from, size) => engine.run("lr_crc", address + from, size, 0);
   if (bytes.length < 4 || view.getUint32(0, true) !== MAGIC) throw malformed("not an .lr file", "MAGIC");
   if (bytes.length < HEADER) throw malformed("shorter than its header", "SHORT");
   const [version, count, vertices, triangles, copies, tableCrc, headerCrc] = [4, 8, 12, 16, 20, 24, 28].map((at) => view.getUint32(at, true));

@@ -30,7 +30,7 @@ class Reader {
     this.bytes = bytes;
     engine.begin(limits.maxMemory ?? defaultMemory(bytes.length));
     this.address = engine.put(bytes);
-    this.file = readContainer(bytes, engine, this.address);
+    this.file = readContainer(bytes, (offset, size) => engine.run("lr_crc", this.address + offset, size, 0));
   }
 
   /** All of the mesh; without arrays if `isCheck`. */

@@ -5,19 +5,22 @@
 // PNG files.
 import { mkdirSync, writeFileSync } from "node:fs";
 import { basename, dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
 import { Page } from "./chromium.mjs";
-import { serve } from "./server.mjs";
+import { serve, share } from "../../scripts/web.mjs";
 
 // The share of the covered pixels that may differ by more than 16 of 255. Even of equal triangles some may, where two are as near
 // to the eye or a texel ends: their order and first corners decide about the last bit.
 const LIMITS = { "--exact": 0.0002, "--close": 0.01, "--packed": 0 };
 
+const here = dirname(fileURLToPath(import.meta.url));
 const [packages, plugin, ...args] = process.argv.slice(2);
-const server = await serve(packages, plugin);
+const folders = { "": here, three: join(packages, "node_modules/three"), lacedring: plugin };
+const server = await serve(folders);
 const page = new Page();
 let failed = 0, keep, source;
 try {
-  await page.open(server.url("page.html"));
+  await page.open(`http://127.0.0.1:${server.address().port}/page.html`);
   for (let i = 0; i < args.length; i += 2) {
     const [option, file] = [args[i], args[i + 1]], isPacked = option === "--packed";
     if (option === "--keep") {
@@ -28,7 +31,7 @@ try {
       source = file;
       await page.evaluate("reset()");
     }
-    const url = JSON.stringify(server.add(file, dirname(source)));
+    const url = JSON.stringify(share(folders, file, dirname(source)));
     const views = await page.evaluate(`compare(${url}, ${isPacked})`);
     views.forEach(({ png, different, over, largest, covered }, view) => {
       const limit = LIMITS[option];

@@ -2,6 +2,7 @@
 // tests/independent decode.
 import { Kernel, createBuffer, openDevice, readBuffer } from "/gpu/gpu.js";
 import { crc32, readLr } from "/gpu/lr-file.js";
+import { LacedRingError } from "/lacedring/errors.js";
 
 const NULL = 0xffffffff, GUARD = 0xdeadbeef;
 const include = async (name) => (await fetch(`/shaders/${name}.wgsl`)).text();
@@ -298,7 +299,7 @@ window.changeFile = async (url, trials, seed) => {
       if (slots > 64 * bytes.length || vertices > 256 * bytes.length || copies > 256 * bytes.length) wrong.push(`trial ${trial}: ${slots} ${vertices} ${copies}`);
     } catch (error) {
       refused++;
-      if (error.constructor !== Error || error.message.includes("\n")) wrong.push(`trial ${trial}: ${error}`);
+      if (![Error, LacedRingError].includes(error.constructor) || error.message.includes("\n")) wrong.push(`trial ${trial}: ${error}`);
     }
   }
   return { wrong, refused };

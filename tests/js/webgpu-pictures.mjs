@@ -62,7 +62,7 @@ async function checkPage(page, host) {
   const shown = (expression) => page.evaluate(`idle().then(() => ${expression})`);
   const error = `document.getElementById("error").hidden ? "" : document.getElementById("error").textContent`;
   await page.show(800, 600);
-  for (const [name, expected] of [["stored.lr", "--resident"], ["garbage.lr", "not a valid .lr file"], ["missing.lr", "404"]]) {
+  for (const [name, expected] of [["stored.lr", "--resident"], ["garbage.lr", "not an .lr file"], ["missing.lr", "404"]]) {
     await page.open(`${host}/gpu/?file=/data/${name}`);
     const told = await shown(error);
     if (!told.includes(expected) || told.includes("\n")) fail(`the page says of ${name}: ${told}`);

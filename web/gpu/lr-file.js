@@ -1,9 +1,8 @@
-// Reads .lr files (docs/lr-file.md) whose sections are resident: what a GPU takes as it lies there. Checks checksums, places and sizes, so
-// that no number in a file asks for more memory than its bytes can mean; the shaders stay inside their buffers by themselves.
+// Reads .lr files (docs/lr-file.md) whose sections are resident: a GPU takes the sections as they lie in the file. Sizes are checked, so that
+// no number in a file asks for more memory than its bytes can mean; the shaders stay inside their buffers by themselves.
+import { ATTRIBUTE, LEAN, LR, LR_COMPACT, PACKED, SEAMS, TYPES, VERTICES, malformed, readContainer } from "../lacedring/container.js";
 
-const LEAN = 1, ATTRIBUTE = 2, TABLES = 5, COMPACT_TABLES = 6, PACKED = 7, VERTICES = 8, SEAMS = 9;
-const KINDS = { [LEAN]: "lean", [TABLES]: "lr", [PACKED]: "packed" };
-const PER_COPY = 1 << 18, F32 = 6, F64 = 7;
+const KINDS = { [LEAN]: "lean", [LR]: "lr", [PACKED]: "packed" };
 
 const CRC_TABLE = Uint32Array.from({ length: 256 }, (_, i) => {
   for (let k = 0; k < 8; k++) i = i & 1 ? i >>> 1 ^ 0xedb88320 : i >>> 1;
@@ -18,7 +17,7 @@ export function crc32(bytes) {
 }
 
 function require(condition, message) {
-  if (!condition) throw new Error(`not a valid .lr file: ${message}`);
+  if (!condition) throw malformed(message);
 }
 
 /**
@@ -30,28 +29,15 @@ function require(condition, message) {
  */
 export function readLr(bytes) {
   bytes = bytes.byteOffset % 4 === 0 ? bytes : bytes.slice();
-  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  require(bytes.length >= 32 && view.getUint32(0, true) === 0x4c46524c, "wrong magic");
-  require(view.getUint32(4, true) === 4, `version ${view.getUint32(4, true)}`);
-  const [count, vertices, triangles, copies, tableCrc, headerCrc] = [8, 12, 16, 20, 24, 28].map((at) => view.getUint32(at, true));
-  require(bytes.length >= 32 + 32 * count, "shorter than its section table");
-  require(headerCrc === crc32(bytes.subarray(0, 28)) && tableCrc === crc32(bytes.subarray(32, 32 + 32 * count)), "damaged header");
+  const { sections, vertices, triangles, copies } = readContainer(bytes, (offset, size) => crc32(bytes.subarray(offset, offset + size)));
   const file = { vertices, triangles, copies, attributes: [] };
-  let end = 32 + 32 * count;
-  for (let i = 0; i < count; i++) {
-    const at = 32 + 32 * i;
-    const [offset, size] = [8, 16].map((k) => view.getUint32(at + k, true) + 2 ** 32 * view.getUint32(at + k + 4, true));
-    require(offset === Math.ceil(end / 8) * 8 && offset + size <= bytes.length, `section ${i} is not where it should be`);
-    end = offset + size;
-    const section = { kind: view.getUint16(at, true), contents: bytes.subarray(offset, end), layout: view.getUint32(at + 24, true),
-      nameLength: view.getUint32(at + 28, true) };
-    require(view.getUint32(at + 4, true) === crc32(section.contents), `section ${i} is damaged`);
-    if (view.getUint16(at + 2, true) !== 0) throw new Error("This file is in storage form; write it with `lacedring encode --resident`.");
-    readSection(file, section);
+  for (const section of sections) {
+    if (section.isStored) throw new Error("This file is in storage form; write it with `lacedring encode --resident`.");
+    readSection(file, section, bytes.subarray(section.offset, section.offset + section.size));
   }
   require(file.stream, "no connectivity");
   const copyCount = checkConnectivity(file);
-  require(copies === 0 || (file.seams && copies >= vertices && copies <= copyCount), "impossible number of copies");
+  require(copies === 0 || (file.seams && copies <= copyCount), "impossible number of copies");
   const position = file.attributes.find(({ name }) => name === "POSITION");
   require(position && position.components === 3 && !position.perCopy, "no positions");
   if (!position.values && !(position.mapping >= 1 && position.mapping <= 4 && position.mapping !== 2))
@@ -64,30 +50,27 @@ function wordsOf(contents) {
   return new Uint32Array(contents.buffer, contents.byteOffset, contents.length / 4);
 }
 
-function readSection(file, { kind, contents, layout, nameLength }) {
-  if (kind === COMPACT_TABLES) throw new Error("Bit-efficient LR tables are not drawn here; write the file with --format lr, lean or packed.");
+function readSection(file, { kind, name, perCopy, type, components }, contents) {
+  if (kind === LR_COMPACT) throw new Error("Bit-efficient LR tables are not drawn here; write the file with --format lr, lean or packed.");
   if (kind in KINDS) {
     require(!file.stream, "two connectivities");
     Object.assign(file, { kind: KINDS[kind], stream: wordsOf(contents) });
   } else if (kind === SEAMS && contents.length > 0) {
     file.seams = wordsOf(contents);
   } else if (kind === ATTRIBUTE || kind === VERTICES) {
-    const begin = Math.ceil(nameLength / 8) * 8;
-    require(begin <= contents.length, "a name longer than its section");
-    const attribute = { name: new TextDecoder().decode(contents.subarray(0, nameLength)), perCopy: (layout & PER_COPY) !== 0 };
-    attribute.count = attribute.perCopy ? file.copies : file.vertices;
-    attribute.bytes = contents.length - begin;
-    (kind === VERTICES ? readVertexStream : readValues)(attribute, contents.subarray(begin), layout);
+    const attribute = { name, perCopy, count: perCopy ? file.copies : file.vertices, bytes: contents.length };
+    if (kind === VERTICES) readVertexStream(attribute, contents);
+    else readValues(attribute, contents, TYPES[type][0], components);
     file.attributes.push(attribute);
   }
 }
 
-function readValues(attribute, values, layout) {
-  attribute.components = layout >> 8 & 255;
-  if ((layout & 255) === F32) {
-    require(values.length === 4 * attribute.components * attribute.count, "an attribute has not one entry for each vertex");
+function readValues(attribute, values, type, components) {
+  attribute.components = components;
+  if (type === "f32") {
+    require(values.length === 4 * components * attribute.count, "an attribute has not one entry for each vertex");
     attribute.values = new Float32Array(values.buffer, values.byteOffset, values.length / 4);
-  } else if ((layout & 255) === F64 && attribute.name === "POSITION") {
+  } else if (type === "f64" && attribute.name === "POSITION") {
     throw new Error("The positions of this file are doubles: nothing that a GPU draws.");
   }
 }
