@@ -2,6 +2,8 @@
 import { compile } from "./engine.js";
 import { LacedRingError } from "./errors.js";
 
+export { LacedRingError };
+
 const ARRAYS = [Int8Array, Uint8Array, Int16Array, Uint16Array, Int32Array, Uint32Array, Float32Array, Float64Array];  // as ComponentType
 const FLOATS = 6;  // types from here on
 const NOT_FOUND = 8;  // EBADF, which every function of WASI returns here

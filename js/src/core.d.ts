@@ -1,0 +1,2 @@
+export { LacedRingError, decodeMesh, decodeTriangle, ready, validate } from "./lacedring.js";
+export type { Attribute, Mesh, Options, Values } from "./lacedring.js";
