@@ -1,12 +1,12 @@
-/* Decodes LacedRing's lean and packed streams into index lists. C99 or C++, one file, no library, no allocation; what
-   lrcore decodes with. docs/lean-format.md and docs/packed-format.md have the formats.
+/* Decodes LacedRing's lean and packed streams into index lists. C99 or C++; one file, no library, no allocation. lrcore
+   decodes with the same code. Formats: docs/lean-format.md and docs/packed-format.md.
 
    In one .c or .cpp file:
 
        #define LACEDRING_DECODE_IMPLEMENTATION
        #include "lacedring_decode.h"
 
-   and wherever a stream is decoded:
+   To decode a stream:
 
        struct lacedring_lean lean;
        if (lacedring_lean_validate(words, count, &lean, NULL) != LACEDRING_STATUS_OK) ...
@@ -15,7 +15,7 @@
 
    A program that links lacedring::core has these functions already: it includes the file without the macro.
 
-   Streams are little-endian 32-bit words; on a big-endian machine swap the bytes of each first. */
+   Streams are little-endian 32-bit words; on a big-endian machine swap the bytes of each word first. */
 #ifndef LACEDRING_DECODE_H
 #define LACEDRING_DECODE_H
 
@@ -27,119 +27,124 @@
 extern "C" {
 #endif
 
-/* The version of the library that this file is of. */
+/* Version of the library that this file belongs to. */
 #define LACEDRING_VERSION_MAJOR 0
 #define LACEDRING_VERSION_MINOR 1
 #define LACEDRING_VERSION_PATCH 0
 
 #define LACEDRING_LEAN_HEADER_WORDS 8
 #define LACEDRING_PACKED_HEADER_WORDS 4
-#define LACEDRING_PACKED_BLOCK 256u /* triangles of a packed stream's block */
+#define LACEDRING_PACKED_BLOCK 256u /* triangles per block of a packed stream */
 
-/* What is wrong with a stream. The comment says what `*where` is then. */
+/* Why a stream is invalid. "where" in a comment is the value that the function then stores in *where. */
 enum lacedring_status {
     LACEDRING_STATUS_OK = 0,
-    LACEDRING_STATUS_SHORT,         /* fewer words than a header */
-    LACEDRING_STATUS_MAGIC,         /* another kind of data */
-    LACEDRING_STATUS_VERSION,       /* the version that it has */
-    LACEDRING_STATUS_VERTICES,      /* more vertices than references can name */
+    LACEDRING_STATUS_SHORT,         /* fewer words than the header takes */
+    LACEDRING_STATUS_MAGIC,         /* wrong magic word: not this kind of stream */
+    LACEDRING_STATUS_VERSION,       /* unsupported version; where: the version */
+    LACEDRING_STATUS_VERTICES,      /* more vertices than the format can number */
     LACEDRING_STATUS_RING_VERTICES, /* more ring vertices than vertices */
-    LACEDRING_STATUS_SIZE,          /* not as many words as the header says */
+    LACEDRING_STATUS_SIZE,          /* the number of words contradicts the header */
     LACEDRING_STATUS_SLOTS,         /* more slots than 32-bit indices can number */
     LACEDRING_STATUS_CHECKSUM,
-    LACEDRING_STATUS_TIP,          /* the slot whose tip is no vertex */
-    LACEDRING_STATUS_OPEN_RING,    /* the first vertex of a ring that does not close */
-    LACEDRING_STATUS_SHORT_RING,   /* the first vertex of a ring of fewer than three */
+    LACEDRING_STATUS_TIP,          /* a tip is no vertex; where: the slot */
+    LACEDRING_STATUS_OPEN_RING,    /* a ring does not close; where: its first vertex */
+    LACEDRING_STATUS_SHORT_RING,   /* a ring has < 3 vertices; where: the first one */
     LACEDRING_STATUS_CLOSING_WORD, /* the slot */
     LACEDRING_STATUS_WORD,         /* the slot */
-    LACEDRING_STATUS_VERBATIM,     /* which verbatim triangle repeats a vertex, or names none */
-    LACEDRING_STATUS_TRIANGLES,    /* how many triangles there are, not what the header says */
-    LACEDRING_STATUS_GROUP,        /* the block whose group begins elsewhere, or has an impossible head */
-    LACEDRING_STATUS_BLOCK,        /* the block that says something impossible */
-    LACEDRING_STATUS_TURNS,        /* how many triangles have turns, and there are more */
-    LACEDRING_STATUS_DOUBLES,      /* which run of doubles is impossible */
-    LACEDRING_STATUS_HEADER,       /* the word of the header that says something impossible */
-    LACEDRING_STATUS_VERTEX_BLOCK, /* the block of vertices that says something impossible */
-    LACEDRING_STATUS_TRIANGLE,     /* the triangle that has a vertex out of range, or one twice */
-    LACEDRING_STATUS_LIMIT,        /* how many vertices, triangles or copies there are, and no more were allowed */
-    LACEDRING_STATUS_CODED,        /* a coded part does not end where its symbols and bits do */
-    LACEDRING_STATUS_INTEGER,      /* the vertex that has an integer out of range */
-    LACEDRING_STATUS_POSITIONS,    /* positions are needed and were not given, or have no place for this copy */
-    LACEDRING_STATUS_COPY          /* the vertex of which an impossible copy is named */
+    LACEDRING_STATUS_VERBATIM,     /* verbatim triangle with a bad vertex; where: its number */
+    LACEDRING_STATUS_TRIANGLES,    /* wrong count in the header; where: triangles found */
+    LACEDRING_STATUS_GROUP,        /* a group's offset, head or padding; where: its first block */
+    LACEDRING_STATUS_BLOCK,        /* invalid block; where: the block */
+    LACEDRING_STATUS_TURNS,        /* turn bits after the last own triangle; where: own triangles */
+    LACEDRING_STATUS_DOUBLES,      /* invalid run of doubles; where: the run */
+    LACEDRING_STATUS_HEADER,       /* invalid header; where: its word */
+    LACEDRING_STATUS_VERTEX_BLOCK, /* invalid block of vertices; where: the block */
+    LACEDRING_STATUS_TRIANGLE,     /* vertex out of range or repeated; where: the triangle */
+    LACEDRING_STATUS_LIMIT,        /* more elements than allowed; where: how many */
+    LACEDRING_STATUS_CODED,        /* a coded part is invalid, or ends too early or late */
+    LACEDRING_STATUS_INTEGER,      /* integer out of range; where: the vertex */
+    LACEDRING_STATUS_POSITIONS,    /* positions are missing; where: first value without one */
+    LACEDRING_STATUS_COPY          /* impossible copy; where: the vertex */
 };
 
-/* A stream in memory, its header read. Holds no copy. Slots are numbered: 2 for each vertex of two-sided rings, 1 for
-   each of one-sided rings, then the verbatim triangles. A slot is a triangle, degenerate (its first two vertices equal)
-   where it is the second copy of one, a border, or closes a ring. */
+/* A lean stream whose header was read. Refers to the caller's words. Its slots are: 2 per vertex of two-sided rings,
+   then 1 per vertex of one-sided rings, then the verbatim triangles. A slot is a triangle. It is degenerate (its first
+   two vertices are equal) if its triangle is stored in another slot, at a border, and where a ring closes. */
 struct lacedring_lean {
-    const uint32_t* payload; /* the words behind the header */
+    const uint32_t* payload; /* words after the header */
     uint32_t vertices;       /* of the mesh, used or not */
     uint32_t rings2, rings1; /* vertices of two-sided and of one-sided rings */
-    uint32_t verbatim;       /* triangles stored as they are */
-    uint32_t triangles;      /* of the mesh: slots that are not degenerate */
+    uint32_t verbatim;       /* triangles stored as three vertices */
+    uint32_t triangles;      /* slots that are not degenerate */
 };
 
-/* Reads the header and checks sizes only: enough for what was just encoded. `where` may be null. Reads no word beyond
-   `count`, whatever the words are. Constant time. */
+/* Reads the header and checks sizes only: enough for a stream that was just encoded. `where` may be null. Safe with any
+   words. Constant time. */
 enum lacedring_status lacedring_lean_open(const uint32_t* words, size_t count, struct lacedring_lean* lean,
                                           uint64_t* where);
 
-/* Checks all that decoders rely on, but for the checksum: rings close, tips are vertices, as many triangles as the
-   header says. `lean` was opened. Linear time, no memory. Any words: safe. */
+/* Checks everything that decoders rely on except the checksum: rings close, tips are vertices, the header has the right
+   number of triangles. `lean` comes from lacedring_lean_open. Safe with any words. Linear time, no memory. */
 enum lacedring_status lacedring_lean_check(const struct lacedring_lean* lean, uint64_t* where);
 
-/* Open, checksum and check. What it accepts, everything below decodes. */
+/* Opens the stream, checks the checksum, and runs lacedring_lean_check. All functions below decode what it accepts.
+   Safe with any words. Linear time. */
 enum lacedring_status lacedring_lean_validate(const uint32_t* words, size_t count, struct lacedring_lean* lean,
                                               uint64_t* where);
 
 uint32_t lacedring_lean_slots(const struct lacedring_lean* lean);
 
-/* The three vertices of any slot. Constant time, at most four words read. */
+/* Decodes the three vertices of one slot. Constant time: reads at most four words. */
 void lacedring_lean_slot(const struct lacedring_lean* lean, uint32_t slot, uint32_t triangle[3]);
 
-/* All slots: 3 * lacedring_lean_slots(lean) indices, degenerate triangles among them. Linear time. */
+/* Decodes all slots, degenerate ones included: 3 * lacedring_lean_slots(lean) indices. Linear time. */
 void lacedring_lean_decode(const struct lacedring_lean* lean, uint32_t* indices);
 
-/* The triangles alone, in slot order: 3 * lean->triangles indices; of 16 bits only where lean->vertices <= 65536. */
+/* Decodes the slots that are not degenerate, in slot order: 3 * lean->triangles indices. The 16-bit version requires
+   lean->vertices <= 65536. Linear time. */
 void lacedring_lean_triangles_u32(const struct lacedring_lean* lean, uint32_t* indices);
 void lacedring_lean_triangles_u16(const struct lacedring_lean* lean, uint16_t* indices);
 
-/* A packed stream in memory, its header read. Holds no copy. */
+/* A packed stream whose header was read. Refers to the caller's words. */
 struct lacedring_packed {
     uint32_t vertices, triangles; /* of the mesh */
-    uint32_t own;                 /* the first triangles, each with vertices of its own; the others are their doubles */
-    uint32_t vertex_bits;         /* of a vertex number in the stream */
-    uint32_t runs;                /* of doubles */
-    const uint32_t* doubles;      /* two words a run */
-    const uint32_t* turns;        /* a bit for each of the own triangles */
-    const uint32_t* table;        /* where groups begin */
+    /* The first `own` triangles are stored; each of the others is a double: it has the vertices of an own triangle. */
+    uint32_t own;
+    uint32_t vertex_bits;    /* bits of a vertex number */
+    uint32_t runs;           /* runs of doubles */
+    const uint32_t* doubles; /* two words per run */
+    const uint32_t* turns;   /* one bit per own triangle */
+    const uint32_t* table;   /* word at which each group but the first begins */
     const uint8_t* groups;
     size_t group_bytes;
 };
 
-/* As for lean streams: open reads the header and checks sizes, constant time; check is all that decoders rely on but
-   the checksum, linear time; validate does all. Checking takes 15 KB of stack, decoding 18. */
+/* As for lean streams. open: reads the header, checks sizes; constant time. check: everything that decoders rely on
+   except the checksum; linear time. validate: open, checksum and check. All three are safe with any words. Checking
+   takes 15 KB of stack, decoding 18 KB. */
 enum lacedring_status lacedring_packed_open(const uint32_t* words, size_t count, struct lacedring_packed* packed,
                                             uint64_t* where);
 enum lacedring_status lacedring_packed_check(const struct lacedring_packed* packed, uint64_t* where);
 enum lacedring_status lacedring_packed_validate(const uint32_t* words, size_t count, struct lacedring_packed* packed,
                                                 uint64_t* where);
 
-/* The check and lacedring_packed_triangles_u32 in one pass. Where it finds a fault, what `indices` holds is of no use.
- */
+/* lacedring_packed_check and lacedring_packed_triangles_u32 in one pass. On an error the contents of `indices` are
+   undefined. */
 enum lacedring_status lacedring_packed_decode_checked(const struct lacedring_packed* packed, uint32_t* indices,
                                                       uint64_t* where);
 
-/* 3 * packed->triangles indices; of 16 bits only where packed->vertices <= 65536. Linear time. */
+/* Decodes all triangles: 3 * packed->triangles indices. The 16-bit version requires packed->vertices <= 65536. Linear
+   time. */
 void lacedring_packed_triangles_u32(const struct lacedring_packed* packed, uint32_t* indices);
 void lacedring_packed_triangles_u16(const struct lacedring_packed* packed, uint16_t* indices);
 
-/* Blocks [block, end): triangles [256 * block, 256 * end) or what the last block has. */
+/* Decodes blocks [block, end): triangles [256 * block, 256 * end), fewer if the last block is not full. */
 void lacedring_packed_blocks_u32(const struct lacedring_packed* packed, uint32_t block, uint32_t end,
                                  uint32_t* indices);
 
-/* Any triangle, on its own, in a few popcounts: at most 8 words of turns, 12 words of its group's head and 200 bytes
-   of its record are read; of a double, about log2(runs) words more. */
+/* Decodes one triangle by itself, in a few popcounts. Reads at most 8 words of turns, 12 words of its group's head and
+   200 bytes of its record, and for a double about log2(runs) words more. */
 void lacedring_packed_triangle(const struct lacedring_packed* packed, uint32_t triangle, uint32_t out[3]);
 
 #ifdef __cplusplus
@@ -164,7 +169,7 @@ static enum lacedring_status lacedring_at_(uint64_t* where, uint64_t value, enum
     return status;
 }
 
-/* CRC-32, four bits at a time: a table that is small matters more here than speed. */
+/* CRC-32, four bits at a time: here a small table matters more than speed. */
 static uint32_t lacedring_crc_(uint32_t crc, const uint32_t* words, size_t count) {
     static const uint32_t table[16] = {0x00000000u, 0x1db71064u, 0x3b6e20c8u, 0x26d930acu, 0x76dc4190u, 0x6b6b51f4u,
                                        0x4db26158u, 0x5005713cu, 0xedb88320u, 0xf00f9344u, 0xd6d6a3e8u, 0xcb61b38cu,
@@ -205,7 +210,7 @@ enum lacedring_status lacedring_lean_open(const uint32_t* words, size_t count, s
     return LACEDRING_STATUS_OK;
 }
 
-/* One section of rings: vertices begin .. end - 1 with `sides` words each, the first of which is slot `slot`. */
+/* A section of rings: vertices [begin, end) with `sides` words each. Its first word is slot `slot`. */
 struct lacedring_section_ {
     const uint32_t* words;
     uint32_t begin, end, sides, slot, vertices;
@@ -226,7 +231,7 @@ static enum lacedring_status lacedring_check_ring_(const struct lacedring_sectio
                     return lacedring_at_(where, s->slot + i, LACEDRING_STATUS_CLOSING_WORD);
                 }
                 closed = 1;
-            } else if (tip == v || tip == end) { /* a free slot, and nothing else */
+            } else if (tip == v || tip == end) { /* a degenerate triangle: must be a free slot */
                 if (flags != 0 || tip != (side == 0 ? v : end))
                     return lacedring_at_(where, s->slot + i, LACEDRING_STATUS_WORD);
             } else {
@@ -283,13 +288,13 @@ enum lacedring_status lacedring_lean_validate(const uint32_t* words, size_t coun
     const enum lacedring_status status = lacedring_lean_open(words, count, lean, where);
     uint32_t crc;
     if (status != LACEDRING_STATUS_OK) return status;
-    crc = lacedring_crc_(0xffffffffu, words, LACEDRING_LEAN_HEADER_WORDS - 1); /* all but the checksum itself */
+    crc = lacedring_crc_(0xffffffffu, words, LACEDRING_LEAN_HEADER_WORDS - 1); /* all words but the checksum */
     crc = ~lacedring_crc_(crc, lean->payload, count - LACEDRING_LEAN_HEADER_WORDS);
     if (crc != words[LACEDRING_LEAN_HEADER_WORDS - 1]) return lacedring_at_(where, 0, LACEDRING_STATUS_CHECKSUM);
     return lacedring_lean_check(lean, where);
 }
 
-/* The vertex that follows v on its ring: v's words say so where the ring closes. */
+/* The vertex after v on its ring: v + 1, or the tip of v's CLOSE word where the ring closes. */
 static uint32_t lacedring_next_(const uint32_t* words, uint32_t sides, uint32_t v) {
     uint32_t side;
     words += (size_t)v * sides;
@@ -299,7 +304,7 @@ static uint32_t lacedring_next_(const uint32_t* words, uint32_t sides, uint32_t 
     return v + 1;
 }
 
-/* A slot of ring vertex v, whose words are words[v * sides + side]. */
+/* Decodes a slot of ring vertex v: its word is words[v * sides + side]. */
 static void lacedring_ring_slot_(const uint32_t* words, uint32_t sides, uint32_t v, uint32_t side, uint32_t out[3]) {
     const uint32_t w = words[(size_t)v * sides + side], tip = w & LACEDRING_TIP_;
     const uint32_t n = lacedring_next_(words, sides, v);
@@ -331,11 +336,11 @@ void lacedring_lean_slot(const struct lacedring_lean* lean, uint32_t slot, uint3
 
 void lacedring_lean_decode(const struct lacedring_lean* lean, uint32_t* indices) {
     const uint32_t* w = lean->payload;
-    const uint32_t* one = lean->payload + lean->rings2; /* of ring vertex v: one[v] */
+    const uint32_t* one = lean->payload + lean->rings2; /* one[v]: word of one-sided ring vertex v */
     uint32_t v;
     size_t i;
     for (v = 0; v < lean->rings2; ++v, w += 2, indices += 6) {
-        if (((w[0] | w[1]) & ~LACEDRING_TIP_) == 0) { /* nearly always */
+        if (((w[0] | w[1]) & ~LACEDRING_TIP_) == 0) { /* no flags: nearly always */
             indices[0] = v;
             indices[1] = w[0];
             indices[2] = v + 1;
@@ -387,7 +392,8 @@ void lacedring_lean_triangles_u16(const struct lacedring_lean* lean, uint16_t* i
 
 /* Packed streams: docs/packed-format.md. */
 
-#define LACEDRING_DOUBLES_ 0x80000000u /* in the word of vertices: there are doubles; in a run: turned round */
+/* Flag. In header word 1: the stream has doubles. In a run: its doubles are turned round. */
+#define LACEDRING_DOUBLES_ 0x80000000u
 #define LACEDRING_PACKED_GROUP_ 16u
 #define LACEDRING_PACKED_MAX_RECORD_ 160u
 #define LACEDRING_PACKED_PART_ 64u
@@ -403,22 +409,23 @@ enum {
     LACEDRING_NO_EVENT_
 };
 
-/* What runs for every event. Where speed is wanted, compilers keep its state in registers only if it is inlined. */
+/* For functions that run for every event. Compilers keep their state in registers only if they are inlined. */
 #if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && !defined(LACEDRING_PLAIN)
 #define LACEDRING_HOT_ static inline __attribute__((always_inline))
 #else
 #define LACEDRING_HOT_ static
 #endif
 
-/* What is smaller inlined than called on most machines, though compilers think otherwise. LACEDRING_TINY: the smallest
-   code, for WebAssembly, where calls are short. */
+/* For functions that take less code inlined than called on most machines, though compilers estimate otherwise.
+   LACEDRING_TINY: not inlined, for the smallest WebAssembly module, where calls are short. */
 #if defined(__GNUC__) && !defined(LACEDRING_TINY)
 #define LACEDRING_SMALL_ static inline __attribute__((always_inline))
 #else
 #define LACEDRING_SMALL_ static
 #endif
 
-LACEDRING_HOT_ uint32_t lacedring_ones_(uint64_t bits) { /* before the lowest zero; `bits` has one */
+/* Counts the ones below the lowest zero of `bits`, which must have a zero. */
+LACEDRING_HOT_ uint32_t lacedring_ones_(uint64_t bits) {
 #if defined(__GNUC__) && !defined(LACEDRING_PLAIN)
     return (uint32_t)__builtin_ctzll(~bits);
 #else
@@ -429,7 +436,7 @@ LACEDRING_HOT_ uint32_t lacedring_ones_(uint64_t bits) { /* before the lowest ze
 }
 
 LACEDRING_HOT_ uint32_t lacedring_popcount_(uint32_t bits) {
-#if defined(__wasm__) && !defined(LACEDRING_PLAIN) /* an instruction there */
+#if defined(__wasm__) && !defined(LACEDRING_PLAIN)
     return (uint32_t)__builtin_popcount(bits);
 #endif
     bits -= (bits >> 1) & 0x55555555u;
@@ -437,14 +444,14 @@ LACEDRING_HOT_ uint32_t lacedring_popcount_(uint32_t bits) {
     return (((bits + (bits >> 4)) & 0x0f0f0f0fu) * 0x01010101u) >> 24;
 }
 
-/* A reader of bits [at, end) of the groups; behind them come ones. No byte outside the groups is read. */
+/* Reads bits [at, end) of the groups. Bits after `end` read as ones. No byte outside the groups is read. */
 struct lacedring_bits_ {
     const uint8_t* groups;
     size_t bytes; /* of the groups */
     uint64_t at, end;
 };
 
-/* At least 57 bits from bit `at` of the groups on, whatever record they are of. */
+/* Returns at least 57 bits of the groups from bit `at` on, whether or not they belong to the current record. */
 LACEDRING_HOT_ uint64_t lacedring_load_(const struct lacedring_bits_* r, uint64_t at) {
     const uint64_t byte = at >> 3;
     uint64_t value = 0;
@@ -456,32 +463,34 @@ LACEDRING_HOT_ uint64_t lacedring_load_(const struct lacedring_bits_* r, uint64_
     return value >> (at & 7);
 }
 
-/* At least 57 bits. */
+/* Returns the next 57 bits or more. */
 LACEDRING_HOT_ uint64_t lacedring_window_(const struct lacedring_bits_* r) {
     const uint64_t at = r->at < r->end ? r->at : r->end, left = r->end - at;
     const uint64_t value = lacedring_load_(r, at);
     return left < 64 ? value | UINT64_MAX << left : value;
 }
 
-LACEDRING_HOT_ uint32_t lacedring_take_(struct lacedring_bits_* r, uint32_t count) { /* at most 32 */
+/* Reads `count` bits, at most 32. */
+LACEDRING_HOT_ uint32_t lacedring_take_(struct lacedring_bits_* r, uint32_t count) {
     const uint32_t value = (uint32_t)(lacedring_window_(r) & ((UINT64_C(1) << count) - 1));
     r->at += count;
     return value;
 }
 
-/* Ones before a zero, at most `limit`: where there are as many, no zero is read. */
+/* Reads ones and a zero; returns the number of ones. If there are `limit` ones, no zero follows them. */
 LACEDRING_SMALL_ uint32_t lacedring_unary_(struct lacedring_bits_* r, uint32_t limit) {
     const uint32_t ones = lacedring_ones_(lacedring_window_(r) & ~(UINT64_C(1) << limit));
     r->at += ones + (ones < limit);
     return ones;
 }
 
+/* Reads an exponential Golomb code. */
 LACEDRING_HOT_ uint32_t lacedring_golomb_(struct lacedring_bits_* r, uint32_t order) {
     const uint32_t low = lacedring_unary_(r, 31 - order) + order;
     return (lacedring_take_(r, low) | UINT32_C(1) << low) - (UINT32_C(1) << order);
 }
 
-/* Golomb-Rice, of at most 31 ones; UINT32_MAX where there are more. */
+/* Reads a Golomb-Rice code with `low` low bits. Returns UINT32_MAX if it has more than 31 ones. */
 LACEDRING_HOT_ uint32_t lacedring_rice_(struct lacedring_bits_* r, uint32_t low) {
     const uint64_t window = lacedring_window_(r);
     const uint32_t ones = lacedring_ones_(window & ~(UINT64_C(1) << 32));
@@ -492,13 +501,13 @@ LACEDRING_HOT_ uint32_t lacedring_rice_(struct lacedring_bits_* r, uint32_t low)
 
 /* A group's head. */
 struct lacedring_group_ {
-    uint64_t own, entries, kinds, offsets, steps; /* bits of the groups at which these begin */
-    uint64_t records, end;                        /* bytes: behind the head, and behind the records */
-    uint32_t first, blocks;                       /* which it has */
+    uint64_t own, entries, kinds, offsets, steps; /* bits of the groups where these begin */
+    uint64_t records, end;                        /* bytes of the groups: after the head, after the records */
+    uint32_t first, blocks;                       /* its first block, and how many */
     uint32_t step, offset_bits, entry_bits, has_kinds, gap_bits, wart_bits, split_order, count_order;
 };
 
-/* A record: what it is for, and its bits. */
+/* A record: its bits, its triangles and their turns, and its entry (a, b). */
 struct lacedring_record_ {
     struct lacedring_bits_ bits;
     const uint32_t* turns;
@@ -510,8 +519,8 @@ enum { LACEDRING_RECORD_, LACEDRING_PARTED_, LACEDRING_PLAIN_ };
 
 struct lacedring_block_ {
     struct lacedring_record_ record; /* the first */
-    uint64_t begin;                  /* byte of the groups */
-    uint32_t bytes, kind;            /* of all records */
+    uint64_t begin;                  /* byte of the groups where it begins */
+    uint32_t bytes, kind;            /* bytes: length of all its records */
 };
 
 LACEDRING_SMALL_ uint32_t lacedring_blocks_of_(uint32_t triangles) {
@@ -541,7 +550,7 @@ static uint32_t lacedring_take_at_(const struct lacedring_packed* p, uint64_t bi
     return count == 0 ? 0 : lacedring_take_(&r, count);
 }
 
-/* Bytes of the group's records before block k of the group. */
+/* Bytes of the group's records before those of its block k. */
 LACEDRING_SMALL_ uint32_t lacedring_offset_(const struct lacedring_packed* p, const struct lacedring_group_* g,
                                             uint32_t k) {
     const uint32_t bits = g->offset_bits;
@@ -550,7 +559,7 @@ LACEDRING_SMALL_ uint32_t lacedring_offset_(const struct lacedring_packed* p, co
            (UINT32_C(1) << bits >> 1);
 }
 
-/* The group that holds `block`. 0: its head is impossible. */
+/* Reads the head of the group that holds `block`. Returns 0 if the head is invalid. */
 static int lacedring_open_group_(const struct lacedring_packed* p, uint32_t block, struct lacedring_group_* g) {
     const uint32_t group = block / LACEDRING_PACKED_GROUP_;
     const uint32_t left = lacedring_blocks_of_(p->own) - group * LACEDRING_PACKED_GROUP_;
@@ -578,14 +587,15 @@ static int lacedring_open_group_(const struct lacedring_packed* p, uint32_t bloc
     return g->offset_bits <= 16 && g->entry_bits <= 12 && (g->blocks > 1 || g->entry_bits == 0);
 }
 
-/* Bytes of a part, at most. */
+/* Largest size, in bytes, of one record of a parted block. */
 #define LACEDRING_PACKED_MAX_PART_ 200u
 
+/* Finds kind, record and entry of block `block`, which group g holds. */
 static void lacedring_block_of_(const struct lacedring_packed* p, const struct lacedring_group_* g, uint32_t block,
                                 struct lacedring_block_* b) {
     const uint32_t k = block - g->first, left = p->own - block * LACEDRING_PACKED_BLOCK;
     const uint32_t offset = lacedring_offset_(p, g, k);
-    const uint32_t own = lacedring_take_at_(p, g->own, k); /* of blocks 1 to k */
+    const uint32_t own = lacedring_take_at_(p, g->own, k); /* own bits of blocks 1 to k */
     uint32_t from = k;
     struct lacedring_bits_ entry = lacedring_bits_at_(p, 0, 0);
     struct lacedring_record_* r = &b->record;
@@ -613,7 +623,7 @@ static void lacedring_block_of_(const struct lacedring_packed* p, const struct l
     }
 }
 
-/* Part `part` of a parted block. */
+/* Finds record `part` of a parted block. */
 static void lacedring_part_(const struct lacedring_packed* p, const struct lacedring_block_* b, uint32_t part,
                             struct lacedring_record_* r) {
     struct lacedring_bits_ lengths = lacedring_bits_at_(p, b->begin, 4);
@@ -629,6 +639,7 @@ static void lacedring_part_(const struct lacedring_packed* p, const struct laced
     lacedring_take_entry_(p, &r->bits, &r->a, &r->b, &r->reversed);
 }
 
+/* Reads triangle i of a plain block. */
 LACEDRING_SMALL_ void lacedring_plain_(const struct lacedring_packed* p, const struct lacedring_block_* b, uint32_t i,
                                        uint32_t triangle[3]) {
     struct lacedring_bits_ bits = lacedring_bits_at_(p, b->begin, b->bytes);
@@ -638,13 +649,15 @@ LACEDRING_SMALL_ void lacedring_plain_(const struct lacedring_packed* p, const s
     triangle[2] = lacedring_take_(&bits, p->vertex_bits);
 }
 
-/* An event, with whatever its code has of these. */
+/* An event. Its code determines which of the other fields are set. */
 struct lacedring_event_ {
-    uint32_t triangle; /* of the record; UINT32_MAX: impossible */
+    uint32_t triangle; /* in the record; UINT32_MAX: invalid event */
     uint32_t code, choice, v, w, reversed;
-    uint64_t flips; /* bit of the groups at which they begin */
+    /* Bit of the groups where the bits of FLIPS begin. */
+    uint64_t flips;
 };
 
+/* Reads an event. On entry, e->triangle is the triangle from which its gap counts. */
 static void lacedring_read_event_(const struct lacedring_packed* p, const struct lacedring_group_* g,
                                   struct lacedring_record_* r, struct lacedring_event_* e) {
     struct lacedring_bits_* bits = &r->bits;
@@ -658,7 +671,7 @@ static void lacedring_read_event_(const struct lacedring_packed* p, const struct
     switch (e->code) {
         case LACEDRING_SPLIT_:
             e->v = 3 + lacedring_golomb_(bits, g->split_order);
-            if (e->v >> 30 != 0) e->triangle = UINT32_MAX; /* and no count wraps round */
+            if (e->v >> 30 != 0) e->triangle = UINT32_MAX; /* so that no count overflows */
             break;
         case LACEDRING_JUMP_:
             e->v = 2 + lacedring_golomb_(bits, 1);
@@ -675,7 +688,8 @@ static void lacedring_read_event_(const struct lacedring_packed* p, const struct
             e->choice = lacedring_take_(bits, 3);
             e->v = lacedring_golomb_(bits, 1);
             e->w = lacedring_take_(bits, p->vertex_bits);
-            if (e->v >> 30 != 0) e->triangle = UINT32_MAX; /* readers with fewer bits at hand need not take it */
+            /* The format's limit, for readers that load fewer bits at once. */
+            if (e->v >> 30 != 0) e->triangle = UINT32_MAX;
             break;
         case LACEDRING_START_:
             e->choice = lacedring_unary_(bits, 3);
@@ -695,12 +709,13 @@ static void lacedring_read_event_(const struct lacedring_packed* p, const struct
     }
 }
 
-/* What a reader knows: the edge entered, and the polygon begun last outside of all scopes. */
+/* The state of docs/packed-format.md, "Events": the edge that was entered, and the polygon that began last outside of
+   all scopes. */
 struct lacedring_state_ {
     uint32_t a, b, reversed, begun_a, begun_b, begun_reversed, finished;
 };
 
-/* START or BESIDE. inside: of a scope. */
+/* Applies a START or BESIDE event. inside: a scope is open, so that begun stays. */
 static void lacedring_begin_(struct lacedring_state_* s, const struct lacedring_event_* e, int inside) {
     uint32_t a = s->begun_a, b = s->begun_b;
     if (e->code == LACEDRING_BESIDE_) {
@@ -731,12 +746,13 @@ static void lacedring_begin_(struct lacedring_state_* s, const struct lacedring_
     s->begun_reversed = s->reversed;
 }
 
-/* Triangles of a polygon that is entered across (a, b) until it is finished. */
+/* Number of triangles from edge (a, b) on until the polygon is finished. If b - a is 1 already, it never is: finishing
+   is tested after a turn. */
 LACEDRING_HOT_ uint32_t lacedring_left_(uint32_t a, uint32_t b) {
     return b - a == 1 ? UINT32_MAX : b - a - 1;
 }
 
-/* Where nothing else follows a finished polygon: the one behind the one begun last, and as long. */
+/* Begins the polygon after a finished one if no event does: after the polygon that began last, and of its size. */
 static void lacedring_repeat_(struct lacedring_state_* s, int inside) {
     const uint32_t size = s->begun_b - s->begun_a;
     s->a = s->begun_b + 1;
@@ -747,8 +763,8 @@ static void lacedring_repeat_(struct lacedring_state_* s, int inside) {
     s->begun_b = s->b;
 }
 
-/* An event that gives its triangle's third vertex: sets it, the edge that comes next, and the edge that comes when
- *count triangles more are through; 0: none does. */
+/* Applies an event that gives its triangle's third vertex, and returns this vertex. Sets s to the next edge, and `rest`
+   to the edge that is entered after *count more triangles. *count = 0: no such edge. */
 LACEDRING_HOT_ uint32_t lacedring_third_(struct lacedring_state_* s, const struct lacedring_event_* e, uint32_t turn,
                                          uint32_t rest[2], uint32_t* count) {
     const uint32_t a = s->a, b = s->b;
@@ -773,7 +789,7 @@ LACEDRING_HOT_ void lacedring_put_(uint32_t* out, uint32_t a, uint32_t x, uint32
     out[2] = reversed ? b : x;
 }
 
-/* Turns that are 1 of triangles [begin, end). */
+/* Number of turns that are 1 among triangles [begin, end). */
 static uint32_t lacedring_ups_(const uint32_t* turns, uint32_t begin, uint32_t end) {
     uint32_t ups = 0, i;
     for (i = begin / 32; i < (end + 31) / 32; ++i) {
@@ -785,17 +801,17 @@ static uint32_t lacedring_ups_(const uint32_t* turns, uint32_t begin, uint32_t e
     return ups;
 }
 
-/* A record is decoded in two steps: its events and warts are read, which makes a list of pieces, runs of triangles that
-   follow from a state by their turns alone; then the pieces are written, and over them the third vertices that events
-   give and the warts. Pieces are written eight triangles at a time with AVX2 where the processor has it, four with
-   vectors of 16 bytes, one elsewhere. */
+/* A record is decoded in two passes. The first reads its events and warts, and makes a list of pieces: runs of
+   triangles that follow from a state by their turns alone. The second writes the pieces, and over them the third
+   vertices that events give, and the warts. It writes eight triangles at a time with AVX2, four with vectors of 16
+   bytes, else one. */
 #if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && !defined(LACEDRING_PLAIN)
 #define LACEDRING_VECTORS_ 1
-/* Not for Windows, where GCC does not align a stack for such vectors. */
+/* Not on Windows, where GCC does not align the stack for such vectors. */
 #if defined(__x86_64__) && !defined(_WIN32) && (defined(__clang__) || __GNUC__ >= 12)
 #define LACEDRING_AVX2_ 1
 #define LACEDRING_WIDE_ __attribute__((target("avx2,bmi,bmi2,popcnt")))
-/* The first two Zens have all of it, but take hundreds of cycles for one of its instructions. */
+/* Zen 1 and Zen 2 have all of these, but their pdep takes hundreds of cycles. */
 LACEDRING_SMALL_ int lacedring_is_wide_(void) {
     return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") &&
            __builtin_cpu_supports("popcnt") && !__builtin_cpu_is("znver1") && !__builtin_cpu_is("znver2");
@@ -806,16 +822,17 @@ LACEDRING_SMALL_ int lacedring_is_wide_(void) {
 #define LACEDRING_WORDS_ (LACEDRING_PACKED_BLOCK / 64 + 1)
 
 #ifdef __OPTIMIZE_SIZE__
-/* Here all is written at once. */
+/* For small code, triangles are written in one pass. */
 struct lacedring_turns_ {
     const uint32_t* words;
 };
 struct lacedring_pieces_ {
-    uint8_t barred[LACEDRING_PACKED_BLOCK + 1]; /* [i + 1]: triangle i is no T0, for what i or i + 1 are */
+    /* [i]: triangles i - 1 and i cannot be a wart. */
+    uint8_t barred[LACEDRING_PACKED_BLOCK + 1];
     uint32_t* out;
 };
 #else
-/* The turns of a record, and zeros behind them. */
+/* The turns of a record, followed by zeros. */
 struct lacedring_turns_ {
     uint64_t words[LACEDRING_WORDS_];
     uint32_t before[LACEDRING_WORDS_]; /* ones in the words before */
@@ -826,11 +843,11 @@ struct lacedring_turns_ {
 #define LACEDRING_PIECES_ (LACEDRING_PACKED_BLOCK + 10)
 struct lacedring_pieces_ {
     uint32_t begin[LACEDRING_PIECES_], base[LACEDRING_PIECES_], span[LACEDRING_PIECES_];
-    uint32_t reversed[LACEDRING_PIECES_];           /* all bits or none */
-    uint32_t mixed;                                 /* not all are as the first */
+    uint32_t reversed[LACEDRING_PIECES_];           /* all ones, or 0 */
+    uint32_t mixed;                                 /* nonzero: pieces differ in `reversed` */
     uint64_t begins[LACEDRING_WORDS_];              /* bit i: a piece begins at triangle i */
-    uint64_t thirds[LACEDRING_WORDS_];              /* bit i: an event gives the third vertex of triangle i */
-    uint32_t warts[LACEDRING_PACKED_BLOCK / 8 + 1]; /* bit k, below 9, of word j: triangle 8 j + k - 1 is a T0 */
+    uint64_t thirds[LACEDRING_WORDS_];              /* bit i: an event gives triangle i's third vertex */
+    uint32_t warts[LACEDRING_PACKED_BLOCK / 8 + 1]; /* bit k < 9 of word j: triangle 8 j + k - 1 is a T0 */
 };
 
 #endif
@@ -844,19 +861,19 @@ static uint32_t lacedring_barred_(const struct lacedring_pieces_* p, uint32_t i)
     return p->barred[i];
 }
 #else
-/* No wart may be at triangle i - 1, for what it or i are. */
+/* Returns 1 if triangles i - 1 and i cannot be a wart. */
 LACEDRING_HOT_ uint32_t lacedring_barred_(const struct lacedring_pieces_* p, uint32_t i) {
     return (p->begins[i / 64] | p->thirds[i / 64]) >> i % 64 & 1;
 }
 
-/* In byte k how many bits are set in bytes 0 to k. */
+/* Byte k of the result is the number of ones in bytes 0 to k. */
 LACEDRING_HOT_ uint64_t lacedring_counts_(uint64_t bits) {
     bits -= (bits >> 1) & UINT64_C(0x5555555555555555);
     bits = (bits & UINT64_C(0x3333333333333333)) + ((bits >> 2) & UINT64_C(0x3333333333333333));
     return ((bits + (bits >> 4)) & UINT64_C(0x0f0f0f0f0f0f0f0f)) * UINT64_C(0x0101010101010101);
 }
 
-/* wide: where processors count bits. */
+/* Counts ones. wide: the processor has an instruction for it. */
 LACEDRING_HOT_ uint32_t lacedring_count_(uint64_t bits, int wide) {
 #ifdef LACEDRING_AVX2_
     if (wide) return (uint32_t)__builtin_popcountll(bits);
@@ -886,19 +903,21 @@ LACEDRING_SMALL_ uint32_t lacedring_turn_(const struct lacedring_turns_* t, uint
     return (uint32_t)(t->words[i / 64] >> i % 64) & 1;
 }
 
+/* Number of turns that are 1 before triangle i of the record. */
 LACEDRING_HOT_ uint32_t lacedring_ups_before_(const struct lacedring_turns_* t, uint32_t i, int wide) {
     return t->before[i / 64] + lacedring_count_(t->words[i / 64] & ((UINT64_C(1) << i % 64) - 1), wide);
 }
 #endif
 
-/* Fetches where the next block is written, a line or two of it. */
+/* Prefetches a cache line or two of the next block's output. */
 #if defined(__GNUC__) && !defined(LACEDRING_PLAIN)
 #define LACEDRING_AHEAD_(out) __builtin_prefetch((const void*)((uintptr_t)(out) + 12 * LACEDRING_PACKED_BLOCK), 1)
 #else
 #define LACEDRING_AHEAD_(out) (void)0
 #endif
 
-/* Triangles [i, end) of one piece, one by one. a: of triangle i; span: b - a + i. Returns what a is then. */
+/* Writes triangles [i, end) of a piece one by one. `a` is that of triangle i, `span` is b - a + i. Returns a of
+   triangle `end`. */
 LACEDRING_HOT_ uint32_t lacedring_write_(const struct lacedring_turns_* turns, uint32_t i, uint32_t end, uint32_t a,
                                          uint32_t span, uint32_t reversed, uint32_t* out) {
     for (; i < end; ++i) {
@@ -911,13 +930,13 @@ LACEDRING_HOT_ uint32_t lacedring_write_(const struct lacedring_turns_* turns, u
 
 #ifndef __OPTIMIZE_SIZE__
 
-/* Four triangles at once: twelve indices, each a or (mask) b with something added; then a grows by `ups`. b - a becomes
-   smaller by four whatever the turns. */
+/* Table entry to write four triangles at once: index j is a + add[j], plus b - a where mask[j] is all ones. After the
+   four, a grows by `ups`, and b - a shrinks by four whatever the turns. */
 struct lacedring_nibble_ {
     uint32_t add[12], mask[12], ups[4], unused[4];
 };
 
-/* Before triangle k of four, a has grown by UP and b by UP - k. Fields in the order of a, b, x or a, x, b. */
+/* Before triangle k of four, a has grown by UP and b by UP - k. ABX and AXB: order of the fields. */
 #define LACEDRING_BIT_(bits, k) (((bits) >> (k)) & 1u)
 #define LACEDRING_UP_(bits, k)                                                       \
     ((LACEDRING_BIT_(bits, 0) & ((k) > 0)) + (LACEDRING_BIT_(bits, 1) & ((k) > 1)) + \
@@ -957,7 +976,7 @@ __attribute__((aligned(128)))
 static const struct lacedring_nibble_ lacedring_nibbles_[2][16] = {LACEDRING_NIBBLES_(LACEDRING_ABX_, LACEDRING_ABXM_),
                                                                    LACEDRING_NIBBLES_(LACEDRING_AXB_, LACEDRING_AXBM_)};
 
-/* As lacedring_write_. Four at a time where there is room before `limit`: what is too much is written again. */
+/* As lacedring_write_, but four at a time while they fit before `limit`: those after `end` are written again later. */
 LACEDRING_HOT_ void lacedring_write_four_(const struct lacedring_turns_* turns, uint32_t i, uint32_t end,
                                           uint32_t limit, uint32_t a, uint32_t span, uint32_t reversed, uint32_t* out) {
     const struct lacedring_nibble_* table = lacedring_nibbles_[reversed];
@@ -968,7 +987,7 @@ LACEDRING_HOT_ void lacedring_write_four_(const struct lacedring_turns_* turns, 
     const lacedring_four_ four = {4, 4, 4, 4};
     lacedring_four_ as = {a, a, a, a}, spans = {left, left, left, left}, sum;
 #else
-    uint32_t as[1], sums[12], j; /* a copy of its own lets compilers use vectors */
+    uint32_t as[1], sums[12], j; /* a local array, so that compilers use vectors */
     as[0] = a;
 #endif
     for (; i < room; i += 4, to += 12) {
@@ -1006,7 +1025,7 @@ typedef int32_t lacedring_signed_eight_ __attribute__((vector_size(32)));
 typedef char lacedring_bytes_ __attribute__((vector_size(32)));
 typedef float lacedring_floats_ __attribute__((vector_size(32)));
 
-/* Of eight bits: lane k has how many are set before bit k, and its sign is bit k. */
+/* Table entry of eight bits: lane k is the number of ones below bit k, and its sign bit is bit k. */
 struct lacedring_octet_ {
     uint32_t before[8];
 };
@@ -1019,7 +1038,7 @@ struct lacedring_octet_ {
         }                                                                                                           \
     }
 #define LACEDRING_SIGN_ 0x80000000u
-/* The entries of tables whose higher bits are given. */
+/* LACEDRING_OCTETS_n_ lists the table entries whose n highest bits are given. */
 #define LACEDRING_OCTETS_7_(of, b, c, d, e, f, g, h) of(0, b, c, d, e, f, g, h), of(1, b, c, d, e, f, g, h)
 #define LACEDRING_OCTETS_6_(of, c, d, e, f, g, h) \
     LACEDRING_OCTETS_7_(of, 0, c, d, e, f, g, h), LACEDRING_OCTETS_7_(of, 1, c, d, e, f, g, h)
@@ -1042,12 +1061,12 @@ static const uint32_t lacedring_octet_counts_[256] = {LACEDRING_COUNTS_64_(0), L
 
 #define LACEDRING_PERMUTE_(v, from) \
     ((lacedring_eight_)__builtin_ia32_permvarsi256((lacedring_signed_eight_)(v), (lacedring_signed_eight_)(from)))
-/* w where the sign of `sign` is set, v elsewhere. */
+/* Per lane: w if the sign bit of `sign` is set, else v. */
 #define LACEDRING_BLEND_(v, w, sign)                                                              \
     ((lacedring_eight_)__builtin_ia32_blendvps256((lacedring_floats_)(v), (lacedring_floats_)(w), \
                                                   (lacedring_floats_)(sign)))
 
-/* Eight bytes, with their signs. */
+/* Sign-extends eight bytes to eight lanes. */
 LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_eight_ lacedring_widen_(uint64_t bytes) {
 #ifdef __clang__
     typedef signed char lacedring_few_ __attribute__((vector_size(8)));
@@ -1060,7 +1079,8 @@ LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_eight_ lacedring_widen_(uint64_t bytes)
 #endif
 }
 
-/* Eight triangles of lanes to three vectors: each half of a vector with its own, and then the halves in order. */
+/* Transposes three vectors, in which lane k belongs to triangle k, to the 24 indices in order: first within each half
+   of a vector, then the halves. */
 LACEDRING_WIDE_ LACEDRING_HOT_ void lacedring_mix_(lacedring_eight_ a, lacedring_eight_ b, lacedring_eight_ x,
                                                    lacedring_eight_ to[3]) {
     lacedring_eight_ q0, q1, q2;
@@ -1078,8 +1098,8 @@ LACEDRING_WIDE_ LACEDRING_HOT_ void lacedring_mix_(lacedring_eight_ a, lacedring
     to[2] = __builtin_shufflevector(q1, q2, 4, 5, 6, 7, 12, 13, 14, 15);
 }
 
-/* As lacedring_nibble_, for eight triangles and in bytes: one below 128 is added to a; of one above, what is more than
-   136 is added to b. Then a and b grow. */
+/* As lacedring_nibble_, for eight triangles and in bytes. A byte below 128 is added to a; a byte 136 + d stands for b +
+   d. Then a and b grow by grow_a and grow_b. */
 struct lacedring_eighth_ {
     uint8_t add[24];
     uint32_t grow_a, grow_b;
@@ -1104,6 +1124,7 @@ static const struct lacedring_eighth_ lacedring_eighths_[2][256] __attribute__((
     {LACEDRING_OCTETS_1_(LACEDRING_RUN_ABX_, 0), LACEDRING_OCTETS_1_(LACEDRING_RUN_ABX_, 1)},
     {LACEDRING_OCTETS_1_(LACEDRING_RUN_AXB_, 0), LACEDRING_OCTETS_1_(LACEDRING_RUN_AXB_, 1)}};
 
+/* Eight indices from eight bytes of lacedring_eighth_::add. `b` is 8 less than the edge's b. */
 LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_eight_ lacedring_sum_(const uint8_t* add, lacedring_eight_ a,
                                                                lacedring_eight_ b) {
     uint64_t bytes;
@@ -1113,7 +1134,7 @@ LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_eight_ lacedring_sum_(const uint8_t* ad
     return LACEDRING_BLEND_(a, b, all) + (all & 15);
 }
 
-/* As lacedring_write_four_, eight at a time. */
+/* As lacedring_write_four_ with `triangles` as the limit, but eight at a time. */
 LACEDRING_WIDE_ static void lacedring_write_run_(const struct lacedring_turns_* turns, uint32_t i, uint32_t end,
                                                  uint32_t triangles, uint32_t a, uint32_t span, uint32_t reversed,
                                                  uint32_t* out) {
@@ -1140,7 +1161,7 @@ LACEDRING_WIDE_ static void lacedring_write_run_(const struct lacedring_turns_* 
     memcpy(out, to, (size_t)12 * (triangles - i));
 }
 
-/* A record of one piece. 0: a wart where b - a is too small. */
+/* Writes a record that is one piece. Returns 0 if b - a is too small at a wart. */
 LACEDRING_WIDE_ static int lacedring_write_one_(const struct lacedring_turns_* turns, const struct lacedring_pieces_* p,
                                                 uint32_t triangles, uint32_t* out) {
     const uint32_t reversed = p->reversed[0] & 1;
@@ -1160,9 +1181,9 @@ LACEDRING_WIDE_ static int lacedring_write_one_(const struct lacedring_turns_* t
     return (int)good;
 }
 
-/* The triangles of a record, with warts, eight at a time whatever pieces they are of. In each vector, lane k is
-   triangle k's until three vectors are mixed to triangles. way: 0, none is reversed; 1, all are; 2, some. Returns where
-   b - a is too small for a wart. */
+/* Writes the triangles of a record, with warts, eight at a time, even of different pieces. Lane k of a vector belongs
+   to triangle k until lacedring_mix_. way: 0 if no piece is reversed, 1 if all are, 2 if some are. Returns nonzero
+   lanes where b - a is too small for a wart. */
 LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_eight_ lacedring_write_eights_(const uint8_t* turns,
                                                                         const struct lacedring_pieces_* pieces,
                                                                         uint32_t triangles, uint32_t* out, int way) {
@@ -1188,7 +1209,8 @@ LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_eight_ lacedring_write_eights_(const ui
         t2 = (lacedring_eight_)(((one * 0 + *warts++) & t2_bits) == t2_bits);
         b = a + span;
         bad |= t0 & (lacedring_eight_)(span <= three);
-        step = one - t0 + t2; /* 1; of a T0 2; of a T2 0, and x is between the other two */
+        /* 2 at a T0; 0 at a T2, whose x lies between its a and b; else 1. */
+        step = one - t0 + t2;
         x = LACEDRING_BLEND_(b - step, a + step, up);
         a = LACEDRING_BLEND_(a, x - one, t2);
         b = LACEDRING_BLEND_(b, x + one, t2);
@@ -1216,7 +1238,7 @@ LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_eight_ lacedring_write_eights_(const ui
     return bad;
 }
 
-/* 0: a wart where b - a is too small. */
+/* Writes a record of several pieces. Returns 0 if b - a is too small at a wart. */
 LACEDRING_WIDE_ static int lacedring_write_wide_(const uint8_t* turns, const struct lacedring_pieces_* pieces,
                                                  uint32_t triangles, uint32_t* out) {
     lacedring_eight_ bad;
@@ -1237,20 +1259,20 @@ struct lacedring_scope_ {
     uint32_t end, a, b, reversed;
 };
 
-/* A record while its events are read. */
+/* A record whose events are being read. */
 struct lacedring_decoder_ {
     struct lacedring_state_ s;
     const struct lacedring_turns_* turns;
     uint32_t i, ups, triangles, piece;
     struct lacedring_pieces_* pieces;
-    struct lacedring_scope_* scope; /* the open one; the outermost never ends */
+    struct lacedring_scope_* scope; /* the innermost open scope; scope 0 never ends */
 };
 
 LACEDRING_HOT_ int lacedring_inside_(const struct lacedring_decoder_* d) {
     return d->scope->end != UINT32_MAX;
 }
 
-/* The state at triangle d->i is not what follows by turns. */
+/* Begins a piece at triangle d->i, whose state does not follow by turns. */
 LACEDRING_HOT_ void lacedring_begin_piece_(struct lacedring_decoder_* d) {
     struct lacedring_pieces_* p = d->pieces;
 #ifdef __OPTIMIZE_SIZE__
@@ -1266,7 +1288,8 @@ LACEDRING_HOT_ void lacedring_begin_piece_(struct lacedring_decoder_* d) {
 #endif
 }
 
-/* Moves up to triangle `target`, and closes the scopes that end there. 0: impossible. */
+/* Advances by turns to triangle `target`, and closes the scopes that end up to there. Returns 0 if the record is
+   invalid. */
 LACEDRING_HOT_ int lacedring_advance_(struct lacedring_decoder_* d, uint32_t target, int wide) {
     (void)wide;
     for (;;) {
@@ -1291,7 +1314,7 @@ LACEDRING_HOT_ int lacedring_advance_(struct lacedring_decoder_* d, uint32_t tar
             d->s.b -= end - d->i - ups;
             d->i = end;
             d->s.finished = d->s.b - d->s.a == 1;
-            /* Both turns are true of a corridor's last triangle, so the format says which. */
+            /* Either turn would describe a corridor's last triangle, so the format prescribes one. */
             if (d->s.finished &
                 (lacedring_turn_(d->turns, end - 1) == (end > 1 ? lacedring_turn_(d->turns, end - 2) : UINT32_C(1))))
                 return 0;
@@ -1307,23 +1330,23 @@ LACEDRING_HOT_ int lacedring_advance_(struct lacedring_decoder_* d, uint32_t tar
 }
 
 #ifndef __OPTIMIZE_SIZE__
-/* The bit of `bits` that has `rank` others below it; `counts` has in byte k how many are in bytes 0 to k. */
+/* Finds the set bit of `bits` that has `rank` set bits below it. `counts` is lacedring_counts_(bits). */
 LACEDRING_HOT_ uint32_t lacedring_select_(uint64_t bits, uint64_t counts, uint32_t rank) {
     static const uint8_t of_four[16][4] = {
         {0, 0, 0, 0}, {0, 0, 0, 0}, {1, 0, 0, 0}, {0, 1, 0, 0}, {2, 0, 0, 0}, {0, 2, 0, 0}, {1, 2, 0, 0}, {0, 1, 2, 0},
         {3, 0, 0, 0}, {0, 3, 0, 0}, {1, 3, 0, 0}, {0, 1, 3, 0}, {2, 3, 0, 0}, {0, 2, 3, 0}, {1, 2, 3, 0}, {0, 1, 2, 3}};
     static const uint8_t count[16] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
     const uint64_t each = UINT64_C(0x0101010101010101), high = each << 7;
-    const uint64_t below = (((rank * each) | high) - counts) & high; /* bytes that end at or before it */
+    const uint64_t below = (((rank * each) | high) - counts) & high; /* marks the bytes that lie before it */
     const uint32_t byte = (uint32_t)(((below >> 7) * each) >> 56);
     const uint32_t in_byte = (uint32_t)(bits >> (8 * byte)) & 0xff,
                    left = rank - ((uint32_t)((counts << 8) >> (8 * byte)) & 0xff);
-    const uint32_t low = count[in_byte & 15], upper = left >= low; /* no branch: it would be taken half the time */
+    const uint32_t low = count[in_byte & 15], upper = left >= low; /* no branch: it would be unpredictable */
     return 8 * byte + 4 * upper + of_four[in_byte >> 4 * upper & 15][left - (low & (0 - upper))];
 }
 #endif
 
-/* Makes triangle i the T0 of a wart, and the next one its T2. 0: b - a is too small. */
+/* Makes triangle i the T0 of a wart, and the next one its T2. Returns 0 if b - a is too small. */
 LACEDRING_HOT_ int lacedring_write_wart_(const struct lacedring_decoder_* d, uint32_t i, uint32_t* out) {
     const uint32_t up = lacedring_turn_(d->turns, i), a = out[3 * i];
     const uint32_t reversed = out[3 * i + 1] == (up ? a + 1 : out[3 * i + 2] - 1), b = out[3 * i + 1 + reversed];
@@ -1334,7 +1357,8 @@ LACEDRING_HOT_ int lacedring_write_wart_(const struct lacedring_decoder_* d, uin
     return 1;
 }
 
-/* Reads the warts and writes them. `least`: so many there must be. 0: they are where none may be. */
+/* Reads the warts and writes them over the triangles. Returns 0 if one is where none may be, or if there are fewer than
+   `least`. */
 LACEDRING_HOT_ int lacedring_warts_(const struct lacedring_decoder_* d, struct lacedring_bits_ bits, uint32_t low,
                                     uint32_t least, uint32_t* out) {
     uint32_t i = 0, warts = 0, last = UINT32_MAX - 1;
@@ -1354,7 +1378,7 @@ LACEDRING_HOT_ int lacedring_warts_(const struct lacedring_decoder_* d, struct l
         }
         ++i;
 #else
-        for (rank += gap; rank >= count; ++word) { /* among the candidates of the word */
+        for (rank += gap; rank >= count; ++word) { /* until `word` holds candidate `rank` */
             uint64_t turns;
             rank -= count;
             if (64 * word >= d->triangles) return 0;
@@ -1369,14 +1393,15 @@ LACEDRING_HOT_ int lacedring_warts_(const struct lacedring_decoder_* d, struct l
         }
         i = 64 * word - 63 + lacedring_select_(candidates, counts, rank++);
 #endif
-        /* i is the T2, and may be behind the last triangle. */
+        /* i is the T2; it may be after the last triangle. */
         if (i == last + 1 || lacedring_barred_(d->pieces, i) || !lacedring_write_wart_(d, i - 1, out)) return 0;
         last = i;
     }
 }
 
 #ifdef LACEDRING_AVX2_
-/* Reads the warts, all in four steps: a bit for each candidate, spread to where candidates are. */
+/* Reads the warts into p->warts: first a bit for each rank among the candidates, then these bits are spread to the
+   candidates of 64 triangles at a time. */
 LACEDRING_WIDE_ static int lacedring_warts_wide_(const struct lacedring_decoder_* d, const struct lacedring_bits_* bits,
                                                  uint32_t low, uint32_t least) {
     uint64_t ranks[LACEDRING_WORDS_ + 1] = {0, 0, 0, 0, 0, 0}, bad = 0, last = 0, bars, at = bits->at;
@@ -1417,7 +1442,7 @@ LACEDRING_WIDE_ static int lacedring_warts_wide_(const struct lacedring_decoder_
 #endif
 
 #ifndef __OPTIMIZE_SIZE__
-/* Writes pieces one after the other. */
+/* Writes the pieces in order. */
 LACEDRING_HOT_ void lacedring_write_pieces_(const struct lacedring_turns_* turns, const struct lacedring_pieces_* p,
                                             uint32_t triangles, uint32_t* out) {
     uint32_t k;
@@ -1427,7 +1452,8 @@ LACEDRING_HOT_ void lacedring_write_pieces_(const struct lacedring_turns_* turns
     }
 }
 
-/* A SPLIT, as nearly all events are, from one window: its size, 0 if the next event is none or takes more bits. */
+/* Reads a SPLIT, as nearly all events are, from one load. Returns its size; returns 0 and reads nothing if the next
+   event is another one or takes more bits. */
 LACEDRING_HOT_ uint32_t lacedring_read_split_(struct lacedring_bits_* r, uint32_t low, uint32_t order, uint32_t* gap) {
     const uint64_t at = r->at;
     uint64_t window;
@@ -1449,8 +1475,9 @@ LACEDRING_HOT_ uint32_t lacedring_read_split_(struct lacedring_bits_* r, uint32_
 }
 #endif
 
-/* Decodes a record. 0: it says something impossible, and some of `out` is not written. Whatever it says, nothing else
-   is written or read; vertices may be out of range. wide: with AVX2. */
+/* Decodes a record. explicit_entry: its own bits begin with its entry. wide: with AVX2. Returns 0 if it is invalid;
+   some of `out` is not written then. Safe with any words: nothing but the stream is read, and nothing but the record's
+   triangles is written. Their vertices may be out of range. */
 LACEDRING_HOT_ int lacedring_expand_(const struct lacedring_packed* p, const struct lacedring_group_* g,
                                      struct lacedring_record_* r, int explicit_entry, uint32_t* out, int wide) {
     struct lacedring_decoder_ d;
@@ -1503,7 +1530,8 @@ LACEDRING_HOT_ int lacedring_expand_(const struct lacedring_packed* p, const str
             if (e.v != 0) {
                 e.triangle = at + gap;
                 if (e.triangle >= d.triangles) return 0;
-            } else { /* a copy: the compiler keeps the other in registers */
+            } else {
+                /* A separate copy, so that the compiler keeps `e` in registers. */
                 struct lacedring_event_ read = {0, 0, 0, 0, 0, 0, 0};
                 read.triangle = at;
                 lacedring_read_event_(p, g, r, &read);
@@ -1536,7 +1564,7 @@ LACEDRING_HOT_ int lacedring_expand_(const struct lacedring_packed* p, const str
                 lacedring_repeat_(&d.s, 0);
                 lacedring_begin_piece_(&d);
             }
-            if (e.code == LACEDRING_FAR_ && e.choice != 3 && turn) return 0; /* a turn that says nothing */
+            if (e.code == LACEDRING_FAR_ && e.choice != 3 && turn) return 0; /* an unused turn must be 0 */
             a = d.s.a;
             b = d.s.b;
             x = lacedring_third_(&d.s, &e, turn, rest, &count);
@@ -1552,7 +1580,7 @@ LACEDRING_HOT_ int lacedring_expand_(const struct lacedring_packed* p, const str
 #endif
             ++d.i;
             d.ups += turn;
-            if (count >= d.triangles - d.i) { /* back behind the record's end */
+            if (count >= d.triangles - d.i) { /* the rest lies after the record's end */
                 if (e.code != LACEDRING_SPLIT_ && count > 0) return 0;
                 if (count > 0 && lacedring_inside_(&d)) return 0;
             } else if (count > 0) {
@@ -1563,7 +1591,7 @@ LACEDRING_HOT_ int lacedring_expand_(const struct lacedring_packed* p, const str
                 d.scope->b = rest[1];
                 d.scope->reversed = d.s.reversed;
             }
-            ++at; /* the next gap is from here */
+            ++at; /* the next gap counts from here */
         }
         lacedring_begin_piece_(&d);
     }
@@ -1643,7 +1671,7 @@ enum lacedring_status lacedring_packed_open(const uint32_t* words, size_t count,
     for (p->vertex_bits = 1; p->vertex_bits < 31 && p->vertices > UINT32_C(1) << p->vertex_bits;) ++p->vertex_bits;
     turns = ((uint64_t)p->own + 31) / 32;
     groups = ((uint64_t)lacedring_blocks_of_(p->own) + LACEDRING_PACKED_GROUP_ - 1) / LACEDRING_PACKED_GROUP_;
-    groups -= groups > 0; /* in the table */
+    groups -= groups > 0; /* table entries: all groups but the first */
     left = count - LACEDRING_PACKED_HEADER_WORDS;
     if (turns + groups > left) return lacedring_at_(where, turns + groups, LACEDRING_STATUS_SIZE);
     left -= turns + groups;
@@ -1664,7 +1692,8 @@ enum lacedring_status lacedring_packed_open(const uint32_t* words, size_t count,
     return LACEDRING_STATUS_OK;
 }
 
-/* What readers do not look at: what fills up bytes, turns of plain blocks, fields of a head that say nothing. */
+/* Checks what readers ignore: padding bits, turns of plain blocks, unused fields of a head, and the lengths of records.
+   Returns 0 if they are not as the format prescribes. */
 static int lacedring_unused_clear_(const struct lacedring_packed* p, const struct lacedring_group_* g,
                                    const struct lacedring_block_* b) {
     uint32_t i, left = p->own - b->record.first, used = 4;
@@ -1693,12 +1722,12 @@ static int lacedring_unused_clear_(const struct lacedring_packed* p, const struc
     return used == b->bytes;
 }
 
-/* The triangle behind a run. */
+/* The triangle after the last one of a run of doubles. */
 static uint32_t lacedring_run_end_(const struct lacedring_packed* p, uint32_t run) {
     return run + 1 < p->runs ? p->doubles[(size_t)2 * run + 2] : p->triangles;
 }
 
-/* Runs of doubles follow each other, and are of own triangles. */
+/* Checks that runs of doubles follow each other and repeat own triangles. */
 static enum lacedring_status lacedring_check_doubles_(const struct lacedring_packed* p, uint64_t* where) {
     uint32_t i;
     for (i = 0; i < p->runs; ++i) {
@@ -1710,12 +1739,12 @@ static enum lacedring_status lacedring_check_doubles_(const struct lacedring_pac
     return LACEDRING_STATUS_OK;
 }
 
-/* Has each of so many triangles three vertices? */
+/* Do `count` triangles have three different vertices each, all below `vertices`? */
 LACEDRING_SMALL_ int lacedring_have_vertices_(const uint32_t* t, uint32_t count, uint32_t vertices) {
 #if defined(__wasm_simd128__) && defined(LACEDRING_VECTORS_)
     lacedring_four_ most = {0, 0, 0, 0}, equal = most;
-    for (; count >= 4;
-         count -= 4, t += 12) { /* a to c are words 0 to 11: each beside the one that follows in its triangle */
+    for (; count >= 4; count -= 4, t += 12) {
+        /* a to c are indices 0 to 11. Each is compared to the next index of its triangle. */
         lacedring_four_ a, b, c;
         memcpy(&a, t, 16);
         memcpy(&b, t + 4, 16);
@@ -1736,7 +1765,7 @@ LACEDRING_SMALL_ int lacedring_have_vertices_(const uint32_t* t, uint32_t count,
     return 1;
 }
 
-/* Checks all blocks, and writes the own triangles, too, if `out` is not null. */
+/* Checks all blocks; writes the own triangles if `out` is not null. */
 static enum lacedring_status lacedring_check_packed_(const struct lacedring_packed* p, uint32_t* out, uint64_t* where) {
     struct lacedring_group_ g;
     struct lacedring_block_ b;
@@ -1762,7 +1791,7 @@ static enum lacedring_status lacedring_check_packed_(const struct lacedring_pack
         lacedring_block_of_(p, &g, block, &b);
         if (block == g.first) plain = b.kind == LACEDRING_PLAIN_;
         if (block > g.first && lacedring_take_at_(p, g.own + block - g.first - 1, 1)) plain = 0;
-        /* What goes on from a group's first block needs it to have an entry. */
+        /* `plain`: the group's first block has no entry, so that no block may continue from it. */
         if (b.begin + b.bytes > p->group_bytes || !lacedring_unused_clear_(p, &g, &b) ||
             (plain && b.kind != LACEDRING_PLAIN_) || !lacedring_expand_block_(p, &g, &b, indices))
             return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
@@ -1780,6 +1809,7 @@ enum lacedring_status lacedring_packed_check(const struct lacedring_packed* p, u
     return lacedring_check_packed_(p, NULL, where);
 }
 
+/* Writes triangle `of`, turned round if `turned` is nonzero. */
 static void lacedring_double_(const uint32_t* of, uint32_t turned, uint32_t* out) {
     const uint32_t b = of[1], c = of[2];
     out[0] = of[0];
@@ -1787,7 +1817,7 @@ static void lacedring_double_(const uint32_t* of, uint32_t turned, uint32_t* out
     out[2] = turned ? b : c;
 }
 
-/* Writes all doubles behind the own triangles. */
+/* Writes all doubles after the own triangles. */
 static void lacedring_write_doubles_(const struct lacedring_packed* p, uint32_t* triangles) {
     uint32_t run, i;
     for (run = 0; run < p->runs; ++run) {
@@ -1817,7 +1847,7 @@ enum lacedring_status lacedring_packed_validate(const uint32_t* words, size_t co
     return lacedring_packed_check(p, where);
 }
 
-/* Blocks [block, end), but no doubles. */
+/* Decodes the own triangles of blocks [block, end). */
 LACEDRING_SMALL_ void lacedring_own_blocks_(const struct lacedring_packed* p, uint32_t block, uint32_t end,
                                             uint32_t* indices) {
     struct lacedring_group_ g;
@@ -1831,7 +1861,7 @@ LACEDRING_SMALL_ void lacedring_own_blocks_(const struct lacedring_packed* p, ui
     }
 }
 
-/* The run that holds a double. */
+/* Number of the run that holds a double. Binary search. */
 static uint32_t lacedring_run_of_(const struct lacedring_packed* p, uint32_t triangle) {
     uint32_t low = 0, high = p->runs;
     while (high - low > 1) {
@@ -1845,10 +1875,11 @@ static uint32_t lacedring_run_of_(const struct lacedring_packed* p, uint32_t tri
     return low;
 }
 
-/* Triangles [t, end), all of them doubles. */
+/* Decodes triangles [t, end), all of them doubles. */
 LACEDRING_SMALL_ void lacedring_double_triangles_(const struct lacedring_packed* p, uint32_t t, uint32_t end,
                                                   uint32_t* out) {
-    enum { kFew = 8 }; /* triangles of a block that are read one by one: then it need not be decoded */
+    /* Fewer triangles of a block than this are read one by one, without decoding the block. */
+    enum { kFew = 8 };
     uint32_t block[3 * LACEDRING_PACKED_BLOCK], held = UINT32_MAX, run = lacedring_run_of_(p, t);
     for (; t < end; ++run) {
         const uint32_t* r = p->doubles + (size_t)2 * run;
@@ -1893,7 +1924,7 @@ void lacedring_packed_triangles_u16(const struct lacedring_packed* p, uint16_t* 
     }
 }
 
-/* Moves the state from triangle *at to triangle `to`, by turns alone. */
+/* Advances the state from triangle *at to triangle `to` by turns alone. */
 static void lacedring_skip_(struct lacedring_state_* s, const uint32_t* turns, uint32_t* at, uint32_t to, int inside) {
     uint32_t left = s->finished ? 0 : lacedring_left_(s->a, s->b), ups;
     if (to - *at > left) { /* whole polygons */
@@ -1912,7 +1943,7 @@ static void lacedring_skip_(struct lacedring_state_* s, const uint32_t* turns, u
     *at = to;
 }
 
-/* One triangle of a record, in a few popcounts, whatever comes before it. */
+/* Decodes triangle i of a record by itself, in a few popcounts. */
 static void lacedring_seek_(const struct lacedring_packed* p, const struct lacedring_group_* g,
                             struct lacedring_record_* r, uint32_t i, uint32_t t[3]) {
     struct lacedring_state_ s;
@@ -1951,7 +1982,7 @@ static void lacedring_seek_(const struct lacedring_packed* p, const struct laced
             }
             at = here + 1;
             if (count == 0 || count >= r->triangles - at) continue; /* no scope */
-            if (i - at >= count) {                                  /* behind the scope */
+            if (i - at >= count) {                                  /* after the scope */
                 at += count;
                 skip = at;
                 s.a = rest[0];
@@ -1966,7 +1997,7 @@ static void lacedring_seek_(const struct lacedring_packed* p, const struct laced
     if (s.finished) lacedring_repeat_(&s, inside);
     x = turn ? s.a + 1 : s.b - 1;
     {
-        /* Is i the T0 of a wart, or the T2 behind it? Warts are told by their rank among the candidates. */
+        /* Is i the T0 of a wart, or the T2 of one at i - 1? Warts are stored as ranks among the candidates. */
         uint32_t rank = 0, seen = 0, gap, word;
         const uint32_t before = i > 0 && (r->turns[(i - 1) / 32] >> ((i - 1) % 32) & 1) == turn;
         const uint32_t here = i + 1 == r->triangles || (r->turns[(i + 1) / 32] >> ((i + 1) % 32) & 1) == turn;
@@ -1978,7 +2009,7 @@ static void lacedring_seek_(const struct lacedring_packed* p, const struct laced
                 rank += lacedring_popcount_(candidates);
             }
             while ((gap = lacedring_rice_(&r->bits, g->wart_bits)) != UINT32_MAX && r->bits.at <= r->bits.end) {
-                seen += gap + 1; /* the rank behind the wart */
+                seen += gap + 1; /* the wart's rank + 1 */
                 if (seen > rank) {
                     if (here && seen == rank + 1) x = turn ? s.a + 2 : s.b - 2;
                     break;
