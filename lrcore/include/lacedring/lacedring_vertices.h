@@ -1,8 +1,8 @@
-/* Decodes LacedRing's vertex streams into attributes. C99 or C++, one file beside lacedring_decode.h, no allocation;
-   what lrcore decodes with. docs/vertex-format.md has the format.
+/* Decodes LacedRing's vertex streams into attributes. C99 or C++; one file beside lacedring_decode.h, no allocation.
+   lrcore decodes with the same code. Format: docs/vertex-format.md.
 
-   LACEDRING_DECODE_IMPLEMENTATION, defined in one .c or .cpp file before it is included, adds the functions there. A
-   program that links lacedring::core has them already.
+   Define LACEDRING_DECODE_IMPLEMENTATION in one .c or .cpp file before including this header, which then adds the
+   functions. A program that links lacedring::core has them already.
 
        struct lacedring_vertices stream;
        if (lacedring_vertices_validate(words, count, &stream, NULL) != LACEDRING_STATUS_OK) ...
@@ -21,66 +21,71 @@ extern "C" {
 
 #define LACEDRING_VERTICES_HEADER_WORDS 7
 #define LACEDRING_VERTICES_BLOCK 128u
-#define LACEDRING_VERTICES_MAX_COMPONENTS 16u /* integers a vertex */
+#define LACEDRING_VERTICES_MAX_COMPONENTS 16u /* integers per vertex */
 
 /* What the integers of a vertex stand for. */
 enum lacedring_mapping {
-    LACEDRING_MAPPING_INTEGERS,   /* themselves: of 8, 16 or 32 bits, signed or not */
-    LACEDRING_MAPPING_LATTICE,    /* integer * step, which is exact: a float */
-    LACEDRING_MAPPING_OCTAHEDRAL, /* a unit vector by two integers; a third one is 0 or 1 for a tangent's w of 1 or -1
-                                   */
-    LACEDRING_MAPPING_FLOATS,     /* the bits of a float, in the order of the numbers */
-    LACEDRING_MAPPING_DECIMALS,   /* the float nearest to integer / 10^digits; exceptions are listed */
-    LACEDRING_MAPPING_DOUBLES     /* the bits of a double: the higher half as of a float, then the lower half */
+    LACEDRING_MAPPING_INTEGERS, /* values: 8, 16 or 32 bits, signed or not */
+    LACEDRING_MAPPING_LATTICE,  /* float: integer * step, which is exact */
+    /* A unit vector as two integers. A third integer, if any, is 0 for a tangent's w of 1, and 1 for -1. */
+    LACEDRING_MAPPING_OCTAHEDRAL,
+    LACEDRING_MAPPING_FLOATS,   /* a float's bits, changed to sort like floats */
+    LACEDRING_MAPPING_DECIMALS, /* float nearest to integer / 10^digits, or an exception */
+    LACEDRING_MAPPING_DOUBLES   /* two integers: upper half as FLOATS, lower half as it is */
 };
 
-/* A stream in memory, its header read. Holds no copy. */
+/* A vertex stream whose header was read. Refers to the caller's words. */
 struct lacedring_vertices {
-    const uint32_t* parameters; /* two words a component */
-    const uint32_t* exceptions; /* two words each: which value of the attribute, and the bits of its float */
-    const uint32_t* table;      /* where groups of 16 blocks and their blocks begin */
+    const uint32_t* parameters; /* two words per component */
+    const uint32_t* exceptions; /* two words each: number of the value in the attribute, bits of its float */
+    const uint32_t* table;      /* where groups of 16 blocks, and their blocks, begin */
     const uint32_t* data;
-    size_t data_words; /* two of padding among them */
+    size_t data_words; /* including two of padding */
     uint32_t vertices;
-    uint32_t components; /* integers a vertex */
+    uint32_t components; /* integers per vertex */
     uint32_t mapping;    /* enum lacedring_mapping */
-    uint32_t type;       /* of the attribute's values: 0 i8, 1 u8, 2 i16, 3 u16, 4 i32, 5 u32, 6 f32, 7 f64 */
-    uint32_t normalized; /* integers that stand for 0 to 1, or -1 to 1 */
-    uint32_t bits;       /* octahedral: of each of the two integers */
-    uint32_t digits;     /* of decimals: behind the point */
-    uint32_t most;       /* lattice, octahedral: what is above every integer and its negative */
+    uint32_t type;       /* type of a value: 0 i8, 1 u8, 2 i16, 3 u16, 4 i32, 5 u32, 6 f32, 7 f64 */
+    uint32_t normalized; /* nonzero: integers stand for 0 to 1, or -1 to 1 */
+    uint32_t bits;       /* octahedral: bits of each of the two integers */
+    uint32_t digits;     /* decimals: digits after the point */
+    uint32_t most;       /* lattice, octahedral: each integer is above -most and below most */
     uint32_t exception_count;
-    uint32_t field_bits; /* of the table's fields */
-    float step;          /* of the lattice */
-    float largest_error; /* of any value of any vertex; 0: none */
+    uint32_t field_bits; /* bits of a field of the table */
+    float step;          /* lattice: the step */
+    float largest_error; /* largest error of a value; 0: lossless */
 };
 
-/* Reads the header and checks sizes: constant time. */
+/* Reads the header and checks sizes only. Safe with any words. Constant time. */
 enum lacedring_status lacedring_vertices_open(const uint32_t* words, size_t count, struct lacedring_vertices* stream,
                                               uint64_t* where);
 
-/* Checks all that decoders promise, but for the checksum: blocks lie where the table says, and no integer is out of the
-   range that its component and mapping have. `stream` was opened. Linear time, no memory. Any words: safe. */
+/* Checks everything that decoders rely on except the checksum: blocks lie where the table says, and all integers are in
+   the range of their component and mapping. `stream` comes from lacedring_vertices_open. Safe with any words. Linear
+   time, no allocation. */
 enum lacedring_status lacedring_vertices_check(const struct lacedring_vertices* stream, uint64_t* where);
 
-/* The check and lacedring_vertices_decode in one pass. Where it finds a fault, what `out` holds is of no use. */
+/* lacedring_vertices_check and lacedring_vertices_decode in one pass. On an error the contents of `out` are
+   undefined. */
 enum lacedring_status lacedring_vertices_decode_checked(const struct lacedring_vertices* stream, void* out,
                                                         uint64_t* where);
 
-/* Open, checksum and check. */
+/* Opens the stream, checks the checksum, and runs lacedring_vertices_check. Safe with any words. Linear time. */
 enum lacedring_status lacedring_vertices_validate(const uint32_t* words, size_t count,
                                                   struct lacedring_vertices* stream, uint64_t* where);
 
-/* Blocks [block, end): the integers of vertices [128 * block, 128 * end), or of those that the last block has. */
+/* Decodes the integers of blocks [block, end), stream->components per vertex: vertices [128 * block, 128 * end), fewer
+   if the last block is not full. */
 void lacedring_vertices_blocks(const struct lacedring_vertices* stream, uint32_t block, uint32_t end, uint32_t* out);
 
-/* All values of the attribute, tightly packed: lacedring_vertices_values of its type a vertex. Linear time. */
+/* Decodes all values of the attribute, tightly packed: lacedring_vertices_values(stream) values of stream->type per
+   vertex. Linear time. */
 void lacedring_vertices_decode(const struct lacedring_vertices* stream, void* out);
 
-/* Values of the attribute a vertex: 3 of a normal, whose components are 2. */
+/* Number of values per vertex. It differs from stream->components for octahedral streams (one more) and doubles
+   (half). */
 uint32_t lacedring_vertices_values(const struct lacedring_vertices* stream);
 
-/* The unit vector of two octahedral integers of so many bits. The same on every machine. */
+/* Decodes two octahedral integers of `bits` bits each to a unit vector. The result is the same on every machine. */
 void lacedring_octahedral(int32_t x, int32_t y, uint32_t bits, float out[3]);
 
 #ifdef __cplusplus
@@ -101,11 +106,11 @@ extern "C" {
 #endif
 
 #define LACEDRING_VERTICES_GROUP_ 16u /* blocks */
-#define LACEDRING_VERTICES_MOST_ 24u  /* zeros of a unary number */
+#define LACEDRING_VERTICES_MOST_ 24u  /* most zeros of a unary number */
 
 static const double lacedring_powers_[10] = {1, 10, 100, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
 
-/* What blocks are decoded for. */
+/* Purpose of decoding a block. */
 enum lacedring_purpose_ { LACEDRING_TO_CHECK_, LACEDRING_TO_INTEGERS_, LACEDRING_TO_VALUES_ };
 
 uint32_t lacedring_vertices_values(const struct lacedring_vertices* stream) {
@@ -123,7 +128,7 @@ LACEDRING_SMALL_ uint32_t lacedring_vertex_count_(const struct lacedring_vertice
     return left < LACEDRING_VERTICES_BLOCK ? left : LACEDRING_VERTICES_BLOCK;
 }
 
-/* Words of a group of the table: where it begins, then a field for each block but the first. */
+/* Words of a group of the table: where the group begins, then a field for each of its blocks but the first. */
 LACEDRING_SMALL_ uint32_t lacedring_vertex_group_(const struct lacedring_vertices* s) {
     return 1 + (15 * s->field_bits + 31) / 32;
 }
@@ -134,9 +139,10 @@ static float lacedring_as_float_(uint32_t bits) {
     return value;
 }
 
-/* Reads words 2, 4 and 5 of a header. Returns which of them says something impossible, or 0. */
+/* Reads words 2, 4 and 5 of a header. Returns the number of an invalid one, or 0. */
 static uint32_t lacedring_vertex_layout_(struct lacedring_vertices* s, uint32_t layout, uint32_t step, uint32_t error) {
-    static const uint8_t mappings[8] = {1, 1, 1, 1, 1, 1, 2 | 4 | 8 | 16, 32}; /* that each type has */
+    /* For each type, a bit for each mapping it may have. */
+    static const uint8_t mappings[8] = {1, 1, 1, 1, 1, 1, 2 | 4 | 8 | 16, 32};
     s->components = layout & 31;
     s->mapping = layout >> 5 & 7;
     s->type = layout >> 8 & 15;
@@ -154,7 +160,7 @@ static uint32_t lacedring_vertex_layout_(struct lacedring_vertices* s, uint32_t 
             : s->bits != 0)
         return 2;
     if (s->mapping == LACEDRING_MAPPING_DOUBLES && s->components % 2 != 0) return 2;
-    /* A step is a normal number with 24 bits to spare above, so that no product is more than a float holds. */
+    /* A step is a normal float, and so small that its product with any 24-bit integer is finite. */
     if (s->mapping == LACEDRING_MAPPING_LATTICE    ? step < 0x00800000u || step >= 0x73800000u
         : s->mapping == LACEDRING_MAPPING_DECIMALS ? step > 9
                                                    : step != 0)
@@ -163,7 +169,8 @@ static uint32_t lacedring_vertex_layout_(struct lacedring_vertices* s, uint32_t 
                                                                                               : error != 0)
         return 5;
     s->most = s->mapping == LACEDRING_MAPPING_OCTAHEDRAL ? 1u << (s->bits - 1) : 0;
-    if (s->mapping == LACEDRING_MAPPING_LATTICE) { /* a float has 24 bits for the step and the integer */
+    /* Step and integer share the 24 bits of a float's significand, so that their product is exact. */
+    if (s->mapping == LACEDRING_MAPPING_LATTICE) {
         uint32_t zeros = step & 0x007fffffu;
         for (s->most = 1; s->most < 1u << 23 && !(zeros & 1); s->most *= 2) zeros >>= 1;
     }
@@ -198,10 +205,10 @@ enum lacedring_status lacedring_vertices_open(const uint32_t* words, size_t coun
 /* The bits of a stream's data. */
 struct lacedring_data_ {
     const uint8_t* bytes;
-    uint64_t last; /* bit where a load may begin: none reads behind the data */
+    uint64_t last; /* last bit at which an 8-byte load may begin */
 };
 
-/* At least 57 bits from bit `at` on. */
+/* Returns at least 57 bits from bit `at` on. */
 LACEDRING_HOT_ uint64_t lacedring_data_at_(const struct lacedring_data_* d, uint64_t at) {
     uint64_t value;
     if (at > d->last) at = d->last;
@@ -215,7 +222,8 @@ LACEDRING_HOT_ uint32_t lacedring_data_take_(const struct lacedring_data_* d, ui
     return value;
 }
 
-LACEDRING_HOT_ uint32_t lacedring_zeros_(uint64_t bits) { /* below the lowest one; `bits` has one */
+/* Counts the zeros below the lowest set bit of `bits`, which must not be 0. */
+LACEDRING_HOT_ uint32_t lacedring_zeros_(uint64_t bits) {
 #if defined(__GNUC__) && !defined(LACEDRING_PLAIN)
     return (uint32_t)__builtin_ctzll(bits);
 #else
@@ -225,7 +233,7 @@ LACEDRING_HOT_ uint32_t lacedring_zeros_(uint64_t bits) { /* below the lowest on
 #endif
 }
 
-/* The bit of the data at which a block begins. */
+/* The bit of the data where a block begins. */
 static uint64_t lacedring_vertex_begin_(const struct lacedring_vertices* s, uint32_t block) {
     const uint32_t width = s->field_bits, k = block % LACEDRING_VERTICES_GROUP_;
     const uint32_t* group = s->table + (size_t)(block / LACEDRING_VERTICES_GROUP_) * lacedring_vertex_group_(s);
@@ -239,19 +247,19 @@ static uint64_t lacedring_vertex_begin_(const struct lacedring_vertices* s, uint
     return 32 * (uint64_t)group[0] + field;
 }
 
-/* Integers of component c are sound if they minus its parameter have no bits beyond mask, and they plus more are most
-   or less. */
+/* An integer x of component c is valid if x - low has no bits outside mask[c], and x + more[c] <= most[c]. `low` is the
+   first parameter of the component. */
 struct lacedring_ranges_ {
     uint32_t mask[LACEDRING_VERTICES_MAX_COMPONENTS];
     uint32_t more[LACEDRING_VERTICES_MAX_COMPONENTS];
     uint32_t most[LACEDRING_VERTICES_MAX_COMPONENTS];
 };
 
-/* How the values of a run of vertices are coded. */
+/* How the integers of a run of vertices are coded. */
 struct lacedring_run_ {
     uint32_t low_bits[LACEDRING_VERTICES_MAX_COMPONENTS];
-    uint32_t zero; /* components whose residuals are all 0: a bit each */
-    uint32_t axis; /* that the plane gives from the two others; 3: none */
+    uint32_t zero; /* bit c: all residuals of component c are 0 */
+    uint32_t axis; /* component that the plane gives from the two others; 3: no plane */
     int32_t slope[2];
 };
 
@@ -261,18 +269,19 @@ struct lacedring_path_ {
     int32_t alpha, beta;
 };
 
-LACEDRING_HOT_ uint32_t lacedring_quarter_(uint32_t x) { /* x + 2, signed, divided by 4 and rounded down */
+/* x + 2, read as signed, divided by 4 and rounded down. */
+LACEDRING_HOT_ uint32_t lacedring_quarter_(uint32_t x) {
     return ((x + 2) >> 2 ^ 0x20000000u) - 0x20000000u;
 }
 
-/* Decodes `count` vertices; `at` is where their bits begin, and then where they end. Returns what is above the most
-   zeros of a unary number, or 0. */
+/* Decodes a run of `count` vertices of n components that begins at bit *at; sets *at to its end. Returns nonzero if a
+   code is invalid. */
 LACEDRING_HOT_ uint32_t lacedring_vertex_run_(const struct lacedring_data_* d, const struct lacedring_run_* run,
                                               struct lacedring_path_* path, uint32_t n, uint32_t count, uint64_t* at,
                                               uint32_t* out) {
     uint32_t i, c, row = 0, bad = 0;
     uint64_t low_at = *at, unary_at, zeros;
-    uint32_t seen = 0; /* bits of `zeros` that were read */
+    uint32_t seen = 0; /* bits of `zeros` already read */
     uint32_t residual[LACEDRING_VERTICES_MAX_COMPONENTS];
     for (c = 0; c < n; ++c) row += run->low_bits[c];
     unary_at = low_at + (uint64_t)row * count;
@@ -299,7 +308,7 @@ LACEDRING_HOT_ uint32_t lacedring_vertex_run_(const struct lacedring_data_* d, c
             seen = next + 1;
             low >>= bits;
             low_at += bits;
-            residual[c] = (code >> 1) ^ (0u - (code & 1)); /* 0, -1, 1, -2 ... */
+            residual[c] = (code >> 1) ^ (0u - (code & 1)); /* codes 0, 1, 2, 3 are 0, -1, 1, -2 */
         }
         if (n == 3 && run->axis < 3) {
             const uint32_t u = run->axis == 2 ? 0 : run->axis + 1, v = run->axis == 0 ? 2 : run->axis - 1;
@@ -321,7 +330,8 @@ LACEDRING_HOT_ uint32_t lacedring_vertex_run_(const struct lacedring_data_* d, c
     return bad;
 }
 
-/* Decodes a block of `count` vertices that begins at bit `at`; then that is where it ends. Returns 0 if it is sound. */
+/* Decodes a block of `count` vertices that begins at bit *at; sets *at to its end. Returns nonzero if the block is
+   invalid. */
 LACEDRING_HOT_ uint32_t lacedring_vertex_block_(const struct lacedring_vertices* s, const struct lacedring_data_* d,
                                                 uint32_t n, uint32_t count, uint64_t* at, uint32_t* out) {
     struct lacedring_path_ path[LACEDRING_VERTICES_MAX_COMPONENTS];
@@ -347,7 +357,7 @@ LACEDRING_HOT_ uint32_t lacedring_vertex_block_(const struct lacedring_vertices*
     run.slope[0] = run.slope[1] = 0;
     for (i = 1; i < count; i += length) {
         const uint32_t here = count - i < length ? count - i : length;
-        uint64_t window = lacedring_data_at_(d, *at); /* of 57 bits or more; the plane takes 10, a width 9 */
+        uint64_t window = lacedring_data_at_(d, *at); /* 57 bits or more; a plane takes at most 10, a width 9 */
         uint32_t used = 0;
         if (n == 3 && ((i - 1) & 15) == 0) {
             used = window & 1 ? window & 2 ? 10 : 2 : 1;
@@ -371,7 +381,7 @@ LACEDRING_HOT_ uint32_t lacedring_vertex_block_(const struct lacedring_vertices*
                 used = 0;
             }
             code = window >> used;
-            ones = lacedring_zeros_(~code | 16); /* 0: as before, 1: none, 2: one more, 3: one less, 4: given */
+            ones = lacedring_zeros_(~code | 16); /* 0: same width, 1: all 0, 2: one more, 3: one less, 4: given */
             used += ones < 4 ? ones + 1 : 9;
             bad |= (ones == 2 && bits[c] == 31) || (ones == 3 && bits[c] == 0);
             bits[c] = ones == 4 ? (uint32_t)(code >> 4) & 31 : (bits[c] + (ones == 2) - (ones == 3)) & 31;
@@ -385,23 +395,23 @@ LACEDRING_HOT_ uint32_t lacedring_vertex_block_(const struct lacedring_vertices*
 }
 
 #ifdef __wasm_simd128__
-/* WebAssembly has vectors of four lanes: one for each component of at most four. */
+/* WebAssembly's vectors have four lanes: one for each component of a stream of at most four. */
 typedef uint32_t lacedring_u4_ __attribute__((vector_size(16)));
 typedef int32_t lacedring_i4_ __attribute__((vector_size(16)));
-#define LACEDRING_EACH_ _Pragma("clang loop unroll(full)") /* lanes are numbered by constants */
+#define LACEDRING_EACH_ _Pragma("clang loop unroll(full)") /* lane numbers must be constants */
 
 LACEDRING_HOT_ lacedring_u4_ lacedring_quarters_(lacedring_u4_ x) {
     return (lacedring_u4_)((lacedring_i4_)(x + 2) >> 2);
 }
 
-/* Where the codes of a run are read. */
+/* Position in the codes of a run. */
 struct lacedring_codes_ {
     uint64_t low_at, unary_at;
-    uint32_t present; /* components whose residuals are not all 0: a bit each */
+    uint32_t present; /* bit c: not all residuals of component c are 0 */
     uint32_t width[4], mask[4];
 };
 
-/* The codes of any vertex. Returns what is not 0 if one is impossible. */
+/* Reads the codes of the next vertex, however long they are. Returns nonzero if one is invalid. */
 static uint32_t lacedring_any_codes_(const struct lacedring_data_* d, struct lacedring_codes_* r, uint32_t n,
                                      uint32_t code[4]) {
     uint32_t c, bad = 0;
@@ -417,19 +427,20 @@ static uint32_t lacedring_any_codes_(const struct lacedring_data_* d, struct lac
     return bad;
 }
 
-/* A vertex, and how the next one is made of its codes. */
+/* The last vertex of a block so far, and what is needed to decode the next one. A lane per component. */
 struct lacedring_vertex_lanes_ {
     lacedring_u4_ value, d1, d2, alpha, beta;
-    lacedring_u4_ slopes, axis;           /* of the plane */
-    lacedring_u4_ base, more, over, high; /* the largest integers so far less base, and plus more */
+    lacedring_u4_ slopes, axis;           /* of the plane; `axis` is a mask */
+    lacedring_u4_ base, more, over, high; /* largest value - base, and value + more, so far */
 };
 
+/* Decodes the next vertex from the codes of its residuals. */
 LACEDRING_HOT_ void lacedring_vertex_step_(struct lacedring_vertex_lanes_* p, uint32_t n, uint32_t has_plane,
                                            const uint32_t* code) {
     lacedring_u4_ residual = {0, 0, 0, 0};
     uint32_t c;
     LACEDRING_EACH_ for (c = 0; c < n; ++c) residual[c] = code[c];
-    residual = (residual >> 1) ^ (0u - (residual & 1)); /* 0, -1, 1, -2 ... */
+    residual = (residual >> 1) ^ (0u - (residual & 1)); /* codes 0, 1, 2, 3 are 0, -1, 1, -2 */
     if (n == 3 && has_plane) {
         const lacedring_u4_ product = p->slopes * residual;
         const lacedring_u4_ sum = product + __builtin_shufflevector(product, product, 1, 2, 0, 3) +
@@ -444,7 +455,7 @@ LACEDRING_HOT_ void lacedring_vertex_step_(struct lacedring_vertex_lanes_* p, ui
     p->high = __builtin_wasm_max_u_i32x4(p->high, p->value + p->more);
 }
 
-/* As lacedring_vertex_block_. `ranges` are checked; up to three more integers are written behind. */
+/* As lacedring_vertex_block_, but also checks `ranges`. Writes up to three integers beyond the block's. */
 LACEDRING_HOT_ uint32_t lacedring_vertex_block_4_(const struct lacedring_vertices* s, const struct lacedring_data_* d,
                                                   uint32_t n, uint32_t count, const struct lacedring_ranges_* ranges,
                                                   uint64_t* at, uint32_t* out) {
@@ -472,7 +483,7 @@ LACEDRING_HOT_ uint32_t lacedring_vertex_block_4_(const struct lacedring_vertice
     out += n;
     for (i = 1; i < count; i += length) {
         const uint32_t here = count - i < length ? count - i : length;
-        uint64_t window = lacedring_data_at_(d, *at); /* of 57 bits or more; the plane takes 10, a width 9 */
+        uint64_t window = lacedring_data_at_(d, *at); /* 57 bits or more; a plane takes at most 10, a width 9 */
         uint32_t used = 0, row = 0, most = LACEDRING_VERTICES_MOST_, is_plain;
         if (n == 3 && ((i - 1) & 15) == 0) {
             used = window & 1 ? window & 2 ? 10 : 2 : 1;
@@ -499,7 +510,7 @@ LACEDRING_HOT_ uint32_t lacedring_vertex_block_4_(const struct lacedring_vertice
                 used = 0;
             }
             code = window >> used;
-            ones = lacedring_zeros_(~code | 16); /* 0: as before, 1: none, 2: one more, 3: one less, 4: given */
+            ones = lacedring_zeros_(~code | 16); /* 0: same width, 1: all 0, 2: one more, 3: one less, 4: given */
             used += ones < 4 ? ones + 1 : 9;
             bad |= (ones == 2 && bits[c] == 31) || (ones == 3 && bits[c] == 0);
             bits[c] = ones == 4 ? (uint32_t)(code >> 4) & 31 : (bits[c] + (ones == 2) - (ones == 3)) & 31;
@@ -515,7 +526,7 @@ LACEDRING_HOT_ uint32_t lacedring_vertex_block_4_(const struct lacedring_vertice
         is_plain = run.present == (1u << n) - 1 && row <= 28 && run.unary_at + 57 * (uint64_t)here <= d->last;
         for (k = 0; k < here;) {
             uint32_t any[4];
-            if (is_plain && here - k >= 2) { /* two vertices by two loads */
+            if (is_plain && here - k >= 2) { /* two vertices from two loads */
                 uint32_t code[8], end[2] = {0, 0}, v;
                 uint64_t low, zeros;
                 memcpy(&low, d->bytes + (size_t)(run.low_at >> 3), 8);
@@ -532,7 +543,7 @@ LACEDRING_HOT_ uint32_t lacedring_vertex_block_4_(const struct lacedring_vertice
                         end[v] = next + 1;
                     }
                 }
-                /* No number of zeros is above `most` if those of a vertex are not together. */
+                /* No unary number has more zeros than `most` if all unary numbers of its vertex together do not. */
                 if ((end[0] <= most) & (end[1] - end[0] <= most) & (end[1] <= 56)) {
                     LACEDRING_EACH_ for (v = 0; v < 2; ++v) {
                         lacedring_vertex_step_(&lanes, n, has_plane, code + 4 * v);
@@ -561,15 +572,16 @@ LACEDRING_HOT_ uint32_t lacedring_vertex_block_4_(const struct lacedring_vertice
 #endif
 
 #ifdef LACEDRING_AVX2_
-/* Eight blocks at once, one in each lane of vectors. Runs begin at vertices 1 + 4 k in every block, so that lanes whose
-   runs have other lengths meet at each fourth vertex. */
-#define LACEDRING_LANE_COMPONENTS_ 4 /* of more, one block after the other */
+/* Decodes eight blocks at once, one in each lane of a vector. In every block, runs begin at vertices 1 + 4 k. So lanes
+   are in step at every fourth vertex even if their runs have different lengths. */
+/* Blocks with more components are decoded one by one. */
+#define LACEDRING_LANE_COMPONENTS_ 4
 typedef __m256i lacedring_lanes_;
 
-/* Bits that lanes read. They are numbered from `bytes` on. */
+/* Data that lanes read. Bit positions count from `bytes`. */
 struct lacedring_lane_data_ {
     const int* bytes;
-    lacedring_lanes_ last; /* byte at which a load may begin: none reads behind the data */
+    lacedring_lanes_ last; /* last byte at which a 4-byte load may begin */
 };
 
 LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_all_(uint32_t value) {
@@ -588,22 +600,22 @@ LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_and_(lacedring_la
     return _mm256_and_si256(a, lacedring_lane_all_(value));
 }
 
-/* At least 25 bits from bit `at` on, zeros behind them. */
+/* Returns at least 25 bits from bit `at` on, followed by zeros. */
 LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_load_(const struct lacedring_lane_data_* d,
                                                                      lacedring_lanes_ at) {
     const lacedring_lanes_ byte = _mm256_min_epu32(_mm256_srli_epi32(at, 3), d->last);
     return _mm256_srlv_epi32(_mm256_i32gather_epi32(d->bytes, byte, 1), lacedring_lane_and_(at, 7));
 }
 
-/* 32 bits. */
+/* Returns 32 bits from bit `at` on. */
 LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_word_(const struct lacedring_lane_data_* d,
                                                                      lacedring_lanes_ at) {
     const lacedring_lanes_ high = lacedring_lane_load_(d, lacedring_lane_add_(at, 16));
     return _mm256_blend_epi16(lacedring_lane_load_(d, at), _mm256_slli_epi32(high, 16), 0xaa);
 }
 
-/* Where unary numbers are read: bits not read yet, up to the 31st, and 126 + how many were. That is the exponent of a
-   float whose highest bit is the one before. */
+/* Reads unary numbers. `bits` holds the bits at `at` and after, at most 31; a bit is cleared when it is read. `seen` is
+   126 + the number of bits read. So if the last bit read is number p, `seen` is the exponent field of the float 2^p. */
 struct lacedring_lane_unary_ {
     lacedring_lanes_ at, bits, seen;
 };
@@ -615,37 +627,40 @@ LACEDRING_WIDE_ LACEDRING_HOT_ void lacedring_lane_reload_(const struct lacedrin
     u->seen = lacedring_lane_all_(126);
 }
 
-/* The runs in which lanes are; masks are all ones or 0. */
+/* The current run of each lane. Masks are all ones or 0. */
 struct lacedring_lane_runs_ {
     lacedring_lanes_ width[LACEDRING_LANE_COMPONENTS_];
     lacedring_lanes_ present[LACEDRING_LANE_COMPONENTS_]; /* mask: residuals are not all 0 */
     lacedring_lanes_ low_bits[LACEDRING_LANE_COMPONENTS_];
     lacedring_lanes_ low_mask[LACEDRING_LANE_COMPONENTS_];
-    lacedring_lanes_ low_from[LACEDRING_LANE_COMPONENTS_]; /* in a vertex's low bits */
-    lacedring_lanes_ row;                                  /* low bits of a vertex */
+    lacedring_lanes_ low_from[LACEDRING_LANE_COMPONENTS_]; /* where they begin in a vertex's low bits */
+    lacedring_lanes_ row;                                  /* number of low bits of a vertex */
     lacedring_lanes_ low_at;
-    lacedring_lanes_ fours;      /* of vertices, up to the end */
-    lacedring_lanes_ plane;      /* the last one: 2 bits axis, 3 and 3 bits slopes */
+    lacedring_lanes_ fours;      /* groups of four vertices left in the run */
+    lacedring_lanes_ plane;      /* last plane given: 2 bits axis, 3 + 3 bits slopes */
     lacedring_lanes_ on_axis[3]; /* mask: the plane gives this component */
-    lacedring_lanes_ slope[3];   /* of the others */
-    int all_present, planes;     /* is no component without residuals; has a lane a plane */
-    int long_rows, long_low;     /* are a vertex's low bits, or a component's, more than a load has */
+    lacedring_lanes_ slope[3];   /* of the other components */
+    /* all_present: `present` is set in all lanes and components. planes: some lane has a plane. */
+    int all_present, planes;
+    /* long_rows, long_low: one load does not hold the low bits of a vertex, or of a component, in some lane. */
+    int long_rows, long_low;
 };
 
-/* Lanes at the end of their run begin the next, whose first vertex is `first`. Returns a mask of lanes with a fault. */
+/* Begins the next run, at vertex `first`, in the lanes whose run has ended. Returns nonzero in lanes with a fault. */
 LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_run_(const struct lacedring_lane_data_* d, uint32_t n,
                                                                     uint32_t first, int checked,
                                                                     lacedring_lanes_ length,
                                                                     struct lacedring_lane_runs_* run,
                                                                     struct lacedring_lane_unary_* unary) {
-    /* Of a code's three lowest bits: its bits but for a given width's, the change of the width, and "none". */
+    /* Tables by the three lowest bits of a width's code: its length without the 5 bits of a given width, the change of
+       the width, and a mask: residuals are not all 0. */
     const lacedring_lanes_ code_bits = _mm256_setr_epi32(1, 2, 1, 3, 1, 2, 1, 4);
     const lacedring_lanes_ code_change = _mm256_setr_epi32(0, 0, 0, 1, 0, 0, 0, -1);
     const lacedring_lanes_ code_present = _mm256_setr_epi32(-1, 0, -1, -1, -1, 0, -1, -1);
     const lacedring_lanes_ begins = lacedring_lane_is_(run->fours, 0);
     lacedring_lanes_ at, codes, bits, row = _mm256_setzero_si256(), bad = row;
     uint32_t c;
-    lacedring_lane_reload_(d, unary); /* codes follow on the unary numbers of the run before */
+    lacedring_lane_reload_(d, unary); /* codes follow the unary numbers of the last run */
     at = unary->at;
     codes = unary->bits;
     if (n == 3 && (first & 15) == 1) {
@@ -657,7 +672,8 @@ LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_run_(const struct
         a = lacedring_lane_add_(lacedring_lane_and_(_mm256_srli_epi32(run->plane, 2), 7), 0u - 4);
         b = lacedring_lane_add_(lacedring_lane_and_(_mm256_srli_epi32(run->plane, 5), 7), 0u - 4);
         run->planes = 0;
-        for (c = 0; c < 3; ++c) { /* u of the axis before, v of the axis behind, or the axis */
+        /* Component c is the plane's u, its v, or its axis. */
+        for (c = 0; c < 3; ++c) {
             const lacedring_lanes_ u = lacedring_lane_is_(axis, (c + 2) % 3), v = lacedring_lane_is_(axis, (c + 1) % 3);
             run->slope[c] = _mm256_or_si256(_mm256_and_si256(u, a), _mm256_and_si256(v, b));
             run->on_axis[c] =
@@ -666,7 +682,7 @@ LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_run_(const struct
         }
         bad = lacedring_lane_is_(axis, 3);
         bits = _mm256_sub_epi32(lacedring_lane_all_(1), _mm256_add_epi32(some, _mm256_slli_epi32(given, 3)));
-        bits = _mm256_and_si256(bits, begins); /* 1, 2 or 10 */
+        bits = _mm256_and_si256(bits, begins); /* length of the plane's code: 1, 2 or 10 */
         at = _mm256_add_epi32(at, bits);
         codes = _mm256_srlv_epi32(codes, bits);
     }
@@ -674,7 +690,8 @@ LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_run_(const struct
     run->all_present = 255;
     for (c = 0; c < n; ++c) {
         lacedring_lanes_ change, width, given;
-        if (c % 2 != 0) codes = lacedring_lane_load_(d, at); /* a plane takes 10 bits, a width 9 */
+        /* A load has 25 bits; a plane takes at most 10, a width 9. */
+        if (c % 2 != 0) codes = lacedring_lane_load_(d, at);
         given = lacedring_lane_is_(lacedring_lane_and_(codes, 15), 15);
         change = _mm256_andnot_si256(given, _mm256_permutevar8x32_epi32(code_change, codes));
         width = _mm256_add_epi32(_mm256_blendv_epi8(run->width[c], _mm256_srli_epi32(codes, 4), given), change);
@@ -705,8 +722,8 @@ LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_run_(const struct
     return bad;
 }
 
-/* The next residual of component c; `all`: no lane's is in a run of zeros. Where `checked`, returns not 0 in lanes
-   whose code is none. */
+/* Decodes the next residual of component c. all: run->present[c] is set in all lanes. If `checked`, returns nonzero in
+   lanes whose code is invalid. */
 LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_residual_(
     const struct lacedring_lane_data_* d, const struct lacedring_lane_runs_* run, uint32_t c, int all, int checked,
     lacedring_lanes_ low, struct lacedring_lane_unary_* unary, lacedring_lanes_* residual) {
@@ -716,7 +733,7 @@ LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_residual_(
     if (lacedring_lane_any_(_mm256_and_si256(lacedring_lane_is_(unary->bits, 0), present)))
         lacedring_lane_reload_(d, unary);
     rest = lacedring_lane_add_(unary->bits, UINT32_MAX);
-    code = _mm256_andnot_si256(rest, unary->bits); /* the lowest one: a power of two, whose float is exact */
+    code = _mm256_andnot_si256(rest, unary->bits); /* the lowest set bit, which is exact as a float */
     code = _mm256_srli_epi32(_mm256_castps_si256(_mm256_cvtepi32_ps(code)), 23);
     zeros = _mm256_sub_epi32(_mm256_sub_epi32(code, unary->seen), one);
     unary->seen = _mm256_blendv_epi8(unary->seen, code, present);
@@ -758,8 +775,8 @@ LACEDRING_WIDE_ LACEDRING_HOT_ void lacedring_lane_step_(struct lacedring_lane_p
     *out = p->value;
 }
 
-/* Eight whole blocks that begin at bits `at`; then those are where they end. Integer k of lane j goes to lane j of
-   out[k]. Returns not 0 in lanes with a fault. */
+/* Decodes eight full blocks that begin at bits *at; sets *at to their ends. Lane j of out[k] is integer k of block j.
+   Returns nonzero in lanes with a fault. */
 LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_blocks_(const struct lacedring_vertices* s,
                                                                        const struct lacedring_lane_data_* d, uint32_t n,
                                                                        int checked, lacedring_lanes_* at,
@@ -769,9 +786,10 @@ LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_blocks_(const str
     lacedring_lanes_ bad = _mm256_setzero_si256(), low = bad, length;
     struct lacedring_lane_runs_ run;
     struct lacedring_lane_unary_ unary;
-    /* The next eight blocks are about as long as these. */
+    /* Prefetches the next eight blocks, which are probably about as long as these. */
     const char* ahead = (const char*)d->bytes + ((uint32_t)_mm256_extract_epi32(*at, 7) / 7);
-    const uint32_t lines = (uint32_t)_mm256_extract_epi32(*at, 7) / (7 * 64 * 32) + 1; /* each four vertices */
+    /* Cache lines to prefetch per four vertices. */
+    const uint32_t lines = (uint32_t)_mm256_extract_epi32(*at, 7) / (7 * 64 * 32) + 1;
     uint32_t c, i;
     memset(&run, 0, sizeof run);
     memset(residual, 0, sizeof residual);
@@ -808,7 +826,7 @@ LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_blocks_(const str
             run.fours = lacedring_lane_add_(run.fours, UINT32_MAX);
             for (c = 0; c < lines; ++c, ahead += 64) __builtin_prefetch(ahead);
         }
-        if (i % 2 == 1) lacedring_lane_reload_(d, &unary); /* often enough that others are rare */
+        if (i % 2 == 1) lacedring_lane_reload_(d, &unary); /* often enough that other reloads are rare */
         if (!run.long_rows) low = lacedring_lane_load_(d, run.low_at);
 #define LACEDRING_RESIDUAL_(c, all) \
     bad = _mm256_or_si256(bad, lacedring_lane_residual_(d, &run, c, all, checked, low, &unary, residual + c))
@@ -844,7 +862,7 @@ LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_blocks_(const str
     return bad;
 }
 
-/* Eight rows of lanes, to eight integers of each lane, `stride` apart. */
+/* Transposes: writes the eight integers of lane k in `in` to out + k * stride. */
 LACEDRING_WIDE_ LACEDRING_HOT_ void lacedring_lane_turn_(const lacedring_lanes_ in[8], uint32_t* out, size_t stride) {
     lacedring_lanes_ two[8], four[8];
     uint32_t k;
@@ -866,7 +884,8 @@ LACEDRING_WIDE_ LACEDRING_HOT_ void lacedring_lane_turn_(const lacedring_lanes_ 
     }
 }
 
-/* Floats of integers of a lattice, of floats or of decimals, without exceptions; else the integers. */
+/* Converts integers of mappings lattice, floats and decimals to floats, without exceptions. Leaves other integers
+   alone. */
 LACEDRING_WIDE_ LACEDRING_HOT_ void lacedring_lane_values_(const struct lacedring_vertices* s,
                                                            lacedring_lanes_ rows[8]) {
     uint32_t k;
@@ -874,7 +893,8 @@ LACEDRING_WIDE_ LACEDRING_HOT_ void lacedring_lane_values_(const struct lacedrin
         const __m256 step = _mm256_set1_ps(s->step);
         for (k = 0; k < 8; ++k) rows[k] = _mm256_castps_si256(_mm256_mul_ps(_mm256_cvtepi32_ps(rows[k]), step));
     } else if (s->mapping == LACEDRING_MAPPING_FLOATS) {
-        for (k = 0; k < 8; ++k) { /* inverted: all bits where the highest is 0, else that one */
+        /* Inverts all bits if the highest one is 0, else the highest one alone. */
+        for (k = 0; k < 8; ++k) {
             const lacedring_lanes_ lower = _mm256_cmpgt_epi32(rows[k], lacedring_lane_all_(UINT32_MAX));
             rows[k] = _mm256_xor_si256(rows[k], _mm256_or_si256(lower, lacedring_lane_all_(0x80000000u)));
         }
@@ -889,7 +909,7 @@ LACEDRING_WIDE_ LACEDRING_HOT_ void lacedring_lane_values_(const struct lacedrin
     }
 }
 
-/* Returns not 0 in lanes with an integer out of its range. */
+/* Returns nonzero in lanes with an integer out of its range. */
 LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_ranges_(const struct lacedring_vertices* s,
                                                                        const struct lacedring_ranges_* ranges,
                                                                        const lacedring_lanes_* rows) {
@@ -908,13 +928,14 @@ LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_lanes_ lacedring_lane_ranges_(const str
     return wrong;
 }
 
-/* Eight whole blocks, whose bits lie within half a gigabyte. */
+/* Decodes eight full blocks whose bits lie within half a gigabyte: lanes have bit positions of 32 bits. */
 LACEDRING_WIDE_ LACEDRING_HOT_ uint32_t lacedring_lane_eight_(const struct lacedring_vertices* s,
                                                               const struct lacedring_data_* d,
                                                               enum lacedring_purpose_ purpose,
                                                               const struct lacedring_ranges_* ranges, uint64_t at[8],
                                                               uint32_t* out) {
-    const uint64_t base = at[0] / 8, last = (d->last + 32) / 8 - base; /* 64 bits may be read from the last on */
+    /* A lane loads 32 bits, and 64 bits may be read at d->last. */
+    const uint64_t base = at[0] / 8, last = (d->last + 32) / 8 - base;
     const size_t stride = (size_t)LACEDRING_VERTICES_BLOCK * s->components;
     struct lacedring_lane_data_ data;
     lacedring_lanes_ lanes, bad, rows[LACEDRING_VERTICES_BLOCK * LACEDRING_LANE_COMPONENTS_];
@@ -953,9 +974,10 @@ static struct lacedring_data_ lacedring_data_of_(const struct lacedring_vertices
     return d;
 }
 
-/* The integers of block `block`, or of eight blocks from there where those are decoded at once, and `end` is not among
-   them. Returns how many blocks, and where each ends; `*bad` becomes not 0 if one has a fault. `ranges` are to be
-   checked, or null. */
+/* Decodes the integers of block `block`, or of eight blocks from there on if they can be decoded at once and end before
+   block `end`. Returns the number of blocks. Sets ends[k] to the bit where block k ends, and *bad to nonzero if a block
+   is invalid. `ranges` are checked unless null. With LACEDRING_TO_VALUES_, eight blocks are written as values if
+   lacedring_in_lanes_. */
 static uint32_t lacedring_vertex_some_(const struct lacedring_vertices* s, const struct lacedring_data_* d,
                                        uint32_t block, uint32_t end, enum lacedring_purpose_ purpose,
                                        const struct lacedring_ranges_* ranges, uint64_t ends[8], uint32_t* bad,
@@ -1000,9 +1022,8 @@ static uint32_t lacedring_vertex_some_(const struct lacedring_vertices* s, const
     return 1;
 }
 
-#define LACEDRING_SOME_VALUES_                                                            \
-    (LACEDRING_VERTICES_BLOCK * 32) /* integers of 16 components, or of 4 in eight blocks \
-                                     */
+/* The most integers that lacedring_vertex_some_ writes: 16 components in one block, or 4 in each of eight blocks. */
+#define LACEDRING_SOME_VALUES_ (LACEDRING_VERTICES_BLOCK * 32)
 
 void lacedring_vertices_blocks(const struct lacedring_vertices* s, uint32_t block, uint32_t end, uint32_t* out) {
     const struct lacedring_data_ d = lacedring_data_of_(s);
@@ -1015,11 +1036,11 @@ void lacedring_vertices_blocks(const struct lacedring_vertices* s, uint32_t bloc
     }
 }
 
-/* Integers of component c are those of its mapping and type if they plus *more are *most or less. */
+/* Sets the range of component c by mapping and type: an integer x is in it if x + *more <= *most. */
 static void lacedring_vertex_range_(const struct lacedring_vertices* s, uint32_t c, uint32_t* more, uint32_t* most) {
     *more = 0;
     *most = UINT32_MAX;
-    if (s->most != 0) { /* lattice, octahedral: below s->most, and above its negative */
+    if (s->most != 0) { /* lattice, octahedral: -s->most < x < s->most */
         *more = s->most - 1;
         *most = 2 * *more;
         if (s->mapping == LACEDRING_MAPPING_OCTAHEDRAL && c == 2) {
@@ -1039,22 +1060,22 @@ void lacedring_octahedral(int32_t x, int32_t y, uint32_t bits, float out[3]) {
         x = x < 0 ? up - most : most - up;
         y = y < 0 ? across - most : most - across;
     }
-    length = sqrt((double)x * x + (double)y * y + (double)z * z); /* the root of an integer */
+    length = sqrt((double)x * x + (double)y * y + (double)z * z); /* the root of an exact integer */
     out[0] = (float)(x / length);
     out[1] = (float)(y / length);
     out[2] = (float)(z / length);
 }
 
-/* Are values made where eight blocks are decoded at once? */
+/* Does decoding eight blocks at once with LACEDRING_TO_VALUES_ write values instead of integers? */
 static int lacedring_in_lanes_(const struct lacedring_vertices* s) {
     return s->mapping == LACEDRING_MAPPING_LATTICE || s->mapping == LACEDRING_MAPPING_FLOATS ||
            s->mapping == LACEDRING_MAPPING_DECIMALS;
 }
 
-/* Writes those of `count` values, from value `first` of the attribute on, that are exceptions. */
+/* Writes the exceptions among values [first, first + count) of the attribute. */
 static void lacedring_exceptions_(const struct lacedring_vertices* s, uint64_t first, uint32_t count, uint8_t* out) {
     uint32_t from = 0, to = s->exception_count;
-    while (from < to) { /* the first exception that is not before */
+    while (from < to) { /* the first exception at `first` or later */
         const uint32_t middle = from + (to - from) / 2;
         if (s->exceptions[(size_t)2 * middle] < first) {
             from = middle + 1;
@@ -1066,7 +1087,7 @@ static void lacedring_exceptions_(const struct lacedring_vertices* s, uint64_t f
         memcpy(out + 4 * (size_t)(s->exceptions[(size_t)2 * from] - first), s->exceptions + (size_t)2 * from + 1, 4);
 }
 
-/* Writes the values of `count` vertices, from vertex `first` on, whose integers are given. */
+/* Converts the integers of vertices [first, first + count) to values. Returns where the values end. */
 static uint8_t* lacedring_vertex_values_(const struct lacedring_vertices* s, const uint32_t* integers, uint32_t first,
                                          uint32_t count, uint8_t* out) {
     const uint32_t n = s->components;
@@ -1110,7 +1131,7 @@ static uint8_t* lacedring_vertex_values_(const struct lacedring_vertices* s, con
     return out;
 }
 
-/* Checks all blocks, and writes their values, too, if `out` is not null. */
+/* Checks all blocks; writes their values if `out` is not null. */
 static enum lacedring_status lacedring_vertex_check_(const struct lacedring_vertices* s, uint8_t* out,
                                                      uint64_t* where) {
     const struct lacedring_data_ d = lacedring_data_of_(s);
@@ -1123,7 +1144,7 @@ static enum lacedring_status lacedring_vertex_check_(const struct lacedring_vert
         if (said >> 16 != 0 || (said & 63) > 32)
             return lacedring_at_(where, LACEDRING_VERTICES_HEADER_WORDS + 2 * c + 1, LACEDRING_STATUS_HEADER);
     }
-    for (i = 0; i < s->exception_count; ++i) { /* in order, and of the attribute */
+    for (i = 0; i < s->exception_count; ++i) { /* increasing, and numbers of values */
         const uint32_t value = s->exceptions[(size_t)2 * i];
         if (value >= (uint64_t)s->vertices * s->components || (i > 0 && value <= s->exceptions[(size_t)2 * i - 2]))
             return lacedring_at_(where, 6, LACEDRING_STATUS_HEADER);
@@ -1145,13 +1166,14 @@ static enum lacedring_status lacedring_vertex_check_(const struct lacedring_vert
                     lacedring_vertex_some_(s, &d, block, block + 1, LACEDRING_TO_CHECK_, &ranges, ends, &bad, values);
         }
         at = lacedring_vertex_begin_(s, block);
-        if (block % LACEDRING_VERTICES_GROUP_ == 0) { /* at the next word, behind zeros */
+        /* A group begins at the next word boundary; the bits between are 0. */
+        if (block % LACEDRING_VERTICES_GROUP_ == 0) {
             const uint32_t* group = s->table + (size_t)(block / LACEDRING_VERTICES_GROUP_) * group_words;
             const uint32_t fields = blocks - block < LACEDRING_VERTICES_GROUP_ ? blocks - block - 1 : 15;
             const uint32_t used = fields * s->field_bits;
             if (end % 32 != 0 && lacedring_data_take_(&d, &end, (uint32_t)(32 - end % 32)) != 0)
                 return lacedring_at_(where, block - 1, LACEDRING_STATUS_BLOCK);
-            for (i = 1; i < group_words; ++i) { /* no bits behind the fields */
+            for (i = 1; i < group_words; ++i) { /* bits after the fields are 0 */
                 const uint32_t below = used > 32 * (i - 1) ? used - 32 * (i - 1) : 0;
                 if (below < 32 && group[i] >> below != 0) return lacedring_at_(where, block, LACEDRING_STATUS_GROUP);
             }
@@ -1193,14 +1215,14 @@ enum lacedring_status lacedring_vertices_validate(const uint32_t* words, size_t 
 void lacedring_vertices_decode(const struct lacedring_vertices* s, void* out) {
     const struct lacedring_data_ d = lacedring_data_of_(s);
     const uint32_t blocks = lacedring_vertex_blocks_(s), whole = s->vertices / LACEDRING_VERTICES_BLOCK;
-    const int lanes = lacedring_in_lanes_(s); /* values take the place of integers */
+    const int lanes = lacedring_in_lanes_(s); /* eight blocks at once give values */
     uint32_t block = 0, some = 0, bad, integers[LACEDRING_SOME_VALUES_];
     uint64_t ends[8];
     uint8_t* to = (uint8_t*)out;
     while (block < blocks) {
         uint32_t first, count, *at = integers;
         if (lanes && (uintptr_t)out % 4 == 0) {
-            if (some == 8 && block < whole && whole - block < 8) block = whole - 8; /* some of them again */
+            if (some == 8 && block < whole && whole - block < 8) block = whole - 8; /* decodes some blocks again */
             at = (uint32_t*)out + (size_t)block * LACEDRING_VERTICES_BLOCK * s->components;
             to = (uint8_t*)at;
         }
