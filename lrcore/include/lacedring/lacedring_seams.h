@@ -1,13 +1,12 @@
-/* Decodes LacedRing's seam sections: which copy of its vertex each corner of a triangle has. C99 or C++, one file
-   beside lacedring_decode.h, no allocation; what lrcore decodes with. docs/seams-format.md has the format.
+/* Decodes LacedRing's seam sections: which copy of its vertex each corner of a triangle has. C99 or C++; one file
+   beside lacedring_decode.h, no allocation. lrcore decodes with the same code. Format: docs/seams-format.md.
 
-   LACEDRING_DECODE_IMPLEMENTATION, defined in one .c or .cpp file before it is included, adds the functions there. A
-   program that links lacedring::core has them already.
+   Define LACEDRING_DECODE_IMPLEMENTATION in one .c or .cpp file before including this header, which then adds the
+   functions. A program that links lacedring::core has them already.
 
-   A section belongs to a mesh: `triangles` are the slots of its connectivity stream, three vertices each, in their
-   order and with its vertex numbers; a slot that has no triangle is UINT32_MAX three times. All slots of packed streams
-   have one; those of lean streams and LR tables that have none are the degenerate ones and second numbers of one
-   triangle.
+   A section belongs to a mesh. `triangles` are the slots of the mesh's connectivity stream, three vertices each, in the
+   order and with the vertex numbers of that stream. An empty slot is UINT32_MAX three times. Packed streams have no
+   empty slots. In lean streams and LR tables, degenerate slots and the second number of a triangle are empty.
 
        struct lacedring_seams seams;
        if (lacedring_seams_open(words, count, vertex_count, triangle_count, &seams, NULL) != LACEDRING_STATUS_OK) ...
@@ -27,20 +26,23 @@ extern "C" {
 #endif
 
 #define LACEDRING_SEAMS_HEADER_WORDS 8
-#define LACEDRING_SEAMS_BLOCK 512u     /* triangles of a block; vertices of a vertex block */
-#define LACEDRING_SEAMS_GROUP 32u      /* blocks of a group of a directory */
-#define LACEDRING_SEAMS_BACK 64u       /* triangles before a triangle among which its parent is searched */
-#define LACEDRING_SEAMS_MAX_STEPS 255u /* of a vertex */
+#define LACEDRING_SEAMS_BLOCK 512u     /* triangles per block; vertices per vertex block */
+#define LACEDRING_SEAMS_GROUP 32u      /* blocks per group of a directory */
+#define LACEDRING_SEAMS_BACK 64u       /* how far before a triangle its parent may be */
+#define LACEDRING_SEAMS_MAX_STEPS 255u /* positions of a vertex, less 1 */
 #define LACEDRING_SEAMS_MAX_COPIES 0x3fffffffu
-#define LACEDRING_SEAMS_PRIVATE 0x80000000u /* of a state: the rest is the number of a private copy */
+/* Flag of a state: the other bits are the number of a private copy. */
+#define LACEDRING_SEAMS_PRIVATE 0x80000000u
 
-/* Contexts: each has a likely value and a run class in the section's table. */
+/* Contexts of flags. The section's table has a likely value and a run class for each. A comment is the question that
+   its context and the uncommented ones below ask. */
 enum lacedring_seam_context {
-    LACEDRING_SEAM_V0, /* vertex blocks: more than one position, by the steps of the vertex before: 0, 1, more */
+    /* Vertex blocks: does the vertex have steps? One context each for 0, 1 and more steps of the vertex before. */
+    LACEDRING_SEAM_V0,
     LACEDRING_SEAM_V1,
     LACEDRING_SEAM_V2,
-    LACEDRING_SEAM_MORE, /* more than two */
-    LACEDRING_SEAM_MANY, /* one more */
+    LACEDRING_SEAM_MORE, /* more than one step? */
+    LACEDRING_SEAM_MANY, /* one more step? */
     LACEDRING_SEAM_WRAP,
     LACEDRING_SEAM_LONE, /* triangle blocks: is the edge to the parent a seam? */
     LACEDRING_SEAM_LEFT0,
@@ -53,7 +55,7 @@ enum lacedring_seam_context {
     LACEDRING_SEAM_RIGHT4,
     LACEDRING_SEAM_HALF, /* do the usual ends change? */
     LACEDRING_SEAM_BOTH,
-    LACEDRING_SEAM_STEP_L, /* is it this position? */
+    LACEDRING_SEAM_STEP_L, /* does the corner have this position? */
     LACEDRING_SEAM_LEAVE,
     LACEDRING_SEAM_LAST_R,
     LACEDRING_SEAM_NEXT_R,
@@ -64,81 +66,82 @@ enum lacedring_seam_context {
     LACEDRING_SEAM_SEAMED2,
     LACEDRING_SEAM_MID_R,
     LACEDRING_SEAM_MID_R2,
-    LACEDRING_SEAM_NEW_R, /* is it a new private copy? */
+    LACEDRING_SEAM_NEW_R, /* does it have a new private copy? */
     LACEDRING_SEAM_NEW_L,
     LACEDRING_SEAM_NEW_M,
-    LACEDRING_SEAM_HOME, /* is it any other home copy? */
+    LACEDRING_SEAM_HOME, /* does it have any other home copy? */
     LACEDRING_SEAM_CONTEXTS,
     LACEDRING_SEAM_NONE = LACEDRING_SEAM_CONTEXTS
 };
 
-/* A section in memory, its header read. Holds no copy. */
+/* A section whose header was read. Refers to the caller's words. */
 struct lacedring_seams {
     const uint32_t* words;
     size_t count;
     uint32_t vertices, triangles; /* of the mesh */
-    uint32_t homes;               /* home copies: the first ones, in the order of their vertices */
-    uint32_t copies;              /* of all vertices */
-    /* Of vertex blocks, then of triangle blocks: bits of a directory's fields, where the directory begins in bits from
-       the first word on, and where the blocks begin. */
+    uint32_t homes;               /* home copies: numbered first, vertex by vertex */
+    uint32_t copies;              /* all copies */
+    /* [0]: vertex blocks; [1]: triangle blocks. Widths of the two fields of a directory, in bits; where the directory
+       and the blocks begin, in bits from the first word. */
     uint32_t length_bits[2], count_bits[2];
     uint64_t directory[2], blocks[2];
 };
 
-/* Reads the header and checks sizes: constant time. */
+/* Reads the header and checks sizes only. Safe with any words. Constant time. */
 enum lacedring_status lacedring_seams_open(const uint32_t* words, size_t count, uint32_t vertices, uint32_t triangles,
                                            struct lacedring_seams* seams, uint64_t* where);
 
-/* Words of scratch that lacedring_seams_check takes: one a vertex, one a private copy, and one. */
+/* Number of 32-bit words of scratch memory for lacedring_seams_check: vertices + private copies + 1. */
 size_t lacedring_seams_scratch(const struct lacedring_seams* seams);
 
-/* Checks the triangles and all that decoders promise, but for the checksum: blocks lie where the directories say, every
-   corner has a copy of its vertex. `seams` was opened. Linear time, 26 KB of stack. Any words, any triangles: safe. */
+/* Checks the triangles and everything that decoders rely on except the checksum: blocks lie where the directories say,
+   and every corner has a copy of its vertex. `seams` comes from lacedring_seams_open. Safe with any words and
+   triangles. Linear time, 26 KB of stack. */
 enum lacedring_status lacedring_seams_check(const struct lacedring_seams* seams, const uint32_t* triangles,
                                             uint32_t* scratch, uint64_t* where);
 
-/* Checks the checksum. `seams` was opened. */
+/* Checks the checksum. `seams` comes from lacedring_seams_open. Linear time. */
 enum lacedring_status lacedring_seams_checksum(const struct lacedring_seams* seams);
 
-/* home[v] >> 1 is the first of the home copies of vertex v, which end before home[v + 1] >> 1; home[v] & 1: the fan on
-   the vertex's left ends in the copy in which it began. seams->vertices + 1 entries. Linear time. */
+/* Writes seams->vertices + 1 entries. home[v] >> 1 is the first home copy of vertex v; its home copies end before
+   home[v + 1] >> 1. home[v] & 1: v wraps, which means that the fan on its left ends in the copy in which it begins.
+   Linear time. */
 void lacedring_seams_homes(const struct lacedring_seams* seams, uint32_t* home);
 
-/* The copy of each corner, three a triangle; UINT32_MAX where there is none. Fills `home` as lacedring_seams_homes
- * does. Linear time, 20 KB of stack.
- */
+/* Writes the copy of each corner, three per slot; UINT32_MAX in empty slots. Fills `home` like lacedring_seams_homes.
+   The section must be valid. Linear time, 20 KB of stack. */
 void lacedring_seams_decode(const struct lacedring_seams* seams, const uint32_t* triangles, uint32_t* home,
                             uint32_t* copies);
 
-/* The same of one block: triangles [512 * block, 512 * block + 512), or of those that the last block has; `triangles`
-   are these alone. Reads the blocks of its vertices, too. 24 KB of stack. */
+/* Writes the copy of each corner of one block: triangles [512 * block, 512 * block + 512), fewer if the last block is
+   not full. `triangles` are those of the block alone. Reads the blocks of their vertices, too. 24 KB of stack. */
 void lacedring_seams_block(const struct lacedring_seams* seams, uint32_t block, const uint32_t* triangles,
                            uint32_t* copies);
 
-/* The vertex of each copy: seams->copies entries. Fills `home` as lacedring_seams_homes does. Linear time, 26 KB of
+/* Writes the vertex of each copy: seams->copies entries. Fills `home` like lacedring_seams_homes. Linear time, 26 KB of
    stack. */
 void lacedring_seams_copy_vertices(const struct lacedring_seams* seams, const uint32_t* triangles, uint32_t* home,
                                    uint32_t* vertices);
 
-/* The check, lacedring_seams_decode and lacedring_seams_copy_vertices in one pass; `scratch` is the check's. Where it
-   finds a fault, `copies` and `vertices` are of no use. */
+/* lacedring_seams_check (with its `scratch`), lacedring_seams_decode and lacedring_seams_copy_vertices in one pass. On
+   an error the contents of `copies` and `vertices` are undefined. */
 enum lacedring_status lacedring_seams_decode_checked(const struct lacedring_seams* seams, const uint32_t* triangles,
                                                      uint32_t* scratch, uint32_t* copies, uint32_t* vertices,
                                                      uint64_t* where);
 
-/* Steps of the format that the encoder takes, too. */
+/* Parts of the format that the encoder uses, too. */
 
-/* Which of a triangle's vertices it is, or 3. */
+/* The corner of `triangle` at `vertex`, or 3 if there is none. */
 static inline uint32_t lacedring_seam_corner(const uint32_t triangle[3], uint32_t vertex) {
     return triangle[0] == vertex ? 0u : triangle[1] == vertex ? 1u : triangle[2] == vertex ? 2u : 3u;
 }
 
-/* Has the slot no triangle? */
+/* Is the slot empty? */
 static inline int lacedring_seam_is_empty(const uint32_t triangle[3]) {
     return triangle[0] == UINT32_MAX;
 }
 
-/* Has another triangle two vertices of a triangle? Says which corners of it these are. */
+/* Does `other` have two vertices of `triangle`? Sets `pair` to the corners of `triangle` at the first two of them. */
 static inline int lacedring_seam_pair(const uint32_t triangle[3], const uint32_t other[3], uint32_t pair[2]) {
     const uint32_t a = lacedring_seam_corner(other, triangle[0]) < 3, b = lacedring_seam_corner(other, triangle[1]) < 3;
     const uint32_t c = lacedring_seam_corner(other, triangle[2]) < 3;
@@ -148,8 +151,9 @@ static inline int lacedring_seam_pair(const uint32_t triangle[3], const uint32_t
     return 1;
 }
 
-/* The parent of triangle i of a block, which is not empty: the last one, of those not too far before, that has two of
-   its vertices. Returns how far before it is, or 0, and which corners of triangle i these are. */
+/* Finds the parent of triangle i of a block: the last triangle before it that has two of its vertices, at most
+   LACEDRING_SEAMS_BACK before it. Returns how far before it, or 0 if there is none, and sets `pair` to the corners of
+   triangle i at these vertices. Triangle i must not be empty. */
 static inline uint32_t lacedring_seam_parent(const uint32_t* triangles, uint32_t i, uint32_t pair[2]) {
     const uint32_t* t = triangles + (size_t)3 * i;
     uint32_t back;
@@ -159,7 +163,7 @@ static inline uint32_t lacedring_seam_parent(const uint32_t* triangles, uint32_t
     return 0;
 }
 
-/* On which side of the ring a triangle lies: 0 left, 1 right, 2 if it has no ring edge. */
+/* The side of the ring on which a triangle lies: 0 left, 1 right, 2 if it has no ring edge. */
 static inline uint32_t lacedring_seam_side(const uint32_t triangle[3]) {
     uint32_t j;
     for (j = 0; j < 3; ++j) {
@@ -182,10 +186,10 @@ static inline uint32_t lacedring_seam_side(const uint32_t triangle[3]) {
 extern "C" {
 #endif
 
-#define LACEDRING_SEAM_MOST_ (1u << 24) /* of runs, and of ones of a unary number */
+#define LACEDRING_SEAM_MOST_ (1u << 24) /* runs and unary numbers are below it */
 #define LACEDRING_SEAM_CORNERS_ (3 * LACEDRING_SEAMS_BLOCK)
 
-/* 32 bits of the section from bit `at` on; behind it are zeros. */
+/* Returns 32 bits of the section from bit `at` on, with zeros after its end. */
 LACEDRING_SMALL_ uint32_t lacedring_seam_window_(const struct lacedring_seams* s, uint64_t at) {
     const uint64_t word = at / 32;
     uint64_t bits = word < s->count ? s->words[(size_t)word] : 0;
@@ -201,12 +205,13 @@ LACEDRING_SMALL_ uint32_t lacedring_seam_field_(const struct lacedring_seams* s,
 struct lacedring_seam_reader_ {
     const struct lacedring_seams* seams;
     uint64_t at, end;
-    uint32_t copies; /* that the directory says the block makes */
-    uint32_t bad;    /* not 0: a code is impossible, or reaches beyond the block */
-    int32_t run[8];  /* of each run class: likely values still to come; -1: the run is not read yet */
+    uint32_t copies; /* copies made by the block, from the directory */
+    uint32_t bad;    /* nonzero: a code is invalid, or reaches beyond the block */
+    int32_t run[8];  /* per run class: likely values left in the run; -1: not read yet */
 };
 
-/* Opens a vertex block (kind 0) or a triangle block (kind 1). Returns how many copies the blocks before it make. */
+/* Opens a vertex block (kind 0) or a triangle block (kind 1). Returns the number of copies that the blocks before it
+   make. */
 static uint32_t lacedring_seam_open_(const struct lacedring_seams* s, uint32_t kind, uint32_t block,
                                      struct lacedring_seam_reader_* r) {
     const uint32_t length = s->length_bits[kind], count = s->count_bits[kind], group = block / LACEDRING_SEAMS_GROUP;
@@ -254,7 +259,7 @@ static uint32_t lacedring_seam_unary_(struct lacedring_seam_reader_* r) {
     return ones;
 }
 
-/* An exponential Golomb code. */
+/* Reads an exponential Golomb code. */
 static uint32_t lacedring_seam_golomb_(struct lacedring_seam_reader_* r, uint32_t order) {
     const uint32_t width = lacedring_seam_unary_(r) + order;
     if (width > 31) {
@@ -264,6 +269,7 @@ static uint32_t lacedring_seam_golomb_(struct lacedring_seam_reader_* r, uint32_
     return (1u << width | lacedring_seam_take_(r, width)) - (1u << order);
 }
 
+/* Reads a run of class k. Returns INT32_MAX for an endless run, and on an error. */
 static int32_t lacedring_seam_run_(struct lacedring_seam_reader_* r, uint32_t k) {
     uint32_t run;
     if (r->at == r->end) return INT32_MAX;
@@ -278,6 +284,7 @@ static int32_t lacedring_seam_run_(struct lacedring_seam_reader_* r, uint32_t k)
     return r->bad ? INT32_MAX : (int32_t)run;
 }
 
+/* Reads the flag of a context. */
 LACEDRING_SMALL_ uint32_t lacedring_seam_flag_(struct lacedring_seam_reader_* r, uint32_t context) {
     const uint32_t entry = r->seams->words[4 + context / 8] >> 4 * (context % 8), likely = entry & 1,
                    k = entry >> 1 & 7;
@@ -290,7 +297,7 @@ LACEDRING_SMALL_ uint32_t lacedring_seam_block_count_(uint32_t elements) {
     return elements / LACEDRING_SEAMS_BLOCK + (elements % LACEDRING_SEAMS_BLOCK != 0);
 }
 
-/* Elements of a block. */
+/* Number of elements (vertices or triangles) of a block. */
 LACEDRING_SMALL_ uint32_t lacedring_seam_block_size_(uint32_t elements, uint32_t block) {
     const uint32_t left = elements - block * LACEDRING_SEAMS_BLOCK;
     return left < LACEDRING_SEAMS_BLOCK ? left : LACEDRING_SEAMS_BLOCK;
@@ -298,7 +305,7 @@ LACEDRING_SMALL_ uint32_t lacedring_seam_block_size_(uint32_t elements, uint32_t
 
 enum lacedring_status lacedring_seams_open(const uint32_t* words, size_t count, uint32_t vertices, uint32_t triangles,
                                            struct lacedring_seams* s, uint64_t* where) {
-    static const uint32_t most[2] = {17, 11}; /* bits of the copies that a block makes */
+    static const uint32_t most[2] = {17, 11}; /* most bits of a block's count of copies */
     uint64_t at = 32 * LACEDRING_SEAMS_HEADER_WORDS, copies;
     uint32_t kind;
     struct lacedring_seam_reader_ r;
@@ -343,7 +350,8 @@ size_t lacedring_seams_scratch(const struct lacedring_seams* s) {
     return (size_t)s->vertices + 1 + (s->copies - s->homes);
 }
 
-/* Homes of the vertices of a block, and where they end. */
+/* Decodes the homes of a block's `count` vertices to home[0 .. count], as lacedring_seams_homes. `first`: home copies
+   before them. */
 static void lacedring_seam_vertices_(struct lacedring_seam_reader_* r, uint32_t first, uint32_t count, uint32_t* home) {
     uint32_t i, before = 0;
     for (i = 0; i < count; ++i) {
@@ -377,13 +385,14 @@ void lacedring_seams_homes(const struct lacedring_seams* s, uint32_t* home) {
         lacedring_seam_vertex_block_(s, block, home + (size_t)block * LACEDRING_SEAMS_BLOCK);
 }
 
-/* Decodes a block of triangles. Each corner has its vertex's entry of lacedring_seams_homes, the vertex's steps (its
-   last position), and a state: a position or a private copy. */
+/* Decodes a block of triangles. For each corner: the vertex's entry of lacedring_seams_homes, the vertex's steps (its
+   last position), and a state: a position, or LACEDRING_SEAMS_PRIVATE with the number of a private copy. For each
+   triangle: its side, 0 left or 1 right. */
 struct lacedring_seam_walk_ {
     struct lacedring_seam_reader_ r;
     const uint32_t* triangles;
     uint32_t count;
-    uint32_t made; /* private copies, by all blocks so far */
+    uint32_t made; /* private copies made by all blocks so far */
     uint32_t home[LACEDRING_SEAM_CORNERS_], steps[LACEDRING_SEAM_CORNERS_], state[LACEDRING_SEAM_CORNERS_];
     uint8_t side[LACEDRING_SEAMS_BLOCK];
 };
@@ -393,23 +402,25 @@ LACEDRING_SMALL_ void lacedring_seam_set_home_(struct lacedring_seam_walk_* w, u
     w->steps[k] = (home[1] >> 1) - (home[0] >> 1) - 1 + (home[0] & 1);
 }
 
-/* The home copy, from 0, at a position of the vertex of corner k; a private state is left as it is. */
+/* The home copy at position `state` of corner k's vertex, counted from the vertex's first. Returns a private state
+   unchanged. */
 LACEDRING_SMALL_ uint32_t lacedring_seam_copy_(const struct lacedring_seam_walk_* w, uint32_t k, uint32_t state) {
     return (w->home[k] & 1) != 0 && state == w->steps[k] ? 0 : state;
 }
 
-/* Asks whether a corner has the copy at a position, and whether it has a new private one. */
+/* A question about a corner (docs/seams-format.md): is its state position `at`, or a new private copy? */
 struct lacedring_seam_question_ {
-    uint32_t at, at_context; /* LACEDRING_SEAM_NONE: not asked */
+    uint32_t at, at_context; /* at_context LACEDRING_SEAM_NONE: position not asked */
     uint32_t new_context;
-    uint32_t new_first; /* asked before the position */
+    uint32_t new_first; /* nonzero: the new copy is asked before the position */
 };
 
-/* Reads the state of corner k, whose copy is not `current` (a state, or UINT32_MAX). */
+/* Reads the answer to question q: the state of corner k. `current` is a state whose copy the corner does not have, or
+   UINT32_MAX. */
 static uint32_t lacedring_seam_choose_(struct lacedring_seam_walk_* w, uint32_t k, uint32_t current,
                                        struct lacedring_seam_question_ q) {
     const uint32_t homes = w->steps[k] + 1 - (w->home[k] & 1);
-    uint32_t out[2] = {UINT32_MAX, UINT32_MAX}; /* home copies that it has not, in order */
+    uint32_t out[2] = {UINT32_MAX, UINT32_MAX}; /* excluded home copies, in increasing order */
     uint32_t left = homes, made;
     if (current < LACEDRING_SEAMS_PRIVATE) {
         out[0] = lacedring_seam_copy_(w, k, current);
@@ -447,13 +458,16 @@ static uint32_t lacedring_seam_choose_(struct lacedring_seam_walk_* w, uint32_t 
 
 /* An end of the edge that a triangle shares with its parent. */
 struct lacedring_seam_end_ {
-    uint32_t corner; /* of the triangle, in the block */
-    uint32_t state;  /* in the parent */
-    uint32_t far;    /* the position where the fan ends */
-    uint32_t type;   /* left: 0 one position, 1 at the end, 2 on its way, 3 too late; right: 0, 1 at the end, 2 not */
+    uint32_t corner; /* number of the corner in the block */
+    uint32_t state;  /* state of the vertex in the parent */
+    uint32_t far;    /* position where the fan ends */
+    /* Class x of docs/seams-format.md. State at `far`: 0 if the vertex has no steps, else 1. On the right: else 2. On
+       the left: 2 if enough triangles follow to reach `far` by steps, else 3. */
+    uint32_t type;
 };
 
-/* Counts the triangles from the corner's on that have its vertex, up to 3. Those behind the block count as such. */
+/* The q of docs/seams-format.md: counts the triangles in a row, from the corner's on, that have its vertex, up to 3.
+   Triangles after the block count as having it. */
 static uint32_t lacedring_seam_length_(const struct lacedring_seam_walk_* w, uint32_t corner) {
     const uint32_t vertex = w->triangles[corner];
     uint32_t i = corner / 3 + 1, length = 1;
@@ -462,6 +476,8 @@ static uint32_t lacedring_seam_length_(const struct lacedring_seam_walk_* w, uin
     return length;
 }
 
+/* The end at corner j of the edge that triangle i shares with its parent, `back` triangles before. `other` is the
+   corner at the other end. */
 static struct lacedring_seam_end_ lacedring_seam_end_of_(const struct lacedring_seam_walk_* w, uint32_t i,
                                                          uint32_t back, uint32_t j, uint32_t other) {
     const uint32_t* t = w->triangles + (size_t)3 * i;
@@ -485,7 +501,7 @@ static struct lacedring_seam_end_ lacedring_seam_end_of_(const struct lacedring_
     return e;
 }
 
-/* What is asked about an end that changes. */
+/* The question about an end that changes. */
 static struct lacedring_seam_question_ lacedring_seam_change_(const struct lacedring_seam_walk_* w, uint32_t side,
                                                               const struct lacedring_seam_end_* e) {
     struct lacedring_seam_question_ q = {e->far, LACEDRING_SEAM_STEP_L, LACEDRING_SEAM_NEW_L, 0};
@@ -510,8 +526,8 @@ static uint32_t lacedring_seam_read_change_(struct lacedring_seam_walk_* w, uint
     return lacedring_seam_choose_(w, e->corner, e->state, lacedring_seam_change_(w, side, e));
 }
 
-/* The ends of the edge to the parent, the one that is asked about first in front. Returns the context of whether the
-   edge is a seam. */
+/* Finds the ends of the edge to the parent. *a is the end of the smaller class; it is asked about first. Returns the
+   context of the flag that says whether the edge is a seam. */
 static uint32_t lacedring_seam_ends_(const struct lacedring_seam_walk_* w, uint32_t i, uint32_t back,
                                      const uint32_t pair[2], struct lacedring_seam_end_* a,
                                      struct lacedring_seam_end_* b) {
@@ -534,14 +550,15 @@ static uint32_t lacedring_seam_ends_(const struct lacedring_seam_walk_* w, uint3
                                                        : LACEDRING_SEAM_RIGHT3;
 }
 
-/* Reads both ends of the edge to the parent: is it a seam, and which ends change? */
+/* Reads whether the edge to the parent is a seam, which of its ends change, and the state of both ends. */
 static void lacedring_seam_spoke_(struct lacedring_seam_walk_* w, uint32_t i, uint32_t back, const uint32_t pair[2]) {
     const uint32_t side = w->side[i];
     struct lacedring_seam_end_ a, b;
     const uint32_t context = lacedring_seam_ends_(w, i, back, pair, &a, &b);
     uint32_t usual, a_changes = 0, b_changes = 0;
     if (lacedring_seam_flag_(&w->r, context)) {
-        const uint32_t lone = context == LACEDRING_SEAM_LONE; /* usually b alone changes, else both do */
+        /* The usual change is b alone if `lone`, else both ends. */
+        const uint32_t lone = context == LACEDRING_SEAM_LONE;
         usual = lacedring_seam_flag_(&w->r, a.type == 0 ? LACEDRING_SEAM_HALF : LACEDRING_SEAM_BOTH);
         if (usual) {
             a_changes = !lone;
@@ -556,7 +573,8 @@ static void lacedring_seam_spoke_(struct lacedring_seam_walk_* w, uint32_t i, ui
     w->state[b.corner] = b_changes ? lacedring_seam_read_change_(w, side, &b) : b.state;
 }
 
-/* What is asked about a corner of triangle i that is not in its parent. With a parent, the two others are known. */
+/* The question about corner j of triangle i, which is not in the parent. If there is a parent, the states of the two
+   other corners are known. */
 static struct lacedring_seam_question_ lacedring_seam_start_(const struct lacedring_seam_walk_* w, uint32_t i,
                                                              uint32_t j, uint32_t has_parent) {
     const uint32_t* t = w->triangles + (size_t)3 * i;
@@ -570,7 +588,8 @@ static struct lacedring_seam_question_ lacedring_seam_start_(const struct lacedr
         uint32_t n;
         q.at_context = steps > 0 ? LACEDRING_SEAM_MID_R2 : LACEDRING_SEAM_MID_R;
         q.new_context = steps > 0 ? LACEDRING_SEAM_NEW_M : LACEDRING_SEAM_NEW_R;
-        for (n = 0; n < 2 && has_parent; ++n) { /* the ring neighbor's copy where the ring edge is */
+        for (n = 0; n < 2 && has_parent; ++n) {
+            /* Is there a seam along the ring edge to this neighbor? Its state tells. */
             const uint32_t neighbor = n == 0 ? before : after, o = 3 * i + neighbor;
             if (neighbor == 3) continue;
             if (lacedring_seam_copy_(w, o, w->state[o]) == lacedring_seam_copy_(w, o, n == 0 ? w->steps[o] : 0)) {
@@ -589,7 +608,7 @@ static struct lacedring_seam_question_ lacedring_seam_start_(const struct lacedr
     return q;
 }
 
-/* All triangles of the block. */
+/* Decodes the states of all triangles of the block. */
 static void lacedring_seam_triangles_(struct lacedring_seam_walk_* w) {
     uint32_t i, j;
     for (i = 0; i < w->count; ++i) {
@@ -607,7 +626,7 @@ static void lacedring_seam_triangles_(struct lacedring_seam_walk_* w) {
     }
 }
 
-/* Opens a triangle block; the homes are then to be set. */
+/* Opens a triangle block. The caller then sets the homes of its corners. */
 static void lacedring_seam_walk_begin_(const struct lacedring_seams* s, uint32_t block, const uint32_t* triangles,
                                        struct lacedring_seam_walk_* w) {
     w->made = lacedring_seam_open_(s, 1, block, &w->r);
@@ -615,7 +634,7 @@ static void lacedring_seam_walk_begin_(const struct lacedring_seams* s, uint32_t
     w->count = lacedring_seam_block_size_(s->triangles, block);
 }
 
-/* Decodes it. */
+/* Decodes the copies of the corners of an opened block whose homes are set. */
 static void lacedring_seam_walk_end_(const struct lacedring_seams* s, struct lacedring_seam_walk_* w,
                                      uint32_t* copies) {
     uint32_t k;
@@ -631,6 +650,7 @@ static void lacedring_seam_walk_end_(const struct lacedring_seams* s, struct lac
     }
 }
 
+/* Sets the homes of the block's corners. */
 static void lacedring_seam_gather_(struct lacedring_seam_walk_* w, const uint32_t* home) {
     uint32_t k;
     for (k = 0; k < 3 * w->count; ++k) {
@@ -671,7 +691,7 @@ void lacedring_seams_block(const struct lacedring_seams* s, uint32_t block, cons
     lacedring_seam_walk_end_(s, &w, copies);
 }
 
-/* The vertex of each home copy. */
+/* Writes the vertex of each home copy. */
 static void lacedring_seam_home_vertices_(const struct lacedring_seams* s, const uint32_t* home, uint32_t* vertices) {
     uint32_t v, k;
     for (v = 0; v < s->vertices; ++v) {
@@ -688,7 +708,7 @@ void lacedring_seams_copy_vertices(const struct lacedring_seams* s, const uint32
     lacedring_seam_home_vertices_(s, home, vertices);
     for (block = 0; block < blocks; ++block) {
         lacedring_seam_walk_begin_(s, block, triangles + (size_t)block * LACEDRING_SEAM_CORNERS_, &w);
-        if (w.r.copies == 0) continue; /* no private copy begins here */
+        if (w.r.copies == 0) continue; /* the block makes no private copy */
         lacedring_seam_gather_(&w, home);
         lacedring_seam_walk_end_(s, &w, copies);
         for (k = 0; k < 3 * w.count; ++k) {
@@ -697,7 +717,7 @@ void lacedring_seams_copy_vertices(const struct lacedring_seams* s, const uint32
     }
 }
 
-/* Checks all; writes the copies of the corners, too, if `copies` is not null. */
+/* Checks triangles and blocks; writes the copies of the corners if `copies` is not null. */
 static enum lacedring_status lacedring_seam_check_(const struct lacedring_seams* s, const uint32_t* triangles,
                                                    uint32_t* scratch, uint32_t* copies, uint64_t* where) {
     const uint32_t blocks[2] = {lacedring_seam_block_count_(s->vertices), lacedring_seam_block_count_(s->triangles)};
@@ -736,7 +756,7 @@ static enum lacedring_status lacedring_seam_check_(const struct lacedring_seams*
         if (w.r.bad || w.r.at != w.r.end || w.made > s->copies - s->homes)
             return lacedring_at_(where, block, LACEDRING_STATUS_BLOCK);
         for (k = (uint32_t)made; k < w.made; ++k) owner[k] = UINT32_MAX;
-        for (k = 0; k < 3 * w.count; ++k) { /* no private copy is of two vertices */
+        for (k = 0; k < 3 * w.count; ++k) { /* a private copy belongs to one vertex */
             uint32_t* of;
             if (of_block[k] < s->homes || of_block[k] == UINT32_MAX) continue;
             of = owner + (of_block[k] - s->homes);
