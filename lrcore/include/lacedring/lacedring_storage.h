@@ -1,9 +1,9 @@
-/* Decodes LacedRing's storage form of packed streams and vertex streams straight into triangles and attributes: the
-   resident streams are not made. C99 or C++, one file beside lacedring_decode.h and lacedring_vertices.h, no
-   allocation. docs/storage-format.md has the format.
+/* Decodes LacedRing's storage form of packed streams and vertex streams straight into triangles and attributes, without
+   making the resident streams. C99 or C++; one file beside lacedring_decode.h and lacedring_vertices.h, no allocation.
+   Format: docs/storage-format.md.
 
-   LACEDRING_DECODE_IMPLEMENTATION, defined in one .c or .cpp file before it is included, adds the functions there. A
-   program that links lacedring::core has them already.
+   Define LACEDRING_DECODE_IMPLEMENTATION in one .c or .cpp file before including this header, which then adds the
+   functions. A program that links lacedring::core has them already.
 
        struct lacedring_stored_packed mesh;
        if (lacedring_stored_packed_open(words, count, most_vertices, most_triangles, &mesh, NULL) !=
@@ -21,8 +21,9 @@
        float *positions = malloc(12 * (size_t)mesh.vertices);
        lacedring_stored_vertices_values(&stored, integers, positions);
 
-   Any words are safe: nothing is read or written beyond what is said, and time is linear in the limits. Scratch memory
-   is aligned as malloc aligns. Stored words are little-endian, and this file is for little-endian machines. */
+   All functions are safe with any words: they read and write only the memory described here, and take time linear in
+   the limits that the caller gives. Scratch memory must be aligned as by malloc. Stored words are little-endian, and
+   this file is for little-endian machines. */
 #ifndef LACEDRING_STORAGE_H
 #define LACEDRING_STORAGE_H
 
@@ -32,83 +33,92 @@
 extern "C" {
 #endif
 
-#define LACEDRING_STORED_HEADER_WORDS 3 /* of a packed stream in storage form */
+#define LACEDRING_STORED_HEADER_WORDS 3 /* header of a packed stream in storage form */
 
-/* Where a decoder is in a coded part. */
+/* Position of a decoder in a coded part. */
 struct lacedring_coded {
-    const uint32_t* symbols; /* words that are shifted in */
-    const uint8_t* bytes;    /* of the part */
-    uint64_t used, last;     /* words of symbols: how many were taken, and the number of the last one */
-    uint64_t bit, end,
-        last_byte;      /* raw bits: the next one, where they end, and the last byte from which there are eight */
-    uint64_t now, next; /* states: of the next symbol, and of the one after */
+    const uint32_t* symbols; /* words of the part after the first one */
+    const uint8_t* bytes;    /* all bytes of the part */
+    /* Words of symbols: how many were read, and the number of the last one. */
+    uint64_t used, last;
+    /* Raw bits: the next one, the end, and the last byte from which 8 bytes can be loaded. */
+    uint64_t bit, end, last_byte;
+    /* The states that decode the next symbol, and the one after. */
+    uint64_t now, next;
 };
 
-/* A packed stream in storage form, its header read. Holds no copy. */
+/* A packed stream in storage form whose header was read. Refers to the caller's words. */
 struct lacedring_stored_packed {
     struct lacedring_coded steps;
-    const uint32_t* doubles;      /* two words a run */
+    const uint32_t* doubles;      /* two words per run */
     uint32_t vertices, triangles; /* of the mesh */
-    uint32_t own;                 /* the first triangles, each with vertices of its own; the others are their doubles */
-    uint32_t runs;                /* of doubles */
+    /* The first `own` triangles are coded; each of the others is a double: it has the vertices of an own triangle. */
+    uint32_t own;
+    uint32_t runs; /* runs of doubles */
     uint32_t has_flips;
 };
 
-/* Reads the header and checks sizes. At most so many vertices and triangles are allowed: those of the file, or what
-   memory there is. Linear in the runs of doubles. */
+/* Reads the header and checks sizes. Returns LACEDRING_STATUS_LIMIT if there are more than most_vertices or
+   most_triangles: pass the numbers in the file, or what fits in memory. Linear in the runs of doubles. */
 enum lacedring_status lacedring_stored_packed_open(const uint32_t* words, size_t count, uint32_t most_vertices,
                                                    uint32_t most_triangles, struct lacedring_stored_packed* stored,
                                                    uint64_t* where);
 
-/* Bytes of scratch memory that lacedring_stored_packed_decode takes: 16 for each triangle, few of which it ever
-   touches, and 1 for each vertex. SIZE_MAX: more than there can be. */
+/* Bytes of scratch memory for lacedring_stored_packed_decode: 16 per triangle, most of which it never touches, and 1
+   per vertex. Returns SIZE_MAX if the number does not fit in size_t. */
 size_t lacedring_stored_packed_scratch(const struct lacedring_stored_packed* stored);
 
-/* The triangles of the packed stream, in its order: 3 * stored->triangles indices. Where it finds a fault, they are of
-   no use. 10 KB of stack. */
+/* Decodes the triangles of the packed stream, in its order: 3 * stored->triangles indices. On an error the contents of
+   `triangles` are undefined. Linear time, 10 KB of stack. */
 enum lacedring_status lacedring_stored_packed_decode(const struct lacedring_stored_packed* stored, void* scratch,
                                                      uint32_t* triangles, uint64_t* where);
 
-/* A vertex stream in storage form, its header read. Holds no copy. */
+/* A vertex stream in storage form whose header was read. Refers to the caller's words. */
 struct lacedring_stored_vertices {
-    struct lacedring_vertices attribute; /* as lacedring_vertices_open reads it, without table and data */
-    struct lacedring_coded residuals;    /* where they begin */
-    struct lacedring_coded exceptions;   /* where they begin: known when the integers are decoded */
-    uint32_t has_ranges;                 /* a range for each component, or any integers of the mapping */
+    struct lacedring_vertices attribute; /* as from lacedring_vertices_open, without table and data */
+    struct lacedring_coded residuals;    /* where the residuals begin */
+    /* Where the exceptions begin; set when the integers are decoded. */
+    struct lacedring_coded exceptions;
+    /* 1: component c has a range, `low[c]` and `range_bits[c]`. 0: all integers of the mapping are valid. */
+    uint32_t has_ranges;
     uint32_t low[LACEDRING_VERTICES_MAX_COMPONENTS], range_bits[LACEDRING_VERTICES_MAX_COMPONENTS];
-    uint8_t rules[LACEDRING_VERTICES_MAX_COMPONENTS]; /* that predict */
+    uint8_t rules[LACEDRING_VERTICES_MAX_COMPONENTS]; /* rule of prediction of each component */
     uint32_t by_normal, error, smooth, fine;          /* parameters of predictions and residuals */
-    uint32_t by_positions;                            /* positions predict: normals, or other integers, two a vertex */
-    uint32_t by_angle, by_area, of_vertex;            /* how normals of triangles are added up */
+    /* 1: positions predict the integers, two per vertex, as normals (octahedral mapping) or as texture coordinates. */
+    uint32_t by_positions;
+    /* How the normals of triangles are summed. */
+    uint32_t by_angle, by_area, of_vertex;
 };
 
-/* Reads the header, which begins the words, and checks sizes: linear in words / 65,536. `vertices`: values that the
-   attribute has. */
+/* Reads the header and checks sizes. `vertices`: number of elements of the attribute (vertices, or copies of vertices).
+   Takes time linear in vertices / 65,536. */
 enum lacedring_status lacedring_stored_vertices_open(const uint32_t* words, size_t count, uint32_t vertices,
                                                      struct lacedring_stored_vertices* stored, uint64_t* where);
 
-/* Where the values of an attribute are: what predicts it if stored->by_positions is not 0. */
+/* The positions that predict an attribute if stored->by_positions is not 0. */
 struct lacedring_positions {
-    const uint32_t* integers; /* three a vertex, of the file's POSITION, whose mapping is a lattice or decimals */
+    /* Decoded integers of the file's attribute POSITION, three per vertex. Its mapping is lattice or decimals. */
+    const uint32_t* integers;
     uint32_t vertices;
-    const uint32_t* vertex_of; /* the vertex of each value, where these are of copies; null: values are of vertices */
+    /* For an attribute of copies, the vertex of each copy. Null for an attribute of vertices. */
+    const uint32_t* vertex_of;
 };
 
-/* Bytes of scratch memory that lacedring_stored_vertices_decode takes with so many triangles and positions: 16 for each
-   triangle and about 16 for each vertex, or, of normals by positions, 24 for each of `positions` and of their values.
-   SIZE_MAX: more than there can be. */
+/* Bytes of scratch memory for lacedring_stored_vertices_decode with `triangles` triangles and `positions` (null: none):
+   16 per triangle and about 16 per vertex; for normals predicted by positions at least 24 per position or per element
+   of the attribute, whichever are more. Returns SIZE_MAX if the number does not fit in size_t. */
 size_t lacedring_stored_vertices_scratch(const struct lacedring_stored_vertices* stored, uint32_t triangles,
                                          const struct lacedring_positions* positions);
 
-/* The integers of the vertex stream, stored->attribute.components a vertex. `triangles`: those of the vertices,
-   `triangle_count` times three numbers of vertices, in the order of the file. `positions` may be null if none are
-   needed. Where it finds a fault, integers are of no use. 10 KB of stack. */
+/* Decodes the integers of the vertex stream, stored->attribute.components per vertex. `triangles`: 3 * triangle_count
+   indices of the attribute's elements, in the order of the file. `positions` may be null if stored->by_positions is 0.
+   On an error the contents of `integers` are undefined. Linear time, 10 KB of stack. */
 enum lacedring_status lacedring_stored_vertices_decode(struct lacedring_stored_vertices* stored,
                                                        const uint32_t* triangles, uint32_t triangle_count,
                                                        const struct lacedring_positions* positions, void* scratch,
                                                        uint32_t* integers, uint64_t* where);
 
-/* All values of the attribute by the integers decoded, as lacedring_vertices_decode gives them. */
+/* Converts decoded integers to all values of the attribute, as lacedring_vertices_decode writes them. */
 void lacedring_stored_vertices_values(const struct lacedring_stored_vertices* stored, const uint32_t* integers,
                                       void* out);
 
@@ -141,18 +151,22 @@ extern "C" {
 #define LACEDRING_PREFETCH_(at) ((void)(at))
 #endif
 
-#define LACEDRING_SCALE_ 32768u /* the ranges of a model's symbols fill [0, LACEDRING_SCALE_) */
+#define LACEDRING_SCALE_ 32768u /* the ranges of a model's symbols fill [0, this) */
 #define LACEDRING_LEAST_STATE_ (UINT64_C(1) << 31)
 
-/* A bit whose probability is learnt. */
+/* Model of a bit: its probability adapts. */
 struct lacedring_bit_model_ {
-    uint16_t zero, seen; /* of LACEDRING_SCALE_; bits so far, at most 48 */
+    /* zero: size of the range of 0, of LACEDRING_SCALE_. seen: bits so far, at most 48. */
+    uint16_t zero, seen;
 };
 
-/* One of 16 symbols. */
+/* Model of a symbol, one of 16. */
 struct lacedring_symbol_model_ {
-    uint16_t begin[17], count[16]; /* of each symbol: where its range begins; how often it was seen */
-    uint16_t total, left, cycle;   /* all counts; symbols until the ranges are made anew, and how many those were */
+    /* For each symbol: where its range begins, and its count. */
+    uint16_t begin[17], count[16];
+    /* total: sum of the counts. left: symbols until the ranges are recomputed. cycle: symbols from one time to the
+       next. */
+    uint16_t total, left, cycle;
 };
 
 static void lacedring_begin_bits_(struct lacedring_bit_model_* models, size_t count) {
@@ -163,6 +177,7 @@ static void lacedring_begin_bits_(struct lacedring_bit_model_* models, size_t co
     }
 }
 
+/* Computes the ranges from the counts. */
 static void lacedring_find_ranges_(struct lacedring_symbol_model_* m) {
     const uint32_t scale = ((LACEDRING_SCALE_ - 16) << 16) / m->total;
     uint32_t i, sum = 0;
@@ -184,6 +199,7 @@ static void lacedring_begin_symbols_(struct lacedring_symbol_model_* models, siz
     }
 }
 
+/* Halves large counts, recomputes the ranges, and sets the next cycle. */
 LACEDRING_COLD_ void lacedring_renew_ranges_(struct lacedring_symbol_model_* m) {
     const uint32_t cycle = m->cycle + m->cycle / 2u;
     uint32_t i;
@@ -198,7 +214,7 @@ LACEDRING_COLD_ void lacedring_renew_ranges_(struct lacedring_symbol_model_* m) 
     m->left = m->cycle = (uint16_t)(cycle < 64 ? cycle : 64);
 }
 
-/* Opens a coded part. 0: it is shorter than it says. */
+/* Opens a coded part. Returns 0 if it is shorter than its first word says. */
 static int lacedring_open_coded_(struct lacedring_coded* d, const uint32_t* words, size_t count) {
     if (count == 0 || words[0] < 4 || words[0] > count - 1) return 0;
     d->symbols = words + 1;
@@ -213,7 +229,7 @@ static int lacedring_open_coded_(struct lacedring_coded* d, const uint32_t* word
     return 1;
 }
 
-/* Was all of it used, and do both states end as they began? */
+/* Were all words and bits used, and are both states as the format prescribes at the end? */
 static int lacedring_coded_ends_(const struct lacedring_coded* d) {
     uint32_t last = 0, left;
     if (d->bit > d->end || d->end - d->bit >= 32) return 0;
@@ -223,7 +239,9 @@ static int lacedring_coded_ends_(const struct lacedring_coded* d) {
            d->next == LACEDRING_LEAST_STATE_;
 }
 
-/* Takes a symbol with this range. Behind the end, the last word is shifted in again. */
+/* Removes the decoded symbol with range [begin, begin + size) from the state; `at` is the state modulo
+   LACEDRING_SCALE_. After the end of the words, reads the last word again. is_rare: a new word is seldom needed, so a
+   branch is fast. */
 LACEDRING_HOT_ void lacedring_coded_advance_(struct lacedring_coded* d, uint32_t at, uint32_t begin, uint32_t size,
                                              int is_rare) {
     uint64_t x = size * (d->now >> 15) + at - begin;
@@ -233,7 +251,7 @@ LACEDRING_HOT_ void lacedring_coded_advance_(struct lacedring_coded* d, uint32_t
             x = x << 32 | word;
             ++d->used;
         }
-    } else { /* without a branch, which would be hard to predict */
+    } else { /* without a branch, which would be unpredictable */
         const uint64_t takes = x < LACEDRING_LEAST_STATE_;
         x = x << (32 * takes) | (word & (0 - takes));
         d->used += takes;
@@ -242,7 +260,7 @@ LACEDRING_HOT_ void lacedring_coded_advance_(struct lacedring_coded* d, uint32_t
     d->next = x;
 }
 
-/* How fast a bit's probability is learnt, by how many were seen: 131072 / (2 seen + 3). */
+/* How fast a bit's probability adapts, by the number of bits seen: 131072 / (2 seen + 3). */
 static const uint16_t lacedring_bit_steps_[49] = {
     43690, 26214, 18724, 14563, 11915, 10082, 8738, 7710, 6898, 6241, 5698, 5242, 4854, 4519, 4228, 3971, 3744,
     3542,  3360,  3196,  3048,  2912,  2788,  2674, 2570, 2473, 2383, 2299, 2221, 2148, 2080, 2016, 1956, 1899,
@@ -258,7 +276,7 @@ LACEDRING_HOT_ uint32_t lacedring_coded_bit_(struct lacedring_coded* d, struct l
     return bit;
 }
 
-/* The symbol whose range `at` is in. */
+/* The symbol whose range contains `at`. */
 LACEDRING_HOT_ uint32_t lacedring_find_symbol_(const struct lacedring_symbol_model_* m, uint32_t at) {
 #ifdef LACEDRING_SSE2_
     const __m128i most = _mm_set1_epi16((short)at);
@@ -267,7 +285,8 @@ LACEDRING_HOT_ uint32_t lacedring_find_symbol_(const struct lacedring_symbol_mod
     const __m128i above = _mm_packs_epi16(_mm_cmpgt_epi16(low, most), _mm_cmpgt_epi16(high, most));
     return (uint32_t)__builtin_ctz((uint32_t)_mm_movemask_epi8(above) | 0x10000u) - 1;
 #else
-    /* Begins are below 2^15, four in a word: the highest bit of each is left where `at` is not less. */
+    /* Compares four 16-bit values in a word: values of `begin` are below 2^15, so the highest bit stays set where `at`
+       is not less. */
     const uint64_t all = (at | LACEDRING_SCALE_) * UINT64_C(0x0001000100010001);
     uint64_t four[4], sum = 0;
     uint32_t i;
@@ -287,7 +306,7 @@ LACEDRING_HOT_ uint32_t lacedring_coded_symbol_(struct lacedring_coded* d, struc
     return symbol;
 }
 
-/* At most 32 bits. Behind the end, any bits of the last ones. */
+/* Reads `count` raw bits, at most 32. After the end, returns arbitrary bits. */
 LACEDRING_HOT_ uint32_t lacedring_coded_raw_(struct lacedring_coded* d, uint32_t count) {
     const uint64_t byte = d->bit >> 3 < d->last_byte ? d->bit >> 3 : d->last_byte, skip = d->bit - 8 * byte;
     uint64_t window;
@@ -296,39 +315,47 @@ LACEDRING_HOT_ uint32_t lacedring_coded_raw_(struct lacedring_coded* d, uint32_t
     return (uint32_t)(window >> (skip < 63 ? skip : 63) & ((UINT64_C(1) << count) - 1));
 }
 
+/* Reads a number: a symbol is its number of bits, the bits below the highest are raw. */
 static uint32_t lacedring_coded_number_(struct lacedring_coded* d, struct lacedring_symbol_model_* m) {
     uint32_t bits = lacedring_coded_symbol_(d, m);
     if (bits == 15) bits += lacedring_coded_raw_(d, 5);
-    if (bits > 32) return 0; /* which no encoder writes */
+    if (bits > 32) return 0; /* never written by an encoder */
     return bits < 2 ? bits : UINT32_C(1) << (bits - 1) | lacedring_coded_raw_(d, bits - 1);
 }
 
-/* Adds to a number of bytes; SIZE_MAX: more than there can be. */
+/* Returns bytes + count * each, or SIZE_MAX if that does not fit in size_t. */
 static size_t lacedring_bytes_of_(size_t bytes, uint64_t count, uint32_t each) {
     return count > (SIZE_MAX - bytes) / each ? SIZE_MAX : bytes + (size_t)count * each;
 }
 
 /* Packed streams. */
 
-/* Of each vertex: its triangles so far, at most 9, and whether the edge to the next vertex has one. */
+/* Bits of lacedring_steps_::around. Bits 0 to 3: triangles of the vertex so far, at most 9. RING_EDGE: the edge to the
+   next vertex has a triangle. */
 #define LACEDRING_RING_EDGE_ 16u
-#define LACEDRING_RIGHT_ 0x80000000u /* of an open edge's first vertex: it is on the right of its ring */
+/* Flag in an open edge's first vertex: the edge was entered on the right of its ring. */
+#define LACEDRING_RIGHT_ 0x80000000u
 
-/* The models of a turn: is it one, and which. */
+/* Models of a step: is it a turn, and is it the turn to a + 1. */
 struct lacedring_turn_models_ {
     struct lacedring_bit_model_ simple, up;
 };
 
+/* The state of docs/storage-format.md, "Steps". */
 struct lacedring_steps_ {
     struct lacedring_coded coded;
-    uint8_t* around;   /* of vertices, and one more */
-    uint32_t* open;    /* edges, two words each; UINT32_MAX: gone */
-    size_t open_count; /* words */
+    uint8_t* around;   /* a byte per vertex, and one more */
+    uint32_t* open;    /* open edges, a stack; two words each; UINT32_MAX: removed */
+    size_t open_count; /* in words */
     uint32_t vertices, bits;
-    uint32_t a, b;                      /* the edge of the next step, if it goes on */
-    uint32_t goes_on, is_fork, entered; /* of the step before; is_fork: the next one's first bit was read, and is 0 */
+    /* The edge of the next step, if the last step goes on. */
+    uint32_t a, b;
+    /* goes_on, entered: of the last step; entered: it entered an edge. is_fork: the next step's first bit was read
+       already, and is 0. */
+    uint32_t goes_on, is_fork, entered;
     uint32_t root_a, root_b, right, flipped, seen;
-    struct lacedring_bit_model_ begins[2], deeper[2], drop, first, flip[2]; /* [0]: if the step before entered none */
+    /* Index of begins and deeper: `entered` of the last step. Index of flip: `flipped` of the last step. */
+    struct lacedring_bit_model_ begins[2], deeper[2], drop, first, flip[2];
     struct lacedring_symbol_model_ tree, fork, tree_size, depth, size[2];
     struct lacedring_turn_models_ turns[1024];
 };
@@ -369,7 +396,7 @@ size_t lacedring_stored_packed_scratch(const struct lacedring_stored_packed* s) 
     return lacedring_bytes_of_(lacedring_bytes_of_(16, s->own, 16), s->vertices, 1);
 }
 
-/* One triangle more at a vertex. */
+/* Counts one more triangle at a vertex. */
 LACEDRING_HOT_ uint32_t lacedring_counted_(uint32_t around) {
     return around + ((around & 15) < 9);
 }
@@ -382,19 +409,20 @@ LACEDRING_HOT_ void lacedring_mark_edge_(struct lacedring_steps_* w, uint32_t a,
     if (a + 1 == b) w->around[a] |= LACEDRING_RING_EDGE_;
 }
 
-/* The models of a turn across (a, b), by what is around a, b and b - 1. */
+/* The models of a step across (a, b), by the `around` of a, b and b - 1. */
 LACEDRING_HOT_ struct lacedring_turn_models_* lacedring_turn_models_of_(struct lacedring_steps_* w, uint32_t at_a,
                                                                         uint32_t at_b, uint32_t behind_b) {
     return w->turns + (at_a << 4 | (at_b & 15) | (behind_b & LACEDRING_RING_EDGE_) << 5);
 }
 
-/* Triangles from i on that go on from the one before, as long as turns say all of them. Returns the next one. Most
-   triangles are such. */
+/* Decodes triangles from i on while each continues the one before by a turn, as most triangles do. Returns the number
+   of the first other triangle, at most `end`. */
 static uint32_t lacedring_simple_steps_(struct lacedring_steps_* w, uint32_t i, uint32_t end, uint32_t* out) {
-    struct lacedring_coded d = w->coded; /* in registers */
+    struct lacedring_coded d = w->coded; /* a copy, to stay in registers */
     uint8_t* around = w->around;
     uint32_t a = w->a, b = w->b;
-    uint32_t at_a, at_b, behind_b; /* what is around a, b and b - 1: the first two are written where they are left */
+    /* The `around` of a, b and b - 1. Those of a and b are written back when the walk leaves a or b. */
+    uint32_t at_a, at_b, behind_b;
     const uint32_t right = 0 - w->right;
     if (w->seen < b + 1) w->seen = b + 1;
     at_a = around[a];
@@ -402,7 +430,8 @@ static uint32_t lacedring_simple_steps_(struct lacedring_steps_* w, uint32_t i, 
     behind_b = around[b - 1];
     for (; i < end && b - a > 2; ++i, out += 3) {
         struct lacedring_turn_models_* models = lacedring_turn_models_of_(w, at_a, at_b, behind_b);
-        const uint32_t next_a = around[a + 1], next_b = around[b - 2]; /* before it is known which of them is needed */
+        /* Both are loaded before the turn decides which of them is needed. */
+        const uint32_t next_a = around[a + 1], next_b = around[b - 2];
         uint32_t up, x, mixed;
         if (!lacedring_coded_bit_(&d, &models->simple)) {
             w->is_fork = 1;
@@ -411,7 +440,8 @@ static uint32_t lacedring_simple_steps_(struct lacedring_steps_* w, uint32_t i, 
         up = lacedring_coded_bit_(&d, &models->up);
         at_a = lacedring_counted_(at_a);
         at_b = lacedring_counted_(at_b);
-        x = up ? a + 1 : b - 1; /* turns are hard to predict: no branches below */
+        /* No branches on `up`, as turns are unpredictable. */
+        x = up ? a + 1 : b - 1;
         around[up ? a : b] = (uint8_t)(up ? at_a | LACEDRING_RING_EDGE_ : at_b);
         at_a = up ? lacedring_counted_(next_a) : at_a;
         at_b = up ? at_b : lacedring_counted_(behind_b) | LACEDRING_RING_EDGE_;
@@ -431,7 +461,7 @@ static uint32_t lacedring_simple_steps_(struct lacedring_steps_* w, uint32_t i, 
     return i;
 }
 
-/* Where a step that does not go on is entered. 0: nowhere. */
+/* Finds the edge of a step that does not continue the step before. Returns 0 if there is none. */
 static int lacedring_entry_(struct lacedring_steps_* w) {
     struct lacedring_coded* d = &w->coded;
     uint32_t* edge;
@@ -454,8 +484,9 @@ static int lacedring_entry_(struct lacedring_steps_* w) {
         return 1;
     }
     if (lacedring_coded_bit_(d, w->deeper + w->entered)) {
-        const uint32_t above = lacedring_coded_number_(d, &w->depth); /* the edge, less 1 */
-        const size_t depth = 4 + 2 * (size_t)above;                   /* words */
+        /* Edges above the edge on the stack, less 1. */
+        const uint32_t above = lacedring_coded_number_(d, &w->depth);
+        const size_t depth = 4 + 2 * (size_t)above; /* words */
         if (above >= w->open_count / 2 - 1) return 0;
         edge = w->open + (w->open_count - depth);
         if (lacedring_coded_bit_(d, &w->drop)) w->open_count -= depth;
@@ -476,7 +507,7 @@ LACEDRING_HOT_ void lacedring_open_edge_(struct lacedring_steps_* w, uint32_t a,
     w->open[w->open_count++] = b;
 }
 
-/* The third vertex of a triangle that splits a polygon, or behind which the next step is not. */
+/* Decodes the third vertex of a step that is no turn, and opens the edges it enters. Its result may be no vertex. */
 static uint32_t lacedring_fork_(struct lacedring_steps_* w, uint32_t a, uint32_t b) {
     struct lacedring_coded* d = &w->coded;
     const uint32_t kind = lacedring_coded_symbol_(d, &w->fork), enters = kind & 3;
@@ -487,19 +518,19 @@ static uint32_t lacedring_fork_(struct lacedring_steps_* w, uint32_t a, uint32_t
     } else {
         x = lacedring_coded_raw_(d, w->bits);
     }
-    if (enters == 3) { /* the smaller part first, usually */
+    if (enters == 3) { /* usually the smaller part is first */
         const uint32_t p = x > a ? x - a : UINT32_MAX, q = b > x ? b - x : UINT32_MAX;
         first_a = (p <= q) ^ lacedring_coded_bit_(d, &w->first);
     }
     w->entered = enters != 0;
-    if (x >= w->vertices) return x; /* which is refused */
+    if (x >= w->vertices) return x; /* the caller refuses it */
     if (first_a && enters == 3) lacedring_open_edge_(w, x, b);
     if (enters & 1) lacedring_open_edge_(w, a, x);
     if (!first_a && (enters & 2)) lacedring_open_edge_(w, x, b);
     return x;
 }
 
-/* A step of any kind. Returns 0 if it is impossible. */
+/* Decodes a step of any kind. Returns 0 if it is invalid. */
 static int lacedring_any_step_(struct lacedring_steps_* w, uint32_t has_flips, uint32_t* out) {
     struct lacedring_coded* d = &w->coded;
     struct lacedring_turn_models_* models;
@@ -579,12 +610,15 @@ enum lacedring_status lacedring_stored_packed_decode(const struct lacedring_stor
 
 /* Vertex streams. */
 
-#define LACEDRING_STORED_PART_ 65536u /* vertices whose blocks are a coded part */
-#define LACEDRING_STORED_STEPS_ 32u   /* of a residual's expected size, in halves of a bit */
-#define LACEDRING_SOME_VERTICES_ 128u /* vertices that are decoded at once */
-#define LACEDRING_KNOWN_ 0xfffffffeu  /* states of vertices */
+#define LACEDRING_STORED_PART_ 65536u /* vertices per coded part of blocks */
+/* Steps of a residual's expected size, half a bit each. */
+#define LACEDRING_STORED_STEPS_ 32u
+#define LACEDRING_SOME_VERTICES_ 128u /* vertices per call of lacedring_walk_some_ */
+/* States of vertices. */
+#define LACEDRING_KNOWN_ 0xfffffffeu
 #define LACEDRING_UNSEEN_ UINT32_MAX
-#define LACEDRING_MORE_ 0x80000000u /* of a vertex's state: more corners than one */
+/* Flag of a vertex's state: its list has more than one corner. */
+#define LACEDRING_MORE_ 0x80000000u
 
 enum { LACEDRING_BY_PARALLELOGRAMS_, LACEDRING_BY_MEAN_, LACEDRING_BY_NEIGHBOR_, LACEDRING_BY_NOTHING_ };
 
@@ -600,7 +634,7 @@ static enum lacedring_status lacedring_stored_header_(struct lacedring_stored_ve
     if (wrong != 0) return lacedring_at_(where, wrong, LACEDRING_STATUS_HEADER);
     s->has_ranges = !lacedring_coded_raw_(d, 1);
     for (c = 0; c < n; ++c) {
-        lacedring_coded_raw_(d, 10); /* the first width and the usual predictor, of blocks */
+        lacedring_coded_raw_(d, 10); /* blocks' first width and usual predictor: unused here */
         if (!s->has_ranges) continue;
         s->low[c] = lacedring_coded_raw_(d, 32);
         s->range_bits[c] = lacedring_coded_raw_(d, 6);
@@ -631,7 +665,7 @@ enum lacedring_status lacedring_stored_vertices_open(const uint32_t* words, size
     s->attribute.vertices = vertices;
     if (count == 0 || words[0] > count - 1 || !lacedring_open_coded_(&s->residuals, words + 1, words[0]))
         return lacedring_at_(where, 0, LACEDRING_STATUS_SIZE);
-    for (at = 1 + (size_t)words[0]; parts > 0; --parts) { /* of blocks, which are not read */
+    for (at = 1 + (size_t)words[0]; parts > 0; --parts) { /* skips the parts of blocks */
         if (at == count || words[at] > count - at - 1) return lacedring_at_(where, at, LACEDRING_STATUS_SIZE);
         at += 1 + (size_t)words[at];
     }
@@ -639,27 +673,28 @@ enum lacedring_status lacedring_stored_vertices_open(const uint32_t* words, size
     return lacedring_stored_header_(s, &s->residuals, where);
 }
 
-/* The models of one of a vertex's integers. */
+/* The models of one component's residuals. */
 struct lacedring_residual_models_ {
     struct lacedring_symbol_model_ steps[LACEDRING_STORED_STEPS_], others;
-    uint32_t level; /* the mean size of the last residuals, in 128ths of a bit */
+    uint32_t level; /* mean size of the last residuals, in 1/128 bit */
 };
 
-/* Decodes residuals, in the order of the walk. */
+/* Decodes residuals, in the order in which vertices become known. */
 struct lacedring_residuals_ {
     struct lacedring_coded coded;
     struct lacedring_residual_models_* models;
     uint32_t fine;
 };
 
-/* The residuals of a vertex. `d`, which is in registers, takes the place of r->coded. */
+/* Decodes the n residuals of a vertex, still folded. Uses `d`, which stays in registers, in place of r->coded. */
 LACEDRING_HOT_ void lacedring_next_residuals_(struct lacedring_residuals_* r, struct lacedring_coded* d, uint32_t n,
                                               uint32_t* out) {
-    /* A symbol is a range of numbers: where it begins, how many bits say which, and a size in 128ths of a bit. */
+    /* A symbol stands for a range of numbers: its begin, the raw bits that select a number in it, and a size in 1/128
+       bit. */
     static const uint16_t begin[16] = {0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 64, 128, 256, 512, 0};
     static const uint8_t bits[16] = {0, 0, 0, 0, 1, 1, 2, 2, 3, 3, 5, 6, 7, 8, 9, 0};
     static const uint16_t size[16] = {0, 256, 352, 400, 464, 512, 576, 640, 704, 768, 864, 992, 1120, 1248, 1376, 0};
-    uint32_t c, before = 0, second = 0; /* the levels of the two integers before */
+    uint32_t c, before = 0, second = 0; /* levels of the last two residuals */
     for (c = 0; c < n; ++c) {
         struct lacedring_residual_models_* m = r->models + c;
         uint32_t low, symbol, level;
@@ -684,32 +719,34 @@ LACEDRING_HOT_ void lacedring_next_residuals_(struct lacedring_residuals_* r, st
     }
 }
 
-/* The walk has four words for each triangle: the opposite corner of each of its corners, and 0, or, where it is
-   complete, 1, or a link with that bit. A corner is the number of its word. */
-#define LACEDRING_COMPLETE_ 3u /* of a triangle's words */
+/* The walk has four words per triangle: for each of the three corners its opposite corner, and a fourth that is 0, or,
+   if the triangle is complete, 1 or a link with the lowest bit set. A corner is numbered by its word: 4 t + k. */
+#define LACEDRING_COMPLETE_ 3u /* the fourth word of a triangle */
 #define LACEDRING_NONE_ UINT32_MAX
 
-/* Where a corner's vertex is among three a triangle. */
+/* The index of a corner's vertex in an array of three vertices per triangle. */
 LACEDRING_HOT_ size_t lacedring_of_corner_(uint32_t corner) {
     return corner - (corner >> 2);
 }
 
-/* Corners that wait for their opposite ones. Those of an edge between vertices that follow each other are in a table;
-   the others in a list for each vertex, which is the smaller one of their edges. */
+/* Corners that wait for an opposite corner. A corner that faces an edge (v, v + 1) is in a table; any other is in a
+   list of the edge's smaller vertex. */
 struct lacedring_pairs_ {
     const uint32_t* triangles;
     uint32_t* opposite;
-    uint32_t* ring; /* of each vertex: a corner that faces the edge to the next one */
-    uint32_t* last; /* of each vertex's list, where the opposite corner is the next one; behind the last is the first */
+    uint32_t* ring; /* per vertex v: a corner that faces edge (v, v + 1) */
+    /* For each vertex, the last corner of its circular list. The word `opposite` of a listed corner is the next corner;
+       after the last comes the first. */
+    uint32_t* last;
 };
 
-/* Of a corner without an opposite one. */
+/* Pairs a corner with the waiting corner of its edge, or makes it wait. */
 LACEDRING_HOT_ void lacedring_pair_corner_(const struct lacedring_pairs_* p, uint32_t corner) {
     const uint32_t k = corner & 3, *t = p->triangles + lacedring_of_corner_(corner - k);
     const uint32_t x = t[k == 0 ? 1 : 0], y = t[k == 2 ? 1 : 2], smaller = x < y ? x : y;
     uint32_t* const opposite = p->opposite;
     if (x - y == 1 || y - x == 1) {
-        const uint32_t other = p->ring[smaller], is_pair = other != LACEDRING_NONE_; /* hard to predict: no branch */
+        const uint32_t other = p->ring[smaller], is_pair = other != LACEDRING_NONE_; /* unpredictable: no branch */
         opposite[corner] = other;
         opposite[is_pair ? other : corner] = is_pair ? corner : LACEDRING_NONE_;
         p->ring[smaller] = is_pair ? LACEDRING_NONE_ : corner;
@@ -721,7 +758,7 @@ LACEDRING_HOT_ void lacedring_pair_corner_(const struct lacedring_pairs_* p, uin
     }
 }
 
-/* Which vertices two triangles have in common: a bit for each of v's, and, times 8, of those before. */
+/* Finds the vertices that two triangles share. Bit k: v[k] is in `before`. Bit 3 + k: before[k] is in `v`. */
 LACEDRING_HOT_ uint32_t lacedring_shared_(const uint32_t v[3], const uint32_t before[3]) {
 #ifdef LACEDRING_SSE2_
     const __m128i now = _mm_set_epi32(0, (int)v[2], (int)v[1], (int)v[0]);
@@ -744,16 +781,19 @@ LACEDRING_HOT_ uint32_t lacedring_shared_(const uint32_t v[3], const uint32_t be
 #endif
 }
 
-/* Fills the words of triangles, and finds opposite corners. `scratch`: four words a vertex. Returns the number of a
-   triangle that has another vertex, or `count`. */
+/* Fills the words of all triangles, and finds opposite corners. `scratch`: four words per vertex. Returns the number of
+   a triangle with a vertex out of range, or `count`. */
 LACEDRING_COLD_ uint32_t lacedring_pair_corners_(const uint32_t* triangles, uint32_t count, uint32_t vertices,
                                                  uint32_t* opposite, uint32_t* scratch) {
     struct lacedring_pairs_ p;
-    uint32_t* edges =
-        scratch + 2 * (size_t)vertices; /* by the larger vertex, a corner that waits: the smaller, and it */
-    static const uint8_t alone[8] = {3, 3, 3, 2, 3, 1, 0, 3}; /* the one of three whose bit is 0; 3: not one */
+    /* For an edge's larger vertex: its smaller vertex, and the corner that waits. */
+    uint32_t* edges = scratch + 2 * (size_t)vertices;
+    /* By three bits: the bit that is 0 if the two others are 1; else 3. */
+    static const uint8_t alone[8] = {3, 3, 3, 2, 3, 1, 0, 3};
     uint32_t i, c, k, v;
-    uint32_t before[3] = {0, 0, 0}, paired = 3, is_good = 0; /* of the triangle before */
+    /* The triangle before: its vertices; its corner paired with the triangle before it, or 3; are its vertices
+       different. */
+    uint32_t before[3] = {0, 0, 0}, paired = 3, is_good = 0;
     p.triangles = triangles;
     p.opposite = opposite;
     p.ring = scratch;
@@ -782,7 +822,7 @@ LACEDRING_COLD_ uint32_t lacedring_pair_corners_(const uint32_t* triangles, uint
             before[1] = now[1];
             before[2] = now[2];
         }
-        if (is_good) { /* what is left of the triangle before: mostly one corner */
+        if (is_good) { /* corners of the triangle before that are still unpaired: mostly one */
             if (paired + behind <= 3 && paired != 3 && behind != 3) {
                 lacedring_pair_corner_(&p, c - 4 + (3 - paired - behind));
             } else {
@@ -814,32 +854,41 @@ LACEDRING_COLD_ uint32_t lacedring_pair_corners_(const uint32_t* triangles, uint
     return count;
 }
 
-/* How a vertex becomes known: across from two corners, or from one twice, of whose triangles x and y are the two other
-   vertices and z is opposite. Or as a start: x[0] is LACEDRING_NONE_, and it comes from y[0]. */
+/* How vertex v becomes known. Predicted by two corners (or by one, given twice): x and y are the other two vertices of
+   the corner's triangle, z is the vertex of its opposite corner. As a start: x[0] is LACEDRING_NONE_, and y[0] is the
+   vertex it comes from. */
 struct lacedring_visit_ {
     uint32_t v, x[2], y[2], z[2];
 };
 
-/* Finds the order of vertices. */
+/* The walk that finds the order of vertices (docs/storage-format.md, "The order of vertices"). */
 struct lacedring_walk_ {
-    const uint32_t* of; /* of triangles, three vertices each */
-    uint32_t* opposite; /* where a corner was looked across from, its opposite one is the next of the vertex's list */
-    uint32_t* state;    /* of each vertex: known, unseen, or the first corner of its list and a bit if there are more */
-    const uint32_t *one, *two; /* queues of vertices that wait: with one corner, and with more */
+    const uint32_t* of; /* vertices of triangles, three each */
+    /* Opposite corners. When a corner was looked across, its word becomes the next corner of the vertex's list. */
+    uint32_t* opposite;
+    /* For each vertex: LACEDRING_KNOWN_, LACEDRING_UNSEEN_, or the first corner of its list, with LACEDRING_MORE_ if it
+       has more. */
+    uint32_t* state;
+    /* Queues of vertices that wait, with one corner and with more. */
+    const uint32_t *one, *two;
     uint32_t *one_end, *two_end;
-    uint32_t pending;             /* a stack of complete triangles that were not looked across */
-    uint32_t triangle, triangles; /* the next one that may begin a component, and how many there are */
-    uint32_t vertex, vertices;    /* the next one that may have no triangle */
-    uint32_t last;                /* the vertex known last */
+    /* A stack of complete triangles that were not yet looked across, linked by their fourth words. */
+    uint32_t pending;
+    /* The next triangle that may begin a component, and the number of triangles. */
+    uint32_t triangle, triangles;
+    /* The next vertex that may have no triangle, and the number of vertices. */
+    uint32_t vertex, vertices;
+    uint32_t last; /* the vertex that became known last */
 };
 
-/* A triangle is complete, and is to be looked across. */
+/* Marks a triangle complete, and puts it on the stack. */
 LACEDRING_HOT_ void lacedring_complete_(struct lacedring_walk_* w, uint32_t triangle) {
     w->opposite[triangle + LACEDRING_COMPLETE_] = w->pending | 1;
     w->pending = triangle;
 }
 
-/* The neighbor across from a corner of a complete triangle is complete, too, or its vertex gets the corner. */
+/* Looks across a corner of a complete triangle. If the opposite corner's vertex is known, its triangle becomes
+   complete; else that corner is put in front of the vertex's list. */
 LACEDRING_HOT_ void lacedring_look_across_(struct lacedring_walk_* w, uint32_t corner) {
     uint32_t* opposite = w->opposite;
     const uint32_t across = opposite[corner], k = across & 3, triangle = across - k;
@@ -849,7 +898,7 @@ LACEDRING_HOT_ void lacedring_look_across_(struct lacedring_walk_* w, uint32_t c
     state = w->state[v];
     if (state == LACEDRING_KNOWN_) {
         if (!opposite[triangle + LACEDRING_COMPLETE_]) lacedring_complete_(w, triangle);
-    } else { /* no branches: these are hard to predict */
+    } else { /* no branches: they would be unpredictable */
         const uint32_t is_first = state == LACEDRING_UNSEEN_, is_second = !(state & LACEDRING_MORE_);
         const uint32_t* next = opposite + triangle;
         opposite[corner] = is_first ? LACEDRING_NONE_ : state & ~LACEDRING_MORE_;
@@ -857,17 +906,18 @@ LACEDRING_HOT_ void lacedring_look_across_(struct lacedring_walk_* w, uint32_t c
         *(is_first ? w->one_end : w->two_end) = v;
         w->one_end += is_first;
         w->two_end += is_second;
-        LACEDRING_PREFETCH_(opposite + next[k == 2 ? 0 : k + 1]); /* which will be looked at next */
+        LACEDRING_PREFETCH_(opposite + next[k == 2 ? 0 : k + 1]); /* these will be looked at next */
         LACEDRING_PREFETCH_(opposite + next[k == 0 ? 2 : k - 1]);
     }
 }
 
-/* The corner of a vertex's list behind this one, or LACEDRING_NONE_: the opposite corner says, which is of no use any
-   more. */
+/* The next corner of a vertex's list, or LACEDRING_NONE_. It is in the word of this corner's opposite corner, which is
+   not needed any more. */
 LACEDRING_HOT_ uint32_t lacedring_corner_behind_(const struct lacedring_walk_* w, uint32_t corner) {
     return w->opposite[w->opposite[corner]];
 }
 
+/* Sets x, y and z of prediction i from a corner. */
 LACEDRING_HOT_ void lacedring_predict_by_(const struct lacedring_walk_* w, uint32_t corner, uint32_t i,
                                           struct lacedring_visit_* visit) {
     const uint32_t k = corner & 3, *t = w->of + lacedring_of_corner_(corner - k);
@@ -876,6 +926,7 @@ LACEDRING_HOT_ void lacedring_predict_by_(const struct lacedring_walk_* w, uint3
     visit->z[i] = w->of[lacedring_of_corner_(w->opposite[corner])];
 }
 
+/* Makes vertex v known as a start that comes from `from`. */
 LACEDRING_HOT_ struct lacedring_visit_* lacedring_start_(struct lacedring_walk_* w, uint32_t v, uint32_t from,
                                                          struct lacedring_visit_* visit) {
     visit->v = v;
@@ -885,10 +936,10 @@ LACEDRING_HOT_ struct lacedring_visit_* lacedring_start_(struct lacedring_walk_*
     return visit + 1;
 }
 
-/* The next vertices, `most` and two more at most, until there are none. */
+/* Finds the next vertices, up to most + 2. Returns their number; 0: all are known. */
 LACEDRING_COLD_ uint32_t lacedring_walk_some_(struct lacedring_walk_* begin, struct lacedring_visit_* visits,
                                               uint32_t most) {
-    struct lacedring_walk_ walk = *begin, *w = &walk; /* in registers */
+    struct lacedring_walk_ walk = *begin, *w = &walk; /* a copy, to stay in registers */
     struct lacedring_visit_* visit = visits;
     uint32_t c, i, k, second;
     for (;;) {
@@ -926,7 +977,7 @@ LACEDRING_COLD_ uint32_t lacedring_walk_some_(struct lacedring_walk_* begin, str
                 c = second;
                 second = lacedring_corner_behind_(w, c);
             }
-        } else if (w->triangle < w->triangles) { /* does it begin a component? */
+        } else if (w->triangle < w->triangles) { /* starts at this triangle if it is not complete */
             const uint32_t *t = w->of + 3 * (size_t)w->triangle, next = 4 * w->triangle++;
             uint32_t from = LACEDRING_NONE_;
             if (w->opposite[next + LACEDRING_COMPLETE_] || t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
@@ -952,7 +1003,7 @@ LACEDRING_COLD_ uint32_t lacedring_walk_some_(struct lacedring_walk_* begin, str
     return (uint32_t)(visit - visits);
 }
 
-/* Positions from their least coordinates, in 20 bits: products of three are exact as doubles. */
+/* Places: positions less the least coordinates, scaled to 20 bits, so that products of three are exact as doubles. */
 struct lacedring_places_ {
     const struct lacedring_positions* positions;
     uint32_t low[3], shift;
@@ -974,7 +1025,7 @@ static void lacedring_scale_places_(const struct lacedring_positions* positions,
     for (out->shift = 0; extent >> out->shift >= 1u << 20;) ++out->shift;
 }
 
-/* The place of a value of the attribute. */
+/* The place of element `value` of the attribute. */
 LACEDRING_HOT_ void lacedring_place_(const struct lacedring_places_* p, uint32_t value, double out[3]) {
     const uint32_t* of = p->positions->vertex_of;
     const uint32_t* at = p->positions->integers + 3 * (size_t)(of != NULL ? of[value] : value);
@@ -982,8 +1033,8 @@ LACEDRING_HOT_ void lacedring_place_(const struct lacedring_places_* p, uint32_t
     for (c = 0; c < 3; ++c) out[c] = (int32_t)((at[c] - p->low[c]) >> p->shift);
 }
 
-/* Of vectors below 2^53. Each component is rounded to a float first: its square is exact then, and fused operations
-   change nothing. */
+/* Square of a vector's length, with components below 2^53. Rounds each component to a float first: its square is then
+   exact, and fused multiply-add changes nothing. */
 LACEDRING_HOT_ double lacedring_square_(const double v[3]) {
     const double x = (double)(float)v[0], y = (double)(float)v[1], z = (double)(float)v[2];
     return x * x + y * y + z * z;
@@ -999,13 +1050,13 @@ LACEDRING_HOT_ double lacedring_dot_(const double a[3], const double b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Folds the triangle (x, y, v) into the plane of (x, y, z), where v = x + along (y - x) - across (z - x): so the map to
-   the texture goes on. */
+/* Predicts the texture coordinates of v by continuing the map of triangle (x, y, z): folds triangle (x, y, v) into its
+   plane, where v = x + along (y - x) - across (z - x), with `along` and `across` in 1/65536. */
 LACEDRING_HOT_ void lacedring_extend_(const struct lacedring_places_* p, const double v[3], uint32_t x, uint32_t y,
                                       uint32_t z, const uint32_t* values, uint32_t out[2]) {
     const double most = 1 << 20;
     double origin[3], edge[3], to_v[3], to_z[3], cross[3], height;
-    int64_t along = 65536, across = 65536; /* a parallelogram, where there is no plane */
+    int64_t along = 65536, across = 65536; /* a parallelogram, if x, y, z are collinear */
     uint32_t c;
     lacedring_place_(p, x, origin);
     lacedring_place_(p, y, edge);
@@ -1033,7 +1084,7 @@ LACEDRING_HOT_ void lacedring_extend_(const struct lacedring_places_* p, const d
     }
 }
 
-/* Makes the value of a difference, two integers, which `visit` finds. */
+/* Adds the prediction by places to the difference of a vertex: two integers. */
 LACEDRING_HOT_ void lacedring_add_place_(const struct lacedring_places_* p, const struct lacedring_visit_* visit,
                                          const uint32_t* differences, uint32_t* values) {
     const size_t at = 2 * (size_t)visit->v;
@@ -1053,13 +1104,15 @@ LACEDRING_HOT_ void lacedring_add_place_(const struct lacedring_places_* p, cons
     for (c = 0; c < 2; ++c) values[at + c] = differences[at + c] + base[c];
 }
 
-/* Makes integers of residuals. */
+/* Turns residuals into integers. */
 struct lacedring_predictor_ {
     const struct lacedring_stored_vertices* s;
     uint32_t* integers;
-    uint32_t* errors;  /* of each integer, how far it is from what parallelograms predict; null: not needed */
-    uint32_t is_plain; /* parallelograms alone predict */
-    const struct lacedring_places_* places; /* integers are differences from what these predict; null: they are not */
+    /* For each integer, its difference from the parallelogram prediction; null: not needed. */
+    uint32_t* errors;
+    uint32_t is_plain; /* all components are predicted by parallelograms */
+    /* Null, or the places that predict: then `integers` are differences from predictions by places. */
+    const struct lacedring_places_* places;
     uint32_t* values;
 };
 
@@ -1067,12 +1120,12 @@ LACEDRING_HOT_ uint32_t lacedring_unfold_(uint32_t code) {
     return code >> 1 ^ (0u - (code & 1));
 }
 
-/* x / 2^bits, rounded to the nearest integer, halves up: shifts keep the sign. */
+/* x / 2^bits, rounded to the nearest integer, halves up. Right shifts keep the sign. */
 LACEDRING_HOT_ uint32_t lacedring_rounded_(int64_t x, uint32_t bits) {
     return (uint32_t)((x + ((int64_t)1 << (bits - 1))) >> bits);
 }
 
-/* Adds (y - x) times (z - x) to a normal, modulo 2^64. */
+/* Adds the cross product (y - x) x (z - x) to a normal, modulo 2^64. */
 LACEDRING_HOT_ void lacedring_add_normal_(const uint32_t* x, const uint32_t* y, const uint32_t* z, uint64_t normal[3]) {
     uint64_t a[3], b[3];
     uint32_t c;
@@ -1085,13 +1138,14 @@ LACEDRING_HOT_ void lacedring_add_normal_(const uint32_t* x, const uint32_t* y, 
     normal[2] += a[0] * b[1] - a[1] * b[0];
 }
 
-/* A component of a normal, divided by 2^shift, times a difference that is cut to 16 bits. */
+/* A component of a normal divided by 2^shift, times a difference clamped to 16 bits. */
 LACEDRING_HOT_ int32_t lacedring_slope_(uint64_t normal, uint32_t shift, uint32_t difference) {
     const int32_t x = (int32_t)difference, cut = x > 32767 ? 32767 : x < -32767 ? -32767 : x;
     return (int32_t)((int64_t)normal >> shift) * cut;
 }
 
-LACEDRING_HOT_ uint32_t lacedring_width_(uint64_t x) { /* bits, of a number that is not 0 */
+/* Number of bits of x, which is not 0. */
+LACEDRING_HOT_ uint32_t lacedring_width_(uint64_t x) {
 #if defined(__GNUC__) && !defined(LACEDRING_PLAIN)
     return 64 - (uint32_t)__builtin_clzll(x);
 #else
@@ -1101,7 +1155,8 @@ LACEDRING_HOT_ uint32_t lacedring_width_(uint64_t x) { /* bits, of a number that
 #endif
 }
 
-/* The steepest component last: it is where the plane through the prediction is. */
+/* Decodes three integers by the normal: the component in which the normal is largest last, predicted on the plane
+   through the prediction. */
 LACEDRING_HOT_ void lacedring_by_normal_(const uint64_t normal[3], const uint32_t* moved, const uint32_t* residual,
                                          uint32_t* out) {
     static const uint8_t next[3] = {1, 2, 0};
@@ -1121,10 +1176,11 @@ LACEDRING_HOT_ void lacedring_by_normal_(const uint64_t normal[3], const uint32_
     shift = width > 14 ? width - 14 : 0;
     nk = (int32_t)((int64_t)normal[k] >> shift);
     up = (uint32_t)((lacedring_slope_(normal[u], shift, across[0]) + lacedring_slope_(normal[w], shift, across[1])) /
-                    (nk == 0 ? 1 : nk)); /* all are 0 where nk is */
+                    (nk == 0 ? 1 : nk)); /* if nk is 0, so are the others */
     out[k] = moved[k] - up + lacedring_unfold_(residual[2]);
 }
 
+/* Predicts a vertex and sets its integers and errors. */
 LACEDRING_HOT_ void lacedring_predict_(const struct lacedring_predictor_* p, uint32_t n,
                                        const struct lacedring_visit_* visit, const uint32_t* residual) {
     const uint32_t* a[3] = {p->integers + (size_t)visit->x[0] * n, p->integers + (size_t)visit->y[0] * n,
@@ -1169,7 +1225,7 @@ LACEDRING_HOT_ void lacedring_predict_(const struct lacedring_predictor_* p, uin
     for (c = 0; c < n && p->errors != NULL; ++c) p->errors[at + c] = out[c] - plain[c];
 }
 
-/* Integers of n components, which is a constant where it matters. */
+/* Decodes all integers. n is a constant in the calls that matter, so that the compiler unrolls loops. */
 LACEDRING_HOT_ void lacedring_integers_n_(const struct lacedring_predictor_* p, struct lacedring_walk_* walk,
                                           struct lacedring_residuals_* residuals, uint32_t n) {
     struct lacedring_visit_ visits[LACEDRING_SOME_VERTICES_];
@@ -1207,22 +1263,24 @@ LACEDRING_COLD_ void lacedring_integers_(const struct lacedring_predictor_* p, s
     }
 }
 
-#define LACEDRING_TANGENTS_ 4096   /* of the table of angles: steps up to 45 degrees */
-#define LACEDRING_HALF_TURN_ 16384 /* of angles */
+/* Steps of the table of angles, up to 45 degrees. */
+#define LACEDRING_TANGENTS_ 4096
+#define LACEDRING_HALF_TURN_ 16384 /* half a turn, in units of angles */
 
-/* The angles whose tangents are i / LACEDRING_TANGENTS_, rounded. */
+/* Fills the table: the angles with tangents i / LACEDRING_TANGENTS_, rounded. */
 static void lacedring_angles_(uint16_t* out) {
     const double step = 1.0 / LACEDRING_TANGENTS_;
     double angle = 0;
     uint32_t i;
     for (i = 0; i <= LACEDRING_TANGENTS_; ++i) {
-        const double d = step / (1 + (double)i * (i + 1) * step * step), square = d * d; /* tangent of the difference */
+        /* The tangent of the angle to the next entry. */
+        const double d = step / (1 + (double)i * (i + 1) * step * step), square = d * d;
         out[i] = (uint16_t)(angle * LACEDRING_HALF_TURN_ / 3.14159265358979323846 + 0.5);
         angle += d * (1 - square * (1.0 / 3 - square * (1.0 / 5)));
     }
 }
 
-/* Adds the normals of triangles to the sums of their corners, three each. */
+/* Adds the normal of each triangle, weighted, to the sums of its three vertices: three components each. */
 static void lacedring_sum_normals_(const struct lacedring_stored_vertices* s, const struct lacedring_places_* p,
                                    const uint32_t* triangles, uint32_t count, const uint32_t* vertex_of,
                                    const uint16_t* angles, uint64_t* sums) {
@@ -1238,7 +1296,7 @@ static void lacedring_sum_normals_(const struct lacedring_stored_vertices* s, co
         length = lacedring_square_(normal);
         length = sqrt(length < 1 ? 1 : length);
         ab = lacedring_dot_(a, b);
-        cosine[0] = lacedring_dot_(a, a) + ab; /* on the scale where the length is the sine */
+        cosine[0] = lacedring_dot_(a, a) + ab; /* cosines scaled so that `length` is the sine */
         cosine[1] = -ab;
         cosine[2] = lacedring_dot_(b, b) + ab;
         if (!s->by_area) {
@@ -1259,7 +1317,7 @@ static void lacedring_sum_normals_(const struct lacedring_stored_vertices* s, co
     }
 }
 
-/* The octahedral integers of a sum. */
+/* Octahedral integers of the direction of a sum. */
 static void lacedring_base_(const uint64_t sum[3], int32_t most, int32_t out[2]) {
     uint64_t size[3];
     double all;
@@ -1281,7 +1339,7 @@ static void lacedring_base_(const uint64_t sum[3], int32_t most, int32_t out[2])
     }
 }
 
-/* Turns a point of the square over: the lower half lies in the middle then. It is its own inverse. */
+/* Turns a point of the octahedral square over, which moves the lower half to the middle. It is its own inverse. */
 static void lacedring_turn_over_(uint32_t* x, uint32_t* y, uint32_t most) {
     const uint32_t left = *x >> 31, below = *y >> 31;
     const uint32_t across = most + 1 - (below ? 0 - *y : *y), up = most + 1 - (left ? 0 - *x : *x);
@@ -1289,7 +1347,7 @@ static void lacedring_turn_over_(uint32_t* x, uint32_t* y, uint32_t most) {
     *y = below ? 0 - up : up;
 }
 
-/* Makes normals of their differences from the surface's. */
+/* Turns differences into normals: adds the octahedral integers of the surface's normals. */
 LACEDRING_COLD_ void lacedring_add_normals_(const struct lacedring_stored_vertices* s,
                                             const struct lacedring_positions* positions, const uint32_t* triangles,
                                             uint32_t count, void* scratch, uint32_t* integers) {
@@ -1332,7 +1390,7 @@ size_t lacedring_stored_vertices_scratch(const struct lacedring_stored_vertices*
     return walk > normals ? walk : normals;
 }
 
-/* Has each value a place? */
+/* Does each of `values` elements have a position? If not, sets *where to the first without one. */
 static int lacedring_have_places_(const struct lacedring_positions* positions, uint32_t values, uint64_t* where) {
     uint32_t i = 0;
     if (positions != NULL && positions->vertex_of == NULL && positions->vertices == values) return 1;
@@ -1344,13 +1402,13 @@ static int lacedring_have_places_(const struct lacedring_positions* positions, u
     return 0;
 }
 
-/* Reads the exceptions and writes them to values of floats, if `out` is not null. Returns 0 if one is impossible. */
+/* Reads the exceptions; writes them to the float values if `out` is not null. Returns 0 if one is invalid. */
 static int lacedring_stored_exceptions_(const struct lacedring_stored_vertices* s, struct lacedring_coded* d,
                                         uint32_t count, uint8_t* out) {
     const uint64_t values = (uint64_t)s->attribute.vertices * s->attribute.components;
     struct lacedring_symbol_model_ distance;
     struct lacedring_bit_model_ same;
-    uint32_t i, last = 0x80000000u; /* -0, the usual one */
+    uint32_t i, last = 0x80000000u; /* -0, the usual exception */
     uint64_t at = 0;
     lacedring_begin_symbols_(&distance, 1);
     lacedring_begin_bits_(&same, 1);
@@ -1363,7 +1421,7 @@ static int lacedring_stored_exceptions_(const struct lacedring_stored_vertices* 
     return 1;
 }
 
-/* Checks that integers are in the ranges of their components and of the mapping. */
+/* Checks that integers are in the ranges of their components and mapping. */
 static enum lacedring_status lacedring_stored_ranges_(const struct lacedring_stored_vertices* s,
                                                       const uint32_t* integers, uint64_t* where) {
     const uint32_t n = s->attribute.components;
