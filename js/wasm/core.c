@@ -1,11 +1,11 @@
-/* The module of js/src/core.js: lean and packed streams. JavaScript puts a file into memory, calls these functions with
-   addresses behind it (js/src/engine.js hands them out), and reads numbers from `lr_result` and arrays from where it
-   said. All input is checked; each function returns an enum lacedring_status. */
+/* The WebAssembly module of js/src/core.js: lean and packed streams. JavaScript copies a file into memory, calls these
+   functions with addresses after it (js/src/engine.js allocates them), and reads numbers from `lr_result` and arrays
+   from the addresses it gave. All input is checked. Functions that can fail return an enum lacedring_status. */
 #include "lacedring_decode.h"
 
 #define LR_EXPORT(name) __attribute__((export_name(#name))) name
 
-/* What a function says beside its status: numbers, and last, in two words, where a stream is wrong. */
+/* What a function returns besides its status: numbers, and in words 8 and 9 the `where` of an error. */
 static uint32_t result[10];
 #define LR_WHERE ((uint64_t*)(void*)(result + 8))
 
@@ -13,7 +13,7 @@ uint32_t* LR_EXPORT(lr_result)(void) {
     return result;
 }
 
-/* Products of polynomials modulo that of CRC-32, the lowest power in the highest bit. */
+/* Product of two polynomials modulo that of CRC-32. The highest bit is the coefficient of x^0. */
 static uint32_t crc_product(uint32_t a, uint32_t b) {
     uint32_t product = 0;
     for (; a != 0; a <<= 1) {
@@ -23,7 +23,7 @@ static uint32_t crc_product(uint32_t a, uint32_t b) {
     return product;
 }
 
-/* The CRC of a || b, where b has so many bytes, less that of b: the CRC of a times a power of x. */
+/* The CRC of a times x^(8 size). That is the CRC of a || b, xor the CRC of b, for any b of `size` bytes. */
 static uint32_t crc_before(uint32_t crc, size_t size) {
     uint32_t power = 0x00800000u;
     for (; size != 0; size >>= 1, power = crc_product(power, power)) {
@@ -47,7 +47,7 @@ static uint32_t crc_step(uint32_t tables[CRC_TABLES][256], const uint8_t* bytes,
 }
 #endif
 
-/* CRC-32 of more bytes; it begins with 0. */
+/* Continues a CRC-32 with `size` more bytes. `crc`: that of the bytes before, 0 if there are none. */
 uint32_t LR_EXPORT(lr_crc)(const uint8_t* bytes, size_t size, uint32_t crc) {
     static uint32_t tables[CRC_TABLES][256];
     uint32_t i, k;
@@ -63,7 +63,7 @@ uint32_t LR_EXPORT(lr_crc)(const uint8_t* bytes, size_t size, uint32_t crc) {
     }
     crc = ~crc;
 #ifndef LACEDRING_TINY
-    if (size >= 4096) { /* three parts at once: none waits for another's tables */
+    if (size >= 4096) { /* three parts at once, so that their table loads overlap */
         const size_t part = size / 24 * 8;
         uint32_t second = 0, third = 0;
         for (i = 0; i < part; i += 8) {
@@ -81,8 +81,8 @@ uint32_t LR_EXPORT(lr_crc)(const uint8_t* bytes, size_t size, uint32_t crc) {
     return ~crc;
 }
 
-/* Is word `at` of a stream the checksum of words [from, at) and of those behind it? All are the end of a section that
-   begins at `contents` and has this CRC: only the words before are read. */
+/* Checks that word `at` of a stream is the CRC of words [from, at) and all words after it. The stream is the end of a
+   section that begins at `contents` and whose CRC is `crc`, so that only bytes up to word `at` need to be read. */
 static uint32_t checksum_of(const uint32_t* words, size_t count, size_t from, size_t at, const uint8_t* contents,
                             uint32_t crc) {
     uint32_t before = lr_crc((const uint8_t*)(words + from), 4 * (at - from), 0);
@@ -95,7 +95,7 @@ static struct lacedring_lean lean;
 static struct lacedring_packed packed;
 static uint32_t is_packed;
 
-/* Opens a lean or a packed stream whose words have this CRC. Result: vertices, triangles, slots. */
+/* Opens a lean or packed stream; `crc` is the CRC of its words. Result: vertices, triangles, slots. */
 uint32_t LR_EXPORT(lr_connectivity_open)(const uint32_t* words, size_t count, uint32_t crc) {
     uint32_t status;
     is_packed = count > 0 && (words[0] & 0xffffff) == 0x50524c;
@@ -126,10 +126,11 @@ uint32_t LR_EXPORT(lr_connectivity_decode)(uint32_t* out) {
     return status;
 }
 
-/* One triangle of the stream opened last, which lr_connectivity_decode accepted. */
+/* Decodes one triangle (or slot of a lean stream) of the stream opened last, which lr_connectivity_decode accepted.
+   Result: its three vertices. */
 void LR_EXPORT(lr_triangle)(uint32_t triangle) {
     if (is_packed) {
-#ifdef LACEDRING_TINY /* a block for one triangle */
+#ifdef LACEDRING_TINY /* smaller code: decodes a whole block */
         uint32_t block[3 * LACEDRING_PACKED_BLOCK], run = 0, turned = 0;
         if (triangle >= packed.own) {
             while (triangle >= lacedring_run_end_(&packed, run)) ++run;

@@ -1,4 +1,4 @@
-/* The module of js/src/lacedring.js: vertices.c, and all of that in storage form. */
+/* The WebAssembly module of js/src/lacedring.js: vertices.c, and the decoders of the storage form. */
 #include "lacedring_storage.h"
 #include "lacedring_stored_seams.h"
 #include "vertices.c"
@@ -8,7 +8,7 @@ static struct lacedring_stored_vertices stored_vertices;
 static struct lacedring_stored_seams stored_seams;
 static struct lacedring_positions positions;
 
-/* Opens a packed stream in storage form. Result: vertices, triangles, bytes of scratch. */
+/* Opens a packed stream in storage form. Result: vertices, triangles, bytes of scratch memory. */
 uint32_t LR_EXPORT(lr_stored_packed_open)(const uint32_t* words, size_t count, uint32_t most_vertices,
                                           uint32_t most_triangles) {
     const uint32_t status =
@@ -23,7 +23,7 @@ uint32_t LR_EXPORT(lr_stored_packed_decode)(void* scratch, uint32_t* triangles) 
     return lacedring_stored_packed_decode(&stored_packed, scratch, triangles, LR_WHERE);
 }
 
-/* Opens seams in storage form. Result: entries of vertex_of, bytes of scratch. */
+/* Opens a seam section in storage form. Result: entries of vertex_of, bytes of scratch memory. */
 uint32_t LR_EXPORT(lr_stored_seams_open)(const uint32_t* words, size_t count, uint32_t vertices, uint32_t slots,
                                          uint32_t most_copies) {
     const uint32_t status =
@@ -33,7 +33,7 @@ uint32_t LR_EXPORT(lr_stored_seams_open)(const uint32_t* words, size_t count, ui
     return status;
 }
 
-/* As lr_seams_decode. Result: copies. */
+/* As lr_seams_decode. Result: number of copies. */
 uint32_t LR_EXPORT(lr_stored_seams_decode)(const uint32_t* slots, void* scratch, uint32_t* copies,
                                            uint32_t* vertex_of) {
     const uint32_t status = lacedring_stored_seams_decode(&stored_seams, slots, scratch, copies, vertex_of, LR_WHERE);
@@ -41,8 +41,9 @@ uint32_t LR_EXPORT(lr_stored_seams_decode)(const uint32_t* slots, void* scratch,
     return status;
 }
 
-/* Opens a vertex stream in storage form. `integers`: of `vertices` positions that may predict, or null; `vertex_of`:
-   the vertex of each value, or null. Result: describe's, bytes of scratch, and whether positions predict. */
+/* Opens a vertex stream in storage form. `integers`: decoded POSITION of `vertices` vertices, for prediction, or null;
+   `vertex_of`: the vertex of each of `values` copies, or null if the stream is of vertices. Result: as describe, then
+   bytes of scratch memory. Returns LACEDRING_STATUS_POSITIONS if the positions are needed and null. */
 uint32_t LR_EXPORT(lr_stored_vertices_open)(const uint32_t* words, size_t count, uint32_t values, uint32_t triangles,
                                             const uint32_t* integers, uint32_t vertices, const uint32_t* vertex_of) {
     const uint32_t status = lacedring_stored_vertices_open(words, count, values, &stored_vertices, LR_WHERE);
@@ -55,7 +56,7 @@ uint32_t LR_EXPORT(lr_stored_vertices_open)(const uint32_t* words, size_t count,
     return stored_vertices.by_positions && integers == NULL ? LACEDRING_STATUS_POSITIONS : LACEDRING_STATUS_OK;
 }
 
-/* The integers and the values of the stream opened last. */
+/* Decodes the integers and the values of the stream opened last. `count`: number of triangles. */
 uint32_t LR_EXPORT(lr_stored_vertices_decode)(const uint32_t* triangles, uint32_t count, void* scratch,
                                               uint32_t* integers, void* out) {
     const uint32_t status =

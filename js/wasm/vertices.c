@@ -1,11 +1,11 @@
-/* The module of js/src/vertices.js: core.c, vertex streams and seams. */
+/* The WebAssembly module of js/src/vertices.js: core.c, and vertex streams and seam sections. */
 #include "core.c"
 #include "lacedring_seams.h"
 #include "lacedring_vertices.h"
 
 static struct lacedring_vertices attribute;
 
-/* Result: values a vertex, their type and whether they are normalized, integers a vertex, their mapping. */
+/* Result: values per vertex, their type, whether they are normalized, integers per vertex, their mapping. */
 static void describe(const struct lacedring_vertices* stream) {
     result[0] = lacedring_vertices_values(stream);
     result[1] = stream->type;
@@ -14,9 +14,9 @@ static void describe(const struct lacedring_vertices* stream) {
     result[4] = stream->mapping;
 }
 
-/* Opens a vertex stream of so many vertices, the end of a section that begins at `contents` and has this CRC. A block
-   takes at least 8 bits for each of its components but the first one's predictor: what is decoded is never more than
-   700 times the stream. */
+/* Opens a vertex stream of `vertices` vertices: the end of a section that begins at `contents` and whose CRC is `crc`.
+   Refuses streams with less than 8 bits per component and full block, as any block takes more. So the values of full
+   blocks are at most 768 times as large as the stream. Result: as describe. */
 uint32_t LR_EXPORT(lr_vertices_open)(const uint32_t* words, size_t count, const uint8_t* contents, uint32_t crc,
                                      uint32_t vertices) {
     const uint32_t status = lacedring_vertices_open(words, count, &attribute, LR_WHERE);
@@ -34,13 +34,13 @@ uint32_t LR_EXPORT(lr_vertices_decode)(void* out) {
     return lacedring_vertices_decode_checked(&attribute, out, LR_WHERE);
 }
 
-/* The integers of the stream opened last, which lr_vertices_decode accepted. */
+/* Decodes the integers of the stream opened last, which lr_vertices_decode accepted. */
 void LR_EXPORT(lr_vertices_integers)(uint32_t* out) {
     lacedring_vertices_blocks(&attribute, 0, lacedring_vertex_blocks_(&attribute), out);
 }
 
-/* The slots of the lean stream opened last, which lr_connectivity_decode accepted: three vertices each, or UINT32_MAX.
- */
+/* Decodes the slots of the lean stream opened last, which lr_connectivity_decode accepted: three vertices each, or
+   UINT32_MAX three times if empty. */
 void LR_EXPORT(lr_slots)(uint32_t* out) {
     const uint32_t slots = lacedring_lean_slots(&lean);
     uint32_t slot;
@@ -52,7 +52,7 @@ void LR_EXPORT(lr_slots)(uint32_t* out) {
 
 static struct lacedring_seams seams;
 
-/* Opens a section of seams that has this CRC. Result: copies, bytes of scratch. */
+/* Opens a seam section; `crc` is the CRC of its words. Result: number of copies, bytes of scratch memory. */
 uint32_t LR_EXPORT(lr_seams_open)(const uint32_t* words, size_t count, uint32_t crc, uint32_t vertices,
                                   uint32_t slots) {
     const uint32_t status = lacedring_seams_open(words, count, vertices, slots, &seams, LR_WHERE);
@@ -62,12 +62,12 @@ uint32_t LR_EXPORT(lr_seams_open)(const uint32_t* words, size_t count, uint32_t 
     return checksum_of(words, count, 1, 1, (const uint8_t*)words, crc);
 }
 
-/* The copies of the slots' corners, and the vertex of each copy. */
+/* Checks the section opened last; writes the copy of each slot's corners, and the vertex of each copy. */
 uint32_t LR_EXPORT(lr_seams_decode)(const uint32_t* slots, uint32_t* scratch, uint32_t* copies, uint32_t* vertex_of) {
     return lacedring_seams_decode_checked(&seams, slots, scratch, copies, vertex_of, LR_WHERE);
 }
 
-/* out[i] = values[of[i]], of values of `size` bytes. */
+/* out[i] = values[of[i]] for i < count; values have `size` bytes. */
 void LR_EXPORT(lr_gather)(const uint8_t* values, uint32_t size, const uint32_t* of, uint32_t count, uint8_t* out) {
     uint32_t i;
 #ifndef LACEDRING_TINY

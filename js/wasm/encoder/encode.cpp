@@ -1,6 +1,6 @@
-// The encoder in WebAssembly: arrays in, the bytes of an .lr file out, the same bytes as `lacedring encode` writes.
-// One mesh for each instance: js/src/encode.js makes an instance for each call, so that nothing is freed here and an
-// instance that has trapped harms nobody.
+// The encoder in WebAssembly: takes arrays, makes the bytes of an .lr file, the same as `lacedring encode` writes. One
+// mesh per instance: js/src/encode.js makes an instance for each call. So nothing is freed here, and an instance that
+// has trapped affects no other call.
 
 #include <cmath>
 #include <cstdlib>
@@ -16,7 +16,7 @@
 
 #define LR_EXPORT(name) extern "C" __attribute__((export_name(#name)))
 
-/// Throws in JavaScript; does not return.
+/// Throws an exception in JavaScript; does not return.
 extern "C" __attribute__((import_module("lacedring"), import_name("outOfMemory"), noreturn)) void out_of_memory();
 
 // Compiled without exceptions, the library's own operator new would return null.
@@ -33,7 +33,7 @@ void operator delete(void* memory, std::size_t) noexcept {
 
 namespace lacedring {
 
-// The place of lrcore/base/parallel.cpp: there are no threads.
+// Replaces lrcore/base/parallel.cpp: there are no threads here.
 void detail::run_parts(unsigned, std::uint32_t parts, void (*call)(void* work, std::uint32_t part), void* work) {
     for (std::uint32_t i = 0; i < parts; ++i) call(work, i);
 }
@@ -59,7 +59,7 @@ std::size_t first_not_finite(const std::vector<std::byte>& data) {
     return SIZE_MAX;
 }
 
-/// Mesh's invariant, of which JavaScript has checked types and sizes.
+/// Checks the invariant of Mesh. JavaScript has checked types and sizes already.
 Result<void> check() {
     for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
         if (mesh.indices[i] >= mesh.vertex_count) return malformed("index " + std::to_string(i) + " names no vertex");
@@ -72,7 +72,7 @@ Result<void> check() {
                      ": the position is not finite, or beyond the range of floats");
 }
 
-/// app/commands/encode.cpp's steps.
+/// Encodes the mesh to `file`, in the same steps as app/commands/encode.cpp.
 Result<void> encode_file(const AttributeBits& bits, std::uint32_t effort, bool keep_order, LrForm form) {
     if (const Result<void> good = check(); !good) return good.error();
     SurfaceReport report;
@@ -97,14 +97,14 @@ Result<void> encode_file(const AttributeBits& bits, std::uint32_t effort, bool k
 
 using namespace lacedring;
 
-/// Makes room for so many indices of so many vertices, and returns where they are to be written.
+/// Makes room for `count` indices below `vertices`. Returns where JavaScript writes them.
 LR_EXPORT(indices) std::uint32_t* indices(std::size_t count, std::uint32_t vertices) {
     mesh.vertex_count = vertices;
     mesh.indices.resize(count);
     return mesh.indices.data();
 }
 
-/// Adds an attribute; POSITION comes first. Its name is written to name(), its values to values().
+/// Adds an attribute; POSITION comes first. JavaScript then writes its name to name(), and its values to values().
 LR_EXPORT(addAttribute)
 void add_attribute(std::uint32_t type, std::uint32_t components, bool normalized, bool v_up, std::size_t name_bytes) {
     Attribute& added = mesh.attributes.emplace_back();
@@ -122,7 +122,7 @@ LR_EXPORT(values) std::byte* values() {
     return mesh.attributes.back().data.data();
 }
 
-/// Makes the file: true, and it lies at result(). False: result() is a message of one line.
+/// Encodes the mesh. Returns true if result() is the file, false if it is an error message of one line.
 LR_EXPORT(encode)
 bool encode_mesh(std::uint32_t positions, std::uint32_t normals, std::uint32_t texcoords, std::uint32_t colors,
                  std::uint32_t weights, std::uint32_t effort, bool keep_order, bool resident) {

@@ -1,4 +1,4 @@
-/* What the decoders take of string.h: the compiler makes instructions of these. */
+/* The part of string.h that the decoders use: the compiler turns these into instructions. */
 #ifndef LACEDRING_WASM_STRING_H
 #define LACEDRING_WASM_STRING_H
 #include <stddef.h>

@@ -1,23 +1,23 @@
-/* Decodes LacedRing's storage form of seam sections straight into the copies of corners: the resident section is not
-   made. C99 or C++, one file beside lacedring_storage.h, lacedring_seams.h and what they include, no allocation.
-   docs/storage-format.md has the format.
+/* Decodes LacedRing's storage form of seam sections straight into the copies of corners, without making the resident
+   section. C99 or C++; one file beside lacedring_storage.h, lacedring_seams.h and what these include, no allocation.
+   Format: docs/storage-format.md, "Seams".
 
-   LACEDRING_DECODE_IMPLEMENTATION, defined in one .c or .cpp file before it is included, adds the functions there. A
-   program that links lacedring::core has them already.
+   Define LACEDRING_DECODE_IMPLEMENTATION in one .c or .cpp file before including this header, which then adds the
+   functions. A program that links lacedring::core has them already.
 
-   The triangles are the slots of the connectivity stream, as lacedring_seams.h has them.
+   `triangles` are the slots of the mesh's connectivity stream, as in lacedring_seams.h.
 
        struct lacedring_stored_seams seams;
        if (lacedring_stored_seams_open(words, count, vertex_count, triangle_count, most_copies, &seams, NULL) !=
            LACEDRING_STATUS_OK) ...
        void *scratch = malloc(lacedring_stored_seams_scratch(&seams));
        uint32_t *copies = malloc(12 * (size_t)triangle_count), *vertex_of = malloc(4 * (size_t)most_copies);
-       if (lacedring_stored_seams_decode(&seams, triangles, scratch, copies, vertex_of, NULL) != LACEDRING_STATUS_OK)
-   ...
+       if (lacedring_stored_seams_decode(&seams, triangles, scratch, copies, vertex_of, NULL) !=
+           LACEDRING_STATUS_OK) ...
 
-   Any words and any triangles are safe: nothing is read or written beyond what is said, and time is linear in the words
-   and the limits. Scratch memory is aligned as malloc aligns. Stored words are little-endian, and this file is for
-   little-endian machines. */
+   All functions are safe with any words and triangles: they read and write only the memory described here, and take
+   time linear in the words and the limits that the caller gives. Scratch memory must be aligned as by malloc. Stored
+   words are little-endian, and this file is for little-endian machines. */
 #ifndef LACEDRING_STORED_SEAMS_H
 #define LACEDRING_STORED_SEAMS_H
 
@@ -28,28 +28,29 @@
 extern "C" {
 #endif
 
-/* A seam section in storage form. Holds no copy. */
+/* A seam section in storage form. Refers to the caller's words. */
 struct lacedring_stored_seams {
     const uint32_t* words;
     size_t count;
     uint32_t vertices, triangles; /* of the mesh */
-    uint32_t most_copies;         /* that are allowed */
-    uint32_t copies;              /* of all vertices: known when they are decoded */
+    uint32_t most_copies;         /* most copies allowed */
+    uint32_t copies;              /* number of copies; set by decoding */
 };
 
-/* Checks sizes; there is no header. At most so many copies are allowed: those of the file, or what memory there is.
-   Constant time. */
+/* Checks the sizes that the caller gives; the section has no header. most_copies: the number in the file, or what fits
+   in memory; decoding more returns LACEDRING_STATUS_LIMIT. Constant time. */
 enum lacedring_status lacedring_stored_seams_open(const uint32_t* words, size_t count, uint32_t vertices,
                                                   uint32_t triangles, uint32_t most_copies,
                                                   struct lacedring_stored_seams* stored, uint64_t* where);
 
-/* Bytes of scratch memory that lacedring_stored_seams_decode takes: 33 for each triangle, of which it seldom touches
-   more than 13, 24 for each vertex, and 4 for each copy that is allowed or can be. SIZE_MAX: more than there can be. */
+/* Bytes of scratch memory for lacedring_stored_seams_decode: 33 per triangle, of which it seldom touches more than 13,
+   24 per vertex, and 4 per copy of stored->most_copies. Returns SIZE_MAX if the number does not fit in size_t. */
 size_t lacedring_stored_seams_scratch(const struct lacedring_stored_seams* stored);
 
-/* The copy of each corner, three a triangle (UINT32_MAX where there is none), and the vertex of each copy:
-   stored->copies of the stored->most_copies entries. They are those of the section that is stored
-   (lacedring_seams_decode_checked). Where it finds a fault, they are of no use. 24 KB of stack. */
+/* Decodes the copy of each corner, three per slot (UINT32_MAX in empty slots), and the vertex of each copy:
+   stored->copies entries of vertex_of, which has room for stored->most_copies. The result is that of
+   lacedring_seams_decode_checked for the resident section. On an error the contents of `copies` and `vertex_of` are
+   undefined. 24 KB of stack. */
 enum lacedring_status lacedring_stored_seams_decode(struct lacedring_stored_seams* stored, const uint32_t* triangles,
                                                     void* scratch, uint32_t* copies, uint32_t* vertex_of,
                                                     uint64_t* where);
@@ -68,12 +69,14 @@ extern "C" {
 
 #define LACEDRING_NONE_ UINT32_MAX
 #define LACEDRING_SEAM_CORNERS_ (3 * LACEDRING_SEAMS_BLOCK)
-#define LACEDRING_MOST_HOMES_ 253u /* of a fan; its ends may be two more */
+/* Most homes from the corners of a vertex; the copies at its two ring edges may be added. */
+#define LACEDRING_MOST_HOMES_ 253u
 
-/* The coder: what was decoded leaves the numbers from `low` to `high`, in which `number` is. */
+/* The arithmetic decoder. `number` lies in the interval [low, high] that remains after the bits decoded so far. */
 struct lacedring_seam_bits_ {
     const uint32_t* words;
-    size_t count, at; /* words, and how many were taken: behind the last one they are 0 */
+    /* Number of words, and how many were read. Words after the last are 0. */
+    size_t count, at;
     uint64_t low, high, number;
 };
 
@@ -82,7 +85,7 @@ LACEDRING_SMALL_ uint32_t lacedring_seam_word_(struct lacedring_seam_bits_* d) {
     return at < d->count ? d->words[at] : 0;
 }
 
-/* A bit that is 0 with a probability of zero / 2^15. */
+/* Decodes a bit that is 0 with probability zero / 2^15. */
 LACEDRING_SMALL_ uint32_t lacedring_seam_split_(struct lacedring_seam_bits_* d, uint32_t zero) {
     const uint64_t middle = d->low + ((d->high - d->low) >> 15) * zero;
     const uint32_t bit = d->number > middle;
@@ -96,6 +99,7 @@ LACEDRING_SMALL_ uint32_t lacedring_seam_split_(struct lacedring_seam_bits_* d, 
     return bit;
 }
 
+/* Decodes a bit by an adaptive model. */
 static uint32_t lacedring_seam_bit_(struct lacedring_seam_bits_* d, struct lacedring_bit_model_* m) {
     const uint32_t bit = lacedring_seam_split_(d, m->zero), seen = m->seen < 48 ? m->seen + 1u : 48u;
     const int32_t zero = m->zero, to = bit ? 32 : 32768 - 32;
@@ -104,8 +108,9 @@ static uint32_t lacedring_seam_bit_(struct lacedring_seam_bits_* d, struct laced
     return bit;
 }
 
-/* What is known of a vertex: it has one copy; nothing; it has several, which are not decoded yet; they are. An edge has
-   what is known of its other end, or LACEDRING_SEAM_THERE_: it is decoded, and the edge is a seam there. */
+/* What is known of a vertex: it has one copy; nothing; it has several, not decoded yet; its copies are decoded. As the
+   end of a side, this is about the vertex at the other end, and LACEDRING_SEAM_THERE_ means: decoded, and the edge is a
+   seam there. */
 enum {
     LACEDRING_SINGLE_,
     LACEDRING_UNDECIDED_,
@@ -114,34 +119,44 @@ enum {
     LACEDRING_SEAM_THERE_,
     LACEDRING_EDGE_ENDS_
 };
-/* An edge of a vertex that is decoded. */
+/* Kinds of an edge at a decoded vertex. */
 enum { LACEDRING_INNER_, LACEDRING_SEAM_, LACEDRING_BORDER_ };
 
 struct lacedring_seam_vertex_ {
-    uint32_t begin;        /* of its corners in `own`, which end where the next vertex's begin */
-    uint32_t mark;         /* a side or corner of another vertex that leads here; else LACEDRING_NONE_ */
-    uint32_t below, above; /* the next ones on the stack, if it is there */
+    /* Where its corners begin in lacedring_seam_copies_::own; they end where those of the next vertex begin. */
+    uint32_t begin;
+    /* Temporary: a side or corner of another vertex that leads here, or LACEDRING_NONE_. */
+    uint32_t mark;
+    uint32_t below, above; /* neighbors on the stack, if it is there */
     uint8_t status, is_stacked;
-    uint8_t seams;      /* edges of it that are seams at their other end, at most 2 */
-    uint8_t has_copies; /* more than one: any words may say that it has several, and then name one alone */
+    /* Number of its edges that are seams at their other end, at most 2. */
+    uint8_t seams;
+    /* Has it more than one copy? A section may say that a vertex has several and then name only one. */
+    uint8_t has_copies;
 };
 
-/* Decodes which corners of a vertex share a copy. Corners of a vertex are numbered, and its sides: 2 j is the edge of
-   corner j to the next vertex of its triangle, 2 j + 1 that to the one before. */
+/* Decodes which corners of a vertex share a copy. The corners of a vertex are numbered j = 0, 1 ...; side 2 j is the
+   edge of corner j to the next vertex of its triangle, side 2 j + 1 the edge to the one before. */
 struct lacedring_seam_copies_ {
     struct lacedring_seam_bits_ bits;
     const uint32_t* triangles;
     uint32_t vertex_count;
-    struct lacedring_seam_vertex_* vertices; /* and one more */
-    uint32_t* own;                           /* corners of the vertices, in increasing order */
-    uint32_t* copies;                        /* of each corner: its vertex, or a number that is no vertex */
-    uint32_t count;                          /* of copies */
-    uint32_t top;                            /* of the stack */
-    uint32_t bad;                            /* not 0: a copy is impossible */
-    /* Of the vertex that is decoded: of each side, the corner at its other end and the side of another corner at the
-       same edge, or LACEDRING_NONE_; of each corner, its copy, from 0, or LACEDRING_NONE_. */
+    struct lacedring_seam_vertex_* vertices; /* one per vertex, and one more */
+    uint32_t* own;                           /* corners of each vertex, in increasing order */
+    /* For each corner, a preliminary number of its copy: the vertex for its first copy, else a number that is no
+       vertex. */
+    uint32_t* copies;
+    uint32_t count; /* copies so far */
+    uint32_t top;   /* top of the stack, or LACEDRING_NONE_ */
+    uint32_t bad;   /* nonzero: a copy is invalid */
+    /* The vertex being decoded. far: for each side, the corner at its other end. mate: for each side, the side of
+       another corner at the same edge, or LACEDRING_NONE_. copy: for each corner, its copy, from 0, or
+       LACEDRING_NONE_. */
     uint32_t *far, *mate, *copy;
-    uint32_t known, left, since, at_seam; /* copies; corners; corners since one whose copy no link said */
+    /* known: its copies so far. left: corners not decoded. since: corners decoded since the last whose copy no link
+       gave. at_seam: 1 if the fan began at an end LACEDRING_SEAM_THERE_. */
+    uint32_t known, left, since, at_seam;
+    /* Models of docs/storage-format.md: first is A, neighbor G, across B, between C, either D, other E, is_new F. */
     struct lacedring_bit_model_ first[2], neighbor[3][3];
     struct lacedring_bit_model_ across[LACEDRING_EDGE_ENDS_][3][4][4],
         between[LACEDRING_EDGE_ENDS_][LACEDRING_EDGE_ENDS_][3];
@@ -153,7 +168,7 @@ LACEDRING_SMALL_ uint32_t lacedring_seam_least_(uint32_t a, uint32_t b) {
     return a < b ? a : b;
 }
 
-/* The corner that is `by` corners behind in its triangle. */
+/* The corner `by` corners after this one in its triangle. */
 LACEDRING_SMALL_ uint32_t lacedring_seam_turn_(uint32_t corner, uint32_t by) {
     const uint32_t place = corner % 3;
     return corner + by - (place + by < 3 ? 0 : 3);
@@ -166,7 +181,7 @@ static void lacedring_seam_decide_(struct lacedring_seam_copies_* w, uint32_t v,
     p->status = p[1].begin - p->begin > 1 && lacedring_seam_bit_(&w->bits, m) ? LACEDRING_SEVERAL_ : LACEDRING_SINGLE_;
 }
 
-/* Takes a vertex off the stack, wherever it lies. */
+/* Removes a vertex from anywhere in the stack. */
 static void lacedring_seam_unstack_(struct lacedring_seam_copies_* w, uint32_t v) {
     struct lacedring_seam_vertex_* p = w->vertices + v;
     p->is_stacked = 0;
@@ -174,7 +189,7 @@ static void lacedring_seam_unstack_(struct lacedring_seam_copies_* w, uint32_t v
     *(p->above != LACEDRING_NONE_ ? &w->vertices[p->above].below : &w->top) = p->below;
 }
 
-/* Puts a vertex on the stack; of one that is there, this takes the place. */
+/* Puts a vertex on top of the stack; moves it there if it is on the stack already. */
 static void lacedring_seam_stack_(struct lacedring_seam_copies_* w, uint32_t v) {
     struct lacedring_seam_vertex_* p = w->vertices + v;
     if (p->is_stacked) lacedring_seam_unstack_(w, v);
@@ -199,7 +214,7 @@ static void lacedring_seam_link_(struct lacedring_seam_copies_* w, const uint32_
     for (s = 0; s < 2 * n; ++s) w->vertices[w->triangles[w->far[s]]].mark = LACEDRING_NONE_;
 }
 
-/* What is known of an edge's other end. */
+/* The end of a side: what is known of the vertex at its other end. */
 LACEDRING_SMALL_ uint32_t lacedring_seam_edge_end_(const struct lacedring_seam_copies_* w, uint32_t side) {
     const uint32_t far = w->far[side], mate = w->mate[side], status = w->vertices[w->triangles[far]].status;
     if (status == LACEDRING_DECODED_ && mate != LACEDRING_NONE_ && w->copies[far] != w->copies[w->far[mate]])
@@ -207,7 +222,7 @@ LACEDRING_SMALL_ uint32_t lacedring_seam_edge_end_(const struct lacedring_seam_c
     return status;
 }
 
-/* The copy of a corner that has none of the `count` copies that its links lead to. */
+/* Reads the copy of a corner that has none of the `count` copies of its links. */
 static uint32_t lacedring_seam_other_(struct lacedring_seam_copies_* w, const uint32_t* links, uint32_t count) {
     const uint32_t rest = w->known - count, left = lacedring_seam_least_(w->left, 2);
     uint32_t bits, index = 0, low, high;
@@ -225,10 +240,10 @@ static uint32_t lacedring_seam_other_(struct lacedring_seam_copies_* w, const ui
     return index;
 }
 
-/* The copy of the corner of a side across which it is come to. */
+/* Reads the copy of a side's corner, which was reached across this side. */
 static uint32_t lacedring_seam_read_copy_(struct lacedring_seam_copies_* w, uint32_t side) {
     uint32_t end[2] = {0, 0}, link[2] = {0, 0}, count = 0, n, k;
-    for (k = 0; k < 2; ++k) { /* links to corners that are decoded */
+    for (k = 0; k < 2; ++k) { /* links: sides to corners that are decoded */
         const uint32_t mate = w->mate[side ^ k];
         if (mate == LACEDRING_NONE_ || w->copy[mate / 2] == LACEDRING_NONE_) continue;
         end[count] = lacedring_seam_edge_end_(w, side ^ k);
@@ -240,7 +255,8 @@ static uint32_t lacedring_seam_read_copy_(struct lacedring_seam_copies_* w, uint
         const uint32_t since = lacedring_seam_least_(w->since, 3), left = lacedring_seam_least_(w->left, 3);
         if (lacedring_seam_bit_(&w->bits, &w->across[end[0]][n][since][left])) return link[0];
     } else if (count == 2) {
-        const uint32_t low = end[1] < end[0], high = 1 - low; /* the one with the lesser end first */
+        /* `low` is the link with the lesser end. */
+        const uint32_t low = end[1] < end[0], high = 1 - low;
         if (link[0] == link[1]) {
             if (lacedring_seam_bit_(&w->bits, &w->between[end[low]][end[high]][n])) return link[0];
             count = 1;
@@ -252,7 +268,8 @@ static uint32_t lacedring_seam_read_copy_(struct lacedring_seam_copies_* w, uint
     return lacedring_seam_other_(w, link, count);
 }
 
-/* The corners from a side's corner on, away from the side, and then those on the other side of it. */
+/* Decodes the copies of a fan that begins at side `start`: from its corner on, away from the side; then from its mate's
+   corner on, in the other direction. */
 static void lacedring_seam_fan_copies_(struct lacedring_seam_copies_* w, uint32_t start, uint32_t at_seam) {
     const uint32_t mate = w->mate[start];
     uint32_t half;
@@ -268,13 +285,14 @@ static void lacedring_seam_fan_copies_(struct lacedring_seam_copies_* w, uint32_
     }
 }
 
-/* Decides the neighbors of a vertex that is decoded, and puts them on the stack, those across seams on top. */
+/* Decides the neighbors of a decoded vertex. Puts those with several copies on the stack, those across seams on top. */
 static void lacedring_seam_neighbors_(struct lacedring_seam_copies_* w, uint32_t sides) {
-    uint32_t *vertex = w->far, *kind = w->mate; /* of edges, written over those of sides that were looked at */
+    /* Per edge, reusing arrays: each entry overwrites that of a side that was handled already. */
+    uint32_t *vertex = w->far, *kind = w->mate;
     uint32_t s, edges = 0, seam;
     for (s = 0; s < sides; ++s) {
         const uint32_t mate = w->mate[s], v = w->triangles[w->far[s]];
-        if (mate < s) continue; /* the edge is that of the mate */
+        if (mate < s) continue; /* the edge was handled at its mate */
         seam = mate != LACEDRING_NONE_ && w->copy[s / 2] != w->copy[mate / 2];
         if (seam && w->vertices[v].seams < 2) ++w->vertices[v].seams;
         vertex[edges] = v;
@@ -290,7 +308,7 @@ static void lacedring_seam_neighbors_(struct lacedring_seam_copies_* w, uint32_t
     }
 }
 
-/* The copies of the corners of a vertex that has several. */
+/* Decodes the copies of the corners of a vertex that has several. */
 static void lacedring_seam_vertex_copies_(struct lacedring_seam_copies_* w, uint32_t v) {
     const uint32_t* own = w->own + w->vertices[v].begin;
     const uint32_t n = w->vertices[v + 1].begin - w->vertices[v].begin;
@@ -316,7 +334,7 @@ static void lacedring_seam_vertex_copies_(struct lacedring_seam_copies_* w, uint
     lacedring_seam_neighbors_(w, 2 * n);
 }
 
-/* Sets the vertices' corners. Returns the triangle that is impossible, or how many there are. */
+/* Lists the corners of all vertices. Returns the number of an invalid triangle, or triangle_count. */
 static uint32_t lacedring_seam_own_corners_(struct lacedring_seam_copies_* w, uint32_t triangle_count) {
     const uint32_t vertex_count = w->vertex_count;
     struct lacedring_seam_vertex_* p = w->vertices;
@@ -346,7 +364,7 @@ static uint32_t lacedring_seam_own_corners_(struct lacedring_seam_copies_* w, ui
     return triangle_count;
 }
 
-/* The copies of all corners. */
+/* Decodes the preliminary copies of all corners. */
 static enum lacedring_status lacedring_seam_all_copies_(struct lacedring_seam_copies_* w, uint32_t most,
                                                         uint64_t* where) {
     uint32_t v, before = 0;
@@ -366,20 +384,24 @@ static enum lacedring_status lacedring_seam_all_copies_(struct lacedring_seam_co
     return LACEDRING_STATUS_OK;
 }
 
-/* Gives the copies their numbers in the section, and counts what a reader of the section would be asked. */
+/* Gives copies their numbers in the resident section. Counts the flags that a reader of that section would read: the
+   decoding of its table needs the counts. */
 struct lacedring_seam_numbers_ {
     const struct lacedring_seam_vertex_* vertices;
     uint32_t* vertex_of;
-    uint32_t* home;     /* as lacedring_seams_homes has it */
-    uint32_t* state;    /* of each copy: its place among the homes of its vertex, or a private copy; LACEDRING_NONE_ */
-    uint8_t* parents;   /* of each triangle: how far before it its parent is, and 128 if it is on the right */
-    uint32_t* of_block; /* copies of the block's corners */
-    uint32_t counts[LACEDRING_SEAM_CONTEXTS][2]; /* answers 0 and 1 */
+    uint32_t* home; /* as from lacedring_seams_homes */
+    /* For each preliminary copy: its number among the homes of its vertex, or the state of a private copy, or
+       LACEDRING_NONE_. */
+    uint32_t* state;
+    /* For each triangle: how far before it its parent is, plus 128 if it is on the right. */
+    uint8_t* parents;
+    uint32_t* of_block;                          /* preliminary copies of the block's corners */
+    uint32_t counts[LACEDRING_SEAM_CONTEXTS][2]; /* flags with value 0 and 1 */
     struct lacedring_seam_walk_ walk;
 };
 
-/* The left corners of a vertex from its ring edge to the next vertex on (by = 1), or from that to the vertex before (by
-   = 2): as far as triangles go. Returns how many. */
+/* Collects the fan of vertex v: its corners in order from edge (v, v + 1) towards v - 1 (by = 1), or from edge (v, v -
+   1) towards v + 1 (by = 2), as far as triangles follow. Returns their number. */
 static uint32_t lacedring_seam_fan_(struct lacedring_seam_copies_* w, uint32_t v, uint32_t by, uint32_t* fan) {
     const uint32_t* own = w->own + w->vertices[v].begin;
     const uint32_t n = w->vertices[v + 1].begin - w->vertices[v].begin;
@@ -387,7 +409,8 @@ static uint32_t lacedring_seam_fan_(struct lacedring_seam_copies_* w, uint32_t v
     uint32_t at = by == 1 ? v + 1 : v - 1, count = 0, j;
     uint8_t* taken = (uint8_t*)w->copy;
     for (j = n; j-- > 0;) {
-        w->vertices[w->triangles[lacedring_seam_turn_(own[j], by)]].mark = j; /* the first one is the last to stay */
+        /* The loop runs backwards, so that the mark of the first corner at a vertex stays. */
+        w->vertices[w->triangles[lacedring_seam_turn_(own[j], by)]].mark = j;
         taken[j] = 0;
     }
     while ((count == 0 || at != stop) && at < w->vertex_count) {
@@ -401,7 +424,7 @@ static uint32_t lacedring_seam_fan_(struct lacedring_seam_copies_* w, uint32_t v
     return count;
 }
 
-/* Adds a copy to homes if it is not among them. */
+/* Adds a copy to homes unless it is among them or they are full. Returns the number of homes. */
 static uint32_t lacedring_seam_add_home_(const struct lacedring_seam_numbers_* a, uint32_t copy, uint32_t* homes,
                                          uint32_t count) {
     if (a->state[copy] != LACEDRING_NONE_ || count == LACEDRING_MOST_HOMES_) return count;
@@ -410,11 +433,11 @@ static uint32_t lacedring_seam_add_home_(const struct lacedring_seam_numbers_* a
     return count + 1;
 }
 
-/* Puts a copy to the front of homes, or to the end. Returns how many there are then. */
+/* Moves a copy to the front of homes, or to the end. Returns the number of homes. */
 static uint32_t lacedring_seam_move_home_(uint32_t copy, uint32_t to_front, uint32_t* homes, uint32_t count) {
     uint32_t i = 0;
     while (i < count && homes[i] != copy) ++i;
-    if (i == count) ++count; /* it was left out of 253 */
+    if (i == count) ++count; /* it was not among the 253 */
     if (to_front) {
         memmove(homes + 1, homes, 4 * (size_t)i);
         homes[0] = copy;
@@ -425,7 +448,7 @@ static uint32_t lacedring_seam_move_home_(uint32_t copy, uint32_t to_front, uint
     return count;
 }
 
-/* The homes of a vertex that has several copies, their states, and whether it wraps. Returns how many. */
+/* Finds the homes of a vertex that has several copies. Sets their states and *wraps. Returns their number. */
 static uint32_t lacedring_seam_find_homes_(struct lacedring_seam_copies_* w, const struct lacedring_seam_numbers_* a,
                                            uint32_t v, uint32_t* wraps) {
     const uint32_t *own = w->own + w->vertices[v].begin, *triangles = w->triangles;
@@ -434,14 +457,15 @@ static uint32_t lacedring_seam_find_homes_(struct lacedring_seam_copies_* w, con
     uint32_t ends[2] = {LACEDRING_NONE_, LACEDRING_NONE_}; /* copies at the ring edges to v - 1 and v + 1 */
     uint32_t *fan = w->far, count = 0, changes = 0, size, left, i, k;
     size = lacedring_seam_fan_(w, v, 1, fan);
-    for (i = 0; i < size / 2; ++i) { /* turns it round */
+    for (i = 0; i < size / 2; ++i) { /* reverses the fan */
         const uint32_t swap = fan[i];
         fan[i] = fan[size - 1 - i];
         fan[size - 1 - i] = swap;
     }
     if (size == 0) size = lacedring_seam_fan_(w, v, 2, fan);
     for (i = left = 0; i < size; ++i) {
-        if (a->parents[fan[i] / 3] < 128) fan[left++] = w->copies[fan[i]]; /* copies from here on */
+        /* Keeps the copies of the corners on the left, in place of the corners. */
+        if (a->parents[fan[i] / 3] < 128) fan[left++] = w->copies[fan[i]];
     }
     for (i = 0; i < left; ++i) {
         count = lacedring_seam_add_home_(a, fan[i], homes, count);
@@ -467,7 +491,7 @@ static uint32_t lacedring_seam_find_homes_(struct lacedring_seam_copies_* w, con
     return count;
 }
 
-/* Has one of so many corners a vertex with several copies? */
+/* Has one of `count` corners, given by their vertices, a vertex with several copies? */
 static int lacedring_seam_any_copies_(const struct lacedring_seam_vertex_* vertices, const uint32_t* corners,
                                       uint32_t count) {
     uint32_t k;
@@ -477,7 +501,7 @@ static int lacedring_seam_any_copies_(const struct lacedring_seam_vertex_* verti
     return 0;
 }
 
-/* The parents and sides of a block's triangles. */
+/* Sets the parents and sides of a block's triangles. */
 static void lacedring_seam_find_parents_(const uint32_t* triangles, uint32_t count, uint8_t* parents) {
     uint32_t i, pair[2];
     for (i = 0; i < count; ++i) {
@@ -491,15 +515,16 @@ static void lacedring_seam_find_parents_(const uint32_t* triangles, uint32_t cou
     }
 }
 
+/* Counts a flag of this value, and returns the value. */
 LACEDRING_SMALL_ uint32_t lacedring_seam_answer_(struct lacedring_seam_numbers_* a, uint32_t context, uint32_t value) {
     ++a->counts[context][value];
     return value;
 }
 
-/* Answers lacedring_seam_vertices_ of a block of vertices. */
+/* Counts the flags that lacedring_seam_vertices_ would read for a block of vertices. */
 static void lacedring_seam_answer_vertices_(struct lacedring_seam_numbers_* a, const uint32_t* home, uint32_t count) {
     uint32_t i, before = 0;
-    if ((home[count] >> 1) - (home[0] >> 1) == count) return; /* no copies: what is not counted */
+    if ((home[count] >> 1) - (home[0] >> 1) == count) return; /* blocks that make no copies do not count */
     for (i = 0; i < count; ++i) {
         const uint32_t wraps = home[i] & 1, steps = (home[i + 1] >> 1) - (home[i] >> 1) - 1 + wraps;
         if (lacedring_seam_answer_(a, LACEDRING_SEAM_V0 + before, steps > 0) &&
@@ -512,7 +537,8 @@ static void lacedring_seam_answer_vertices_(struct lacedring_seam_numbers_* a, c
     }
 }
 
-/* Answers lacedring_seam_choose_: returns the state of the corner. A private copy gets its number. */
+/* Counts the flags that lacedring_seam_choose_ would read, and returns the corner's state. A new private copy gets its
+   number. */
 static uint32_t lacedring_seam_answer_choice_(struct lacedring_seam_numbers_* a, uint32_t k, uint32_t current,
                                               struct lacedring_seam_question_ q) {
     struct lacedring_seam_walk_* w = &a->walk;
@@ -538,7 +564,7 @@ static uint32_t lacedring_seam_answer_choice_(struct lacedring_seam_numbers_* a,
     return *state;
 }
 
-/* Answers lacedring_seam_spoke_. */
+/* Counts the flags that lacedring_seam_spoke_ would read, and sets the states of the edge's ends. */
 static void lacedring_seam_answer_spoke_(struct lacedring_seam_numbers_* a, uint32_t i, uint32_t back,
                                          const uint32_t pair[2]) {
     struct lacedring_seam_walk_* w = &a->walk;
@@ -560,7 +586,7 @@ static void lacedring_seam_answer_spoke_(struct lacedring_seam_numbers_* a, uint
     }
 }
 
-/* Answers the questions about triangle i, whose vertices have one copy each. */
+/* Counts the flags of triangle i, whose vertices have one copy each. */
 static void lacedring_seam_answer_plain_(struct lacedring_seam_numbers_* a, uint32_t i, const uint32_t pair[2]) {
     struct lacedring_seam_walk_* w = &a->walk;
     const uint32_t* t = w->triangles + 3 * (size_t)i;
@@ -580,7 +606,7 @@ static void lacedring_seam_answer_plain_(struct lacedring_seam_numbers_* a, uint
     }
 }
 
-/* Numbers the copies of a block's corners, of which some are of vertices with several. */
+/* Numbers the copies of a block in which some vertex has several. */
 static void lacedring_seam_number_block_(struct lacedring_seam_numbers_* a, const uint8_t* parents) {
     struct lacedring_seam_walk_* w = &a->walk;
     uint32_t i, j;
@@ -606,7 +632,7 @@ static void lacedring_seam_number_block_(struct lacedring_seam_numbers_* a, cons
     }
 }
 
-/* Numbers all copies. */
+/* Numbers all copies: replaces preliminary numbers by those of the section, and sets vertex_of. */
 static void lacedring_seam_number_copies_(struct lacedring_seam_copies_* w, struct lacedring_seam_numbers_* a,
                                           uint32_t triangle_count) {
     const uint32_t blocks = lacedring_seam_block_count_(triangle_count);
@@ -660,7 +686,7 @@ static void lacedring_seam_number_copies_(struct lacedring_seam_copies_* w, stru
     }
 }
 
-/* Reads the section's table, which nobody asks for, since the coder's words end behind it. */
+/* Reads the section's table and drops it: only then can the caller check that the words end here. */
 static void lacedring_seam_read_table_(struct lacedring_seam_bits_* d, const struct lacedring_seam_numbers_* a) {
     struct lacedring_bit_model_ is_usual[2], classes[7][8];
     uint32_t c, bit;
