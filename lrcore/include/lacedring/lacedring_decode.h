@@ -50,11 +50,11 @@ enum lacedring_status {
     LACEDRING_STATUS_TIP,          /* a tip is no vertex; where: the slot */
     LACEDRING_STATUS_OPEN_RING,    /* a ring does not close; where: its first vertex */
     LACEDRING_STATUS_SHORT_RING,   /* a ring has < 3 vertices; where: the first one */
-    LACEDRING_STATUS_CLOSING_WORD, /* the slot */
-    LACEDRING_STATUS_WORD,         /* the slot */
+    LACEDRING_STATUS_CLOSING_WORD, /* an invalid CLOSE word; where: the slot */
+    LACEDRING_STATUS_WORD,         /* a free slot has flags or a wrong tip; where: the slot */
     LACEDRING_STATUS_VERBATIM,     /* verbatim triangle with a bad vertex; where: its number */
     LACEDRING_STATUS_TRIANGLES,    /* wrong count in the header; where: triangles found */
-    LACEDRING_STATUS_GROUP,        /* a group's offset, head or padding; where: its first block */
+    LACEDRING_STATUS_GROUP,        /* invalid offset, head or padding of a group; where: its first block */
     LACEDRING_STATUS_BLOCK,        /* invalid block; where: the block */
     LACEDRING_STATUS_TURNS,        /* turn bits after the last own triangle; where: own triangles */
     LACEDRING_STATUS_DOUBLES,      /* invalid run of doubles; where: the run */
@@ -73,7 +73,7 @@ enum lacedring_status {
    two vertices are equal) if its triangle is stored in another slot, at a border, and where a ring closes. */
 struct lacedring_lean {
     const uint32_t* payload; /* words after the header */
-    uint32_t vertices;       /* of the mesh, used or not */
+    uint32_t vertices;       /* vertices of the mesh, used or not */
     uint32_t rings2, rings1; /* vertices of two-sided and of one-sided rings */
     uint32_t verbatim;       /* triangles stored as three vertices */
     uint32_t triangles;      /* slots that are not degenerate */
@@ -93,6 +93,7 @@ enum lacedring_status lacedring_lean_check(const struct lacedring_lean* lean, ui
 enum lacedring_status lacedring_lean_validate(const uint32_t* words, size_t count, struct lacedring_lean* lean,
                                               uint64_t* where);
 
+/* Number of slots. Constant time. */
 uint32_t lacedring_lean_slots(const struct lacedring_lean* lean);
 
 /* Decodes the three vertices of one slot. Constant time: reads at most four words. */
@@ -447,7 +448,7 @@ LACEDRING_HOT_ uint32_t lacedring_popcount_(uint32_t bits) {
 /* Reads bits [at, end) of the groups. Bits after `end` read as ones. No byte outside the groups is read. */
 struct lacedring_bits_ {
     const uint8_t* groups;
-    size_t bytes; /* of the groups */
+    size_t bytes; /* bytes of the groups */
     uint64_t at, end;
 };
 
@@ -518,7 +519,7 @@ struct lacedring_record_ {
 enum { LACEDRING_RECORD_, LACEDRING_PARTED_, LACEDRING_PLAIN_ };
 
 struct lacedring_block_ {
-    struct lacedring_record_ record; /* the first */
+    struct lacedring_record_ record; /* its record; the first one if parted */
     uint64_t begin;                  /* byte of the groups where it begins */
     uint32_t bytes, kind;            /* bytes: length of all its records */
 };
@@ -617,7 +618,7 @@ static void lacedring_block_of_(const struct lacedring_packed* p, const struct l
         r->a += (k - from) * (LACEDRING_PACKED_BLOCK / 2) + step - (UINT32_C(1) << g->entry_bits >> 1);
         r->b = r->a + span - (k - from) * LACEDRING_PACKED_BLOCK;
     }
-    if (b->kind == LACEDRING_PARTED_) { /* the first part */
+    if (b->kind == LACEDRING_PARTED_) { /* its first record */
         r->bits = lacedring_bits_at_(p, b->begin + 4, lacedring_take_at_(p, 8 * b->begin, 8));
         if (r->triangles > LACEDRING_PACKED_PART_) r->triangles = LACEDRING_PACKED_PART_;
     }
@@ -746,13 +747,14 @@ static void lacedring_begin_(struct lacedring_state_* s, const struct lacedring_
     s->begun_reversed = s->reversed;
 }
 
-/* Number of triangles from edge (a, b) on until the polygon is finished. If b - a is 1 already, it never is: finishing
-   is tested after a turn. */
+/* Number of triangles from edge (a, b) on until the polygon is finished. UINT32_MAX if b - a is 1 already, as finishing
+   is tested only after a turn. */
 LACEDRING_HOT_ uint32_t lacedring_left_(uint32_t a, uint32_t b) {
     return b - a == 1 ? UINT32_MAX : b - a - 1;
 }
 
-/* Begins the polygon after a finished one if no event does: after the polygon that began last, and of its size. */
+/* Begins a polygon after a finished one if no event does. It lies after the polygon that began last and has its
+   size. */
 static void lacedring_repeat_(struct lacedring_state_* s, int inside) {
     const uint32_t size = s->begun_b - s->begun_a;
     s->a = s->begun_b + 1;
@@ -835,7 +837,8 @@ struct lacedring_pieces_ {
 /* The turns of a record, followed by zeros. */
 struct lacedring_turns_ {
     uint64_t words[LACEDRING_WORDS_];
-    uint32_t before[LACEDRING_WORDS_]; /* ones in the words before */
+    /* [i]: number of ones in words before word i. */
+    uint32_t before[LACEDRING_WORDS_];
 };
 
 /* Triangle i of a piece, with `ups` turns of 1 before it in the record, is entered across (base + ups, base + ups +
@@ -1927,7 +1930,7 @@ void lacedring_packed_triangles_u16(const struct lacedring_packed* p, uint16_t* 
 /* Advances the state from triangle *at to triangle `to` by turns alone. */
 static void lacedring_skip_(struct lacedring_state_* s, const uint32_t* turns, uint32_t* at, uint32_t to, int inside) {
     uint32_t left = s->finished ? 0 : lacedring_left_(s->a, s->b), ups;
-    if (to - *at > left) { /* whole polygons */
+    if (to - *at > left) { /* skips whole polygons */
         const uint32_t size = s->begun_b - s->begun_a, each = lacedring_left_(s->begun_a, s->begun_b);
         const uint32_t behind = to - *at - left, whole = (behind - 1) / each;
         s->begun_a += whole * (size + 1);
@@ -1981,8 +1984,8 @@ static void lacedring_seek_(const struct lacedring_packed* p, const struct laced
                 return;
             }
             at = here + 1;
-            if (count == 0 || count >= r->triangles - at) continue; /* no scope */
-            if (i - at >= count) {                                  /* after the scope */
+            if (count == 0 || count >= r->triangles - at) continue; /* opens no scope */
+            if (i - at >= count) {                                  /* i is after the scope */
                 at += count;
                 skip = at;
                 s.a = rest[0];

@@ -151,7 +151,7 @@ extern "C" {
 #define LACEDRING_PREFETCH_(at) ((void)(at))
 #endif
 
-#define LACEDRING_SCALE_ 32768u /* the ranges of a model's symbols fill [0, this) */
+#define LACEDRING_SCALE_ 32768u /* a model's ranges fill [0, 32768) */
 #define LACEDRING_LEAST_STATE_ (UINT64_C(1) << 31)
 
 /* Model of a bit: its probability adapts. */
@@ -484,9 +484,9 @@ static int lacedring_entry_(struct lacedring_steps_* w) {
         return 1;
     }
     if (lacedring_coded_bit_(d, w->deeper + w->entered)) {
-        /* Edges above the edge on the stack, less 1. */
+        /* Number of edges above the edge on the stack, less 1. */
         const uint32_t above = lacedring_coded_number_(d, &w->depth);
-        const size_t depth = 4 + 2 * (size_t)above; /* words */
+        const size_t depth = 4 + 2 * (size_t)above; /* depth of the edge, in words */
         if (above >= w->open_count / 2 - 1) return 0;
         edge = w->open + (w->open_count - depth);
         if (lacedring_coded_bit_(d, &w->drop)) w->open_count -= depth;
@@ -507,7 +507,7 @@ LACEDRING_HOT_ void lacedring_open_edge_(struct lacedring_steps_* w, uint32_t a,
     w->open[w->open_count++] = b;
 }
 
-/* Decodes the third vertex of a step that is no turn, and opens the edges it enters. Its result may be no vertex. */
+/* Decodes the third vertex of a step that is no turn, and opens the edges it enters. The vertex may be out of range. */
 static uint32_t lacedring_fork_(struct lacedring_steps_* w, uint32_t a, uint32_t b) {
     struct lacedring_coded* d = &w->coded;
     const uint32_t kind = lacedring_coded_symbol_(d, &w->fork), enters = kind & 3;
@@ -1225,7 +1225,7 @@ LACEDRING_HOT_ void lacedring_predict_(const struct lacedring_predictor_* p, uin
     for (c = 0; c < n && p->errors != NULL; ++c) p->errors[at + c] = out[c] - plain[c];
 }
 
-/* Decodes all integers. n is a constant in the calls that matter, so that the compiler unrolls loops. */
+/* Decodes all integers. lacedring_integers_ passes n up to 3 as a constant, so that the compiler unrolls loops. */
 LACEDRING_HOT_ void lacedring_integers_n_(const struct lacedring_predictor_* p, struct lacedring_walk_* walk,
                                           struct lacedring_residuals_* residuals, uint32_t n) {
     struct lacedring_visit_ visits[LACEDRING_SOME_VERTICES_];

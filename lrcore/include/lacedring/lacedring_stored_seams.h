@@ -108,15 +108,13 @@ static uint32_t lacedring_seam_bit_(struct lacedring_seam_bits_* d, struct laced
     return bit;
 }
 
-/* What is known of a vertex: it has one copy; nothing; it has several, not decoded yet; its copies are decoded. As the
-   end of a side, this is about the vertex at the other end, and LACEDRING_SEAM_THERE_ means: decoded, and the edge is a
-   seam there. */
+/* What is known of a vertex, or, as the end of a side, of the vertex at the side's other end. */
 enum {
-    LACEDRING_SINGLE_,
-    LACEDRING_UNDECIDED_,
-    LACEDRING_SEVERAL_,
-    LACEDRING_DECODED_,
-    LACEDRING_SEAM_THERE_,
+    LACEDRING_SINGLE_,     /* it has one copy */
+    LACEDRING_UNDECIDED_,  /* nothing yet */
+    LACEDRING_SEVERAL_,    /* it has several copies, not decoded yet */
+    LACEDRING_DECODED_,    /* its copies are decoded */
+    LACEDRING_SEAM_THERE_, /* of a side's end only: decoded, and the edge is a seam at that end */
     LACEDRING_EDGE_ENDS_
 };
 /* Kinds of an edge at a decoded vertex. */
@@ -174,7 +172,7 @@ LACEDRING_SMALL_ uint32_t lacedring_seam_turn_(uint32_t corner, uint32_t by) {
     return corner + by - (place + by < 3 ? 0 : 3);
 }
 
-/* Decides whether a vertex has several copies. */
+/* Decodes whether a vertex has several copies, if that is still open. */
 static void lacedring_seam_decide_(struct lacedring_seam_copies_* w, uint32_t v, struct lacedring_bit_model_* m) {
     struct lacedring_seam_vertex_* p = w->vertices + v;
     if (p->status != LACEDRING_UNDECIDED_) return;
@@ -285,7 +283,8 @@ static void lacedring_seam_fan_copies_(struct lacedring_seam_copies_* w, uint32_
     }
 }
 
-/* Decides the neighbors of a decoded vertex. Puts those with several copies on the stack, those across seams on top. */
+/* Decodes whether the neighbors of a decoded vertex have several copies. Those that have go on the stack, those across
+   seams on top. */
 static void lacedring_seam_neighbors_(struct lacedring_seam_copies_* w, uint32_t sides) {
     /* Per edge, reusing arrays: each entry overwrites that of a side that was handled already. */
     uint32_t *vertex = w->far, *kind = w->mate;
@@ -524,7 +523,7 @@ LACEDRING_SMALL_ uint32_t lacedring_seam_answer_(struct lacedring_seam_numbers_*
 /* Counts the flags that lacedring_seam_vertices_ would read for a block of vertices. */
 static void lacedring_seam_answer_vertices_(struct lacedring_seam_numbers_* a, const uint32_t* home, uint32_t count) {
     uint32_t i, before = 0;
-    if ((home[count] >> 1) - (home[0] >> 1) == count) return; /* blocks that make no copies do not count */
+    if ((home[count] >> 1) - (home[0] >> 1) == count) return; /* blocks that make no copies are not counted */
     for (i = 0; i < count; ++i) {
         const uint32_t wraps = home[i] & 1, steps = (home[i + 1] >> 1) - (home[i] >> 1) - 1 + wraps;
         if (lacedring_seam_answer_(a, LACEDRING_SEAM_V0 + before, steps > 0) &&

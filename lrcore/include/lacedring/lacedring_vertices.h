@@ -23,7 +23,7 @@ extern "C" {
 #define LACEDRING_VERTICES_BLOCK 128u
 #define LACEDRING_VERTICES_MAX_COMPONENTS 16u /* integers per vertex */
 
-/* What the integers of a vertex stand for. */
+/* Mapping: what the integers of a vertex stand for. */
 enum lacedring_mapping {
     LACEDRING_MAPPING_INTEGERS, /* values: 8, 16 or 32 bits, signed or not */
     LACEDRING_MAPPING_LATTICE,  /* float: integer * step, which is exact */
@@ -105,12 +105,12 @@ void lacedring_octahedral(int32_t x, int32_t y, uint32_t bits, float out[3]);
 extern "C" {
 #endif
 
-#define LACEDRING_VERTICES_GROUP_ 16u /* blocks */
+#define LACEDRING_VERTICES_GROUP_ 16u /* blocks per group */
 #define LACEDRING_VERTICES_MOST_ 24u  /* most zeros of a unary number */
 
 static const double lacedring_powers_[10] = {1, 10, 100, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
 
-/* Purpose of decoding a block. */
+/* What decoding a block is for. */
 enum lacedring_purpose_ { LACEDRING_TO_CHECK_, LACEDRING_TO_INTEGERS_, LACEDRING_TO_VALUES_ };
 
 uint32_t lacedring_vertices_values(const struct lacedring_vertices* stream) {
@@ -122,7 +122,7 @@ LACEDRING_SMALL_ uint32_t lacedring_vertex_blocks_(const struct lacedring_vertic
     return s->vertices / LACEDRING_VERTICES_BLOCK + (s->vertices % LACEDRING_VERTICES_BLOCK != 0);
 }
 
-/* Vertices of a block. */
+/* Number of vertices of a block. */
 LACEDRING_SMALL_ uint32_t lacedring_vertex_count_(const struct lacedring_vertices* s, uint32_t block) {
     const uint32_t left = s->vertices - block * LACEDRING_VERTICES_BLOCK;
     return left < LACEDRING_VERTICES_BLOCK ? left : LACEDRING_VERTICES_BLOCK;
@@ -633,7 +633,7 @@ struct lacedring_lane_runs_ {
     lacedring_lanes_ present[LACEDRING_LANE_COMPONENTS_]; /* mask: residuals are not all 0 */
     lacedring_lanes_ low_bits[LACEDRING_LANE_COMPONENTS_];
     lacedring_lanes_ low_mask[LACEDRING_LANE_COMPONENTS_];
-    lacedring_lanes_ low_from[LACEDRING_LANE_COMPONENTS_]; /* where they begin in a vertex's low bits */
+    lacedring_lanes_ low_from[LACEDRING_LANE_COMPONENTS_]; /* begin of the component's low bits in a vertex's */
     lacedring_lanes_ row;                                  /* number of low bits of a vertex */
     lacedring_lanes_ low_at;
     lacedring_lanes_ fours;      /* groups of four vertices left in the run */
