@@ -60,7 +60,7 @@ enum lacedring_status {
     LACEDRING_STATUS_DOUBLES,      /* invalid run of doubles; where: the run */
     LACEDRING_STATUS_HEADER,       /* invalid header; where: its word */
     LACEDRING_STATUS_VERTEX_BLOCK, /* invalid block of vertices; where: the block */
-    LACEDRING_STATUS_TRIANGLE,     /* vertex out of range or repeated; where: the triangle */
+    LACEDRING_STATUS_TRIANGLE,     /* invalid triangle: vertex out of range or repeated; where: its number */
     LACEDRING_STATUS_LIMIT,        /* more elements than allowed; where: how many */
     LACEDRING_STATUS_CODED,        /* a coded part is invalid, or ends too early or late */
     LACEDRING_STATUS_INTEGER,      /* integer out of range; where: the vertex */
@@ -753,7 +753,7 @@ LACEDRING_HOT_ uint32_t lacedring_left_(uint32_t a, uint32_t b) {
     return b - a == 1 ? UINT32_MAX : b - a - 1;
 }
 
-/* Begins a polygon after a finished one if no event does. It lies after the polygon that began last and has its
+/* The polygon is finished and no event begins the next one: begins it after the polygon that began last, with the same
    size. */
 static void lacedring_repeat_(struct lacedring_state_* s, int inside) {
     const uint32_t size = s->begun_b - s->begun_a;

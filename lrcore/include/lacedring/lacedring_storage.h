@@ -156,7 +156,7 @@ extern "C" {
 
 /* Model of a bit: its probability adapts. */
 struct lacedring_bit_model_ {
-    /* zero: size of the range of 0, of LACEDRING_SCALE_. seen: bits so far, at most 48. */
+    /* zero: the range of 0 is [0, zero). seen: bits so far, at most 48. */
     uint16_t zero, seen;
 };
 
@@ -350,8 +350,8 @@ struct lacedring_steps_ {
     uint32_t vertices, bits;
     /* The edge of the next step, if the last step goes on. */
     uint32_t a, b;
-    /* goes_on, entered: of the last step; entered: it entered an edge. is_fork: the next step's first bit was read
-       already, and is 0. */
+    /* goes_on: the next step continues the last one. entered: the last step entered an edge. is_fork: the next step's
+       first bit was read already, and is 0. */
     uint32_t goes_on, is_fork, entered;
     uint32_t root_a, root_b, right, flipped, seen;
     /* Index of begins and deeper: `entered` of the last step. Index of flip: `flipped` of the last step. */
@@ -788,7 +788,7 @@ LACEDRING_COLD_ uint32_t lacedring_pair_corners_(const uint32_t* triangles, uint
     struct lacedring_pairs_ p;
     /* For an edge's larger vertex: its smaller vertex, and the corner that waits. */
     uint32_t* edges = scratch + 2 * (size_t)vertices;
-    /* By three bits: the bit that is 0 if the two others are 1; else 3. */
+    /* Index: three bits. If exactly one of them is 0, its number; else 3. */
     static const uint8_t alone[8] = {3, 3, 3, 2, 3, 1, 0, 3};
     uint32_t i, c, k, v;
     /* The triangle before: its vertices; its corner paired with the triangle before it, or 3; are its vertices
@@ -1155,8 +1155,8 @@ LACEDRING_HOT_ uint32_t lacedring_width_(uint64_t x) {
 #endif
 }
 
-/* Decodes three integers by the normal: the component in which the normal is largest last, predicted on the plane
-   through the prediction. */
+/* Decodes three integers by the normal. The component in which the normal is largest comes last: it is predicted on the
+   plane through the prediction. */
 LACEDRING_HOT_ void lacedring_by_normal_(const uint64_t normal[3], const uint32_t* moved, const uint32_t* residual,
                                          uint32_t* out) {
     static const uint8_t next[3] = {1, 2, 0};
