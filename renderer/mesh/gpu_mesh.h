@@ -53,7 +53,7 @@ struct GpuMesh {
     std::array<float, 4> unit{0, 0, 0, 1};         ///< DrawConstants::unit
     // Only if the surface has seams; the device writes all of them but `seams`:
     Buffer seams;          ///< the seam section
-    Buffer homes;          ///< by vertex of the surface: its home, as lacedring_seams_homes
+    Buffer homes;          ///< by vertex of the surface: its home copies, as lacedring_seams_homes
     Buffer copies;         ///< the index buffer over copies (`indices` is over the surface's vertices)
     Buffer copy_vertices;  ///< by copy: the surface's vertex
     Buffer positions;      ///< 3 floats per vertex of the surface; Source::packed_vertices with Path::compute
