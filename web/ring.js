@@ -1,10 +1,10 @@
 // Finds the ring of a mesh whose vertices are in ring order, as in every packed stream: edges from vertex i to i + 1.
 
-/** Numbers the distinct positions in order of appearance, so that copies at seams get the same number. firsts: by number, the first vertex. */
+/** Numbers the distinct positions in order of appearance: copies at seams get the same number. `firsts`: first vertex of each number. */
 function weld(position) {
   const { count } = position, bits = new Uint32Array(3 * count), values = new Float32Array(bits.buffer);
   for (let v = 0; v < count; v++) {
-    values[3 * v] = position.getX(v) + 0;  // 0 for -0
+    values[3 * v] = position.getX(v) + 0;  // turns -0 into 0
     values[3 * v + 1] = position.getY(v) + 0;
     values[3 * v + 2] = position.getZ(v) + 0;
   }

@@ -5,9 +5,9 @@ import { LacedRingError } from "./errors.js";
 
 const LATTICE = 1, DECIMALS = 4;  // mappings of positions whose integers predict other attributes
 /**
- * Most triangles and vertices per byte in the storage form: a triangle takes at least one modeled bit, which the coder stores
- * in 1/710 bit or more; a vertex takes at least one of 16 symbols, 1/1513 bit or more. Counts in headers are checked against
- * this before memory is allocated.
+ * Most triangles and vertices per byte of the storage form. A triangle takes at least one bit with a probability model, which
+ * costs 1/710 bit or more; a vertex takes at least one symbol of 16, which costs 1/1513 bit or more. Counts in headers are
+ * checked against these limits before memory is allocated.
  */
 const TRIANGLES_A_BYTE = 8 * 710, VERTICES_A_BYTE = 8 * 1514;
 

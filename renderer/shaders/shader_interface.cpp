@@ -70,7 +70,7 @@ class Module {
     bool is_built_in(std::uint32_t type) const;
 
     std::map<std::uint32_t, Words> definitions_;         // types and constants: the instruction without its first word
-    std::map<std::uint32_t, std::uint32_t> operations_;  // of types
+    std::map<std::uint32_t, std::uint32_t> operations_;  // by id of a type: its opcode
     std::map<std::uint32_t, std::vector<Words>> decorations_;                          // by id: decoration, operands
     std::map<std::uint32_t, std::map<std::uint32_t, std::vector<Words>>> of_members_;  // by id and member
 };

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
-// Decodes a seam section, one block per invocation, in passes: vertex blocks give the home of each vertex, then
+// Decodes a seam section, one block per invocation, in passes: vertex blocks give each vertex's home copies, then
 // triangle blocks give an index buffer over copies. If positions come from a vertex stream of the surface, a third pass
 // gives each copy its vertex's position.
 #include "shaders/shared.h"

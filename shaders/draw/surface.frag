@@ -87,7 +87,7 @@ void main() {
     }
     vec3 colour;
     if (view == LR_VIEW_SMOOTH || view == LR_VIEW_RING || view == LR_VIEW_SILHOUETTE || view == LR_VIEW_SEAMS) {
-        // Both sides are lit, blended by the normal's direction and not chosen by gl_FrontFacing: at a silhouette, two
+        // Both sides are lit and blended by the normal's direction, not chosen by gl_FrontFacing: at a silhouette, two
         // neighbors that face toward and away from the eye have nearly the same depth, so rounding decides which is
         // visible, and both must look the same.
         vec3 n = normalize(in_normal);

@@ -292,7 +292,7 @@ struct LrPackedRecord {
     LrPackedBits bits;
     uint turn_word;  // word of the stream with the turns of its first triangle
     uint begin, triangles;  // its first triangle in the block; number of triangles
-    uint a, b;              // its entry
+    uint a, b;              // the edge at which it is entered
     bool reversed;
     bool plain;             // its block is plain
     uint gap_bits, wart_bits, split_order, count_order;
@@ -474,8 +474,8 @@ void lr_packed_repeat(inout LrPackedState s) {
 // The number of triangles left in a polygon that is entered across (a, b).
 uint lr_packed_left(uint a, uint b) { return b - a == 1u ? 0xffffffffu : b - a - 1u; }
 
-// SPLIT, FAR or JUMP: returns the third vertex of its triangle, and moves the state to the first part behind that
-// triangle. If e.w is not 0, the rest is entered e.w triangles later, across edge `rest`.
+// SPLIT, FAR or JUMP: returns the third vertex of the event's triangle, and moves the state to the first part after it.
+// If e.w is not 0, the rest is entered e.w triangles later, across edge `rest`.
 uint lr_packed_third(LrPackedEvent e, bool up, inout LrPackedState s, out uvec2 rest) {
     bool far = e.code == LR_PACKED_FAR, both = e.code == LR_PACKED_SPLIT || (e.code == LR_PACKED_JUMP && e.choice == 1u);
     uint x = far ? e.v : up ? s.a + e.v : s.b - e.v;

@@ -280,7 +280,7 @@ struct LrPackedRecord {
   turn_word: u32,  // word of the stream with the turns of its first triangle
   begin: u32,      // its first triangle in the block
   triangles: u32,  // number of triangles
-  a: u32,          // its entry
+  a: u32,          // (a, b): the edge at which it is entered
   b: u32,
   reversed: bool,
   plain: bool,  // its block is plain
@@ -506,8 +506,8 @@ fn lr_packed_left(a: u32, b: u32) -> u32 { return select(b - a - 1u, 0xffffffffu
 fn lr_packed_third(e: LrPackedEvent, up: bool, s: LrPackedState) -> u32 {
   return select(select(s.b - e.v, s.a + e.v, up), e.v, e.code == LR_PACKED_FAR);
 }
-// Continues with the first part behind that triangle. If e.w is not 0, the rest is entered e.w triangles later, across
-// (x, s.b) if up, else across (s.a, x).
+// Moves the state to the first part after the event's triangle, whose third vertex is x. If e.w is not 0, the rest is
+// entered e.w triangles later, across (x, s.b) if up, else across (s.a, x).
 fn lr_packed_enter(e: LrPackedEvent, up: bool, x: u32, before: LrPackedState) -> LrPackedState {
   var s = before;
   let both = e.code == LR_PACKED_SPLIT || (e.code == LR_PACKED_JUMP && e.choice == 1u);

@@ -284,7 +284,7 @@ LrStar lr_star(LrOpLayout lr, uint v) {
     uint first = lr_corner(lr, v);
     return LrStar(first, first, false, lr_triangle_numbers(lr));
 }
-// The loop runs twice only for the step that meets the border.
+// Moves to the next corner of the star. Only the step that meets the border runs the loop twice.
 void lr_star_step(LrOpLayout lr, inout LrStar s) {
     uint c = s.corner;
     s.corner = LR_TABLE_NULL;

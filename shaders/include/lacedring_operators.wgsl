@@ -295,7 +295,7 @@ fn lr_star(lr: LrOpLayout, v: u32) -> LrStar {
   let first = lr_corner(lr, v);
   return LrStar(first, first, false, lr_triangle_numbers(lr));
 }
-// The loop runs twice only for the step that meets the border.
+// Moves to the next corner of the star. Only the step that meets the border runs the loop twice.
 fn lr_star_step(lr: LrOpLayout, before: LrStar) -> LrStar {
   var s = before;
   var c = s.corner;

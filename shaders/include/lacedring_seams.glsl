@@ -69,7 +69,7 @@
 struct LrSeamPart {
     uint length_bits, copy_bits;  // widths of the directory's fields
     uint directory;               // its first bit in the section
-    uint word, bit;               // where its blocks begin
+    uint word, bit;               // position at which its blocks begin
 };
 struct LrSeamLayout {
     uint vertices, triangles;  // of the mesh
@@ -211,7 +211,7 @@ void lr_seam_vertex_block(LrSeamLayout p, uint block) {
 #ifdef LR_SEAM_COPY
 // While a block is decoded, the words of its corners have two flags beside the copy.
 #define LR_SEAM_LAST 0x80000000u   // copy 0 of a vertex that wraps, used as its last position
-#define LR_SEAM_RIGHT 0x40000000u  // in a triangle's first corner: it is on the right of the ring
+#define LR_SEAM_RIGHT 0x40000000u  // in a triangle's first corner: the triangle is right of the ring
 #define LR_SEAM_COPY_BITS 0x3fffffffu
 
 uvec3 lr_seam_triangle(uint i) {
@@ -335,7 +335,7 @@ LrSeamQuestion lr_seam_start(uvec3 t, LrSeamHomes h, uvec3 words, uint j, uint s
 
 // Reads the word of corner j, whose copy differs from that of `current`. made: the next private copy; incremented if
 // used.
-#define LR_SEAM_UNKNOWN 0xffffffffu  // not a copy
+#define LR_SEAM_UNKNOWN 0xffffffffu  // no copy is known
 uint lr_seam_choose(LrSeamHomes h, uint j, uint current, LrSeamQuestion q, inout uint made) {
     uint copy = (lr_seam_place(h, j, q.at) & LR_SEAM_COPY_BITS) - h.first[j], left = h.count[j];
     // Home copies that are ruled out, in ascending order.

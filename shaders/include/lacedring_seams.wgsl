@@ -69,7 +69,7 @@ struct LrSeamPart {
   length_bits: u32,  // widths of the directory's fields
   copy_bits: u32,
   directory: u32,  // its first bit in the section
-  word: u32,       // where its blocks begin
+  word: u32,       // position at which its blocks begin
   bit: u32,
 }
 struct LrSeamLayout {
@@ -227,7 +227,7 @@ fn lr_seam_vertex_block(p: LrSeamLayout, block: u32) {
 
 // While a block is decoded, the words of its corners have two flags beside the copy.
 const LR_SEAM_LAST = 0x80000000u;   // copy 0 of a vertex that wraps, used as its last position
-const LR_SEAM_RIGHT = 0x40000000u;  // in a triangle's first corner: it is on the right of the ring
+const LR_SEAM_RIGHT = 0x40000000u;  // in a triangle's first corner: the triangle is right of the ring
 const LR_SEAM_COPY_BITS = 0x3fffffffu;
 
 fn lr_seam_triangle(i: u32) -> vec3u {
@@ -358,7 +358,7 @@ fn lr_seam_start(t: vec3u, h: LrSeamHomes, words: vec3u, j: u32, side: u32, has_
 
 // Reads the word of corner j, whose copy differs from that of `current`. Returns `made`, the next private copy, if the
 // corner gets a new one.
-const LR_SEAM_UNKNOWN = 0xffffffffu;  // not a copy
+const LR_SEAM_UNKNOWN = 0xffffffffu;  // no copy is known
 fn lr_seam_choose(h: LrSeamHomes, j: u32, current: u32, q: LrSeamQuestion, made: u32) -> u32 {
   let copy = (lr_seam_place(h, j, q.at) & LR_SEAM_COPY_BITS) - h.first[j];
   var left = h.count[j];

@@ -97,9 +97,9 @@ void lr_vertex_block(LrVertexLayout p, uint block, uint most) {
     }
     LR_VERTEX_PUT(first);
 
-    uint last = min(count, most), low_at = 0u, end = 1u;  // of the current run
+    uint last = min(count, most), low_at = 0u, end = 1u;  // end: of the current run
     uint low_bits[LR_VERTEX_COMPONENTS], row = 0u, present = 0u;
-    // Of the plane; slopes: two of 3 bits, biased by 4.
+    // The plane predictor: its axis (3: none), and two slopes of 3 bits each, biased by 4.
     uint axis = 3u, last_axis = 0u, slopes = 36u, last_slopes = 36u;
     uvec2 zeros = uvec2(0u);
     uint seen = 0u;
@@ -191,7 +191,7 @@ uint lr_vertex_decimal(uint value, uint digits) {
     for (uint k = 0u; k < 9u; ++k) divisor *= k < digits ? 10u : 1u;
     if (number == 0u) return 0u;
     uint quotient = number / divisor, rest = number % divisor;
-    int exponent = 0;  // of the quotient's lowest bit
+    int exponent = 0;  // power of two of the quotient's lowest bit
     if (quotient >= 1u << 25) {  // more bits than needed: the lowest only decide whether there is a rest
         uint shift = uint(findMSB(quotient)) - 24u;
         if (bitfieldExtract(quotient, 0, int(shift)) != 0u) rest = 1u;

@@ -99,13 +99,13 @@ fn lr_vertex_block(p: LrVertexLayout, block: u32, most: u32) {
 
   let last = min(count, most);
   var low_at = 0u;
-  var end = 1u;  // of the current run
+  var end = 1u;  // end: of the current run
   var low_bits: array<u32, n>;
   var row = 0u;
   var present = 0u;
   var axis = 3u;
   var last_axis = 0u;
-  var slopes = 36u;  // of the plane; slopes: two of 3 bits, biased by 4
+  var slopes = 36u;  // the plane's two slopes, 3 bits each, biased by 4
   var last_slopes = 36u;
   var zeros = vec2u(0u);
   var seen = 0u;
@@ -207,7 +207,7 @@ fn lr_vertex_decimal(value: u32, digits: u32) -> u32 {
   if (number == 0u) { return 0u; }
   var quotient = number / divisor;
   var rest = number % divisor;
-  var exponent = 0u;           // of the quotient's lowest bit, modulo 2^32
+  var exponent = 0u;           // power of two of the quotient's lowest bit, modulo 2^32
   if (quotient >= 1u << 25u) {  // more bits than needed: the lowest only decide whether there is a rest
     let shift = firstLeadingBit(quotient) - 24u;
     if (extractBits(quotient, 0u, shift) != 0u) { rest = 1u; }

@@ -2,7 +2,7 @@
 
 export const element = (id) => document.getElementById(id);
 
-const MOST_PIXELS = 4e6;  // of a canvas
+const MOST_PIXELS = 4e6;  // in a canvas
 
 /** Shows an error in the page's error line; without an error, hides the line. */
 export function showError(error) {

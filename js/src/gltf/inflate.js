@@ -1,6 +1,6 @@
 import { refuse } from "./document.js";
 
-// Bytes written to the decoder at once. They may decode to 1000 times as many before the size can be checked.
+// Bytes written to the decoder at once. They may decode to 1000 times their size before the size can be checked.
 const PIECE = 16384;
 
 async function write(bytes, writer) {
