@@ -361,7 +361,7 @@ LrPackedRecord lr_packed_record(LrPackedLayout p, uint block, uint i) {
     return r;
 }
 
-// The number of events. At most one per bit of the record, whatever a damaged stream claims.
+// The number of events. At most one per bit of the record, even if a damaged stream claims more.
 uint lr_packed_events(inout LrPackedRecord r) {
     return r.bits.left == 0u ? 0u : min(lr_packed_golomb(r.bits, r.count_order), r.bits.left);
 }

@@ -368,7 +368,7 @@ fn lr_packed_record(p: LrPackedLayout, block: u32, i: u32) -> LrPackedRecord {
   return r;
 }
 
-// The number of events. At most one per bit of the record, whatever a damaged stream claims.
+// The number of events. At most one per bit of the record, even if a damaged stream claims more.
 fn lr_packed_events(r: LrPackedRecord) -> u32 {
   if (lr_packed_reader.left == 0u) { return 0u; }
   let events = lr_packed_golomb(r.count_order);

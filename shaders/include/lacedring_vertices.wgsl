@@ -112,7 +112,7 @@ fn lr_vertex_block(p: LrVertexLayout, block: u32, most: u32) {
   for (var i = 1u; i < LR_VERTEX_BLOCK; i++) {
     if (i >= last) { break; }
     if (i == end) {
-      at += seen;  // skip the unary numbers, with which the run before ends
+      at += seen;  // skip the unary numbers at the end of the previous run
       if (n == 3u && (i - 1u) % 16u == 0u) {
         let code = lr_vertex_load(base, at);
         axis = 3u;
