@@ -1,5 +1,5 @@
 #pragma once
-// A compiled shader, as the generated headers "spirv/NAME_STAGE.h" hold it.
+// A compiled shader. The generated headers "spirv/NAME_STAGE.h" each define one.
 
 #include <cstdint>
 #include <span>
@@ -8,7 +8,7 @@
 namespace lacedring::gpu {
 
 struct Shader {
-    std::string_view name;  ///< of its source in this folder: "draw/surface.frag"
+    std::string_view name;  ///< path of its source in this folder: "draw/surface.frag"
     std::span<const std::uint32_t> words;
 };
 

@@ -1,10 +1,10 @@
-// Between three's geometries and the arrays of a mesh file.
+// Converts between three's geometries and the arrays of a mesh file.
 import { BufferAttribute, BufferGeometry } from "three";
 
 const NAMES = { position: "POSITION", normal: "NORMAL", tangent: "TANGENT", uv: "TEXCOORD_0", color: "COLOR_0", skinIndex: "JOINTS_0", skinWeight: "WEIGHTS_0" };
 const nameOf = (name) => NAMES[name] ?? (/^uv\d$/.test(name) ? `TEXCOORD_${name.slice(2)}` : `_${name}`);
 
-/** The values of an attribute, tightly packed; interleaved ones are copied. `rows`: these vertices alone. */
+/** The values of an attribute, tightly packed (copied if interleaved). `rows`: only of these vertices. */
 function valuesOf({ array, itemSize, isInterleavedBufferAttribute, data, offset = 0 }, rows) {
   if (!rows && !isInterleavedBufferAttribute) return array;
   const from = isInterleavedBufferAttribute ? data.array : array, stride = isInterleavedBufferAttribute ? data.stride : itemSize;
@@ -16,35 +16,35 @@ function valuesOf({ array, itemSize, isInterleavedBufferAttribute, data, offset 
   return values;
 }
 
-/** The vertices that triangles use, in the order of their first use, or undefined if they are all; and the indices of these. */
+/** `rows`: the vertices that triangles use, in order of first use (undefined if all are used); `indices`: into these rows. */
 function usedVertices(indices, count) {
   const number = new Int32Array(count).fill(-1), rows = [];
   for (const v of indices) if (number[v] < 0) number[v] = rows.push(v) - 1;
   return rows.length === count ? { indices } : { rows, indices: indices.map((v) => number[v]) };
 }
 
-/** All attributes of a geometry, morph targets too: three's name and number of a morph target beside each. */
+/** All attributes of a geometry: {key, target, attribute} with three's name and, for morph targets, the target's number. */
 function listAttributes({ attributes, morphAttributes }) {
   const of = (list, target) => list.map(([key, attribute]) => ({ key, target, attribute }));
   return [...of(Object.entries(attributes)),
     ...Object.entries(morphAttributes).flatMap(([key, targets]) => targets.flatMap((attribute, target) => of([[key, attribute]], target)))];
 }
 
-/** The name that an attribute, or that of a morph target, has in files. */
+/** The name of an attribute (or morph target's attribute) in files. */
 const fileNameOf = ({ key, target }) => target === undefined ? nameOf(key) : `_${key}_${target}`;
 
-/** All attributes of a geometry as files have them. `rows`: of these vertices alone. */
+/** All attributes of a geometry, as in files. `rows`: only of these vertices. */
 function attributesOf(geometry, rows) {
   return listAttributes(geometry).map((one) => ({ name: fileNameOf(one), values: valuesOf(one.attribute, rows), components: one.attribute.itemSize,
     normalized: one.attribute.normalized }));
 }
 
-/** A geometry's arrays as they are, with the objects that several geometries may share: for plainGlb. */
+/** A geometry's own arrays, not copied, for plainGlb: it stores arrays that several geometries share once. */
 export function plainOf(geometry) {
   return { indices: geometry.index.array, attributes: attributesOf(geometry) };
 }
 
-/** What encodeMesh takes, of the vertices that triangles use. */
+/** The argument of encodeMesh, without vertices that no triangle uses. */
 export function sourceOf(geometry) {
   const { rows, indices } = usedVertices(geometry.index.array, geometry.attributes.position.count);
   const attributes = attributesOf(geometry, rows);
@@ -53,7 +53,7 @@ export function sourceOf(geometry) {
   return { indices: Uint32Array.from(indices), attributes };
 }
 
-/** The floats that an attribute of integers stands for. */
+/** The floats that an attribute of integers represents. */
 function decoded(attribute, rows) {
   const out = new Float32Array(3 * (rows?.length ?? attribute.count));
   for (let i = 0; i < out.length / 3; i++) {
@@ -63,7 +63,7 @@ function decoded(attribute, rows) {
   return out;
 }
 
-/** A geometry of decoded arrays with the attributes of the one that was encoded: both lists are in the same order. */
+/** Makes a geometry from decoded arrays, with three's attribute names and morph targets as in the geometry that was encoded. */
 export function geometryLike(before, { indices, attributes }) {
   const geometry = new BufferGeometry();
   const wanted = new Map(listAttributes(before).map((one) => [fileNameOf(one), one]));

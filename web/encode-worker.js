@@ -1,4 +1,4 @@
-// The encoder, in a worker: {id, source, options} to {id, bytes, ms} or {id, error}.
+// The encoder's worker. Answers a message {id, source, options} with {id, bytes, ms} or {id, error}.
 import { encodeMesh, ready } from "./lacedring/encode.js";
 
 onmessage = async ({ data: { id, source, options } }) => {

@@ -1,4 +1,4 @@
-// Encodes in a worker, so that the page can be used meanwhile.
+// Encodes in a worker, so that the page stays responsive.
 
 let worker, last = 0;
 const waiting = new Map();
@@ -10,12 +10,12 @@ function end(error) {
   waiting.clear();
 }
 
-/** Ends what is being encoded: its promises reject. */
+/** Cancels all encoding; the promises reject. */
 export function cancel() {
   if (waiting.size > 0) end(new DOMException("another file was opened", "AbortError"));
 }
 
-/** As encodeMesh. Resolves to {bytes, ms}; `source` is copied. */
+/** Runs encodeMesh in the worker. Resolves to {bytes, ms}; `source` is copied. */
 export function encode(source, options) {
   if (!worker) {
     worker = new Worker(new URL("encode-worker.js", import.meta.url), { type: "module" });
@@ -24,7 +24,7 @@ export function encode(source, options) {
       waiting.delete(id);
       error ? reject(new Error(error)) : resolve(result);
     };
-    worker.onerror = ({ message }) => end(new Error(`the encoder ended: ${message ?? "it could not be loaded"}`));
+    worker.onerror = ({ message }) => end(new Error(`the encoder failed: ${message ?? "it could not be loaded"}`));
   }
   return new Promise((resolve, reject) => {
     waiting.set(++last, { resolve, reject });

@@ -1,4 +1,4 @@
-// The page: files in, picture and figures out.
+// The page: opens files, shows the mesh, its sizes and times.
 import { cancel } from "./encoder.js";
 import { open } from "./open.js";
 import { Viewer } from "./viewer.js";
@@ -11,7 +11,8 @@ const time = (ms) => (ms < 10 ? `${ms.toFixed(1)} ms` : ms < 1000 ? `${ms.toFixe
 const share = (part, whole) => `${(100 * part / whole).toFixed(part / whole < 0.1 ? 1 : 0)} %`;
 
 let viewer, shown, last = 0;  // shown: {title, bytes, brotli} of the file in the picture
-const forTests = window.page = { count: 0 };  // files that were shown or refused; the viewer; `started`: the sample is drawn
+// For tests. count: files shown or refused; viewer; started: promise that resolves when the first sample is drawn.
+const forTests = window.page = { count: 0 };
 
 function fail(title, { message }) {
   error.textContent = `${title ? `${title}: ` : ""}${message.split("\n")[0]}`;
@@ -37,20 +38,20 @@ function showSizes({ plain, ours, ourName }, brotli) {
 function showFigures(title, result, brotli) {
   const { triangles, vertices, plain, ours, decodeMs, encodeMs, whole, images, kind } = result;
   name.textContent = title;
-  summary.textContent = `${share(ours.bytes, plain.bytes)} of plain glTF, decoded in ${time(decodeMs)}`;
+  summary.textContent = `${share(ours.bytes, plain.bytes)} of the size of plain glTF, decoded in ${time(decodeMs)}`;
   showSizes(result, brotli);
   const rows = [["triangles", count.format(triangles)], ["vertices", count.format(vertices)], 
-    ...(images === undefined ? [["bits a triangle", (8 * ours.bytes / triangles).toFixed(1)]] : []),
-    ...(encodeMs ? [["time to encode", time(encodeMs)]] : [])];
+    ...(images === undefined ? [["bits per triangle", (8 * ours.bytes / triangles).toFixed(1)]] : []),
+    ...(encodeMs ? [["encoding time", time(encodeMs)]] : [])];
   numbers.replaceChildren(...rows.flatMap((row) => row.map((text, i) => Object.assign(document.createElement(i ? "dd" : "dt"), { textContent: text }))));
-  const both = images ? `${count.format(images)} bytes of both are images.` : "";
-  note.textContent = whole ? `Triangles and vertices alone, ${lossless.checked ? "bit for bit" : "positions rounded to 14 bits, normals to 10, texture coordinates to 12"}. ` +
-    `Images and all else make the file ${count.format(whole)} bytes; lacedring pack makes one packed .glb of it all.` : both;
+  const both = images ? `Both sizes include ${count.format(images)} bytes of images.` : "";
+  note.textContent = whole ? `Sizes of triangles and vertices only, ${lossless.checked ? "lossless" : "with positions rounded to 14 bits, normals to 10, texture coordinates to 12"}. ` +
+    `The whole file has ${count.format(whole)} bytes; the program "lacedring pack" compresses all of it to one .glb.` : both;
   document.getElementById("losslessSwitch").hidden = !["glb", "gltf"].includes(kind);
   canvas.setAttribute("aria-label", `${title}: ${count.format(triangles)} triangles`);
 }
 
-/** Shows a file; what was shown before stays if that fails. Resolves once it is drawn, or its error is on the page. */
+/** Shows a file, or its error; on an error the mesh shown before stays. Resolves when the mesh or error is on the page. */
 async function show(title, bytes, brotli) {
   const own = ++last;
   cancel();
@@ -77,7 +78,7 @@ async function show(title, bytes, brotli) {
   }
 }
 
-/** Fetches and shows one of the samples that scripts/web has made. */
+/** Fetches and shows one of the samples made by scripts/web. */
 async function showSample({ file: path, label, brotli }) {
   for (const button of samples.children) button.setAttribute("aria-pressed", String(button.textContent === label));
   const response = await fetch(new URL(path, new URL("samples/", location.href)));
@@ -89,7 +90,7 @@ async function start() {
   try {
     viewer = forTests.viewer = new Viewer(canvas);
   } catch {
-    return fail("", new Error("This browser draws no WebGL 2, which the page needs."));
+    return fail("", new Error("This page needs WebGL 2, which this browser does not support."));
   }
   turn.checked = !matchMedia("(prefers-reduced-motion: reduce)").matches;
   viewer.setTurning(turn.checked);

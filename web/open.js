@@ -1,4 +1,4 @@
-// From the bytes of a file to a model and figures.
+// Opens a mesh file: makes a model for three, and measures sizes and times.
 import { DoubleSide, Group, Mesh, MeshStandardMaterial } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { decodeMesh, ready } from "lacedring";
@@ -8,23 +8,23 @@ import { geometryLike, plainOf, sourceOf } from "./arrays.js";
 import { encode } from "./encoder.js";
 import { plainGlb, sizesOf, smallIndices } from "./sizes.js";
 
-const LARGE = 200000;  // triangles for which good rings are looked for less long
+const LARGE = 200000;  // meshes with more triangles are encoded with less effort
 
-/** "glb", "packed" (glTF of ours), "gltf" or "lr". Throws an Error of one line for anything else. */
+/** The kind of a file: "glb", "packed" (glTF with our extension), "gltf" or "lr". Throws an Error of one line for other files. */
 function kindOf(bytes) {
   const text = String.fromCharCode(...bytes.subarray(0, 4));
   const isGlb = text === "glTF", isJson = /^(\uFEFF|ï»¿)?\s*\{/.test(text);
   if (text === "LRFL") return "lr";
-  if (!isGlb && !isJson) throw new Error("it is no .lr, .glb or .gltf file");
+  if (!isGlb && !isJson) throw new Error("it is not an .lr, .glb or .gltf file");
   const { json } = splitGltf(bytes);
   if (json.extensionsUsed?.includes?.(EXTENSION)) return "packed";
-  if (json.buffers?.some?.(({ uri }) => uri && !uri.startsWith("data:"))) throw new Error("its data lie in other files: drop a .glb, or a .gltf with its data inside");
+  if (json.buffers?.some?.(({ uri }) => uri && !uri.startsWith("data:"))) throw new Error("its data are in other files: open a .glb, or a .gltf that contains its data");
   const other = json.extensionsRequired?.find?.((name) => /meshopt|draco/i.test(name));
-  if (other) throw new Error(`${other}: another program has compressed it; drop the plain file`);
+  if (other) throw new Error(`it is compressed with ${other}: open the uncompressed file`);
   return isGlb ? "glb" : "gltf";
 }
 
-/** The first call of a function beside how long it takes: the median of up to five calls in a quarter of a second. */
+/** Calls a function up to five times within a quarter of a second. Returns the first result and the median time. */
 function timed(call) {
   const times = [], begin = performance.now();
   let result;
@@ -52,13 +52,13 @@ async function openLr(bytes) {
   return { object, animations: [], plain, ours: [bytes], ourName: ".lr file", decodeMs: ms };
 }
 
-/** three's scene of a glTF; decodeMesh is asked for streams. */
+/** Loads a glTF as a scene of three; `decode` decodes its streams. */
 async function load(bytes, decode) {
   const loader = new GLTFLoader().register((parser) => new LacedRingExtension(parser, { decodeMesh: decode }));
   const buffer = bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length);
   const { scene, scenes, animations } = await loader.parseAsync(buffer, "");
   const object = scene ?? scenes[0];
-  if (!object) throw new Error("there are no triangles in it");
+  if (!object) throw new Error("it has no triangles");
   object.traverse(({ geometry, isMesh }) => {
     if (isMesh && !geometry.index) geometry.setIndex(Array.from({ length: geometry.attributes.position.count }, (_, i) => i));
   });
@@ -82,12 +82,12 @@ async function openPacked(bytes) {
   return { ...scene, plain, ours: [bytes], ourName: "packed glTF", decodeMs, images: imageBytes(plain) };
 }
 
-/** Encodes each geometry of a scene and puts what it decodes to in its place. `progress(done, of)` is called before each. */
+/** Encodes each geometry of a scene and replaces it by the decoded one. Calls `progress(done, of)` before each. */
 async function openPlain(bytes, { isLossless, progress }) {
   const scene = await load(bytes);
-  const users = new Map();  // geometry: the meshes that have it
+  const users = new Map();  // geometry: the meshes that use it
   scene.object.traverse((mesh) => { if (mesh.isMesh) users.set(mesh.geometry, [...users.get(mesh.geometry) ?? [], mesh]); });
-  if (users.size === 0) throw new Error("there are no triangles in it");
+  if (users.size === 0) throw new Error("it has no triangles");
   const plain = plainGlb([...users.keys()].map(plainOf)), ours = [];
   let decodeMs = 0, encodeMs = 0;
   for (const [geometry, meshes] of users) {
@@ -106,8 +106,9 @@ async function openPlain(bytes, { isLossless, progress }) {
 }
 
 /**
- * Opens a file. Resolves to {object, animations, triangles, vertices, plain, ours, ourName, decodeMs, encodeMs, whole, images}: `plain` and
- * `ours` are sizes {bytes, gzip}. Rejects with an Error of one line: the file is damaged, or is no mesh.
+ * Opens a file. Resolves to {object, animations, kind, triangles, vertices, plain, ours, ourName, decodeMs, encodeMs, whole, images}.
+ * `plain`, `ours`: sizes {bytes, gzip} of plain glTF and of our format; `whole`: bytes of the opened plain file; `images`: bytes of its
+ * images. Rejects with an Error of one line if the file is damaged or not a mesh.
  */
 export async function open(bytes, options) {
   await ready;
@@ -115,7 +116,7 @@ export async function open(bytes, options) {
   const opened = await (kind === "lr" ? openLr(bytes) : kind === "packed" ? openPacked(bytes) : openPlain(bytes, options));
   const geometries = new Set();
   opened.object.traverse(({ isMesh, geometry }) => { if (isMesh) geometries.add(geometry); });
-  if (geometries.size === 0) throw new Error("there are no triangles in it");
+  if (geometries.size === 0) throw new Error("it has no triangles");
   let triangles = 0, vertices = 0;
   for (const { index, attributes } of geometries) {
     triangles += index.count / 3;

@@ -1,10 +1,10 @@
-// The ring of a mesh whose vertices lie in ring order, as every packed stream has them: edges from vertex i to i + 1.
+// Finds the ring of a mesh whose vertices are in ring order, as in every packed stream: edges from vertex i to i + 1.
 
-/** The number of each vertex among the different positions, in the order in which they come: copies at seams get one number. */
+/** Numbers the distinct positions in order of appearance: copies at seams get the same number. `firsts`: first vertex of each number. */
 function weld(position) {
   const { count } = position, bits = new Uint32Array(3 * count), values = new Float32Array(bits.buffer);
   for (let v = 0; v < count; v++) {
-    values[3 * v] = position.getX(v) + 0;  // 0 for -0
+    values[3 * v] = position.getX(v) + 0;  // turns -0 into 0
     values[3 * v + 1] = position.getY(v) + 0;
     values[3 * v + 2] = position.getZ(v) + 0;
   }
@@ -28,7 +28,7 @@ function weld(position) {
   return { numbers, firsts };
 }
 
-/** Pairs of vertices, as an index of lines: the ring edges of an indexed geometry. Cost: a few passes over it. */
+/** The ring edges of an indexed geometry, as pairs of vertices. Cost: O(V + T). */
 export function ringOf({ attributes: { position }, index }) {
   const { numbers, firsts } = weld(position), { array } = index;
   const forEachEdge = (use) => {
@@ -37,9 +37,9 @@ export function ringOf({ attributes: { position }, index }) {
       use(Math.min(a, b), Math.max(a, b));
     }
   };
-  const isEdge = new Uint8Array(firsts.length);  // from i to i + 1
+  const isEdge = new Uint8Array(firsts.length);  // [i]: there is an edge from i to i + 1
   forEachEdge((a, b) => { if (b === a + 1) isEdge[a] = 1; });
-  const lines = [], last = new Uint32Array(firsts.length);  // of the run that begins at a vertex
+  const lines = [], last = new Uint32Array(firsts.length);  // last[first]: the last vertex of the run of edges that begins at `first`
   for (let i = 0, first = 0; i < firsts.length; i++) {
     if (isEdge[i]) {
       lines.push(firsts[i], firsts[i + 1]);

@@ -1,9 +1,9 @@
-// Sizes beside plain glTF's.
+// Measures sizes, and makes plain glTF files to compare with.
 
 const COMPONENTS = new Map([[Int8Array, 5120], [Uint8Array, 5121], [Int16Array, 5122], [Uint16Array, 5123], [Uint32Array, 5125], [Float32Array, 5126]]);
 const TYPES = [, "SCALAR", "VEC2", "VEC3", "VEC4"];
 
-/** Bytes as they are and after gzip. */
+/** Numbers of bytes without compression and with gzip. */
 export async function sizesOf(bytes) {
   const reader = new Blob([bytes]).stream().pipeThrough(new CompressionStream("gzip")).getReader();
   let gzip = 0;
@@ -12,8 +12,8 @@ export async function sizesOf(bytes) {
 }
 
 /**
- * A plain GLB of primitives {indices, attributes: [{name, values, components, normalized}]}: what the same arrays take without
- * compression. An array that several primitives use is in it once. Values glTF has no type for become floats.
+ * Makes a plain GLB, the uncompressed form of primitives {indices, attributes: [{name, values, components, normalized}]}. Stores an
+ * array that several primitives use once. Converts values of types that glTF lacks to floats.
  */
 export function plainGlb(primitives) {
   const json = { asset: { version: "2.0" }, scene: 0, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0 }], meshes: [{ primitives: [] }], buffers: [], bufferViews: [], accessors: [] };
@@ -68,7 +68,7 @@ function boundsOf(values) {
   return { min, max };
 }
 
-/** Indices as glTF writers store them. */
+/** Indices in the type that glTF writers use: 16 bits if possible. */
 export function smallIndices(indices, vertexCount) {
   return vertexCount <= 65535 ? Uint16Array.from(indices) : indices;
 }

@@ -1,10 +1,10 @@
-// The picture: a model that turns, and the ring over it.
+// Draws a model, and its ring over it.
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { RoomEnvironment } from "three/addons/environments/RoomEnvironment.js";
 import { ringOf } from "./ring.js";
 
-const STEP = Math.PI / 24, ZOOM = 1.15;  // of a key
+const STEP = Math.PI / 24, ZOOM = 1.15;  // rotation and zoom per key press
 
 function dispose(object) {
   object.traverse(({ geometry, material, skeleton }) => {
@@ -13,7 +13,7 @@ function dispose(object) {
     for (const one of [material ?? []].flat()) {
       for (const value of Object.values(one)) {
         if (!value?.isTexture) continue;
-        value.source.data?.close?.();  // of an ImageBitmap
+        value.source.data?.close?.();  // if it is an ImageBitmap
         value.dispose();
       }
       one.dispose();
@@ -21,7 +21,7 @@ function dispose(object) {
   });
 }
 
-/** The lines of a mesh's ring, which move as the mesh does. */
+/** Makes the lines of a mesh's ring, animated like the mesh. */
 function ringLines(mesh, material) {
   const geometry = new THREE.BufferGeometry();
   geometry.attributes = { ...mesh.geometry.attributes };
@@ -39,7 +39,7 @@ function ringLines(mesh, material) {
   return lines;
 }
 
-/** The mean length of the lines of rings in the world. */
+/** The mean length of the rings' lines, in world space. */
 function meanLength(rings) {
   const [a, b] = [new THREE.Vector3(), new THREE.Vector3()];
   let sum = 0, count = 0;
@@ -53,7 +53,7 @@ function meanLength(rings) {
   return count > 0 ? sum / count : 0;
 }
 
-/** The largest distance of a vertex from a point; Infinity where there are instances. */
+/** The largest distance of a vertex from a point; Infinity if there are instanced meshes. */
 function farthest(object, center) {
   const position = new THREE.Vector3();
   let most = 0;
@@ -78,9 +78,9 @@ export class Viewer {
   #clock = new THREE.Timer();
   #isWaiting = false;
   #ringMaterial = new THREE.LineBasicMaterial({ transparent: true });
-  #ringLength = 0;  // of a line, on average
+  #ringLength = 0;  // mean length of a line
   #hasRing = true;
-  #isFramed = false;  // nobody has moved the camera since frame()
+  #isFramed = false;  // the user has not moved the camera since frame()
 
   constructor(canvas) {
     this.#renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
@@ -104,7 +104,7 @@ export class Viewer {
     this.setColors();
   }
 
-  /** Takes the colors of the style sheet. */
+  /** Sets colors from the style sheet. */
   setColors() {
     const style = getComputedStyle(document.documentElement);
     this.#ringMaterial.color.set(style.getPropertyValue("--ring").trim());
@@ -113,7 +113,7 @@ export class Viewer {
     this.draw();
   }
 
-  /** Shows a model instead of the one before, which is freed. */
+  /** Shows a model; frees the previous one. */
   show(object, animations = []) {
     if (this.#model) {
       this.#scene.remove(this.#model);
@@ -136,7 +136,7 @@ export class Viewer {
     this.frame();
   }
 
-  /** The line's geometry is made when it is first wanted. */
+  /** Shows or hides the ring. Makes its lines at first use. */
   setRing(hasRing) {
     this.#hasRing = hasRing;
     if (hasRing && this.#rings.length === 0) {
@@ -154,7 +154,7 @@ export class Viewer {
     this.draw();
   }
 
-  /** Lines of rings that are drawn. */
+  /** The number of ring lines shown. */
   get lines() {
     return this.#rings.reduce((sum, { visible, geometry }) => sum + (visible ? geometry.index.count / 2 : 0), 0);
   }
@@ -164,7 +164,7 @@ export class Viewer {
     this.draw();
   }
 
-  /** Moves the camera, which keeps its direction, so that the whole model is seen. */
+  /** Moves the camera, without rotating it, so that the whole model is visible. */
   frame() {
     if (!this.#model) return;
     this.#model.updateMatrixWorld(true);
@@ -184,7 +184,7 @@ export class Viewer {
     this.draw();
   }
 
-  /** Draws once soon, and again as long as something moves. */
+  /** Draws the next frame, and all later frames while something moves. */
   draw() {
     if (this.#isWaiting) return;
     this.#isWaiting = true;
@@ -200,7 +200,7 @@ export class Viewer {
     });
   }
 
-  /** Lines that are hardly longer than a pixel would cover the mesh. */
+  /** Makes lines more transparent as they get shorter on the screen: opaque lines of about a pixel would hide the mesh. */
   #fadeRing() {
     const { position, fov } = this.#camera, height = this.#renderer.domElement.clientHeight;
     const seen = 2 * position.distanceTo(this.#controls.target) * Math.tan(THREE.MathUtils.degToRad(fov / 2));

@@ -1,4 +1,4 @@
-// The .lr file (docs/lr-file.md): header, section table, and where contents lie.
+// Reads header and section table of .lr files (docs/lr-file.md).
 import { LacedRingError } from "./errors.js";
 
 export const LEAN = 1, ATTRIBUTE = 2, VERTEX_ORDER = 3, CORNER_ORDER = 4, LR = 5, LR_COMPACT = 6, PACKED = 7, VERTICES = 8,
@@ -7,7 +7,7 @@ const NAMES = ["", "lean stream", "attribute", "vertex order", "corner order", "
 const MAGIC = 0x4c46524c, VERSION = 4, HEADER = 32, ENTRY = 32;
 const NORMALIZED = 1 << 16, V_UP = 1 << 17, PER_COPY = 1 << 18;
 
-/** Types of values, by their number in a file. */
+/** Types of attribute values, indexed by their number in a file. */
 export const TYPES = [["i8", Int8Array], ["u8", Uint8Array], ["i16", Int16Array], ["u16", Uint16Array], ["i32", Int32Array], ["u32", Uint32Array],
   ["f32", Float32Array], ["f64", Float64Array]];
 
@@ -20,10 +20,10 @@ function padded(size) {
 }
 
 /**
- * Reads a file and checks all but what sections hold: checksums, places, padding, names. `crc(offset, size)` is the CRC-32 of bytes
- * of the file.
- * @returns header, and sections { kind, isStored, offset, size, and of attributes: name, vUp, perCopy, type, components, normalized },
- *   whose offset is that of the contents behind the name, in the file.
+ * Reads the header and section table of a file. Checks everything but the contents of sections: checksums, offsets, padding,
+ * names. `crc(offset, size)` returns the CRC-32 of bytes of the file.
+ * @returns counts of the header, and sections { kind, isStored, offset, size }; attributes also have { name, vUp, perCopy,
+ *   type, components, normalized }. Offset and size are those of the contents after the name.
  */
 export function readContainer(bytes, crc) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
@@ -74,7 +74,7 @@ function readEntry(view, at, i) {
   return section;
 }
 
-/** Takes the name off the contents' begin. */
+/** Reads the name at the start of a section's contents; moves offset and size past it. */
 function readName(bytes, section, copies) {
   const size = padded(section.nameLength);
   if (size > section.size) throw malformed(`${section.what}: of the wrong size`, "SIZE");

@@ -1,4 +1,4 @@
-// The package without vertex streams, seams and storage form: lean and packed streams.
+// The smallest entry point: decodes lean and packed streams, but no vertex streams, seams or files in storage form.
 import { makeDecoder } from "./decoder.js";
 
 export { LacedRingError } from "./errors.js";

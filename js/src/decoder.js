@@ -1,13 +1,13 @@
-// The functions of the package for one of its modules.
+// Makes the decoding functions of an entry point from its wasm module.
 import { Engine, compile } from "./engine.js";
 import { LacedRingError } from "./errors.js";
 import { readMesh } from "./mesh.js";
 
-/** Functions that decode by the wasm that one of two loaders imports. */
+/** Makes the functions. Each loader imports one variant of the wasm module, without or with SIMD. */
 export function makeDecoder(loadScalar, loadSimd) {
   let module, engine;
   const ready = compile(loadScalar, loadSimd).then((compiled) => void (module = compiled));
-  ready.catch(() => {});  // who waits for it sees the error
+  ready.catch(() => {});  // callers that await `ready` get the error; avoids an unhandled rejection
 
   function newEngine() {
     if (!module) throw new LacedRingError("NOT_READY", "lacedring: wait for `ready` first");
@@ -16,7 +16,7 @@ export function makeDecoder(loadScalar, loadSimd) {
 
   function read(bytes, { limits } = {}, isCheck) {
     const using = engine ?? newEngine();
-    engine = undefined;  // one whose call traps is not used again
+    engine = undefined;  // not reused after a trap
     try {
       const mesh = readMesh(using, bytes, limits, isCheck);
       if (!using.isLarge) engine = using;
@@ -29,7 +29,7 @@ export function makeDecoder(loadScalar, loadSimd) {
 
   const streams = new WeakMap();
 
-  /** An engine with a lean or packed stream that is checked. */
+  /** Makes an engine with a checked lean or packed stream. */
   function open(stream) {
     const opened = newEngine();
     if (!(stream instanceof Uint8Array) || stream.length % 4 !== 0) throw new LacedRingError("SIZE", "stream: no whole number of words");

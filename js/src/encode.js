@@ -1,28 +1,29 @@
-// The encoder: arrays of a mesh to the bytes of an .lr file. It is the C++ library, and far larger than the decoders.
+// Encodes arrays of a mesh to an .lr file. The wasm is the C++ library, far larger than the decoders.
 import { compile } from "./engine.js";
 import { LacedRingError } from "./errors.js";
 
 export { LacedRingError };
 
-const ARRAYS = [Int8Array, Uint8Array, Int16Array, Uint16Array, Int32Array, Uint32Array, Float32Array, Float64Array];  // as ComponentType
-const FLOATS = 6;  // types from here on
-const NOT_FOUND = 8;  // EBADF, which every function of WASI returns here
+// By ComponentType of the C++ library.
+const ARRAYS = [Int8Array, Uint8Array, Int16Array, Uint16Array, Int32Array, Uint32Array, Float32Array, Float64Array];
+const FLOATS = 6;  // the first type of floats
+const NOT_FOUND = 8;  // EBADF: all WASI functions return it here
 
-/** Bits of attributes that are floats unless the caller says: as `lacedring pack`. */
+/** Default and largest numbers of bits for attributes of floats. The defaults are those of `lacedring pack`. */
 const BITS = { positionBits: [14, 22], normalBits: [10, 16], texcoordBits: [12, 22], colorBits: [8, 22], weightBits: [8, 22] };
 
 let module;
 const loader = () => import("./wasm/encode.js");
 
-/** The wasm is compiled; rejects with an Error. */
+/** Resolves when the wasm is compiled; rejects with an Error. */
 export const ready = compile(loader, loader).then((compiled) => void (module = compiled));
-ready.catch(() => {});  // who waits for it sees the error
+ready.catch(() => {});  // callers that await `ready` get the error; avoids an unhandled rejection
 
 function wrong(message) {
   return new LacedRingError("ARGUMENT", `encodeMesh: ${message}`);
 }
 
-/** The exports of a new instance. */
+/** Makes a new instance; returns its exports. */
 function instantiate() {
   if (!module) throw new LacedRingError("NOT_READY", "lacedring: wait for `ready` first");
   const outOfMemory = () => { throw new LacedRingError("LIMIT", "encodeMesh: the mesh does not fit into memory"); };
@@ -33,12 +34,12 @@ function instantiate() {
   return exports;
 }
 
-/** Writes the elements of a typed array to an address. */
+/** Copies a typed array to an address of the wasm memory. */
 function write({ memory }, address, { buffer, byteOffset, byteLength }) {
   new Uint8Array(memory.buffer, address >>> 0, byteLength).set(new Uint8Array(buffer, byteOffset, byteLength));
 }
 
-/** What is given by short names and in `attributes`, POSITION first, checked. */
+/** Collects and checks the attributes given by short names (normals, ...) and in `attributes`, POSITION first. */
 function attributesOf({ positions, normals, texcoords, colors, attributes = [] }) {
   const count = positions?.length / 3;
   const short = [["POSITION", positions, 3], ["NORMAL", normals, 3], ["TEXCOORD_0", texcoords, 2], ["COLOR_0", colors, colors?.length / count]]
@@ -63,7 +64,7 @@ function attributesOf({ positions, normals, texcoords, colors, attributes = [] }
   return { vertices, all };
 }
 
-/** Triangles as 32-bit indices; without indices, vertex after vertex. */
+/** Indices as 32-bit numbers; if there are none, 0, 1, 2, ... */
 function indicesOf(indices, vertices) {
   if (!indices) return Uint32Array.from({ length: vertices }, (_, i) => i);
   if (![Uint8Array, Uint16Array, Uint32Array].some((Type) => indices instanceof Type)) throw wrong("indices are no array of unsigned integers");
@@ -80,8 +81,8 @@ function bitsOf(options) {
 }
 
 /**
- * Encodes a mesh as `lacedring encode` does, byte for byte; about 10 microseconds a triangle. Vertices of one position are
- * joined, and what differs at their corners is kept as seams. See encode.d.ts. Throws LacedRingError.
+ * Encodes a mesh to the same bytes as `lacedring encode`; takes about 10 microseconds per triangle. Merges vertices with the
+ * same position; seams keep attributes that differ at their corners. See encode.d.ts. Throws LacedRingError.
  */
 export function encodeMesh(mesh, options = {}) {
   const { vertices, all } = attributesOf(mesh);
@@ -104,6 +105,6 @@ export function encodeMesh(mesh, options = {}) {
     return result;
   } catch (error) {
     if (error instanceof LacedRingError) throw error;
-    throw new LacedRingError("TRAP", `encodeMesh: ${error.message}`);  // of an instance that is not used again
+    throw new LacedRingError("TRAP", `encodeMesh: ${error.message}`);
   }
 }

@@ -1,17 +1,17 @@
-// A wasm module with its memory: addresses are handed out one behind the other and taken back all at once.
+// A wasm instance and a stack allocator for its memory: allocates addresses in ascending order, frees them all at once.
 import { LacedRingError, errorOf } from "./errors.js";
 
 const PAGE = 65536;
-/** Memory that is kept for the next file, in bytes: an engine that grew beyond is left to the garbage collector. */
+/** An engine with more bytes of memory than this is not kept for the next file. */
 const KEPT = 64 * 1024 * 1024;
 
-/** A module with one function, which has an i8x16 constant: valid where there is SIMD. */
+/** A module with one function that uses an i8x16 constant: valid only if the machine has SIMD. */
 const SIMD_PROBE = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10,
   1, 8, 0, 65, 0, 253, 15, 253, 98, 11]);
 
 /**
- * Compiles one of two variants of a module. Each loader imports a script whose default export is the wasm in base64; only
- * the script that is needed is loaded.
+ * Compiles the variant of a module that the machine supports. Each loader imports a script whose default export is the wasm
+ * in base64; only one of them is called.
  */
 export async function compile(loadScalar, loadSimd) {
   if (typeof WebAssembly !== "object") throw new LacedRingError("UNSUPPORTED", "lacedring: there is no WebAssembly here");
@@ -21,9 +21,9 @@ export async function compile(loadScalar, loadSimd) {
 
 export class Engine {
   #exports;
-  #heap;  // first byte that is not the module's
-  #top;
-  #most = Infinity;  // bytes that may be handed out
+  #heap;  // first byte after the module's own data
+  #top;  // first free byte
+  #most = Infinity;  // addresses must stay below this
 
   constructor(module) {
     this.#exports = new WebAssembly.Instance(module, {}).exports;
@@ -34,23 +34,23 @@ export class Engine {
     return name in this.#exports;
   }
 
-  /** The memory; not to be held while memory is taken, which may move it. */
+  /** The memory's ArrayBuffer. Allocation may replace it, so do not keep it across take() or put(). */
   get buffer() {
     return this.#exports.memory.buffer;
   }
 
-  /** Begins a file, which may take so many bytes of memory. */
+  /** Frees everything, for a file that may allocate at most `most` bytes. */
   begin(most) {
     this.#top = this.#heap;
     this.#most = this.#heap + most;
   }
 
-  /** Is memory larger than what is kept? */
+  /** True if the engine has too much memory to be kept for the next file. */
   get isLarge() {
     return this.buffer.byteLength > KEPT;
   }
 
-  /** Bytes in use, for release. */
+  /** The current allocation state; release(mark) returns to it. */
   get mark() {
     return this.#top;
   }
@@ -59,7 +59,7 @@ export class Engine {
     this.#top = mark;
   }
 
-  /** The address of so many bytes, a multiple of 16. Throws LIMIT. */
+  /** Allocates bytes; returns their address, a multiple of 16. Throws LIMIT. */
   take(bytes) {
     const address = this.#top, end = address + Math.ceil(bytes / 16) * 16;
     if (!(end <= this.#most))
@@ -76,24 +76,24 @@ export class Engine {
     return address;
   }
 
-  /** The address of a copy of bytes. */
+  /** Copies bytes into the memory; returns their address. Throws LIMIT. */
   put(bytes) {
     const address = this.take(bytes.length);
     new Uint8Array(this.buffer, address, bytes.length).set(bytes);
     return address;
   }
 
-  /** A typed array of its own of `count` numbers at an address. */
+  /** Returns a copy of `count` numbers at an address. */
   array(Type, address, count) {
     return new Type(new Type(this.buffer, address, count));
   }
 
-  /** A view of `count` words; not to be held while memory is taken. */
+  /** A view of `count` words. Do not keep it across take() or put(). */
   words(address, count) {
     return new Uint32Array(this.buffer, address, count);
   }
 
-  /** Calls a function and returns what it returns. A trap, which no input should make, is an error like others. */
+  /** Calls a wasm function; returns its result. Throws TRAP if it traps, which no input should cause. */
   run(name, ...values) {
     try {
       return this.#exports[name](...values) >>> 0;
@@ -102,7 +102,7 @@ export class Engine {
     }
   }
 
-  /** Calls a function that returns a status, and returns the words of its result. `what` names the part of the file. */
+  /** Calls a wasm function that returns a status; returns the words of its result. `what`: part of the file, for errors. */
   call(what, name, ...values) {
     const status = this.run(name, ...values);
     const result = this.words(this.run("lr_result"), 10);

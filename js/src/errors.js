@@ -1,6 +1,6 @@
 // Errors of decoders.
 
-/** The C decoders' statuses (enum lacedring_status), in their order: codes of errors, and what they say. */
+/** Codes and messages by status of the C decoders (enum lacedring_status). */
 const STATUSES = [
   ["OK", ""],
   ["SHORT", "fewer words than a header has"],
@@ -32,7 +32,7 @@ const STATUSES = [
   ["COPY", "an impossible copy of a vertex"],
 ];
 
-/** What decoders throw: `code` says what kind of fault it is, `message` says it in one line. */
+/** The error that decoders throw: `code` is the kind of fault, `message` one line of text. */
 export class LacedRingError extends Error {
   constructor(code, message) {
     super(message);
@@ -41,7 +41,7 @@ export class LacedRingError extends Error {
   }
 }
 
-/** The error of a status that a C function returned; `what` names the part of the file, `where` is the number that the status says. */
+/** Makes an error of a C function's status. `what`: part of the file; `where`: the place or number that the function reported. */
 export function errorOf(status, what, where) {
   const [code, text] = STATUSES[status] ?? ["UNKNOWN", `status ${status}`];
   return new LacedRingError(code, `lr file: ${what}: ${text} (at ${where})`);

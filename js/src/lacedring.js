@@ -1,4 +1,4 @@
-// The whole decoder.
+// The main entry point: decodes everything but LR tables.
 import { makeDecoder } from "./decoder.js";
 
 export { LacedRingError } from "./errors.js";

@@ -1,21 +1,22 @@
-// From the bytes of an .lr file to typed arrays.
+// Decodes the bytes of an .lr file to typed arrays.
 import { ATTRIBUTE, CORNER_ORDER, LEAN, LR, LR_COMPACT, PACKED, SEAMS, TYPES, VERTEX_ORDER, VERTICES, malformed,
   readContainer } from "./container.js";
 import { LacedRingError } from "./errors.js";
 
-const LATTICE = 1, DECIMALS = 4;  // mappings of integers that predict others
+const LATTICE = 1, DECIMALS = 4;  // mappings of positions whose integers predict other attributes
 /**
- * What the storage form can hold at most: a triangle takes a bit of a model, 1/710 bit or more of the coder's, and a value of a vertex
- * one of 16 symbols, 1/1513 bit or more. So no header makes more memory be taken than its bytes may need.
+ * Most triangles and vertices per byte of the storage form. A triangle takes at least one bit with a probability model, which
+ * costs 1/710 bit or more; a vertex takes at least one symbol of 16, which costs 1/1513 bit or more. Counts in headers are
+ * checked against these limits before memory is allocated.
  */
 const TRIANGLES_A_BYTE = 8 * 710, VERTICES_A_BYTE = 8 * 1514;
 
-/** Memory that a file may take unless the caller says: as lacedring's --max-memory. */
+/** Default memory limit for a file of `size` bytes, the same as of lacedring's --max-memory. */
 function defaultMemory(size) {
   return Math.max(512 * 2 ** 20, 128 * size);
 }
 
-/** Leaves out the words of slots that have no triangle. */
+/** Removes the words of slots without a triangle. */
 function closeRanks(slots) {
   let end = 0;
   for (const vertex of slots) {
@@ -23,7 +24,7 @@ function closeRanks(slots) {
   }
 }
 
-/** Decodes one file with an engine. Addresses are of its memory; numbers are checked before memory is taken for them. */
+/** Decodes one file with an engine. Addresses refer to the engine's memory. Counts are checked before memory is allocated. */
 class Reader {
   constructor(engine, bytes, limits = {}) {
     this.engine = engine;
@@ -33,7 +34,7 @@ class Reader {
     this.file = readContainer(bytes, (offset, size) => engine.run("lr_crc", this.address + offset, size, 0));
   }
 
-  /** All of the mesh; without arrays if `isCheck`. */
+  /** Decodes the mesh; makes no arrays if `isCheck`. */
   read(isCheck) {
     const { sections, vertices, copies } = this.file;
     const tables = sections.find(({ kind }) => kind === LR || kind === LR_COMPACT);
@@ -62,7 +63,7 @@ class Reader {
     return mesh;
   }
 
-  /** The one section of a kind; an empty one counts as none. */
+  /** The only section in the list that is not empty, if any. */
   #only(sections) {
     const some = sections.filter(({ size }) => size > 0);
     if (some.length > 1) throw malformed(`${some[1].what}: occurs twice`);
@@ -83,13 +84,13 @@ class Reader {
     return this.engine.call(section.what, name, ...values);
   }
 
-  /** Address and number of a section's words. */
+  /** Address and number of words of a section. */
   #words(section) {
     if (section.size % 4 !== 0) throw malformed(`${section.what}: no whole number of words`, "SIZE");
     return [this.address + section.offset, section.size / 4];
   }
 
-  /** Sets triangles, triangleCount, and corners: the same triangles, of copies where there are seams. */
+  /** Sets triangles, triangleCount and corners (the same triangles; with seams, as indices of copies). */
   #readConnectivity(section, seams) {
     const { engine } = this;
     const [slots, slotCount] = section.isStored ? this.#readStoredPacked(section) : this.#readResident(section, seams);
@@ -170,14 +171,14 @@ class Reader {
     return attribute;
   }
 
-  /** Values that lie in the file as they are. */
+  /** An attribute whose values are stored uncompressed. */
   #readPlain(section, count) {
     const { type, components, normalized } = section;
     if (section.size !== count * components * TYPES[type][1].BYTES_PER_ELEMENT) throw malformed(`${section.what}: of the wrong size`, "SIZE");
     return { type, components, normalized: normalized && type < 6, values: this.address + section.offset };
   }
 
-  /** Space for integers of positions, which may predict other attributes: it is held until the file is read. */
+  /** Keeps the integers of positions allocated until the file is read, as they may predict other attributes. */
   #hold(integers) {
     this.positions = integers;
     this.held = this.engine.mark;
@@ -209,18 +210,18 @@ class Reader {
     return { type, components, normalized: normalized !== 0, values, mapping };
   }
 
-  /** POSITION: three floats or doubles for each vertex, finite as floats. */
+  /** Checks that POSITION is three floats or doubles per vertex (not per copy), finite when rounded to floats. */
   #checkPosition(section, { type, components, values, mapping }, count) {
     const Type = TYPES[type][1];
     if (components !== 3 || type < 6 || section.perCopy) throw malformed("POSITION is not three floats or doubles of each vertex");
-    if (mapping === LATTICE) return;  // always finite
+    if (mapping === LATTICE) return;  // its values are always finite
     const coordinates = new Type(this.engine.buffer, values, 3 * count);
     for (let i = 0; i < coordinates.length; ++i) {
       if (!Number.isFinite(Math.fround(coordinates[i]))) throw malformed("a coordinate that is not finite");
     }
   }
 
-  /** A permutation, or, of corners, distinct triangles below `range`, each with a corner of it. */
+  /** Reads and checks an order: a permutation of vertices (each = 1), or corners (each = 3) of distinct triangles < range. */
   #readOrder(section, count, range, each) {
     const [address, words] = this.#words(section);
     if (words !== count || count > range) throw malformed(`${section.what}: of another size`, "SIZE");
@@ -232,7 +233,7 @@ class Reader {
   }
 }
 
-/** Decodes the bytes of a file, or, if `isCheck`, only checks them. */
+/** Decodes the bytes of a file; only checks them if `isCheck`. */
 export function readMesh(engine, bytes, limits, isCheck = false) {
   if (!(bytes instanceof Uint8Array)) throw new TypeError("lacedring: bytes are no Uint8Array");
   return new Reader(engine, bytes, limits).read(isCheck);

@@ -1,4 +1,4 @@
-// A worker that decodes, in browsers and in node.
+// Decodes in a worker, in browsers and in node.
 import { LacedRingError } from "./errors.js";
 
 let worker, last = 0;
@@ -7,7 +7,7 @@ const waiting = new Map();
 function settle({ id, mesh, error }) {
   const { resolve, reject } = waiting.get(id);
   waiting.delete(id);
-  if (worker && waiting.size === 0) worker.unref?.();  // node need not wait for it any more
+  if (worker && waiting.size === 0) worker.unref?.();  // lets node exit
   error ? reject(new LacedRingError(error.code, error.message)) : resolve(mesh);
 }
 
@@ -33,7 +33,7 @@ async function start() {
 
 let starting;
 
-/** As decodeMesh, in a worker; resolves to the mesh, whose arrays are moved and not copied. The bytes stay the caller's. */
+/** Runs decodeMesh in a worker. The mesh's arrays are transferred, not copied; `bytes` are copied and stay usable. */
 export async function decodeMeshAsync(bytes, options = {}) {
   worker ?? await (starting ??= start().then((made) => { worker = made; starting = undefined; }));
   return new Promise((resolve, reject) => {

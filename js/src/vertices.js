@@ -1,4 +1,4 @@
-// The package without storage form: lean and packed streams, seams and vertex streams.
+// The entry point without storage form: decodes lean and packed streams, seams and vertex streams.
 import { makeDecoder } from "./decoder.js";
 
 export { LacedRingError } from "./errors.js";

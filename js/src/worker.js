@@ -1,4 +1,4 @@
-// The worker that pool.js starts: decodes the files that it is sent.
+// The worker that pool.js starts: decodes the files that it receives.
 import { decodeMesh, ready } from "./lacedring.js";
 
 const port = typeof self === "object" ? self : (await import(/* webpackIgnore: true */ /* @vite-ignore */ "node:worker_threads")).parentPort;

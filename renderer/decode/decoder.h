@@ -1,5 +1,5 @@
 #pragma once
-// The common part of the compute passes over a mesh: the ones that expand streams, and the one that rotates triangles.
+// Base of the compute passes over a mesh: the passes that expand streams, and the pass that rotates triangles.
 
 #include <vector>
 
@@ -9,7 +9,7 @@
 
 namespace lacedring::gpu {
 
-/// The dispatches of one pass over one mesh. Their descriptor sets live as long as the Descriptors that they came from.
+/// The dispatches of one pass over one mesh. Their descriptor sets live as long as the Descriptors that allocated them.
 template <class Constants>
 struct PassPlan {
     struct Dispatch {
@@ -24,7 +24,7 @@ struct PassPlan {
 template <class Constants>
 class ComputePass {
   public:
-    /// Records the dispatches, without barriers: they write in the compute stage.
+    /// Records the dispatches, without barriers. They write in the compute stage.
     void record(VkCommandBuffer commands, const PassPlan<Constants>& plan) const {
         for (const auto& dispatch : plan.dispatches) {
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_[dispatch.pipeline].get());
@@ -46,11 +46,11 @@ class ComputePass {
 using Decoder = ComputePass<DecodeConstants>;
 using DecodePlan = PassPlan<DecodeConstants>;
 
-/// Makes a decoder's writes visible to index and vertex input, indirect commands, shaders that make vertices, other
-/// passes and copies.
+/// Makes a decoder's writes visible to index and vertex input, indirect draws, vertex, geometry, mesh and compute
+/// shaders, and copies.
 void decode_barrier(VkCommandBuffer commands);
 
-/// No device wants more of a descriptor's offset.
+/// The largest minStorageBufferOffsetAlignment that Vulkan allows a device.
 constexpr VkDeviceSize kDescriptorAlignment = 256;
 
 }  // namespace lacedring::gpu

@@ -1,5 +1,5 @@
 #pragma once
-// A mesh put on the device, and its index buffer made ready: whatever the source, whoever draws it.
+// Uploads a mesh from any source and records the passes that fill its index buffer.
 
 #include <optional>
 
@@ -11,40 +11,40 @@
 
 namespace lacedring::gpu {
 
-/// A mesh on the device, with the passes that make its index buffer. Goes before its context.
+/// A mesh on the device, with the passes that fill its index buffer. Must be destroyed before its context.
 struct ExpandedMesh {
     GpuMesh mesh;
     Descriptors descriptors;
-    DecodePlan decode;    ///< empty for Source::plain; where the surface has no seams, of Path::compute only
-    VertexPlan vertices;  ///< Source::packed_vertices by compute
-    SeamPlan seams;       ///< of a surface with seams, by every path
+    DecodePlan decode;    ///< streams only: with Path::compute, or on any path if the surface has seams
+    VertexPlan vertices;  ///< Source::packed_vertices with Path::compute
+    SeamPlan seams;       ///< if the surface has seams, on any path
     RotatePlan rotate;    ///< Path::compute
 };
 
-/// The pipelines of a stream's decoder are made by the first upload that needs them: a driver may take half a second
-/// for all. One thread uploads while another records what was uploaded.
+/// The first upload that needs a decoder creates its pipelines: creating all of them may take a driver half a second.
+/// One thread may upload while another records passes of meshes uploaded before.
 class Expander {
   public:
     static Result<Expander> create(Context& context);
-    /// Another one with the same pipelines, of the shaders as they are now.
+    /// Returns a new Expander whose pipelines are recreated from the current shaders.
     Result<Expander> again() const;
 
     /// Uploads a source of the model and plans the passes over its index buffer.
     Result<ExpandedMesh> upload(Transfer& transfer, const Model& model, Source source, const UploadOptions& options);
 
-    /// Records the decoding of its streams, if that has not been done, and what makes it visible.
+    /// Records the decoding of the mesh's streams, unless already recorded, and a barrier that makes it visible.
     void decode(VkCommandBuffer commands, ExpandedMesh& expanded) const;
-    /// Records the decoding of the vertex stream alone, done or not, and what makes it visible.
+    /// Records the decoding of the vertex stream alone, even if already done, and a barrier that makes it visible.
     void decode_vertices(VkCommandBuffer commands, const ExpandedMesh& expanded) const;
-    /// Records the turning of its triangles, if that has not been done, and what makes it visible.
+    /// Records the rotation of the mesh's triangles, unless already recorded, and a barrier that makes it visible.
     void rotate(VkCommandBuffer commands, ExpandedMesh& expanded) const;
 
   private:
-    /// Records the decoding of vertices; of the seams' copies as well, or of their positions alone.
+    /// Records the decoding of vertices, then of the seam section (if `seams`) and of the copies' positions.
     void record_vertices(VkCommandBuffer commands, const ExpandedMesh& expanded, bool seams) const;
 
     Context* context_ = nullptr;
-    /// A mesh with a plan for one of these has it; a thread that records may not ask whether the others are there.
+    /// The uploading thread may be creating one of these: a recording thread only touches those its mesh has plans for.
     std::optional<LeanDecoder> lean_;
     std::optional<PackedDecoder> packed_;
     std::optional<VertexDecoder> vertices_;

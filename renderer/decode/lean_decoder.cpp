@@ -12,7 +12,7 @@
 namespace lacedring::gpu {
 namespace {
 
-constexpr std::uint64_t kDispatchStep = 64;  // 64 slots are 768 bytes of the index buffer: aligned
+constexpr std::uint64_t kDispatchStep = 64;  // slots: 768 bytes of indices, a multiple of kDescriptorAlignment
 
 std::uint32_t in_groups(std::uint64_t triangles) {
     constexpr std::uint64_t kPerGroup = std::uint64_t{LR_COMPUTE_GROUP} * LR_TRIANGLES_PER_INVOCATION;
@@ -42,7 +42,7 @@ Result<DecodePlan> LeanDecoder::plan(Descriptors& descriptors, const GpuMesh& me
     const auto word_of = [&](std::uint64_t slot) {
         return LR_LEAN_HEADER_WORDS + (slot <= ring_slots ? slot : ring_slots + 3 * (slot - ring_slots));
     };
-    // A slot is at most 12 bytes of either buffer; the rest is for alignment and for the words looked ahead at.
+    // A slot takes at most 12 bytes of either buffer; 512 bytes are for alignment and for the words read ahead.
     const std::uint64_t by_range = (mesh.max_range - 512) / 12 / kDispatchStep * kDispatchStep;
     const std::uint64_t by_groups =
         std::uint64_t{context_->limits().maxComputeWorkGroupCount[0]} * LR_COMPUTE_GROUP * LR_TRIANGLES_PER_INVOCATION;

@@ -10,8 +10,8 @@ class LeanDecoder : public Decoder {
   public:
     static Result<LeanDecoder> create(Context& context);
 
-    /// Splits the stream, which `view` is of, and the index buffer so that no descriptor covers more than
-    /// mesh.max_range bytes.
+    /// Splits the stream (`view` views it) and the index buffer so that no descriptor covers more than mesh.max_range
+    /// bytes.
     Result<DecodePlan> plan(Descriptors& descriptors, const GpuMesh& mesh, const LeanView& view) const;
 };
 

@@ -17,9 +17,9 @@ Result<PackedDecoder> PackedDecoder::create(Context& context) {
     const std::array<Binding, 2> bindings{{{0}, {1}}};
     LR_ASSIGN(out.layout_,
               Layout::create(context, "packed decode", bindings, VK_SHADER_STAGE_COMPUTE_BIT, sizeof(DecodeConstants)));
-    // One invocation reads a block's events: eight blocks fill a subgroup of lavapipe. On a GPU, eight take the shared
-    // memory of other workgroups: the H200 decodes two million triangles in 0.31 ms with eight, in 0.19 with four, two
-    // or one.
+    // One invocation reads the events of a block, so eight blocks per workgroup fill a subgroup of lavapipe. On a GPU,
+    // eight take so much shared memory that fewer workgroups run at once: an H200 decodes two million triangles in
+    // 0.31 ms with eight, in 0.19 ms with four, two or one.
     constexpr std::uint32_t kSharedOfEight = 27 << 10;
     const std::uint32_t subgroup = context.info().subgroup_size;
     const bool eight = subgroup <= 8 && context.limits().maxComputeSharedMemorySize >= kSharedOfEight;

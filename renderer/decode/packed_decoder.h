@@ -12,12 +12,12 @@ class PackedDecoder : public Decoder {
   public:
     static Result<PackedDecoder> create(Context& context);
 
-    /// Splits the index buffer so that no descriptor covers more than mesh.max_range bytes. The stream, which `view` is
-    /// of, is read through its address.
+    /// Splits the index buffer so that no descriptor covers more than mesh.max_range bytes. The shader reads the stream
+    /// (`view` views it) through its address.
     Result<DecodePlan> plan(Descriptors& descriptors, const GpuMesh& mesh, const PackedView& view) const;
 
   private:
-    std::array<std::uint32_t, 2> group_{};  // invocations and blocks of a workgroup
+    std::array<std::uint32_t, 2> group_{};  // invocations and blocks per workgroup
 };
 
 }  // namespace lacedring::gpu

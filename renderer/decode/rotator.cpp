@@ -22,7 +22,8 @@ Result<Rotator> Rotator::create(Context& context) {
 Result<RotatePlan> Rotator::plan(Descriptors& descriptors, const GpuMesh& mesh) const {
     const std::uint64_t by_groups =
         std::uint64_t{context_->limits().maxComputeWorkGroupCount[0]} * LR_COMPUTE_GROUP * LR_TRIANGLES_PER_INVOCATION;
-    const std::uint64_t step = std::min(mesh.max_range / 12, by_groups) / 64 * 64;  // 768 bytes: aligned
+    // 64 triangles are 768 bytes of indices: a multiple of kDescriptorAlignment.
+    const std::uint64_t step = std::min(mesh.max_range / 12, by_groups) / 64 * 64;
     RotatePlan plan;
     for (std::uint64_t first = 0; first < mesh.slots; first += step) {
         const std::uint64_t triangles = std::min(step, mesh.slots - first);

@@ -1,5 +1,5 @@
 #pragma once
-// The compute pass that turns every triangle so that its smallest original vertex comes first
+// The compute pass that rotates every triangle so that its smallest original vertex comes first
 // (shaders/decode/rotate.comp).
 
 #include "renderer/decode/decoder.h"

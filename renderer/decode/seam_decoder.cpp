@@ -35,7 +35,7 @@ Result<SeamPlan> SeamDecoder::plan(Descriptors& descriptors, const GpuMesh& mesh
     constants.homes = mesh.homes.address_words();
     constants.copy_vertices = mesh.copy_vertices.address_words();
     constants.positions = mesh.positions.address_words();
-    // `all` units of some bytes of both buffers, in steps of whole `least`.
+    // Adds dispatches over `all` units of `bytes` bytes in both buffers, each over a multiple of `least` units.
     const auto pass = [&](PassPlan<SeamConstants>& out, std::uint32_t pipeline, const Buffer& written,
                           const Buffer& read, std::uint64_t all, std::uint64_t bytes,
                           std::uint64_t least) -> Result<void> {

@@ -1,6 +1,6 @@
 #pragma once
 // The compute passes that decode a seam section into an index buffer over the copies of the surface's vertices, and the
-// one that gives copies the positions of their vertices.
+// pass that gives each copy its vertex's position.
 
 #include "lacedring/seams.hpp"
 #include "renderer/decode/decoder.h"
@@ -8,22 +8,22 @@
 namespace lacedring::gpu {
 
 struct SeamPlan {
-    PassPlan<SeamConstants> vertices, triangles, positions;  ///< LR_SEAM_PASS_*; no positions where mesh has none
+    PassPlan<SeamConstants> vertices, triangles, positions;  ///< LR_SEAM_PASS_*; `positions` may be empty
 };
 
-/// Writes mesh.homes, mesh.copies and mesh.copy_vertices from mesh.seams and mesh.indices; the positions of
-/// mesh.vertices from mesh.positions.
+/// Writes mesh.homes, mesh.copies and mesh.copy_vertices from mesh.seams and mesh.indices, and the positions in
+/// mesh.vertices from mesh.positions if the mesh has these.
 class SeamDecoder : ComputePass<SeamConstants> {
   public:
     static Result<SeamDecoder> create(Context& context);
 
-    /// Splits the buffers so that no descriptor covers more than mesh.max_range bytes, or than a block of triangles.
-    /// `view` is of the section. Shaders take addresses for it, and for all that they read or write out of order.
+    /// Splits the buffers so that no descriptor covers more than max(mesh.max_range, one block of triangles) bytes.
+    /// `view` views the section. Shaders use addresses for it and for all that they read or write out of order.
     Result<SeamPlan> plan(Descriptors& descriptors, const GpuMesh& mesh, const SeamView& view) const;
 
-    /// Records the decoding, and a barrier in it that makes writes to mesh.indices visible, too.
+    /// Records the decoding. A barrier between its two passes also makes earlier writes to mesh.indices visible.
     void record(VkCommandBuffer commands, const SeamPlan& plan) const;
-    /// Records the moving of positions, and before it a barrier.
+    /// Records a barrier, then the pass that copies positions.
     void record_positions(VkCommandBuffer commands, const SeamPlan& plan) const;
 };
 

@@ -10,7 +10,7 @@
 namespace lacedring::gpu {
 namespace {
 
-/// The mappings that positions have. Each has a pipeline of its own, compiled without the others.
+/// The mappings that positions may have. Each has its own pipeline, compiled without the code of the others.
 constexpr std::array kMappings{VertexMapping::lattice, VertexMapping::floats, VertexMapping::decimals};
 
 }  // namespace

@@ -103,7 +103,7 @@ Result<Silhouettes> Silhouettes::create(Context& context, std::uint32_t lines_pe
 }
 
 std::array<float, 3> eye_of(const Camera& camera) {
-    const mat4& m = camera.view_from_world;  // a rotation, and the eye at the origin behind it
+    const mat4& m = camera.view_from_world;  // a rotation R and a translation t: the eye is at -R^T t
     std::array<float, 3> eye{};
     for (std::size_t i = 0; i < 3; ++i) {
         double sum = 0;
@@ -122,7 +122,7 @@ void Silhouettes::set_frame(const Camera& camera, const Target& target, const Si
     frame.colour = style.colour;
     std::memcpy(frame_.mapped(), &frame, sizeof(frame));
     line_width_ = std::clamp(style.width, 1.0F, context_->info().max_line_width);
-    // Below -1 is no cosine, rounded or not.
+    // No cosine is below -2, even with rounding errors: no edge is a crease.
     crease_cos_ = style.crease >= 180 ? -2.0F : static_cast<float>(std::cos(style.crease * std::numbers::pi / 180));
 }
 
@@ -132,7 +132,8 @@ void Silhouettes::record(VkCommandBuffer commands, const Adjacency& adjacency, c
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.get());
     vkCmdSetLineWidth(commands, line_width_);
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.pipeline(), 0, 1, &set_, 0, nullptr);
-    // Three a triangle number: each edge from both sides, and those of numbers that no triangle has.
+    // Three lines per triangle number: each edge comes twice, once from each side; some numbers have no triangle. The
+    // shader drops the superfluous lines.
     const std::uint64_t all = std::uint64_t{3} * adjacency.triangle_numbers;
     for (std::uint64_t first = 0; first < all; first += lines_per_draw_) {
         const SilhouetteConstants constants{adjacency.tables.address_words(), adjacency.positions.address_words(),

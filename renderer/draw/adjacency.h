@@ -1,6 +1,6 @@
 #pragma once
-// The corner operators in shaders: LR tables on the device, and two uses of them. Neither has an index buffer or a list
-// of edges: shaders/include/lacedring_operators.glsl says what lies beside what. Paper: LR 2011, sections 4 and 5.
+// LR tables on the device and two uses of them: vertex normals and silhouettes. Neither needs an index buffer or edge
+// list: shaders find neighbors by shaders/include/lacedring_operators.glsl. Paper: LR 2011, sections 4 and 5.
 
 #include <array>
 #include <cstdint>
@@ -21,32 +21,32 @@ struct AdjacencyOptions {
     bool wart_skipping = true;
 };
 
-/// LR tables and positions of a mesh on the device, some 4 bytes a reference and 12 a vertex.
+/// LR tables and positions of a mesh on the device: about 4 bytes per reference and 12 per vertex.
 struct Adjacency {
-    std::uint32_t vertices = 0;               ///< with the copies of non-manifold ones
-    std::uint32_t triangle_numbers = 0;       ///< as LrView::triangle_numbers
-    std::vector<std::uint32_t> vertex_order;  ///< the mesh's vertex of each one; of several at a seam, the first
-    Buffer tables;                            ///< the whole stream, words
-    Buffer positions;                         ///< 3 floats a vertex, in the tables' order
+    std::uint32_t vertices = 0;               ///< of the tables, copies of non-manifold vertices included
+    std::uint32_t triangle_numbers = 0;       ///< LrView::triangle_numbers
+    std::vector<std::uint32_t> vertex_order;  ///< by LR vertex: the mesh's vertex (at a seam, the first of several)
+    Buffer tables;                            ///< the words of the whole LR stream
+    Buffer positions;                         ///< 3 floats per vertex, in the tables' order
 };
 
-/// Makes the tables of the model's surface (corner table, ring, LR tables), in its unit sphere. Cost: O(V + T).
-/// Errors: build_corner_table's, encode_lr's and Vulkan's.
+/// Builds the LR tables of the model's surface (corner table, ring, LR tables) and uploads them with the model's
+/// positions. Cost: O(V + T). Errors: those of build_corner_table, of encode_lr and of Vulkan.
 Result<Adjacency> upload_adjacency(Context& context, Transfer& transfer, const Model& model,
                                    const AdjacencyOptions& options = {});
-/// Of tables that are there already, and must be valid (as encode_lr makes them). `positions`: 3 floats a vertex of the
-/// mesh that they were made from. Errors: malformed (the header), and Vulkan's.
+/// Uploads existing tables, which must be valid (as encode_lr makes them). `positions`: 3 floats per vertex of the mesh
+/// that the tables were made from. Errors: malformed (the header), and those of Vulkan.
 Result<Adjacency> upload_adjacency(Context& context, Transfer& transfer, const EncodedLr& tables,
                                    std::span<const float> positions);
 
-/// Smooth normals from positions and tables alone.
+/// Computes smooth normals from positions and LR tables alone.
 class VertexNormals {
   public:
     static Result<VertexNormals> create(Context& context);
 
-    /// Unit normals, 3 floats a vertex in the tables' order, visible to whatever is submitted next: the area-weighted
-    /// sums of vertex_normals (topology.hpp), (0,0,1) where there is none. Two floats a number:
-    /// an error of about 2^-44 times the sum of the lengths of all products by the length of the result.
+    /// Returns unit normals, 3 floats per vertex in the tables' order, visible to later submissions: the area-weighted
+    /// sums of vertex_normals (topology.hpp), normalized; (0,0,1) where the sum is zero. The shader computes with pairs
+    /// of floats; relative error: about 2^-44 * (sum of the cross products' lengths) / (length of their sum).
     /// Waits for the device. Cost: O(T).
     Result<Buffer> compute(Commands& commands, const Adjacency& adjacency) const;
 
@@ -57,23 +57,23 @@ class VertexNormals {
 };
 
 struct SilhouetteStyle {
-    double crease = 40;  ///< degrees: edges at which the surface turns by more are drawn. From 180 on, none
+    double crease = 40;  ///< degrees: edges where the surface bends by more are drawn; 180 or more: none
     std::array<float, 4> colour{0.03F, 0.03F, 0.03F, 1};
-    float width = 1.5F;  ///< pixels, those of supersampling included
+    float width = 1.5F;  ///< in supersampled pixels
 };
 
-/// Draws borders, edges between a triangle that faces the eye and one that does not, and creases, over a surface.
-/// The vertex shader asks the tables at every corner; there is no list of edges, and the host does nothing an edge.
+/// Draws over a surface: borders, creases, and edges between a triangle that faces the eye and one that does not.
+/// The vertex shader decides per corner, by the LR tables; there is no edge list and no work per edge on the host.
 class Silhouettes {
   public:
-    /// `lines_per_draw`: longer meshes take several draws; a test makes it small.
+    /// `lines_per_draw`: meshes with more lines take several draws. Tests make it small.
     static Result<Silhouettes> create(Context& context, std::uint32_t lines_per_draw = 1U << 29);
 
-    /// What the next pictures of that target are taken with. Not while one is being drawn.
+    /// Sets camera and style of the next frames drawn to `target`. Must not be called while a frame is being drawn.
     void set_frame(const Camera& camera, const Target& target, const SilhouetteStyle& style);
 
-    /// Records a rendering instance of its own, after the surface's: colours and depth of `target` must hold it, pushed
-    /// back (GraphicsInfo::push_back), or triangles seen from the side cover their own outline.
+    /// Records a separate rendering instance. `target` must already hold the surface's color and depth, pushed back
+    /// (GraphicsInfo::push_back): otherwise triangles seen edge-on hide their own outline.
     void record(VkCommandBuffer commands, const Adjacency& adjacency, const Target& target) const;
 
   private:
@@ -88,7 +88,7 @@ class Silhouettes {
     VkDescriptorSet set_ = VK_NULL_HANDLE;
 };
 
-/// Where the camera is, in the world.
+/// The camera's position in world space.
 std::array<float, 3> eye_of(const Camera& camera);
 
 }  // namespace lacedring::gpu

@@ -12,7 +12,7 @@
 namespace lacedring::gpu {
 namespace {
 
-constexpr double kMargin = 1.07;  // around the mesh, where it is fitted to the picture
+constexpr double kMargin = 1.07;  // around a mesh that is fitted to the picture
 constexpr double kSmallestNear = 1e-3;
 
 glm::dvec3 vec(const std::array<double, 3>& a) {
@@ -46,13 +46,13 @@ struct Frame {
 
 Frame frame_of(const glm::dvec3& back, const glm::dvec3& up) {
     glm::dvec3 right = glm::cross(up, back);
-    // Looking along up: any other direction will do.
+    // The eye looks along `up`: any direction that differs from `back` will do.
     if (glm::length(right) < 1e-9) right = glm::cross(front_of(up), back);
     right = glm::normalize(right);
     return {right, glm::cross(back, right), back};
 }
 
-/// Distance at which all used vertices fit, and the focal point moved so that they lie in the picture's middle.
+/// Returns the distance at which all used vertices fit in the picture; if `centre`, moves `focal` to center them.
 double fit(const Model& model, const Frame& frame, double tan_x, double tan_y, bool centre, glm::dvec3& focal) {
     double distance = 0;
     for (int pass = 0; pass < 3; ++pass) {
@@ -77,7 +77,7 @@ double fit(const Model& model, const Frame& frame, double tan_x, double tan_y, b
             low_y = std::min(low_y, y / depth);
             high_y = std::max(high_y, y / depth);
         });
-        // The last pass measures only: what was moved must still fit.
+        // The last pass only measures the distance, for the focal point as moved before.
         if (pass == 2) break;
         focal += 0.5 * distance * ((low_x + high_x) * frame.right + (low_y + high_y) * frame.up);
     }
@@ -115,7 +115,7 @@ Result<Camera> make_camera(const Model& model, const CameraOptions& options, std
     offset = rotate(offset, -options.elevation, right);
 
     const double aspect = static_cast<double>(width) / static_cast<double>(height);
-    // The angle is the smaller side's, so that a tall picture shows as much as a wide one.
+    // The view angle belongs to the picture's shorter side, so that a tall picture shows as much as a wide one.
     const double tan_small = std::tan(glm::radians(options.view_angle) / 2);
     const double tan_y = aspect >= 1 ? tan_small : tan_small / aspect;
     const double tan_x = tan_y * aspect;

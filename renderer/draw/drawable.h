@@ -1,5 +1,5 @@
 #pragma once
-// A mesh on the device, with what is bound to draw it.
+// A mesh on the device, with the descriptor sets that draw it.
 
 #include <optional>
 
@@ -9,7 +9,7 @@
 
 namespace lacedring::gpu {
 
-/// Goes before its context.
+/// Must be destroyed before its context.
 struct Drawable : ExpandedMesh {
     DrawPlan draw;
     std::optional<Adjacency> adjacency;  ///< View::silhouette

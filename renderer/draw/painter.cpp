@@ -88,7 +88,7 @@ void Painter::set_frame(const Model& model, const Camera& camera, const Target& 
     FrameConstants frame{};
     frame.view_from_world = camera.view_from_world;
     frame.clip_from_view = target.clip_from_view(camera);
-    // Where edges are only a few pixels long, lines fade instead of painting the mesh black.
+    // Lines fade as edges get only a few pixels long: opaque lines would paint the mesh black.
     const double pixels = model.mean_edge * camera.pixels_per_unit / samples_;
     const double strength = std::clamp((pixels - 1.0) / 9.0, 0.0, 1.0);
     if (view_ == View::wire) {
@@ -98,7 +98,7 @@ void Painter::set_frame(const Model& model, const Camera& camera, const Target& 
         frame.line_colour = {0.80F, 0.06F, 0.03F, static_cast<float>(0.55 + 0.40 * strength)};
         line_width_ = static_cast<float>(1.2 + 1.2 * strength) * static_cast<float>(samples_);
     } else {
-        // Colours of the order and of offsets are worth more than the line.
+        // In the views of ring order and offsets the colors matter more than the line.
         const double opacity = view_ == View::triangle_class ? 0.22 + 0.76 * strength : 0.10 + 0.80 * strength;
         const double closer = std::clamp((pixels - 10.0) / 40.0, 0.0, 1.0);
         frame.line_colour = {0.03F, 0.03F, 0.03F, static_cast<float>(opacity)};

@@ -1,5 +1,5 @@
 #pragma once
-// The passes that make one picture.
+// Records the passes that draw one frame.
 
 #include <map>
 #include <tuple>
@@ -16,34 +16,34 @@ namespace lacedring::gpu {
 
 class Painter {
   public:
-    /// For pictures of one view. `samples` is the supersampling of its pictures: lines get that much wider. `outlined`:
-    /// Silhouettes (adjacency.h) are drawn over it.
+    /// Draws frames of one view. `samples`: samples per pixel along each side; lines get wider by this factor.
+    /// `outlined`: Silhouettes (adjacency.h) will be drawn over the surface.
     static Result<Painter> create(Context& context, View view, std::uint32_t samples, bool outlined = false);
 
-    /// Another one for the same pictures and meshes, of shaders as they are now. What was planned by this one is not
-    /// for that one.
+    /// Returns a new Painter whose pipelines are recreated from the current shaders. DrawPlans of this painter are not
+    /// valid for the new one.
     Result<Painter> again() const;
 
-    /// Makes the pipelines of the mesh's source and path, too, if this is the first mesh that needs them.
+    /// Allocates the descriptor sets that draw the mesh; creates the pipelines of its source and path at first use.
     Result<DrawPlan> plan(Descriptors& descriptors, const GpuMesh& mesh, const Target& target);
 
-    /// What the next pictures of that target are taken with. Not while one is being drawn.
+    /// Sets camera and line style of the next frames drawn to `target`. Must not be called while the device draws one.
     void set_frame(const Model& model, const Camera& camera, const Target& target);
 
-    /// How triangles of the same depth at a pixel are told apart.
+    /// Which of several triangles with the same depth a pixel shows.
     enum class Ties {
-        first_drawn,  ///< one pass, depth LESS: depends on the order of triangles
-        by_number,    ///< the smallest original triangle, in three passes (docs/renderer.md)
+        first_drawn,  ///< the first drawn: one pass, depth test LESS; depends on the order of triangles
+        by_number,    ///< the one with the smallest original number: three passes (docs/renderer.md)
     };
-    /// Records everything from clearing to the last line; what the mesh is drawn from must be visible.
+    /// Records the whole frame: clearing, surface and lines. Earlier writes to the mesh's buffers must be visible.
     void record(VkCommandBuffer commands, const GpuMesh& mesh, const DrawPlan& plan, const Target& target,
                 Ties ties) const;
 
   private:
-    /// Source and path of a mesh, and whether it has pulls_copies().
+    /// Source, path and pulls_copies() of a mesh.
     using SurfaceKey = std::tuple<Source, Path, bool>;
     static SurfaceKey key_of(const GpuMesh& mesh) { return {mesh.source, mesh.path, mesh.pulls_copies()}; }
-    /// The mesh has pulls_positions(), pulls_copies().
+    /// pulls_positions() of a mesh, and pulls_copies() if it pulls positions.
     using LineKey = std::pair<bool, bool>;
     static LineKey line_key_of(const GpuMesh& mesh) {
         return {mesh.pulls_positions(), mesh.pulls_positions() && mesh.pulls_copies()};
@@ -62,7 +62,7 @@ class Painter {
     std::map<SurfaceKey, Surface> surfaces_;
     std::map<LineKey, PipelineHandle> lines_;
     Buffer frame_;
-    Buffer nothing_;  // bound where a mesh has no such buffer
+    Buffer nothing_;  // bound in place of a buffer that the mesh does not have
 };
 
 }  // namespace lacedring::gpu

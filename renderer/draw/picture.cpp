@@ -17,7 +17,7 @@ std::uint8_t to_srgb(float x) {
     return static_cast<std::uint8_t>(std::clamp(y * 255.0F + 0.5F, 0.0F, 255.0F));
 }
 
-/// Light at the middle, a little darker at the rim, in sRGB of 255.
+/// Light in the middle, a little darker at the rim; sRGB, 0 to 255.
 std::array<float, 3> background(float x, float y) {
     const float dx = x - 0.5F, dy = y - 0.42F;
     const float t = std::min(1.0F, std::sqrt(dx * dx + dy * dy) * 1.25F);

@@ -1,5 +1,5 @@
 #pragma once
-// PNG in memory; files are written and read through picture.h.
+// PNG in memory. picture.h writes and reads PNG files.
 
 #include <cstddef>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace lacedring::gpu {
 
-/// The bytes of an opaque PNG file. Errors: cannot_write.
+/// Returns the bytes of an opaque PNG file. Errors: cannot_write.
 Result<std::vector<std::byte>> encode_png(const Picture& picture);
 
 }  // namespace lacedring::gpu

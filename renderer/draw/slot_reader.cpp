@@ -30,9 +30,9 @@ Result<void> SlotReader::run(Commands& commands, const GpuMesh& mesh, Task task,
         const std::array<std::uint32_t, 7> constants{0,
                                                      0,
                                                      packed ? 1U : 0U,
-                                                     0,  // triangles as they are
+                                                     0,  // LR_CONSTANT_ROTATE
                                                      0,
-                                                     0,  // and of the stream
+                                                     0,  // LR_CONSTANT_SEAMS: triangles come from the stream
                                                      fours ? 1U : 0U};
         const Shader& shader = task == Task::indices     ? spirv_slot_indices_comp
                                : task == Task::positions ? spirv_vertex_positions_comp

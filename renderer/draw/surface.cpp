@@ -62,8 +62,8 @@ Result<Surface> Surface::create(Context& context, const Layout& layout, View vie
         GraphicsInfo info = vertex_stages(path);
         info.name = kNames[pass];
         info.push_back = has_lines(view) || outlined;
-        // Exact pictures are of triangles that begin with their smallest vertex; the index buffers of Path::compute are
-        // turned so by the rotating pass.
+        // The passes of exact pictures rotate triangles to begin with their smallest vertex. With Path::compute, the
+        // Rotator has done so in the index buffer.
         info.constants = {static_cast<std::uint32_t>(view),
                           pass == resolve ? VK_TRUE : VK_FALSE,
                           is_packed(source) ? VK_TRUE : VK_FALSE,

@@ -12,7 +12,7 @@
 
 namespace lacedring::gpu {
 
-/// A mesh ready to be drawn: one descriptor set a draw command.
+/// One descriptor set for each draw command of a mesh.
 struct DrawPlan {
     std::vector<VkDescriptorSet> sets;
 };
@@ -20,19 +20,20 @@ struct DrawPlan {
 class Surface {
   public:
     enum Pass : std::uint32_t {
-        depth,    ///< depth alone
-        claim,    ///< at equal depth: the smallest original triangle claims the pixel
-        resolve,  ///< at equal depth: the triangle that claimed it is shaded
-        single,   ///< all at once, the first drawn wins
+        depth,    ///< writes depth alone
+        claim,    ///< of the triangles at that depth, the one with the smallest original number claims the pixel
+        resolve,  ///< shades the triangle that claimed the pixel
+        single,   ///< one pass instead of these three: at equal depth, the first drawn triangle wins
     };
     static constexpr std::size_t kPasses = 4;
 
-    /// The layout has DrawConstants for surface_stages(). `seams`: of meshes that have pulls_copies(). `outlined`:
-    /// lines of others are drawn over it.
+    /// `layout` has DrawConstants as push constants for surface_stages(). `seams`: for meshes with pulls_copies().
+    /// `outlined`: Silhouettes will be drawn over the surface.
     static Result<Surface> create(Context& context, const Layout& layout, View view, Source source, Path path,
                                   bool seams, bool outlined);
 
-    /// Draws every triangle of a mesh that has this source and path, and seams. Its buffers must be visible.
+    /// Draws every triangle of a mesh with the source, path and `seams` of create(). Writes to its buffers must be
+    /// visible.
     void draw(VkCommandBuffer commands, Pass pass, const GpuMesh& mesh, const DrawPlan& plan) const;
 
   private:
@@ -41,13 +42,13 @@ class Surface {
     std::array<PipelineHandle, kPasses> pipelines_;
 };
 
-/// The stages that make vertices, and the fragment stage: all see DrawConstants.
+/// The stages that see DrawConstants: vertex, geometry, mesh (if the device has it) and fragment.
 VkShaderStageFlags surface_stages(const Context& context);
 
-/// A pipeline of lines over a surface that is drawn already: blended, not nearer than it in the depth buffer.
+/// A pipeline for lines over a surface that is already drawn: blended, with a depth test but no depth writes.
 GraphicsInfo line_pipeline(const char* name, const Shader& vertex, const Shader& fragment);
 
-/// What shaders need to know of slots [first, first + slots).
+/// The push constants of a draw of slots [first, first + slots).
 DrawConstants draw_constants(const GpuMesh& mesh, std::uint32_t first, std::uint32_t slots);
 
 }  // namespace lacedring::gpu

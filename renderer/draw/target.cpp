@@ -21,7 +21,7 @@ constexpr Access kClaim{VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
                         VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
 constexpr Access kClear{VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
 constexpr Access kCopyRead{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
-// The picture before this one was read by the same queue: wait for that, its contents do not matter.
+// Waits for the queue's reads of the frame before; its contents are dropped.
 constexpr Access kBefore{VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_NONE};
 
 }  // namespace
@@ -100,7 +100,7 @@ void Target::begin(VkCommandBuffer commands, const Use& use) const {
     info.pColorAttachments = colours.data();
     info.pDepthAttachment = &depth;
     vkCmdBeginRendering(commands, &info);
-    // Upside down, as Vulkan's clip space has y down; around the picture (clip_from_view).
+    // Negative height, as y points down in Vulkan's clip space. The square surrounds the picture (see clip_from_view).
     const auto width = static_cast<float>(extent_.width), height = static_cast<float>(extent_.height);
     const auto side = static_cast<float>(viewport_side());
     const VkViewport viewport{(width - side) / 2, (height + side) / 2, side, -side, 0, 1};

@@ -1,5 +1,5 @@
 #pragma once
-// What is drawn into, offscreen: colour, triangle numbers, depth, and which triangle claimed each pixel.
+// The offscreen render target: color, triangle numbers, depth, and the triangle that claimed each pixel.
 
 #include "renderer/draw/camera.h"
 #include "renderer/draw/picture.h"
@@ -14,36 +14,36 @@ class Target {
     static constexpr VkFormat kTriangles = VK_FORMAT_R32_UINT;
     static constexpr VkFormat kDepth = VK_FORMAT_D32_SFLOAT;
 
-    /// `more`: what else is done with the colours and triangle numbers.
-    /// As many samples a pixel along each side, up to `wanted`, as the device's images are large enough for.
+    /// Largest number of samples per pixel along each side, up to `wanted`, whose target fits maxImageDimension2D.
     static std::uint32_t fitting_samples(const Context& context, VkExtent2D extent, std::uint32_t wanted);
+    /// `more`: additional usages of the color and triangle number images.
     static Result<Target> create(Context& context, VkExtent2D extent, VkImageUsageFlags more = 0);
 
     VkExtent2D extent() const { return extent_; }
-    /// The camera's projection, for the viewport that begin() sets. That is a square around the picture whose side is a
-    /// power of two: scaling to it is then exact, so that vertices land on the same point of a pixel whether a driver
-    /// fuses it with the translation or not (lavapipe does for vertex shaders alone, and not behind geometry shaders).
+    /// The camera's projection for the viewport of begin(): a square around the picture whose side is a power of two.
+    /// Scaling to such a viewport is exact, so vertices land on the same subpixel whether or not a driver fuses scaling
+    /// and translation (lavapipe fuses them after a vertex shader, but not after a geometry shader).
     mat4 clip_from_view(const Camera& camera) const;
     const Image& winner() const { return winner_; }
     const Image& colour() const { return colour_; }
     const Image& triangles() const { return triangles_; }
 
-    /// Brings every image to its layout and drops what it held; clears the claims.
+    /// Transitions every image to its layout, dropping its contents, and clears the claims.
     void prepare(VkCommandBuffer commands) const;
 
-    /// What a rendering instance draws into, and whether it starts afresh.
+    /// The attachments of a rendering instance, and which of them it clears.
     struct Use {
         bool colour = false;
         bool triangles = false;
-        bool clear_colour = false;  ///< and triangles
+        bool clear_colour = false;  ///< clears colors and triangle numbers
         bool clear_depth = false;
     };
     void begin(VkCommandBuffer commands, const Use& use) const;
     static void end(VkCommandBuffer commands);
-    /// Between rendering instances: everything drawn and claimed so far is visible to the next.
+    /// Barrier between rendering instances: makes everything drawn and claimed so far visible to the next one.
     static void between(VkCommandBuffer commands);
 
-    /// Copies the pictures to the host's side; picture() gives them once the commands have run.
+    /// Records copies of colors and triangle numbers to the host; picture() returns them once the commands have run.
     void record_read(VkCommandBuffer commands) const;
     Picture picture() const;
 

@@ -1,5 +1,5 @@
 #pragma once
-// What pictures show.
+// The views: what pictures show of a mesh.
 
 #include <array>
 #include <cstdint>
@@ -13,13 +13,13 @@ namespace lacedring::gpu {
 enum class View : std::uint32_t {
     smooth = LR_VIEW_SMOOTH,          ///< interpolated normals
     flat = LR_VIEW_FLAT,              ///< the triangles' own normals
-    triangle_class = LR_VIEW_CLASS,   ///< what each triangle is to the ring, and the ring
+    triangle_class = LR_VIEW_CLASS,   ///< the class of each triangle (LR_CLASS_*), and the ring
     ring = LR_VIEW_RING,              ///< the vertices' order along the ring, and the ring
     wire = LR_VIEW_WIRE,              ///< flat, and the triangles' edges
     offsets = LR_VIEW_OFFSETS,        ///< significant bits of each triangle's offset along the ring, and the ring
     seams = LR_VIEW_SEAMS,            ///< interpolated normals, and the seams
-    silhouette = LR_VIEW_SILHOUETTE,  ///< outline, creases and borders, over normals that the device computed
-    material = LR_VIEW_MATERIAL,      ///< colors, textures and light as the file's materials say
+    silhouette = LR_VIEW_SILHOUETTE,  ///< smooth, with normals computed on the device; outline, creases and borders
+    material = LR_VIEW_MATERIAL,      ///< the file's materials, lit
 };
 
 /// To add one: docs/renderer.md, "Views".
@@ -33,11 +33,11 @@ constexpr std::array<Named<View>, 9> kViews{{{"material", View::material, "mater
                                              {"seams", View::seams, "seams"},
                                              {"silhouette", View::silhouette, "silhouette"}}};
 
-/// What a view needs on the device beside the triangles.
+/// The data that a view needs on the device besides the triangles.
 UploadOptions upload_options(View view);
-/// Does it show the ring?
+/// True if the view shows the ring.
 bool has_ring(View view);
-/// Are lines drawn over the surface? It is pushed back a little then.
+/// True if lines are drawn over the surface, which is then pushed back a little.
 bool has_lines(View view);
 
 }  // namespace lacedring::gpu

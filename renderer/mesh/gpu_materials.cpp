@@ -44,7 +44,7 @@ MaterialConstants constants_of(const Material& m, const Textures& textures) {
     return out;
 }
 
-/// The materials of a mesh that has none.
+/// One gray material, for a mesh that has no materials.
 Materials gray_material(std::uint32_t triangles) {
     Materials out;
     Material& m = out.materials.emplace_back();

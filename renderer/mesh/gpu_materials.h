@@ -10,15 +10,15 @@
 
 namespace lacedring::gpu {
 
-/// What View::material reads, through addresses.
+/// The buffers that the shaders of View::material read through addresses.
 struct GpuMaterials {
     Buffer table;  ///< MaterialHead, then MaterialConstants
     Buffer of_triangle, texels;
-    std::vector<std::string> notes;  ///< Textures::notes
+    std::vector<std::string> notes;  ///< images that are not drawn (Textures::notes)
 };
 
-/// Decodes the images and uploads all. `materials` may be null, or of no triangle: one gray material is of all
-/// `triangles`. Errors: kNoDevice (memory), invalid_argument (materials of another mesh).
+/// Decodes the images and uploads everything. If `materials` is null or has no triangles, all `triangles` get one gray
+/// material. Errors: kNoDevice (memory), invalid_argument (materials of another mesh).
 Result<GpuMaterials> upload_materials(Context& context, Transfer& transfer, const Materials* materials,
                                       std::uint32_t triangles);
 

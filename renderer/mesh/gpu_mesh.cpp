@@ -15,8 +15,8 @@
 namespace lacedring::gpu {
 namespace {
 
-constexpr std::uint64_t kSmallestRange = 4096;  // a packed block's indices, or its record with alignment, fit
-constexpr std::uint64_t kSlotStep = 256;        // in bytes, the coarsest alignment of a descriptor that Vulkan allows
+constexpr std::uint64_t kSmallestRange = 4096;  // fits a packed block's indices, or its record with alignment
+constexpr std::uint64_t kSlotStep = 256;        // 256 bytes (classes) is the largest descriptor alignment in Vulkan
 
 constexpr VkBufferUsageFlags kAddress = VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
 constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
@@ -26,7 +26,7 @@ std::uint64_t padded_slots(std::uint32_t slots) {
     return (std::uint64_t{slots} + kStep - 1) / kStep * kStep;
 }
 
-/// Bytes of a vertex in GpuMesh::vertices.
+/// Bytes per vertex in GpuMesh::vertices.
 constexpr std::size_t vertex_stride(Source source, Path path) {
     const bool pulled = source == Source::packed_vertices && path != Path::compute;
     return sizeof(Vertex) - (pulled ? sizeof(Vertex::position) : 0);
@@ -34,7 +34,7 @@ constexpr std::size_t vertex_stride(Source source, Path path) {
 
 constexpr std::uint64_t kStreamTail = 64;  // the lean decoder loads a few words past the ones that it needs
 
-/// What every source needs.
+/// Checks the options and creates the parts that every source has.
 Result<GpuMesh> prepare(const Upload& upload) {
     const auto& [context, transfer, model, source, options, views] = upload;
     const std::uint64_t slots = slots_of(model, source);
@@ -75,7 +75,7 @@ Result<GpuMesh> prepare(const Upload& upload) {
     return mesh;
 }
 
-/// A buffer of these values.
+/// Creates a buffer and uploads the values.
 template <class T>
 Result<void> put(const Upload& upload, Buffer& to, const char* name, std::span<const T> values,
                  VkBufferUsageFlags usage) {
@@ -83,8 +83,8 @@ Result<void> put(const Upload& upload, Buffer& to, const char* name, std::span<c
     return upload.transfer.upload(to, values);
 }
 
-/// `original(i)` is the mesh's vertex at place i, `ring(i)` its place on the rings. Positions are left out where they
-/// are decoded.
+/// Uploads GpuMesh::vertices, without positions that are decoded from a vertex stream. `original(i)` is the mesh's
+/// vertex at place i, `ring(i)` its place on the rings.
 template <class Original, class Ring>
 Result<void> upload_vertices(const Upload& upload, const GpuMesh& mesh, const Original& original, const Ring& ring) {
     const std::span<const float> positions = upload.model.positions;
@@ -109,7 +109,7 @@ Result<void> upload_vertices(const Upload& upload, const GpuMesh& mesh, const Or
                                   });
 }
 
-/// One byte a slot, of the triangle that `triangle_of(slot)` says.
+/// Uploads one byte per slot: the class or offset bits of the mesh's triangle `triangle_of(slot)`.
 template <class TriangleOf>
 Result<void> upload_classes(const Upload& upload, GpuMesh& mesh, const TriangleOf& triangle_of) {
     const LeanView& lean = upload.views.lean;
@@ -124,8 +124,9 @@ Result<void> upload_classes(const Upload& upload, GpuMesh& mesh, const TriangleO
     return put(upload, mesh.classes, "triangle classes", std::span<const std::uint8_t>(classes), kStorage);
 }
 
-/// The lines in the vertex numbers of a source: `order` is its vertex order, empty for the mesh's own. They come in the
-/// same order and direction for all sources, so that they are drawn alike. Any vertex at the place does.
+/// Uploads the lines in the vertex numbers of a source; `order` is its vertex order, empty for the mesh's own. All
+/// sources get the lines in the same order and direction, so that they draw the same pixels. At a seam, a line ends at
+/// any of the copies.
 Result<void> upload_lines(const Upload& upload, GpuMesh& mesh, std::span<const std::uint32_t> order) {
     const Model& model = upload.model;
     const UploadOptions::Lines kind = upload.options.lines;
@@ -150,7 +151,7 @@ Result<void> upload_lines(const Upload& upload, GpuMesh& mesh, std::span<const s
     return put(upload, mesh.lines, "lines", std::span<const std::uint32_t>(lines), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
 }
 
-/// What materials are drawn with at the vertices. `original(i)` is the mesh's vertex at place i.
+/// Uploads texture coordinates and colors of the vertices. `original(i)` is the mesh's vertex at place i.
 template <class Original>
 Result<void> upload_shading(const Upload& upload, GpuMesh& mesh, const Original& original) {
     static_assert(sizeof(Shading) == LR_SHADING_WORDS * sizeof(std::uint32_t));
@@ -169,7 +170,7 @@ Result<void> upload_shading(const Upload& upload, GpuMesh& mesh, const Original&
         });
 }
 
-/// What is drawn beside the triangles, and the vertices. `original(i)` is the mesh's vertex at place i.
+/// Uploads vertices, lines, shading and classes. `original(i)` is the mesh's vertex at place i.
 template <class Original, class TriangleOf>
 Result<void> upload_rest(const Upload& upload, GpuMesh& mesh, std::span<const std::uint32_t> order,
                          const Original& original, const TriangleOf& triangle_of) {
@@ -187,7 +188,7 @@ Result<void> upload_rest(const Upload& upload, GpuMesh& mesh, std::span<const st
     return upload_classes(upload, mesh, triangle_of);
 }
 
-/// A stream, the mesh's vertex of each one that is drawn, and the mesh's triangle of each slot.
+/// A stream, with the mesh's vertex of each drawn vertex and the mesh's triangle of each slot.
 struct Stream {
     std::span<const std::uint32_t> words, vertex_order, slot_triangle;
     std::array<std::uint32_t, 4> layout;

@@ -1,5 +1,5 @@
 #pragma once
-// A mesh on the device: what its picture is drawn from.
+// A mesh on the device: the buffers that its pictures are drawn from.
 
 #include <array>
 #include <cstdint>
@@ -13,80 +13,83 @@ namespace lacedring::gpu {
 
 struct UploadOptions {
     Path path = Path::compute;
-    /// Bytes that one storage descriptor may cover: larger buffers are worked on in parts. 0: the device's
-    /// maxStorageBufferRange. At least 4096; a test makes it small.
+    /// Bytes that one storage descriptor may cover; passes process larger buffers in parts. 0: the device's
+    /// maxStorageBufferRange. At least 4096. Tests make it small.
     std::uint64_t max_range = 0;
-    std::span<const float> normals;  ///< 3 a vertex of the mesh, instead of the model's; must stay while uploading
-    /// Of View::material: the vertices' shading, and the address of GpuMaterials::table.
+    /// 3 floats per vertex of the mesh, used instead of the model's normals if not empty. Must live until the upload
+    /// ends.
+    std::span<const float> normals;
+    /// View::material: uploads the vertices' shading; the value is the address of GpuMaterials::table.
     std::optional<std::array<std::uint32_t, 2>> materials = {};
-    bool ring = false;     ///< triangle classes, and the vertices' places on the rings
-    bool offsets = false;  ///< significant bits of the triangles' offsets instead of their classes
-    enum class Lines { none, ring, edges, seams } lines = Lines::none;  ///< drawn over the surface
+    bool ring = false;     ///< uploads triangle classes and the vertices' places on the rings
+    bool offsets = false;  ///< with `ring`: significant bits of the triangles' offsets instead of their classes
+    enum class Lines { none, ring, edges, seams } lines = Lines::none;  ///< lines to draw over the surface
 };
 
-/// Triangles are numbered by slot: for Source::plain that is the mesh's own order, for Source::packed the stream's.
-/// Buffers of one value a slot are bound at the first slot of each draw command, so that none needs to fit one
+/// Triangles are numbered by slot: in the mesh's own order for Source::plain, else in the stream's order.
+/// Buffers with one value per slot are bound at the first slot of each draw command, so that none needs to fit one
 /// descriptor.
 struct GpuMesh {
     Source source = Source::plain;
     Path path = Path::compute;
-    std::uint32_t vertex_count = 0;      ///< of those drawn: of a surface with seams its copies
-    std::uint32_t surface_vertices = 0;  ///< of the stream
-    std::uint32_t slots = 0;             ///< triangles of the index buffer, degenerate ones too
+    std::uint32_t vertex_count = 0;      ///< vertices drawn; with seams: the copies
+    std::uint32_t surface_vertices = 0;  ///< vertices of the stream
+    std::uint32_t slots = 0;             ///< triangles of the index buffer, degenerate ones included
     std::uint32_t draw_slots = 0;        ///< slots of every draw command but the last: a multiple of 256
-    std::uint32_t draws = 0;             ///< draw commands
-    std::uint64_t max_range = 0;         ///< bytes a descriptor covers
+    std::uint32_t draws = 0;             ///< number of draw commands
+    std::uint64_t max_range = 0;         ///< largest range of a descriptor, in bytes
 
-    Buffer vertices;  ///< Vertex; without positions where pulls_positions()
-    /// u32, 3 a slot, padded to whole invocations; of a stream: written by the device. Path::compute, and with seams
+    Buffer vertices;  ///< Vertex; without positions if pulls_positions()
+    /// u32, 3 per slot, padded to whole invocations; for streams, the device writes it. Exists with Path::compute and
+    /// for streams with seams.
     Buffer indices;
-    // Of a stream only:
+    // Only for streams:
     Buffer stream;
     std::array<std::uint32_t, 4> stream_layout{};  ///< DrawConstants::stream_layout
-    Buffer commands;                        ///< VkDrawIndexedIndirectCommand, written by the device. As `indices`
-    Buffer slot_triangle;                   ///< the mesh's triangle of each slot
-    Buffer vertex_order;                    ///< the mesh's vertex of each one in `vertices`
-    Buffer vertex_stream;                   ///< of the positions. Source::packed_vertices
-    std::array<float, 4> unit{0, 0, 0, 1};  ///< DrawConstants::unit
-    // These are there where the surface has seams. The device writes all of them but the section.
-    Buffer seams;          ///< the section
-    Buffer homes;          ///< of each vertex of the surface, as lacedring_seams_homes
-    Buffer copies;         ///< as `indices`, which are the surface's, of copies
-    Buffer copy_vertices;  ///< the surface's vertex of each copy
-    Buffer positions;      ///< 3 floats a vertex of the surface. Source::packed_vertices by Path::compute
-    // Only if asked for:
+    Buffer commands;                               ///< VkDrawIndexedIndirectCommand, written together with `indices`
+    Buffer slot_triangle;                          ///< by slot: the mesh's triangle
+    Buffer vertex_order;                           ///< by vertex of `vertices`: the mesh's vertex
+    Buffer vertex_stream;                          ///< positions of Source::packed_vertices
+    std::array<float, 4> unit{0, 0, 0, 1};         ///< DrawConstants::unit
+    // Only if the surface has seams; the device writes all of them but `seams`:
+    Buffer seams;          ///< the seam section
+    Buffer homes;          ///< by vertex of the surface: its home copies, as lacedring_seams_homes
+    Buffer copies;         ///< the index buffer over copies (`indices` is over the surface's vertices)
+    Buffer copy_vertices;  ///< by copy: the surface's vertex
+    Buffer positions;      ///< 3 floats per vertex of the surface; Source::packed_vertices with Path::compute
+    // Only if UploadOptions ask for them:
     Buffer shading;                            ///< Shading
     std::array<std::uint32_t, 2> materials{};  ///< UploadOptions::materials
-    Buffer classes;                            ///< LR_CLASS_*, or bits of offsets, one byte a slot
-    Buffer lines;                              ///< u32, 2 a line
+    Buffer classes;                            ///< one byte per slot: LR_CLASS_*, or LR_OFFSET_* or bits of the offset
+    Buffer lines;                              ///< u32, 2 per line
     std::uint32_t line_indices = 0;
 
     bool decoded = false;  ///< the index buffer holds the triangles
-    bool rotated = false;  ///< and each begins with its smallest original vertex
+    bool rotated = false;  ///< every triangle begins with its smallest original vertex
 
-    /// Shaders decode each vertex when they want it; no buffer has the positions.
+    /// True if shaders decode positions from the vertex stream; then no buffer holds them.
     bool pulls_positions() const { return source == Source::packed_vertices && path != Path::compute; }
-    /// Shaders read their slots' copies, instead of decoding the stream's triangles.
+    /// True if shaders read triangles from `copies` instead of decoding them from the stream.
     bool pulls_copies() const { return copies && path != Path::compute; }
     const Buffer& drawn_indices() const { return copies ? copies : indices; }
 };
 
-/// Device memory that a source of the model takes with these options, before alignment: all that an upload allocates.
-/// `largest`: the largest buffer of it. Edges and seams are counted as if no two triangles shared an edge.
+/// Bytes of device memory that an upload of this source allocates (`all`, before alignment), and bytes of its largest
+/// buffer. An upper bound for Lines::edges and seams: counts the lines as if no two triangles shared an edge.
 struct MeshBytes {
     std::uint64_t all = 0, largest = 0;
 };
 MeshBytes mesh_bytes(const Model& model, Source source, const UploadOptions& options);
 
-/// A vertex as the vertex shaders read it. The position of Source::packed_vertices is in the mesh's coordinates, and
-/// written by the device.
+/// A vertex as the vertex shaders read it. With Source::packed_vertices, the device writes the position, in the mesh's
+/// coordinates.
 struct Vertex {
     float position[3];
     float normal[3];
     float ring;  ///< place along the rings in [0, 1]; -1 off the rings
 };
 
-/// All that an upload is made of.
+/// The arguments of upload_mesh.
 struct Upload {
     Context& context;
     Transfer& transfer;
@@ -96,10 +99,10 @@ struct Upload {
     StreamViews views;  ///< view_streams(model, source)
 };
 
-/// Errors: kNoDevice (Path::mesh where the device has none, indices past the device's, more memory than is left, which
-/// is found out before any is allocated), too_large (more than 2^32 indices), invalid_argument (max_range,
-/// Source::plain by another path than compute), unsupported (only degenerate triangles), and Vulkan's. The model's
-/// streams must be valid.
+/// Uploads a mesh. The model's streams must be valid. Errors: kNoDevice (Path::mesh on a device without mesh shaders;
+/// vertex numbers past the device's limit; not enough memory, checked before any is allocated), too_large (more than
+/// 2^32 indices), invalid_argument (max_range; Source::plain with a path other than compute), unsupported (only
+/// degenerate triangles), and those of Vulkan.
 Result<GpuMesh> upload_mesh(const Upload& upload);
 
 }  // namespace lacedring::gpu

@@ -32,7 +32,7 @@ Result<void> normalise(Model& model) {
     Point low, high;
     low.fill(std::numeric_limits<double>::infinity());
     high.fill(-std::numeric_limits<double>::infinity());
-    // Vertices that no triangle uses may lie anywhere, and are not seen.
+    // Vertices that no triangle uses may lie anywhere: the bounding box leaves them out.
     for (const std::uint32_t v : model.indices) {
         const Point p = point(model.positions, v);
         for (std::size_t i = 0; i < 3; ++i) {
@@ -50,13 +50,14 @@ Result<void> normalise(Model& model) {
     if (!std::isfinite(model.radius) || model.radius <= 0) {
         return Error{ErrorCode::unsupported, "all triangles lie in one point, or past what 32-bit floats hold"};
     }
-    // A device may take denormal floats for 0.
+    // Keeps the scale a normal float: a device may flush denormal floats to 0.
     const float scale = std::clamp(static_cast<float>(1 / model.radius), 0x1p-126F, 0x1p126F);
     model.radius = 1 / static_cast<double>(scale);
     for (std::size_t i = 0; i < 3; ++i) model.unit[i] = static_cast<float>(model.centre[i]);
     model.unit[3] = scale;
     for (std::size_t i = 0; i < model.positions.size(); ++i) {
-        // In doubles, as no compiler can fuse these: of one sum or product of floats, rounding twice is rounding once.
+        // Doubles, so that no compiler fuses the two steps. The result is the same: a single float sum or product
+        // computed in double and then rounded to float is correctly rounded.
         const auto moved = static_cast<float>(static_cast<double>(model.positions[i]) - model.centre[i % 3]);
         const auto scaled = static_cast<float>(static_cast<double>(moved) * static_cast<double>(scale));
         model.positions[i] = std::clamp(scaled, -1e6F, 1e6F);
@@ -74,7 +75,7 @@ double mean_edge(const Model& model) {
     return length / static_cast<double>(model.indices.size());
 }
 
-/// The file's normals, or the surface's: a seam is no crease.
+/// The file's normals; if it has none, normals of the surface, which do not crease at seams.
 std::vector<float> surface_normals(const Mesh& mesh, const lacedring::Surface& surface) {
     const Attribute* own = find_attribute(mesh, "NORMAL");
     if (own != nullptr && own->type == ComponentType::f32 && own->components == 3) return normals_f32(mesh);
@@ -88,8 +89,8 @@ std::vector<float> surface_normals(const Mesh& mesh, const lacedring::Surface& s
     return out;
 }
 
-/// Encodes the positions as floats, as all that is drawn are, in the packed stream's order. What is lost is lost for
-/// the whole model.
+/// Encodes the positions as floats, in the packed stream's order. If the encoding is lossy, all of the model (not just
+/// the stream) gets the decoded positions.
 Result<void> encode_positions(Model& model, const Mesh& mesh, const VertexOptions& options) {
     const std::vector<std::uint32_t>& order = model.packed.vertex_order;
     const std::vector<std::uint32_t> of_surface = first_vertices(model.surface);

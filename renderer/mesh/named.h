@@ -1,5 +1,5 @@
 #pragma once
-// Choices that a person makes, with their names: a table for each kind.
+// Tables of a user's choices (views, sources, paths, ...) with their names.
 
 #include <algorithm>
 #include <optional>
@@ -17,7 +17,7 @@ struct Named {
     const char* label;  ///< in the viewer's panels
 };
 
-/// The choice of that name in a table.
+/// The choice with this name in a table, if any.
 template <class Table>
 auto find_named(const Table& table, std::string_view name) {
     std::optional<decltype(table.begin()->value)> out;

@@ -1,5 +1,5 @@
 #pragma once
-// What a model is drawn from, and how: its index list or one of its streams, by one of four paths.
+// Sources a model is drawn from (its index list or one of its streams), and the four paths from a stream to a picture.
 
 #include <array>
 #include <cstdint>
@@ -12,28 +12,28 @@
 
 namespace lacedring::gpu {
 
-/// Of a stream the device makes the index buffer and the draw commands.
+/// The data that triangles and positions come from.
 enum class Source {
     plain,            ///< the mesh's own index list and vertex order
     lean,             ///< the lean stream, with its vertex order
     packed,           ///< the packed stream, with its vertex order
-    packed_vertices,  ///< likewise, and positions from a vertex stream
+    packed_vertices,  ///< the packed stream, with positions from a vertex stream
 };
 /// True if triangles come from the packed stream.
 constexpr bool is_packed(Source source) {
     return source == Source::packed || source == Source::packed_vertices;
 }
 
-/// How triangles come from a stream into a picture. Source::plain is always drawn by Path::compute.
+/// The shader stage that decodes a stream's triangles. Source::plain is always drawn with Path::compute.
 enum class Path {
-    compute,   ///< compute shaders expand the streams to an index buffer and vertices, which are drawn
+    compute,   ///< compute shaders expand the streams to an index buffer and a vertex buffer before drawing
     pull,      ///< the vertex shader decodes the triangle of its vertex; no index buffer, no vertex buffer bound
-    geometry,  ///< a geometry shader decodes four slots a point
-    mesh,      ///< a mesh shader decodes 64 slots a workgroup (VK_EXT_mesh_shader)
+    geometry,  ///< a geometry shader decodes four slots per point
+    mesh,      ///< a mesh shader decodes 64 slots per workgroup (VK_EXT_mesh_shader)
 };
 
-/// Without compute shaders, a draw of Source::packed_vertices decodes half a block of vertices for each corner. A
-/// larger mesh than this is drawn so only on request: a picture takes seconds on lavapipe.
+/// Without Path::compute, drawing Source::packed_vertices decodes half a block of vertices on average for each corner.
+/// With more triangles than this, a picture takes seconds on lavapipe: it is drawn only on request.
 constexpr std::uint32_t kMostPulled = 20000;
 constexpr bool is_slow(Source source, Path path, std::uint32_t triangles) {
     return source == Source::packed_vertices && path != Path::compute && triangles > kMostPulled;
@@ -49,25 +49,25 @@ constexpr std::array<Named<Source>, 4> kSources{
      {"packed", Source::packed, "packed"},
      {"packed_vertices", Source::packed_vertices, "packed, with vertices"}}};
 
-/// Is this source there in the model?
+/// True if the model has the streams of this source.
 bool has_source(const Model& model, Source source);
-/// The seams of its stream; null where the mesh has none, and for Source::plain.
+/// The seam section of the source's stream; null if the mesh has no seams, and for Source::plain.
 const EncodedSeams* seams_of(const Model& model, Source source);
-/// Bytes of its stream of triangles, seams included; 0 of Source::plain.
+/// Bytes of the source's triangle stream, seams included; 0 for Source::plain.
 std::uint64_t connectivity_bytes(const Model& model, Source source);
-/// Triangles of it, degenerate ones of a stream included; vertices that are drawn of it.
+/// Number of triangles of a source (degenerate ones of a stream included), and of vertices that it draws.
 std::uint64_t slots_of(const Model& model, Source source);
 std::uint32_t vertices_of(const Model& model, Source source);
 
-/// What the streams' words are read through. They are of the model, which must stay as it is.
+/// Views of the model's streams. The model must not change while they are used.
 struct StreamViews {
-    LeanView lean;      ///< wherever the model has it: it knows the ring
-    PackedView packed;  ///< these only of a source that has them
+    LeanView lean;      ///< set whenever the model has a lean stream: views of the ring need it
+    PackedView packed;  ///< this and the next two: only if the source has the stream
     VertexView vertices;
     SeamView seams;
 };
-/// Reads the headers of all streams that a source of the model is drawn from, so that nobody reads them again. Errors:
-/// malformed, invalid_argument (no such stream in the model, or one of another mesh). Cost: O(1).
+/// Reads and checks the headers of all streams that a source is drawn from. Errors: malformed, invalid_argument (the
+/// model has no such stream, or one of another mesh). Cost: O(1).
 Result<StreamViews> view_streams(const Model& model, Source source);
 
 }  // namespace lacedring::gpu

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t kMostOfOne = std::uint64_t{1} << 26, kMostOfAll = std::uint64_t{1} << 28;
 
-/// What materials take an image for.
+/// How materials use an image.
 struct ImageUse {
     bool is_used = false, is_color = false;
 };
@@ -39,10 +39,10 @@ float linear(float c) {
     return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F);
 }
 
-/// Between a byte of sRGB and light in 16 bits.
+/// Conversions between sRGB bytes and linear light in 16 bits.
 struct ColorTables {
     std::array<std::uint16_t, 256> light;
-    std::vector<std::uint8_t> byte;  ///< of light / 16
+    std::vector<std::uint8_t> byte;  ///< indexed by light / 16
 
     ColorTables() : byte(4096) {
         for (std::size_t i = 0; i < light.size(); ++i)
@@ -102,7 +102,7 @@ Textures decode_textures(const Materials& materials) {
     const std::vector<ImageUse> uses = uses_of(materials);
     for (std::size_t i = 0; i < uses.size(); ++i) {
         const std::vector<std::byte>& bytes = materials.images[i];
-        if (!uses[i].is_used || bytes.empty()) continue;  // of the latter the reader told
+        if (!uses[i].is_used || bytes.empty()) continue;  // the file reader has reported empty images
         const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
         const auto size = static_cast<int>(std::min<std::size_t>(bytes.size(), INT32_MAX));
         int width = 0, height = 0, channels = 0;

@@ -11,7 +11,7 @@
 namespace lacedring::gpu {
 namespace {
 
-/// v.n of every ring vertex, then its inverse asked for by comparing.
+/// The successor v.n of every ring vertex.
 std::vector<std::uint32_t> ring_next(const LeanView& lean) {
     const std::uint32_t rings = lean.rings2 + lean.rings1;
     std::vector<std::uint32_t> next(rings);
@@ -41,7 +41,7 @@ std::vector<std::uint8_t> slot_classes(const LeanView& lean) {
             out[slot] = LR_CLASS_T0_WART;
             continue;
         }
-        std::uint32_t forward = 0, backward = 0;  // ring edges along the triangle's orientation, and against it
+        std::uint32_t forward = 0, backward = 0;  // edges along the ring's direction, and against it
         for (int i = 0; i < 3; ++i) {
             const std::uint32_t a = t.v[i], b = t.v[(i + 1) % 3];
             if (follows(a, b)) ++forward;
@@ -56,11 +56,11 @@ std::vector<std::uint8_t> slot_classes(const LeanView& lean) {
         } else if (in_ring) {
             out[slot] = LR_CLASS_T1_LEFT;
         } else {
-            // A triangle of a side that is not stored: (v, tip, v.n) is a left one, and has the edge backwards.
+            // A verbatim triangle beside a one-sided ring. A left triangle is (v, tip, v.n): its ring edge is backward.
             out[slot] = backward != 0 ? LR_CLASS_T1_LEFT : LR_CLASS_T1_RIGHT;
         }
     }
-    // The T2 beside a wart starts at the vertex that the wart's edge skips, on the same side.
+    // The T2 beside a wart is in the slot of the vertex that the wart's edge skips, on the same side.
     for (std::uint32_t slot = 0; slot < lean.ring_slots(); ++slot) {
         if (out[slot] != LR_CLASS_T0_WART) continue;
         const bool two = slot < 2 * lean.rings2;

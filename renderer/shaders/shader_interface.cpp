@@ -10,7 +10,7 @@
 namespace lacedring::gpu {
 namespace {
 
-// Of the SPIR-V specification, what glslang writes of these.
+// Opcodes, storage classes and decorations of SPIR-V, as far as glslang writes them.
 enum Op : std::uint32_t {
     op_entry_point = 15,
     op_execution_mode = 16,
@@ -39,13 +39,13 @@ enum Decoration : std::uint32_t {
     binding = 33,
     set = 34,
 };
-// Execution modes: sizes of workgroups, and what is taken and emitted by stages that make primitives.
+// Execution modes: workgroup size, and the input and output primitives of geometry and mesh shaders.
 constexpr std::uint32_t kLocalSize = 17, kLocalSizeId = 38;
 constexpr std::array<std::uint32_t, 13> kPrimitives{0, 19, 20, 21, 22, 23, 26, 27, 28, 29, 5269, 5270, 5298};
-// Capabilities that every device has, or that are turned on wherever we run (context.cpp): Matrix, Shader, Geometry,
-// Sampled1D, Image1D, SampledBuffer, ImageBuffer, ImageQuery, DerivativeControl, PhysicalStorageBufferAddresses.
+// Capabilities that every device has or that context.cpp always enables: Matrix, Shader, Geometry, Sampled1D, Image1D,
+// SampledBuffer, ImageBuffer, ImageQuery, DerivativeControl, PhysicalStorageBufferAddresses.
 constexpr std::array<std::uint32_t, 10> kAlways{0, 1, 2, 43, 44, 46, 47, 50, 51, 5347};
-// Decorations of members that the host must know: offsets, strides, order of a matrix, read only, built in.
+// Member decorations that the host depends on: offsets, strides, matrix order, read only, built in.
 constexpr std::array<std::uint32_t, 8> kOfTypes{2, 3, 4, 5, 6, 7, 11, 24};
 
 using Words = std::span<const std::uint32_t>;
@@ -53,7 +53,7 @@ using Words = std::span<const std::uint32_t>;
 struct Interface {
     std::uint32_t stage = ~0U;
     std::set<std::uint32_t> capabilities;
-    /// A text of what is there, by its place: "binding 3", "input 0", "push constants".
+    /// Maps a place ("binding 3", "input 0", "push constants") to a text that describes its type.
     std::map<std::string, std::string> places;
 };
 
@@ -62,7 +62,7 @@ class Module {
     static Result<Interface> read(Words words);
 
   private:
-    /// All of a type that decides where its bits are.
+    /// Describes everything that determines the memory layout of a type.
     std::string type_text(std::uint32_t id, int depth = 0) const;
     std::string value_text(std::uint32_t id) const;
     const std::uint32_t* decoration(std::uint32_t id, Decoration which) const;
@@ -70,8 +70,8 @@ class Module {
     bool is_built_in(std::uint32_t type) const;
 
     std::map<std::uint32_t, Words> definitions_;         // types and constants: the instruction without its first word
-    std::map<std::uint32_t, std::uint32_t> operations_;  // of types
-    std::map<std::uint32_t, std::vector<Words>> decorations_;                          // by id: which, operands
+    std::map<std::uint32_t, std::uint32_t> operations_;  // by id of a type: its opcode
+    std::map<std::uint32_t, std::vector<Words>> decorations_;                          // by id: decoration, operands
     std::map<std::uint32_t, std::map<std::uint32_t, std::vector<Words>>> of_members_;  // by id and member
 };
 
@@ -104,10 +104,10 @@ std::string Module::value_text(std::uint32_t id) const {
 std::string Module::type_text(std::uint32_t id, int depth) const {
     const auto kind = operations_.find(id);
     if (kind == operations_.end() || depth > 16) return "?";
-    const Words words = definitions_.at(id);  // its id, then what it is made of
+    const Words words = definitions_.at(id);  // id, then operands
     const std::uint32_t operation = kind->second;
     std::string out = std::to_string(operation);
-    if (operation == op_type_pointer) return out;  // an address
+    if (operation == op_type_pointer) return out;  // an address, whatever it points to
     if (const auto decorated = decorations_.find(id); decorated != decorations_.end()) {
         for (const Words& one : decorated->second) {
             if (contains(kOfTypes, one[0])) out += " @" + numbers(one);
@@ -135,7 +135,7 @@ std::string Module::type_text(std::uint32_t id, int depth) const {
     return out + ")";
 }
 
-/// A block of built-in values, or an array of such.
+/// True if the type is a block of built-in values, or an array of such blocks.
 bool Module::is_built_in(std::uint32_t type) const {
     for (int depth = 0; depth < 4; ++depth) {
         if (const auto members = of_members_.find(type); members != of_members_.end()) {
@@ -153,7 +153,7 @@ bool Module::is_built_in(std::uint32_t type) const {
     return false;
 }
 
-/// Empty: a place that no one else knows of.
+/// Names a variable's place in the interface; empty if the variable is no part of it.
 std::string Module::place(std::uint32_t variable, std::uint32_t storage) const {
     const auto with = [&](std::string text, Decoration which, const char* more = "") {
         const std::uint32_t* number = decoration(variable, which);
@@ -188,7 +188,7 @@ Result<Interface> Module::read(Words words) {
         if (size == 0 || size > words.size() - at) return broken;
         const Words rest = words.subspan(at + 1, size - 1);
         at += size;
-        if (operation == op_function) break;  // everything that is declared comes before
+        if (operation == op_function) break;  // all declarations precede the first function
         if (rest.size() < 2) {
             if (operation == op_capability && rest.size() == 1) out.capabilities.insert(rest[0]);
             if (operation >= op_first_type && operation <= op_last_type && rest.size() == 1) {

@@ -1,5 +1,5 @@
 #pragma once
-// Shaders in other words than those built in, for a program that compiles them while it runs.
+// SPIR-V overrides of built-in shaders, for a program that compiles shaders while it runs (hot reload).
 
 #include <cstdint>
 #include <map>
@@ -11,17 +11,17 @@
 
 namespace lacedring::gpu {
 
-/// Empty in a program that replaces none. May be used by several threads.
+/// The overrides, by shader name; empty unless a program sets some. Thread-safe.
 class ShaderSet {
   public:
     using Words = std::vector<std::uint32_t>;
-    /// By Shader::name.
+    /// Overrides by Shader::name.
     using Replaced = std::map<std::string, std::shared_ptr<const Words>, std::less<>>;
 
-    /// Null: the shader's own.
+    /// Returns the override of a shader; null if it has none.
     std::shared_ptr<const Words> find(std::string_view name) const;
-    /// Pipelines made from now on are of these, and of built-in ones where there is none. Gives what was there before.
-    /// The words must be valid SPIR-V with the interface of those that they stand for (shader_interface.h).
+    /// Sets the overrides that pipelines created from now on use; returns the previous ones. Each must be valid SPIR-V
+    /// with the interface of the shader it replaces (shader_interface.h).
     Replaced exchange(Replaced replaced);
 
   private:

@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint32_t kViews = 6;
 constexpr std::uint32_t kColumns = 3;
 
-/// The six axes, tilted so that no side of a box is seen edge-on or straight.
+/// The six axes, tilted so that no face of a box is seen edge-on or head-on.
 constexpr std::array<std::array<double, 3>, kViews> kDirections{{{1.0, 0.31, 0.23},
                                                                  {-1.0, 0.27, -0.34},
                                                                  {0.29, 1.0, 0.37},
@@ -23,19 +23,19 @@ constexpr std::array<std::array<double, 3>, kViews> kDirections{{{1.0, 0.31, 0.2
                                                                  {0.36, 0.22, 1.0},
                                                                  {-0.24, 0.35, -1.0}}};
 
-/// Pixels that differ, one byte each: bit 0 exactly, bit 1 raw.
+/// One byte per pixel: bit 0 if the exact pictures differ there, bit 1 if the raw ones do.
 using Marks = std::vector<std::uint8_t>;
 
 void mark(Marks& marks, const Picture& a, const Picture& b, std::uint8_t bit) {
     for (std::size_t i = 0; i < a.pixels(); ++i) {
         const bool colour = !std::equal(&a.rgba[4 * i], &a.rgba[4 * i] + 4, &b.rgba[4 * i]);
-        // Raw pictures may show another of two coincident triangles: only their colours count.
+        // Where triangles coincide, raw pictures may show another one: there, only colors count.
         if (colour || (bit == 1 && a.triangles[i] != b.triangles[i]))
             marks[i] = static_cast<std::uint8_t>(marks[i] | bit);
     }
 }
 
-/// Puts one view into the picture of all: grey and pale, a square around each pixel that differs.
+/// Copies one view to the sheet of all views in pale gray, with a colored square around each pixel that differs.
 void paste(Picture& sheet, const Picture& view, const Marks& marks, std::uint32_t number) {
     const std::uint32_t left = number % kColumns * view.width, top = number / kColumns * view.height;
     const auto at = [&](std::uint32_t x, std::uint32_t y) {
@@ -104,14 +104,14 @@ Result<bool> vertices_equal_cpu(Renderer& renderer, Drawable& drawable, const Mo
     return true;
 }
 
-/// The mesh's own pictures, from all sides.
+/// Pictures of the mesh's own index list, from all sides.
 struct Reference {
     std::array<Camera, kViews> cameras;
     std::array<Picture, kViews> raw, exact;
     std::uint64_t covered = 0, distinct_ids = 0;
 };
 
-/// Counts pictures for who waits.
+/// Counts pictures and reports progress.
 class Counter {
   public:
     Counter(const CompareProgress& progress, std::size_t subjects)
@@ -161,7 +161,7 @@ Result<Comparison> compare_one(Renderer& renderer, const Model& model, const Ref
     out.tolerated = same_rasterizing ? 0 : reference.covered / 10000;
     std::array<Marks, kViews> marks;
     for (std::uint32_t v = 0; v < kViews; ++v) {
-        // The first picture of the stream decodes it, in the same submission.
+        // The first draw also decodes the stream, in the same submission.
         LR_ASSIGN(const Picture picture, renderer.draw(stream, model, reference.cameras[v], false));
         const Difference d = difference(reference.raw[v], picture);
         out.raw_pixels_different += d.pixels;
@@ -190,8 +190,8 @@ Result<Comparison> compare_one(Renderer& renderer, const Model& model, const Ref
         paste(out.picture, reference.exact[v], marks[v], v);
         counter.count();
     }
-    // A mesh may hide most of its triangles, and a needle covers little: the bars are low. The cameras fit the mesh to
-    // the picture, so a thousandth is less than a needle.
+    // Low thresholds, since a mesh may hide most of its triangles and a needle covers few pixels. The cameras fit the
+    // mesh to the picture, so even a needle covers more than a thousandth of the pixels.
     const std::uint64_t pixels = std::uint64_t{width} * height * kViews;
     const std::uint64_t visible = std::min<std::uint64_t>(model.triangle_count(), out.covered_pixels);
     out.blank = out.covered_pixels * 1000 < pixels || out.distinct_ids < std::max<std::uint64_t>(1, visible / 1000);

@@ -133,7 +133,7 @@ Result<Allocation> Arena::allocate(const VkMemoryRequirements& requirements, Mem
         if (blocks_[i].memory == VK_NULL_HANDLE || blocks_[i].type != type || blocks_[i].tiling != tiling) continue;
         if (carve(i, requirements, out)) return out;
     }
-    // A small heap (the 256 MiB window of a GPU's memory, say) must not be taken in a few bites.
+    // Blocks are a small share of a small heap, such as the 256 MiB host-visible window of a GPU's memory.
     const VkDeviceSize usual = std::min({kBlockSize, max_allocation_, std::max(limit_ / 16, VkDeviceSize{1} << 20)});
     const VkDeviceSize room = limit_ - std::min(held(), limit_);
     if (requirements.size > room) {
@@ -167,7 +167,7 @@ void Arena::free(const Allocation& allocation) {
         }
     }
     if (it->second == block.size && block.size > kBlockSize) {
-        vkFreeMemory(device_, block.memory, nullptr);  // unmaps, too
+        vkFreeMemory(device_, block.memory, nullptr);  // also unmaps
         held_ -= block.size;
         block = Block{};
     }

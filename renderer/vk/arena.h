@@ -1,5 +1,5 @@
 #pragma once
-// Device memory: a few big blocks, from which buffers and images are cut.
+// Allocates device memory for buffers and images from a few big blocks.
 
 #include <vulkan/vulkan.h>
 
@@ -15,26 +15,26 @@
 
 namespace lacedring::gpu {
 
-/// Where a resource's bytes are wanted.
+/// Who accesses a resource's memory.
 enum class Memory {
     gpu,       ///< fastest for the device
     upload,    ///< the host writes it, mapped
     readback,  ///< the host reads it, mapped, cached if possible
 };
 
-/// Buffers and images never share a block, so that bufferImageGranularity needs no thought.
+/// Buffers and images never share a block, so bufferImageGranularity does not matter.
 enum class Tiling { buffer, image };
 
 struct Allocation {
     VkDeviceMemory memory = VK_NULL_HANDLE;
     VkDeviceSize offset = 0;
     VkDeviceSize size = 0;
-    std::byte* mapped = nullptr;  ///< of `offset`; null for Memory::gpu unless the device's memory is the host's
+    /// Host pointer to `offset`; null for Memory::gpu unless the host shares the device's memory.
+    std::byte* mapped = nullptr;
     std::uint32_t block = 0;
 };
 
-/// Any thread may call any of these. First fit over sorted free ranges; a block that is empty again is given back if it
-/// was made for one large resource.
+/// Thread-safe. First fit over sorted free ranges. An empty block is freed if it was made for one large resource.
 class Arena {
   public:
     /// `limit`: bytes of device memory to hold at most; 0: as much as the device has.
@@ -47,20 +47,20 @@ class Arena {
     Result<Allocation> allocate(const VkMemoryRequirements& requirements, Memory memory, Tiling tiling);
     void free(const Allocation& allocation);
 
-    /// Is there room for resources of so many bytes in all, the largest of them of `largest`? kNoDevice says what is
-    /// missing. Nothing is allocated; other programs may take the room meanwhile.
+    /// Checks that resources of `bytes` bytes in total can be allocated, the largest of `largest` bytes. Allocates
+    /// nothing, so other programs may take the memory meanwhile. Errors: kNoDevice, with the amount missing.
     Result<void> check_room(VkDeviceSize bytes, VkDeviceSize largest) const;
 
-    /// Bytes that resources have now.
+    /// Bytes allocated to resources now.
     VkDeviceSize used() const { return used_.load(); }
-    /// Bytes of device memory held now, and at most so far.
+    /// Bytes of device memory in blocks: now, and the maximum so far.
     VkDeviceSize held() const { return held_.load(); }
     VkDeviceSize peak() const { return peak_.load(); }
     std::uint32_t block_count() const;
 
   private:
     struct Block {
-        VkDeviceMemory memory = VK_NULL_HANDLE;  // null: given back, the entry may be used again
+        VkDeviceMemory memory = VK_NULL_HANDLE;  // null: freed, the entry may be reused
         VkDeviceSize size = 0;
         std::uint32_t type = 0;
         Tiling tiling = Tiling::buffer;
@@ -77,7 +77,7 @@ class Arena {
     VkDeviceSize max_allocation_ = 0;
     std::vector<Block> blocks_;
     VkDeviceSize limit_ = 0;
-    mutable std::mutex mutex_;  // of blocks_, and for writing what follows
+    mutable std::mutex mutex_;  // guards blocks_, and writes of the members below
     std::atomic<VkDeviceSize> used_ = 0, held_ = 0, peak_ = 0;
 };
 

@@ -28,13 +28,13 @@ class Buffer {
 
     VkBuffer handle() const { return buffer_; }
     VkDeviceSize size() const { return size_; }
-    /// What shaders see it at; 0 unless it was made with VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT.
+    /// The device address; 0 unless the usage includes VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT.
     VkDeviceAddress address() const { return address_; }
-    /// The address, its low half first, as GL_EXT_buffer_reference_uvec2 takes it.
+    /// The device address as a uvec2 of GL_EXT_buffer_reference_uvec2: the low half first.
     std::array<std::uint32_t, 2> address_words() const {
         return {static_cast<std::uint32_t>(address_), static_cast<std::uint32_t>(address_ >> 32)};
     }
-    /// The buffer's bytes; null for Memory::gpu on most devices.
+    /// Host pointer to the buffer's bytes; null for Memory::gpu on most devices.
     std::byte* mapped() const { return allocation_.mapped; }
     explicit operator bool() const { return buffer_ != VK_NULL_HANDLE; }
 

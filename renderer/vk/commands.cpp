@@ -49,7 +49,7 @@ Result<VkCommandBuffer> Commands::begin() {
     info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     LR_TRY_VK(vkBeginCommandBuffer(buffer_, &info));
     timed_ = false;
-    // The fence ordered the earlier submissions; this makes what they wrote visible here.
+    // Earlier submissions have ended (run() waits for its fence). This barrier makes their writes visible.
     memory_barrier(buffer_, {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT},
                    {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT});
     return buffer_;

@@ -13,19 +13,19 @@ namespace lacedring::gpu {
 class Context;
 class Buffer;
 
-/// How long the work of one submission took.
+/// Duration of one submission.
 struct Elapsed {
-    double wall = 0;            ///< seconds from submitting to the fence
-    std::optional<double> gpu;  ///< seconds between the timestamps, where the device has them
+    double wall = 0;            ///< seconds from the submission to its fence
+    std::optional<double> gpu;  ///< seconds between the timestamps, if the device has timestamps
 };
 
 class Commands {
   public:
     static Result<Commands> create(Context& context);
 
-    /// Starts recording, anew. The command buffer is valid until the next begin().
+    /// Starts a new recording. The command buffer is valid until the next begin().
     Result<VkCommandBuffer> begin();
-    /// Timestamps around what is recorded between them; at most one pair a recording.
+    /// Record timestamps before and after the commands to time; at most one pair per recording.
     void start_timer();
     void stop_timer();
     /// Ends recording, runs it, and waits for it.
@@ -38,20 +38,20 @@ class Commands {
     CommandPoolHandle pool_;
     VkCommandBuffer buffer_ = VK_NULL_HANDLE;
     FenceHandle fence_;
-    QueryPoolHandle queries_;  // null where the queue has no timestamps
+    QueryPoolHandle queries_;  // null if the queue has no timestamps
     bool timed_ = false;
 };
 
-/// A stage and what it does to memory.
+/// A pipeline stage and its kinds of memory access.
 struct Access {
     VkPipelineStageFlags2 stage = VK_PIPELINE_STAGE_2_NONE;
     VkAccessFlags2 access = VK_ACCESS_2_NONE;
 };
 
-/// Everything written as `before` is visible to `after`, on all buffers.
+/// Makes writes of `before` visible to `after`, for all buffers.
 void memory_barrier(VkCommandBuffer commands, Access before, Access after);
 
-/// The same for one image, with a change of layout. From VK_IMAGE_LAYOUT_UNDEFINED, the contents are dropped.
+/// The same for one image, with a layout transition. A transition from VK_IMAGE_LAYOUT_UNDEFINED drops the contents.
 void image_barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, Access before, Access after,
                    VkImageLayout from, VkImageLayout to);
 

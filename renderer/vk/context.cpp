@@ -97,7 +97,7 @@ Result<void> Context::create_instance(const ContextOptions& options) {
         }
         enabled.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
     }
-    // Without validation the extension still names objects, for a debugger's layer.
+    // Also used without validation: it names objects for a debugger's layer.
     debug_utils_ = has(extensions, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     if (debug_utils_) enabled.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     if (options.validation && !debug_utils_) return Error{kNoDevice, "no VK_EXT_debug_utils for validation"};
@@ -119,7 +119,7 @@ Result<void> Context::create_instance(const ContextOptions& options) {
                                                      : VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
     VkValidationFeaturesEXT features{};
     features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
-    features.pNext = &messenger;  // so that messages about the instance itself are kept too
+    features.pNext = &messenger;  // also logs messages about the creation of the instance
     features.enabledValidationFeatureCount = 1;
     features.pEnabledValidationFeatures = &feature;
     VkInstanceCreateInfo info{};
@@ -236,7 +236,7 @@ void Context::name_object(VkObjectType type, std::uint64_t handle, const std::st
     info.objectType = type;
     info.objectHandle = handle;
     info.pObjectName = text.c_str();
-    set_name_(device_, &info);  // a missing name harms nothing
+    set_name_(device_, &info);  // errors do not matter: names are for debugging only
 }
 
 }  // namespace lacedring::gpu

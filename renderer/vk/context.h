@@ -1,6 +1,6 @@
 #pragma once
-// One Vulkan device, headless: instance, device, queue, limits, memory. Everything else in renderer/ hangs on it and
-// must go before it.
+// One Vulkan device without a window: instance, device, queue, limits, memory. All other objects of renderer/ refer to
+// their context and must be destroyed before it.
 
 #include <vulkan/vulkan.h>
 
@@ -19,11 +19,11 @@ namespace lacedring::gpu {
 struct ContextOptions {
     std::string device;       ///< part of a device's or driver's name (choose_device); empty: the best one
     bool validation = false;  ///< VK_LAYER_KHRONOS_validation with synchronization validation
-    /// GPU-assisted validation instead of synchronization validation: accesses past what is bound, as shaders make
-    /// them. Slow. Only with `validation`.
+    /// With `validation`: GPU-assisted instead of synchronization validation. Reports shader accesses outside of bound
+    /// ranges. Slow.
     bool gpu_assisted = false;
     std::uint64_t memory = 0;  ///< bytes of device memory to hold at most; 0: as much as the device has
-    /// To show pictures in a window: what its system needs, and VK_KHR_swapchain (renderer/vk/swapchain.h).
+    /// For pictures in a window: the extensions of its window system, and VK_KHR_swapchain (renderer/vk/swapchain.h).
     std::vector<const char*> instance_extensions = {}, device_extensions = {};
 };
 
@@ -37,9 +37,9 @@ struct DeviceInfo {
     std::uint32_t subgroup_size = 1;
     VkPhysicalDeviceLimits limits{};
     std::uint64_t max_buffer_size = 0;
-    std::uint32_t max_index = 0;  ///< largest vertex number that an index buffer may hold
+    std::uint32_t max_index = 0;  ///< largest vertex number in an index buffer
     bool statistics = false;      ///< pipelineStatisticsQuery
-    /// Workgroups of mesh shaders in one draw command; 0 where VK_EXT_mesh_shader is missing or too small for
+    /// Mesh shader workgroups per draw command; 0 if VK_EXT_mesh_shader is missing or its limits are too low for
     /// Path::mesh.
     std::uint32_t max_mesh_groups = 0;
 };
@@ -55,23 +55,23 @@ class Context {
     VkInstance instance() const { return instance_; }
     VkPhysicalDevice physical() const { return physical_; }
     VkDevice device() const { return device_; }
-    /// For a library that wants it; ours is used through the three below, which any thread may call.
+    /// For other libraries. Our code uses the queue through the three thread-safe functions below.
     VkQueue queue() const { return queue_; }
     VkResult submit(const VkSubmitInfo2& info, VkFence fence);
     VkResult present(const VkPresentInfoKHR& info);
-    void wait_idle();  ///< for all that was submitted
+    void wait_idle();  ///< waits for all submissions
     std::uint32_t queue_family() const { return queue_family_; }
     const DeviceInfo& info() const { return info_; }
     const VkPhysicalDeviceLimits& limits() const { return info_.limits; }
     Arena& arena() { return *arena_; }
     ValidationLog& validation() { return validation_; }
-    /// What pipelines are made of where it is not what was built in.
+    /// Overrides of built-in shaders for new pipelines.
     ShaderSet& shaders() { return shaders_; }
-    /// vkCmdDrawMeshTasksEXT; null where info().max_mesh_groups is 0.
+    /// vkCmdDrawMeshTasksEXT; null if info().max_mesh_groups is 0.
     PFN_vkCmdDrawMeshTasksEXT draw_mesh_tasks() const { return draw_mesh_tasks_; }
     bool validating() const { return validating_; }
 
-    /// Gives a Vulkan object a name, which validation messages and debuggers show.
+    /// Gives a Vulkan object a name for validation messages and debuggers.
     template <class T>
     void name(VkObjectType type, T handle, const std::string& text) const {
         name_object(type, reinterpret_cast<std::uint64_t>(handle), text);

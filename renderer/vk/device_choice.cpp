@@ -18,7 +18,7 @@ std::string lower(std::string text) {
     return text;
 }
 
-/// The name by which documents know a driver that calls itself something else; null for others.
+/// The usual name of a driver that calls itself something else; null for other drivers.
 const char* usual_name(VkDriverId driver) {
     switch (driver) {
         case VK_DRIVER_ID_MESA_LLVMPIPE:
@@ -30,7 +30,7 @@ const char* usual_name(VkDriverId driver) {
     }
 }
 
-/// Everything that a device may be asked for by.
+/// All names by which a device may be requested.
 std::vector<std::string> names_of(VkPhysicalDevice device) {
     VkPhysicalDeviceDriverProperties driver{};
     driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
@@ -79,7 +79,7 @@ int rank(VkPhysicalDeviceType type) {
     }
 }
 
-/// Workgroups of surface.mesh that a draw command may have.
+/// The largest number of workgroups of surface.mesh in a draw command; 0 if the device cannot run it.
 std::uint32_t mesh_groups(VkPhysicalDevice device) {
     std::uint32_t count = 0;
     if (vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr) != VK_SUCCESS) return 0;
@@ -123,7 +123,7 @@ std::vector<std::string> missing_features(VkPhysicalDevice device) {
     if (properties.apiVersion < VK_API_VERSION_1_3) {
         missing.push_back("Vulkan 1.3 (it has " + std::to_string(VK_API_VERSION_MAJOR(properties.apiVersion)) + "." +
                           std::to_string(VK_API_VERSION_MINOR(properties.apiVersion)) + ")");
-        return missing;  // the structs below may be unknown to it
+        return missing;  // an older driver may not know the structs below
     }
     VkPhysicalDeviceVulkan12Features f12{};
     f12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;

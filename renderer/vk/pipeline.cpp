@@ -31,7 +31,7 @@ VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, const Sh
     return info;
 }
 
-/// Constants 0, 1, ... Holds no copy of them.
+/// Specialization constants 0, 1, ... Refers to the values, does not copy them.
 struct Specialization {
     explicit Specialization(std::span<const std::uint32_t> constants) {
         for (std::uint32_t i = 0; i < constants.size(); ++i) entries.push_back({i, 4 * i, 4});

@@ -24,7 +24,7 @@ struct Binding {
     std::uint32_t count = 1;
 };
 
-/// One descriptor set's layout, push constants, and the pipeline layout of the two.
+/// A pipeline layout with one descriptor set layout and one range of push constants.
 class Layout {
   public:
     Layout() = default;
@@ -39,54 +39,54 @@ class Layout {
     PipelineLayoutHandle pipeline_;
 };
 
-/// A range of a buffer, as a descriptor sees it.
+/// A range of a buffer that a descriptor covers.
 struct BufferRange {
     const Buffer* buffer = nullptr;
     VkDeviceSize offset = 0;
     VkDeviceSize size = VK_WHOLE_SIZE;
 };
 
-/// Descriptor sets that live until this goes.
+/// Allocates descriptor sets, which live as long as this object.
 class Descriptors {
   public:
     Descriptors() = default;
     explicit Descriptors(Context& context) : context_(&context) {}
 
     Result<VkDescriptorSet> allocate(const Layout& layout);
-    /// Fills binding `number` from array element 0 on.
+    /// Writes binding `number`, starting at array element 0.
     void write(VkDescriptorSet set, std::uint32_t number, VkDescriptorType type, std::span<const BufferRange> ranges);
     void write(VkDescriptorSet set, std::uint32_t number, VkDescriptorType type, const BufferRange& range) {
         write(set, number, type, std::span(&range, 1));
     }
-    /// A storage image in VK_IMAGE_LAYOUT_GENERAL.
+    /// Writes a storage image in VK_IMAGE_LAYOUT_GENERAL.
     void write_image(VkDescriptorSet set, std::uint32_t number, VkImageView view);
 
   private:
     Context* context_ = nullptr;
-    std::vector<DescriptorPoolHandle> pools_;  // the last one may have room
+    std::vector<DescriptorPoolHandle> pools_;  // all full, except perhaps the last
 };
 
-/// `constants`: the shader's specialization constants 0, 1, ... Of every shader the context's ShaderSet may have other
-/// words than its own.
+/// `constants`: the shader's specialization constants 0, 1, ... The context's ShaderSet may override the SPIR-V of any
+/// shader.
 Result<PipelineHandle> create_compute(Context& context, const std::string& name, const Layout& layout,
                                       const Shader& shader, std::span<const std::uint32_t> constants = {});
 
-/// What differs between the graphics pipelines. Viewport and scissor are dynamic, and the line width where lines are
-/// drawn.
+/// The properties in which our graphics pipelines differ. Viewport and scissor are dynamic, as is the line width of
+/// pipelines that draw lines.
 struct GraphicsInfo {
     std::string name;
-    Shader vertex;    ///< or none, where `mesh` makes the vertices
-    Shader geometry;  ///< may be none
-    Shader mesh;
-    Shader fragment;                       ///< none: depth only
+    Shader vertex;                         ///< empty if there is a mesh shader
+    Shader geometry;                       ///< may be empty
+    Shader mesh;                           ///< may be empty
+    Shader fragment;                       ///< may be empty: writes depth only
     std::vector<std::uint32_t> constants;  ///< specialization constants 0, 1, ... of all stages
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     VkCompareOp depth_compare = VK_COMPARE_OP_LESS;
     bool depth_write = true;
-    bool push_back = false;  ///< triangles a little away from the eye, for lines on top
-    bool blend = false;      ///< over, with the source's opacity; result premultiplied
+    bool push_back = false;  ///< moves triangles a little away from the eye, so that lines can be drawn over them
+    bool blend = false;      ///< draws over, by the source's opacity; the result is premultiplied
     std::vector<VkFormat> colours;
-    VkVertexInputBindingDescription vertex_binding{};  ///< where there are attributes
+    VkVertexInputBindingDescription vertex_binding{};  ///< used if there are attributes
     std::vector<VkVertexInputAttributeDescription> vertex_attributes;
 };
 

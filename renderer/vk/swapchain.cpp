@@ -21,7 +21,7 @@ Result<SemaphoreHandle> create_semaphore(Context& context) {
     return SemaphoreHandle(context.device(), semaphore);
 }
 
-/// 8 bits a channel, not converted: our colours are in sRGB already.
+/// Chooses 8 bits per channel without sRGB conversion, as our colors are sRGB already.
 Result<VkSurfaceFormatKHR> choose_format(Context& context, VkSurfaceKHR surface) {
     std::uint32_t count = 0;
     LR_TRY_VK(vkGetPhysicalDeviceSurfaceFormatsKHR(context.physical(), surface, &count, nullptr));
@@ -100,7 +100,7 @@ Result<Swapchain::Fit> Swapchain::rebuild() {
     LR_TRY_VK(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(context_->physical(), surface_, &surface));
     VkExtent2D extent = surface.currentExtent;
     const std::uint32_t limit = context_->limits().maxImageDimension2D;
-    if (extent.width == UINT32_MAX) {  // the window follows its images, and scales them if it must
+    if (extent.width == UINT32_MAX) {  // the window takes its size from the images
         const auto fitting = [&](std::uint32_t wanted, std::uint32_t least, std::uint32_t most) {
             return std::max(least, std::min({wanted, most, limit}));
         };
@@ -153,7 +153,7 @@ Result<Swapchain::Fit> Swapchain::rebuild() {
 void Swapchain::record(VkImage to, const Image& image, VkExtent2D extent) const {
     constexpr VkImageAspectFlags kColour = VK_IMAGE_ASPECT_COLOR_BIT;
     constexpr Access kBlit{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
-    // What was there is dropped; the submission waits for the image in that stage.
+    // Drops the image's contents. The submission waits for the acquired image in the transfer stage.
     image_barrier(commands_, to, kColour, {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_NONE}, kBlit,
                   VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     VkImageBlit region{};
@@ -168,7 +168,7 @@ void Swapchain::record(VkImage to, const Image& image, VkExtent2D extent) const 
                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
 }
 
-// A window system that keeps all its images (a locked screen, a window that nobody sees) must not stop the program.
+// The window system may hold all images (locked screen, hidden window): waiting for one must not stop the program.
 constexpr std::uint64_t kPatience = 200'000'000;  // nanoseconds
 
 Result<bool> Swapchain::show(const Image& image, VkExtent2D extent, VkExtent2D window) {
@@ -186,7 +186,7 @@ Result<bool> Swapchain::show(const Image& image, VkExtent2D extent, VkExtent2D w
         LR_ASSIGN(const Fit fit, rebuild());
         if (fit != Fit::shown) return fit == Fit::no_size;
         acquired = vkAcquireNextImageKHR(device, swapchain_, kPatience, acquired_.get(), VK_NULL_HANDLE, &index);
-        if (acquired == VK_ERROR_OUT_OF_DATE_KHR) return true;  // it is being resized still: the next frame will do
+        if (acquired == VK_ERROR_OUT_OF_DATE_KHR) return true;  // still being resized: skip this frame
     }
     if (acquired == VK_TIMEOUT || acquired == VK_NOT_READY) return true;
     if (acquired != VK_SUBOPTIMAL_KHR) LR_TRY(check(acquired, "vkAcquireNextImageKHR"));

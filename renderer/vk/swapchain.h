@@ -1,5 +1,5 @@
 #pragma once
-// A window's pictures: shows an image of ours on a surface that the application made.
+// Shows an image in a window, on a surface that the application made.
 
 #include <vulkan/vulkan.h>
 
@@ -13,7 +13,7 @@ namespace lacedring::gpu {
 class Context;
 class Image;
 
-/// Needs VK_KHR_surface and VK_KHR_swapchain. Goes before the surface, which it does not own.
+/// Needs VK_KHR_surface and VK_KHR_swapchain. Does not own the surface, and must be destroyed before it.
 class Swapchain {
   public:
     /// Errors: kNoDevice (the device's queue cannot show on that surface), kDeviceFailure.
@@ -24,15 +24,15 @@ class Swapchain {
     Swapchain& operator=(const Swapchain&) = delete;
     ~Swapchain();
 
-    /// Scales an image of `extent` pixels to the window, `window` pixels, and shows it. The image must be in
-    /// VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, written by earlier submissions; the next one must wait for reads of it
-    /// (Commands::begin does). A window that changed gets new images first. Where the window has no size, or keeps all
-    /// its images, nothing is shown. False: the window is larger than any image of the device, and shows nothing.
+    /// Scales an image of `extent` pixels to the window's `window` pixels and shows it. The image must be in
+    /// VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, written by earlier submissions; the next submission must wait for reads of
+    /// it (Commands::begin does). Recreates the swapchain if the window has changed. Shows nothing if the window has no
+    /// size or no free image. If the window is larger than the device's largest image: shows nothing, returns false.
     Result<bool> show(const Image& image, VkExtent2D extent, VkExtent2D window);
 
   private:
     Swapchain() = default;
-    enum class Fit { shown, no_size, too_large };  ///< what a window is to the device
+    enum class Fit { shown, no_size, too_large };  ///< whether the device can show the window
     Result<Fit> rebuild();
     void drop();
     void record(VkImage to, const Image& image, VkExtent2D extent) const;
@@ -41,10 +41,10 @@ class Swapchain {
     VkSurfaceKHR surface_ = VK_NULL_HANDLE;
     VkSurfaceFormatKHR format_{};
     VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
-    VkExtent2D window_{};  // as it was when the images were made
+    VkExtent2D window_{};  // the window's size when the images were created
     VkExtent2D extent_{};  // of the images
     std::vector<VkImage> images_;
-    std::vector<SemaphoreHandle> drawn_;  // one an image: that many may wait to be shown
+    std::vector<SemaphoreHandle> drawn_;  // one per image, as every image may be waiting for presentation
     SemaphoreHandle acquired_;
     CommandPoolHandle pool_;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;

@@ -10,13 +10,14 @@
 
 namespace lacedring::gpu {
 
-/// "VK_ERROR_DEVICE_LOST", or the number of a code that is not known here.
+/// The name of a result, such as "VK_ERROR_DEVICE_LOST"; the number if the name is unknown.
 std::string result_name(VkResult result);
 
-/// kDeviceFailure, naming the call, unless the result is VK_SUCCESS. Out of memory is kNoDevice.
+/// Converts a result other than VK_SUCCESS to an error that names the call: kNoDevice if out of memory, else
+/// kDeviceFailure.
 Result<void> check(VkResult result, const char* call);
 
 }  // namespace lacedring::gpu
 
-/// Returns an error unless a Vulkan call gave VK_SUCCESS.
+/// Returns from the calling function with an error unless a Vulkan call gave VK_SUCCESS.
 #define LR_TRY_VK(call) LR_TRY(::lacedring::gpu::check((call), #call))

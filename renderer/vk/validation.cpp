@@ -5,12 +5,12 @@
 namespace lacedring::gpu {
 namespace {
 
-/// Messages that are not about a fault of this program.
+/// True for messages that do not report a fault of this program.
 bool is_noise(const VkDebugUtilsMessengerCallbackDataEXT& data) {
-    // The loader's own remarks (a driver that another driver hides, say) are about the machine.
+    // The loader's messages (a driver that another driver hides, for example) are about the machine.
     if (data.pMessageIdName != nullptr && std::strcmp(data.pMessageIdName, "Loader Message") == 0) return true;
-    // `invariant gl_Position` decorates a member of gl_PerVertex. Vulkan allows that (VUID-Invariant-Invariant-04677
-    // speaks of it); the SPIR-V validator inside layer 1.3.239 warns all the same.
+    // `invariant gl_Position` decorates a member of gl_PerVertex. Vulkan allows this (VUID-Invariant-Invariant-04677),
+    // but the SPIR-V validator in layer version 1.3.239 warns about it.
     constexpr const char* kInvariant = "Decoration not allowed on struct members: SpvDecorationInvariant";
     return data.pMessage != nullptr && std::strstr(data.pMessage, kInvariant) != nullptr;
 }

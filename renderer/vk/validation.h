@@ -1,5 +1,5 @@
 #pragma once
-// What the validation layers said.
+// Collects the messages of the validation layers.
 
 #include <vulkan/vulkan.h>
 
@@ -9,7 +9,7 @@
 
 namespace lacedring::gpu {
 
-/// Every message of warning or error severity, in order. Written from whatever thread a Vulkan call is made on.
+/// Every message of warning or error severity, in order. Thread-safe: layers call from the thread of a Vulkan call.
 class ValidationLog {
   public:
     void add(std::string message);

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Every operator of lacedring_operators.glsl at every corner and vertex, for the test.
+// For tests: evaluates every operator of lacedring_operators.glsl at every corner and vertex.
 #include "shaders/shared.h"
 
 layout(local_size_x = LR_COMPUTE_GROUP) in;
@@ -12,10 +12,11 @@ layout(push_constant) uniform Push {
 } push;
 layout(std430, binding = 0) readonly buffer Tables { uint words[]; };
 layout(std430, binding = 1) writeonly buffer Out { uint results[]; };
-layout(std430, binding = 2) readonly buffer Begins { uint begins[]; };  // where each vertex' neighbours go; one more
+// Start of each vertex's neighbors in `neighbours`; one more entry for the end of the last.
+layout(std430, binding = 2) readonly buffer Begins { uint begins[]; };
 layout(std430, binding = 3) writeonly buffer Neighbours { uint neighbours[]; };
 
-// The test also gives it tables that are wrong.
+// Clamped, as tests also pass malformed tables.
 #define LR_TABLE_WORD(i) words[min(i, uint(words.length()) - 1u)]
 #include "shaders/include/lacedring_operators.glsl"
 

@@ -1,5 +1,5 @@
-// Which edges of a mesh are drawn as its outline, asked of the LR tables: there is no list of edges. Include after
-// lacedring_operators.glsl, in a shader that has vec3 lr_position(uint v).
+// Decides from the LR tables which edges of a mesh are drawn as its outline; there is no edge list. Include after
+// lacedring_operators.glsl, in a shader that defines vec3 lr_position(uint v).
 #include "shaders/adjacency/adjacency_shared.h"
 
 struct LrEdge {
@@ -7,9 +7,9 @@ struct LrEdge {
     uint from, to;
 };
 
-// The edge across from corner k of triangle t. It is drawn from one of its two corners, that of the smaller number.
-// Normals are of no length but the triangles', times 2^40: those of the smallest triangles do not vanish. Triangles that
-// cover nothing face away, and no edge of theirs is a crease.
+// The edge opposite corner k of triangle t. An edge with two opposite corners is drawn from the one with the smaller
+// number. Positions are scaled by 2^20, so that the normals (cross products) of the smallest triangles do not
+// underflow. A triangle without area faces away, and its edges are no creases.
 LrEdge lr_edge(LrOpLayout lr, uint t, uint k, vec3 eye, float crease_cos) {
     LrEdge edge = LrEdge(0u, 0u, 0u);
     if (!lr_is_canonical(lr, t)) return edge;

@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
-// Two vertices a corner, and no vertex or index buffer: the LR tables are asked whether the edge across from that corner
-// is to be drawn. One that is not goes outside the picture, both ends to the same point.
+// A line (two vertices) per corner, without vertex and index buffers. The LR tables tell if the edge opposite the
+// corner is drawn; if not, both ends go to the same point outside the picture.
 #include "shaders/adjacency/adjacency_shared.h"
 
 layout(push_constant) uniform Push { SilhouetteConstants push; };

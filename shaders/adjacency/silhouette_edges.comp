@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What silhouette.vert decides, for the test: LR_EDGE_* of every line.
+// For tests: writes the decision of silhouette.vert (LR_EDGE_*) for every line.
 #include "shaders/adjacency/adjacency_shared.h"
 
 layout(local_size_x = LR_COMPUTE_GROUP) in;

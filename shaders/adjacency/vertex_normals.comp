@@ -2,14 +2,15 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
-// Smooth normals from positions and LR tables alone: of each vertex, the sum over its star of the cross products of the
-// triangles' sides, so weighted by area, as vertex_normals of lrcore/topology/geometry.h has it.
+// Computes smooth normals from positions and LR tables alone. A vertex's normal is the sum of the cross products of the
+// triangles around it, which weights triangles by area, like vertex_normals of lrcore/topology/geometry.h.
 //
-// A needle's cross product is a difference of nearly equal products, and the triangles at a vertex may nearly cancel: one
-// float a number loses everything there. So a number is two floats, hi + lo, of some 46 bits (Dekker 1971; Knuth).
-// shaderFloat64 is not asked for, nor fma, which Vulkan need not fuse: exact products come from halves of 12 bits.
-// `precise` keeps compilers from contracting or reordering, which would undo it. Rounding has to be to nearest, as on
-// every device that we know of; Vulkan leaves that open. Where the exact sum is zero, what is left of it is rounding's.
+// The cross product of a needle is a difference of nearly equal products, and the triangles at a vertex may nearly
+// cancel: single floats would lose all digits. So each number is a pair of floats hi + lo with about 46 bits (Dekker
+// 1971; Knuth). This needs neither shaderFloat64 nor fma (which Vulkan need not fuse): exact products come from halves
+// of 12 bits. `precise` keeps compilers from contracting or reordering, which would break the method. It requires
+// rounding to nearest, which Vulkan does not guarantee, but every known device does. If the exact sum is zero, the
+// result is a rounding error.
 #include "shaders/adjacency/adjacency_shared.h"
 
 layout(local_size_x = LR_COMPUTE_GROUP) in;
@@ -25,8 +26,8 @@ struct Vec3x2 {
     vec3 hi, lo;
 };
 
-// Lengths up to 2^33 and down to 2^-38, once multiplied by kScale, have products that neither overflow nor lose bits to
-// denormals: in units of a mesh in the unit sphere, down to 2^-68.
+// Scaled lengths from 2^-38 to 2^33 have products that neither overflow nor lose bits to denormals. For a mesh in the
+// unit sphere, this covers lengths down to 2^-68.
 const float kScale = 1073741824.0;
 vec3 position(uint v) {
     Floats positions = Floats(push.positions);
@@ -39,7 +40,7 @@ Vec3x2 sum_of(vec3 a, vec3 b) {
     precise vec3 lo = (a - (hi - b_part)) + (b - b_part);
     return Vec3x2(hi, lo);
 }
-// Where |a| >= |b|, or they do not overlap.
+// Requires |a| >= |b|, or that the bits of a and b do not overlap.
 Vec3x2 quick_sum_of(vec3 a, vec3 b) {
     precise vec3 hi = a + b;
     precise vec3 lo = b - (hi - a);
@@ -78,7 +79,7 @@ void main() {
     vec3 at = position(v);
     Vec3x2 sum = Vec3x2(vec3(0.0), vec3(0.0));
     for (LrStar s = lr_star(lr, v); s.corner != LR_TABLE_NULL; lr_star_step(lr, s)) {
-        // Differences of two floats are exact as two floats.
+        // The difference of two floats is exact as a pair of floats.
         Vec3x2 a = sum_of(position(lr_vertex(lr, lr_next(s.corner))), -at);
         Vec3x2 b = sum_of(position(lr_vertex(lr, lr_previous(s.corner))), -at);
         sum = add(sum, cross_of(a, b));

@@ -1,4 +1,4 @@
-// The commands that draw an index buffer, for the shaders that fill it.
+// Writes the indirect draw commands of an index buffer; for the shaders that fill the index buffer.
 
 struct DrawIndexedIndirectCommand {
     uint index_count;

@@ -5,13 +5,13 @@
 
 layout(local_size_x = LR_COMPUTE_GROUP) in;
 
-// All slots of the dispatch are of two-sided rings. A pipeline of its own, not a branch: lavapipe runs through both sides
-// of a branch, and three quarters of the time would go to the other.
+// All slots of the dispatch belong to two-sided rings. This has its own pipeline, as lavapipe executes both sides of a
+// branch and would spend three quarters of its time on the other side.
 layout(constant_id = 0) const bool two_sided = true;
 
 layout(push_constant) uniform Push { DecodeConstants push; };
 
-// The stream's header, and the window of the stream that this dispatch needs: as words, and the same as 16-byte loads.
+// The stream's header, and the part of the stream that this dispatch reads (as words, and as groups of four words).
 layout(std430, binding = 0) readonly buffer Header { uint header[]; };
 layout(std430, binding = 1) readonly buffer Words { uint words[]; };
 layout(std430, binding = 1) readonly buffer WordQuads { uvec4 word_quads[]; };
@@ -36,7 +36,8 @@ void main() {
 
     uvec3 t0, t1, t2, t3;
     if (two_sided) {
-        // Two vertices of two-sided rings: their four words in one load, and those of the vertex behind for a wart.
+        // Two ring vertices: one load for their four words, and one for the words of the vertex after them (for a
+        // wart).
         uint quad = (slot + LR_LEAN_HEADER_WORDS - push.first_word) / 4u;
         uvec4 w = word_quads[quad];
         uvec2 behind = word_quads[quad + 1u].xy;
@@ -51,7 +52,8 @@ void main() {
         t2 = lr_lean_ring_triangle(w.z, u, u_next, u_skip, false);
         t3 = lr_lean_ring_triangle(w.w, u, u_next, u_skip, true);
     } else {
-        // One-sided, verbatim, or across the end of a section. Past the last slot: what no command draws.
+        // One-sided or verbatim slots, perhaps across the end of a section. Past the last slot: zeros, which are not
+        // drawn.
         t0 = lr_lean_triangle(lean, slot);
         t1 = slot + 1u < slots ? lr_lean_triangle(lean, slot + 1u) : uvec3(0u);
         t2 = slot + 2u < slots ? lr_lean_triangle(lean, slot + 2u) : uvec3(0u);

@@ -4,13 +4,15 @@
 #extension GL_EXT_buffer_reference_uvec2 : require
 // Expands a packed stream into an index buffer, and writes the commands that draw it.
 //
-// A workgroup has kBlocks blocks, four or eight. One invocation a block reads its events and writes pieces of corridors into
-// shared memory (3.2 KiB a block); then all of them expand four triangles at a time, whatever piece they are of, in the same few
-// steps: a piece and a popcount say (a, b). A workgroup is as large as a subgroup, where it can be: none waits for another at the barrier.
+// A workgroup decodes kBlocks blocks, four or eight. First, one invocation per block reads the block's events and
+// writes the pieces of its corridors into shared memory (3.2 KiB per block). Then all invocations expand four triangles
+// at a time: the piece of a triangle and a popcount of turns give its (a, b). A workgroup is as large as a subgroup if
+// possible, so that no subgroup waits for another at the barrier.
 //
-// What lavapipe wants: it runs through both sides of a branch, and once through a `while` that has nothing to do, so what
-// is rare is kept out of loops and loops end at their end. But in 22.3, invocations that leave a loop at its end before
-// others do have wrong values after it, unless there is a second way out of it: hence the breaks that never happen.
+// Tuned for lavapipe, which executes both sides of a branch, and the body of a `while` once even if its condition is
+// false. So rare cases are kept out of loops, and loops test their condition at the end. A bug of lavapipe 22.3: if
+// some invocations leave a loop by its end condition before others, their values are wrong after it, unless the loop
+// has a second exit. Hence the breaks marked "never".
 #include "lrcore/codec/packed/packed_format.h"
 #include "shaders/shared.h"
 
@@ -27,35 +29,35 @@ layout(constant_id = LR_CONSTANT_BLOCKS) const uint kBlocks = 4u;
 const uint kWords = LR_PACKED_BLOCK_WORDS;
 const uint kQuads = LR_PACKED_BLOCK / LR_TRIANGLES_PER_INVOCATION;
 
-// Of each block, by its triangles' words:
-shared uint ups[kBlocks * kWords];     // turns before it that are 1
-shared uint starts[kBlocks * kWords];  // triangles that begin a piece
-shared uint before[kBlocks * kWords];  // the last triangle before it that begins one
-shared uint thirds[kBlocks * kWords];  // triangles whose third vertex an event gives
-shared uint warts[kBlocks * kWords];   // T0 of warts
-shared uint flips[kBlocks * kWords];   // triangles that come out the other way round
-// By the triangle that begins a piece, (a, b) as if entered at the block's first triangle, and the orientation; of an
-// event's triangle the third vertex.
+// One entry per word of 32 triangles; bitmaps have a bit per triangle:
+shared uint ups[kBlocks * kWords];     // number of 1 turns in the block before this word
+shared uint starts[kBlocks * kWords];  // bitmap: triangles that begin a piece
+shared uint before[kBlocks * kWords];  // the last triangle before this word that begins a piece
+shared uint thirds[kBlocks * kWords];  // bitmap: triangles whose third vertex comes from an event
+shared uint warts[kBlocks * kWords];   // bitmap: T0s of warts
+shared uint flips[kBlocks * kWords];   // bitmap: triangles with the opposite orientation
+// For a triangle that begins a piece: (a, b), extrapolated back to the block's first triangle, and the orientation in
+// piece_x (LR_REVERSED). For the triangle of an event: its third vertex in piece_x.
 shared uint piece_a[kBlocks * LR_PACKED_BLOCK];
 shared uint piece_b[kBlocks * LR_PACKED_BLOCK];
 shared uint piece_x[kBlocks * LR_PACKED_BLOCK];
-shared uint single_blocks;  // whose triangles are read one by one: plain, or with doubles
+shared uint single_blocks;  // bitmap: blocks whose triangles are decoded one by one (plain, or with doubles)
 #define LR_REVERSED 0x80000000u
 
 uint bits_below(uint word, uint count) { return uint(bitCount(bitfieldExtract(word, 0, int(count)))); }
 
-// Nothing is read behind the stream, whatever it says.
+// Clamped, so that no stream makes the shader read past its end.
 uint stream_word(uint i) { return Words(push.stream).at[min(i, push.words - 1u)]; }
 uint turn_word(uint triangle) { return stream_word(LR_PACKED_HEADER_WORDS + triangle / 32u); }
 
 #define LR_PACKED_WORD(i) stream_word(i)
 #include "shaders/include/lacedring.glsl"
 
-// A block while its events are read. Triangles count from the workgroup's first.
+// Reads the events of a block. Triangles are counted from the workgroup's first.
 struct Reader {
-    uint first;  // triangle of the mesh
-    uint at;     // where (a, b) of the state are
-    uint scopes_end;  // of the outermost scope
+    uint first;       // the workgroup's first triangle in the mesh
+    uint at;          // the triangle that the state's (a, b) belong to
+    uint scopes_end;  // end of the outermost scope
 };
 
 uint ups_before(Reader b, uint i) {
@@ -70,7 +72,7 @@ void begin_piece(Reader b, LrPackedState s, uint i) {
     piece_b[i] = s.b + i - up;
     piece_x[i] = s.reversed ? LR_REVERSED : 0u;
 }
-// The last piece that begins at triangle i or before, but behind `from`; else `from`.
+// The last triangle in (from, i] that begins a piece; `from` if there is none.
 uint last_start(uint from, uint i) {
     uint last = from;
     for (uint word = from / 32u; word <= i / 32u; ++word) {
@@ -81,7 +83,7 @@ uint last_start(uint from, uint i) {
     return last;
 }
 
-// The state is that of the piece that begins at triangle i.
+// Sets the state to the start of the piece that begins at triangle i.
 void resume(inout Reader b, inout LrPackedState s, uint i) {
     uint up = ups_before(b, i);
     s.a = piece_a[i] + up;
@@ -91,7 +93,8 @@ void resume(inout Reader b, inout LrPackedState s, uint i) {
     b.at = i;
 }
 
-// Moves the state to triangle `to`. Where a scope ended on the way, its piece is what the state is now.
+// Moves the state forward to triangle `to`. If a piece begins on the way (at the end of a scope), continues from that
+// piece.
 void advance(inout Reader b, inout LrPackedState s, uint to) {
     uint start = last_start(b.at, to);
     if (start > b.at) resume(b, s, start);
@@ -110,7 +113,8 @@ void advance(inout Reader b, inout LrPackedState s, uint to) {
     b.at = to;
 }
 
-uint select_bit(uint bits, uint rank) {  // the bit that has so many below it
+// The position of the set bit that has `rank` set bits below it.
+uint select_bit(uint bits, uint rank) {
     uint at = 0u;
     for (uint size = 16u; size > 0u; size /= 2u) {
         uint low = bits_below(bits >> at, size);
@@ -147,7 +151,7 @@ void read_warts(inout LrPackedRecord r, uint first, uint begin) {
     }
 }
 
-// The tables of block k of the workgroup, whose first triangle is `first`.
+// Fills the tables of the workgroup's block k; `first` is the block's first triangle in the mesh.
 void read_block(LrPackedLayout p, uint k, uint first) {
     uint count = 0u;
     for (uint word = k * kWords, i = first; word < (k + 1u) * kWords; ++word, i += 32u) {
@@ -197,7 +201,8 @@ void read_block(LrPackedLayout p, uint k, uint first) {
                     begin_piece(b, LrPackedState(rest.x, rest.y, s.reversed, false, 0u, 0u, false), b.at + e.w);
                     if (b.at >= b.scopes_end) b.scopes_end = b.at + e.w;
                 }
-                if (left > 0u && (starts[b.at / 32u] >> (b.at & 31u) & 1u) != 0u) {  // a scope ends here
+                // If a piece begins here already, a scope has ended.
+                if (left > 0u && (starts[b.at / 32u] >> (b.at & 31u) & 1u) != 0u) {
                     resume(b, s, b.at);
                 } else if (left > 0u) {
                     begin_piece(b, s, b.at);
@@ -208,7 +213,7 @@ void read_block(LrPackedLayout p, uint k, uint first) {
                 } else {
                     lr_packed_begin(e, s, at < b.scopes_end);
                 }
-                if (!s.finished) begin_piece(b, s, at);  // else the polygon that follows has the orientation
+                if (!s.finished) begin_piece(b, s, at);  // else the next polygon begins a piece with this orientation
             }
         }
         if (b.at < begin + r.triangles) advance(b, s, begin + r.triangles - 1u);
@@ -234,7 +239,7 @@ void store(uint at, uvec3 t0, uvec3 t1, uvec3 t2, uvec3 t3) {
 
 bvec4 nibble(uint word, uint shift) { return notEqual(uvec4(word >> shift) & uvec4(1u, 2u, 4u, 8u), uvec4(0u)); }
 
-// What the tables have of 32 triangles.
+// The tables' entries for a word of 32 triangles.
 struct Word {
     uint turns, starts, thirds, warts, t2s, flips;
     uint ups, before;
@@ -242,11 +247,11 @@ struct Word {
 Word load_word(uint word, uint triangle) {
     Word w = Word(turn_word(triangle), starts[word], thirds[word], warts[word], 0u, flips[word], ups[word], before[word]);
     uint wart_before = word % kWords == 0u ? 0u : warts[word - 1u] >> 31;
-    w.t2s = (w.warts << 1 | wart_before) & ~w.starts;  // where a record ends at the T0, there is none
+    w.t2s = (w.warts << 1 | wart_before) & ~w.starts;  // a record that ends at a wart's T0 has no T2 after it
     return w;
 }
 
-// Four triangles from the quad's first on, of which the first `left` are there.
+// Expands the four triangles of a quad; only the first `left` exist.
 void expand_quad(Word w, uint quad, uint triangle, uint left) {
     uint shift = quad % 8u * 4u, at = 4u * quad;
     uint u = w.ups + bits_below(w.turns, shift);
@@ -285,7 +290,7 @@ void expand_quad(Word w, uint quad, uint triangle, uint left) {
     a = mix(a, inner - 1u, t2);
     b = mix(b, inner + 1u, t2);
     uvec4 second = mix(b, tip, reversed), last = mix(tip, b, reversed);
-    bvec4 none = greaterThanEqual(k, uvec4(left));  // drawn by no command
+    bvec4 none = greaterThanEqual(k, uvec4(left));  // past the last triangle: not drawn
     a = mix(a, uvec4(0u), none);
     second = mix(second, uvec4(0u), none);
     last = mix(last, uvec4(0u), none);

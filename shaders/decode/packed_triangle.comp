@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Every triangle of a packed stream by random access, and then all of them again by fours: how a program of its own uses
-// lacedring.glsl, and its test.
+// An example of lacedring.glsl, and its test: decodes every triangle of a packed stream by random access, then all of
+// them again four at a time.
 layout(local_size_x = 64) in;
 
 layout(std430, binding = 0) readonly buffer Words { uint words[]; };

@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
-// Turns every triangle of an index buffer so that the vertex with the smallest original number comes first. Two buffers
-// with the same triangles in other rotations then interpolate alike, to the last bit (docs/renderer.md).
+// Rotates every triangle of an index buffer so that the vertex with the smallest original number comes first. Index
+// buffers that differ only in rotations then give the same interpolated bits (docs/renderer.md).
 #include "shaders/shared.h"
 
 layout(local_size_x = LR_COMPUTE_GROUP) in;
@@ -30,7 +30,7 @@ void main() {
     uvec4 p = indices[at];
     uvec4 q = indices[at + 1u];
     uvec4 r = indices[at + 2u];
-    // The buffer is padded to whole invocations with vertex 0, so the last one may turn triangles that nothing draws.
+    // The buffer is padded to whole invocations with vertex 0: the last one may rotate triangles that are not drawn.
     uvec3 t0 = rotated(p.xyz);
     uvec3 t1 = rotated(uvec3(p.w, q.xy));
     uvec3 t2 = rotated(uvec3(q.zw, r.x));

@@ -2,8 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
-// Decodes a seam section, an invocation a block: first vertex blocks, to where each vertex has its copies, then triangle blocks, to
-// an index buffer over the copies. Where positions come from a vertex stream of the surface, the last pass gives the copies theirs.
+// Decodes a seam section, one block per invocation, in passes: vertex blocks give each vertex's home copies, then
+// triangle blocks give an index buffer over copies. If positions come from a vertex stream of the surface, a third pass
+// gives each copy its vertex's position.
 #include "shaders/shared.h"
 
 layout(local_size_x = LR_VERTEX_GROUP_SIZE) in;
@@ -43,7 +44,7 @@ void main() {
         lr_seam_vertex_block(p, block);
     } else {
         lr_seam_triangle_block(p, block);
-        // rotate.comp reads whole invocations' triangles.
+        // Pads with vertex 0, as rotate.comp reads LR_TRIANGLES_PER_INVOCATION triangles at a time.
         for (uint k = 3u * min((block + 1u) * LR_SEAM_BLOCK, push.slots); k % (3u * LR_TRIANGLES_PER_INVOCATION) != 0u; ++k) {
             LR_SEAM_COPY(k) = 0u;
         }

@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
-// Decodes a vertex stream, an invocation a block: the bits of floats, or, of octahedral ones, the three integers of a
-// direction, into vertices of any stride.
+// Decodes a vertex stream, one block per invocation, into vertices of any stride. Writes the bits of floats; for
+// octahedral streams, the three integers of a direction.
 #include "shaders/shared.h"
 
 layout(local_size_x = LR_VERTEX_GROUP_SIZE) in;

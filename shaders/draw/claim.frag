@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Of the triangles that are nearest in a pixel, at the same depth, the one with the smallest original number wins it.
+// Of the nearest triangles at a pixel (all at the same depth), the one with the smallest original number claims it.
 #include "shaders/draw/surface.glsl"
 
 // Without this the shader would run, and claim, before the depth test.

@@ -1,5 +1,5 @@
-// The push constants of a draw, the same in every stage, and the buffers behind their addresses. Addresses and not
-// descriptors, since no descriptor covers more than maxStorageBufferRange bytes; nothing is written through them.
+// The push constants of a draw, the same in every stage, and the types of the buffers at their addresses. Buffers are
+// read through addresses because a descriptor covers at most maxStorageBufferRange bytes.
 #ifndef LACEDRING_DRAW_PUSH_GLSL
 #define LACEDRING_DRAW_PUSH_GLSL
 #extension GL_EXT_buffer_reference : require
@@ -13,7 +13,8 @@ layout(constant_id = LR_CONSTANT_SEAMS) const bool seams = false;
 
 layout(push_constant) uniform Push { DrawConstants push; };
 
-// From the coordinates of the source into the unit sphere, to the bit as normalise() of renderer/mesh/model.cpp has it.
+// Moves a position from the source's coordinates into the unit sphere, bit for bit like normalise() in
+// renderer/mesh/model.cpp.
 vec3 unit_position(vec3 position) {
     precise vec3 moved = position - push.unit.xyz;
     precise vec3 scaled = moved * push.unit.w;

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// As line.vert; each vertex is decoded from the vertex stream.
+// Like line.vert, but decodes each vertex from the vertex stream.
 #include "shaders/draw/line_vertex.glsl"
 #include "shaders/draw/vertex_source.glsl"
 

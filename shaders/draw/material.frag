@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Color and triangle number of the surface, by its material: metallic-roughness as glTF has it, under a light and a sky
+// Color and triangle number of a surface with a material: metallic-roughness shading as in glTF, under lights and a sky
 // that stay with the camera.
 #include "shaders/draw/materials.glsl"
 
@@ -13,7 +13,7 @@ layout(location = 1) out uint out_triangle;
 
 float srgb(float x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055; }
 
-// What comes from a direction: ground, horizon and sky, and a wide lamp, all the more blurred the rougher what reflects it.
+// Light that arrives from a direction: ground, horizon, sky and a wide lamp. Rougher surfaces see them more blurred.
 vec3 sky(vec3 from, float rough) {
     const vec3 ground = vec3(0.17, 0.155, 0.145), horizon = vec3(0.88, 0.90, 0.92), zenith = vec3(0.42, 0.50, 0.62);
     float blur = mix(0.08, 1.0, rough);
@@ -25,7 +25,8 @@ vec3 sky(vec3 from, float rough) {
     return plain + smoothstep(1.0 - 2.0 * width, 1.0 - 0.5 * width, near) * mix(2.6, 0.35, sqrt(rough));
 }
 
-// The normal of the surface, turned by the normal map: its axes lie along the texture coordinates, whose second one falls.
+// The normal of the surface, modified by the normal map. The map's x axis points along increasing u, its y axis along
+// decreasing v.
 vec3 normal_of(MaterialConstants m, Steps steps, vec3 dx, vec3 dy) {
     vec3 n = normalize(in_normal);
     if (!gl_FrontFacing) n = -n;
@@ -47,7 +48,7 @@ vec3 normal_of(MaterialConstants m, Steps steps, vec3 dx, vec3 dy) {
     return dot(turned, turned) > 0.0 ? normalize(turned) : n;
 }
 
-// Light from `from` of strength 1 that leaves towards the eye; n times from included.
+// The part of light of strength 1 from direction `from` that is reflected toward the eye, dot(n, from) included.
 vec3 reflected(vec3 n, vec3 from, vec3 to_eye, vec3 diffuse, vec3 f0, float rough) {
     vec3 h = normalize(from + to_eye);
     float nl = clamp(dot(n, from), 0.0, 1.0), nv = clamp(dot(n, to_eye), 1e-3, 1.0);
@@ -59,7 +60,7 @@ vec3 reflected(vec3 n, vec3 from, vec3 to_eye, vec3 diffuse, vec3 f0, float roug
     return ((1.0 - f) * diffuse + f * (aa / (d * d)) * (0.5 / max(k, 1e-5))) * nl;
 }
 
-// Keeps hues where light is strong: Khronos' neutral tone mapping.
+// Khronos PBR Neutral tone mapping, which keeps hues in strong light.
 vec3 toned(vec3 c) {
     const float start = 0.76, desaturation = 0.15;
     float low = min(c.r, min(c.g, c.b));
@@ -81,7 +82,7 @@ vec3 lit(MaterialConstants m, Steps steps, vec3 base, vec3 dx, vec3 dy) {
     const vec3 key = normalize(vec3(-0.45, 0.72, 0.62)), fill = normalize(vec3(0.80, 0.05, 0.45));
     vec3 colour = reflected(n, key, to_eye, diffuse, f0, rough) * vec3(0.94, 0.89, 0.82) +
                   reflected(n, fill, to_eye, diffuse, f0, rough) * vec3(0.16, 0.19, 0.24);
-    // What the sky adds: its mean over the half space, and its reflection.
+    // Adds the light of the sky: its mean over the hemisphere, and its reflection.
     float nv = clamp(dot(n, to_eye), 0.0, 1.0);
     vec4 r = rough * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
     float a = min(r.x * r.x, exp2(-9.28 * nv)) * r.x + r.y;

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Depth of the surface, where a material lets it be seen.
+// The depth pass for materials: discards fragments that the material hides.
 #include "shaders/draw/materials.glsl"
 
 void main() {

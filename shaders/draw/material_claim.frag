@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// claim.frag, where a material lets the surface be seen.
+// Like claim.frag, but discards fragments that the material hides.
 #include "shaders/draw/materials.glsl"
 
 layout(early_fragment_tests) in;

@@ -1,5 +1,5 @@
-// Materials and their textures, from buffers: what a fragment of the surface looks like. Texels are blended here, not by
-// samplers: materials may have any number of images of any size, and every device gives the same picture.
+// Reads materials and textures from buffers. Texels are interpolated here instead of by samplers, so that materials may
+// have any number of images of any size, and every device gives the same picture.
 #include "shaders/draw/surface.glsl"
 
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer MaterialTable {
@@ -17,7 +17,8 @@ MaterialConstants material_of(uint triangle) {
     return table.at[Words(table.head.of_triangle).at[triangle]];
 }
 
-// Of both sets of texture coordinates, for the whole quad: before any fragment of it is discarded.
+// Screen-space derivatives of both sets of texture coordinates. Must be computed before any fragment of a quad is
+// discarded.
 struct Steps {
     vec4 x, y;
 };
@@ -29,7 +30,7 @@ int wrapped(int i, int size, uint wrap) {
     if (wrap == 2u) return clamp(i, 0, size - 1);
     int period = wrap == 1u ? 2 * size : size;
     int at = i - period * int(floor(float(i) / float(period)));
-    at = clamp(at, 0, period - 1);  // of numbers past what a float holds
+    at = clamp(at, 0, period - 1);  // needed if i is too large for an exact float
     return at < size ? at : period - 1 - at;
 }
 
@@ -39,7 +40,7 @@ vec4 texel(TextureConstants t, uint first, ivec2 size, ivec2 at) {
     return unpackUnorm4x8(Words(MaterialTable(push.materials).head.texels).at[first + uint(y * size.x + x)]);
 }
 
-// Near enough to the curve of sRGB, and cheap: it is applied to every texel before these are blended.
+// From sRGB to linear, by a cheap approximation, as it is applied to every texel before interpolation.
 vec4 linear(vec4 c, bool is_colour) {
     return is_colour ? vec4(c.rgb * (c.rgb * (c.rgb * 0.305306011 + 0.682171111) + 0.012522878), c.a) : c;
 }
@@ -64,7 +65,7 @@ vec4 level_at(TextureConstants t, uint level, vec2 uv, bool is_colour) {
     return mix(mix(a, b, part.x), mix(c, d, part.x), part.y);
 }
 
-// White where there is no texture.
+// The texture's value at the fragment; white if there is no texture.
 vec4 sampled(TextureConstants t, Steps steps, bool is_colour) {
     if (t.size == 0u) return vec4(1.0);
     vec2 set = set_of(t, in_texture_at);
@@ -80,11 +81,11 @@ vec4 sampled(TextureConstants t, Steps steps, bool is_colour) {
     return value;
 }
 
-// The color of the material and of the vertex, before light.
+// The surface's color before lighting: material, vertex color and texture.
 vec4 base_of(MaterialConstants m, Steps steps) { return m.base_color * in_colour * sampled(m.base, steps, true); }
 
-// Is the surface not there? What is partly transparent has holes, as fine as the samples: the order of triangles does not
-// matter then.
+// True if the material hides this fragment. Partly transparent surfaces are dithered: they hide some samples, so that
+// the order of triangles does not matter.
 bool is_hidden(MaterialConstants m, float alpha) {
     if ((m.flags.x & LR_MATERIAL_DOUBLE_SIDED) == 0u && !gl_FrontFacing) return true;
     if ((m.flags.x & LR_MATERIAL_MASK) != 0u) return alpha < m.emissive.w;

@@ -1,4 +1,5 @@
-// The vertices of a stream's triangles, fetched by the stage that decodes; or decoded, their positions.
+// Fetches a vertex of a stream's triangle, in the stage that decodes the triangle. Decodes the position if it comes
+// from a vertex stream.
 #include "shaders/draw/slot_source.glsl"
 #include "shaders/draw/surface_vertex.glsl"
 #include "shaders/draw/vertex_source.glsl"

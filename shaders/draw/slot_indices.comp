@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What slot_triangle gives, as an index list: the check that the stages which decode by themselves decode what the CPU does.
+// Writes slot_triangle of every slot as an index list, to compare the decoding of the drawing stages with the CPU.
 #include "shaders/draw/slot_source.glsl"
 
 layout(local_size_x = LR_COMPUTE_GROUP) in;

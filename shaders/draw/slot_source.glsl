@@ -1,4 +1,5 @@
-// The triangles of a stream, for the stages that decode by themselves; those over the copies of a surface with seams are read.
+// Decodes the triangles of a stream, for drawing stages (Path::pull, geometry, mesh). If the surface has seams, reads
+// the triangles from `copies` instead.
 #include "shaders/draw/draw_push.glsl"
 
 layout(constant_id = LR_CONSTANT_PACKED) const bool packed_stream = false;
@@ -18,7 +19,7 @@ uint stream_word(uint i) {
 #endif
 #include "shaders/include/lacedring.glsl"
 
-// As rotate.comp turns the triangles of an index buffer.
+// Rotates a triangle like rotate.comp.
 uvec3 rotated(uvec3 t) {
     Words original = Words(push.vertex_order);
     uint a = original.at[t.x];
@@ -44,7 +45,8 @@ uvec3 slot_triangle(uint slot) {
     return rotate ? rotated(t) : t;
 }
 
-// The triangles of slots 2i and 2i + 1 of a lean stream, not rotated. Those of one ring edge need its two words once.
+// The triangles of slots 2i and 2i + 1 of a lean stream, not rotated. The two triangles of a ring edge share its two
+// words.
 void slot_pair(uint slot, out uvec3 t0, out uvec3 t1) {
     LrLeanLayout lean = lean_layout();
     if (slot >= 2u * lean.rings2) {
@@ -61,7 +63,7 @@ void slot_pair(uint slot, out uvec3 t0, out uvec3 t1) {
     t1 = lr_lean_ring_triangle(right, v, next, skip, true);
 }
 
-// The triangles of slots 4i to 4i + 3, of which the first `count` are there.
+// The triangles of slots 4i to 4i + 3; only the first `count` exist.
 uvec3 slot_four[4];
 void read_slot_four(uint slot, uint count) {
     if (seams) {

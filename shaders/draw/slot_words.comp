@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How many words of the stream it takes to decode each slot by itself, or four.
+// Counts the words of the stream that are loaded to decode each slot, or each group of four slots.
 #define LR_COUNT_WORDS
 #include "shaders/draw/slot_source.glsl"
 
@@ -19,5 +19,6 @@ void main() {
         read_slot_four(push.first_slot + local, min(push.slots - local, 4u));
         t = slot_four[0] | slot_four[1] | slot_four[2] | slot_four[3];
     }
-    counts[local] = words_read + (t.x == 0xffffffffu ? 1u : 0u);  // no vertex: so that nothing is optimised away
+    // No vertex has this number: the comparison only keeps the decoding from being optimized away.
+    counts[local] = words_read + (t.x == 0xffffffffu ? 1u : 0u);
 }

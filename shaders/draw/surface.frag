@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Colour and triangle number of the surface.
+// Color and triangle number of the surface.
 #include "shaders/draw/surface.glsl"
 
 layout(early_fragment_tests) in;
@@ -16,7 +16,7 @@ layout(location = 2) in vec3 in_ring_colour;
 layout(location = 0) out vec4 out_colour;
 layout(location = 1) out uint out_triangle;
 
-// The byte of this triangle.
+// This triangle's byte of `classes`.
 uint slot_class() {
     uint i = uint(gl_PrimitiveID);
     return (classes[i / 4u] >> (8u * (i % 4u))) & 0xffu;
@@ -32,7 +32,7 @@ vec3 class_colour() {
     return vec3(0.30);
 }
 
-// Yellow over red to violet for 1 to 16 bits and more; T0 green.
+// Colors for 1 to 16 bits (yellow, red, violet); more bits like 16; T0 green.
 vec3 offset_colour() {
     uint bits = slot_class();
     if (bits == LR_OFFSET_T0) return vec3(0.13, 0.42, 0.10);
@@ -51,7 +51,7 @@ vec3 lit(vec3 albedo, vec3 n, float gloss) {
     vec3 to_eye = normalize(-in_position);
     const vec3 key = normalize(vec3(-0.45, 0.72, 0.62));
     const vec3 fill = normalize(vec3(0.80, 0.05, 0.45));
-    // Wrapped diffuse: no hard edge where the light ends, so that dense meshes stay calm.
+    // Wrapped diffuse: the light has no hard edge, which would flicker on dense meshes.
     float k = clamp((dot(n, key) + 0.20) / 1.20, 0.0, 1.0);
     float f = clamp((dot(n, fill) + 0.35) / 1.35, 0.0, 1.0);
     vec3 sky = mix(vec3(0.10, 0.095, 0.095), vec3(0.24, 0.27, 0.32), 0.5 + 0.5 * n.y);
@@ -62,7 +62,7 @@ vec3 lit(vec3 albedo, vec3 n, float gloss) {
 }
 
 void main() {
-    // Derivatives before the discard, while the whole quad is there.
+    // Derivatives need the whole quad, so they come before the discard.
     vec3 facet = cross(dFdx(in_position), dFdy(in_position));
     uint triangle = original_triangle();
     if (resolve && imageLoad(winner, ivec2(gl_FragCoord.xy)).x != triangle) discard;
@@ -87,9 +87,9 @@ void main() {
     }
     vec3 colour;
     if (view == LR_VIEW_SMOOTH || view == LR_VIEW_RING || view == LR_VIEW_SILHOUETTE || view == LR_VIEW_SEAMS) {
-        // Both sides of the surface are lit, and which one this is comes from the normal, gradually: at a silhouette a
-        // triangle that faces the eye and its neighbour that does not have nearly the same depth, and whichever is seen by
-        // a rounding error must look the same.
+        // Both sides are lit and blended by the normal's direction, not chosen by gl_FrontFacing: at a silhouette, two
+        // neighbors that face toward and away from the eye have nearly the same depth, so rounding decides which is
+        // visible, and both must look the same.
         vec3 n = normalize(in_normal);
         float facing = dot(n, normalize(-in_position));
         colour = mix(lit(albedo, -n, gloss), lit(albedo, n, gloss), smoothstep(-0.12, 0.12, facing));

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A point becomes the triangles of LR_GEOMETRY_SLOTS slots.
+// Turns each input point into the triangles of LR_GEOMETRY_SLOTS slots.
 #include "shaders/draw/pulled_vertex.glsl"
 
 layout(points) in;
@@ -31,7 +31,7 @@ void main() {
     read_slot_four(push.first_slot + begin, min(push.slots - begin, LR_GEOMETRY_SLOTS));
     for (uint i = 0u; i < LR_GEOMETRY_SLOTS; ++i) {
         uvec3 t = slot_four[i];
-        if (t.x == t.y) continue;  // degenerate, or none
+        if (t.x == t.y) continue;  // degenerate, or past the last slot
         emit(t.x, begin + i);
         emit(t.y, begin + i);
         emit(t.z, begin + i);

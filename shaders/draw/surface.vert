@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// From vertex buffers and an index buffer.
+// The vertex shader of Path::compute: reads vertex and index buffers.
 #include "shaders/draw/surface_vertex.glsl"
 
 layout(location = 0) in vec3 in_position;

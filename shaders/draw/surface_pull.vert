@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// No index buffer, no vertex buffer: three vertices a slot, each of which decodes its triangle.
+// The vertex shader of Path::pull, without index and vertex buffers: each of a slot's three vertices decodes the
+// triangle.
 #include "shaders/draw/pulled_vertex.glsl"
 
 layout(location = 0) out vec3 out_position;

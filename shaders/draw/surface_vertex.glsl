@@ -1,13 +1,13 @@
-// A vertex of the surface, in every stage that makes vertices: passes compare depths for equality, so all of them compute
-// it with the same words.
+// Computes a vertex of the surface, for every stage that emits vertices. All use this code, as passes compare depths
+// for equality.
 #include "shaders/draw/draw_push.glsl"
 
 layout(binding = 0) uniform Frame { FrameConstants frame; };
-layout(constant_id = 0) const uint view = LR_VIEW_SMOOTH;  // what no view needs is not fetched for it
+layout(constant_id = 0) const uint view = LR_VIEW_SMOOTH;  // data that the view does not use is not fetched
 
 struct SurfaceVertex {
     vec4 clip;
-    vec3 position;  // in view space, as is the normal
+    vec3 position;  // position and normal are in view space
     vec3 normal;
     vec3 ring_colour;
     vec4 texture_at;  // two sets of texture coordinates
@@ -16,7 +16,7 @@ struct SurfaceVertex {
 
 vec3 ring_colour(float t) {
     if (t < 0.0) return vec3(0.42);
-    // Blue, teal, sand, red: even steps of lightness, so that neighbouring corridors can be told apart.
+    // Blue, teal, sand, red, in even steps of lightness, so that neighboring corridors can be told apart.
     const vec3 stops[5] = vec3[](vec3(0.045, 0.085, 0.50), vec3(0.03, 0.34, 0.72), vec3(0.62, 0.78, 0.72),
                                  vec3(0.92, 0.46, 0.12), vec3(0.52, 0.02, 0.03));
     float x = clamp(t, 0.0, 1.0) * 4.0;
@@ -24,8 +24,8 @@ vec3 ring_colour(float t) {
     return mix(stops[i], stops[i + 1], x - float(i));
 }
 
-// position: in the coordinates of the source; ring: place along the rings in [0, 1], or negative: on no ring; number: of
-// the vertex, among those drawn
+// position: in the source's coordinates; ring: place along the rings in [0, 1], negative if on no ring; number: of the
+// vertex, among the drawn vertices.
 SurfaceVertex surface_vertex(vec3 position, vec3 normal, float ring, uint number) {
     SurfaceVertex v;
     precise vec4 from_eye = frame.view_from_world * vec4(unit_position(position), 1.0);

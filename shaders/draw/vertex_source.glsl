@@ -1,4 +1,4 @@
-// The position of a vertex, decoded from the vertex stream by the invocation that wants it.
+// Decodes the position of one vertex from the vertex stream.
 #include "shaders/draw/draw_push.glsl"
 
 #define LR_VERTEX_WORD(i) Words(push.vertex_stream).at[i]
@@ -6,7 +6,7 @@
 #define LR_VERTEX_PUT(i)
 #include "shaders/include/lacedring_vertices.glsl"
 
-// The bits of its floats; v is a vertex of the stream. Reads its block up to there.
+// The bits of the position's floats; v is a vertex of the stream. Decodes the vertex's block up to it.
 uvec3 stream_position(uint v) {
     LrVertexLayout p = lr_vertex_layout();
     lr_vertex_block(p, v / LR_VERTEX_BLOCK, v % LR_VERTEX_BLOCK + 1u);
@@ -14,5 +14,5 @@ uvec3 stream_position(uint v) {
                  lr_vertex_float(p, 3u * v + 2u, lr_vertex_value[2]));
 }
 
-// The stream's vertex of one that is drawn.
+// The stream's vertex of a drawn vertex v.
 uint stream_vertex(uint v) { return seams ? Words(push.copy_vertices).at[v] : v; }

@@ -1,21 +1,21 @@
-// LacedRing in one file: any triangle of a lean or a packed stream, in any shader stage. Take this file alone.
+// Decodes any triangle of a lean or packed stream, in any shader stage. This file needs no other.
 //
-// Say where the stream's words are, include it, ask:
+// Define a macro that reads the stream's words, include this file, and call:
 //     layout(std430, binding = 0) readonly buffer Stream { uint words[]; };  // or a buffer reference
 //     #define LR_LEAN_WORD(i) words[i]
 //     #include "lacedring.glsl"
 //     ...
 //     uvec3 v = lr_lean_triangle(lr_lean_layout(), slot);  // slot < lr_lean_slots(lr_lean_layout())
-// Of a packed stream:
+// For a packed stream:
 //     #define LR_PACKED_WORD(i) words[i]
 //     uvec3 v = lr_packed_triangle(lr_packed_layout(), t);  // t < lr_packed_triangles(lr_packed_layout())
-// Or four at once, for about what one takes: lr_packed_triangles_of_quad.
-// v are vertices in the stream's order (its vertex_order). A lean triangle whose first two are equal is degenerate: it
-// covers nothing, draw it or skip it. A stream must be valid (lacedring::validate_lean, lacedring::validate_packed); on any other, every
-// loop still ends. docs/engine-guide.md has an example of every stage.
+// lr_packed_triangles_of_quad decodes four triangles in about the time of one.
+// v are vertices in the stream's order (vertex_order maps them to the mesh's). A lean triangle with v.x == v.y is
+// degenerate: it covers nothing; draw it or skip it. The stream must be valid (lacedring::validate_lean,
+// lacedring::validate_packed); with any other, every loop still ends. docs/engine-guide.md has examples.
 //
-// The constants are those of lrcore/codec/lean/lean_format.h and lrcore/codec/packed/packed_format.h, which say what they mean. A C++
-// file may include this one behind them: the compiler then checks that they are the same.
+// lrcore/codec/lean/lean_format.h and lrcore/codec/packed/packed_format.h explain the constants. A C++ file may include
+// this file after these two: the compiler then checks that the constants are the same.
 #ifndef LACEDRING_GLSL
 #define LACEDRING_GLSL
 
@@ -88,8 +88,9 @@
 
 #ifndef __cplusplus
 
-// Lean: random access in constant time, at most four words read. Paper: LR 2011, section 7. A shader that has header and
-// slots in different places says LR_LEAN_HEADER(i) and LR_LEAN_SLOTS(i), both with i counted from the stream's first word.
+// Lean streams: random access in constant time, reading at most four words. Paper: LR 2011, section 7. If header and
+// slots are in different buffers, define LR_LEAN_HEADER(i) and LR_LEAN_SLOTS(i) instead of LR_LEAN_WORD(i); both count
+// i from the stream's first word.
 
 #ifdef LR_LEAN_WORD
 #define LR_LEAN_HEADER(i) LR_LEAN_WORD(i)
@@ -111,15 +112,16 @@ LrLeanLayout lr_lean_layout() {
 
 uint lr_lean_slots(LrLeanLayout lean) { return 2u * lean.rings2 + lean.rings1 + lean.verbatim; }
 
-// v.n of ring vertex v, whose left and right words these are; of a one-sided ring, its one word twice.
+// v.n of ring vertex v. left, right: the words of its two slots; on a one-sided ring, its only word twice.
 uint lr_lean_next(uint v, uint left, uint right) {
     if ((left & LR_LEAN_CLOSE_FLAG) != 0u) return left & LR_LEAN_TIP_MASK;
     if ((right & LR_LEAN_CLOSE_FLAG) != 0u) return right & LR_LEAN_TIP_MASK;
     return v + 1u;
 }
 
-// The triangle of a ring slot: `word` is the slot's, next = v.n, skip = v.n.n (looked at for a wart only). A free slot's
-// tip is one of its edge's own vertices, and so is a right closing slot's: the triangle comes out degenerate by itself.
+// The triangle of a ring slot. `word`: the slot's word; next: v.n; skip: v.n.n (used for a wart only). In a free slot
+// and in a right closing slot, the tip is an end of the slot's own edge, so the triangle is degenerate without a
+// special case.
 uvec3 lr_lean_ring_triangle(uint word, uint v, uint next, uint skip, bool right) {
     bool closes = (word & LR_LEAN_CLOSE_FLAG) != 0u;
     uint tip = closes && !right ? v : word & LR_LEAN_TIP_MASK;
@@ -131,7 +133,7 @@ uvec3 lr_lean_ring_triangle(uint word, uint v, uint next, uint skip, bool right)
 #ifdef LR_LEAN_SLOTS
 uint lr_lean_word(uint i) { return LR_LEAN_SLOTS(LR_LEAN_HEADER_WORDS + i); }
 
-// Every kind of slot takes the same few loads in the same places, so that invocations wait little for each other.
+// All kinds of slots share their loads, so that invocations with different kinds diverge little.
 uvec3 lr_lean_triangle(LrLeanLayout lean, uint slot) {
     uint two_sided = 2u * lean.rings2, ring_slots = two_sided + lean.rings1;
     bool verbatim = slot >= ring_slots, one_sided = slot >= two_sided && !verbatim;
@@ -141,7 +143,7 @@ uvec3 lr_lean_triangle(LrLeanLayout lean, uint slot) {
     bool right = slot < two_sided && (slot & 1u) != 0u;
     uint word = right ? second : first;
     uint next = lr_lean_next(v, first, second), skip = next + 1u;
-    // v.n.n needs no third look: behind a closing edge comes the ring's first edge, which never closes.
+    // After a closing edge, v.n.n is next + 1: the ring's first edge follows, which never closes.
     if (verbatim || ((word & LR_LEAN_WART_FLAG) != 0u && next == v + 1u)) {
         uint far = verbatim ? at + 2u : one_sided ? slot + 1u : 2u * next;
         uint third = lr_lean_word(far);
@@ -152,9 +154,10 @@ uvec3 lr_lean_triangle(LrLeanLayout lean, uint slot) {
 }
 #endif
 
-// Packed: any triangle in a few popcounts, or a record's events in turn (as shaders/decode/packed_decode.comp reads them). A stream
-// that no one descriptor covers has LR_PACKED_HEADER, LR_PACKED_TURNS, LR_PACKED_TABLE and LR_PACKED_GROUPS instead of
-// LR_PACKED_WORD, all with i counted from the stream's first word. A shader without any of them has no packed part.
+// Packed streams: decodes any triangle with a few popcounts, or the events of a record one by one (as
+// shaders/decode/packed_decode.comp does). If the stream is in several buffers, define LR_PACKED_HEADER,
+// LR_PACKED_TURNS, LR_PACKED_TABLE and LR_PACKED_GROUPS instead of LR_PACKED_WORD; all count i from the stream's first
+// word.
 
 #ifdef LR_PACKED_WORD
 #define LR_PACKED_HEADER(i) LR_PACKED_WORD(i)
@@ -165,13 +168,13 @@ uvec3 lr_lean_triangle(LrLeanLayout lean, uint slot) {
 #ifdef LR_PACKED_HEADER
 
 struct LrPackedLayout {
-    uint own;     // the first triangles; the others are their doubles
-    uint table;   // first word of it
-    uint groups;  // first word of them
+    uint own;     // triangles [0, own) are coded; later ones are doubles of these
+    uint table;   // first word of the table of groups
+    uint groups;  // first word of the groups
     uint vertex_bits;
 };
 
-// The first word of what is said of doubles, or of the groups if nothing is.
+// The first word of the doubles section; the first word of the groups if there is none.
 uint lr_packed_doubles(LrPackedLayout p) {
     uint in_group = LR_PACKED_BLOCK * LR_PACKED_GROUP, groups = p.own / in_group + (p.own % in_group == 0u ? 0u : 1u);
     return p.table + max(groups, 1u) - 1u;
@@ -190,14 +193,14 @@ LrPackedLayout lr_packed_layout() {
     return p;
 }
 
-// All of them.
+// The number of all triangles, doubles included.
 uint lr_packed_triangles(LrPackedLayout p) {
     uint doubles = lr_packed_doubles(p);
     return doubles < p.groups ? p.own + LR_PACKED_TABLE(doubles) : p.own;
 }
 
-// A run of doubles: where it begins, where it ends, and its first one's own triangle, or LR_PACKED_DOUBLES if they are turned
-// round.
+// The run of doubles that holds a triangle. x: its first triangle; y: its end; z: the own triangle that the first one
+// doubles, with flag LR_PACKED_DOUBLES if orientations are opposite.
 uvec3 lr_packed_run(LrPackedLayout p, uint triangle) {
     uint runs = lr_packed_doubles(p) + LR_PACKED_DOUBLES_WORDS, count = (p.groups - runs) / LR_PACKED_RUN_WORDS;
     uint low = 0u, high = count;
@@ -215,15 +218,15 @@ uvec3 lr_packed_run(LrPackedLayout p, uint triangle) {
     return uvec3(LR_PACKED_TABLE(run), end, LR_PACKED_TABLE(run + 1u));
 }
 
-// A reader of bits. Each word is loaded once, and none behind the end.
+// A bit reader. Loads each word once, and none past the end.
 struct LrPackedBits {
-    uvec2 bits;  // from the next one on, `ready` of them
+    uvec2 bits;  // the next `ready` bits
     uint ready;
-    uint left;  // bits up to the end
+    uint left;  // bits left up to the end
     uint word;  // the next word to load
 };
 
-// From a bit of the groups on.
+// Starts a reader at a bit of the groups, for `count` bits.
 LrPackedBits lr_packed_bits(LrPackedLayout p, uint bit, uint count) {
     LrPackedBits r;
     uint shift = bit & 31u;
@@ -234,7 +237,7 @@ LrPackedBits lr_packed_bits(LrPackedLayout p, uint bit, uint count) {
     r.left = count;
     return r;
 }
-// So that 32 bits are ready, or all up to the end.
+// Loads bits until 32 are ready, or all up to the end.
 void lr_packed_fill(inout LrPackedBits r) {
     if (r.ready < 32u && r.ready < r.left) {
         uint word = LR_PACKED_GROUPS(r.word);
@@ -244,7 +247,7 @@ void lr_packed_fill(inout LrPackedBits r) {
         r.ready += 32u;
     }
 }
-// The next `count`, at most 31.
+// Reads the next `count` bits, at most 31.
 uint lr_packed_take(inout LrPackedBits r, uint count) {
     lr_packed_fill(r);
     uint value = r.bits.x & ((1u << count) - 1u);
@@ -265,14 +268,14 @@ uint lr_packed_golomb(inout LrPackedBits r, uint order) {
     return (lr_packed_take(r, low) | 1u << low) - (1u << order);
 }
 
-// `count` bits of the groups, at most 32. No word behind them is read.
+// `count` bits of the groups from `bit` on, at most 32. Reads no word past them.
 uint lr_packed_bits_at(LrPackedLayout p, uint bit, uint count) {
     uint shift = bit & 31u, low = 0u, high = 0u;
     if (count != 0u) low = LR_PACKED_GROUPS(p.groups + bit / 32u);
     if (shift + count > 32u) high = LR_PACKED_GROUPS(p.groups + bit / 32u + 1u);
     return bitfieldExtract(low >> shift | high << 1 << (31u - shift), 0, int(count));
 }
-// a, b and reversed.
+// Reads an entry: a, b and reversed.
 uvec3 lr_packed_entry_at(LrPackedLayout p, uint bit) {
     uint shift = bit & 31u, word = p.groups + bit / 32u, end = shift + 2u * p.vertex_bits + 1u;
     uint x = LR_PACKED_GROUPS(word), y = 0u, z = 0u;
@@ -284,18 +287,18 @@ uvec3 lr_packed_entry_at(LrPackedLayout p, uint bit) {
                  (r < 32u ? low >> r : high >> (r - 32u)) & 1u);
 }
 
-// A record, from its number of events on.
+// A record. Its bits begin at the number of events.
 struct LrPackedRecord {
     LrPackedBits bits;
-    uint turn_word;  // of the stream, with the turns of its first triangle
-    uint begin, triangles;  // its first triangle, of the block; how many it has
-    uint a, b;              // its entry
+    uint turn_word;  // word of the stream with the turns of its first triangle
+    uint begin, triangles;  // its first triangle in the block; number of triangles
+    uint a, b;              // the edge at which it is entered
     bool reversed;
-    bool plain;             // is its block?
+    bool plain;             // its block is plain
     uint gap_bits, wart_bits, split_order, count_order;
 };
 
-// The record that holds triangle i of a block. Of a plain block the bits are those of its vertices.
+// The record that holds triangle i of a block. In a plain block, the bits are vertex numbers.
 LrPackedRecord lr_packed_record(LrPackedLayout p, uint block, uint i) {
     uint group = block / LR_PACKED_GROUP, k = block % LR_PACKED_GROUP, first = block * LR_PACKED_BLOCK;
     uint blocks = min((p.own - 1u) / LR_PACKED_BLOCK + 1u - group * LR_PACKED_GROUP, LR_PACKED_GROUP);
@@ -308,7 +311,7 @@ LrPackedRecord lr_packed_record(LrPackedLayout p, uint block, uint i) {
     r.split_order = head >> 27 & 3u;
     r.count_order = head >> 29 & 3u;
 
-    // Blocks 1 to blocks - 1 whose entry is in the head; where the fields are.
+    // Bitmap of blocks 1 to blocks - 1 whose entry is in the head; then the bit positions of the head's fields.
     uint owns = bitfieldExtract(LR_PACKED_GROUPS(p.groups + begin + 1u), 0, int(blocks - 1u)), own = bitfieldExtract(owns, 0, int(k));
     uint entries = bit + 32u + blocks - 1u, entry_size = 2u * p.vertex_bits + 1u;
     uint kinds = entries + (1u + uint(bitCount(owns))) * entry_size;
@@ -326,8 +329,9 @@ LrPackedRecord lr_packed_record(LrPackedLayout p, uint block, uint i) {
     r.begin = 0u;
     r.triangles = min(p.own - first, LR_PACKED_BLOCK);
     r.plain = kind == LR_PACKED_PLAIN;
-    uint entry_bit = entries + uint(bitCount(own)) * entry_size, origin = uint(findMSB(own) + 1);  // its block
-    uint skipped = 0u;  // bits of the record, if it begins with an entry
+    // origin: the block of the entry.
+    uint entry_bit = entries + uint(bitCount(own)) * entry_size, origin = uint(findMSB(own) + 1);
+    uint skipped = 0u;  // bits of the record's own entry, if it begins with one
     if (kind == LR_PACKED_PARTED) {
         uint part = i / LR_PACKED_PART;
         uint lengths = lr_packed_bits_at(p, 8u * byte, 32u);
@@ -357,22 +361,23 @@ LrPackedRecord lr_packed_record(LrPackedLayout p, uint block, uint i) {
     return r;
 }
 
-// The number of events. A damaged stream may claim any: no more are read than the record has bits.
+// The number of events. At most one per bit of the record, even if a damaged stream claims more.
 uint lr_packed_events(inout LrPackedRecord r) {
     return r.bits.left == 0u ? 0u : min(lr_packed_golomb(r.bits, r.count_order), r.bits.left);
 }
 
-// An event, with whatever its code has of these.
+// An event. Its code determines which of these members are used.
 struct LrPackedEvent {
-    uint triangle;  // of the record
-    uint after;     // where the next gap is from
+    uint triangle;  // triangle, counted from the record's first
+    uint after;     // the triangle from which the next gap counts
     uint code, choice;
     uint v, w;
     bool reversed;
-    uint flips;  // bit of the groups at which FLIPS has its bits
+    uint flips;  // FLIPS: bit of the groups at which its bits begin
 };
 
-// The event behind e. What codes share is read in the same place, so that invocations wait little for each other.
+// Reads the event after e. Fields that several codes share are read at the same place, so that invocations diverge
+// little.
 void lr_packed_next_event(LrPackedLayout p, inout LrPackedRecord r, inout LrPackedEvent e) {
     lr_packed_fill(r.bits);
     uint high = min(lr_packed_ones(r.bits.bits.x), 31u);
@@ -411,7 +416,7 @@ void lr_packed_next_event(LrPackedLayout p, inout LrPackedRecord r, inout LrPack
     }
 }
 
-// A reader's state: the edge entered, and the polygon begun last outside of all scopes.
+// A decoder's state: the edge entered, and the last polygon begun outside of all scopes.
 struct LrPackedState {
     uint a, b;
     bool reversed, finished;
@@ -423,12 +428,13 @@ LrPackedState lr_packed_state(LrPackedRecord r) {
     return LrPackedState(r.a, r.b, r.reversed, false, r.a, r.b, r.reversed);
 }
 
-// START or BESIDE. inside: of a scope.
+// START or BESIDE: begins a polygon. inside: whether in a scope.
 void lr_packed_begin(LrPackedEvent e, inout LrPackedState s, bool inside) {
     uint a = s.begun_b + e.v, b = a + e.w;
     if (e.code == LR_PACKED_BESIDE) {
         uint from = e.choice >> 1, step = (e.v & 1u) != 0u ? ~(e.v >> 1) : e.v >> 1;
-        bool is_a = from == LR_PACKED_BESIDE_NOW_B || from == LR_PACKED_BESIDE_BEGUN_A;  // that is counted
+        // Of a and b, one is coded relative to a known vertex (`near`), the other as a number.
+        bool is_a = from == LR_PACKED_BESIDE_NOW_B || from == LR_PACKED_BESIDE_BEGUN_A;
         uint near = step + (from == LR_PACKED_BESIDE_NOW_B     ? s.b
                             : from == LR_PACKED_BESIDE_NOW_A   ? s.a
                             : from == LR_PACKED_BESIDE_BEGUN_A ? s.begun_a
@@ -457,7 +463,7 @@ void lr_packed_begin(LrPackedEvent e, inout LrPackedState s, bool inside) {
     }
 }
 
-// The polygon that follows where nothing else does: behind the one begun last, and as large.
+// Begins the polygon that follows without an event: directly after the last one begun, with the same size.
 void lr_packed_repeat(inout LrPackedState s) {
     uint size = s.begun_b - s.begun_a;
     s.a = s.begun_a = s.begun_b + 1u;
@@ -465,11 +471,11 @@ void lr_packed_repeat(inout LrPackedState s) {
     s.finished = false;
 }
 
-// Triangles of a polygon that is entered across (a, b) until it is finished.
+// The number of triangles left in a polygon that is entered across (a, b).
 uint lr_packed_left(uint a, uint b) { return b - a == 1u ? 0xffffffffu : b - a - 1u; }
 
-// SPLIT, FAR or JUMP: returns its triangle's third vertex and goes on to the part that comes first. `rest` is what comes
-// e.w triangles later, if that is not 0.
+// SPLIT, FAR or JUMP: returns the third vertex of the event's triangle, and moves the state to the first part after it.
+// If e.w is not 0, the rest is entered e.w triangles later, across edge `rest`.
 uint lr_packed_third(LrPackedEvent e, bool up, inout LrPackedState s, out uvec2 rest) {
     bool far = e.code == LR_PACKED_FAR, both = e.code == LR_PACKED_SPLIT || (e.code == LR_PACKED_JUMP && e.choice == 1u);
     uint x = far ? e.v : up ? s.a + e.v : s.b - e.v;
@@ -497,18 +503,19 @@ uvec3 lr_packed_plain(LrPackedLayout p, LrPackedRecord r, uint i) {
 
 uvec3 lr_packed_oriented(uint a, uint x, uint b, bool reversed) { return reversed ? uvec3(a, x, b) : uvec3(a, b, x); }
 
-// The record's turn bits, and for each word the number of ones before it. Global: an array parameter would be copied.
+// The record's turn bits, and the number of ones before each word. Global, as an array parameter would be copied.
 uint lr_packed_turn_bits[LR_PACKED_BLOCK_WORDS + 1u];
 uint lr_packed_turn_ups[LR_PACKED_BLOCK_WORDS];
 bool lr_packed_turn(uint i) { return (lr_packed_turn_bits[i / 32u] >> (i & 31u) & 1u) != 0u; }
-uint lr_packed_ups(uint i) {  // turns before i that are 1
+// The number of 1 turns before triangle i.
+uint lr_packed_ups(uint i) {
     return lr_packed_turn_ups[i / 32u] + uint(bitCount(bitfieldExtract(lr_packed_turn_bits[i / 32u], 0, int(i & 31u))));
 }
 
-// Moves the state from triangle `at` to triangle `to`, by turns alone.
+// Moves the state from triangle `at` to triangle `to`, using turns alone.
 void lr_packed_skip(inout LrPackedState s, inout uint at, uint to) {
     uint left = s.finished ? 0u : lr_packed_left(s.a, s.b);
-    if (to - at > left) {  // whole polygons
+    if (to - at > left) {  // skip whole polygons
         uint each = lr_packed_left(s.begun_a, s.begun_b), behind = to - at - left, whole = (behind - 1u) / each;
         uint size = s.begun_b - s.begun_a;
         s.begun_a += whole * (size + 1u);
@@ -563,7 +570,7 @@ uvec3 lr_packed_own_triangle(LrPackedLayout p, uint triangle) {
             if (e.triangle == i) return lr_packed_oriented(a, x, b, s.reversed != flip);
             at = e.triangle + 1u;
             if (e.w == 0u || e.w >= r.triangles - at) continue;  // no scope
-            if (i - at >= e.w) {                                 // behind it
+            if (i - at >= e.w) {                                 // behind the scope
                 at += e.w;
                 skip = at;
                 s.a = rest.x;
@@ -579,7 +586,8 @@ uvec3 lr_packed_own_triangle(LrPackedLayout p, uint triangle) {
     bool up = lr_packed_turn(i), before = i > 0u && lr_packed_turn(i - (i > 0u ? 1u : 0u)) == up;
     bool here = i + 1u == r.triangles || lr_packed_turn(min(i + 1u, r.triangles - 1u)) == up;
     uint by = 1u, seen = 0u;
-    if (before || here) {  // the T0 of a wart, or the T2 behind it? Warts are told by their rank among the candidates
+    // The triangle may be a wart's T0 or the T2 after it. Warts are identified by their rank among the candidates.
+    if (before || here) {
         while (seen <= rank) {
             lr_packed_fill(r.bits);
             uint high = lr_packed_ones(r.bits.bits.x);
@@ -604,8 +612,8 @@ uvec3 lr_packed_triangle(LrPackedLayout p, uint triangle) {
     return (run.z & LR_PACKED_DOUBLES) != 0u ? v.xzy : v;
 }
 
-// Up to four own triangles from `first` on, into lr_packed_four: those of its record that have their turns in one word. What
-// they share is read once. Returns how many they are.
+// Decodes up to four own triangles from `first` on into lr_packed_four: those in the same record and the same word of
+// turns. Reads shared data once. Returns the number of triangles.
 uvec3 lr_packed_four[4];
 uint lr_packed_own_four(LrPackedLayout p, uint first) {
     uint i = first % LR_PACKED_BLOCK;
@@ -624,7 +632,8 @@ uint lr_packed_own_four(LrPackedLayout p, uint first) {
         candidates = ~(lr_packed_turn_bits[k] ^ (lr_packed_turn_bits[k] >> 1 | behind));
         if (k < word) before += uint(bitCount(candidates));
     }
-    if (r.triangles - 32u * word <= 32u) candidates |= 1u << (r.triangles - 1u - 32u * word);  // the last one, too
+    // The record's last triangle is a candidate, too.
+    if (r.triangles - 32u * word <= 32u) candidates |= 1u << (r.triangles - 1u - 32u * word);
     LrPackedState s[4];
     uint at[4], skip[4];
     bool inside[4], flip[4], known[4];
@@ -674,7 +683,7 @@ uint lr_packed_own_four(LrPackedLayout p, uint first) {
             }
         }
     }
-    uint seen = 0u, firsts = 0u, seconds = 0u;  // T0 of warts among the four, and T2
+    uint seen = 0u, firsts = 0u, seconds = 0u;  // bitmaps of the four: T0s of warts, T2s of warts
     while (seen <= rank[3]) {
         lr_packed_fill(r.bits);
         uint high = lr_packed_ones(r.bits.bits.x);
@@ -704,11 +713,13 @@ uint lr_packed_own_four(LrPackedLayout p, uint first) {
     return min(4u, min(32u - (i & 31u), r.triangles - i));
 }
 
-// Four triangles, or `count`, from a multiple of four on, into lr_packed_quad: faster by far than one by one.
+// Decodes `count` triangles (at most four) from `first` on, a multiple of four, into lr_packed_quad: far faster than
+// one by one.
 uvec3 lr_packed_quad[4];
 void lr_packed_triangles_of_quad(LrPackedLayout p, uint first, uint count) {
     uint done = 0u;
-    for (uint pass = 0u; pass < 4u; ++pass) {  // one, but for doubles and at the end of the own ones
+    // One pass suffices, except for doubles and at the end of the own triangles.
+    for (uint pass = 0u; pass < 4u; ++pass) {
         uint t = first + done, left = min(count - done, p.own - t);
         bool turned = false;
         if (t >= p.own) {

@@ -1,20 +1,22 @@
-// LacedRing for WebGPU in one file: any triangle of a lean or a packed stream, in any shader stage. Take this file alone. It is
-// lacedring.glsl in WGSL, with the same names.
+// Decodes any triangle of a lean or packed stream, in any shader stage. This file needs no other. It is lacedring.glsl
+// in WGSL, with the same names.
 //
-// WGSL has no macros: put this text and your shader together as strings, in any order, and have a function with the stream's words:
+// WGSL has no macros: concatenate this text and your shader, in any order, and define a function that reads words of
+// the stream:
 //     @group(0) @binding(0) var<storage, read> words: array<u32>;  // the stream as it lies in the file
 //     fn lr_stream_word(i: u32) -> u32 { return words[i]; }        // i is counted from the stream's first word
 //     ...
 //     let v = lr_lean_triangle(lr_lean_layout(), slot);            // slot < lr_lean_slots(lr_lean_layout())
-// Of a packed stream:
+// For a packed stream:
 //     let v = lr_packed_triangle(lr_packed_layout(), t);           // t < lr_packed_triangles(lr_packed_layout())
-// Or four at once, for about what one takes: lr_packed_triangles_of_quad. A stream larger than a binding may be
-// (maxStorageBufferBindingSize) lies in several, from which lr_stream_word chooses.
-// v are vertices in the stream's order (its vertex_order). A lean triangle whose first two are equal is degenerate: it
-// covers nothing, draw it or skip it. A stream must be valid (lacedring::validate_lean, lacedring::validate_packed); on any other, every
-// loop still ends, and WebGPU keeps each access inside its buffer. docs/webgpu.md has examples.
+// lr_packed_triangles_of_quad decodes four triangles in about the time of one. If the stream is larger than
+// maxStorageBufferBindingSize, bind it in several parts and let lr_stream_word choose the part.
+// v are vertices in the stream's order (vertex_order maps them to the mesh's). A lean triangle with v.x == v.y is
+// degenerate: it covers nothing; draw it or skip it. The stream must be valid (lacedring::validate_lean,
+// lacedring::validate_packed); with any other, every loop still ends, and WebGPU keeps each access inside its buffer.
+// docs/webgpu.md has examples.
 //
-// The constants are those of lacedring.glsl (tests/js/webgpu.mjs compares them).
+// The constants equal those of lacedring.glsl (tests/js/webgpu.mjs compares them).
 
 const LR_LEAN_MAGIC = 0x4e4c524cu;
 const LR_LEAN_VERSION = 1u;
@@ -72,7 +74,7 @@ const LR_PACKED_SIZE_ORDER = 2u;
 const LR_PACKED_BESIDE_ORDER = 1u;
 const LR_PACKED_FAR_ORDER = 2u;
 
-// Lean: random access in constant time, at most four words read. Paper: LR 2011, section 7.
+// Lean streams: random access in constant time, reading at most four words. Paper: LR 2011, section 7.
 
 struct LrLeanLayout {
   rings2: u32,
@@ -86,15 +88,16 @@ fn lr_lean_layout() -> LrLeanLayout {
 
 fn lr_lean_slots(lean: LrLeanLayout) -> u32 { return 2u * lean.rings2 + lean.rings1 + lean.verbatim; }
 
-// v.n of ring vertex v, whose left and right words these are; of a one-sided ring, its one word twice.
+// v.n of ring vertex v. left, right: the words of its two slots; on a one-sided ring, its only word twice.
 fn lr_lean_next(v: u32, left: u32, right: u32) -> u32 {
   if ((left & LR_LEAN_CLOSE_FLAG) != 0u) { return left & LR_LEAN_TIP_MASK; }
   if ((right & LR_LEAN_CLOSE_FLAG) != 0u) { return right & LR_LEAN_TIP_MASK; }
   return v + 1u;
 }
 
-// The triangle of a ring slot: `word` is the slot's, next = v.n, skip = v.n.n (looked at for a wart only). A free slot's
-// tip is one of its edge's own vertices, and so is a right closing slot's: the triangle comes out degenerate by itself.
+// The triangle of a ring slot. `word`: the slot's word; next: v.n; skip: v.n.n (used for a wart only). In a free slot
+// and in a right closing slot, the tip is an end of the slot's own edge, so the triangle is degenerate without a
+// special case.
 fn lr_lean_ring_triangle(word: u32, v: u32, next: u32, skip: u32, right: bool) -> vec3u {
   let closes = (word & LR_LEAN_CLOSE_FLAG) != 0u;
   let tip = select(word & LR_LEAN_TIP_MASK, v, closes && !right);
@@ -105,7 +108,7 @@ fn lr_lean_ring_triangle(word: u32, v: u32, next: u32, skip: u32, right: bool) -
 
 fn lr_lean_word(i: u32) -> u32 { return lr_stream_word(LR_LEAN_HEADER_WORDS + i); }
 
-// Every kind of slot takes the same few loads in the same places, so that invocations wait little for each other.
+// All kinds of slots share their loads, so that invocations with different kinds diverge little.
 fn lr_lean_triangle(lean: LrLeanLayout, slot: u32) -> vec3u {
   let two_sided = 2u * lean.rings2;
   let ring_slots = two_sided + lean.rings1;
@@ -119,7 +122,7 @@ fn lr_lean_triangle(lean: LrLeanLayout, slot: u32) -> vec3u {
   let word = select(first, second, right);
   let next = lr_lean_next(v, first, second);
   var skip = next + 1u;
-  // v.n.n needs no third look: behind a closing edge comes the ring's first edge, which never closes.
+  // After a closing edge, v.n.n is next + 1: the ring's first edge follows, which never closes.
   if (verbatim || ((word & LR_LEAN_WART_FLAG) != 0u && next == v + 1u)) {
     let far = select(select(2u * next, slot + 1u, one_sided), at + 2u, verbatim);
     let third = lr_lean_word(far);
@@ -129,18 +132,19 @@ fn lr_lean_triangle(lean: LrLeanLayout, slot: u32) -> vec3u {
   return lr_lean_ring_triangle(word, v, next, skip, right);
 }
 
-// Packed: any triangle in a few popcounts.
+// Packed streams: decodes any triangle with a few popcounts.
 
 struct LrPackedLayout {
-  own: u32,     // the first triangles; the others are their doubles
-  table: u32,   // first word of it
-  groups: u32,  // first word of them
+  own: u32,     // triangles [0, own) are coded; later ones are doubles of these
+  table: u32,   // first word of the table of groups
+  groups: u32,  // first word of the groups
   vertex_bits: u32,
 }
 
-fn lr_packed_quotient(x: u32, y: u32) -> u32 { return x / y + select(1u, 0u, x % y == 0u); }  // rounded up
+// x / y, rounded up.
+fn lr_packed_quotient(x: u32, y: u32) -> u32 { return x / y + select(1u, 0u, x % y == 0u); }
 
-// The first word of what is said of doubles, or of the groups if nothing is.
+// The first word of the doubles section; the first word of the groups if there is none.
 fn lr_packed_doubles(p: LrPackedLayout) -> u32 {
   return p.table + max(lr_packed_quotient(p.own, LR_PACKED_BLOCK * LR_PACKED_GROUP), 1u) - 1u;
 }
@@ -158,15 +162,15 @@ fn lr_packed_layout() -> LrPackedLayout {
   return p;
 }
 
-// All of them.
+// The number of all triangles, doubles included.
 fn lr_packed_triangles(p: LrPackedLayout) -> u32 {
   let doubles = lr_packed_doubles(p);
   if (doubles < p.groups) { return p.own + lr_stream_word(doubles); }
   return p.own;
 }
 
-// A run of doubles: where it begins, where it ends, and its first one's own triangle, or LR_PACKED_DOUBLES if they are turned
-// round.
+// The run of doubles that holds a triangle. x: its first triangle; y: its end; z: the own triangle that the first one
+// doubles, with flag LR_PACKED_DOUBLES if orientations are opposite.
 fn lr_packed_run(p: LrPackedLayout, triangle: u32) -> vec3u {
   let runs = lr_packed_doubles(p) + LR_PACKED_DOUBLES_WORDS;
   let count = (p.groups - runs) / LR_PACKED_RUN_WORDS;
@@ -187,17 +191,17 @@ fn lr_packed_run(p: LrPackedLayout, triangle: u32) -> vec3u {
   return vec3u(lr_stream_word(run), end, lr_stream_word(run + 1u));
 }
 
-// The reader of bits. Each word is loaded once, and none behind the end. There is one: WGSL does not hand on pointers into structures
-// everywhere.
+// The bit reader: loads each word once, and none past the end. A global, as not every WGSL implementation passes
+// pointers to members of structures.
 struct LrPackedBits {
-  bits: vec2u,  // from the next one on, `ready` of them
+  bits: vec2u,  // the next `ready` bits
   ready: u32,
-  left: u32,  // bits up to the end
+  left: u32,  // bits left up to the end
   word: u32,  // the next word to load
 }
 var<private> lr_packed_reader: LrPackedBits;
 
-// From a bit of the groups on.
+// Starts a reader at a bit of the groups, for `count` bits.
 fn lr_packed_read_from(p: LrPackedLayout, bit: u32, count: u32) {
   let shift = bit & 31u;
   let word = p.groups + bit / 32u;
@@ -205,7 +209,7 @@ fn lr_packed_read_from(p: LrPackedLayout, bit: u32, count: u32) {
   if (count != 0u) { first = lr_stream_word(word) >> shift; }
   lr_packed_reader = LrPackedBits(vec2u(first, 0u), 32u - shift, count, word + 1u);
 }
-// So that 32 bits are ready, or all up to the end.
+// Loads bits until 32 are ready, or all up to the end.
 fn lr_packed_fill() {
   let ready = lr_packed_reader.ready;
   if (ready < 32u && ready < lr_packed_reader.left) {
@@ -216,7 +220,7 @@ fn lr_packed_fill() {
     lr_packed_reader.ready += 32u;
   }
 }
-// The next `count`, at most 31.
+// Reads the next `count` bits, at most 31.
 fn lr_packed_take(count: u32) -> u32 {
   lr_packed_fill();
   let bits = lr_packed_reader.bits;
@@ -236,13 +240,13 @@ fn lr_packed_golomb(order: u32) -> u32 {
   let low = lr_packed_unary(31u - order) + order;
   return (lr_packed_take(low) | (1u << low)) - (1u << order);
 }
-// Rice's code, which ends with a zero.
+// A Rice code: a unary prefix, then low bits.
 fn lr_packed_rice(high: u32, bits: u32) -> u32 {
   lr_packed_take(high);
   return (high << bits) + (lr_packed_take(1u + bits) >> 1u);
 }
 
-// `count` bits of the groups, at most 32. No word behind them is read.
+// `count` bits of the groups from `bit` on, at most 32. Reads no word past them.
 fn lr_packed_bits_at(p: LrPackedLayout, bit: u32, count: u32) -> u32 {
   let shift = bit & 31u;
   let word = p.groups + bit / 32u;
@@ -252,7 +256,7 @@ fn lr_packed_bits_at(p: LrPackedLayout, bit: u32, count: u32) -> u32 {
   if (shift + count > 32u) { high = lr_stream_word(word + 1u); }
   return extractBits((low >> shift) | ((high << 1u) << (31u - shift)), 0u, count);
 }
-// a, b and reversed.
+// Reads an entry: a, b and reversed.
 fn lr_packed_entry_at(p: LrPackedLayout, bit: u32) -> vec3u {
   let shift = bit & 31u;
   let word = p.groups + bit / 32u;
@@ -270,23 +274,24 @@ fn lr_packed_entry_at(p: LrPackedLayout, bit: u32) -> vec3u {
                select(high >> (r - 32u), low >> r, r < 32u) & 1u);
 }
 
-// A record, from its number of events on.
+// A record. Its bits begin at the number of events.
 struct LrPackedRecord {
-  bit: u32,        // of the groups: where it begins
-  turn_word: u32,  // of the stream, with the turns of its first triangle
-  begin: u32,      // its first triangle, of the block
-  triangles: u32,  // how many it has
-  a: u32,          // its entry
+  bit: u32,        // its first bit in the groups
+  turn_word: u32,  // word of the stream with the turns of its first triangle
+  begin: u32,      // its first triangle in the block
+  triangles: u32,  // number of triangles
+  a: u32,          // (a, b): the edge at which it is entered
   b: u32,
   reversed: bool,
-  plain: bool,  // is its block?
+  plain: bool,  // its block is plain
   gap_bits: u32,
   wart_bits: u32,
   split_order: u32,
   count_order: u32,
 }
 
-// The record that holds triangle i of a block; the reader begins there. Of a plain block the bits are those of its vertices.
+// The record that holds triangle i of a block; starts the bit reader there. In a plain block, the bits are vertex
+// numbers.
 fn lr_packed_record(p: LrPackedLayout, block: u32, i: u32) -> LrPackedRecord {
   let group = block / LR_PACKED_GROUP;
   let k = block % LR_PACKED_GROUP;
@@ -305,7 +310,7 @@ fn lr_packed_record(p: LrPackedLayout, block: u32, i: u32) -> LrPackedRecord {
   r.split_order = (head >> 27u) & 3u;
   r.count_order = (head >> 29u) & 3u;
 
-  // Blocks 1 to blocks - 1 whose entry is in the head; where the fields are.
+  // Bitmap of blocks 1 to blocks - 1 whose entry is in the head; then the bit positions of the head's fields.
   let owns = extractBits(lr_stream_word(p.groups + begin + 1u), 0u, blocks - 1u);
   let own = extractBits(owns, 0u, k);
   let entries = bit + 32u + blocks - 1u;
@@ -331,8 +336,8 @@ fn lr_packed_record(p: LrPackedLayout, block: u32, i: u32) -> LrPackedRecord {
   r.triangles = min(p.own - first, LR_PACKED_BLOCK);
   r.plain = kind == LR_PACKED_PLAIN;
   var entry_bit = entries + countOneBits(own) * entry_size;
-  var origin = firstLeadingBit(own) + 1u;  // its block
-  var skipped = 0u;                        // bits of the record, if it begins with an entry
+  var origin = firstLeadingBit(own) + 1u;  // the block of the entry
+  var skipped = 0u;                        // bits of the record's own entry, if it begins with one
   if (kind == LR_PACKED_PARTED) {
     let part = i / LR_PACKED_PART;
     let lengths = lr_packed_bits_at(p, 8u * byte, 32u);
@@ -363,26 +368,27 @@ fn lr_packed_record(p: LrPackedLayout, block: u32, i: u32) -> LrPackedRecord {
   return r;
 }
 
-// The number of events. A damaged stream may claim any: no more are read than the record has bits.
+// The number of events. At most one per bit of the record, even if a damaged stream claims more.
 fn lr_packed_events(r: LrPackedRecord) -> u32 {
   if (lr_packed_reader.left == 0u) { return 0u; }
   let events = lr_packed_golomb(r.count_order);
   return min(events, lr_packed_reader.left);
 }
 
-// An event, with whatever its code has of these.
+// An event. Its code determines which of these members are used.
 struct LrPackedEvent {
-  triangle: u32,  // of the record
-  after: u32,     // where the next gap is counted from
+  triangle: u32,  // triangle, counted from the record's first
+  after: u32,     // the triangle from which the next gap counts
   code: u32,
   choice: u32,
   v: u32,
   w: u32,
   reversed: bool,
-  flips: u32,  // bit of the groups at which FLIPS has its bits
+  flips: u32,  // FLIPS: bit of the groups at which its bits begin
 }
 
-// The event behind e. What codes share is read in the same place, so that invocations wait little for each other.
+// Reads the event after e. Fields that several codes share are read at the same place, so that invocations diverge
+// little.
 fn lr_packed_next_event(p: LrPackedLayout, r: LrPackedRecord, before: LrPackedEvent) -> LrPackedEvent {
   var e = before;
   lr_packed_fill();
@@ -425,9 +431,9 @@ fn lr_packed_next_event(p: LrPackedLayout, r: LrPackedRecord, before: LrPackedEv
   return e;
 }
 
-// A decoder's state: the edge entered, and the polygon begun last outside of all scopes.
+// A decoder's state: the edge entered, and the last polygon begun outside of all scopes.
 struct LrPackedState {
-  at: u32,  // the triangle of which this is the state
+  at: u32,  // the triangle that is entered across (a, b)
   a: u32,
   b: u32,
   reversed: bool,
@@ -441,7 +447,7 @@ fn lr_packed_state(r: LrPackedRecord) -> LrPackedState {
   return LrPackedState(0u, r.a, r.b, r.reversed, false, r.a, r.b, r.reversed);
 }
 
-// START or BESIDE. inside: of a scope.
+// START or BESIDE: begins a polygon. inside: whether in a scope.
 fn lr_packed_begin(e: LrPackedEvent, before: LrPackedState, inside: bool) -> LrPackedState {
   var s = before;
   var a = s.begun_b + e.v;
@@ -449,7 +455,8 @@ fn lr_packed_begin(e: LrPackedEvent, before: LrPackedState, inside: bool) -> LrP
   if (e.code == LR_PACKED_BESIDE) {
     let place = e.choice >> 1u;
     let stride = select(e.v >> 1u, ~(e.v >> 1u), (e.v & 1u) != 0u);
-    let is_a = place == LR_PACKED_BESIDE_NOW_B || place == LR_PACKED_BESIDE_BEGUN_A;  // that is counted
+    // Of a and b, one is coded relative to a known vertex (`near`), the other as a number.
+    let is_a = place == LR_PACKED_BESIDE_NOW_B || place == LR_PACKED_BESIDE_BEGUN_A;
     var near = s.begun_b;
     if (place == LR_PACKED_BESIDE_NOW_B) { near = s.b; }
     if (place == LR_PACKED_BESIDE_NOW_A) { near = s.a; }
@@ -480,7 +487,7 @@ fn lr_packed_begin(e: LrPackedEvent, before: LrPackedState, inside: bool) -> LrP
   return s;
 }
 
-// The polygon that follows where nothing else does: behind the one begun last, and as large.
+// Begins the polygon that follows without an event: directly after the last one begun, with the same size.
 fn lr_packed_repeat(before: LrPackedState) -> LrPackedState {
   var s = before;
   let size = s.begun_b - s.begun_a;
@@ -492,14 +499,15 @@ fn lr_packed_repeat(before: LrPackedState) -> LrPackedState {
   return s;
 }
 
-// Triangles of a polygon that is entered across (a, b) until it is finished.
+// The number of triangles left in a polygon that is entered across (a, b).
 fn lr_packed_left(a: u32, b: u32) -> u32 { return select(b - a - 1u, 0xffffffffu, b - a == 1u); }
 
-// SPLIT, FAR or JUMP: its triangle's third vertex.
+// SPLIT, FAR or JUMP: the third vertex of its triangle.
 fn lr_packed_third(e: LrPackedEvent, up: bool, s: LrPackedState) -> u32 {
   return select(select(s.b - e.v, s.a + e.v, up), e.v, e.code == LR_PACKED_FAR);
 }
-// Goes on from there to the part that comes first. Behind it, e.w triangles later if that is not 0, comes (x, s.b) (up) or (s.a, x).
+// Moves the state to the first part after the event's triangle, whose third vertex is x. If e.w is not 0, the rest is
+// entered e.w triangles later, across (x, s.b) if up, else across (s.a, x).
 fn lr_packed_enter(e: LrPackedEvent, up: bool, x: u32, before: LrPackedState) -> LrPackedState {
   var s = before;
   let both = e.code == LR_PACKED_SPLIT || (e.code == LR_PACKED_JUMP && e.choice == 1u);
@@ -524,19 +532,20 @@ fn lr_packed_plain(p: LrPackedLayout, r: LrPackedRecord, i: u32) -> vec3u {
 
 fn lr_packed_oriented(a: u32, x: u32, b: u32, reversed: bool) -> vec3u { return select(vec3u(a, b, x), vec3u(a, x, b), reversed); }
 
-// The record's turn bits, and for each word the number of ones before it.
+// The record's turn bits, and the number of ones before each word.
 var<private> lr_packed_turn_bits: array<u32, LR_PACKED_BLOCK_WORDS + 1u>;
 var<private> lr_packed_turn_ups: array<u32, LR_PACKED_BLOCK_WORDS>;
 fn lr_packed_turn(i: u32) -> bool { return ((lr_packed_turn_bits[i / 32u] >> (i & 31u)) & 1u) != 0u; }
-fn lr_packed_ups(i: u32) -> u32 {  // turns before i that are 1
+// The number of 1 turns before triangle i.
+fn lr_packed_ups(i: u32) -> u32 {
   return lr_packed_turn_ups[i / 32u] + countOneBits(extractBits(lr_packed_turn_bits[i / 32u], 0u, i & 31u));
 }
 
-// Moves the state to triangle `to`, by turns alone.
+// Moves the state forward to triangle `to`, using turns alone.
 fn lr_packed_skip(before: LrPackedState, to: u32) -> LrPackedState {
   var s = before;
   var left = select(lr_packed_left(s.a, s.b), 0u, s.finished);
-  if (to - s.at > left) {  // whole polygons
+  if (to - s.at > left) {  // skip whole polygons
     let each = lr_packed_left(s.begun_a, s.begun_b);
     let behind = to - s.at - left;
     let whole = (behind - 1u) / each;
@@ -599,7 +608,7 @@ fn lr_packed_own_triangle(p: LrPackedLayout, triangle: u32) -> vec3u {
       let rest = select(vec2u(s.a, x), vec2u(x, s.b), up);
       s = lr_packed_enter(e, up, x, s);
       if (e.w == 0u || e.w >= r.triangles - s.at) { continue; }  // no scope
-      if (i - s.at >= e.w) {                                     // behind it
+      if (i - s.at >= e.w) {                                     // behind the scope
         s.at += e.w;
         skip = s.at;
         s.a = rest.x;
@@ -617,7 +626,8 @@ fn lr_packed_own_triangle(p: LrPackedLayout, triangle: u32) -> vec3u {
   let here = i + 1u == r.triangles || lr_packed_turn(min(i + 1u, r.triangles - 1u)) == up;
   var by = 1u;
   var seen = 0u;
-  if (before || here) {  // the T0 of a wart, or the T2 behind it? Warts are told by their rank among the candidates
+  // The triangle may be a wart's T0 or the T2 after it. Warts are identified by their rank among the candidates.
+  if (before || here) {
     while (seen <= rank) {
       lr_packed_fill();
       let high = lr_packed_ones(lr_packed_reader.bits.x);
@@ -641,8 +651,8 @@ fn lr_packed_triangle(p: LrPackedLayout, triangle: u32) -> vec3u {
   return select(v, v.xzy, (run.z & LR_PACKED_DOUBLES) != 0u);
 }
 
-// Up to four own triangles from `first` on, into lr_packed_four: those of its record that have their turns in one word. What
-// they share is read once. Returns how many they are.
+// Decodes up to four own triangles from `first` on into lr_packed_four: those in the same record and the same word of
+// turns. Reads shared data once. Returns the number of triangles.
 var<private> lr_packed_four: array<vec3u, 4>;
 fn lr_packed_own_four(p: LrPackedLayout, first: u32) -> u32 {
   var i = first % LR_PACKED_BLOCK;
@@ -667,7 +677,8 @@ fn lr_packed_own_four(p: LrPackedLayout, first: u32) -> u32 {
     candidates = ~(bits ^ ((bits >> 1u) | behind));
     if (k < word) { before += countOneBits(candidates); }
   }
-  if (r.triangles - 32u * word <= 32u) { candidates |= 1u << (r.triangles - 1u - 32u * word); }  // the last one, too
+  // The record's last triangle is a candidate, too.
+  if (r.triangles - 32u * word <= 32u) { candidates |= 1u << (r.triangles - 1u - 32u * word); }
   var states: array<LrPackedState, 4>;
   var rank: array<u32, 4>;
   var skip: array<u32, 4>;
@@ -721,8 +732,8 @@ fn lr_packed_own_four(p: LrPackedLayout, first: u32) -> u32 {
     }
   }
   var seen = 0u;
-  var firsts = 0u;  // T0 of warts among the four
-  var seconds = 0u;  // T2
+  var firsts = 0u;   // bitmap of the four: T0s of warts
+  var seconds = 0u;  // bitmap of the four: T2s of warts
   while (seen <= rank[3]) {
     lr_packed_fill();
     let high = lr_packed_ones(lr_packed_reader.bits.x);
@@ -753,11 +764,13 @@ fn lr_packed_own_four(p: LrPackedLayout, first: u32) -> u32 {
   return min(4u, min(32u - (i & 31u), r.triangles - i));
 }
 
-// Four triangles, or `count`, from a multiple of four on, into lr_packed_quad: faster by far than one by one.
+// Decodes `count` triangles (at most four) from `first` on, a multiple of four, into lr_packed_quad: far faster than
+// one by one.
 var<private> lr_packed_quad: array<vec3u, 4>;
 fn lr_packed_triangles_of_quad(p: LrPackedLayout, first: u32, count: u32) {
   var done = 0u;
-  for (var n = 0u; n < 4u; n++) {  // one, but for doubles and at the end of the own ones
+  // One pass suffices, except for doubles and at the end of the own triangles.
+  for (var n = 0u; n < 4u; n++) {
     var t = first + done;
     var left = min(count - done, p.own - t);
     var turned = false;

@@ -1,16 +1,17 @@
-// The corner operators of the LR tables for WebGPU in one file, each in constant time, in any shader stage. Take this file alone. It is
+// The corner operators on LR tables, each in constant time, in any shader stage. This file needs no other. It is
 // lacedring_operators.glsl in WGSL, with the same names. Paper: LR 2011, sections 4.4 to 4.7 and 5.
 //
-// Put this text and your shader together as strings, and have a function with the words of the tables (lacedring::encode_lr makes them;
-// .lr files of kind lr):
+// Concatenate this text and your shader, and define a function that reads words of the LR stream (made by
+// lacedring::encode_lr, or from an .lr file of kind lr):
 //     @group(0) @binding(0) var<storage, read> words: array<u32>;
 //     fn lr_table_word(i: u32) -> u32 { return words[i]; }
 //     ...
 //     let lr = lr_op_layout();
 //     let across = lr_opposite(lr, c);  // LR_TABLE_NULL across a border
-// Corners are numbers, as in lacedring::Operators: triangle t has 4t, 4t+1, 4t+2, for t < lr_triangle_numbers(lr) where
-// lr_is_canonical(lr, t); the other numbers are redundant copies and borders. Vertices are the stream's (vertex_order).
-// Around a vertex, in the order of lacedring::Operators::star, which on a border begins at the corner that no swing leads to:
+// Corners are numbers, as in lacedring::Operators: triangle t has corners 4t, 4t+1 and 4t+2. Triangle numbers are t <
+// lr_triangle_numbers(lr) with lr_is_canonical(lr, t); other numbers are redundant copies and borders. Vertices are
+// numbered in the stream's order (vertex_order maps them to the mesh's). To visit the corners around a vertex in the
+// order of lacedring::Operators::star (at a border, starting at the corner that no swing leads to):
 //     let first = lr_star_first(lr, v);
 //     var c = first;
 //     for (var left = lr_triangle_numbers(lr); c != LR_TABLE_NULL && left > 0u; left--) {
@@ -18,11 +19,11 @@
 //       c = lr_swing(lr, c);
 //       if (c == first) { break; }
 //     }
-// Where the order does not matter, this is half the work, as nobody walks back to look for a border:
+// If the order does not matter, this loop is twice as fast, as it need not search for a border first:
 //     for (var s = lr_star(lr, v); s.corner != LR_TABLE_NULL; s = lr_star_step(lr, s)) { ... }  // s.corner
-// Triangles have the tables' orientation, the same on both sides of every edge; FLIP is where the input has the other.
-// A stream must be valid (lacedring::validate_lr); on any other, every loop still ends.
-// Null goes into no operator. A stream has fewer than 2^32 words.
+// Triangles have the tables' orientation, which is consistent across every edge; LR_TABLE_FLIP marks triangles with the
+// opposite orientation in the input. The stream must be valid (lacedring::validate_lr) and have fewer than 2^32 words;
+// with any other, every loop still ends. No operator accepts LR_TABLE_NULL.
 
 const LR_TABLE_MAGIC = 0x5443524cu;
 const LR_TABLE_VERSION = 1u;
@@ -53,8 +54,8 @@ struct LrOpLayout {
   t0: u32,        // T0 triangles
   isolated: u32,  // isolated vertices
   vo: u32,        // first word of VO
-  star: u32,      // of VO*
-  c: u32,         // of C
+  star: u32,      // first word of VO*
+  c: u32,         // first word of C
 }
 
 fn lr_op_layout() -> LrOpLayout {
@@ -71,11 +72,11 @@ fn lr_op_layout() -> LrOpLayout {
 
 fn lr_triangle_numbers(lr: LrOpLayout) -> u32 { return 2u * lr.ring + lr.t0; }
 
-// Words of slots. side: 0 left, 1 right. What is done to them is operators.hpp's and LrView's.
+// The word of a slot. side: 0 left, 1 right. operators.hpp and LrView have the same functions.
 fn lr_slot_word(v: u32, side: u32) -> u32 { return lr_table_word(LR_TABLE_HEADER_WORDS + 2u * v + side); }
 fn lr_word_closes(w: u32) -> bool { return (w & LR_TABLE_KIND) == LR_TABLE_CLOSING; }
 fn lr_word_skips(w: u32) -> bool { return (w & (LR_TABLE_SPECIAL | LR_TABLE_WART)) == LR_TABLE_WART; }
-// A triangle with a redundant copy or a T0w in the slot before it has two ring edges.
+// True if w is a redundant copy or a T0w: the triangle in the next slot is then a T2.
 fn lr_word_precedes_t2(w: u32) -> bool { return (w & LR_TABLE_WART) != 0u || (w & LR_TABLE_KIND) == LR_TABLE_REDUNDANT; }
 fn lr_word_tip(lr: LrOpLayout, w: u32) -> u32 {
   let i = w & LR_TABLE_TIP;
@@ -89,31 +90,32 @@ fn lr_ring_next(v: u32) -> u32 {
   return select(v + 1u, w & LR_TABLE_TIP, lr_word_closes(w));
 }
 fn lr_ring_previous(lr: LrOpLayout, v: u32) -> u32 {
-  // The first vertex of a ring has a T2 on its left, between the ring's last edge and its first: its tip is the last.
+  // On the left of a ring's first vertex is a T2 between the ring's last and first edges: its tip is the ring's last
+  // vertex.
   if (v == 0u || lr_word_closes(lr_slot_word(v - 1u, 0u))) { return lr_word_tip(lr, lr_slot_word(v, 0u)); }
   return v - 1u;
 }
 
-// A slot's corners by their roles: start (at v), tip, end (at v.n, or v.n.n where a wart is skipped).
+// The roles of a slot's corners: start (at v), tip, and end (at v.n, or v.n.n if the edge skips a wart).
 const LR_ROLE_START = 0u;
 const LR_ROLE_TIP = 1u;
 const LR_ROLE_END = 2u;
 fn lr_slot_corner(v: u32, side: u32, role: u32) -> u32 { return 8u * v + select(6u - role, role, side == 0u); }
 fn lr_corner_role(c: u32) -> u32 { return select(2u - (c & 3u), c & 3u, (c & 4u) == 0u); }
 
-// The vertex at which the edge of v's slot, whose word is w, ends.
+// The vertex at which the edge of v's slot ends; w is the slot's word.
 fn lr_slot_end(v: u32, w: u32) -> u32 {
   let n = lr_ring_next(v);
   if (lr_word_skips(w)) { return lr_ring_next(n); }
   return n;
 }
-// The slot whose edge ends at v: v.p, or v.p.p where that slot skips v.p.
+// The vertex of the slot whose edge ends at v: v.p, or v.p.p if its slot skips v.p.
 fn lr_slot_before(lr: LrOpLayout, v: u32, side: u32) -> u32 {
   let p = lr_ring_previous(lr, v);
   let pp = lr_ring_previous(lr, p);
   return select(p, pp, lr_word_skips(lr_slot_word(pp, side)));
 }
-// The third vertex of a slot's triangle, whichever copy it is; null where there is none.
+// The third vertex of the triangle in a slot, even of a redundant copy; null if the slot has no triangle.
 fn lr_slot_tip(lr: LrOpLayout, w: u32) -> u32 {
   let kind = w & LR_TABLE_KIND;
   if (kind == LR_TABLE_BORDER) { return LR_TABLE_NULL; }
@@ -121,9 +123,9 @@ fn lr_slot_tip(lr: LrOpLayout, w: u32) -> u32 {
   return lr_word_tip(lr, w);
 }
 
-// Of T0 corners, and of null.
+// True for corners of T0 triangles, and for null.
 fn lr_is_t0(lr: LrOpLayout, c: u32) -> bool { return c >= 8u * lr.ring; }
-// Word 0, 1 or 2 of a T0 is a vertex, 3, 4 or 5 an opposite.
+// A T0 has six words: three vertices (array = 0), then three opposite corners (array = 3).
 fn lr_t0_word(lr: LrOpLayout, c: u32, field: u32) -> u32 {
   let i = c - 8u * lr.ring;
   return lr_table_word(lr.vo + i / 4u * 6u + (i & 3u) + field);
@@ -133,13 +135,13 @@ fn lr_t0_word(lr: LrOpLayout, c: u32, field: u32) -> u32 {
 fn lr_next(c: u32) -> u32 { return select(c + 1u, c - 2u, (c & 3u) == 2u); }
 fn lr_previous(c: u32) -> u32 { return select(c - 1u, c + 2u, (c & 3u) == 0u); }
 
-// Does the triangle exist, and is this its canonical number (not that of a T2's first copy)?
+// True if the triangle exists and this is its canonical number (not the number of a T2's first copy).
 fn lr_is_canonical(lr: LrOpLayout, triangle: u32) -> bool {
   if (triangle >= 2u * lr.ring) { return true; }
   return (lr_slot_word(triangle / 2u, triangle & 1u) & LR_TABLE_SPECIAL) == 0u;
 }
 
-// The same corner in the next slot, if this is a first copy's. Null stays null.
+// For a corner of a T2's first copy, the same corner of its second copy in the next slot; else c. Null stays null.
 fn lr_turned(lr: LrOpLayout, c: u32) -> u32 {
   if (lr_is_t0(lr, c)) { return c; }
   let v = c / 8u;
@@ -147,11 +149,12 @@ fn lr_turned(lr: LrOpLayout, c: u32) -> u32 {
   let w = lr_slot_word(v, side);
   if ((w & LR_TABLE_SPECIAL) == 0u) { return c; }
   if ((w & LR_TABLE_KIND) == LR_TABLE_BORDER) { return LR_TABLE_NULL; }
-  let role = lr_corner_role(c);  // start, tip, end are tip, end, start seen from the second copy
+  let role = lr_corner_role(c);  // start, tip, end of the first copy are tip, end, start of the second
   return lr_slot_corner(lr_ring_next(v), side, select(role + 1u, LR_ROLE_START, role == LR_ROLE_END));
 }
-// The same corner under its canonical number. Null for a corner of no triangle (a border slot).
-fn lr_canonical(lr: LrOpLayout, c: u32) -> u32 { return lr_turned(lr, lr_turned(lr, c)); }  // twice: it may be a whole ring
+// The canonical number of a corner. Null for a corner of a border slot, which has no triangle.
+// Twice, for a triangle with three ring edges.
+fn lr_canonical(lr: LrOpLayout, c: u32) -> u32 { return lr_turned(lr, lr_turned(lr, c)); }
 
 // c.v
 fn lr_vertex(lr: LrOpLayout, c: u32) -> u32 {
@@ -164,8 +167,8 @@ fn lr_vertex(lr: LrOpLayout, c: u32) -> u32 {
   return lr_slot_end(v, w);
 }
 
-// c.o where its slot and those beside it have no flag: two or three words. Else LR_TABLE_NULL, and lr_opposite has to
-// look closer.
+// A fast path of c.o for slots without flags in and beside them: reads two or three words. Returns LR_TABLE_NULL if it
+// does not apply.
 fn lr_plain_opposite(lr: LrOpLayout, c: u32) -> u32 {
   let v = c / 8u;
   let side = (c / 4u) & 1u;
@@ -176,7 +179,7 @@ fn lr_plain_opposite(lr: LrOpLayout, c: u32) -> u32 {
   if ((c & 3u) == 1u) { return select(LR_TABLE_NULL, c ^ 4u, (w | other) <= LR_TABLE_TIP); }
   let before = lr_slot_word(v - 1u, side);
   if ((w | before) > LR_TABLE_TIP || lr_word_closes(left)) { return LR_TABLE_NULL; }
-  if ((c & 7u) % 6u == 0u) {  // at v: the slot that starts at v.n, or the one that ends at the tip
+  if ((c & 7u) % 6u == 0u) {  // at v: the opposite slot starts at v.n or ends at the tip
     let after = lr_slot_word(v + 1u, side);
     if (after > LR_TABLE_TIP) { return LR_TABLE_NULL; }
     if (after == w) { return select(c + 6u, c + 10u, side == 0u); }
@@ -185,7 +188,7 @@ fn lr_plain_opposite(lr: LrOpLayout, c: u32) -> u32 {
     let found = lr_slot_word(u, side) == v + 1u && !lr_word_skips(lr_slot_word(u - 1u, side)) && !lr_word_closes(lr_slot_word(u, 0u));
     return select(LR_TABLE_NULL, 8u * u + (c & 7u), found);
   }
-  // At v.n: the slot that ends at v, or the one that starts at the tip.
+  // At v.n: the opposite slot ends at v or starts at the tip.
   if (lr_word_skips(lr_slot_word(v - 2u, side)) || lr_word_closes(lr_slot_word(v - 1u, 0u)) || lr_word_closes(lr_slot_word(v - 2u, 0u))) {
     return LR_TABLE_NULL;
   }
@@ -194,17 +197,18 @@ fn lr_plain_opposite(lr: LrOpLayout, c: u32) -> u32 {
   return LR_TABLE_NULL;
 }
 
-// What lies across v's ring edge, on side `side`; a first copy's corner where it is one's.
+// The corner that faces v's ring edge on side `side`; not yet canonical (may belong to a first copy).
 fn lr_across_ring(v: u32, side: u32) -> u32 {
   let w = lr_slot_word(v, side);
   if ((w & LR_TABLE_KIND) == LR_TABLE_BORDER) { return LR_TABLE_NULL; }
-  // A T2 whose first copy, real or taken by a T0w, is here: its second copy's end corner faces this edge.
+  // A T2 has its first copy here (perhaps replaced by a T0w): the end corner of its second copy faces this edge.
   if (lr_word_precedes_t2(w)) { return lr_slot_corner(lr_ring_next(v), side, LR_ROLE_END); }
   return lr_slot_corner(v, side, LR_ROLE_TIP);
 }
 
-// Across (tip, end), or (start, tip), of the triangle of v's slot, where its word does not say: the slot that touches the
-// near end of that edge, or the one that touches the tip; a first copy's corner where it is one's.
+// The corner opposite edge (tip, end) (facing_start) or (start, tip) of the triangle in v's slot, if its word does not
+// store it: looks at the slot at the edge's end or start, then at the slot at the tip. Not yet canonical (may belong to
+// a first copy).
 fn lr_infer_opposite(lr: LrOpLayout, v: u32, side: u32, w: u32, facing_start: bool) -> u32 {
   let u = lr_word_tip(lr, w);
   var near = 0u;
@@ -223,7 +227,7 @@ fn lr_infer_opposite(lr: LrOpLayout, v: u32, side: u32, w: u32, facing_start: bo
   return lr_slot_corner(far, side, select(LR_ROLE_END, LR_ROLE_START, facing_start));
 }
 
-// c.o: canonical, or null across a border.
+// c.o: a canonical corner, or null across a border.
 fn lr_opposite(lr: LrOpLayout, corner: u32) -> u32 {
   if (lr_is_t0(lr, corner)) { return lr_t0_word(lr, corner, 3u); }
   let plain = lr_plain_opposite(lr, corner);
@@ -234,7 +238,7 @@ fn lr_opposite(lr: LrOpLayout, corner: u32) -> u32 {
   let side = (c / 4u) & 1u;
   let role = lr_corner_role(c);
   let w = lr_slot_word(v, side);
-  // The ring edge to cross and to which side, if it is one.
+  // If the edge opposite c is a ring edge: the vertex at which it starts.
   var across = LR_TABLE_NULL;
   if (role == LR_ROLE_TIP) {
     if ((w & LR_TABLE_WART) != 0u) { return lr_slot_corner(lr_ring_next(v), side, LR_ROLE_START); }  // the T2w's tip
@@ -263,7 +267,7 @@ fn lr_opposite(lr: LrOpLayout, corner: u32) -> u32 {
 // c.l = c.n.o, c.r = c.p.o
 fn lr_left(lr: LrOpLayout, c: u32) -> u32 { return lr_opposite(lr, lr_next(c)); }
 fn lr_right(lr: LrOpLayout, c: u32) -> u32 { return lr_opposite(lr, lr_previous(c)); }
-// c.s: the next corner around c's vertex, null at a border; and the corner whose swing is c.
+// c.s: the next corner around c's vertex, null at a border; lr_swing_back is its inverse.
 fn lr_swing(lr: LrOpLayout, c: u32) -> u32 {
   let l = lr_left(lr, c);
   return select(lr_next(l), l, l == LR_TABLE_NULL);
@@ -273,25 +277,25 @@ fn lr_swing_back(lr: LrOpLayout, c: u32) -> u32 {
   return select(lr_previous(r), r, r == LR_TABLE_NULL);
 }
 
-// v.c: canonical; null for a vertex of no triangle.
+// v.c: a canonical corner; null if no triangle uses the vertex.
 fn lr_corner(lr: LrOpLayout, v: u32) -> u32 {
-  if (v < lr.ring) { return lr_canonical(lr, 8u * v); }  // the left side always has a triangle
+  if (v < lr.ring) { return lr_canonical(lr, 8u * v); }  // the left slot of a ring vertex always has a triangle
   if (v < lr.ring + lr.isolated) { return lr_table_word(lr.c + (v - lr.ring)); }
   return LR_TABLE_NULL;
 }
 
-// Every triangle at a vertex once: from v.c on by swing and, where that meets a border, from v.c the other way.
+// Visits every triangle at a vertex once: swings from v.c; at a border, continues from v.c in the other direction.
 struct LrStar {
-  corner: u32,  // null: that was all
+  corner: u32,  // null at the end
   first: u32,
-  border: bool,  // met, that is: the rest goes by swing_back
-  left: u32,     // no more than this many triangles, whatever the tables say
+  border: bool,  // a border was met: now swings back
+  left: u32,     // ends after this many triangles, even if tables are malformed
 }
 fn lr_star(lr: LrOpLayout, v: u32) -> LrStar {
   let first = lr_corner(lr, v);
   return LrStar(first, first, false, lr_triangle_numbers(lr));
 }
-// Looks a second time where it meets the border, and only there.
+// Moves to the next corner of the star. Only the step that meets the border runs the loop twice.
 fn lr_star_step(lr: LrOpLayout, before: LrStar) -> LrStar {
   var s = before;
   var c = s.corner;
@@ -310,7 +314,7 @@ fn lr_star_step(lr: LrOpLayout, before: LrStar) -> LrStar {
   return s;
 }
 
-// v.c, or if v is on a border the corner that no swing leads to. O(valence).
+// v.c; if v is on a border, the corner of v that no swing leads to. O(valence).
 fn lr_star_first(lr: LrOpLayout, v: u32) -> u32 {
   let first = lr_corner(lr, v);
   var c = first;
@@ -323,7 +327,7 @@ fn lr_star_first(lr: LrOpLayout, v: u32) -> u32 {
   return first;
 }
 
-// Edges at v: its triangles, and one more on a border. O(valence).
+// The number of edges at v: the number of triangles, plus one on a border. O(valence).
 fn lr_valence(lr: LrOpLayout, v: u32) -> u32 {
   var count = 0u;
   var s = lr_star(lr, v);

@@ -1,38 +1,38 @@
-// Decodes seam sections (docs/seams-format.md) in a shader of yours: which copy of its vertex each corner of a triangle has. The
-// triangles must be there already, as an index list of the surface: the slots of a stream, expanded with lacedring.glsl.
+// Decodes seam sections (docs/seams-format.md): finds the copy of its vertex that each corner of a triangle uses. Needs
+// the surface's triangles as an index list: the slots of a stream, already expanded with lacedring.glsl.
 //
-//     #define LR_SEAM_WORD(i) words[i]                 // a uint of the section. Up to two words behind it are read: any values
-//     // Of the shader that decodes the vertex blocks:
+//     #define LR_SEAM_WORD(i) words[i]             // word i of the section; reads up to two words past it (any values)
+//     // In the shader that decodes the vertex blocks:
 //     #define LR_SEAM_PUT_HOME(v, value) home[v] = value
-//     // Of the shader that decodes the triangle blocks, once the others are done:
+//     // In the shader that decodes the triangle blocks, after all vertex blocks:
 //     #define LR_SEAM_HOME(v) home[v]
-//     #define LR_SEAM_VERTEX(k) indices[k]             // the vertex of corner k: corner k % 3 of triangle k / 3
-//     #define LR_SEAM_COPY(k) copies[k]                // a uint of a buffer that is read and written: gets the copy of corner k
-//     // Of both, if wanted: called for every copy once, with its vertex
+//     #define LR_SEAM_VERTEX(k) indices[k]         // the vertex of corner k: corner k % 3 of triangle k / 3
+//     #define LR_SEAM_COPY(k) copies[k]            // a uint of a read-write buffer: receives the copy of corner k
+//     // Optional, in both: called once for every copy, with its vertex
 //     #define LR_SEAM_PUT_VERTEX(copy, v) vertex_of[copy] = v
 //     #include "lacedring_seams.glsl"
 //
 //     LrSeamLayout seams = lr_seam_layout(vertex_count, triangle_count);
-//     lr_seam_vertex_block(seams, block);              // an invocation for each 512 vertices
-//     lr_seam_triangle_block(seams, block);            // an invocation for each 512 triangles
+//     lr_seam_vertex_block(seams, block);          // one invocation per 512 vertices
+//     lr_seam_triangle_block(seams, block);        // one invocation per 512 triangles
 //
-// The triangle count is that of the slots. A slot that names a vertex twice has no triangle (the degenerate ones of lean streams): its
-// corners get copy 0. home[v] is twice the first copy of vertex v, plus 1 if it wraps; vertex_count + 1 entries. home[vertex_count] / 2
-// is the number of home copies.
-// A section must be valid for these triangles (lacedring::validate_seams). On any other, every loop still ends and nothing but
-// home[0..vertex_count] and the block's own corners is written; but LR_SEAM_PUT_VERTEX may be called for copies that are not there, and
-// entries of `home` and words behind the section may be asked for.
+// triangle_count counts slots. A slot that names a vertex twice has no triangle (degenerate slots of lean streams): its
+// corners get copy 0. home[v] is twice the first copy of vertex v, plus 1 if the vertex wraps. It has vertex_count + 1
+// entries; home[vertex_count] / 2 is the number of home copies. The section must be valid for these triangles
+// (lacedring::validate_seams). With any other, every loop still ends, and only home[0..vertex_count] and the block's
+// own corners are written; but LR_SEAM_PUT_VERTEX may be called for copies that do not exist, and entries past `home`
+// and words past the section may be read.
 #ifndef LACEDRING_SEAMS_GLSL
 #define LACEDRING_SEAMS_GLSL
 
 #define LR_SEAM_HEADER_WORDS 8u
-#define LR_SEAM_BLOCK 512u  // triangles of a block; vertices of a vertex block
-#define LR_SEAM_GROUP 32u   // blocks of a group of a directory
-#define LR_SEAM_BACK 64u    // triangles before a triangle among which its parent is searched
+#define LR_SEAM_BLOCK 512u  // triangles of a triangle block, vertices of a vertex block
+#define LR_SEAM_GROUP 32u   // blocks per group of a directory
+#define LR_SEAM_BACK 64u    // a triangle's parent is searched among this many triangles before it
 #define LR_SEAM_MAX_STEPS 255u
 #define LR_SEAM_ENDLESS 0x7fffffff
 
-// Contexts. The section's table has a likely value and a run class for each.
+// Contexts of binary flags. The section's table has a likely value and a run class for each.
 #define LR_SEAM_V0 0u
 #define LR_SEAM_MORE 3u
 #define LR_SEAM_MANY 4u
@@ -65,11 +65,11 @@
 #define LR_SEAM_OTHER 31u  // any other home copy
 #define LR_SEAM_NONE 32u
 
-// The vertex blocks or the triangle blocks.
+// One of the section's two parts: vertex blocks or triangle blocks.
 struct LrSeamPart {
-    uint length_bits, copy_bits;  // of the directory's fields
+    uint length_bits, copy_bits;  // widths of the directory's fields
     uint directory;               // its first bit in the section
-    uint word, bit;               // where the blocks begin
+    uint word, bit;               // position at which its blocks begin
 };
 struct LrSeamLayout {
     uint vertices, triangles;  // of the mesh
@@ -77,19 +77,19 @@ struct LrSeamLayout {
     LrSeamPart by_vertex, by_triangle;
 };
 
-// 32 bits from bit `bit` behind word `word` on.
+// The 32 bits that begin `bit` bits after the start of word `word`.
 uint lr_seam_load(uint word, uint bit) {
     uint at = word + bit / 32u, shift = bit & 31u, low = LR_SEAM_WORD(at) >> shift;
     return shift == 0u ? low : low | LR_SEAM_WORD(at + 1u) << (32u - shift);
 }
 uint lr_seam_field(uint at, uint bits) { return bitfieldExtract(lr_seam_load(0u, at), 0, int(bits)); }
 
-// The block that is read: its bits are counted from word lr_seam_word on.
+// The block being read. Bit positions count from word lr_seam_word.
 uint lr_seam_word, lr_seam_at, lr_seam_end;
-int lr_seam_run[8];   // of each run class: likely values still to come; -1: the run is not read yet
-uvec4 lr_seam_table;  // of contexts
+int lr_seam_run[8];   // by run class: likely values left in the run; -1: the run is not read yet
+uvec4 lr_seam_table;  // likely value and run class of each context
 
-// Begins to read a block. Returns how many copies the blocks before it make.
+// Starts reading a block. Returns the number of copies made by the blocks before it.
 uint lr_seam_open(LrSeamPart part, uint block) {
     uint group = block / LR_SEAM_GROUP, size = part.length_bits + part.copy_bits;
     uint at = part.directory + group * (LR_SEAM_GROUP * size + 64u), begin = 0u, before = 0u;
@@ -209,14 +209,15 @@ void lr_seam_vertex_block(LrSeamLayout p, uint block) {
 #endif
 
 #ifdef LR_SEAM_COPY
-// While its block is decoded, a corner's word in the buffer has two more bits.
-#define LR_SEAM_LAST 0x80000000u   // of a vertex that wraps: home copy 0, as the last position
-#define LR_SEAM_RIGHT 0x40000000u  // first corner: the triangle lies on the right of the ring
+// While a block is decoded, the words of its corners have two flags beside the copy.
+#define LR_SEAM_LAST 0x80000000u   // copy 0 of a vertex that wraps, used as its last position
+#define LR_SEAM_RIGHT 0x40000000u  // in a triangle's first corner: the triangle is right of the ring
 #define LR_SEAM_COPY_BITS 0x3fffffffu
 
 uvec3 lr_seam_triangle(uint i) {
     uvec3 t = uvec3(LR_SEAM_VERTEX(3u * i), LR_SEAM_VERTEX(3u * i + 1u), LR_SEAM_VERTEX(3u * i + 2u));
-    return t.x == t.y || t.y == t.z || t.z == t.x ? uvec3(0xffffffffu) : t;  // no vertex has this number
+    // A degenerate slot gets a number that no vertex has.
+    return t.x == t.y || t.y == t.z || t.z == t.x ? uvec3(0xffffffffu) : t;
 }
 uint lr_seam_corner(uvec3 t, uint v) { return t.x == v ? 0u : t.y == v ? 1u : t.z == v ? 2u : 3u; }
 bool lr_seam_two(bvec3 has) { return (has.x && has.y) || (has.z && (has.x || has.y)); }
@@ -230,13 +231,13 @@ uint lr_seam_side(uvec3 t) {  // 0 left, 1 right, 2 no ring edge
     return t.z == t.x + 1u ? 1u : 2u;
 }
 
-// A bit for a vertex.
+// A hash of a vertex: one bit of 32.
 uint lr_seam_mark(uint v) { return 1u << (v * 0x9e3779b9u >> 27); }
 
 // The home copies of the three vertices of a triangle.
 struct LrSeamHomes {
-    uvec3 first, count;  // home copies
-    uvec3 steps;         // the last position
+    uvec3 first, count;  // of the home copies
+    uvec3 steps;         // number of the last position
 };
 LrSeamHomes lr_seam_homes(uvec3 t) {
     uvec3 entry = uvec3(LR_SEAM_HOME(t.x), LR_SEAM_HOME(t.y), LR_SEAM_HOME(t.z));
@@ -246,20 +247,23 @@ LrSeamHomes lr_seam_homes(uvec3 t) {
     h.steps = h.count - 1u + (entry & 1u);
     return h;
 }
-uint lr_seam_place(LrSeamHomes h, uint j, uint position) {  // the word of corner j at a position
+uint lr_seam_place(LrSeamHomes h, uint j, uint position) {  // the word that stands for a position of corner j's vertex
     return position == h.count[j] ? h.first[j] | LR_SEAM_LAST : h.first[j] + position;
 }
 
-// An end of the edge that a triangle shares with its parent.
+// One end of the edge that a triangle shares with its parent.
 struct LrSeamEnd {
-    uint word;      // in the parent
-    uint position;  // likewise, if it is not private
+    uint word;      // its word in the parent
+    uint position;  // its position in the parent, if not private
     bool is_private;
-    uint far;     // the position where the fan ends
-    uint type;    // left: 0 one position, 1 at the end, 2 on its way, 3 too late; right: 0, 1 at the end, 2 not
-    uint fan;     // counts the fan's triangles from this one on, up to 3
+    uint far;     // the position at which the fan ends
+    // On the left: 0 only one position, 1 at `far`, 2 can still reach `far`, 3 cannot.
+    // On the right: 0 only one position, 1 at `far`, 2 not at `far`.
+    uint type;
+    uint fan;     // number of the fan's triangles from this one on, at most 3
 };
-// `next`: the two triangles behind it. The block has `left` triangles from this one on.
+// Describes the end at corner j of the edge that triangle t shares with `parent`; `other`: the corner at the edge's
+// other end. next: the two triangles after t. left: triangles from t on in the block.
 LrSeamEnd lr_seam_end_of(LrSeamLayout p, uvec3 t, LrSeamHomes h, uint j, uint other, uvec3 parent, uint parent_corner, uint side, uvec3 next[2],
                          uint left) {
     uint v = t[j], in_parent = lr_seam_corner(parent, v);
@@ -280,13 +284,13 @@ LrSeamEnd lr_seam_end_of(LrSeamLayout p, uvec3 t, LrSeamHomes h, uint j, uint ot
     return e;
 }
 
-// Asks whether a corner has the copy at a position, and whether it has a new private one.
+// The flags to read for a corner: does it have the copy at position `at`, and does it have a new private copy?
 struct LrSeamQuestion {
-    uint at, at_context;  // LR_SEAM_NONE: not asked
+    uint at, at_context;  // LR_SEAM_NONE: the flag is not read
     uint new_context;
-    bool new_first;  // asked before the position
+    bool new_first;  // its flag is read before that of the position
 };
-// The question for an end that changes.
+// The question for an end of the shared edge whose copy changes.
 LrSeamQuestion lr_seam_change(LrSeamEnd e, uint steps, uint side) {
     LrSeamQuestion q = LrSeamQuestion(e.far, LR_SEAM_STEP_L, LR_SEAM_NEW_L, false);
     if (side == 0u) {
@@ -303,7 +307,8 @@ LrSeamQuestion lr_seam_change(LrSeamEnd e, uint steps, uint side) {
     }
     return q;
 }
-// The question for corner j, which is not in the parent. With a parent, the words of the others are known.
+// The question for corner j, which is not in the parent. If there is a parent, the words of the other corners are
+// known.
 LrSeamQuestion lr_seam_start(uvec3 t, LrSeamHomes h, uvec3 words, uint j, uint side, bool has_parent) {
     uint steps = h.steps[j];
     uint before = lr_seam_corner(t, t[j] - 1u), after = lr_seam_corner(t, t[j] + 1u);
@@ -315,7 +320,7 @@ LrSeamQuestion lr_seam_start(uvec3 t, LrSeamHomes h, uvec3 words, uint j, uint s
     q.at_context = steps > 0u ? LR_SEAM_MID_R2 : LR_SEAM_MID_R;
     q.new_context = steps > 0u ? LR_SEAM_NEW_M : LR_SEAM_NEW_R;
     if (!has_parent) return q;
-    for (uint n = 0u; n < 2u; ++n) {  // the ring neighbor's copy where the ring edge is
+    for (uint n = 0u; n < 2u; ++n) {  // compares the copies of neighbors along the ring
         uint neighbor = n == 0u ? before : after;
         if (neighbor == 3u) continue;
         bool plain = ((words[neighbor] ^ lr_seam_place(h, neighbor, n == 0u ? h.steps[neighbor] : 0u)) & LR_SEAM_COPY_BITS) == 0u;
@@ -328,11 +333,13 @@ LrSeamQuestion lr_seam_start(uvec3 t, LrSeamHomes h, uvec3 words, uint j, uint s
     return q;
 }
 
-// Reads the word of corner j, whose copy is not that of the word `current`. `made`: the next private copy.
-#define LR_SEAM_UNKNOWN 0xffffffffu  // no copy
+// Reads the word of corner j, whose copy differs from that of `current`. made: the next private copy; incremented if
+// used.
+#define LR_SEAM_UNKNOWN 0xffffffffu  // no copy is known
 uint lr_seam_choose(LrSeamHomes h, uint j, uint current, LrSeamQuestion q, inout uint made) {
     uint copy = (lr_seam_place(h, j, q.at) & LR_SEAM_COPY_BITS) - h.first[j], left = h.count[j];
-    uvec2 excluded = uvec2((current & LR_SEAM_COPY_BITS) - h.first[j], 0xffffffffu);  // home copies, in order
+    // Home copies that are ruled out, in ascending order.
+    uvec2 excluded = uvec2((current & LR_SEAM_COPY_BITS) - h.first[j], 0xffffffffu);
     if (excluded.x < h.count[j]) {
         --left;
     } else {
@@ -366,8 +373,8 @@ uint lr_seam_choose(LrSeamHomes h, uint j, uint current, LrSeamQuestion q, inout
 void lr_seam_triangle_block(LrSeamLayout p, uint block) {
     uint first = block * LR_SEAM_BLOCK, count = min(p.triangles - first, LR_SEAM_BLOCK);
     uint made = p.homes + lr_seam_open(p.by_triangle, block);
-    uint marks[LR_SEAM_BACK];  // of the vertices of the last triangles: most are not loaded again
-    uvec3 next[2];             // those that there are
+    uint marks[LR_SEAM_BACK];  // vertex hashes of the last triangles, to avoid loading most of these again
+    uvec3 next[2];             // the next triangles, if they exist
     next[0] = lr_seam_triangle(first);
     if (count > 1u) next[1] = lr_seam_triangle(first + 1u);
     for (uint i = 0u; i < LR_SEAM_BLOCK; ++i) {
@@ -398,7 +405,7 @@ void lr_seam_triangle_block(LrSeamLayout p, uint block) {
         marks[i % LR_SEAM_BACK] = mark.x | mark.y | mark.z;
         uint side = lr_seam_side(t), parent_corner = corner - 3u * found, n = 0u;
         if (side == 2u) side = found > 0u && (LR_SEAM_COPY(parent_corner) & LR_SEAM_RIGHT) != 0u ? 1u : 0u;
-        uvec3 order = uvec3(0u, 1u, 2u);  // the ends of the edge to the parent, then the corner that is not in it
+        uvec3 order = uvec3(0u, 1u, 2u);  // the two corners in the parent, then the third
         LrSeamHomes h = lr_seam_homes(t);
         LrSeamEnd a, b;
         bool b_changes = true;
@@ -426,7 +433,7 @@ void lr_seam_triangle_block(LrSeamLayout p, uint block) {
                           : a.fan == 1u                ? LR_SEAM_RIGHT2
                                                        : LR_SEAM_RIGHT3;
             }
-            bool seam = false, usual = false, lone = context == LR_SEAM_LONE;  // usually b alone changes, or both
+            bool seam = false, usual = false, lone = context == LR_SEAM_LONE;  // usual: b alone changes (lone), or both
             for (uint flag = 0u; flag < 2u; ++flag) {
                 usual = lr_seam_flag(flag == 0u ? context : a.type == 0u ? LR_SEAM_HALF : LR_SEAM_BOTH);
                 if (flag == 0u && !usual) break;

@@ -1,34 +1,37 @@
-// Decodes seam sections (docs/seams-format.md) in a WebGPU shader of yours: which copy of its vertex each corner of a triangle has. The
-// triangles must be there already, as an index list of the surface: the slots of a stream, expanded with lacedring.wgsl. It is
-// lacedring_seams.glsl in WGSL, with the same names. Put this text and your shader together as strings:
+// Decodes seam sections (docs/seams-format.md): finds the copy of its vertex that each corner of a triangle uses. Needs
+// the surface's triangles as an index list: the slots of a stream, already expanded with lacedring.wgsl. This file is
+// lacedring_seams.glsl in WGSL, with the same names. Concatenate this text and your shader:
 //
-//     fn lr_seam_word(i: u32) -> u32 { return words[i]; }             // of the section. Up to two words behind it are read: any values
-//     fn lr_seam_put_home(v: u32, value: u32) { homes[v] = value; }   // written by the pass over vertex blocks,
-//     fn lr_seam_home(v: u32) -> u32 { return homes[v]; }             // read by the pass over triangle blocks
-//     fn lr_seam_vertex(k: u32) -> u32 { return indices[k]; }         // the vertex of corner k: corner k % 3 of triangle k / 3
-//     fn lr_seam_copy(k: u32) -> u32 { return copies[k]; }            // a buffer that is read and written: gets the copy of corner k
+//     // Word i of the section. Reads up to two words past it (any values).
+//     fn lr_seam_word(i: u32) -> u32 { return words[i]; }
+//     fn lr_seam_put_home(v: u32, value: u32) { homes[v] = value; }  // written by the pass over vertex blocks,
+//     fn lr_seam_home(v: u32) -> u32 { return homes[v]; }            // read by the pass over triangle blocks
+//     fn lr_seam_vertex(k: u32) -> u32 { return indices[k]; }        // vertex of corner k % 3 of triangle k / 3
+//     // A read-write buffer: receives the copy of corner k.
+//     fn lr_seam_copy(k: u32) -> u32 { return copies[k]; }
 //     fn lr_seam_put_copy(k: u32, value: u32) { copies[k] = value; }
-//     fn lr_seam_put_vertex(copy: u32, v: u32) { vertex_of[copy] = v; }  // called for every copy once, with its vertex; may do nothing
+//     // Called once for every copy, with its vertex; may do nothing.
+//     fn lr_seam_put_vertex(copy: u32, v: u32) { vertex_of[copy] = v; }
 //     ...
 //     let seams = lr_seam_layout(vertex_count, triangle_count);
-//     lr_seam_vertex_block(seams, block);    // an invocation for each 512 vertices
-//     lr_seam_triangle_block(seams, block);  // in a later dispatch, an invocation for each 512 triangles
+//     lr_seam_vertex_block(seams, block);    // one invocation per 512 vertices
+//     lr_seam_triangle_block(seams, block);  // in a later dispatch, one invocation per 512 triangles
 //
-// The triangle count is that of the slots. A slot that names a vertex twice has no triangle (the degenerate ones of lean streams): its
-// corners get copy 0. home[v] is twice the first copy of vertex v, plus 1 if it wraps; vertex_count + 1 entries. home[vertex_count] / 2
-// is the number of home copies.
-// A section must be valid for these triangles (lacedring::validate_seams). On any other, every loop still ends and nothing but
-// home[0..vertex_count] and the block's own corners is written; but lr_seam_put_vertex may be called for copies that are not there, and
-// entries of `home` and words behind the section may be asked for.
+// triangle_count counts slots. A slot that names a vertex twice has no triangle (degenerate slots of lean streams): its
+// corners get copy 0. home[v] is twice the first copy of vertex v, plus 1 if the vertex wraps. It has vertex_count + 1
+// entries; home[vertex_count] / 2 is the number of home copies. The section must be valid for these triangles
+// (lacedring::validate_seams). With any other, every loop still ends, and only home[0..vertex_count] and the block's
+// own corners are written; but lr_seam_put_vertex may be called for copies that do not exist, and entries past `home`
+// and words past the section may be read.
 
 const LR_SEAM_HEADER_WORDS = 8u;
-const LR_SEAM_BLOCK = 512u;  // triangles of a block; vertices of a vertex block
-const LR_SEAM_GROUP = 32u;   // blocks of a group of a directory
-const LR_SEAM_BACK = 64u;    // triangles before a triangle among which its parent is searched
+const LR_SEAM_BLOCK = 512u;  // triangles of a triangle block, vertices of a vertex block
+const LR_SEAM_GROUP = 32u;   // blocks per group of a directory
+const LR_SEAM_BACK = 64u;    // a triangle's parent is searched among this many triangles before it
 const LR_SEAM_MAX_STEPS = 255u;
 const LR_SEAM_ENDLESS = 0x7fffffffi;
 
-// Contexts. The section's table has a likely value and a run class for each.
+// Contexts of binary flags. The section's table has a likely value and a run class for each.
 const LR_SEAM_V0 = 0u;
 const LR_SEAM_MORE = 3u;
 const LR_SEAM_MANY = 4u;
@@ -61,12 +64,12 @@ const LR_SEAM_NEW_M = 30u;
 const LR_SEAM_OTHER = 31u;  // any other home copy
 const LR_SEAM_NONE = 32u;
 
-// The vertex blocks or the triangle blocks.
+// One of the section's two parts: vertex blocks or triangle blocks.
 struct LrSeamPart {
-  length_bits: u32,  // of the directory's fields
+  length_bits: u32,  // widths of the directory's fields
   copy_bits: u32,
   directory: u32,  // its first bit in the section
-  word: u32,       // where the blocks begin
+  word: u32,       // position at which its blocks begin
   bit: u32,
 }
 struct LrSeamLayout {
@@ -77,7 +80,7 @@ struct LrSeamLayout {
   by_triangle: LrSeamPart,
 }
 
-// 32 bits from bit `bit` behind word `word` on.
+// The 32 bits that begin `bit` bits after the start of word `word`.
 fn lr_seam_load(word: u32, bit: u32) -> u32 {
   let at = word + bit / 32u;
   let shift = bit & 31u;
@@ -87,14 +90,14 @@ fn lr_seam_load(word: u32, bit: u32) -> u32 {
 }
 fn lr_seam_field(at: u32, bits: u32) -> u32 { return extractBits(lr_seam_load(0u, at), 0u, bits); }
 
-// The block that is read: its bits are counted from word lr_seam_base on.
+// The block being read. Bit positions count from word lr_seam_base.
 var<private> lr_seam_base: u32;
 var<private> lr_seam_at: u32;
 var<private> lr_seam_end: u32;
-var<private> lr_seam_run: array<i32, 8>;  // of each run class: likely values still to come; -1: the run is not read yet
-var<private> lr_seam_table: vec4u;        // of contexts
+var<private> lr_seam_run: array<i32, 8>;  // by run class: likely values left in the run; -1: the run is not read yet
+var<private> lr_seam_table: vec4u;        // likely value and run class of each context
 
-// Begins to read a block. Returns how many copies the blocks before it make.
+// Starts reading a block. Returns the number of copies made by the blocks before it.
 fn lr_seam_open(part: LrSeamPart, block: u32) -> u32 {
   let group = block / LR_SEAM_GROUP;
   let size = part.length_bits + part.copy_bits;
@@ -222,14 +225,15 @@ fn lr_seam_vertex_block(p: LrSeamLayout, block: u32) {
   if (vertex == p.vertices) { lr_seam_put_home(vertex, 2u * first); }
 }
 
-// While its block is decoded, a corner's word in the buffer has two more bits.
-const LR_SEAM_LAST = 0x80000000u;   // of a vertex that wraps: home copy 0, as the last position
-const LR_SEAM_RIGHT = 0x40000000u;  // first corner: the triangle lies on the right of the ring
+// While a block is decoded, the words of its corners have two flags beside the copy.
+const LR_SEAM_LAST = 0x80000000u;   // copy 0 of a vertex that wraps, used as its last position
+const LR_SEAM_RIGHT = 0x40000000u;  // in a triangle's first corner: the triangle is right of the ring
 const LR_SEAM_COPY_BITS = 0x3fffffffu;
 
 fn lr_seam_triangle(i: u32) -> vec3u {
   let t = vec3u(lr_seam_vertex(3u * i), lr_seam_vertex(3u * i + 1u), lr_seam_vertex(3u * i + 2u));
-  return select(t, vec3u(0xffffffffu), t.x == t.y || t.y == t.z || t.z == t.x);  // no vertex has this number
+  // A degenerate slot gets a number that no vertex has.
+  return select(t, vec3u(0xffffffffu), t.x == t.y || t.y == t.z || t.z == t.x);
 }
 fn lr_seam_corner(t: vec3u, v: u32) -> u32 { return select(select(select(3u, 2u, t.z == v), 1u, t.y == v), 0u, t.x == v); }
 fn lr_seam_two(has: vec3<bool>) -> bool { return (has.x && has.y) || (has.z && (has.x || has.y)); }
@@ -243,14 +247,14 @@ fn lr_seam_side(t: vec3u) -> u32 {  // 0 left, 1 right, 2 no ring edge
   return select(2u, 1u, t.z == t.x + 1u);
 }
 
-// A bit for a vertex.
+// A hash of a vertex: one bit of 32.
 fn lr_seam_mark(v: u32) -> u32 { return 1u << ((v * 0x9e3779b9u) >> 27u); }
 
 // The home copies of the three vertices of a triangle.
 struct LrSeamHomes {
   first: vec3u,
   count: vec3u,
-  steps: vec3u,  // the last position
+  steps: vec3u,  // number of the last position
 }
 fn lr_seam_homes(t: vec3u) -> LrSeamHomes {
   let entry = vec3u(lr_seam_home(t.x), lr_seam_home(t.y), lr_seam_home(t.z));
@@ -259,20 +263,24 @@ fn lr_seam_homes(t: vec3u) -> LrSeamHomes {
   let count = (end >> vec3u(1u)) - first;
   return LrSeamHomes(first, count, count - 1u + (entry & vec3u(1u)));
 }
-fn lr_seam_place(h: LrSeamHomes, j: u32, position: u32) -> u32 {  // the word of corner j at a position
+// The word that stands for a position of corner j's vertex.
+fn lr_seam_place(h: LrSeamHomes, j: u32, position: u32) -> u32 {
   return select(h.first[j] + position, h.first[j] | LR_SEAM_LAST, position == h.count[j]);
 }
 
-// An end of the edge that a triangle shares with its parent.
+// One end of the edge that a triangle shares with its parent.
 struct LrSeamEnd {
-  word: u32,      // in the parent
-  position: u32,  // likewise, if it is not private
+  word: u32,      // its word in the parent
+  position: u32,  // its position in the parent, if not private
   is_private: bool,
-  far: u32,    // the position where the fan ends
-  class_: u32,  // left: 0 one position, 1 at the end, 2 on its way, 3 too late; right: 0, 1 at the end, 2 not
-  fan: u32,    // counts the fan's triangles from this one on, up to 3
+  far: u32,    // the position at which the fan ends
+  // On the left: 0 only one position, 1 at `far`, 2 can still reach `far`, 3 cannot.
+  // On the right: 0 only one position, 1 at `far`, 2 not at `far`.
+  class_: u32,
+  fan: u32,    // number of the fan's triangles from this one on, at most 3
 }
-// next0, next1: the two triangles behind it. The block has `left` triangles from this one on.
+// Describes the end at corner j of the edge that triangle t shares with `parent`; `other`: the corner at the edge's
+// other end. next0, next1: the two triangles after t. left: triangles from t on in the block.
 fn lr_seam_end_of(p: LrSeamLayout, t: vec3u, h: LrSeamHomes, j: u32, other: u32, parent: vec3u, parent_corner: u32, side: u32,
                   next0: vec3u, next1: vec3u, left: u32) -> LrSeamEnd {
   let v = t[j];
@@ -296,14 +304,14 @@ fn lr_seam_end_of(p: LrSeamLayout, t: vec3u, h: LrSeamHomes, j: u32, other: u32,
   return e;
 }
 
-// Asks whether a corner has the copy at a position, and whether it has a new private one.
+// The flags to read for a corner: does it have the copy at position `at`, and does it have a new private copy?
 struct LrSeamQuestion {
   at: u32,
-  at_context: u32,  // LR_SEAM_NONE: not asked
+  at_context: u32,  // LR_SEAM_NONE: the flag is not read
   new_context: u32,
-  new_first: bool,  // asked before the position
+  new_first: bool,  // its flag is read before that of the position
 }
-// The question for an end that changes.
+// The question for an end of the shared edge whose copy changes.
 fn lr_seam_change(e: LrSeamEnd, steps: u32, side: u32) -> LrSeamQuestion {
   var q = LrSeamQuestion(e.far, LR_SEAM_STEP_L, LR_SEAM_NEW_L, false);
   if (side == 0u) {
@@ -320,7 +328,8 @@ fn lr_seam_change(e: LrSeamEnd, steps: u32, side: u32) -> LrSeamQuestion {
   }
   return q;
 }
-// The question for corner j, which is not in the parent. With a parent, the words of the others are known.
+// The question for corner j, which is not in the parent. If there is a parent, the words of the other corners are
+// known.
 fn lr_seam_start(t: vec3u, h: LrSeamHomes, words: vec3u, j: u32, side: u32, has_parent: bool) -> LrSeamQuestion {
   let steps = h.steps[j];
   let before = lr_seam_corner(t, t[j] - 1u);
@@ -333,7 +342,7 @@ fn lr_seam_start(t: vec3u, h: LrSeamHomes, words: vec3u, j: u32, side: u32, has_
   q.at_context = select(LR_SEAM_MID_R, LR_SEAM_MID_R2, steps > 0u);
   q.new_context = select(LR_SEAM_NEW_R, LR_SEAM_NEW_M, steps > 0u);
   if (!has_parent) { return q; }
-  for (var n = 0u; n < 2u; n++) {  // the ring neighbor's copy where the ring edge is
+  for (var n = 0u; n < 2u; n++) {  // compares the copies of neighbors along the ring
     let neighbor = select(after, before, n == 0u);
     if (neighbor == 3u) { continue; }
     let place = lr_seam_place(h, neighbor, select(0u, h.steps[neighbor], n == 0u));
@@ -347,12 +356,14 @@ fn lr_seam_start(t: vec3u, h: LrSeamHomes, words: vec3u, j: u32, side: u32, has_
   return q;
 }
 
-// Reads the word of corner j, whose copy is not that of the word `current`. `made`: the next private copy; it is the word if it is made.
-const LR_SEAM_UNKNOWN = 0xffffffffu;  // no copy
+// Reads the word of corner j, whose copy differs from that of `current`. Returns `made`, the next private copy, if the
+// corner gets a new one.
+const LR_SEAM_UNKNOWN = 0xffffffffu;  // no copy is known
 fn lr_seam_choose(h: LrSeamHomes, j: u32, current: u32, q: LrSeamQuestion, made: u32) -> u32 {
   let copy = (lr_seam_place(h, j, q.at) & LR_SEAM_COPY_BITS) - h.first[j];
   var left = h.count[j];
-  var excluded = vec2u((current & LR_SEAM_COPY_BITS) - h.first[j], 0xffffffffu);  // home copies, in order
+  // Home copies that are ruled out, in ascending order.
+  var excluded = vec2u((current & LR_SEAM_COPY_BITS) - h.first[j], 0xffffffffu);
   if (excluded.x < h.count[j]) {
     left--;
   } else {
@@ -389,8 +400,8 @@ fn lr_seam_triangle_block(p: LrSeamLayout, block: u32) {
   let first = block * LR_SEAM_BLOCK;
   let count = min(p.triangles - first, LR_SEAM_BLOCK);
   var made = p.homes + lr_seam_open(p.by_triangle, block);
-  var marks: array<u32, LR_SEAM_BACK>;  // of the vertices of the last triangles: most are not loaded again
-  var next0 = lr_seam_triangle(first);  // those that there are
+  var marks: array<u32, LR_SEAM_BACK>;  // vertex hashes of the last triangles, to avoid loading most of these again
+  var next0 = lr_seam_triangle(first);  // the next triangles, if they exist
   var next1 = next0;
   if (count > 1u) { next1 = lr_seam_triangle(first + 1u); }
   for (var i = 0u; i < LR_SEAM_BLOCK; i++) {
@@ -425,7 +436,7 @@ fn lr_seam_triangle_block(p: LrSeamLayout, block: u32) {
     let parent_corner = corner - 3u * found;
     var side = lr_seam_side(t);
     if (side == 2u) { side = u32(found > 0u && (lr_seam_copy(parent_corner) & LR_SEAM_RIGHT) != 0u); }
-    var order = vec3u(0u, 1u, 2u);  // the ends of the edge to the parent, then the corner that is not in it
+    var order = vec3u(0u, 1u, 2u);  // the two corners in the parent, then the third
     let h = lr_seam_homes(t);
     var a: LrSeamEnd;
     var b: LrSeamEnd;
@@ -454,7 +465,7 @@ fn lr_seam_triangle_block(p: LrSeamLayout, block: u32) {
       }
       var seam = false;
       var usual = false;
-      let lone = context == LR_SEAM_LONE;  // usually b alone changes, or both
+      let lone = context == LR_SEAM_LONE;  // usual: b alone changes (lone), or both
       for (var flag = 0u; flag < 2u; flag++) {
         usual = lr_seam_flag(select(select(LR_SEAM_BOTH, LR_SEAM_HALF, a.class_ == 0u), context, flag == 0u));
         if (flag == 0u && !usual) { break; }

@@ -1,18 +1,18 @@
-// Decodes vertex streams (docs/vertex-format.md) in a shader of yours: a block of 128 vertices by one invocation, or one vertex, by
-// reading its block up to there.
+// Decodes vertex streams (docs/vertex-format.md): one invocation decodes a block of 128 vertices, or a single vertex by
+// decoding its block up to that vertex. This file needs no other.
 //
-//     #define LR_VERTEX_WORD(i) words[i]       // a uint of the stream
-//     #define LR_VERTEX_COMPONENTS 3u          // integers a vertex: a number, or a specialization constant
-//     #define LR_VERTEX_PUT(i) ...             // called for vertex i of the stream, whose integers are lr_vertex_value[c]
+//     #define LR_VERTEX_WORD(i) words[i]       // word i of the stream
+//     #define LR_VERTEX_COMPONENTS 3u          // integers per vertex: a number, or a specialization constant
+//     #define LR_VERTEX_PUT(i) ...             // called for each vertex i; its integers are lr_vertex_value[c]
 //     #define LR_VERTEX_MAPPING 1u             // optional: the stream's mapping, a number or a specialization constant
 //     #include "lacedring_vertices.glsl"
 //
 //     lr_vertex_block(lr_vertex_layout(), block, 128u);
 //
-// A stream must be valid (lacedring::validate_vertices); on any other, every loop still ends. lr_vertex_float gives the float of an
-// integer, to the bit what the CPU's decoder gives. Without 64-bit integers and doubles. Where the mapping is known when
-// a pipeline is made, the others cost nothing: on a device that runs both sides of each branch, decimals alone take four
-// times as long as all the rest.
+// The stream must be valid (lacedring::validate_vertices); with any other, every loop still ends. lr_vertex_float maps
+// an integer to a float, bit for bit like the CPU's decoder. Needs neither 64-bit integers nor doubles. Define
+// LR_VERTEX_MAPPING if the mapping is known when the pipeline is created: this removes the code of the other mappings.
+// On a device that executes both sides of branches, the code for decimals takes four times as long as all the rest.
 #ifndef LACEDRING_VERTICES_GLSL
 #define LACEDRING_VERTICES_GLSL
 
@@ -27,9 +27,9 @@
 struct LrVertexLayout {
     uint vertices;
     uint mapping;
-    uint unit;        // the step's bits of a lattice, the digits of decimals
-    uint bits;        // octahedral: of an integer
-    uint exceptions;  // how many; behind the parameters, two words each
+    uint unit;        // lattice: bits of the step as a float; decimals: number of digits
+    uint bits;        // octahedral: bits per integer
+    uint exceptions;  // number of exceptions, which follow the parameters, two words each
     uint field_bits;
     uint table;  // first word of it
     uint data;   // first word of it
@@ -56,7 +56,7 @@ LrVertexLayout lr_vertex_layout() {
     return p;
 }
 
-// 32 bits from bit `at` behind word `base` on.
+// The 32 bits that begin `at` bits after the start of word `base`.
 uint lr_vertex_load(uint base, uint at) {
     uint word = base + at / 32u, shift = at & 31u, low = LR_VERTEX_WORD(word) >> shift;
     return shift == 0u ? low : low | LR_VERTEX_WORD(word + 1u) << (32u - shift);
@@ -70,7 +70,7 @@ uint lr_vertex_quarter(uint x) { return uint(int(x + 2u) >> 2); }
 
 uint lr_vertex_value[LR_VERTEX_COMPONENTS];
 
-// The first `most` vertices of a block, or those that it has.
+// Decodes the first `most` vertices of a block (all if it has fewer).
 void lr_vertex_block(LrVertexLayout p, uint block, uint most) {
     const uint n = LR_VERTEX_COMPONENTS;
     uint first = block * LR_VERTEX_BLOCK, count = min(p.vertices - first, LR_VERTEX_BLOCK);
@@ -97,15 +97,16 @@ void lr_vertex_block(LrVertexLayout p, uint block, uint most) {
     }
     LR_VERTEX_PUT(first);
 
-    uint last = min(count, most), low_at = 0u, end = 1u;  // of the run
+    uint last = min(count, most), low_at = 0u, end = 1u;  // end: of the current run
     uint low_bits[LR_VERTEX_COMPONENTS], row = 0u, present = 0u;
-    uint axis = 3u, last_axis = 0u, slopes = 36u, last_slopes = 36u;  // of the plane: 3 bits each, 4 is 0
+    // The plane predictor: its axis (3: none), and two slopes of 3 bits each, biased by 4.
+    uint axis = 3u, last_axis = 0u, slopes = 36u, last_slopes = 36u;
     uvec2 zeros = uvec2(0u);
     uint seen = 0u;
     for (uint i = 1u; i < LR_VERTEX_BLOCK; ++i) {
         if (i >= last) break;
         if (i == end) {
-            at += seen;  // the unary numbers end the run before
+            at += seen;  // skip the unary numbers at the end of the previous run
             if (n == 3u && (i - 1u) % 16u == 0u) {
                 uint code = lr_vertex_load(base, at);
                 axis = 3u;
@@ -153,7 +154,7 @@ void lr_vertex_block(LrVertexLayout p, uint block, uint most) {
                     taken = 0u;
                     low = lr_vertex_load(base, low_at);
                 }
-                if (seen > 39u) {  // 25 bits have to be there
+                if (seen > 39u) {  // keeps at least 25 bits in `zeros`
                     at += seen;
                     seen = 0u;
                     zeros = uvec2(lr_vertex_load(base, at), lr_vertex_load(base, at + 32u));
@@ -184,14 +185,14 @@ void lr_vertex_block(LrVertexLayout p, uint block, uint most) {
     }
 }
 
-// The bits of the float nearest to value / 10^digits: long division, since floats and their products round too early.
+// The bits of the float nearest to value / 10^digits. Uses long division, as float arithmetic would round twice.
 uint lr_vertex_decimal(uint value, uint digits) {
     uint sign = value & 0x80000000u, number = sign != 0u ? 0u - value : value, divisor = 1u;
     for (uint k = 0u; k < 9u; ++k) divisor *= k < digits ? 10u : 1u;
     if (number == 0u) return 0u;
     uint quotient = number / divisor, rest = number % divisor;
-    int exponent = 0;  // of the quotient's lowest bit
-    if (quotient >= 1u << 25) {  // more bits than needed: those below only say whether something is left
+    int exponent = 0;  // power of two of the quotient's lowest bit
+    if (quotient >= 1u << 25) {  // more bits than needed: the lowest only decide whether there is a rest
         uint shift = uint(findMSB(quotient)) - 24u;
         if (bitfieldExtract(quotient, 0, int(shift)) != 0u) rest = 1u;
         quotient >>= shift;
@@ -204,17 +205,17 @@ uint lr_vertex_decimal(uint value, uint digits) {
         if (rest >= divisor) rest -= divisor;
         --exponent;
     }
-    uint odd = quotient >> 1 & 1u, half_way = quotient & 1u;  // 25 bits: round to 24, a tie to the even one
+    uint odd = quotient >> 1 & 1u, half_way = quotient & 1u;  // round 25 bits to 24, ties to even
     quotient = (quotient >> 1) + (half_way != 0u && (rest != 0u || odd != 0u) ? 1u : 0u);
     return sign | (uint(exponent + 1 + 150) << 23) + quotient - (1u << 23);
 }
 
-// The bits of value `at` of the attribute (LR_VERTEX_COMPONENTS * vertex + component), whose integer is given: of a lattice, of
-// floats or of decimals.
+// The bits of the float that an integer maps to, for lattices, floats and decimals. at: LR_VERTEX_COMPONENTS * vertex +
+// component.
 uint lr_vertex_float(LrVertexLayout p, uint at, uint value) {
     if (LR_VERTEX_MAPPING == LR_MAPPING_LATTICE) return floatBitsToUint(float(int(value)) * uintBitsToFloat(p.unit));
     if (LR_VERTEX_MAPPING == LR_MAPPING_DECIMALS) {
-        uint low = 0u, high = p.exceptions;  // the first one that is not before
+        uint low = 0u, high = p.exceptions;  // binary search for the first exception at or after `at`
         for (uint k = 0u; k < 32u; ++k) {
             if (low >= high) break;
             uint middle = low + (high - low) / 2u;
@@ -231,7 +232,7 @@ uint lr_vertex_float(LrVertexLayout p, uint at, uint value) {
     return value ^ ((value & 0x80000000u) != 0u ? 0x80000000u : 0xffffffffu);
 }
 
-// The direction of two octahedral integers, not of unit length, whose components are exact.
+// The direction of two octahedral integers, as exact integers; not of unit length.
 ivec3 lr_vertex_direction(LrVertexLayout p, uint x, uint y) {
     int most = (1 << (p.bits - 1u)) - 1;
     ivec2 v = ivec2(int(x), int(y)), size = abs(v);

@@ -1,16 +1,16 @@
-// Decodes vertex streams (docs/vertex-format.md) in a WebGPU shader of yours: a block of 128 vertices by one invocation, or one vertex, by
-// reading its block up to there. It is lacedring_vertices.glsl in WGSL, with the same names. Put this text and your shader together as
-// strings:
+// Decodes vertex streams (docs/vertex-format.md): one invocation decodes a block of 128 vertices, or a single vertex by
+// decoding its block up to that vertex. This file needs no other. It is lacedring_vertices.glsl in WGSL, with the same
+// names. Concatenate this text and your shader:
 //
-//     const LR_VERTEX_COMPONENTS = 3u;                              // integers a vertex
-//     fn lr_vertex_word(i: u32) -> u32 { return words[i]; }         // a word of the stream
-//     fn lr_vertex_put(i: u32) { ... }                              // called for vertex i of the stream, whose integers are lr_vertex_value[c]
+//     const LR_VERTEX_COMPONENTS = 3u;                       // integers per vertex
+//     fn lr_vertex_word(i: u32) -> u32 { return words[i]; }  // word i of the stream
+//     fn lr_vertex_put(i: u32) { ... }                       // called for vertex i, with its integers in lr_vertex_value
 //     ...
 //     lr_vertex_block(lr_vertex_layout(), block, 128u);
 //
-// A stream must be valid (lacedring::validate_vertices); on any other, every loop still ends. lr_vertex_float gives the float of an
-// integer, to the bit what the CPU's decoder gives. Without 64-bit integers and doubles. The pipeline constant LR_VERTEX_MAPPING, the
-// stream's mapping, leaves out the code of the others.
+// The stream must be valid (lacedring::validate_vertices); with any other, every loop still ends. lr_vertex_float maps
+// an integer to a float, bit for bit like the CPU's decoder. Needs neither 64-bit integers nor doubles. Set the
+// pipeline constant LR_VERTEX_MAPPING to the stream's mapping to remove the code of the other mappings.
 
 const LR_VERTEX_HEADER_WORDS = 7u;
 const LR_VERTEX_BLOCK = 128u;
@@ -19,14 +19,14 @@ const LR_MAPPING_LATTICE = 1u;
 const LR_MAPPING_OCTAHEDRAL = 2u;
 const LR_MAPPING_FLOATS = 3u;
 const LR_MAPPING_DECIMALS = 4u;
-override LR_VERTEX_MAPPING: u32 = 8u;  // 8: as the stream's header says
+override LR_VERTEX_MAPPING: u32 = 8u;  // 8: the mapping in the stream's header
 
 struct LrVertexLayout {
   vertices: u32,
   mapping: u32,
-  unit: u32,        // the step's bits of a lattice, the digits of decimals
-  bits: u32,        // octahedral: of an integer
-  exceptions: u32,  // how many; behind the parameters, two words each
+  unit: u32,        // lattice: bits of the step as a float; decimals: number of digits
+  bits: u32,        // octahedral: bits per integer
+  exceptions: u32,  // number of exceptions, which follow the parameters, two words each
   field_bits: u32,
   table: u32,  // first word of it
   data: u32,   // first word of it
@@ -50,7 +50,7 @@ fn lr_vertex_layout() -> LrVertexLayout {
   return p;
 }
 
-// 32 bits from bit `at` behind word `base` on.
+// The 32 bits that begin `at` bits after the start of word `base`.
 fn lr_vertex_load(base: u32, at: u32) -> u32 {
   let word = base + at / 32u;
   let shift = at & 31u;
@@ -68,7 +68,7 @@ fn lr_vertex_quarter(x: u32) -> u32 { return u32(i32(x + 2u) >> 2u); }
 
 var<private> lr_vertex_value: array<u32, LR_VERTEX_COMPONENTS>;
 
-// The first `most` vertices of a block, or those that it has.
+// Decodes the first `most` vertices of a block (all if it has fewer).
 fn lr_vertex_block(p: LrVertexLayout, block: u32, most: u32) {
   const n = LR_VERTEX_COMPONENTS;
   let first = block * LR_VERTEX_BLOCK;
@@ -99,20 +99,20 @@ fn lr_vertex_block(p: LrVertexLayout, block: u32, most: u32) {
 
   let last = min(count, most);
   var low_at = 0u;
-  var end = 1u;  // of the run
+  var end = 1u;  // end: of the current run
   var low_bits: array<u32, n>;
   var row = 0u;
   var present = 0u;
   var axis = 3u;
   var last_axis = 0u;
-  var slopes = 36u;  // of the plane: 3 bits each, 4 is 0
+  var slopes = 36u;  // the plane's two slopes, 3 bits each, biased by 4
   var last_slopes = 36u;
   var zeros = vec2u(0u);
   var seen = 0u;
   for (var i = 1u; i < LR_VERTEX_BLOCK; i++) {
     if (i >= last) { break; }
     if (i == end) {
-      at += seen;  // the unary numbers end the run before
+      at += seen;  // skip the unary numbers at the end of the previous run
       if (n == 3u && (i - 1u) % 16u == 0u) {
         let code = lr_vertex_load(base, at);
         axis = 3u;
@@ -163,7 +163,7 @@ fn lr_vertex_block(p: LrVertexLayout, block: u32, most: u32) {
           taken = 0u;
           low = lr_vertex_load(base, low_at);
         }
-        if (seen > 39u) {  // 25 bits have to be there
+        if (seen > 39u) {  // keeps at least 25 bits in `zeros`
           at += seen;
           seen = 0u;
           zeros = vec2u(lr_vertex_load(base, at), lr_vertex_load(base, at + 32u));
@@ -178,7 +178,7 @@ fn lr_vertex_block(p: LrVertexLayout, block: u32, most: u32) {
     }
     low_at += taken;
     if (n == 3u && axis < 3u) {
-      const x = min(0u, n - 1u);  // of one or two components this is compiled, too, and does nothing
+      const x = min(0u, n - 1u);  // also compiled, without effect, for one or two components
       const y = min(1u, n - 1u);
       const z = min(2u, n - 1u);
       let u = select(select(residual[x], residual[z], axis == 1u), residual[y], axis == 0u);
@@ -198,7 +198,7 @@ fn lr_vertex_block(p: LrVertexLayout, block: u32, most: u32) {
   }
 }
 
-// The bits of the float nearest to value / 10^digits: long division, since floats and their products round too early.
+// The bits of the float nearest to value / 10^digits. Uses long division, as float arithmetic would round twice.
 fn lr_vertex_decimal(value: u32, digits: u32) -> u32 {
   let sign = value & 0x80000000u;
   let number = select(value, 0u - value, sign != 0u);
@@ -207,8 +207,8 @@ fn lr_vertex_decimal(value: u32, digits: u32) -> u32 {
   if (number == 0u) { return 0u; }
   var quotient = number / divisor;
   var rest = number % divisor;
-  var exponent = 0u;           // of the quotient's lowest bit, modulo 2^32
-  if (quotient >= 1u << 25u) {  // more bits than needed: those below only say whether something is left
+  var exponent = 0u;           // power of two of the quotient's lowest bit, modulo 2^32
+  if (quotient >= 1u << 25u) {  // more bits than needed: the lowest only decide whether there is a rest
     let shift = firstLeadingBit(quotient) - 24u;
     if (extractBits(quotient, 0u, shift) != 0u) { rest = 1u; }
     quotient >>= shift;
@@ -221,19 +221,19 @@ fn lr_vertex_decimal(value: u32, digits: u32) -> u32 {
     if (rest >= divisor) { rest -= divisor; }
     exponent--;
   }
-  let odd = (quotient >> 1u) & 1u;  // 25 bits: round to 24, a tie to the even one
+  let odd = (quotient >> 1u) & 1u;  // round 25 bits to 24, ties to even
   let half_way = quotient & 1u;
   quotient = (quotient >> 1u) + select(0u, 1u, half_way != 0u && (rest != 0u || odd != 0u));
   return sign | (((exponent + 1u + 150u) << 23u) + quotient - (1u << 23u));
 }
 
-// The bits of value `at` of the attribute (LR_VERTEX_COMPONENTS * vertex + component), whose integer is given: of a lattice, of
-// floats or of decimals.
+// The bits of the float that an integer maps to, for lattices, floats and decimals. at: LR_VERTEX_COMPONENTS * vertex +
+// component.
 fn lr_vertex_float(p: LrVertexLayout, at: u32, value: u32) -> u32 {
   if (p.mapping == LR_MAPPING_LATTICE) { return bitcast<u32>(f32(i32(value)) * bitcast<f32>(p.unit)); }
   if (p.mapping == LR_MAPPING_DECIMALS) {
     var low = 0u;
-    var high = p.exceptions;  // the first one that is not before
+    var high = p.exceptions;  // binary search for the first exception at or after `at`
     for (var k = 0u; k < 32u; k++) {
       if (low >= high) { break; }
       let middle = low + (high - low) / 2u;
@@ -250,7 +250,7 @@ fn lr_vertex_float(p: LrVertexLayout, at: u32, value: u32) -> u32 {
   return value ^ select(0xffffffffu, 0x80000000u, (value & 0x80000000u) != 0u);
 }
 
-// The direction of two octahedral integers, not of unit length, whose components are exact.
+// The direction of two octahedral integers, as exact integers; not of unit length.
 fn lr_vertex_direction(p: LrVertexLayout, x: u32, y: u32) -> vec3i {
   let most = (1 << (p.bits - 1u)) - 1;
   var v = vec2i(i32(x), i32(y));

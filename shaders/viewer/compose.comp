@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The viewer's picture of what was drawn: on the background, with colours laid over triangles by their number, and two
-// pictures of the same size side by side or compared.
+// Makes the viewer's picture from one or two drawn pictures of the same size: adds the background, paints triangles by
+// their number, and shows two pictures side by side or their difference.
 #include "shaders/viewer/compose_shared.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -10,15 +10,16 @@ layout(binding = 1, r32ui) uniform readonly uimage2D left_triangles;
 layout(binding = 2, rgba8) uniform readonly image2D right_colour;
 layout(binding = 3, r32ui) uniform readonly uimage2D right_triangles;
 layout(binding = 4, rgba8) uniform writeonly image2D composed;
-layout(std430, binding = 5) readonly buffer Paint { uint paint[]; };  // RGBA, one a triangle of the mesh
+layout(std430, binding = 5) readonly buffer Paint { uint paint[]; };  // RGBA, one per triangle of the mesh
 layout(std430, binding = 6) readonly buffer Growth { GrowthTriangle growth[]; };
 layout(push_constant) uniform Push { ComposeConstants push; };
-// Constants, so that a device that runs both sides of every branch (a CPU) has none that it does not need.
+// Specialization constants, as a device that executes both sides of every branch (a CPU) would waste time on unused
+// ones.
 layout(constant_id = 0) const uint kMode = LR_COMPOSE_LEFT;
-layout(constant_id = 1) const uint kSamples = 1;  // of the pictures, a pixel along each side
+layout(constant_id = 1) const uint kSamples = 1;  // of the drawn pictures, per pixel along each side
 layout(constant_id = 2) const uint kPaint = LR_PAINT_NONE;
 
-// to_linear of every colour that a sample can have: a workgroup computes each once, not each of its samples.
+// to_linear of every 8-bit value, computed once per workgroup instead of for each sample.
 shared float linear_of[256];
 
 float to_linear(float x) { return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4); }
@@ -26,7 +27,7 @@ float to_srgb(float x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 
 vec3 linear(vec3 c) { return vec3(to_linear(c.x), to_linear(c.y), to_linear(c.z)); }
 vec3 srgb(vec3 c) { return vec3(to_srgb(c.x), to_srgb(c.y), to_srgb(c.z)); }
 
-// As finish() (renderer/draw/picture.cpp) has it.
+// Same as background() in renderer/draw/picture.cpp.
 vec3 background(vec2 at) {
     vec2 d = at - vec2(0.5, 0.42);
     float t = min(1.0, length(d) * 1.25);
@@ -34,7 +35,7 @@ vec3 background(vec2 at) {
     return vec3(246.0 - 34.0 * s, 247.0 - 32.0 * s, 249.0 - 28.0 * s) / 255.0;
 }
 
-// The surface's own colour is replaced.
+// Replaces the surface's color by `over`, keeping the light on it.
 vec3 recoloured(vec3 colour, vec4 over) {
     vec3 light = linear(colour) / vec3(0.62, 0.60, 0.565);
     if ((kPaint & LR_PAINT_FLAT) != 0u) {
@@ -48,7 +49,7 @@ uint triangle_at(bool right, ivec2 at) {
     return right ? imageLoad(right_triangles, at).x : imageLoad(left_triangles, at).x;
 }
 
-// Colours as the panel names them (app/view/ui/panel_choices.cpp).
+// The colors that the panel explains (app/view/ui/panel_choices.cpp).
 vec3 growth_colour(uint step) {
     uint settled = step & ~LR_GROWTH_RIGHT;
     if (settled >= push.invaded) return vec3(LR_GROWTH_NOT_YET_COLOUR) / 255.0;
@@ -63,15 +64,16 @@ uvec3 triangles_across(uint i) { return uvec3(growth[i].across[0], growth[i].acr
 
 bool is_among(uint i, uvec3 triangles) { return i != LR_GROWTH_BORDER && any(equal(triangles, uvec3(i))); }
 
-// The ring so far parts what is invaded from what is not (yet): where a sample nearby shows the triangle across such an
-// edge, or around its end, the line is drawn. So it hides behind the surface as that does, not where two parts of the
-// surface merely overlap, and costs what is seen, not what there is.
+// The ring so far separates invaded triangles from the others. A sample of a triangle is on the ring's line if a sample
+// nearby shows a triangle across one of its ring edges, or around the end of one. So the surface hides the line as it
+// hides itself, no line is drawn where parts of the surface merely overlap, and the cost depends on the samples, not on
+// the triangles.
 vec4 ring_line(uint i, bool right, ivec2 at) {
     uint step = growth[i].step;
     uvec3 across = triangles_across(i);
-    bool inside = step < push.invaded;  // the flag makes the others larger than any number of triangles
+    bool inside = step < push.invaded;  // false if LR_GROWTH_RIGHT is set
     ivec2 last = imageSize(left_triangles) - 1;
-    // A triangle that ends within reach is not seen at its end, unless another one lies behind: that is asked for nearer.
+    // Looks at the full reach first, then nearer: the sample at full reach may lie beyond the neighboring triangle.
     for (int d = int(inside ? push.inner : push.outer); d > 0; d /= 2) {
         for (int k = 0; k < 4; ++k) {
             ivec2 to = clamp(at + d * (k < 2 ? ivec2(2 * k - 1, 0) : ivec2(0, 2 * k - 5)), ivec2(0), last);
@@ -108,7 +110,7 @@ vec3 painted(vec3 colour, uint triangle, bool right, ivec2 at) {
         lit = recoloured(colour, over);
     } else if ((kPaint & LR_PAINT_GROWTH) != 0u) {
         vec3 grown = growth_colour(growth[i].step);
-        // As recoloured() has it, but for the few percent by which sRGB is not a power: this runs every frame.
+        // Approximates recoloured() by treating sRGB as a pure power, a few percent off: this runs every frame.
         lit = (kPaint & LR_PAINT_FLAT) != 0u ? recoloured(colour, vec4(grown, 1.0))
                                              : min(grown * colour / vec3(0.808, 0.797, 0.776), vec3(1.0));
     }
@@ -117,7 +119,7 @@ vec3 painted(vec3 colour, uint triangle, bool right, ivec2 at) {
     return mix(lit, line.rgb, line.a);
 }
 
-// One sample, on the background.
+// The color of one sample on the background.
 vec3 sample_at(vec4 c, bool right, ivec2 at, vec3 behind) {
     vec3 over = c.a == 1.0 ? painted(c.rgb, triangle_at(right, at), right, at) : c.rgb;
     return floor((over + (1.0 - c.a) * behind) * 255.0 + 0.5) / 255.0;

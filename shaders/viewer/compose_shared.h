@@ -1,4 +1,4 @@
-// What the viewer's C++ and compose.comp both read.
+// Structs and constants shared by the viewer's C++ and compose.comp.
 #ifndef LACEDRING_SHADERS_COMPOSE_SHARED_H
 #define LACEDRING_SHADERS_COMPOSE_SHARED_H
 
@@ -8,45 +8,45 @@
 namespace lacedring::gpu {
 #endif
 
-// Specialization constants of compose.comp: mode, samples a pixel along each side, paint.
+// compose.comp has three specialization constants: mode, samples per pixel along each side, paint. The modes:
 #define LR_COMPOSE_LEFT 0u  // the left picture alone
 #define LR_COMPOSE_SPLIT 1u
-#define LR_COMPOSE_DIFFERENCE 2u  // red where they differ
+#define LR_COMPOSE_DIFFERENCE 2u  // red where the two pictures differ
 
-// What is laid over the triangles, bits; several: the ring's line over colours over growth.
+// Paint over the triangles, as bits. The ring's line covers the triangles' colors, and these cover growth.
 #define LR_PAINT_NONE 0u
 #define LR_PAINT_TRIANGLES 1u
 #define LR_PAINT_GROWTH 2u
 #define LR_PAINT_RING 4u  // the ring's line
-#define LR_PAINT_FLAT 8u  // the surface has colours of its own: only its lines stay, else the light on it does
+#define LR_PAINT_FLAT 8u  // the view colors the surface itself: keeps only its lines, not the light on it
 
-// RING-EXPANDER's way over one triangle of the mesh (ring.hpp).
+// One triangle of the mesh during RING-EXPANDER (ring.hpp).
 struct GrowthTriangle {
-    uint step;  // it is settled on which side it lies once more triangles than this are invaded
+    uint step;  // the triangle's side of the ring is final once more triangles than this are invaded
 #ifdef __cplusplus
     std::array<uint, 3> across;
 #else
     uint across[3];  // triangles across its edges
 #endif
 };
-// Its colours: red, green, blue of 255.
+// Colors of growth: red, green, blue, 0 to 255.
 #define LR_GROWTH_INVADED_COLOUR 222, 112, 48
 #define LR_GROWTH_NEWEST_COLOUR 255, 214, 60
 #define LR_GROWTH_RIGHT_COLOUR 247, 234, 200
 #define LR_GROWTH_NOT_YET_COLOUR 168, 172, 180
-#define LR_GROWTH_LINE_COLOUR 24, 24, 28    // the ring where it will stay
-#define LR_GROWTH_FRONT_COLOUR 24, 96, 220  // where it may still be crossed
-#define LR_GROWTH_RIGHT 0x80000000u         // in `step`: it is never invaded
-#define LR_GROWTH_BORDER 0xffffffffu        // in `across`: none
+#define LR_GROWTH_LINE_COLOUR 24, 24, 28    // ring edges that are final
+#define LR_GROWTH_FRONT_COLOUR 24, 96, 220  // ring edges that may still be crossed
+#define LR_GROWTH_RIGHT 0x80000000u         // flag in `step`: the triangle is never invaded
+#define LR_GROWTH_BORDER 0xffffffffu        // in `across`: no triangle
 
 struct ComposeConstants {
     uint divider;    // first column of the right picture
     uint triangles;  // of the mesh
     // Growth:
-    uint invaded;        // triangles so far
-    uint fresh;          // of these, the last ones that are told from the others
-    uint inner, outer;   // samples that the ring's line covers inside the invaded region and outside it
-    float line_opacity;  // of the ring's line where it will stay
+    uint invaded;        // number of triangles invaded so far
+    uint fresh;          // the last `fresh` invaded triangles are highlighted
+    uint inner, outer;   // width of the ring's line inside and outside the invaded region, in samples
+    float line_opacity;  // of final ring edges
 };
 
 #ifdef __cplusplus

@@ -1,6 +1,6 @@
-// A camera that orbits around a sphere, and the mouse, touch and keys that turn it.
+// A camera that orbits a sphere, controlled by mouse, touch and keys.
 
-/** Matrices are arrays of 16 numbers, column by column. */
+/** The product of two matrices, which are arrays of 16 numbers, column by column. */
 function multiply(a, b) {
   return Array.from({ length: 16 }, (_, i) => [0, 1, 2, 3].reduce((sum, k) => sum + a[4 * k + (i & 3)] * b[4 * (i >> 2) + k], 0));
 }
@@ -10,7 +10,7 @@ export class Orbit {
   pitch = 0.35;
   zoom = 1;
 
-  /** bounds: { center, radius }. */
+  /** bounds: { center, radius } of the sphere. */
   constructor(bounds) {
     this.bounds = bounds;
   }
@@ -24,7 +24,7 @@ export class Orbit {
     this.zoom = Math.max(0.05, Math.min(20, this.zoom * factor));
   }
 
-  /** { clipFromWorld, eye } for a picture of this ratio of width to height. */
+  /** Returns { clipFromWorld, eye }. aspect: width / height of the picture. */
   matrices(aspect) {
     const { center, radius } = this.bounds, field = 0.6 / Math.min(aspect, 1);
     const distance = 2 * radius * this.zoom / field;
@@ -38,7 +38,7 @@ export class Orbit {
     return { clipFromWorld: multiply(project, view), eye };
   }
 
-  /** Turns with the mouse or a finger on an element, zooms with the wheel, two fingers, + and -; calls `changed`. */
+  /** Rotates by mouse, one finger or arrow keys, zooms by wheel, two fingers, + and -; calls `changed` after each input. */
   listen(element, changed) {
     const pointers = new Map();
     const spread = () => {

@@ -1,10 +1,10 @@
-// The same in WebGL2: the stream is a texture, triangles are decoded in the vertex stage by shaders/include/lacedring.glsl, positions once, in the
-// fragments of a texture that has one for each vertex.
+// Draws a mesh from its stream in WebGL2. The stream is a texture. The vertex shader decodes triangles with
+// shaders/include/lacedring.glsl. Positions are decoded once, by a fragment shader with one fragment per vertex.
 import { boundsOf } from "./mesh.js";
 
-const WIDTH = 2048;  // of the textures; WebGL2 promises 2048 rows, too
+const WIDTH = 2048;  // of the textures: every WebGL2 device supports 2048 x 2048
 
-// GLSL ES 3.00 lacks these functions; lacedring.glsl needs them for packed streams, lacedring_vertices.glsl for all.
+// Functions that GLSL ES 3.00 lacks. lacedring.glsl needs them for packed streams, lacedring_vertices.glsl always.
 const PRELUDE = `#version 300 es
 precision highp float;
 precision highp int;
@@ -55,7 +55,7 @@ void main() {
 }`;
 
 const WHOLE = "void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0); }";
-// A vertex a fragment: its block is read up to there.
+// One vertex per fragment: decodes the vertex's block up to it.
 const DECODE = `uniform usampler2D words;
 out uvec4 place;
 void nothing(uint i) {}
@@ -74,7 +74,7 @@ void main() {
   place = uvec4(bits, 0u);
 }`;
 
-/** A function that puts the texts of shaders/include in the place of #include lines. */
+/** Returns a function that replaces #include lines by the files of shaders/include, and adds the prelude. */
 export async function loadGlsl(folder = new URL("../shaders/", import.meta.url)) {
   const texts = {};
   for (const name of ["lacedring.glsl", "lacedring_vertices.glsl"]) texts[name] = await (await fetch(new URL(name, folder))).text();
@@ -95,10 +95,10 @@ function compile(gl, vertex, fragment) {
   return program;
 }
 
-/** A texture of elements of one word or four, with data or empty. */
+/** Makes a texture whose texels have `each` words (1 or 4), with `data` or empty. */
 function createTexture(gl, what, elements, each, data) {
   const height = Math.max(Math.ceil(elements / WIDTH), 1), most = gl.getParameter(gl.MAX_TEXTURE_SIZE);
-  if (height > most) throw new Error(`${what}: ${height} rows of a texture, of which this device has ${most}`);
+  if (height > most) throw new Error(`${what}: needs a texture of ${height} rows; this device allows ${most}`);
   const texture = gl.createTexture(), [internal, layout] = each === 1 ? [gl.R32UI, gl.RED_INTEGER] : [gl.RGBA32UI, gl.RGBA_INTEGER];
   let padded = null;
   if (data) (padded = new Uint32Array(each * WIDTH * height)).set(data);
@@ -110,11 +110,11 @@ function createTexture(gl, what, elements, each, data) {
 }
 
 export class Gl2Mesh {
-  /** file: of readLr, lean or packed. glsl: of loadGlsl. */
+  /** file: from readLr, lean or packed. glsl: from loadGlsl. */
   constructor(gl, file, glsl) {
     const position = file.attributes.find(({ name }) => name === "POSITION");
-    if (!(file.kind in TRIANGLES)) throw new Error("WebGL2 draws lean and packed streams.");
-    if (!position.words) throw new Error("WebGL2 draws positions of vertex streams, which encode writes with lean and packed.");
+    if (!(file.kind in TRIANGLES)) throw new Error("The WebGL2 page draws only files with a lean or packed stream.");
+    if (!position.words) throw new Error("The WebGL2 page needs compressed positions: write the file with `lacedring encode --resident`.");
     Object.assign(this, { gl, file });
     this.stream = createTexture(gl, "stream", file.stream.length, 1, file.stream);
     this.positions = createTexture(gl, "positions", file.vertices, 4);
@@ -139,7 +139,7 @@ export class Gl2Mesh {
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     gl.deleteFramebuffer(target);
     gl.deleteProgram(program);
-    this.floats = new Float32Array(read.buffer).subarray(0, 4 * this.file.vertices).filter((_, i) => i % 4 < 3);  // three a vertex
+    this.floats = new Float32Array(read.buffer).subarray(0, 4 * this.file.vertices).filter((_, i) => i % 4 < 3);  // three per vertex
     this.bounds = boundsOf(this.floats);
   }
 
@@ -149,7 +149,7 @@ export class Gl2Mesh {
     [this.pulled, this.indexed].forEach((program) => gl.deleteProgram(program));
   }
 
-  /** Draws into the canvas; indices: a buffer of so many u32, in place of the stream. */
+  /** Draws to the canvas. indices: if given, draws this buffer of `count` u32 instead of the stream. */
   draw({ clipFromWorld, eye }, background, indices, count) {
     const { gl } = this, program = indices ? this.indexed : this.pulled, uniform = (name) => gl.getUniformLocation(program, name);
     gl.viewport(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight);

@@ -1,27 +1,27 @@
-// A thin layer over WebGPU: the device, compute kernels and draws whose bindings are named, buffers within the device's limits.
+// A thin layer over WebGPU: opens the device, creates buffers within its limits, and compute and render pipelines with named bindings.
 
-/** WebGPU's device with the limits of its adapter, or an Error with one line. */
+/** Opens a device with its adapter's limits for buffers. Throws an Error of one line. */
 export async function openDevice() {
-  if (!navigator.gpu) throw new Error("This browser has no WebGPU: webgl2.html, beside this page, draws the same files in WebGL2.");
+  if (!navigator.gpu) throw new Error("This browser has no WebGPU. The page webgl2.html, next to this one, draws lean and packed files with WebGL2.");
   const adapter = await navigator.gpu.requestAdapter();
-  if (!adapter) throw new Error("WebGPU is there, but no adapter: the browser has switched off this machine's GPU.");
+  if (!adapter) throw new Error("This browser has WebGPU, but no GPU for it: it may have disabled the GPU of this machine.");
   const { maxStorageBufferBindingSize, maxBufferSize } = adapter.limits;
   return adapter.requestDevice({ requiredLimits: { maxStorageBufferBindingSize, maxBufferSize } });
 }
 
-/** A buffer of so many bytes for `what` (part of the error). Storage and index buffers, all readable. */
+/** Creates a buffer of `size` bytes, usable as storage and index buffer, and readable. `what` names it in errors. */
 export function createBuffer(device, what, size, data) {
   const { maxBufferSize, maxStorageBufferBindingSize } = device.limits;
   const most = Math.min(maxBufferSize, maxStorageBufferBindingSize);
   const padded = Math.max(Math.ceil(size / 4) * 4, 16);
-  if (padded > most) throw new Error(`${what}: ${padded.toLocaleString("en-US")} bytes, of which this device binds ${most.toLocaleString("en-US")}`);
+  if (padded > most) throw new Error(`${what}: needs a buffer of ${padded.toLocaleString("en-US")} bytes; this device allows ${most.toLocaleString("en-US")}`);
   const { STORAGE, INDEX, COPY_SRC, COPY_DST } = GPUBufferUsage;
   const buffer = device.createBuffer({ label: what, size: padded, usage: STORAGE | INDEX | COPY_SRC | COPY_DST });
   if (data) device.queue.writeBuffer(buffer, 0, data.buffer, data.byteOffset, data.byteLength);
   return buffer;
 }
 
-/** The words of a buffer, read back. */
+/** Reads back the words of a buffer. */
 export async function readBuffer(device, buffer) {
   const copy = device.createBuffer({ size: buffer.size, usage: GPUBufferUsage.COPY_DST | GPUBufferUsage.MAP_READ });
   const encoder = device.createCommandEncoder();
@@ -33,7 +33,7 @@ export async function readBuffer(device, buffer) {
   return words;
 }
 
-// The ways in which a shader uses a binding: type of the layout, declaration in WGSL.
+// Uses of a binding: the type in the bind group layout, and the declaration in WGSL.
 const USES = {
   read: ["read-only-storage", (name, type) => `var<storage, read> ${name}: array<${type}>`],
   write: ["storage", (name, type) => `var<storage, read_write> ${name}: array<${type}>`],
@@ -41,8 +41,8 @@ const USES = {
 };
 
 /**
- * A shader's bindings, from a table like { words: ["read", "u32"], frame: ["uniform", "Frame"] }: their declarations, their layout,
- * and groups of buffers of these names.
+ * A shader's bindings, described by a table such as { words: ["read", "u32"], frame: ["uniform", "Frame"] }: makes their WGSL
+ * declarations, their layout, and bind groups of buffers with these names.
  */
 class Bindings {
   constructor(device, table, visibility) {
@@ -63,9 +63,9 @@ class Bindings {
   }
 }
 
-const LANES = 64;  // invocations of a workgroup
+const LANES = 64;  // invocations per workgroup
 
-/** A compute shader with `fn run(i: u32)`, called for i below the number of invocations. */
+/** A compute pipeline. Its code defines `fn run(i: u32)`, which is called for each i below the number of invocations. */
 export class Kernel {
   static async create(device, table, code, constants = {}) {
     const kernel = new Kernel();
@@ -80,7 +80,7 @@ export class Kernel {
     return kernel;
   }
 
-  /** Runs it in a submission of its own. */
+  /** Runs the kernel, in a separate submission. */
   run(buffers, invocations) {
     if (invocations === 0) return;
     const { device } = this.bindings, groups = Math.ceil(invocations / LANES);
@@ -95,7 +95,7 @@ export class Kernel {
   }
 }
 
-/** A render pipeline; entry points `vertex` and `fragment` unless told otherwise, constants for the vertex stage. */
+/** A render pipeline. Default entry points: `vertex` and `fragment`. `constants` are for the vertex stage. */
 export class Draw {
   static async create(device, table, code, options) {
     const { format, samples = 1, topology = "triangle-list", vertex = "vertex", fragment = "fragment", constants = {} } = options;
@@ -113,7 +113,7 @@ export class Draw {
     return draw;
   }
 
-  /** Begins to use it in a pass. */
+  /** Sets the pipeline and its bindings in a pass. */
   use(pass, buffers) {
     pass.setPipeline(this.pipeline);
     pass.setBindGroup(0, this.bindings.group(buffers));

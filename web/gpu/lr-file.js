@@ -1,5 +1,5 @@
-// Reads .lr files (docs/lr-file.md) whose sections are resident: a GPU takes the sections as they lie in the file. Sizes are checked, so that
-// no number in a file asks for more memory than its bytes can mean; the shaders stay inside their buffers by themselves.
+// Reads .lr files (docs/lr-file.md) with resident sections, which a GPU can use unchanged. Checks sizes of streams, so that no
+// count in a damaged file allocates too much memory. WebGPU keeps shaders inside their buffers.
 import { ATTRIBUTE, LEAN, LR, LR_COMPACT, PACKED, SEAMS, TYPES, VERTICES, malformed, readContainer } from "../lacedring/container.js";
 
 const KINDS = { [LEAN]: "lean", [LR]: "lr", [PACKED]: "packed" };
@@ -9,7 +9,7 @@ const CRC_TABLE = Uint32Array.from({ length: 256 }, (_, i) => {
   return i;
 });
 
-/** CRC-32 as zlib has it. */
+/** CRC-32, as in zlib. */
 export function crc32(bytes) {
   let crc = 0xffffffff;
   for (let i = 0; i < bytes.length; i++) crc = crc >>> 8 ^ CRC_TABLE[(crc ^ bytes[i]) & 255];
@@ -22,10 +22,10 @@ function require(condition, message) {
 
 /**
  * Reads a file. `bytes`: a Uint8Array.
- * Returns { kind: "lean", "packed" or "lr", stream, slots, vertices, triangles, copies, seams, attributes }, in which stream and seams are
- * Uint32Arrays of words (seams is undefined where there are none), slots what a draw counts, and attributes a list of
- * { name, perCopy, count, components, bytes } with either `words`, a vertex stream, and its `mapping`, or `values`, a Float32Array.
- * Attributes of other types in memory have neither. Throws an Error with one line.
+ * Returns { kind: "lean", "packed" or "lr", stream, slots, vertices, triangles, copies, seams, attributes }. stream and seams are
+ * Uint32Arrays (seams is undefined if there are none). slots is the number of triangles to draw, degenerate ones included. attributes is
+ * a list of { name, perCopy, count, components, bytes }. A vertex stream also has { words, mapping, integers }, an uncompressed
+ * attribute of 32-bit floats a Float32Array `values`; other types have neither. Throws an Error of one line.
  */
 export function readLr(bytes) {
   bytes = bytes.byteOffset % 4 === 0 ? bytes : bytes.slice();
@@ -41,7 +41,7 @@ export function readLr(bytes) {
   const position = file.attributes.find(({ name }) => name === "POSITION");
   require(position && position.components === 3 && !position.perCopy, "no positions");
   if (!position.values && !(position.mapping >= 1 && position.mapping <= 4 && position.mapping !== 2))
-    throw new Error("The positions of this file are doubles: nothing that a GPU draws.");
+    throw new Error("The positions of this file are 64-bit floats, which a GPU cannot draw.");
   return file;
 }
 
@@ -53,7 +53,7 @@ function wordsOf(contents) {
 function readSection(file, { kind, name, perCopy, type, components }, contents) {
   if (kind === LR_COMPACT) throw new Error("Bit-efficient LR tables are not drawn here; write the file with --format lr, lean or packed.");
   if (kind in KINDS) {
-    require(!file.stream, "two connectivities");
+    require(!file.stream, "two sections of connectivity");
     Object.assign(file, { kind: KINDS[kind], stream: wordsOf(contents) });
   } else if (kind === SEAMS && contents.length > 0) {
     file.seams = wordsOf(contents);
@@ -68,10 +68,10 @@ function readSection(file, { kind, name, perCopy, type, components }, contents) 
 function readValues(attribute, values, type, components) {
   attribute.components = components;
   if (type === "f32") {
-    require(values.length === 4 * components * attribute.count, "an attribute has not one entry for each vertex");
+    require(values.length === 4 * components * attribute.count, "an attribute with the wrong number of values");
     attribute.values = new Float32Array(values.buffer, values.byteOffset, values.length / 4);
   } else if (type === "f64" && attribute.name === "POSITION") {
-    throw new Error("The positions of this file are doubles: nothing that a GPU draws.");
+    throw new Error("The positions of this file are 64-bit floats, which a GPU cannot draw.");
   }
 }
 
@@ -80,20 +80,20 @@ function readVertexStream(attribute, contents) {
   require(words.length >= 9 && words[0] === 0x3156524c, "not a vertex stream");
   const n = words[2] & 31, blocks = Math.ceil(words[1] / 128), groupWords = 1 + Math.ceil(15 * (words[2] >>> 18 & 31) / 32);
   const data = 7 + 2 * n + 2 * words[6] + Math.ceil(blocks / 16) * groupWords;
-  require(n >= 1 && n <= 16 && words[1] === attribute.count, "a vertex stream of another number of vertices");
+  require(n >= 1 && n <= 16 && words[1] === attribute.count, "a vertex stream with the wrong number of vertices");
   require(data + 2 <= words.length && blocks * (n + 2) <= 32 * (words.length - data), "a vertex stream that is too short");
   const mapping = words[2] >>> 5 & 7;
   Object.assign(attribute, { words, mapping, components: mapping === 2 ? n + 1 : n, integers: n });
 }
 
-/** Compares what the stream's header says with its size; sets file.slots. Returns the most copies that there can be. */
+/** Checks the stream's header against its size; sets file.slots. Returns the largest possible number of copies. */
 function checkConnectivity(file) {
   const w = file.stream, { kind } = file;
   if (kind === "lean") {
-    require(w.length >= 8 && w[0] === 0x4e4c524c && w.length === 8 + 2 * w[3] + w[4] + 3 * w[5], "a lean stream of another size");
+    require(w.length >= 8 && w[0] === 0x4e4c524c && w.length === 8 + 2 * w[3] + w[4] + 3 * w[5], "a lean stream of the wrong size");
     file.slots = 2 * w[3] + w[4] + w[5];
   } else if (kind === "lr") {
-    require(w.length >= 10 && w[0] === 0x5443524c && w.length === 10 + 2 * w[3] + 6 * w[4] + w[5] + w[6] + 2 * w[7], "LR tables of another size");
+    require(w.length >= 10 && w[0] === 0x5443524c && w.length === 10 + 2 * w[3] + 6 * w[4] + w[5] + w[6] + 2 * w[7], "LR tables of the wrong size");
     file.slots = 2 * w[3] + w[4];
   } else {
     require(w.length >= 4 && w[0] === 0x3250524c, "not a packed stream");
@@ -102,7 +102,7 @@ function checkConnectivity(file) {
     require(doubles + (w[1] >>> 31 ? 2 + 2 * w[doubles + 1] : 0) <= w.length && more <= w[2], "a packed stream that is too short");
     file.slots = w[2] + more;
   }
-  require(file.vertices === (kind === "packed" ? w[1] & 0x7fffffff : w[2]), "connectivity of another number of vertices");
+  require(file.vertices === (kind === "packed" ? w[1] & 0x7fffffff : w[2]), "connectivity with the wrong number of vertices");
   require(!file.seams || (file.seams.length >= 8 && file.seams[0] === 0x3153524c), "not a seam section");
   return file.vertices + 3 * file.slots;
 }

@@ -1,4 +1,4 @@
-// The page: opens files, shows choices, bytes and what went wrong.
+// The WebGPU page: opens files, draws them as chosen, shows buffer sizes and errors.
 import { Orbit } from "./camera.js";
 import { openDevice } from "./gpu.js";
 import { readLr } from "./lr-file.js";
@@ -13,7 +13,8 @@ const NAMES = { stream: "connectivity, as in the file", seams: "seams, as in the
   positions: "positions, floats", normals: "normals, floats" };
 const LEGENDS = {
   ring: [["#000", "the ring"], ["#eedebc", "left of it"], ["#c4ccd4", "elsewhere"]],
-  classes: [["#65ac59", "T0: no edge on the ring"], ["#e9d9b1", "T1, left"], ["#ec9742", "T1, right"], ["#467cc8", "T2"]],
+  classes: [["#65ac59", "T0: no edge on the ring"], ["#e9d9b1", "T1: one edge, left of the ring"], ["#ec9742", "T1: one edge, right of it"],
+    ["#467cc8", "T2: two edges"]],
   outlines: [["#000", "silhouettes and creases"], ["#e05a4f", "borders"]],
 };
 
@@ -21,22 +22,22 @@ let device, includes, renderer, context, mesh, camera, draw, name = "";
 
 const grouped = (n) => Math.round(n).toLocaleString("en-US");
 
-/** What lies on the GPU: what this picture is drawn from, and fainter what is kept for the others. */
+/** Lists the buffers on the GPU: those that this picture needs, then (fainter) those kept for other pictures. */
 function showBytes() {
   const plain = mesh.plainBytes, { slots } = mesh.file, list = Object.entries(mesh.buffers);
   const needed = list.filter(([buffer]) => draw?.needs.has(buffer)), kept = list.filter(([buffer]) => !draw?.needs.has(buffer));
   const sum = needed.reduce((total, [, { size }]) => total + size, 0);
-  const rows = [...needed.map(([buffer, { size }]) => [NAMES[buffer], size, ""]), ["for this picture", sum, "sum"],
-    [`plain indexed buffers (${(plain / sum).toFixed(1)} times)`, plain, ""],
-    ...kept.map(([buffer, { size }]) => [`kept: ${NAMES[buffer]}`, size, "faint"])];
+  const rows = [...needed.map(([buffer, { size }]) => [NAMES[buffer], size, ""]), ["total for this picture", sum, "sum"],
+    [`uncompressed buffers (${(plain / sum).toFixed(1)} times as large)`, plain, ""],
+    ...kept.map(([buffer, { size }]) => [`kept for other pictures: ${NAMES[buffer]}`, size, "faint"])];
   showTable(rows);
   const bits = (8 * 4 * mesh.file.stream.length / mesh.file.triangles).toFixed(2);
   element("status").textContent = `${name}: ${mesh.file.kind}, ${grouped(mesh.file.triangles)} triangles` +
-    `${slots > mesh.file.triangles ? ` in ${grouped(slots)} slots` : ""}, ${bits} bits each`;
+    `${slots > mesh.file.triangles ? ` in ${grouped(slots)} slots` : ""}, ${bits} bits per triangle`;
 }
 
 function showLegend(view) {
-  const note = view === "ring" && mesh?.file.kind === "packed" ? " A packed stream does not say where rings close: those edges are left out." : "";
+  const note = view === "ring" && mesh?.file.kind === "packed" ? " Edges that close a ring are missing: a packed stream does not store where rings close." : "";
   element("legend").replaceChildren(...(LEGENDS[view] ?? []).map(([color, text]) => {
     const span = document.createElement("span");
     span.append(Object.assign(document.createElement("i"), { style: `background:${color}` }), text);
@@ -45,13 +46,13 @@ function showLegend(view) {
 }
 
 let working = Promise.resolve();
-/** One piece of work after the other; errors are shown. */
+/** Queues a piece of work after all earlier ones; shows its error. */
 function later(work) {
   working = working.then(work).catch(showError);
   return working;
 }
 
-/** Makes what the chosen picture needs. */
+/** Prepares the buffers and pipelines of the chosen picture. */
 async function choose() {
   if (!mesh) return;
   const choice = Object.fromEntries(new FormData(panel));
@@ -93,7 +94,7 @@ async function open(bytes, called) {
   if (panel.elements.blocks.disabled) panel.elements.blocks.checked = false;
   const outlines = panel.querySelector("[value=outlines]");
   outlines.disabled = mesh.file.kind !== "lr";
-  outlines.parentElement.title = outlines.disabled ? "From the corner operators, which LR tables have: encode --format lr" : "";
+  outlines.parentElement.title = outlines.disabled ? "Outlines need LR tables: encode the file with --format lr" : "";
   if (outlines.checked && outlines.disabled) panel.querySelector("[value=smooth]").checked = true;
   await choose();
 }
@@ -114,6 +115,6 @@ async function start() {
   await listenForFiles(later, open);
 }
 
-/** For tests: resolves when the page has done what it was asked to, and has drawn. */
+/** For tests: resolves when all queued work is done and drawn. */
 window.idle = () => later(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
 later(start);

@@ -1,12 +1,15 @@
-// A mesh on the GPU: the sections of its file as they lie there, and what compute shaders make of them when it is wanted.
+// A mesh on the GPU: the unchanged sections of its file, and buffers that compute shaders decode from these on demand.
 import { Kernel, createBuffer, readBuffer } from "./gpu.js";
 import { expandShader, normalShaders, seamShader, vertexShader } from "./shaders.js";
 
 export class GpuMesh {
-  /** Kernels, by name: compiled when first used. */
+  /** Kernels by name, compiled at first use. */
   #kernels = new Map();
 
-  /** file: of readLr. includes: of loadIncludes. Uploads it and decodes positions once, for the camera; they stay until drop("positions"). */
+  /**
+   * Uploads a file (from readLr); includes: from loadIncludes. Decodes positions to find the bounds for the camera; their buffer stays
+   * until drop("positions").
+   */
   static async create(device, file, includes) {
     const mesh = new GpuMesh();
     Object.assign(mesh, { device, file, includes, buffers: {} });
@@ -39,7 +42,7 @@ export class GpuMesh {
     return this.#kernels.get(name);
   }
 
-  /** Makes a buffer if it is not there: "indices", "positions", "normals", or "copies" (with "vertex_of"). */
+  /** Makes a buffer unless it exists: "indices", "positions", "normals", or "copies" (with "vertex_of"). */
   async ensure(name) {
     if (this.buffers[name]) return;
     if (name === "indices") await this.expand();
@@ -48,7 +51,7 @@ export class GpuMesh {
     if (name === "normals") await (this.normal ? this.#decode("normals", "normal", this.normal) : this.#computeNormals());
   }
 
-  /** Gives buffers back that ensure makes again. */
+  /** Frees buffers; ensure can make them again. */
   drop(...names) {
     for (const name of names) {
       this.buffers[name]?.destroy();
@@ -60,7 +63,7 @@ export class GpuMesh {
     this.drop(...Object.keys(this.buffers));
   }
 
-  /** Expands the stream into the index buffer, again if it is there: to be timed. */
+  /** Expands the stream to the index buffer, even if that exists (benchmarks call this repeatedly). */
   async expand() {
     const { kind, slots } = this.file;
     const kernel = await this.#kernel("expand", expandShader(this.includes, kind));
@@ -104,14 +107,14 @@ export class GpuMesh {
     sums.destroy();
   }
 
-  /** Bytes of plain buffers for the same picture: three indices a triangle, floats for positions and, where it has them, normals. */
+  /** Bytes of uncompressed buffers for the same picture: three indices per triangle, positions and, if used, normals as floats. */
   get plainBytes() {
     const { file } = this, vertices = this.hasCopies ? file.copies : file.vertices;
     return 12 * file.triangles + (this.buffers.normals ? 24 : 12) * vertices;
   }
 }
 
-/** The middle and radius of a box around positions. */
+/** { center, radius } of the bounding box of positions. */
 export function boundsOf(positions) {
   const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
   for (let i = 0; i < positions.length; i++) {

@@ -1,16 +1,16 @@
-// Used by both pages: opens files that are dropped, chosen or named in the address; shows the error line and the table of bytes.
+// Code of both pages: opens files that are dropped, chosen or named in the address, shows errors and the table of buffer sizes.
 
 export const element = (id) => document.getElementById(id);
 
-const MOST_PIXELS = 4e6;  // of a canvas
+const MOST_PIXELS = 4e6;  // in a canvas
 
-/** Shows an error in the line for it, or hides that line. */
+/** Shows an error in the page's error line; without an error, hides the line. */
 export function showError(error) {
   element("error").textContent = error?.message ?? "";
   element("error").hidden = !error;
 }
 
-/** Rows of [text, bytes, class]. */
+/** Shows the table of buffer sizes. rows: [text, bytes, CSS class]. */
 export function showTable(rows) {
   element("bytes").replaceChildren(...rows.map(([what, bytes, style]) => {
     const row = document.createElement("tr");
@@ -20,13 +20,13 @@ export function showTable(rows) {
   }));
 }
 
-/** { width, height } of a canvas in device pixels. */
+/** The size { width, height } that a canvas should have, in device pixels. */
 export function sizeOf({ clientWidth, clientHeight }) {
   const scale = Math.min(devicePixelRatio, Math.sqrt(MOST_PIXELS / Math.max(clientWidth * clientHeight, 1)));
   return { width: Math.max(1, Math.round(clientWidth * scale)), height: Math.max(1, Math.round(clientHeight * scale)) };
 }
 
-/** Calls open(bytes, name) for files that come, one after the other by `later`, and first for ?file=URL. */
+/** Calls open(bytes, name) for the file named by ?file=URL, and through the queue `later` for each file that is dropped or chosen. */
 export async function listenForFiles(later, open) {
   const openFile = (file) => file && later(async () => open(new Uint8Array(await file.arrayBuffer()), file.name));
   element("file").addEventListener("change", ({ target }) => openFile(target.files[0]));

@@ -1,15 +1,15 @@
-// Draws a mesh by one of two paths: "pull" decodes triangles in the vertex stage, "expand" draws from an index buffer that a compute shader has
-// written.
+// Draws a mesh by one of two paths: "pull" decodes triangles in the vertex shader, "expand" draws an index buffer that a compute shader
+// has written.
 import { Draw } from "./gpu.js";
 import { outlineShader, surfaceShader } from "./shaders.js";
 
-/** Views, and the entry point of each. ring and classes look at the whole triangle, outlines need LR tables. */
+/** Fragment entry points by view. The views ring and classes need whole triangles in the vertex shader; outlines need LR tables. */
 export const VIEWS = { smooth: "smooth_view", flat: "flat_view", ring: "ring_view", classes: "class_view", outlines: "pale_view" };
 const CREASE_COS = Math.cos(40 * Math.PI / 180);
 
 export class Renderer {
   #draws = new Map();
-  #targets = {};  // depth and, of several samples a pixel, color
+  #targets = {};  // depth and, with several samples per pixel, color
 
   constructor(device, format, samples = 1) {
     Object.assign(this, { device, format, samples });
@@ -25,15 +25,15 @@ export class Renderer {
   }
 
   /**
-   * Has the mesh hold what a picture needs, and compiles. Returns { record, needs }: record(pass) draws it from the buffers named by needs. choice: { path: "pull" or "expand",
-   * blocks: positions out of the vertex blocks, in the vertex stage; view: one of VIEWS; plain: { indices, count }, an index buffer in place of
-   * the expanded one }.
+   * Makes the buffers and pipelines that a picture needs; drops unneeded buffers. Returns { record, needs }: record(pass) draws the
+   * picture; needs: names of the buffers that it uses. Options: path: "pull" or "expand"; blocks: whether the vertex shader decodes
+   * positions from vertex blocks; view: one of VIEWS; plain: { indices, count }, an index buffer to draw instead of the expanded one.
    */
   async prepare(mesh, { path, blocks = false, view, plain }) {
     const { file } = mesh, expand = path === "expand";
     if (view === "outlines" && file.kind !== "lr")
-      throw new Error("Outlines come from the corner operators, which LR tables have: lacedring encode --format lr");
-    if (blocks && !mesh.position.words) throw new Error("The positions of this file are floats, not vertex blocks.");
+      throw new Error("Outlines need LR tables: write the file with `lacedring encode --format lr`.");
+    if (blocks && !mesh.position.words) throw new Error("The positions of this file are not compressed: there are no vertex blocks to decode.");
     const marked = view === "ring" || view === "classes", hasNormals = view === "smooth", hasCopies = hasNormals && mesh.hasCopies;
     if (hasNormals) await mesh.ensure("normals");
     if (hasCopies) await mesh.ensure("copies");
@@ -46,7 +46,7 @@ export class Renderer {
 
     const key = JSON.stringify([file.kind, expand, blocks, view, hasCopies]), positions = blocks ? "blocks" : "floats";
     const shader = surfaceShader(mesh.includes, { kind: file.kind, indices: expand, positions, hasCopies, hasNormals });
-    const isIndexed = expand && !marked;  // an indexed vertex does not know its triangle
+    const isIndexed = expand && !marked;  // in an indexed draw, the vertex shader does not know the triangle
     const constants = { marked: marked ? 1 : 0, ...(blocks ? { LR_VERTEX_MAPPING: mesh.position.mapping } : {}) };
     const surface = await this.#pipeline(key, shader, { vertex: isIndexed ? "indexed" : "pulled", fragment: VIEWS[view], constants });
     const outlines = view !== "outlines" ? undefined : await this.#pipeline(`outlines ${blocks}`, outlineShader(mesh.includes, positions),
@@ -74,7 +74,7 @@ export class Renderer {
     return { record, needs };
   }
 
-  /** Draws what was prepared into a texture. */
+  /** Draws a prepared picture to a texture. */
   draw(texture, { record }, camera, background) {
     const { device } = this, { width, height } = texture, { clipFromWorld, eye } = camera.matrices(width / height);
     this.#resize(width, height);

@@ -1,12 +1,12 @@
-// The page's WGSL: pieces that are put together with shaders/include/*.wgsl, one for each way to get at triangles, positions and copies.
+// The page's WGSL. Shaders are assembled from shaders/include/*.wgsl and one snippet each for the source of triangles, positions and copies.
 
 const INCLUDES = ["lacedring", "lacedring_vertices", "lacedring_seams", "lacedring_operators"];
 
-/** The texts of shaders/include, by name. They lie in the folder beside this page's, as scripts/web serves them. */
+/** Loads the files of shaders/include, by name. scripts/web serves them as /shaders/. */
 export async function loadIncludes(folder = new URL("../shaders/", import.meta.url)) {
   const texts = await Promise.all(INCLUDES.map(async (name) => {
     const response = await fetch(new URL(`${name}.wgsl`, folder));
-    if (!response.ok) throw new Error(`${name}.wgsl is not beside this page: scripts/web serves it as /shaders/`);
+    if (!response.ok) throw new Error(`${name}.wgsl was not found: the server must have shaders/include as /shaders/, as scripts/web does`);
     return response.text();
   }));
   return Object.fromEntries(INCLUDES.map((name, i) => [name, texts[i]]));
@@ -14,7 +14,7 @@ export async function loadIncludes(folder = new URL("../shaders/", import.meta.u
 
 const STREAM = { stream: ["read", "u32"] };
 
-/** The words of a connectivity stream, and fn ring_edge(a, b): is b the next vertex on a's ring? */
+/** Access to the words of a stream, and fn ring_edge(a, b): whether b is the next vertex after a on its ring. */
 const EDGES = {
   lean: `fn lr_stream_word(i: u32) -> u32 { return stream[i]; }
 fn ring_edge(a: u32, b: u32) -> bool {
@@ -24,18 +24,18 @@ fn ring_edge(a: u32, b: u32) -> bool {
   let at = select(a + lean.rings2, 2u * a, two_sided);
   return lr_lean_next(a, lr_lean_word(at), lr_lean_word(select(at, at + 1u, two_sided))) == b;
 }`,
-  // A packed stream numbers vertices along the rings and does not say where one ends.
+  // A packed stream numbers vertices along the rings and does not store where a ring ends.
   packed: `fn lr_stream_word(i: u32) -> u32 { return stream[i]; }
 fn ring_edge(a: u32, b: u32) -> bool { return b == a + 1u; }`,
   lr: `fn lr_table_word(i: u32) -> u32 { return stream[i]; }
 fn ring_edge(a: u32, b: u32) -> bool { return a < lr_table_word(LR_TABLE_WORD_RING) && lr_ring_next(a) == b; }`,
 };
 
-/** fn triangle_of(t): out of the stream. */
+/** fn triangle_of(t): decodes triangle t from the stream. */
 const PULL = {
   lean: "fn triangle_of(t: u32) -> vec3u { return lr_lean_triangle(lr_lean_layout(), t); }",
   packed: "fn triangle_of(t: u32) -> vec3u { return lr_packed_triangle(lr_packed_layout(), t); }",
-  // Numbers that are no triangle of their own cover nothing.
+  // Numbers that are not canonical give degenerate triangles.
   lr: `fn triangle_of(t: u32) -> vec3u {
   let lr = lr_op_layout();
   if (!lr_is_canonical(lr, t)) { return vec3u(0u); }
@@ -43,7 +43,7 @@ const PULL = {
 }`,
 };
 
-/** A stream's words, edges and triangles: { table, code }. indices: triangles come out of the expanded index buffer. */
+/** { table, code } that reads a stream's words, ring edges and triangles. indices: reads triangles from the expanded index buffer. */
 function triangles(includes, kind, indices) {
   const include = includes[kind === "lr" ? "lacedring_operators" : "lacedring"];
   if (!indices) return { table: STREAM, code: include + EDGES[kind] + PULL[kind] };
@@ -54,7 +54,7 @@ fn triangle_of(t: u32) -> vec3u { return vec3u(indices[3u * t], indices[3u * t +
   };
 }
 
-/** Expands the stream to an index list: for each four triangles of a packed stream, or for each slot. */
+/** Expands a stream to an index list. One invocation expands four triangles of a packed stream, or one slot of other streams. */
 export function expandShader(includes, kind) {
   const run = kind === "packed" ? `fn run(i: u32) {
   let p = lr_packed_layout();
@@ -71,7 +71,7 @@ ${run}`,
   };
 }
 
-/** Decodes a seam section: vertex blocks (seam_pass 0), then triangle blocks. */
+/** Decodes a seam section: vertex blocks (seam_pass 0), then triangle blocks (seam_pass 1). */
 export function seamShader(includes) {
   return {
     table: { seams: ["read", "u32"], indices: ["read", "u32"], homes: ["write", "u32"], copies: ["write", "u32"], vertex_of: ["write", "u32"],
@@ -92,7 +92,7 @@ fn run(i: u32) {
   };
 }
 
-/** Decodes a vertex stream of 2 or 3 integers, a block of 128 vertices an invocation, to three floats a vertex. */
+/** Decodes a vertex stream of 2 or 3 integers to three floats per vertex. One invocation decodes a block of 128 vertices. */
 export function vertexShader(includes, integers) {
   return {
     table: { words: ["read", "u32"], floats: ["write", "f32"] },
@@ -117,7 +117,7 @@ fn run(i: u32) {
   };
 }
 
-/** Smooth normals where a file has none, in two passes. Sums are integers, so that their order does not matter: one result everywhere. */
+/** Computes smooth normals for files without normals, in two passes. Sums are integers, so the result does not depend on their order. */
 export function normalShaders(includes, kind, indices) {
   const { table, code } = triangles(includes, kind, indices);
   return [{
@@ -147,7 +147,7 @@ fn run(t: u32) {
   }];
 }
 
-/** fn position(v): decoded before, or out of v's block, up to there. */
+/** fn position(v): reads the decoded position, or decodes v's block up to v. */
 const POSITIONS = {
   floats: {
     table: { positions: ["read", "f32"] },
@@ -171,13 +171,13 @@ const FRAME = `struct Frame { clip_from_world: mat4x4f, eye: vec4f, crease_cos: 
 `;
 
 const SURFACE = `
-override marked: bool = false;  // does the view look at ring edges?
+override marked: bool = false;  // whether the view shows ring edges
 struct Corner {
   @builtin(position) @invariant clip: vec4f,
   @location(0) world: vec3f,
   @location(1) normal: vec3f,
-  @location(2) place: vec3f,                   // in the triangle: 1 at corner k
-  @location(3) @interpolate(flat) edges: u32,  // bit k: the ring goes along the edge across from corner k; 3 + k: the triangle lies left of it
+  @location(2) place: vec3f,                   // barycentric coordinates
+  @location(3) @interpolate(flat) edges: u32,  // bit k: the edge opposite corner k is on the ring; bit 3 + k: the triangle is left of it
 }
 fn corner(v: u32, copy: u32) -> Corner {
   var out: Corner;
@@ -196,7 +196,7 @@ fn edges_of(v: vec3u) -> u32 {
   }
   return edges;
 }
-// Three vertices a triangle, no vertex buffer.
+// Without index and vertex buffers: three vertices per triangle.
 @vertex fn pulled(@builtin(vertex_index) i: u32) -> Corner {
   let v = triangle_of(i / 3u);
   let k = i % 3u;
@@ -205,7 +205,7 @@ fn edges_of(v: vec3u) -> u32 {
   if (marked) { out.edges = edges_of(v); }
   return out;
 }
-// By an index buffer, over copies where normals are theirs.
+// With an index buffer: over copies if normals belong to copies.
 @vertex fn indexed(@builtin(vertex_index) i: u32) -> Corner { return corner(vertex_of_copy(i), i); }
 
 fn lit(color: vec3f, n: vec3f, world: vec3f) -> vec4f {
@@ -218,7 +218,7 @@ fn flat_normal(world: vec3f) -> vec3f { return normalize(cross(dpdx(world), dpdy
 const GRAY = vec3f(0.62, 0.62, 0.6);
 @fragment fn smooth_view(in: Corner) -> @location(0) vec4f { return lit(GRAY, normalize(in.normal), in.world); }
 @fragment fn flat_view(in: Corner) -> @location(0) vec4f { return lit(GRAY, flat_normal(in.world), in.world); }
-// How much of the pixel the ring's line covers.
+// The fraction of the pixel that the ring's line covers.
 fn line(in: Corner) -> f32 {
   let distance = in.place / max(fwidth(in.place), vec3f(1e-6));
   var nearest = 9.0;
@@ -245,7 +245,7 @@ fn line(in: Corner) -> f32 {
 }
 `;
 
-/** The surface. positions: "floats" or "blocks"; hasCopies: normals are of copies; hasNormals: else they are 0. */
+/** Draws the surface. positions: "floats" or "blocks"; hasCopies: normals belong to copies; without hasNormals, normals are 0. */
 export function surfaceShader(includes, { kind, indices, positions, hasCopies, hasNormals }) {
   const source = triangles(includes, kind, indices), vertices = POSITIONS[positions];
   const table = { ...source.table, ...vertices.table, frame: ["uniform", "Frame"] };
@@ -262,7 +262,7 @@ ${SURFACE}`,
   };
 }
 
-/** Silhouettes, borders and creases, asked of LR tables: two vertices for each corner, the ends of the edge across from it. */
+/** Draws silhouettes, borders and creases, found by LR tables. Two vertices per corner: the ends of the edge opposite it. */
 export function outlineShader(includes, positions) {
   const vertices = POSITIONS[positions];
   const blocks = positions === "blocks" ? `const LR_VERTEX_COMPONENTS = 3u;\n${includes.lacedring_vertices}` : "";
@@ -277,7 +277,7 @@ struct Line { @builtin(position) clip: vec4f, @location(0) @interpolate(flat) is
   let nowhere = Line(vec4f(2.0, 2.0, 2.0, 1.0), 0u);
   if (!lr_is_canonical(lr, t)) { return nowhere; }
   let o = lr_opposite(lr, c);
-  if (o < c) { return nowhere; }  // drawn from there
+  if (o < c) { return nowhere; }  // drawn from the other side
   let from_vertex = lr_vertex(lr, lr_next(c));
   let to_vertex = lr_vertex(lr, lr_previous(c));
   let a = position(from_vertex);
@@ -292,7 +292,7 @@ struct Line { @builtin(position) clip: vec4f, @location(0) @interpolate(flat) is
     if (!silhouette && !(lengths > 0.0 && dot(near, far) < frame.crease_cos * lengths)) { return nowhere; }
   }
   let world = select(b, a, (i & 1u) == 0u);
-  let lifted = mix(world, frame.eye.xyz, 0.002);  // before the surface
+  let lifted = mix(world, frame.eye.xyz, 0.002);  // a little in front of the surface
   return Line(frame.clip_from_world * vec4f(lifted, 1.0), u32(is_border));
 }
 @fragment fn fragment(in: Line) -> @location(0) vec4f { return select(vec4f(0.0, 0.0, 0.0, 1.0), vec4f(0.75, 0.1, 0.1, 1.0), in.is_border != 0u); }

@@ -1,4 +1,4 @@
-// The page in WebGL2: opens files and draws them from the stream.
+// The WebGL2 page: opens files and draws them from the stream.
 import { Orbit } from "./camera.js";
 import { Gl2Mesh, loadGlsl } from "./gl2.js";
 import { readLr } from "./lr-file.js";
@@ -25,8 +25,8 @@ function open(bytes, name) {
   camera.bounds = mesh.bounds;
   element("hint").hidden = true;
   const sum = mesh.stream.bytes + mesh.positions.bytes;
-  showTable([["connectivity, a texture", mesh.stream.bytes, ""], ["positions, a texture of floats", mesh.positions.bytes, ""], ["for this picture", sum, "sum"],
-    ["plain indexed buffers", 12 * (file.triangles + file.vertices), ""]]);
+  showTable([["connectivity, a texture", mesh.stream.bytes, ""], ["positions, a texture of floats", mesh.positions.bytes, ""], ["total for this picture", sum, "sum"],
+    ["uncompressed buffers", 12 * (file.triangles + file.vertices), ""]]);
   element("status").textContent = `${name}: ${file.kind}, ${grouped(file.triangles)} triangles`;
   changed();
 }
@@ -46,11 +46,11 @@ async function start() {
 }
 
 let working = Promise.resolve();
-/** One piece of work after the other; errors are shown. */
+/** Queues a piece of work after all earlier ones; shows its error. */
 function later(work) {
   return (working = working.then(work).catch(showError));
 }
 
-/** For tests: resolves when the page has done what it was asked to, and has drawn. */
+/** For tests: resolves when all queued work is done and drawn. */
 window.idle = () => later(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
 later(start);

@@ -22,7 +22,7 @@ export class BufferViews {
     this.#checkPlaceholders();
   }
 
-  /** A placeholder has no bytes, and room for its views. */
+  /** Checks that placeholder buffers have no bytes, and that their views lie inside them. */
   #checkPlaceholders() {
     this.#buffers.forEach((buffer, i) => {
       const extension = extensionOf(buffer);
@@ -49,7 +49,7 @@ export class BufferViews {
     return extensionOf(this.list[view]) !== undefined;
   }
 
-  /** Has it no contents? */
+  /** True if a view has no contents: it is not coded, and its buffer is a placeholder. */
   isHollow(view) {
     return !this.isCoded(view) && this.#isPlaceholder(this.list[view].buffer);
   }
@@ -69,7 +69,7 @@ export class BufferViews {
     return bytes.subarray(byteOffset, byteOffset + byteLength);
   }
 
-  /** The bytes of a view that is not coded, where they lie. */
+  /** The bytes of a view that is not coded, without copying them. */
   async stored(view) {
     numberBelow(this.list.length, view, "a buffer view");
     if (this.isCoded(view)) refuse(`buffer view ${view} is coded`);

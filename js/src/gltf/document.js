@@ -1,36 +1,36 @@
-// The JSON of a glTF file and what the extension says in it. Values are as JSON.parse made them and may be anything.
+// Access to the JSON of a glTF file and to the extension's objects in it. Values come from JSON.parse and are untrusted.
 
 export const EXTENSION = "LACEDRING_mesh_compression";
 
-/** Refuses the asset, in one line. */
+/** Throws an Error of one line: the file is invalid. */
 export function refuse(message) {
   throw new Error(`${EXTENSION}: ${message}`);
 }
 
 const isObject = (value) => typeof value === "object" && value !== null && !Array.isArray(value);
 
-/** The objects in owner[name]; [] where it is absent. */
+/** The objects in owner[name]; [] if absent. */
 export function listOf(owner, name) {
   const list = owner[name] ?? [];
   if (!Array.isArray(list) || !list.every(isObject)) refuse(`"${name}" is not a list of objects`);
   return list;
 }
 
-/** The object in owner[name]; {} where it is absent. */
+/** The object in owner[name]; {} if absent. */
 export function objectOf(owner, name) {
   const object = owner[name] ?? {};
   if (!isObject(object)) refuse(`"${name}" is not an object`);
   return object;
 }
 
-/** The extension's object at a place of the document; undefined: it has none. */
+/** The extension's object in `owner`; undefined if it has none. */
 export function extensionOf(owner) {
   const extension = objectOf(owner, "extensions")[EXTENSION];
   if (extension !== undefined && !isObject(extension)) refuse("its value is not an object");
   return extension;
 }
 
-/** An integer from 0 to below `end`. */
+/** Checks that `value` is an integer in [0, end); returns it. */
 export function numberBelow(end, value, what) {
   if (!Number.isInteger(value) || value < 0 || value >= end) refuse(`${what} is missing or not a number below ${end}`);
   return value;
@@ -42,7 +42,7 @@ export function removeExtension(owner) {
   if (Object.keys(owner.extensions).length === 0) delete owner.extensions;
 }
 
-/** Takes the extension out of the document, where nothing refers to it any more. */
+/** Removes the extension from the document. */
 export function removeAllExtensions(json) {
   const primitives = listOf(json, "meshes").flatMap((mesh) => listOf(mesh, "primitives"));
   [json, ...primitives, ...listOf(json, "bufferViews"), ...listOf(json, "buffers")].forEach(removeExtension);

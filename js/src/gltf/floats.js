@@ -3,16 +3,16 @@ import { inflate } from "./inflate.js";
 
 const QUATERNIONS = 0x80, MOST_WIDTH = 16;
 
-// The rank of a float grows with it: its bits, with those of negative numbers turned over.
+// The rank of a float, which increases with the float: its bits; of a negative float, the bits inverted.
 const rankOf = (bits) => (bits < 0 ? ~bits : bits ^ 0x80000000);
 const bitsOf = (rank) => (rank < 0 ? rank ^ 0x80000000 : ~rank);
 const unfold = (code) => (code >>> 1) ^ -(code & 1);
 
-/** Reads codes below the highest bit, the lowest bit of each byte first. */
+/** Reads bits, the lowest bit of each byte first. A code's highest bit is not stored. */
 class BitReader {
   #bytes;
   #at = 0;
-  #held = 0;  // bits of the byte at #at that were read
+  #held = 0;  // bits already read of the byte at #at
 
   constructor(bytes) {
     this.#bytes = bytes;
@@ -34,14 +34,14 @@ class BitReader {
     return value;
   }
 
-  /** Is nothing left but zeros in the last byte? */
+  /** True if only zero bits in the last byte are left. */
   isAtEnd() {
     if (this.#held === 0) return this.#at === this.#bytes.length;
     return this.#at === this.#bytes.length - 1 && this.#bytes[this.#at] >> this.#held === 0;
   }
 }
 
-/** The value that a unit quaternion's other three components leave. */
+/** The component `which` of a unit quaternion, computed from the other three. */
 function restOf(row, which, isNegative) {
   let rest = 1;
   row.forEach((value, c) => {
@@ -52,10 +52,10 @@ function restOf(row, which, isNegative) {
 }
 
 /**
- * Decodes the coding "floats": rows of 32-bit floats, bit for bit.
+ * Decodes the coding "floats": rows of 32-bit floats, lossless.
  * @param {Uint8Array} coded
- * @param {number} size bytes that it decodes to
- * @returns {Promise<Uint8Array>} Rejects with an Error in one line: the bytes are not valid.
+ * @param {number} size of the decoded floats, in bytes
+ * @returns {Promise<Uint8Array>} Rejects with an Error of one line if the bytes are invalid.
  */
 export async function decodeFloats(coded, size) {
   if (coded.length < 8) refuse("floats: no header");
@@ -72,7 +72,7 @@ export async function decodeFloats(coded, size) {
   const row = new Int32Array(width);  // codes
   const line = new Float32Array(1), lineBits = new Int32Array(line.buffer);
 
-  /** The rank that is expected at place `at` from the two floats before it in its column. */
+  /** Predicts the rank at place `at` from the two floats before it in its column. */
   const expect = (at) => {
     if (at < width) return 0x80000000 | 0;
     if (at < 2 * width) return rankOf(bits[at - width]);

@@ -3,7 +3,7 @@ import { memoryLimit, unpackGltf } from "./unpack.js";
 
 const GLB = 0x46546c67, JSON_CHUNK = 0x4e4f534a, BINARY_CHUNK = 0x004e4942;
 
-/** The document and the binary chunk of a GLB, or of a .gltf file. Throws an Error in one line. */
+/** Splits a GLB or .gltf file into the document and the binary chunk (GLB only). Throws an Error of one line. */
 export function splitGltf(bytes) {
   const data = new DataView(bytes.buffer, bytes.byteOffset, bytes.length);
   const parse = (text) => {
@@ -40,11 +40,12 @@ function writeGlb(json, binary) {
 }
 
 /**
- * Makes a plain GLB of a glTF file with LACEDRING_mesh_compression, for loaders that have no plug-in for it.
+ * Converts a glTF file with LACEDRING_mesh_compression to a plain GLB, for loaders without a plug-in for the extension.
  * @param {Uint8Array} bytes of a .glb or .gltf file
- * @param {(buffer: number, uri: string) => Promise<Uint8Array>} [loadBuffer] the bytes of a buffer that has a uri. Images keep theirs.
- * @param {object} options unpackGltf's
- * @returns {Promise<Uint8Array>} Rejects with an Error in one line. Untrusted input is safe.
+ * @param {(buffer: number, uri: string) => Promise<Uint8Array>} [loadBuffer] loads the bytes of a buffer that has a uri. Uris of
+ *   images stay as they are.
+ * @param {object} options as of unpackGltf
+ * @returns {Promise<Uint8Array>} Rejects with an Error of one line. Untrusted input is safe.
  */
 export async function unpackGlb(bytes, loadBuffer, options) {
   const source = splitGltf(bytes);

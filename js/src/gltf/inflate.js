@@ -1,6 +1,6 @@
 import { refuse } from "./document.js";
 
-// Bytes that are handed over at once: they decode to some 1000 times as many, before anyone can look at them.
+// Bytes written to the decoder at once. They may decode to 1000 times their size before the size can be checked.
 const PIECE = 16384;
 
 async function write(bytes, writer) {
@@ -11,8 +11,8 @@ async function write(bytes, writer) {
 /**
  * Inflates a zlib stream (RFC 1950).
  * @param {Uint8Array} bytes
- * @param {number} most bytes that the stream may decode to; it is given up once it has more
- * @returns {Promise<Uint8Array>} Rejects with an Error in one line: no whole stream, or too large.
+ * @param {number} most bytes that the stream may decode to
+ * @returns {Promise<Uint8Array>} Rejects with an Error of one line if the stream is damaged or decodes to more bytes.
  */
 export async function inflate(bytes, most) {
   const { readable, writable } = new DecompressionStream("deflate");

@@ -1,8 +1,8 @@
 import { refuse } from "./document.js";
 
-const RECENT = 64;  // parts in the list of those used lately
+const RECENT = 64;  // length of the list of recently used parts
 
-/** Numbers of 7 bits a byte, the lowest first. */
+/** Numbers in 7 bits per byte, the lowest bits first; the top bit is set in all bytes but the last. */
 function* numbersIn(bytes) {
   let value = 0, shift = 0;
   for (const byte of bytes) {
@@ -18,18 +18,18 @@ function* numbersIn(bytes) {
 }
 
 /**
- * The part of each triangle.
- * @param {Uint8Array} runs part codes, inflated
- * @param {number} triangles of the stream
- * @param {number} parts of the stream
- * @returns {Uint32Array} Throws an Error in one line: the codes are not valid.
+ * Decodes the part of each triangle.
+ * @param {Uint8Array} runs inflated part codes
+ * @param {number} triangles in the stream
+ * @param {number} parts in the stream
+ * @returns {Uint32Array} Throws an Error of one line if the codes are invalid.
  */
 export function decodePartCodes(runs, triangles, parts) {
   const numbers = numbersIn(runs);
   const next = () => numbers.next().value ?? refuse("part codes: half a run");
   const out = new Uint32Array(triangles);
   const seen = new Set();
-  const recent = [];  // the latest first
+  const recent = [];  // the most recent first
   let count = 0, expected = 0;
   for (const code of numbers) {
     let part;

@@ -1,23 +1,24 @@
-// From a decoded .lr file to vertex sets and index lists.
+// Splits a decoded .lr file into vertex sets and index lists.
 import { refuse } from "./document.js";
 
-/** Types of components by glTF's numbers. */
+/** Array types by component type of glTF. */
 const COMPONENTS = {
   __proto__: null, 5120: Int8Array, 5121: Uint8Array, 5122: Int16Array, 5123: Uint16Array, 5125: Uint32Array, 5126: Float32Array,
 };
 const SHAPES = { __proto__: null, SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MAT2: 4, MAT3: 9, MAT4: 16 };
 
-/** Where triangles come from, in the order of the source. */
+/** The mesh's triangles, sorted by their number in the source. */
 function sortTriangles(cornerOrder) {
   const numbers = cornerOrder.map((entry) => Math.floor(entry / 3)), order = cornerOrder.map((_, i) => i);
   const end = numbers.reduce((most, number) => Math.max(most, number), 0) + 1;
-  if (end > 16 * order.length) return order.sort((a, b) => numbers[a] - numbers[b]);  // most of the source's were degenerate
+  // Most of the source's triangles were degenerate: sorts rather than allocating a table of all numbers.
+  if (end > 16 * order.length) return order.sort((a, b) => numbers[a] - numbers[b]);
   const none = 0xffffffff, from = new Uint32Array(end).fill(none);
   order.forEach((i) => from[numbers[i]] = i);
   return from.filter((i) => i !== none);
 }
 
-/** Set and place of each vertex, where the stream keeps the order: the sets follow each other. */
+/** The set of each vertex and its place in the set, for a stream that keeps the order, in which the sets follow each other. */
 function placeInOrder({ vertexCount, vertexOrder }, counts) {
   if (counts.some((count) => count === undefined)) refuse("an ordered stream, and a set without a count");
   const all = counts.reduce((sum, count) => sum + count, 0);
@@ -32,7 +33,7 @@ function placeInOrder({ vertexCount, vertexOrder }, counts) {
   return { setOf, place: vertexOrder.map((number, v) => number - firstOf[setOf[v]]), counts };
 }
 
-/** Set and place of each vertex, where the stream does not keep the order: a vertex is of the set of its triangles. */
+/** The same for a stream that does not keep the order: a vertex belongs to the set of its triangles. */
 function placeByTriangles({ vertexCount, indices }, stream, partOf) {
   const none = 0xffffffff, setOf = new Uint32Array(vertexCount).fill(none), place = new Uint32Array(vertexCount);
   indices.forEach((v, i) => {
@@ -50,12 +51,12 @@ function placeByTriangles({ vertexCount, indices }, stream, partOf) {
 
 /**
  * Splits a decoded mesh into the vertex sets and the parts of its stream.
- * @param {object} mesh what decodeMesh returns
+ * @param {object} mesh the result of decodeMesh
  * @param {import("./streams.js").Stream} stream
- * @param {Uint32Array} [partOf] of each triangle; undefined: there is one part
- * @param {(number | undefined)[]} counts vertices that the document says each set has, where it does
- * @returns {{rows: (Uint32Array | undefined)[], parts: Uint32Array[]}} of each set, the vertices of the mesh that are its
- *   elements (undefined: all, in order); of each part, its triangles of elements. Throws an Error in one line.
+ * @param {Uint32Array} [partOf] part of each triangle; undefined if there is one part
+ * @param {(number | undefined)[]} counts number of vertices in each set according to the document, if it gives one
+ * @returns {{rows: (Uint32Array | undefined)[], parts: Uint32Array[]}} for each set, the mesh's vertices in it (undefined:
+ *   all, in order); for each part, its triangles as indices into the set. Throws an Error of one line.
  */
 export function splitMesh(mesh, stream, partOf, counts) {
   const { vertexCount, indices, vertexOrder, cornerOrder } = mesh;
@@ -83,7 +84,7 @@ export function splitMesh(mesh, stream, partOf, counts) {
   corners.fill(0);
   for (let i = 0; i < indices.length / 3; i++) {
     const from = triangles ? triangles[i] : i, part = partOf ? partOf[from] : 0;
-    const first = isOrdered ? cornerOrder[from] % 3 : 0;  // corner that the triangle's first one becomes
+    const first = isOrdered ? cornerOrder[from] % 3 : 0;  // the triangle's first corner was this corner in the source
     for (let c = 0; c < 3; c++) {
       const v = indices[3 * from + c];
       if (setOf[v] !== stream.parts[part].set) refuse("a triangle with a vertex of another set");
@@ -94,7 +95,7 @@ export function splitMesh(mesh, stream, partOf, counts) {
   return { rows, parts };
 }
 
-/** The values of a set's elements, tightly packed. */
+/** The values of an attribute at the vertices `rows`, tightly packed. */
 export function valuesOf({ values, components }, rows) {
   if (!rows) return values;
   const out = new values.constructor(rows.length * components);
@@ -105,7 +106,7 @@ export function valuesOf({ values, components }, rows) {
   return out;
 }
 
-/** The values as an accessor's component type has them: its own, or integers that floats stand for. */
+/** The values in an accessor's component type; floats may become integers if that is exact. */
 export function asComponents(values, accessor, attribute) {
   const Type = COMPONENTS[accessor.componentType];
   if (SHAPES[accessor.type] !== attribute.components || !Type || attribute.vUp) refuse(`${attribute.name} does not fit its accessor`);
@@ -120,7 +121,7 @@ export function asComponents(values, accessor, attribute) {
   return out;
 }
 
-/** An index list of a set of `elements` in the type of its accessor. */
+/** Indices into a set of `elements` vertices, in the component type of their accessor. */
 export function asIndices(indices, accessor, elements) {
   const Type = COMPONENTS[accessor.componentType];
   const isIndex = accessor.type === "SCALAR" && [Uint8Array, Uint16Array, Uint32Array].includes(Type);

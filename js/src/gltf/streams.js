@@ -1,16 +1,16 @@
 import { extensionOf, listOf, numberBelow, objectOf, refuse } from "./document.js";
 
 /**
- * What a document says of a stream.
+ * A document's description of a stream.
  * @typedef {object} Stream
  * @property {number} view the buffer view of its .lr file
- * @property {number} [partsView] that of its part codes
+ * @property {number} [partsView] the buffer view of its part codes
  * @property {boolean} ordered
  * @property {number[][]} sets accessors of each vertex set, in the order of the stream's attributes
- * @property {{set: number, indices: number}[]} parts the set and the index accessor of each
+ * @property {{set: number, indices: number}[]} parts set and index accessor of each part
  */
 
-/** Reads streams and their sets. `setOf` gets {stream, set} of each accessor. */
+/** Reads streams and their sets. Stores {stream, set} of each accessor in the map `setOf`. */
 function readStreams(extension, accessors, setOf) {
   return listOf(extension, "streams").map(({ bufferView, parts, sets, ordered = false }, stream) => {
     if (!Array.isArray(sets) || sets.length === 0 || !sets.every(Array.isArray)) refuse(`stream ${stream} has no sets`);
@@ -32,7 +32,7 @@ function* attributesOf(primitive) {
   for (const names of [objectOf(primitive, "attributes"), ...listOf(primitive, "targets")]) yield* Object.entries(names);
 }
 
-/** Stream and set of a primitive's accessors; undefined: they have none. */
+/** Stream and set of a primitive's accessors; undefined if they are in no set. */
 function setOfPrimitive(primitive, setOf) {
   const found = [...attributesOf(primitive)].map(([, accessor]) => setOf.get(accessor));
   if (found.some((one) => one?.stream !== found[0]?.stream || one?.set !== found[0]?.set)) {
@@ -42,15 +42,16 @@ function setOfPrimitive(primitive, setOf) {
 }
 
 /**
- * Reads what a document says of its streams, and checks that it fits together.
- * @param {object} json the document; the inner one if it is packed
- * @param {boolean} isPacked is it a packed document, whose primitives do not say which part they have?
- * @returns {{streams: Stream[], positions: Set<number>}} and the accessors of streams that are positions or displacements
+ * Reads a document's description of its streams, and checks that it is consistent.
+ * @param {object} json the document; the inner document if it is packed
+ * @param {boolean} isPacked whether the document is packed: its primitives do not name their part
+ * @returns {{streams: Stream[], positions: Set<number>}} `positions`: accessors of POSITION (displacements of morph targets
+ *   included)
  */
 export function readDocument(json, isPacked) {
   const accessors = listOf(json, "accessors"), setOf = new Map(), positions = new Set();
   const streams = readStreams(extensionOf(json) ?? {}, accessors, setOf);
-  const partOf = new Map();  // {stream, part} of an index accessor
+  const partOf = new Map();  // index accessor: {stream, part}
   for (const mesh of listOf(json, "meshes")) {
     for (const primitive of listOf(mesh, "primitives")) {
       const extension = extensionOf(primitive), { indices, mode = 4 } = primitive;
@@ -64,7 +65,7 @@ export function readDocument(json, isPacked) {
       const { parts } = streams[of.stream];
       const known = partOf.get(indices);
       const part = isPacked ? known?.part ?? parts.length : extension.part;
-      // Part numbers have no gaps, so there are no more of them than primitives: `parts` is an array with holes till then.
+      // `parts` may be a sparse array until all primitives are read. Below, part numbers are checked to have no gaps.
       numberBelow(2 ** 31, part, "the number of a part");
       if ((known ?? of).stream !== of.stream || (known && known.part !== part)) refuse(`accessor ${indices} is of two parts`);
       if (!isPacked && extension.stream !== of.stream) refuse("a primitive names another stream than its attributes'");

@@ -14,7 +14,7 @@ async function decodeWhenReady(bytes, options) {
   return decodeAtOnce(bytes, options);
 }
 
-/** Bytes of memory that decoding a file may take, unless the caller says: as lacedring's --max-memory. */
+/** Bytes of memory that decoding may take. The default is that of lacedring's --max-memory. */
 export function memoryLimit(limits, fileBytes) {
   return limits?.maxMemory ?? Math.max(2 ** 29, 128 * fileBytes);
 }
@@ -31,7 +31,7 @@ class Budget {
   }
 }
 
-/** Puts the inner document in the place of the packed one, in the same object. */
+/** Replaces the packed document by its inner document, in the same object. */
 async function openDocument(json, binaryChunk, most) {
   const bytes = await new BufferViews(json, binaryChunk).stored(extensionOf(json).document);
   const text = await inflate(bytes, most);
@@ -58,7 +58,7 @@ function forEachReference(json, use) {
   listOf(json, "images").forEach(({ bufferView }, i) => use(bufferView, `image ${i}`));
 }
 
-/** The views whose numbers are free for decoded values: of streams, without contents, and of a fallback. */
+/** Numbers of buffer views that decoded values may reuse: views of streams, without contents, or used by a fallback only. */
 function freeViews(json, views, streams) {
   const hollow = new Set(), kept = new Set(), fallback = new Set();
   const ofStreams = streams.flatMap(({ view, partsView }) => (partsView === undefined ? [view] : [view, partsView]));
@@ -79,7 +79,7 @@ function freeViews(json, views, streams) {
   return [...hollow, ...fallback].filter(isFree).sort((a, b) => a - b);
 }
 
-/** Rows of bytes as glTF wants vertices: each at a multiple of 4. */
+/** Pads each vertex to a multiple of 4 bytes, as glTF requires. */
 function padRows(values, components) {
   const bytes = new Uint8Array(values.buffer, values.byteOffset, values.byteLength);
   const stride = components * values.BYTES_PER_ELEMENT, padded = Math.ceil(stride / 4) * 4;
@@ -89,7 +89,7 @@ function padRows(values, components) {
   return { bytes: out, stride: padded };
 }
 
-/** Writes min and max of positions; removes them where a value is not finite, which displacements may be. */
+/** Sets min and max of an accessor of positions; removes them if a value is not finite (possible in displacements). */
 function putBounds(accessor, values, components) {
   const min = new Array(components).fill(Infinity), max = new Array(components).fill(-Infinity);
   let isFinite = values.length > 0;
@@ -105,12 +105,12 @@ function putBounds(accessor, values, components) {
   else delete accessor.min, delete accessor.max;
 }
 
-/** Decodes a stream. Returns what to write: {accessor, count, bytes, stride, values} of each accessor. */
+/** Decodes a stream. Returns {number, count, bytes} of each accessor; attributes also have {values, components, stride}. */
 async function decodeStream(stream, json, views, decodeMesh, budget) {
   const file = await views.stored(stream.view);
   const mesh = await decodeMesh(file, { limits: { maxMemory: budget.left } });
   const { indices, attributes, vertexCount } = mesh;
-  // Once as decoded and once more as split.
+  // Twice: as decoded, and as split into sets.
   budget.take(2 * (indices.byteLength + attributes.reduce((sum, { values }) => sum + values.byteLength, 0)) + 16 * vertexCount);
   const triangles = indices.length / 3;
   const partOf = stream.parts.length === 1 ? undefined :
@@ -135,17 +135,17 @@ async function decodeStream(stream, json, views, decodeMesh, budget) {
 }
 
 /**
- * Decodes a glTF with LACEDRING_mesh_compression to a plain one. A document without the extension stays as it is.
- * @param {object} json the document, an object that JSON.parse returned. It becomes the plain document, the inner one if it is packed
+ * Decodes a glTF document with LACEDRING_mesh_compression to plain glTF. A document without the extension stays as it is.
+ * @param {object} json the document, as JSON.parse returns it. Modified: becomes the plain document (the inner one if packed)
  * @param {Uint8Array} [binaryChunk] of a GLB
- * @param {(buffer: number, uri: string) => Promise<Uint8Array>} [loadBuffer] the bytes of a buffer that has a uri
+ * @param {(buffer: number, uri: string) => Promise<Uint8Array>} [loadBuffer] loads the bytes of a buffer that has a uri
  * @param {object} [options]
- * @param {function} [options.decodeMesh] decodeMesh of "lacedring" unless given; decodeMeshAsync decodes in a worker
- * @param {{maxMemory?: number}} [options.limits] bytes of memory for what is decoded: 512 MiB unless given, or 128 times the binary
- *   chunk if that is more
- * @returns {Promise<{json: object, views: (Uint8Array | undefined)[]}>} `json`, and the bytes of its buffer views, undefined where
- *   they lie in the view's buffer. Buffers that were placeholders have no bytes. Rejects with an Error in one line. Untrusted input
- *   is safe.
+ * @param {function} [options.decodeMesh] default: decodeMesh of "lacedring"; decodeMeshAsync decodes in a worker
+ * @param {{maxMemory?: number}} [options.limits] bytes of memory for decoding; default: the larger of 512 MiB and 128 times the
+ *   binary chunk
+ * @returns {Promise<{json: object, views: (Uint8Array | undefined)[]}>} `json`, and the bytes of its buffer views; undefined for
+ *   views that still use their buffer. Placeholder buffers have no bytes. Rejects with an Error of one line. Untrusted input is
+ *   safe.
  */
 export async function unpackGltf(json, binaryChunk, loadBuffer, { decodeMesh = decodeWhenReady, limits } = {}) {
   const budget = new Budget(memoryLimit(limits, binaryChunk?.length ?? 0));
@@ -174,7 +174,7 @@ export async function unpackGltf(json, binaryChunk, loadBuffer, { decodeMesh = d
     };
     contents[accessor.bufferView] = bytes;
   }
-  for (const view of free) {  // nothing refers to it; it keeps the numbers of those behind it
+  for (const view of free) {  // unused views stay, so that the numbers of the views after them do not change
     views.list[view] = { buffer: 0, byteLength: 4 };
     contents[view] = new Uint8Array(4);
   }

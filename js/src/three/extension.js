@@ -1,7 +1,7 @@
 import { EXTENSION } from "../gltf/document.js";
 import { unpackGltf } from "../gltf/unpack.js";
 
-// GLTFLoader makes its own handlers of these by the outer document, before an inner one can be read.
+// GLTFLoader creates its handlers of these extensions from the outer document, before the inner document can be read.
 const HANDLERS = ["KHR_materials_unlit", "KHR_texture_transform", "KHR_mesh_quantization"];
 
 /**
@@ -9,7 +9,7 @@ const HANDLERS = ["KHR_materials_unlit", "KHR_texture_transform", "KHR_mesh_quan
  *
  *     loader.register((parser) => new LacedRingExtension(parser));
  *
- * Streams, coded buffer views and a packed document are decoded before the loader reads any node. A fallback is not read.
+ * Decodes streams, coded buffer views and a packed document before the loader reads any node. Does not use fallbacks.
  */
 export class LacedRingExtension {
   name = EXTENSION;
@@ -18,8 +18,8 @@ export class LacedRingExtension {
   #views = [];
 
   /**
-   * @param {object} parser GLTFLoader's
-   * @param {object} [options] unpackGltf's: decodeMesh, limits
+   * @param {object} parser of GLTFLoader
+   * @param {object} [options] of unpackGltf: decodeMesh, limits
    */
   constructor(parser, options) {
     this.#parser = parser;
@@ -46,7 +46,7 @@ export class LacedRingExtension {
     for (const name of [json.extensionsRequired ?? []].flat()) {
       if (!parser.extensions[name]) console.warn(`THREE.GLTFLoader: Unknown extension "${name}".`);
     }
-    parser._invokeAll((plugin) => plugin._markDefs?.());  // the outer document had no nodes to mark
+    parser._invokeAll((plugin) => plugin._markDefs?.());  // again, as the outer document had no nodes to mark
   }
 
   loadBufferView(index) {

@@ -3,7 +3,7 @@ import type { GLTFLoaderPlugin, GLTFParser } from "three/addons/loaders/GLTFLoad
 import type { UnpackOptions } from "../gltf/lacedring-gltf.js";
 import type { Mesh } from "../lacedring.js";
 
-/** `loader.register((parser) => new LacedRingExtension(parser))`: GLTFLoader reads LACEDRING_mesh_compression. */
+/** Lets GLTFLoader read LACEDRING_mesh_compression: `loader.register((parser) => new LacedRingExtension(parser))`. */
 export class LacedRingExtension implements GLTFLoaderPlugin {
   constructor(parser: GLTFParser, options?: UnpackOptions);
   readonly name: "LACEDRING_mesh_compression";
@@ -11,10 +11,10 @@ export class LacedRingExtension implements GLTFLoaderPlugin {
   loadBufferView(index: number): Promise<ArrayBuffer> | null;
 }
 
-/** Loads .lr files. Rejects with an Error in one line if a file is damaged. */
+/** Loads .lr files. Rejects with an Error of one line if a file is damaged. */
 export class LacedRingLoader extends Loader<BufferGeometry> {
   parse(bytes: Uint8Array): Promise<BufferGeometry>;
 }
 
-/** The geometry of a decoded mesh: three's names of attributes, v of texture coordinates upwards, with bounds. */
+/** Makes a geometry of a decoded mesh, with three's attribute names, v = 0 at the lower edge of images, and bounds. */
 export function geometryOf(mesh: Mesh): BufferGeometry;
