@@ -65,8 +65,8 @@ async function checkErrors() {
   await checkError("damaged.glb", damaged(made("globe.glb")), /./);
   await checkError("cut.lr", readFileSync(made("blob.lr")).subarray(0, 1000), /lr file/);
   await checkError("cut.glb", readFileSync(asset("globe.glb")).subarray(0, 5000), /damaged GLB/);
-  await checkError("empty.lr", "", /no \.lr, \.glb or \.gltf file/);
-  await checkError("text.txt", "not a mesh", /no \.lr, \.glb or \.gltf file/);
+  await checkError("empty.lr", "", /it is not an .lr, .glb or .gltf file/);
+  await checkError("text.txt", "not a mesh", /it is not an .lr, .glb or .gltf file/);
   await checkError("other.gltf", `{"asset": {"version": "2.0"}, "buffers": [{"uri": "other.bin", "byteLength": 4}]}`, /in other files/);
   await checkError("points.gltf", `{"asset": {"version": "2.0"}}`, /no triangles/);
 }
