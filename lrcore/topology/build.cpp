@@ -1,4 +1,4 @@
-// Rossignac's chapter: O from V. Here for any triangle soup.
+// Computes O from V (Rossignac's chapter), for any triangle soup.
 
 #include "lacedring/topology.hpp"
 #include "lrcore/base/message.h"
@@ -8,7 +8,7 @@ namespace lacedring {
 
 Result<CornerTable> build_corner_table(std::span<const std::uint32_t> indices, std::uint32_t vertex_count) {
     constexpr std::uint32_t kMostVertices = 1U << 29;
-    // split_fans adds at most one vertex a corner: the sum must not exceed 32 bits.
+    // split_fans adds at most one vertex per corner; the total must fit in 32 bits.
     constexpr std::size_t kMostCorners = UINT32_MAX - 1;
     if (indices.size() % 3 != 0) {
         return Error{ErrorCode::invalid_argument,
