@@ -1,4 +1,4 @@
-// All formats behind one interface: which stream it is, and the decoder that it takes.
+// Calls the decoder of a stream's format.
 
 #include <algorithm>
 #include <array>
@@ -53,7 +53,7 @@ Error wrong_size(const StreamView& view, const Indices& indices) {
                             " triangles")};
 }
 
-/// All triangles block by block, for index types that no decoder writes itself.
+/// Decodes all triangles block by block, for index types that the decoders do not write.
 template <class Index>
 void decode_blocks(const StreamView& view, Index* out) {
     std::array<std::uint32_t, std::size_t{3} * StreamView::kBlock> block{};
@@ -95,7 +95,7 @@ StreamView::StreamView(const Any& any_view) : view_(any_view) {
 Result<StreamView> view_stream(std::span<const std::uint32_t> words) {
     LR_ASSIGN(const StreamView::Any view, open(words, false));
     if (const auto* compact = std::get_if<LrStreamView<CompactLrView>>(&view)) {
-        for (const std::uint32_t w : compact->view.lr) {  // the count of triangles looks at the records
+        for (const std::uint32_t w : compact->view.lr) {  // StreamView counts triangles, which reads the records
             if (CompactLrView::is_long(w) && compact->view.record(w) + 1 >= compact->view.star.size()) {
                 return Error{ErrorCode::malformed, "LR tables: a record outside VO*"};
             }

@@ -134,7 +134,7 @@ void Lacing::number_triangles(std::uint32_t range) {
         }
     }
     if (all_on_rings_) return;
-    // a vertex off the rings is a vertex of a T0 or the tip of a T1
+    // A vertex off the rings is a vertex of a T0 or the tip of a T1.
     for (std::uint32_t t = 0; t < size(); ++t) {
         if (ring_edges(state_[t]) > 1 || (state_[t] & kDegenerate) != 0) continue;
         for (std::uint32_t k = 0; k < 3; ++k) {

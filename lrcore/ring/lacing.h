@@ -30,7 +30,7 @@ struct TriangleRange {
 /// more while number_triangles() runs.
 class Lacing {
   public:
-    /// factor of all costs, so that temperatures are fine enough for small costs
+    /// Factor of all costs, so that temperatures are fine enough for small costs.
     static constexpr std::int64_t kScale = 16;
     static constexpr std::uint32_t kNone = UINT32_MAX;
 

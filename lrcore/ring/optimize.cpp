@@ -104,7 +104,7 @@ class Annealer {
     std::vector<std::uint32_t>& isolated() { return isolated_; }
 
   private:
-    // limit of triangles of a fan visited in each direction: bounds the time at vertices of high valence
+    // Limit of triangles of a fan visited in each direction: bounds the time at vertices of high valence.
     static constexpr std::uint32_t kReach = 24;
     static constexpr std::uint32_t kSmall = 32768;
     static constexpr std::size_t kBatch = 128;  // dead ends
@@ -130,7 +130,7 @@ class Annealer {
         }
         const std::uint32_t first = fan_;
         x = c;
-        // backward from c, if the fan is open or too large
+        // Backward from c, if the fan is open or too large.
         for (std::uint32_t n = 0; n < kReach; ++n) {
             x = lacing_.opposite(Lacing::previous(x));
             if (x == Lacing::kNone || !range_.has(x >> 2)) break;
@@ -275,7 +275,7 @@ class Annealer {
     std::int64_t isolated_cost_;
     std::int64_t slack_;    // maximum by which an estimate may exceed the cost
     bool warts_are_cheap_;  // true: dead ends are kept short, to become warts
-    // changes tried per dead end and pass; more for small meshes, whose result depends more on chance
+    // Changes tried per dead end and pass; more for small meshes, whose result depends more on chance.
     std::uint32_t rounds_;
     detail::SplitMix64 random_;
     std::int64_t cost_ = 0;
@@ -319,7 +319,7 @@ std::vector<std::uint32_t> parts_of(std::uint32_t triangles, std::uint32_t pass)
 }  // namespace
 
 Rings optimize_rings(const CornerTable& table, Rings rings, const OptimizeOptions& options) {
-    // 2 ms of work: forty times the start of a thread
+    // 2 ms of work: forty times the start of a thread.
     constexpr std::size_t kTriedOfThread = 8192;
     constexpr std::uint32_t kMostTriangles = 1U << 30;  // limit of Lacing's corner numbers
     if (options.passes == 0 || rings.edges.empty() || table.triangle_count() >= kMostTriangles) return rings;

@@ -38,7 +38,7 @@ class RingWalk {
     CornerId across_t2(const CornerTable& table, std::uint32_t side, std::size_t i) const {
         const CornerId c = face(side, i), d = face(side, after(i));
         return table.opposite(
-            // the corner that is neither c nor d
+            // The corner that is neither c nor d.
             CornerId{triangle(c).value * 9 + 3 - c.value - d.value});
     }
 

@@ -53,7 +53,7 @@ void orient(CornerTable& table) {
                 }
             }
         }
-        // the opposite orientation flips fewer triangles
+        // The opposite orientation flips fewer triangles.
         if (flipped * 2 > component.size()) {
             for (const TriangleId t : component) turn(table, t);
             flipped = component.size() - flipped;

@@ -1,4 +1,4 @@
-// The lean stream's decoder and checks are lacedring_decode.h's, in C; here are C++'s types and messages.
+// The C++ interface of lean streams, on the decoder and checks in lacedring_decode.h (C).
 
 #include <cassert>
 
@@ -21,7 +21,7 @@ namespace {
 
 static_assert(LR_LEAN_MAGIC == magic::kLean);
 static_assert(LR_LEAN_HEADER_WORDS == LACEDRING_LEAN_HEADER_WORDS);
-// Of the packed stream's decoder, which is in the same C file, what only its implementation names.
+// Constants of the packed stream's decoder that only the C implementation defines.
 static_assert(LACEDRING_SPLIT_ == LR_PACKED_SPLIT && LACEDRING_BESIDE_ == LR_PACKED_BESIDE &&
               LACEDRING_START_ == LR_PACKED_START && LACEDRING_FAR_ == LR_PACKED_FAR &&
               LACEDRING_JUMP_ == LR_PACKED_JUMP && LACEDRING_TURN_ == LR_PACKED_TURN &&
@@ -124,7 +124,7 @@ Result<LeanView> view_lean(std::span<const std::uint32_t> words) {
 Result<LeanView> validate_lean(std::span<const std::uint32_t> words) {
     Result<LeanView> view = view_lean(words);
     if (!view) return view;
-    // The checksum is computed here, several times as fast as by the C file's small table.
+    // Computed here because crc32 is several times faster than the C file's version with a small table.
     if (words[LR_LEAN_WORD_CHECKSUM] != lean_checksum(words)) return malformed(LACEDRING_STATUS_CHECKSUM, 0, words);
     const lacedring_lean lean = as_c(*view);
     std::uint64_t where = 0;

@@ -19,7 +19,7 @@ enum class ErrorCode : int {
     malformed,         ///< the bytes do not follow their format
     unsupported,       ///< valid, but a part of the format that this reader does not support
     invalid_argument,  ///< a parameter is out of its range
-    /// more elements than the representation can number or memory can hold
+    /// More elements than the representation can number or memory can hold.
     too_large,
     memory_limit,  ///< would use more memory than the caller allows
 };

@@ -52,7 +52,7 @@ enum lacedring_format {
 
 struct lacedring_encode_options {
     int format; /* enum lacedring_format */
-    /* packed: not 0: an order that suits the vertex cache; about 1.5 bits per triangle more */
+    /* Packed: not 0: an order that suits the vertex cache; about 1.5 bits per triangle more. */
     int cache;
     int effort;           /* 0 to 9: time spent on better rings; default 6 */
     int no_wart_skipping; /* lean and lr: not 0: no wart skipping */
@@ -70,7 +70,7 @@ struct lacedring_encoded {
     size_t word_capacity, word_count;
     uint32_t* vertex_order; /* vertex_order[new] = old: bring the vertices' attributes into this order */
     size_t vertex_capacity, vertex_count;
-    /* triangle_order[i] = the mesh's triangle that is decoded i-th */
+    /* triangle_order[i] = the mesh's triangle that is decoded i-th. */
     uint32_t* triangle_order;
     size_t triangle_capacity, triangle_count;
     uint32_t degenerate; /* triangles with a repeated vertex; they are not encoded */
@@ -100,7 +100,7 @@ struct lacedring_stream {
     const uint32_t* words;
     size_t word_count;
     enum lacedring_format format;
-    /* decoded indices are below it; with LR tables it includes the copies of non-manifold vertices */
+    /* Decoded indices are below it; with LR tables it includes the copies of non-manifold vertices. */
     uint32_t vertices;
     uint32_t triangles; /* number of triangles that lacedring_decode_u32 decodes */
     uint32_t slots;
@@ -155,7 +155,7 @@ enum lacedring_code lacedring_open_tables(const struct lacedring_stream* stream,
 /* Is slot t a triangle? */
 int lacedring_is_triangle(const struct lacedring_tables* tables, uint32_t t);
 uint32_t lacedring_triangle(uint32_t corner); /* c.t */
-/* t.c: the first corner; lacedring_next gives the others */
+/* t.c: the first corner; lacedring_next gives the others. */
 uint32_t lacedring_corner_of_triangle(uint32_t t);
 uint32_t lacedring_next(uint32_t corner);                                            /* c.n */
 uint32_t lacedring_previous(uint32_t corner);                                        /* c.p */
@@ -163,9 +163,9 @@ uint32_t lacedring_vertex(const struct lacedring_tables* tables, uint32_t corner
 uint32_t lacedring_opposite(const struct lacedring_tables* tables, uint32_t corner); /* c.o; null across a border */
 uint32_t lacedring_left(const struct lacedring_tables* tables, uint32_t corner);     /* c.l = c.n.o */
 uint32_t lacedring_right(const struct lacedring_tables* tables, uint32_t corner);    /* c.r = c.p.o */
-/* c.s, around c.v; null at a border */
+/* c.s, around c.v; null at a border. */
 uint32_t lacedring_swing(const struct lacedring_tables* tables, uint32_t corner);
-/* v.c; null if no triangle uses v */
+/* v.c; null if no triangle uses v. */
 uint32_t lacedring_corner_of_vertex(const struct lacedring_tables* tables, uint32_t v);
 /* The vertex that v is a copy of, or v itself if it is no copy. A non-manifold vertex has a copy for each further fan
    of triangles. O(log copies). */

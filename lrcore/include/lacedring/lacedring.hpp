@@ -26,7 +26,7 @@ namespace lacedring {
 
 enum class PackedProfile {
     small,  ///< the fewest bits
-    /// triangle order nearly optimal for the vertex cache; about 1.5 bits per triangle more
+    /// Triangle order nearly optimal for the vertex cache; about 1.5 bits per triangle more.
     cache,
 };
 
@@ -38,7 +38,7 @@ struct LeanStatistics {
     std::uint32_t t0_wart = 0;    ///< T0 stored in the redundant copy of a T2
     std::uint32_t t2 = 0;         ///< with two or three ring edges
     std::uint32_t irregular = 0;  ///< T1 and T2 next to a T0 that is left after wart skipping
-    /// T1 and T2 stored verbatim because their ring, or one side of it, would cost more as slots
+    /// T1 and T2 stored verbatim because their ring, or one side of it, would cost more as slots.
     std::uint32_t unrung = 0;
 };
 
@@ -67,7 +67,7 @@ struct EncodeOptions {
     std::uint32_t effort = 6;
 
     std::optional<std::uint32_t> seeds = {};  ///< RingOptions::seeds
-    /// OptimizeOptions::passes; lr_compact does not optimize its rings
+    /// OptimizeOptions::passes; lr_compact does not optimize its rings.
     std::optional<std::uint32_t> passes = {};
     /// RingOptions::k. lr_compact tries each value and keeps the best; any other format takes at most one.
     std::vector<std::uint32_t> periods = {};
@@ -185,9 +185,9 @@ struct LrTable {
 /// Maps the elements of the LR tables to those of the corner table.
 struct LrMap {
     std::vector<VertexId> vertex;  ///< vertex[LR vertex] = corner table's
-    /// triangle[LR triangle] = corner table's; null for redundant copies and borders
+    /// triangle[LR triangle] = corner table's; null for redundant copies and borders.
     std::vector<TriangleId> triangle;
-    /// start[LR triangle] = 0, 1, 2: which corner of the table's triangle is the LR triangle's first
+    /// start[LR triangle] = 0, 1, 2: which corner of the table's triangle is the LR triangle's first.
     std::vector<std::uint32_t> start;
 };
 
@@ -230,7 +230,7 @@ Result<LrTable> build_lr(const CornerTable& table, const Rings& rings, const LrO
 struct EncodedLr {
     std::vector<std::uint32_t> words;         ///< the stream (streams.hpp)
     std::vector<std::uint32_t> vertex_order;  ///< vertex_order[LR vertex] = the table's; copies repeat their original's
-    /// triangle_order[i] = the table's triangle that decode_lr gives i-th
+    /// triangle_order[i] = the table's triangle that decode_lr gives i-th.
     std::vector<std::uint32_t> triangle_order;
     LrStatistics statistics;
     std::uint32_t copies = 0;  ///< vertices added to the table's for fans of non-manifold vertices

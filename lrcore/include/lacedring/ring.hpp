@@ -20,9 +20,9 @@ struct Expansion;  // below
 struct RingOptions {
     std::uint32_t seeds = 1;  ///< seed corners tried per component; the one with the cheapest ring is kept
     std::uint64_t random_seed = 1;
-    /// 0: RING-EXPANDER; else HYBRID-RING-EXPANDER with one breadth-first step every k triangles
+    /// 0: RING-EXPANDER; else HYBRID-RING-EXPANDER with one breadth-first step every k triangles.
     std::uint32_t k = 0;
-    /// make no further ring among vertices that a shell's ring left out
+    /// Make no further ring among vertices that a shell's ring left out.
     bool one_per_shell = false;
     /// Seed corner of the first ring; null: start each component at its first triangle.
     CornerId start = kNullCorner;
@@ -72,7 +72,7 @@ std::string check_rings(const CornerTable& table, const Rings& rings);
 struct RingCost {
     std::int32_t t0 = 3;       ///< a T0 in no wart; > 0
     std::int32_t t0_wart = 0;  ///< a T0 in a wart
-    /// a vertex off the rings; negative if the two slots saved outweigh its cost
+    /// A vertex off the rings; negative if the two slots saved outweigh its cost.
     std::int32_t isolated = -2;
 };
 

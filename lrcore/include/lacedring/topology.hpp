@@ -48,7 +48,7 @@ struct Topology {
     std::uint32_t border_edges = 0;       ///< edges of one input triangle
     std::uint32_t nonmanifold_edges = 0;  ///< edges of more than two input triangles
     std::uint32_t flipped = 0;            ///< triangles reversed to orient their component
-    /// manifold edges left unjoined because no orientation fits (a Moebius strip has one)
+    /// Manifold edges left unjoined because no orientation fits (a Moebius strip has one).
     std::uint32_t cut_edges = 0;
 };
 
@@ -60,7 +60,7 @@ struct CornerTable : TableCorners {
         VertexId vertex;
         CornerId opposite;  ///< null at a border, at a cut and in a degenerate triangle
     };
-    /// 3 per triangle, in the input's order; the last two are swapped in flipped triangles
+    /// 3 per triangle, in the input's order; the last two are swapped in flipped triangles.
     std::vector<Corner> corners;
     std::vector<std::uint64_t> flip;  ///< bit t: triangle t was reversed; empty if none was
     std::uint32_t vertex_count = 0;
