@@ -1,4 +1,4 @@
-// The seam section's decoder and checks are lacedring_seams.h's, in C; here are C++'s types and messages.
+// The C++ interface of seam sections, on the decoder and checks in lacedring_seams.h (C).
 
 #include <algorithm>
 #include <bit>
@@ -56,12 +56,12 @@ lacedring_seams as_c(const SeamView& view) {
     return out;
 }
 
-/// Corners of a block of `slots` slots.
+/// Number of corners of block `block`, if there are `slots` slots.
 std::size_t block_corners(std::uint32_t slots, std::uint32_t block) {
     return std::size_t{3} * std::min(slots - block * kSeamBlock, kSeamBlock);
 }
 
-/// The slots from `first` on, one by one, as many as there is room for.
+/// Decodes the slots from `first` on, as many as fit in `triangles`.
 void write_slots(const StreamView& stream, std::uint32_t first, std::span<std::uint32_t> triangles) {
     for (std::size_t i = 0; i < triangles.size(); i += 3, ++first) {
         const Triangle t = decode_triangle(stream, first).value_or(Triangle{{UINT32_MAX, UINT32_MAX, UINT32_MAX}});
@@ -82,7 +82,7 @@ Result<SeamView> view_seams(std::span<const std::uint32_t> words, std::uint32_t 
 
 namespace {
 
-/// Checks the section, and decodes it where `vertices` is not null.
+/// Checks the section, and also decodes it if `vertices` is not null.
 Result<SeamView> check_seams(std::span<const std::uint32_t> words, std::span<const std::uint32_t> triangles,
                              std::uint32_t vertex_count, std::span<std::uint32_t> copies,
                              std::vector<std::uint32_t>* vertices) {

@@ -1,4 +1,4 @@
-// The vertex stream's decoder and checks are lacedring_vertices.h's, in C; here are C++'s types and messages.
+// The C++ interface of vertex streams, on the decoder and checks in lacedring_vertices.h (C).
 
 #include <bit>
 #include <cassert>
@@ -52,7 +52,7 @@ lacedring_vertices as_c(std::span<const std::uint32_t> words) {
     return out;
 }
 
-/// The checksum and all that decoders rely on; writes the values, too, if `values` is not null.
+/// Checks the checksum and everything that decoders rely on. Also writes the values if `values` is not null.
 Result<void> check_vertices(std::span<const std::uint32_t> words, std::byte* values) {
     const std::uint32_t header = crc32(std::as_bytes(words.first(kChecksumWord)));
     if (words[kChecksumWord] != crc32(std::as_bytes(words.subspan(kChecksumWord + 1)), header)) {
