@@ -10,8 +10,9 @@
 namespace lacedring::storage {
 namespace {
 
-/// Codes the table of a section, whose answers are known: a context that is asked nothing, mostly says nothing, and the
-/// class of any other one goes with how rare its unlikely answers are.
+/// Codes the table of a section whose answers are known. Likely values and classes are predicted from the counts of
+/// answers: unused contexts usually have default entries, and a context's class depends on the frequency of its
+/// unlikely answers.
 template <class Coder>
 SeamTable code_table(Coder& coder, const SeamAnswers& vertices, const SeamAnswers& corners, SeamTable table) {
     std::array<std::array<std::uint32_t, 2>, kSeamContexts> counts{};
@@ -49,7 +50,7 @@ SeamTable table_of(std::span<const std::uint32_t> section) {
     return out;
 }
 
-/// Gives the walk's copies their numbers in the section, and names their vertices.
+/// Renumbers the walk's copies as in the section, and sets the vertex of each copy.
 void number_copies(std::span<const std::uint32_t> order, std::span<const std::uint32_t> triangles, std::uint32_t count,
                    RestoredSeams& seams) {
     std::vector<std::uint32_t> number(count);
@@ -62,7 +63,8 @@ void number_copies(std::span<const std::uint32_t> order, std::span<const std::ui
         seams.copies[c] = number[seams.copies[c]];
         seams.vertices[seams.copies[c]] = triangles[c];
     }
-    for (std::size_t i = 0; i < order.size(); ++i) {  // vertices without corners, each behind a home of the one before
+    // Copies of vertices without corners, each after a home of the previous vertex.
+    for (std::size_t i = 0; i < order.size(); ++i) {
         if (order[i] == UINT32_MAX) seams.vertices[i] = i == 0 ? 0 : seams.vertices[i - 1] + 1;
     }
 }
