@@ -169,7 +169,8 @@ class Expander {
     BitVector invaded_{0};          // paper: t.m, for the region being grown
     std::vector<CornerId> region_;  // of grow_hybrid: the corners as in Expansion
     std::vector<CornerId> queue_;
-    BitVector rung_;  // scratch of cost(): triangles with a ring edge; all clear between calls
+    // Scratch of cost(): triangles with a ring edge; all clear between calls.
+    BitVector rung_;
     std::vector<RingEdge> stack_;
     std::vector<TriangleId> paired_;
 };

@@ -223,13 +223,13 @@ class Lacing {
     /// The left corner of the ring edge after the edge with left corner x; kNone if the walk leaves the range.
     std::uint32_t edge_after(TriangleRange range, std::uint32_t x) const {
         std::uint32_t y = opposite(x);
-        do {  // through the triangles on the left, around the vertex between the two edges
+        do {  // around the vertex, through the triangles on the left
             const std::uint32_t p = previous(x);
             if (faces_ring(p)) return p;
             x = opposite(p);
             if (x != kNone && !range.has(x >> 2)) return kNone;
         } while (x != kNone);
-        while (true) {  // the fan is open on the left: through the triangles on the right
+        while (true) {  // the fan is open: through the triangles on the right
             if (y == kNone || !range.has(y >> 2)) return kNone;
             const std::uint32_t n = next(y);
             y = opposite(n);
@@ -239,11 +239,13 @@ class Lacing {
 
     const CornerTable* table_;
     std::array<std::int64_t, 64> t0_{};  // cost of a triangle by state & kT0Key
-    BitVector on_ring_;                  // per vertex; also set once the vertex has a corner in isolated_
+    // Per vertex; also set once the vertex has a corner in isolated_.
+    BitVector on_ring_;
     bool all_on_rings_;
     std::vector<std::uint32_t> isolated_;  // corners
     std::vector<std::uint8_t> state_;      // per triangle
-    std::vector<std::uint32_t> opposite_;  // per corner; the fourth entry of a triangle is its number in the table
+    // Per corner; the fourth entry of a triangle is its number in the table.
+    std::vector<std::uint32_t> opposite_;
 };
 
 }  // namespace lacedring

@@ -12,7 +12,8 @@ namespace lacedring {
 /// it.
 struct NonManifoldEdges {
     std::vector<CornerId> corners;
-    std::vector<std::uint32_t> first{0};  ///< where each edge begins in `corners`; one more entry at the end
+    /// Where each edge begins in `corners`; one more entry at the end.
+    std::vector<std::uint32_t> first{0};
 };
 
 /// Joins the half-edges of each edge of two triangles, whatever their directions; lists the edges of more triangles.

@@ -26,7 +26,8 @@
 #define LR_LEAN_TIP_MASK 0x1fffffffu  // the tip vertex
 // A T0 in the redundant copy of a T2: the ring edge (v, v.n.n) skips the T2's tip.
 #define LR_LEAN_WART_FLAG 0x80000000u
-#define LR_LEAN_CLOSE_FLAG 0x40000000u  // no triangle: the edge closes its ring, and the tip is the ring's first vertex
-#define LR_LEAN_FLIP_FLAG 0x20000000u   // the input's triangle has the opposite orientation
+// No triangle: the edge closes its ring, and the tip is the ring's first vertex.
+#define LR_LEAN_CLOSE_FLAG 0x40000000u
+#define LR_LEAN_FLIP_FLAG 0x20000000u  // the input's triangle has the opposite orientation
 
 #endif

@@ -15,7 +15,8 @@ struct Doubles {
         std::uint32_t triangle;  ///< its number in the mesh
         std::uint32_t of;        ///< the first triangle with the same vertices
         std::uint32_t
-            turn;     ///< rank among the triangles with these vertices (the first has 0); doubles are sorted by it
+            /// Rank among the triangles with these vertices, from 0; doubles are sorted by it.
+            turn;
         bool turned;  ///< has the opposite orientation of `of`
     };
     std::vector<Double> doubles;

@@ -231,7 +231,8 @@ class PieceWalker {
     const CornerTable& table_;
     const Rings& rings_;
     Polygons polygons_;
-    std::vector<std::uint32_t> inserted_;  // time of insertion into the cache by the mesh's vertex; 0: never
+    // Time of insertion into the cache by the mesh's vertex; 0: never.
+    std::vector<std::uint32_t> inserted_;
     std::uint32_t time_ = 0;
     std::vector<std::uint32_t> begins_;  // first step of each piece
     Piece best_, trial_;

@@ -10,8 +10,7 @@ namespace lacedring {
 namespace {
 
 constexpr std::uint32_t kNoState = UINT32_MAX;
-constexpr std::uint32_t kMostHomes =
-    LACEDRING_SEAMS_MAX_STEPS;  // maximum per vertex; steps are one fewer, or as many with a wrap
+constexpr std::uint32_t kMostHomes = LACEDRING_SEAMS_MAX_STEPS;  // a vertex has one step fewer, or as many if it wraps
 
 using Triangles = std::span<const std::uint32_t>;
 

@@ -33,7 +33,8 @@ struct SeamHomes {
     std::vector<std::uint32_t> copy;   ///< UINT32_MAX for a vertex without corners
     std::vector<std::uint8_t> wrap;    ///< per vertex: 1: its last position is its first copy again
     std::vector<std::uint8_t> single;  ///< per vertex: 1: it has only one copy
-    std::vector<std::uint32_t> index;  ///< per copy: its index among its vertex's homes; UINT32_MAX if private
+    /// Per copy: its index among its vertex's homes; UINT32_MAX if private.
+    std::vector<std::uint32_t> index;
 
     std::uint32_t steps(std::uint32_t v) const { return first[v + 1] - first[v] - 1 + wrap[v]; }
     std::uint32_t count(std::uint32_t v) const { return first[v + 1] - first[v]; }

@@ -41,9 +41,10 @@ struct TriangleBatch {
     using Integers = std::array<std::int32_t, kBatch>;
 
     std::array<Integers, 3> from_p, from_q;
-    std::array<Numbers, 3> a, b;    // q - p and r - q
-    std::array<Numbers, 3> normal;  // a x b, later scaled to its term of the sums before the factor of the angle
-    Numbers length;                 // of the normal
+    std::array<Numbers, 3> a, b;  // q - p and r - q
+    // A x b, later scaled to its term of the sums before the factor of the angle.
+    std::array<Numbers, 3> normal;
+    Numbers length;  // of the normal
     // Cosines of the angles at p, q and r, scaled so that their sines are `length`.
     std::array<Numbers, 3> cosine;
     std::array<Integers, 3> tangent;  // tangent of the angle or of its complement

@@ -109,7 +109,8 @@ class PlaneFit {
         return static_cast<std::int8_t>((8 * x + 9 * y) / (2 * y) - 4);
     }
 
-    std::array<std::int64_t, 3> square_{}, cross_{};  // sums of products: of a component with itself; of the two others
+    // Sums of products: of a component with itself; of the two others.
+    std::array<std::int64_t, 3> square_{}, cross_{};
     std::uint32_t axis_ = 0, gain_ = 0;
 };
 

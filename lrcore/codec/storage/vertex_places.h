@@ -14,7 +14,8 @@
 namespace lacedring::storage {
 
 struct VertexPlaces {
-    std::span<const std::uint32_t> positions;  ///< three integers per vertex with a common scale; empty if unknown
+    /// Three integers per vertex with a common scale; empty if unknown.
+    std::span<const std::uint32_t> positions;
     std::span<const std::uint32_t> vertex_of;  ///< vertex of each copy; empty if the attribute has no copies
 
     LACEDRING_INLINE std::uint32_t vertex(std::uint32_t copy) const {

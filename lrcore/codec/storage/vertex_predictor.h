@@ -17,10 +17,11 @@ namespace lacedring::storage {
 
 /// The rule that predicts the integers of a vertex with known parallelograms.
 enum class VertexRule : std::uint8_t {
-    parallelograms,  ///< mean of the parallelograms' predictions, adjusted by `error` and `smooth`
-    mean,            ///< the mean of their base vertices
-    neighbor,        ///< the first base vertex
-    none,            ///< no prediction: 0
+    /// Mean of the parallelograms' predictions, adjusted by `error` and `smooth`.
+    parallelograms,
+    mean,      ///< the mean of their base vertices
+    neighbor,  ///< the first base vertex
+    none,      ///< no prediction: 0
 };
 
 struct VertexParameters {

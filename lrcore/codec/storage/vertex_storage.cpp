@@ -240,7 +240,8 @@ Words choose_prediction(StoredStream& stream, const WalkRecord& walk, std::span<
 void restore_values(StoredStream& stream, std::span<std::uint32_t> residuals, std::span<const std::uint32_t> triangles,
                     const VertexPlaces& places) {
     VertexWalk walk(triangles,
-                    stream.vertices);  // first, since its construction needs more memory than the walk itself
+                    // Made first, since its construction needs more memory than the walk itself.
+                    stream.vertices);
     stream.values.resize(residuals.size());
     if (stream.by_places && !stream.is_octahedral()) {
         Words differences(residuals.size());

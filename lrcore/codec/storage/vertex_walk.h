@@ -63,7 +63,8 @@ class VertexWalk {
     }
 
   private:
-    static constexpr std::uint8_t kKnown = 3;  // state_ of a known vertex; else the number of parallelograms, at most 2
+    // state_ of a known vertex; else the number of parallelograms, at most 2.
+    static constexpr std::uint8_t kKnown = 3;
 
     /// Visits the vertices of a component's first triangle.
     template <class Visitor>

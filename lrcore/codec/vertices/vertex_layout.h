@@ -30,8 +30,9 @@ struct VertexStreamParts {
     std::uint32_t layout = 0, parameter = 0, largest_error = 0;  ///< words 2, 4 and 5
     std::span<const VertexComponent> components;
     std::span<const std::uint32_t> exceptions;  ///< two words each
-    std::span<const std::uint64_t> begins;      ///< first bit of each block; a group's first block begins at a word
-    std::span<const std::uint32_t> data;        ///< the blocks
+    /// First bit of each block; a group's first block begins at a word.
+    std::span<const std::uint64_t> begins;
+    std::span<const std::uint32_t> data;  ///< the blocks
 
     std::uint32_t field_bits() const { return layout >> 18 & 31; }
     /// Words of the stream.

@@ -68,7 +68,8 @@ void lacedring_default_options(struct lacedring_encode_options* options);
 struct lacedring_encoded {
     uint32_t* words; /* the stream */
     size_t word_capacity, word_count;
-    uint32_t* vertex_order; /* vertex_order[new] = old: bring the vertices' attributes into this order */
+    /* vertex_order[new] = old: bring the vertices' attributes into this order. */
+    uint32_t* vertex_order;
     size_t vertex_capacity, vertex_count;
     /* triangle_order[i] = the mesh's triangle that is decoded i-th. */
     uint32_t* triangle_order;

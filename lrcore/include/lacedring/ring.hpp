@@ -18,7 +18,8 @@ namespace lacedring {
 struct Expansion;  // below
 
 struct RingOptions {
-    std::uint32_t seeds = 1;  ///< seed corners tried per component; the one with the cheapest ring is kept
+    /// Seed corners tried per component; the one with the cheapest ring is kept.
+    std::uint32_t seeds = 1;
     std::uint64_t random_seed = 1;
     /// 0: RING-EXPANDER; else HYBRID-RING-EXPANDER with one breadth-first step every k triangles.
     std::uint32_t k = 0;
@@ -26,7 +27,8 @@ struct RingOptions {
     bool one_per_shell = false;
     /// Seed corner of the first ring; null: start each component at its first triangle.
     CornerId start = kNullCorner;
-    unsigned threads = 1;  ///< maximum for trying seeds, including the calling thread; does not change the rings
+    /// Maximum for trying seeds, including the calling thread; does not change the rings.
+    unsigned threads = 1;
 };
 
 /// Number of seeds worth trying on a mesh of that size. More for small meshes: their result depends more on the seed,
@@ -88,8 +90,9 @@ struct OptimizeOptions {
     RingCost cost = {};
     std::uint32_t passes = 24;  ///< more give better rings; 0: none
     std::uint64_t random_seed = 1;
-    bool anneal = true;    ///< false: never make a change that raises the cost
-    unsigned threads = 1;  ///< maximum, including the calling thread; does not change the result
+    bool anneal = true;  ///< false: never make a change that raises the cost
+    /// Maximum, including the calling thread; does not change the result.
+    unsigned threads = 1;
     /// The calling thread calls it after each pass with the number of passes done. If it returns false, the result is
     /// the best rings so far.
     std::function<bool(std::uint32_t)> progress = {};
@@ -112,7 +115,8 @@ struct Expansion {
     /// paper's c). vertex(c) was on no ring before; opposite(c) is in a triangle invaded before. A ring of n vertices
     /// has n - 2 corners.
     std::vector<CornerId> corners;
-    std::vector<std::uint32_t> first;  ///< where each ring begins in `corners`; one more entry at the end
+    /// Where each ring begins in `corners`; one more entry at the end.
+    std::vector<std::uint32_t> first;
 
     bool operator==(const Expansion&) const = default;
 };

@@ -116,7 +116,8 @@ class CornerCopies {
 
     StreamView stream_;
     SeamView seams_;
-    std::array<Cached, 8> recent_;  ///< blocks in copies_ with their entries, most recently used first
+    /// Blocks in copies_ with their entries, most recently used first.
+    std::array<Cached, 8> recent_;
     std::array<std::array<std::uint32_t, std::size_t{3} * kSeamBlock>, 8> copies_;
 };
 

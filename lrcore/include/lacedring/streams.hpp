@@ -93,7 +93,7 @@ struct PackedView {
     std::span<const std::uint32_t> words;  ///< the whole stream
     std::uint32_t vertices = 0;
     std::uint32_t triangles = 0;
-    std::uint32_t own = 0;  ///< own triangles, which come first; each other triangle doubles one of these
+    std::uint32_t own = 0;  ///< own triangles come first; all others are doubles of these
     std::uint32_t vertex_bits = 0;
     std::uint32_t runs = 0;  ///< number of runs of doubles
 
@@ -232,7 +232,7 @@ struct LrView {
     static bool skips(std::uint32_t w) { return (w & (word::kSpecial | word::kWart)) == word::kWart; }
     static bool closing(std::uint32_t w) { return (w & word::kKind) == word::kClosing; }
 
-    /// Has the input triangle t the other way round?
+    /// Does triangle t have the opposite orientation in the input?
     bool flipped(std::uint32_t t) const {
         return t < 2 * ring_vertices ? (lr[t] & word::kFlip) != 0
                                      : (vo[std::size_t{6} * (t - 2 * ring_vertices)] & word::kT0Flip) != 0;
@@ -365,7 +365,7 @@ struct CompactLrView {
         return row(l, fan.left_count, 0) && row(r, fan.right_count, 1);
     }
 
-    /// Has the input triangle t the other way round?
+    /// Does triangle t have the opposite orientation in the input?
     bool flipped(std::uint32_t t) const {
         if (t >= 2 * ring_vertices) return (vo[std::size_t{6} * (t - 2 * ring_vertices)] & word::kT0Flip) != 0;
         const std::uint32_t w = lr[t / 2];

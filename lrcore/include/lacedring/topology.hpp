@@ -163,8 +163,9 @@ std::vector<float> vertex_normals(const CornerTable& table, const Positions& pos
 struct ClosedShell {
     TriangleId first;  ///< its triangle with the smallest number
     std::uint32_t triangles;
-    double volume;  ///< positive if its triangles are counterclockwise seen from outside
-    double error;   ///< bound of the rounding error of `volume`
+    /// Positive if its triangles are counterclockwise seen from outside.
+    double volume;
+    double error;  ///< bound of the rounding error of `volume`
 
     /// Clockwise from outside, as the inner surface of a hollow body should be.
     bool inside_out() const { return volume < -error; }
