@@ -37,9 +37,8 @@ class RingWalk {
     /// The corner opposite the third edge of the T2 whose first copy is at edge i. Null across a border.
     CornerId across_t2(const CornerTable& table, std::uint32_t side, std::size_t i) const {
         const CornerId c = face(side, i), d = face(side, after(i));
-        return table.opposite(
-            // The corner that is neither c nor d.
-            CornerId{triangle(c).value * 9 + 3 - c.value - d.value});
+        // The corner of the triangle that is neither c nor d.
+        return table.opposite(CornerId{triangle(c).value * 9 + 3 - c.value - d.value});
     }
 
   private:

@@ -14,9 +14,8 @@ struct Doubles {
     struct Double {
         std::uint32_t triangle;  ///< its number in the mesh
         std::uint32_t of;        ///< the first triangle with the same vertices
-        std::uint32_t
-            /// Rank among the triangles with these vertices, from 0; doubles are sorted by it.
-            turn;
+        /// Rank among the triangles with these vertices, from 0; doubles are sorted by it.
+        std::uint32_t turn;
         bool turned;  ///< has the opposite orientation of `of`
     };
     std::vector<Double> doubles;

@@ -42,7 +42,7 @@ struct TriangleBatch {
 
     std::array<Integers, 3> from_p, from_q;
     std::array<Numbers, 3> a, b;  // q - p and r - q
-    // A x b, later scaled to its term of the sums before the factor of the angle.
+    // a x b, later scaled to its term of the sums before the factor of the angle.
     std::array<Numbers, 3> normal;
     Numbers length;  // of the normal
     // Cosines of the angles at p, q and r, scaled so that their sines are `length`.

@@ -239,9 +239,8 @@ Words choose_prediction(StoredStream& stream, const WalkRecord& walk, std::span<
 /// Computes the values from the residuals.
 void restore_values(StoredStream& stream, std::span<std::uint32_t> residuals, std::span<const std::uint32_t> triangles,
                     const VertexPlaces& places) {
-    VertexWalk walk(triangles,
-                    // Made first, since its construction needs more memory than the walk itself.
-                    stream.vertices);
+    // Made first, since its construction needs more memory than the walk itself.
+    VertexWalk walk(triangles, stream.vertices);
     stream.values.resize(residuals.size());
     if (stream.by_places && !stream.is_octahedral()) {
         Words differences(residuals.size());
