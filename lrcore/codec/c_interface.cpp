@@ -139,7 +139,7 @@ const char* lacedring_code_string(int code) {
         case LACEDRING_CODE_TOO_SMALL:
             return "a buffer is too small";
         case LACEDRING_CODE_TOO_LARGE:
-            return "more elements than the format numbers";
+            return "more elements than the format can number";
         case LACEDRING_CODE_OUT_OF_MEMORY:
             return "not enough memory";
     }

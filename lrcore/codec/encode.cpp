@@ -87,7 +87,7 @@ Result<Encoded> encode_table(Table&& table, const EncodeOptions& options) {
         return invalid(detail::message("effort ", options.effort, " is above ", std::size(kPasses) - 1));
     }
     if (options.format != Format::lr_compact && options.periods.size() > 1) {
-        return invalid("several periods, which only lr_compact tries");
+        return invalid("only lr_compact takes several periods");
     }
     const Topology topology = table.topology;
     const RingOptions ring = ring_options(options, table.triangle_count());

@@ -114,7 +114,7 @@ Result<StreamView> validate(std::span<const std::byte> bytes) {
         return Error{ErrorCode::invalid_argument, "the stream does not begin at a multiple of four bytes"};
     }
     if (bytes.size() % sizeof(std::uint32_t) != 0) {
-        return Error{ErrorCode::malformed, detail::message(bytes.size(), " bytes are no whole number of words")};
+        return Error{ErrorCode::malformed, detail::message(bytes.size(), " bytes are not a whole number of words")};
     }
     return validate(
         std::span(reinterpret_cast<const std::uint32_t*>(bytes.data()), bytes.size() / sizeof(std::uint32_t)));
@@ -137,7 +137,8 @@ Result<void> decode(const StreamView& view, std::span<std::uint32_t> indices, un
 Result<void> decode(const StreamView& view, std::span<std::uint16_t> indices) {
     if (indices.size() != std::size_t{3} * view.triangles()) return wrong_size(view, indices);
     if (view.vertices() > 65536) {
-        return Error{ErrorCode::invalid_argument, detail::message(view.vertices(), " vertices; 16 bits number 65536")};
+        return Error{ErrorCode::invalid_argument,
+                     detail::message(view.vertices(), " vertices; 16-bit indices number at most 65536")};
     }
     decode_blocks(view, indices.data());
     return {};

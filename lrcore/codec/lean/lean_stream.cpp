@@ -57,7 +57,7 @@ std::string why(lacedring_status status, std::uint64_t where, std::span<const st
         case LACEDRING_STATUS_RING_VERTICES:
             return "more ring vertices than vertices";
         case LACEDRING_STATUS_SIZE:
-            return message(words.size() - LR_LEAN_HEADER_WORDS, " references, where the header says ", where);
+            return message(words.size() - LR_LEAN_HEADER_WORDS, " references; the header says ", where);
         case LACEDRING_STATUS_SLOTS:
             return "too many slots";
         case LACEDRING_STATUS_CHECKSUM:
@@ -68,7 +68,7 @@ std::string why(lacedring_status status, std::uint64_t where, std::span<const st
         case LACEDRING_STATUS_OPEN_RING:
             return message("the ring from vertex ", where, " does not close");
         case LACEDRING_STATUS_SHORT_RING:
-            return message("the ring from vertex ", where, " has fewer than three");
+            return message("the ring from vertex ", where, " has fewer than three vertices");
         case LACEDRING_STATUS_CLOSING_WORD:
             return message(ring_vertex(), "closing word ", detail::hexadecimal(word()));
         case LACEDRING_STATUS_WORD:
@@ -78,7 +78,7 @@ std::string why(lacedring_status status, std::uint64_t where, std::span<const st
             return message("verbatim triangle ", where, ": ", triangle[0], " ", triangle[1], " ", triangle[2]);
         }
         case LACEDRING_STATUS_TRIANGLES:
-            return message(where, " triangles, where the header says ", words[LR_LEAN_WORD_TRIANGLES]);
+            return message(where, " triangles; the header says ", words[LR_LEAN_WORD_TRIANGLES]);
         case LACEDRING_STATUS_GROUP:
         case LACEDRING_STATUS_BLOCK:
         case LACEDRING_STATUS_HEADER:

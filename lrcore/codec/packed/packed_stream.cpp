@@ -32,17 +32,17 @@ std::string packed_fault(lacedring_status status, std::uint64_t where, std::span
         case LACEDRING_STATUS_SLOTS:
             return "more triangles than 32-bit indices can number";
         case LACEDRING_STATUS_SIZE:
-            return message(words.size(), " words are not what its triangles take");
+            return message(words.size(), " words do not match its number of triangles");
         case LACEDRING_STATUS_CHECKSUM:
             return "checksum does not match";
         case LACEDRING_STATUS_GROUP:
-            return message("block ", where, ": the head of its group");
+            return message("block ", where, ": the head of its group is invalid");
         case LACEDRING_STATUS_BLOCK:
-            return message("block ", where, " says something impossible");
+            return message("block ", where, " is invalid");
         case LACEDRING_STATUS_TURNS:
-            return "turns of triangles that there are not";
+            return "turn bits after the last triangle";
         case LACEDRING_STATUS_DOUBLES:
-            return message("run ", where, " of doubles says something impossible");
+            return message("run ", where, " of doubles is invalid");
         default:
             return "unknown";
     }

@@ -305,7 +305,7 @@ Result<EncodedSeams> encode_seams(std::span<const std::uint32_t> triangles, std:
         const std::uint32_t a = triangles[i], b = triangles[i + 1], c = triangles[i + 2];
         if ((a & b & c) == kNone) continue;
         if (std::max({a, b, c}) >= vertices || a == b || b == c || c == a) {
-            return invalid_seams(message("triangle ", i / 3, " has a vertex out of range, or one twice"));
+            return invalid_seams(message("triangle ", i / 3, " has a vertex out of range or a repeated vertex"));
         }
     }
     // The caller's numbers of copies, and for each corner the index of its number.
@@ -323,7 +323,7 @@ Result<EncodedSeams> encode_seams(std::span<const std::uint32_t> triangles, std:
         std::uint32_t& of = owner[own[c]];
         if (of == kNone) of = triangles[c];
         if (of != triangles[c]) {
-            return invalid_seams(message("copy ", copies[c], " is of vertices ", of, " and ", triangles[c]));
+            return invalid_seams(message("copy ", copies[c], " belongs to vertices ", of, " and ", triangles[c]));
         }
     }
     if (numbers.size() + vertices > LACEDRING_SEAMS_MAX_COPIES) return too_large;
@@ -341,7 +341,8 @@ Result<EncodedSeams> encode_seams(const Encoded& surface, std::span<const std::u
     LR_ASSIGN(const StreamView view, view_stream(surface.words));
     std::vector<std::uint32_t> first(surface.vertex_order.size(), kNone);  // a mesh vertex of each surface vertex
     for (std::uint32_t v = 0; v < vertex_of.size(); ++v) {
-        if (vertex_of[v] >= first.size()) return invalid_seams(message("surface vertex ", vertex_of[v]));
+        if (vertex_of[v] >= first.size())
+            return invalid_seams(message("surface vertex ", vertex_of[v], " is out of range"));
         if (first[vertex_of[v]] == kNone) first[vertex_of[v]] = v;
     }
     const std::vector<std::uint32_t> slots = slot_triangles(view);
@@ -355,7 +356,8 @@ Result<EncodedSeams> encode_seams(const Encoded& surface, std::span<const std::u
         const std::uint32_t begin = surface.vertex_order[slots[i]];
         std::uint32_t place = 0;
         while (place < 3 && (corners[place] >= vertex_of.size() || vertex_of[corners[place]] != begin)) ++place;
-        if (place == 3) return invalid_seams(message("triangle ", t, " of the mesh has other vertices"));
+        if (place == 3)
+            return invalid_seams(message("triangle ", t, " of the mesh has other vertices than the surface's"));
         for (std::uint32_t j = 0; j < 3; ++j) copies[i + j] = corners[(place + j) % 3];
     }
     Result<EncodedSeams> out = encode_seams(slots, view.vertices(), copies);
@@ -374,7 +376,7 @@ Result<EncodedSeams> encode_seams(const Encoded& surface, std::span<const std::u
     const auto lost = std::ranges::find(found, false);
     if (lost == found.end()) return out;
     return invalid_seams(
-        message("vertex ", lost - found.begin(), " has no corner, and is not its surface vertex's only one"));
+        message("vertex ", lost - found.begin(), " has no corner, and its surface vertex has other vertices"));
 }
 
 }  // namespace lacedring

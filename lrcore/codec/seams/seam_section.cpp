@@ -28,17 +28,17 @@ std::string seam_fault(lacedring_status status, std::uint64_t where, std::span<c
         case LACEDRING_STATUS_MAGIC:
             return wrong_magic(words, "a seam section");
         case LACEDRING_STATUS_HEADER:
-            return message("word ", where, " of the header says something impossible for this mesh");
+            return message("word ", where, " of the header is invalid for this mesh");
         case LACEDRING_STATUS_SIZE:
-            return message(words.size(), " words are not what its blocks take");
+            return message(words.size(), " words do not match the size of its blocks");
         case LACEDRING_STATUS_CHECKSUM:
             return "checksum does not match";
         case LACEDRING_STATUS_VERTEX_BLOCK:
-            return message("vertex block ", where, " says something impossible");
+            return message("vertex block ", where, " is invalid");
         case LACEDRING_STATUS_BLOCK:
-            return message("block ", where, " says something impossible");
+            return message("block ", where, " is invalid");
         case LACEDRING_STATUS_TRIANGLE:
-            return message("triangle ", where, " has a vertex out of range, or one twice");
+            return message("triangle ", where, " has a vertex out of range or a repeated vertex");
         default:
             return "unknown";
     }
@@ -87,7 +87,7 @@ Result<SeamView> check_seams(std::span<const std::uint32_t> words, std::span<con
                              std::uint32_t vertex_count, std::span<std::uint32_t> copies,
                              std::vector<std::uint32_t>* vertices) {
     if (triangles.size() % 3 != 0 || triangles.size() / 3 > UINT32_MAX / 3) {
-        return Error{ErrorCode::malformed, "seam section: triangles of an impossible number of corners"};
+        return Error{ErrorCode::malformed, "seam section: invalid number of corners"};
     }
     const Result<SeamView> view = view_seams(words, static_cast<std::uint32_t>(triangles.size() / 3), vertex_count);
     if (!view) return view;

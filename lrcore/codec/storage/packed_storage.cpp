@@ -103,7 +103,8 @@ std::optional<std::vector<std::uint32_t>> store_packed(const PackedView& view) {
 Result<StoredPacked> StoredPacked::read(std::span<const std::uint32_t> stored, const PackedLimits& limits) {
     if (stored.size() < kHeaderWords) return malformed("shorter than its header");
     const std::uint32_t vertices = stored[0], own = stored[1], runs = stored[2] & ~kHasFlips;
-    if (vertices > limits.vertices || own > limits.triangles) return malformed("more than its file has");
+    if (vertices > limits.vertices || own > limits.triangles)
+        return malformed("more vertices or triangles than allowed");
     const std::size_t doubles = runs == 0 ? 0 : LR_PACKED_DOUBLES_WORDS + LR_PACKED_RUN_WORDS * std::size_t{runs};
     if (doubles > stored.size() - kHeaderWords) return malformed("doubles beyond its end");
     StoredPacked out;
@@ -113,7 +114,7 @@ Result<StoredPacked> StoredPacked::read(std::span<const std::uint32_t> stored, c
     out.steps_.reserve(own);
     Decoder coder(stored.subspan(kHeaderWords + doubles));
     WalkCoder<Decoder> walk(coder, out.steps_, vertices, (stored[2] & kHasFlips) != 0);
-    if (!walk.code(own) || !coder.is_at_end()) return malformed("its steps say something impossible");
+    if (!walk.code(own) || !coder.is_at_end()) return malformed("its steps are invalid");
     return out;
 }
 

@@ -97,25 +97,25 @@ Result<RestoredSeams> restore_seams(std::span<const std::uint32_t> stored, std::
                                     std::uint32_t vertices) {
     constexpr std::uint32_t kNone = UINT32_MAX;
     const Error too_large{ErrorCode::too_large, "stored seam section: more than 2^30 copies, or 4 GiB"};
-    if (triangles.size() % 3 != 0) return malformed_seams("no triangles");
+    if (triangles.size() % 3 != 0) return malformed_seams("invalid number of corners");
     if (vertices > LACEDRING_SEAMS_MAX_COPIES || triangles.size() > UINT32_MAX - vertices) return too_large;
     for (std::size_t i = 0; i < triangles.size(); i += 3) {
         const std::uint32_t a = triangles[i], b = triangles[i + 1], c = triangles[i + 2];
         if ((a & b & c) == kNone) continue;
         if (std::max({a, b, c}) >= vertices || a == b || b == c || c == a) {
-            return malformed_seams("a triangle of a vertex that it does not have, or of one twice");
+            return malformed_seams("a triangle has a vertex out of range or a repeated vertex");
         }
     }
     BitDecoder coder(stored);
     const VertexCorners corners(triangles, vertices);
     SeamWalk<BitDecoder> walk(coder, triangles, vertices, corners);
-    if (!walk.run()) return malformed_seams("a copy is impossible");
+    if (!walk.run()) return malformed_seams("a copy is invalid");
     if (walk.count() > LACEDRING_SEAMS_MAX_COPIES) return too_large;
     const auto choose = [&](const SeamAnswers& of_vertices, const SeamAnswers& of_corners) {
         return code_table(coder, of_vertices, of_corners, {});
     };
     SeamWords made = write_seams({triangles, vertices, walk.copies(), walk.count()}, corners, choose, true);
-    if (!coder.is_at_end()) return malformed_seams("it does not end where its copies do");
+    if (!coder.is_at_end()) return malformed_seams("it does not end after its copies");
     if (made.words.empty()) return too_large;
     RestoredSeams out{std::move(made.words), walk.take_copies(), {}};
     number_copies(made.order, triangles, walk.count(), out);

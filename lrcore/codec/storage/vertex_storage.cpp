@@ -171,10 +171,10 @@ Result<Words> assemble(const StoredStream& stream, std::span<const BlocksOut> ch
     parts.begins = begins;
     parts.data = data;
     if (parts.size() > most_words) return Error{ErrorCode::memory_limit, "stored vertex stream: too large"};
-    if (data.size() > UINT32_MAX) return malformed_vertices("more than its table numbers");
+    if (data.size() > UINT32_MAX) return malformed_vertices("more words than its table can number");
     for (std::size_t b = 0; b < begins.size(); ++b) {
         if ((begins[b] - begins[b / kVertexGroup * kVertexGroup]) >> parts.field_bits() == 0) continue;
-        return malformed_vertices("a block is farther than its table says");
+        return malformed_vertices("a block is farther than its table can express");
     }
     return make_vertex_stream(parts);
 }
@@ -297,7 +297,7 @@ std::optional<std::vector<std::uint32_t>> store_vertices(const VertexView& view,
 /// Reads the header from the first part.
 Result<StoredStream> read_header(Decoder& coder, bool& has_usual_ranges) {
     StoredStream out;
-    const Error error = malformed_vertices("its header says something impossible");
+    const Error error = malformed_vertices("its header is invalid");
     if (coder.bad() || !code_header(coder, out, has_usual_ranges) || coder.bad()) return error;
     const std::uint32_t type = out.choices.layout >> 8 & 15;
     if (type > static_cast<std::uint32_t>(ComponentType::f64) || out.mapping() > 5) return error;
@@ -350,8 +350,8 @@ Result<StoredVertices> StoredVertices::read(std::span<const std::uint32_t> store
     state->residuals.resize(std::size_t{vertices} * n);
     code_residuals(coder, n, stream.parameters.fine, state->residuals);
     if (coder.bad()) return malformed_vertices("its integers end early");
-    if (!code_exceptions(coder, stream)) return malformed_vertices("an exception is impossible");
-    const Error error = malformed_vertices("it does not end where its parts do");
+    if (!code_exceptions(coder, stream)) return malformed_vertices("an exception is invalid");
+    const Error error = malformed_vertices("its parts do not end at its end");
     if (!coder.is_at_end()) return error;
     for (std::uint32_t first = 0; first < vertices; first += std::min(vertices - first, kChunk)) {
         state->chunks.push_back(take_part(rest));
@@ -364,12 +364,13 @@ Result<std::vector<std::uint32_t>> StoredVertices::restore(std::span<const std::
                                                            std::uint64_t most_words, const VertexPlaces& places,
                                                            unsigned threads) && {
     StoredStream& stream = state_->stream;
-    if (triangles.size() > UINT32_MAX || triangles.size() % 3 != 0) return malformed_vertices("no triangles");
+    if (triangles.size() > UINT32_MAX || triangles.size() % 3 != 0)
+        return malformed_vertices("invalid number of corners");
     for (const std::uint32_t v : triangles) {
-        if (v >= stream.vertices) return malformed_vertices("a triangle of a vertex that it does not have");
+        if (v >= stream.vertices) return malformed_vertices("a triangle has a vertex out of range");
     }
     if (stream.by_places && (places.positions.empty() || !has_places(places, stream.vertices)))
-        return malformed_vertices("it is predicted by the mesh's positions, and these are no integers");
+        return malformed_vertices("it needs the mesh's positions as integers");
     const std::uint32_t n = stream.components();
     restore_values(stream, state_->residuals, triangles, places);
     state_->residuals = {};
@@ -379,7 +380,7 @@ Result<std::vector<std::uint32_t>> StoredVertices::restore(std::span<const std::
         for (std::size_t i = 0; i < stream.values.size(); ++i) {
             const VertexComponent& c = stream.choices.components[i % n];
             if (static_cast<std::uint64_t>(stream.values[i] - c.low) >> c.first_bits != 0)
-                return malformed_vertices("an integer is out of its range");
+                return malformed_vertices("an integer is out of range");
         }
     }
     std::vector<BlocksOut> blocks(state_->chunks.size());
@@ -392,7 +393,7 @@ Result<std::vector<std::uint32_t>> StoredVertices::restore(std::span<const std::
         if (blocks[i].bits.words() > most_words) is_large = true;
     });
     if (is_large) return Error{ErrorCode::memory_limit, "stored vertex stream: too large"};
-    if (!is_good) return malformed_vertices("a block says something impossible");
+    if (!is_good) return malformed_vertices("a block is invalid");
     return assemble(stream, blocks, most_words);
 }
 

@@ -84,7 +84,7 @@ std::string check_rings(const View& view) {
             return detail::message("the ring from vertex ", first, " does not close");
         // ring_previous of the first vertex is the tip of its left slot, which must be the last vertex.
         if ((view.kind(first, 0) & word::kSpecial) != 0 || view.tip(first, 0) != v) {
-            return detail::message("the ring from vertex ", first, " does not find its end");
+            return detail::message("the ring from vertex ", first, ": the tip of its left slot is not the last vertex");
         }
         first = v + 1;
     }
@@ -105,7 +105,7 @@ std::string check_rings(const View& view) {
             if (second && (view.kind(n, side) & word::kWart) != 0)
                 return detail::message("ring vertex ", v, ": a wart in a wart");
             if (second && view.tip(n, side) != v)
-                return detail::message("ring vertex ", v, ": a T2 that does not come back");
+                return detail::message("ring vertex ", v, ": the second copy of its T2 has another tip");
         }
     }
     return {};
@@ -121,7 +121,7 @@ std::string check_named(const View& view) {
     };
     const auto exists_or_null = [&](std::uint32_t c) { return c == kNullCorner.value || exists(c); };
     for (const std::uint32_t c : view.c) {
-        if (!exists(c)) return "an isolated vertex's corner is none";
+        if (!exists(c)) return "an isolated vertex has an invalid corner";
     }
     for (std::uint32_t i = 0; i < view.vo.size() / 2; ++i) {
         if (view.t0_vertex(i) >= view.used_vertices()) return detail::message("T0 ", i / 3, ": vertex");
@@ -154,8 +154,8 @@ class StarChecker {
             if (!check_star(VertexId{v})) return std::move(why_);
         }
         // Fewer corners were walked if a vertex has several fans: v.c leads to only one.
-        if (corners_ != most_) return detail::message(corners_, " corners around vertices, of ", most_);
-        if (larger_ != smaller_) return "opposites that are not undone";
+        if (corners_ != most_) return detail::message(corners_, " corners found around vertices, of ", most_);
+        if (larger_ != smaller_) return "opposite is not an involution";
         for (std::uint32_t slot = 0; slot < 2 * view_.ring_vertices; ++slot) {
             if (is_irregular(view_, slot) && !check_star_entries(slot)) return std::move(why_);
         }
@@ -213,7 +213,8 @@ class StarChecker {
     /// Walks backward from v.c to the other border. Each step is checked to invert a swing, so the walk meets no corner
     /// of the forward walk.
     bool check_border(VertexId v, CornerId first, Around at) {
-        if (ops_.near_neighbors(v, [](VertexId) {})) return fail("vertex ", v.value, ": its border is not seen");
+        if (ops_.near_neighbors(v, [](VertexId) {}))
+            return fail("vertex ", v.value, ": near_neighbors misses its border");
         for (CornerId c = first;;) {
             const CornerId facing = ops_.previous(c), o = ops_.opposite(facing);
             if (o.is_null()) return true;

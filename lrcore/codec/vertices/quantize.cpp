@@ -65,8 +65,9 @@ std::uint32_t monotone(std::uint32_t bits) {
 Result<VertexIntegers> to_lattice(const VertexValues& values, const VertexOptions& options) {
     if (values.type != ComponentType::f32 && values.type != ComponentType::f64)
         return invalid("a lattice takes floats");
-    if (options.step == 0 && (options.bits < 1 || options.bits > kLatticeBits)) return invalid("1 to 22 bits");
-    if (!(options.step >= 0) || !std::isfinite(options.step)) return invalid("a step is positive");
+    if (options.step == 0 && (options.bits < 1 || options.bits > kLatticeBits))
+        return invalid("a lattice takes 1 to 22 bits");
+    if (!(options.step >= 0) || !std::isfinite(options.step)) return invalid("a step must be positive");
     const std::size_t n = values.components, size = values.data.size() / size_of(values.type);
     double extent = 0, largest = 0;
     for (std::size_t c = 0; c < n; ++c) {
@@ -136,7 +137,7 @@ void nearest_octahedral(const double v[3], std::uint32_t bits, std::int32_t out[
 Result<VertexIntegers> to_octahedral(const VertexValues& values, const VertexOptions& options) {
     const std::uint32_t n = values.components;
     if (values.type != ComponentType::f32 || (n != 3 && n != 4)) return invalid("octahedral takes 3 or 4 floats");
-    if (options.bits < 2 || options.bits > 16) return invalid("2 to 16 bits");
+    if (options.bits < 2 || options.bits > 16) return invalid("octahedral takes 2 to 16 bits");
     VertexIntegers out;
     out.mapping = VertexMapping::octahedral;
     out.components = n - 1;
@@ -247,10 +248,11 @@ std::optional<VertexIntegers> to_decimals(const VertexValues& values) {
 Result<VertexIntegers> to_integers(const VertexValues& values, const VertexOptions& options) {
     if (values.type > ComponentType::f64 || values.components == 0 || values.data.size() % values.stride() != 0 ||
         values.data.size() / values.stride() > UINT32_MAX || (values.normalized && values.type > ComponentType::u32)) {
-        return invalid("no whole number of values a vertex");
+        return invalid("not a whole number of vertices");
     }
     const std::uint32_t each = values.type == ComponentType::f64 && options.mapping != VertexMapping::lattice ? 2 : 1;
-    if (each * values.components > LACEDRING_VERTICES_MAX_COMPONENTS) return invalid("more than 16 integers a vertex");
+    if (each * values.components > LACEDRING_VERTICES_MAX_COMPONENTS)
+        return invalid("more than 16 integers per vertex");
     if (options.mapping != VertexMapping::lattice && options.mapping != VertexMapping::octahedral)
         return to_exact(values);
     Result<VertexIntegers> out =
@@ -261,7 +263,7 @@ Result<VertexIntegers> to_integers(const VertexValues& values, const VertexOptio
 
 Result<double> quantize_vertices(std::span<std::byte> values, std::uint8_t components, const VertexOptions& options) {
     if (options.mapping != VertexMapping::lattice && options.mapping != VertexMapping::octahedral)
-        return invalid("a mapping that loses nothing");
+        return invalid("the mapping is lossless");
     LR_ASSIGN(const VertexIntegers integers, to_integers({ComponentType::f32, components, false, values}, options));
     const auto put = [&](std::size_t i, float value) { std::memcpy(values.data() + 4 * i, &value, 4); };
     if (integers.mapping == VertexMapping::lattice) {

@@ -27,15 +27,15 @@ std::string vertex_fault(lacedring_status status, std::uint64_t where, std::span
         case LACEDRING_STATUS_MAGIC:
             return wrong_magic(words, "a vertex stream");
         case LACEDRING_STATUS_HEADER:
-            return message("word ", where, " of the header says something impossible");
+            return message("word ", where, " of the header is invalid");
         case LACEDRING_STATUS_SIZE:
-            return message(words.size(), " words are not what its blocks take");
+            return message(words.size(), " words do not match the size of its blocks");
         case LACEDRING_STATUS_CHECKSUM:
             return "checksum does not match";
         case LACEDRING_STATUS_GROUP:
-            return message("block ", where, ": its group begins elsewhere");
+            return message("block ", where, ": its group has a wrong beginning");
         case LACEDRING_STATUS_BLOCK:
-            return message("block ", where, " says something impossible");
+            return message("block ", where, " is invalid");
         default:
             return "unknown";
     }
