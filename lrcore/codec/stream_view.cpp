@@ -18,7 +18,7 @@ struct Overload : Cases... {
     using Cases::operator()...;
 };
 template <class... Cases>
-Overload(Cases...) -> Overload<Cases...>;  // for clang 14
+Overload(Cases...) -> Overload<Cases...>;  // clang 14 needs this deduction guide
 
 static_assert(std::is_same_v<std::variant_alternative_t<std::size_t(Format::packed), StreamView::Any>, PackedView>);
 static_assert(std::is_same_v<std::variant_alternative_t<std::size_t(Format::lr_compact), StreamView::Any>,

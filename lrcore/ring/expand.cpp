@@ -167,7 +167,7 @@ class Expander {
     const CornerTable& table_;
     BitVector visited_;             // paper: v.m
     BitVector invaded_{0};          // paper: t.m, for the region being grown
-    std::vector<CornerId> region_;  // of grow_hybrid: the corners as in Expansion
+    std::vector<CornerId> region_;  // used by grow_hybrid: the corners as in Expansion
     std::vector<CornerId> queue_;
     // Scratch of cost(): triangles with a ring edge; all clear between calls.
     BitVector rung_;
@@ -213,8 +213,8 @@ Rings expand_rings(const CornerTable& table, const RingOptions& options, Expansi
     std::vector<RingEdge> region;
     std::vector<CornerId> seeds;
     std::vector<std::int64_t> costs;
-    // For one_per_shell: marks the triangles of shells that have a ring. Made only when another seed is possible, which
-    // most meshes do not have.
+    // For one_per_shell: marks the triangles of shells that have a ring. Computed only when another seed is possible;
+    // most meshes have none.
     std::optional<Swirl> shells;
     std::size_t swirled = 0;
     const bool told = options.start.value < table.corners.size();

@@ -107,7 +107,7 @@ class Annealer {
     // Limit of triangles of a fan visited in each direction: bounds the time at vertices of high valence.
     static constexpr std::uint32_t kReach = 24;
     static constexpr std::uint32_t kSmall = 32768;
-    static constexpr std::size_t kBatch = 128;  // dead ends
+    static constexpr std::size_t kBatch = 128;  // dead ends per batch
     /// If warts are cheap: the distance in triangles from a T0 in no wart up to which T2 are tried, and the number of
     /// passes that use the same marks.
     static constexpr std::uint32_t kNearWarts = 6, kMarkingWarts = 2;

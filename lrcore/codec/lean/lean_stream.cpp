@@ -84,16 +84,16 @@ std::string why(lacedring_status status, std::uint64_t where, std::span<const st
         case LACEDRING_STATUS_HEADER:
         case LACEDRING_STATUS_TURNS:
         case LACEDRING_STATUS_DOUBLES:
-            break;  // of packed streams
+            break;  // packed streams only
         case LACEDRING_STATUS_VERTEX_BLOCK:
         case LACEDRING_STATUS_TRIANGLE:
-            break;  // of seam sections
+            break;  // seam sections only
         case LACEDRING_STATUS_LIMIT:
         case LACEDRING_STATUS_CODED:
         case LACEDRING_STATUS_INTEGER:
         case LACEDRING_STATUS_POSITIONS:
         case LACEDRING_STATUS_COPY:
-            break;  // of the storage form
+            break;  // storage form only
     }
     return "unknown";
 }

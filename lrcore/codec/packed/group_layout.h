@@ -28,7 +28,7 @@ void write_record(const PackedRecordPlan& record, const GroupCodes& codes, std::
 
 /// A block whose records have been written.
 struct PackedBlockPlan {
-    std::uint32_t kind = 0;  ///< LR_PACKED_RECORD, ...
+    std::uint32_t kind = 0;  ///< LR_PACKED_RECORD, _PARTED or _PLAIN
     PackedEdge entry{};      ///< unused for plain blocks
     bool reversed = false;
     std::uint32_t end = 0;  ///< end of its bytes, among those of all blocks

@@ -70,15 +70,15 @@
 
 // Kinds of START, written in unary after its code.
 #define LR_PACKED_START_OTHER 0u  // the other side of the last polygon begun
-#define LR_PACKED_START_NEXT 1u   // the left side of the polygon after that polygon
-#define LR_PACKED_START_NEAR 2u   // a polygon starting a small offset after that polygon
+#define LR_PACKED_START_NEXT 1u   // the left side of the polygon after the last one begun
+#define LR_PACKED_START_NEAR 2u   // a polygon starting a small offset after the last one begun
 #define LR_PACKED_START_ANY 3u    // any polygon
 
 // Kinds of BESIDE: the vertex that the next field gives, and the vertex it is relative to.
 #define LR_PACKED_BESIDE_NOW_B 0u    // a, relative to the b where the previous corridor ended
-#define LR_PACKED_BESIDE_NOW_A 1u    // b, relative to the a where it ended
-#define LR_PACKED_BESIDE_BEGUN_A 2u  // a, relative to the a where it began
-#define LR_PACKED_BESIDE_BEGUN_B 3u  // b, relative to the b where it began
+#define LR_PACKED_BESIDE_NOW_A 1u    // b, relative to the a where the previous corridor ended
+#define LR_PACKED_BESIDE_BEGUN_A 2u  // a, relative to the a where the previous corridor began
+#define LR_PACKED_BESIDE_BEGUN_B 3u  // b, relative to the b where the previous corridor began
 
 // Orders of the exponential Golomb codes.
 #define LR_PACKED_JUMP_ORDER 1u

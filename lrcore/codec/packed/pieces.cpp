@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint32_t kCache = 32;
 // Minimum triangles of a piece: one of its chains and the next piece's other chain fit in the cache.
 constexpr std::size_t kPiece = 31;
-// A rest of a corridor, or a part behind a T0, of at most this many triangles joins the piece.
+// If at most this many triangles are left of a corridor or behind a T0, they join the piece.
 constexpr std::uint32_t kWhole = 8;
 constexpr double kStart = 12;  // cost of starting a piece, in vertices
 

@@ -16,7 +16,7 @@ struct PackedEvent {
     std::uint8_t triangle;  ///< its number in the record
     std::uint8_t code;      ///< LR_PACKED_SPLIT, ...
     std::uint8_t choice;    ///< the small field of BESIDE, START and FAR
-    bool reversed;          ///< for LR_PACKED_START_ANY
+    bool reversed;          ///< orientation, for LR_PACKED_START_ANY
     std::uint32_t v, w;     ///< the other fields, in the order of writing
 };
 
@@ -27,7 +27,7 @@ struct PackedRecordPlan {
     bool reversed = false;
     std::vector<PackedEvent> events;
     std::vector<std::uint32_t> wart_gaps;  ///< number of candidates between two warts
-    std::uint32_t flips[8] = {};           ///< of FLIPS; bit t: triangle t is flipped
+    std::uint32_t flips[8] = {};           ///< field of FLIPS; bit t: triangle t is flipped
 };
 
 }  // namespace lacedring

@@ -11,7 +11,7 @@ namespace lacedring {
 namespace {
 
 constexpr std::uint32_t kNoRun = UINT32_MAX;
-constexpr std::uint32_t kClasses = 8;  // of runs of likely values
+constexpr std::uint32_t kClasses = 8;  // number of classes of runs
 constexpr std::uint32_t kRare = 7;     // the class with an exponential Golomb code
 // Blocks of vertices, and of triangles, sampled to choose the table.
 constexpr std::uint32_t kSampledBlocks = 64;

@@ -22,7 +22,7 @@ struct SeamCopies {
 };
 
 struct SeamWords {
-    std::vector<std::uint32_t> words;  ///< empty: more than 4 GiB
+    std::vector<std::uint32_t> words;  ///< empty if it would exceed 4 GiB
     std::vector<std::uint32_t> order;  ///< copy by the section's number; UINT32_MAX: no corner has it
 };
 

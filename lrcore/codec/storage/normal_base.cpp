@@ -44,7 +44,7 @@ struct TriangleBatch {
     std::array<Numbers, 3> a, b;  // q - p and r - q
     // a x b, later scaled to its term of the sums before the factor of the angle.
     std::array<Numbers, 3> normal;
-    Numbers length;  // of the normal
+    Numbers length;  // length of the normal
     // Cosines of the angles at p, q and r, scaled so that their sines are `length`.
     std::array<Numbers, 3> cosine;
     std::array<Integers, 3> tangent;  // tangent of the angle or of its complement

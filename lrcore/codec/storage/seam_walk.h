@@ -245,8 +245,8 @@ class SeamWalk {
     // State of the vertex being coded.
     std::span<const std::uint32_t> own_;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> edges_;  // other end, and side or kind
-    std::vector<Far> far_;                                        // of each side
-    std::vector<Side> mate_;                                      // of each side
+    std::vector<Far> far_;                                        // per side
+    std::vector<Side> mate_;                                      // per side
     std::vector<std::uint32_t> copy_;                             // per corner; kNone: not coded yet
     std::uint32_t known_ = 0, left_ = 0, since_ = 0;
     bool at_seam_ = false;

@@ -78,7 +78,7 @@ void join_others(std::span<const std::uint32_t> triangles, std::uint32_t vertice
     struct Open {
         std::uint32_t smaller = kNone, corner = 0;
     };
-    std::vector<Open> open(vertices);  // by the larger end: an edge with one triangle so far
+    std::vector<Open> open(vertices);  // per larger end: an edge with one triangle so far
     for (const auto& [corner, smaller, larger] : sorted) {
         Open& edge = open[larger];
         const std::uint32_t found = edge.smaller == smaller ? UINT32_MAX : 0;
@@ -104,7 +104,8 @@ std::vector<std::uint32_t> opposite_corners(std::span<const std::uint32_t> trian
         if (before_is_good) {
             if (is_good) pairs.join_successive(v, c);
             if (others.size() - count < 3) others.resize(2 * others.size());
-            const auto join = [&](std::uint32_t corner, std::uint32_t x, std::uint32_t y) {  // of the previous triangle
+            const auto join = [&](std::uint32_t corner, std::uint32_t x,
+                                  std::uint32_t y) {  // joins a corner of the previous triangle
                 others[count] = corner;
                 count += pairs.join_ring_edge(corner, x, y) ? 1 : 0;
             };

@@ -40,7 +40,7 @@ class Builder {
             return Error{ErrorCode::too_large, "more corners than 32 bits number"};
         }
         number_isolated();
-        // So far words hold the corner table's vertices.
+        // Up to here, words hold the corner table's vertices.
         for (std::size_t i = 0; i < out_.lr.size(); ++i) {
             if (i + kPrefetched < out_.lr.size())
                 detail::prefetch(number_.data() + (out_.lr[i + kPrefetched] & word::kTip));
@@ -273,7 +273,7 @@ class Builder {
             out_.star.push_back(table_.opposite(start_corner(slot, tip)).value);
             out_.star.push_back(table_.opposite(end_corner(slot, tip)).value);
         }
-        // So far VO* holds corners of the corner table.
+        // Up to here, VO* holds corners of the corner table.
         for (std::size_t i = 0; i < out_.star.size(); i += 3) {
             for (const std::size_t k : {i + 1, i + 2}) {
                 if (k + kPrefetched < out_.star.size()) fetch_place(CornerId{out_.star[k + kPrefetched]});
@@ -342,7 +342,7 @@ class Builder {
     // Per triangle: 4 slot + tip corner % 3, or 4 (2 m_r + i) for T0 i.
     std::unique_ptr<std::uint32_t[]> place_;
     std::vector<std::uint32_t> first_edge_;  // per ring: the edge at its first vertex
-    std::vector<DeadEnd> dead_ends_[2];      // of the current ring, left and right
+    std::vector<DeadEnd> dead_ends_[2];      // dead ends of the current ring, left and right
     std::vector<TriangleId> t0_;
     std::vector<Slot> warts_;  // in order
     LrTable out_;

@@ -252,7 +252,7 @@ class StarChecker {
     const std::uint32_t numbers_;
     std::uint64_t most_ = 0, corners_ = 0;    // corners of all triangles; corners walked
     std::uint64_t larger_ = 0, smaller_ = 0;  // corners with a larger, a smaller opposite
-    std::vector<VertexId> neighbors_;         // of one vertex, in star order
+    std::vector<VertexId> neighbors_;         // neighbors of one vertex, in star order
     std::string why_;
 };
 

@@ -442,7 +442,7 @@ Result<EncodedVertices> encode_integers(const VertexIntegers& integers, const Ve
     for (const Group& group : groups)
         farthest = std::max(farthest, *std::max_element(group.begins.begin(), group.begins.end()));
     const auto field = static_cast<std::uint32_t>(std::bit_width(farthest));
-    const auto largest_error = [&] {  // as a float, rounded up
+    const auto largest_error = [&] {  // rounded up to a float
         auto error = static_cast<float>(integers.largest_error);
         if (static_cast<double>(error) < integers.largest_error)
             error = std::bit_cast<float>(std::bit_cast<std::uint32_t>(error) + 1);

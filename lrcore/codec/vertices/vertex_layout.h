@@ -27,7 +27,7 @@ void find_vertex_ranges(std::span<const std::uint32_t> values, VertexMapping map
 
 struct VertexStreamParts {
     std::uint32_t vertices = 0;
-    std::uint32_t layout = 0, parameter = 0, largest_error = 0;  ///< words 2, 4 and 5
+    std::uint32_t layout = 0, parameter = 0, largest_error = 0;  ///< header words 2, 4 and 5
     std::span<const VertexComponent> components;
     std::span<const std::uint32_t> exceptions;  ///< two words each
     /// First bit of each block; a group's first block begins at a word.

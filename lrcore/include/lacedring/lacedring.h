@@ -52,10 +52,10 @@ enum lacedring_format {
 
 struct lacedring_encode_options {
     int format; /* enum lacedring_format */
-    /* Packed: not 0: an order that suits the vertex cache; about 1.5 bits per triangle more. */
+    /* Packed only: 1 for an order that suits the vertex cache, in about 1.5 bits per triangle more; else 0. */
     int cache;
     int effort;           /* 0 to 9: time spent on better rings; default 6 */
-    int no_wart_skipping; /* lean and lr: not 0: no wart skipping */
+    int no_wart_skipping; /* lean and lr only: 1 for no wart skipping; else 0 */
     /* Maximum number of threads, including the calling one; 0 means 1. The words do not depend on it. */
     int threads;
 };

@@ -25,8 +25,9 @@
 namespace lacedring {
 
 enum class PackedProfile {
-    small,  ///< the fewest bits
-    /// Triangle order nearly optimal for the vertex cache; about 1.5 bits per triangle more.
+    /// The fewest bits.
+    small,
+    /// An order nearly as good for the vertex cache as the best; about 1.5 bits per triangle more.
     cache,
 };
 
@@ -34,9 +35,9 @@ enum class PackedProfile {
 struct LeanStatistics {
     std::uint32_t ring_vertices = 0;
     std::uint32_t isolated = 0;   ///< used vertices that are on no ring
-    std::uint32_t t0 = 0;         ///< without a ring edge after wart skipping; stored verbatim
+    std::uint32_t t0 = 0;         ///< T0 left after wart skipping; stored verbatim
     std::uint32_t t0_wart = 0;    ///< T0 stored in the redundant copy of a T2
-    std::uint32_t t2 = 0;         ///< with two or three ring edges
+    std::uint32_t t2 = 0;         ///< triangles with two or three ring edges
     std::uint32_t irregular = 0;  ///< T1 and T2 next to a T0 that is left after wart skipping
     /// T1 and T2 stored verbatim because their ring, or one side of it, would cost more as slots.
     std::uint32_t unrung = 0;
@@ -45,13 +46,13 @@ struct LeanStatistics {
 /// Counts of a packed stream's events and blocks.
 struct PackedStatistics {
     std::uint32_t ring_vertices = 0;
-    std::uint32_t events[8] = {};      ///< by code (docs/packed-format.md)
-    std::uint64_t event_bits[8] = {};  ///< by code; the gaps before the events included
+    std::uint32_t events[8] = {};      ///< number of events by code (docs/packed-format.md)
+    std::uint64_t event_bits[8] = {};  ///< bits of events by code, including their gaps
     std::uint32_t warts = 0;
     std::uint64_t wart_bits = 0;
     std::uint32_t doubles = 0;        ///< triangles stored as the number of an equal triangle
-    std::uint32_t parted_blocks = 0;  ///< with too many events for one record
-    std::uint32_t plain_blocks = 0;   ///< stored as three vertices per triangle
+    std::uint32_t parted_blocks = 0;  ///< blocks with too many events for one record
+    std::uint32_t plain_blocks = 0;   ///< blocks stored as three vertices per triangle
 };
 
 /// Counts of triangles by kind in LR tables, standard or bit-efficient. Paper: LR 2011, section 8.
@@ -127,7 +128,7 @@ Result<EncodedSeams> encode_seams(const Encoded& surface, std::span<const std::u
 // The steps of encode(). Rings must come from expand_rings or optimize_rings: the triangles on each ring's left are a
 // tree.
 
-// From a corner table and its rings to a lean stream (streams.hpp). Paper: LR 2011, section 7 and section 5.
+// Makes a lean stream (streams.hpp) from a corner table and its rings. Paper: LR 2011, sections 7 and 5.
 
 struct LeanOptions {
     bool wart_skipping = true;
@@ -146,7 +147,7 @@ struct EncodedLean {
 /// and 4 more per vertex while it runs. Errors: too_large (2^29 vertices, or 2^32 / 3 slots).
 Result<EncodedLean> encode_lean(const CornerTable& table, const Rings& rings, const LeanOptions& options = {});
 
-// From a corner table and its rings to a packed stream (streams.hpp).
+// Makes a packed stream (streams.hpp) from a corner table and its rings.
 
 /// A packed stream and its mapping to the encoded mesh.
 struct EncodedPacked {
@@ -166,7 +167,7 @@ Result<EncodedPacked> encode_packed(const CornerTable& table, const Rings& rings
 /// without doubled triangles; the stream stores those as doubles. Errors: encode_packed's.
 struct PackedChoice {
     EncodedPacked stream;
-    std::uint32_t passes = 0;  ///< of the optimizer; 0 if its rings were no better
+    std::uint32_t passes = 0;  ///< optimizer passes; 0 if its rings were no better
 };
 Result<PackedChoice> encode_smallest_packed(const CornerTable& table, const RingOptions& ring,
                                             const OptimizeOptions& optimize,
@@ -214,7 +215,7 @@ Result<CompactLrTable> build_compact_lr(const LrView& lr);
 std::vector<std::uint32_t> serialize(const LrTable& table, std::span<const VertexCopy> copies);
 std::vector<std::uint32_t> serialize(const CompactLrTable& table, std::span<const VertexCopy> copies);
 
-// From a corner table to LR tables; and to LR streams in one call, which also handles non-manifold vertices.
+// Makes LR tables from a pseudo-manifold corner table, or LR streams from any corner table.
 
 struct LrOptions {
     bool wart_skipping = true;

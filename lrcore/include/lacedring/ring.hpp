@@ -27,7 +27,7 @@ struct RingOptions {
     bool one_per_shell = false;
     /// Seed corner of the first ring; null: start each component at its first triangle.
     CornerId start = kNullCorner;
-    /// Maximum for trying seeds, including the calling thread; does not change the rings.
+    /// Maximum number of threads for trying seeds, including the calling thread; does not change the rings.
     unsigned threads = 1;
 };
 

@@ -95,8 +95,8 @@ std::vector<VertexId> split_fans(CornerTable& table);
 // Report on a mesh's topology. Rossignac's chapter, sections on borders, shells and handles.
 
 struct TopologyReport {
-    std::uint32_t triangles = 0;      ///< not degenerate
-    std::uint32_t used_vertices = 0;  ///< in at least one such triangle
+    std::uint32_t triangles = 0;      ///< triangles that are not degenerate
+    std::uint32_t used_vertices = 0;  ///< vertices of such triangles
     std::uint32_t components = 0;     ///< sets of triangles connected by shared vertices
     std::uint32_t shells = 0;         ///< sets of triangles connected by joined edges
     std::uint32_t border_loops = 0;
@@ -104,7 +104,7 @@ struct TopologyReport {
     std::uint32_t fans = 0;                  ///< number of used vertices after split_fans
     std::uint32_t max_valence = 0;           ///< edges at a vertex
     double valence6_percent = 0;             ///< share of used vertices with six edges
-    std::int64_t euler_characteristic = 0;   ///< of the surface after split_fans
+    std::int64_t euler_characteristic = 0;   ///< Euler characteristic after split_fans
     bool closed = false;                     ///< no border
     bool orientable = true;
     std::int64_t genus = 0;  ///< handles of all shells, with border loops capped
@@ -193,7 +193,7 @@ enum class SmeshFault : std::uint8_t {
     degenerate,          ///< a triangle with a repeated vertex
     nonmanifold_edge,    ///< a corner has several opposites
     border,              ///< a corner has no opposite
-    not_connected,       ///< several shells (the chapter's edge-connected components)
+    not_connected,       ///< it has several shells (the chapter's edge-connected components)
     not_orientable,      ///< the triangles have no consistent orientation
     nonmanifold_vertex,  ///< a vertex has several fans
     handles,             ///< Equation 1, |T| = 2|G| - 4, does not hold

@@ -51,12 +51,12 @@ struct VertexOptions {
     VertexMapping mapping = VertexMapping::floats;
     /// lattice: bits of the integers along the largest extent, 1 to 22; octahedral: bits of each integer, 2 to 16.
     std::uint32_t bits = 14;
-    /// lattice: if not 0, the step, instead of `bits`. Meshes with the same step stay joined without cracks. Rounded up
-    /// until every product is exact; powers of two are never changed.
+    /// lattice: the step, instead of `bits`; 0: use `bits`. Meshes with the same step stay joined without cracks. The
+    /// step is rounded up until every product is exact; powers of two do not change.
     float step = 0;
     /// Lattice and octahedral: the error that the values already have (quantize_vertices).
     double lost_before = 0;
-    unsigned threads = 1;  ///< maximum; does not change the words
+    unsigned threads = 1;  ///< maximum number; does not change the words
 };
 
 /// A step for meshes that share a lattice: the smallest step >= `step` whose products with all integers up to largest /
@@ -71,7 +71,7 @@ Result<double> quantize_vertices(std::span<std::byte> values, std::uint8_t compo
 
 struct EncodedVertices {
     std::vector<std::uint32_t> words;  ///< the whole stream
-    double largest_error = 0;          ///< of any component; at most half the step of a lattice
+    double largest_error = 0;          ///< maximum over components; at most half a lattice's step
 };
 
 /// Encodes an attribute. Cost: O(V) time, one to five microseconds per vertex on one thread; 4 bytes per component
