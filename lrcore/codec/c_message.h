@@ -24,7 +24,7 @@ template <class Work>
 lacedring_code guarded(lacedring_message* message, Work work) {
     try {
         return work();
-        // Std::bad_alloc, or std::length_error if size_t has 32 bits.
+        // std::bad_alloc, or std::length_error if size_t has 32 bits.
     } catch (...) {
         return fail_with(LACEDRING_CODE_OUT_OF_MEMORY, lacedring_code_string(LACEDRING_CODE_OUT_OF_MEMORY), message);
     }

@@ -296,7 +296,7 @@ struct Outcome {
 
 /// The number of parts in which a mesh of that size is annealed.
 std::uint32_t number_of_parts(std::uint32_t triangles) {
-    constexpr std::uint32_t kLeast = 16384, kMost = 16;  // triangles of a part; parts
+    constexpr std::uint32_t kLeast = 16384, kMost = 16;  // minimum triangles per part; maximum number of parts
     return std::clamp(triangles / kLeast, 1U, kMost);
 }
 

@@ -9,7 +9,7 @@
 
 namespace lacedring {
 
-/// A ring's edges and the triangles beside them. Holds no copy.
+/// A ring's edges and the triangles beside them. Does not own them.
 class RingWalk {
   public:
     RingWalk() = default;

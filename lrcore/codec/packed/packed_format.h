@@ -2,7 +2,7 @@
 // is a triangle that is no double.
 //
 // A stream is LR_PACKED_HEADER_WORDS header words, and then, all little-endian u32:
-//     turn bits one bit per own triangle, LR_PACKED_BLOCK_WORDS words per block; the last block has fewer
+//     turn bits    one bit per own triangle, LR_PACKED_BLOCK_WORDS words per block; the last block has fewer
 //     table        for each group of LR_PACKED_GROUP blocks but the first: the word at which it begins
 //     doubles      LR_PACKED_DOUBLES_WORDS words and runs of LR_PACKED_RUN_WORDS, if the header says that there are any
 //     groups       a head each, of bits, and then a record for each block, of whole bytes; zeros up to a whole word
@@ -18,7 +18,7 @@
 #define LR_PACKED_WORD_CHECKSUM 3u   // CRC-32 of the other three words and all that follows
 
 // Doubles: their number and the number of runs; then for each run its first triangle and the own triangle it doubles.
-// In the vertices' word: there are doubles; in a run: its triangles are reversed.
+// LR_PACKED_DOUBLES in the vertices' word: there are doubles; in a run: its triangles are reversed.
 #define LR_PACKED_DOUBLES 0x80000000u
 #define LR_PACKED_DOUBLES_WORDS 2u
 #define LR_PACKED_RUN_WORDS 2u

@@ -24,7 +24,7 @@ class CorridorSteps {
     }
 
     std::uint32_t size() const { return static_cast<std::uint32_t>(corridors_.corners.size()); }
-    std::uint8_t flags(std::uint32_t i) const { return corridors_.flags[i]; }  ///< CorridorStep's
+    std::uint8_t flags(std::uint32_t i) const { return corridors_.flags[i]; }  ///< flags of CorridorStep
     bool on_right(std::uint32_t i) const { return (flags(i) & CorridorStep::kRight) != 0; }
     bool flipped(std::uint32_t i) const { return table_.flipped(triangle(corridors_.corners[i])); }
     PackedEdge edge(std::uint32_t i) const { return {number(facing(i, true)), number(facing(i, false))}; }

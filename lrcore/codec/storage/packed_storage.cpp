@@ -47,7 +47,7 @@ void link_across(PackedSteps& steps) {
         const auto found = std::lower_bound(offers.begin(), offers.end(), Offer{edge, i, false});
         if (found == offers.begin() || (found - 1)->edge != edge) continue;
         const Offer& offer = *(found - 1);
-        // Ring edges are not crossed: a step entered at one begins a new tree.
+        // A ring edge links only successive steps; any other step entered there begins a new tree.
         if (edge.b - edge.a == 1 && offer.step + 1 != i) continue;
         std::uint32_t& across = offer.is_a ? steps.step(offer.step).across_a : steps.step(offer.step).across_b;
         if (across == UINT32_MAX) across = i;

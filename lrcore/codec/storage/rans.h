@@ -236,7 +236,7 @@ class Decoder {
     const std::uint32_t* at_ = &kZero;       // words of symbols
     std::uint64_t used_ = 0, last_ = 0;      // words used; index of the last word
     const unsigned char* bytes_ = kNothing;  // bytes of all words
-    std::uint64_t last_byte_ = 0;            // last position with eight bytes after it
+    std::uint64_t last_byte_ = 0;            // last position from which eight bytes can be read
     std::uint64_t raw_bit_ = 0, raw_end_ = 0;
     std::uint64_t now_ = kLeast, next_ = kLeast;
     bool bad_ = false;

@@ -29,7 +29,7 @@ struct VertexParameters {
     /// 3 components by parallelograms, the steepest of them by the surface's normal.
     bool has_normal = false;
     std::uint32_t error = 0;  ///< sixteenths of the base vertices' mean error added
-    /// Number of half bits of a residual's expected size that its symbol covers; lower bits are raw.
+    /// Half bits of a residual's expected size that its symbol covers; lower bits are raw.
     std::uint32_t fine = 7;
     std::uint32_t smooth = 0;  ///< then, sixteenths of the way toward the base vertices' mean
 };

@@ -17,8 +17,8 @@ class NearPairs {
     /// If the triangle with corners c to c + 2 and vertices v[0] to v[2] shares two vertices with the previous
     /// triangle, pairs their opposite corners.
     LACEDRING_INLINE void join_successive(const std::uint32_t* v, std::uint32_t c) {
-        constexpr std::uint8_t kAlone[8] = {3, 3, 3, 2,
-                                            3, 1, 0, 3};  // index of the only bit that is 0; 3 if there is none
+        // Index of the bit that is 0; 3 unless exactly two bits are 1.
+        constexpr std::uint8_t kAlone[8] = {3, 3, 3, 2, 3, 1, 0, 3};
         const std::uint32_t p = v[-3], q = v[-2], r = v[-1];
         std::uint32_t shared = 0;  // bit i: v[i] is a vertex of the previous triangle
         for (std::uint32_t i = 0; i < 3; ++i) {
@@ -104,8 +104,8 @@ std::vector<std::uint32_t> opposite_corners(std::span<const std::uint32_t> trian
         if (before_is_good) {
             if (is_good) pairs.join_successive(v, c);
             if (others.size() - count < 3) others.resize(2 * others.size());
-            const auto join = [&](std::uint32_t corner, std::uint32_t x,
-                                  std::uint32_t y) {  // joins a corner of the previous triangle
+            // Joins a corner of the previous triangle.
+            const auto join = [&](std::uint32_t corner, std::uint32_t x, std::uint32_t y) {
                 others[count] = corner;
                 count += pairs.join_ring_edge(corner, x, y) ? 1 : 0;
             };

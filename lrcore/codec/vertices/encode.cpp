@@ -97,7 +97,7 @@ class WidthSearch {
         bits.fill(kNever);
         bits[before] = 0;
         std::array<std::array<std::uint8_t, kWidths>, kVertexBlock / 4> codes;
-        std::array<std::uint8_t, kVertexBlock / 4> from;  // previous width by width
+        std::array<std::uint8_t, kVertexBlock / 4> from;  // [w]: the width before width w
         const std::uint32_t runs = (fours_ + (1U << size) - 1) >> size;
         for (std::uint32_t r = 0; r < runs; ++r) {
             const std::uint32_t begin = r << size, end = std::min(fours_, begin + (1U << size));

@@ -15,7 +15,7 @@ struct VertexIntegers {
     VertexMapping mapping = VertexMapping::integers;
     std::uint32_t bits = 0;                 // octahedral only
     float step = 0;                         // lattice only
-    std::uint32_t digits = 0;               // decimals
+    std::uint32_t digits = 0;               // decimals only
     std::vector<std::uint32_t> exceptions;  // decimals only: two words each, as in the stream
     double largest_error = 0;
 };

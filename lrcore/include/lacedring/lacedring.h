@@ -1,4 +1,4 @@
-/* LacedRing in C99: index lists into streams, streams into index lists, and the corner operators on LR tables.
+/* LacedRing in C99: encodes index lists as streams, decodes streams, and has the corner operators on LR tables.
    Link with lacedring::core, which includes the functions of lacedring_decode.h. A program that only decodes lean
    streams needs nothing but lacedring_decode.h.
 

@@ -248,7 +248,8 @@ Result<EncodedLr> encode_compact_lr(CornerTable table, const RingOptions& ring, 
 
 // Choice of the k with the smallest bit-efficient tables. Paper: LR 2011, section 8: run several times, keep the best.
 
-/// Values of RingOptions::k worth trying on a mesh of that size, including 0 (depth first); fewer for large meshes.
+/// Values of RingOptions::k worth trying on a mesh of that size, 0 (depth first) first unless the mesh is very large;
+/// fewer for large meshes.
 std::vector<std::uint32_t> recommended_periods(std::size_t triangles);
 
 struct CompactChoice {

@@ -141,7 +141,7 @@ constexpr std::uint32_t kWart = 0x80000000;  ///< T0w: the slot's edge skips the
 /// Ti: VO* holds the tip and the opposites of the start and end corners.
 constexpr std::uint32_t kIrregular = 0x40000000;
 constexpr std::uint32_t kFlip = 0x20000000;     ///< the input's triangle has the opposite orientation
-constexpr std::uint32_t kSpecial = 0x10000000;  ///< the slot has no triangle of its own; the other bits give its kind:
+constexpr std::uint32_t kSpecial = 0x10000000;  ///< the slot has no own triangle; the other bits say why:
 
 constexpr std::uint32_t kRedundant = kSpecial;            ///< first copy of a T2; the tip is v.n.n
 constexpr std::uint32_t kBorder = kSpecial | kIrregular;  ///< no triangle on this side

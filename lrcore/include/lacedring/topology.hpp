@@ -75,11 +75,11 @@ struct CornerTable : TableCorners {
 };
 
 /// Builds the corner table of `indices` (3 per triangle, each < vertex_count).
-/// Joins the triangles at each edge of two. At an edge of more, pairs opposed half-edges so that few vertices get
-/// several fans (after Rossignac and Cardoze's Matchmaker). Orients each component consistently if possible. Cost: O(T)
-/// time; 24 bytes per triangle, and 26 more while it runs. Errors: too_large (more than 2^29 vertices, or 2^32 corners
-/// and vertices together), malformed (index out of range), invalid_argument (the number of indices is no multiple of
-/// three). Untrusted input: safe.
+/// Joins the triangles of each edge that has two. At an edge with more, pairs opposed half-edges so that few vertices
+/// get several fans (after Rossignac and Cardoze's Matchmaker). Orients each component consistently if possible. Cost:
+/// O(T) time; 24 bytes per triangle, and 26 more while it runs. Errors: too_large (more than 2^29 vertices, or 2^32
+/// corners and vertices together), malformed (index out of range), invalid_argument (the number of indices is no
+/// multiple of three). Untrusted input: safe.
 Result<CornerTable> build_corner_table(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);
 
 /// Checks V and O: opposite is an involution, joined half-edges are opposed, and no degenerate triangle is joined.
