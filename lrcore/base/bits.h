@@ -5,7 +5,7 @@
 
 namespace lacedring {
 
-/// A flag per element, 64 to a word.
+/// One bit per element, 64 per word.
 class BitVector {
   public:
     explicit BitVector(std::size_t size) : words_((size + 63) / 64, 0) {}

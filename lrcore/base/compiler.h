@@ -7,7 +7,7 @@
 #include <emmintrin.h>
 #endif
 
-// Inlined whatever its size: for the few functions whose calls would cost more than they do.
+// LACEDRING_INLINE always inlines: for the few functions whose calls cost more than their bodies.
 #if (defined(__GNUC__) || defined(__clang__)) && !defined(LACEDRING_PLAIN)
 #define LACEDRING_INLINE inline __attribute__((always_inline))
 #define LACEDRING_NOINLINE __attribute__((noinline))
@@ -24,11 +24,11 @@ inline void prefetch(const void* object) {
     __builtin_prefetch(object);
 }
 
-/// Four words that are added and masked at once.
+/// Four words for SIMD addition and masking.
 using Lanes = std::uint32_t __attribute__((vector_size(16)));
 
 #ifdef __SSE2__
-/// Counts the leading numbers that are `most` or less, of 16 in rising order below 2^15. The first one has to be.
+/// Counts the numbers <= `most` among 16 ascending numbers below 2^15. The first number must be <= `most`.
 LACEDRING_INLINE std::uint32_t count_up_to(const std::uint16_t* numbers, std::uint32_t most) {
     const __m128i limit = _mm_set1_epi16(static_cast<short>(most));
     const __m128i low = _mm_loadu_si128(reinterpret_cast<const __m128i*>(numbers));
@@ -45,7 +45,7 @@ LACEDRING_INLINE std::uint32_t count_up_to(const std::uint16_t* numbers, std::ui
     Shorts low, high;
     std::memcpy(&low, numbers, sizeof low);
     std::memcpy(&high, numbers + 8, sizeof high);
-    const Shorts counts = -((low <= limit) + (high <= limit));  // a comparison that holds is -1
+    const Shorts counts = -((low <= limit) + (high <= limit));  // a true comparison is -1
     std::uint64_t halves[2];
     std::memcpy(halves, &counts, sizeof halves);
     return static_cast<std::uint32_t>((halves[0] + halves[1]) * 0x0001000100010001U >> 48);

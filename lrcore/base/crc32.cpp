@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t kStep = 16;  // bytes at a time
 
-/// [k][b]: what byte b, with k bytes behind it, adds to the remainder.
+/// [k][b]: the contribution to the remainder of byte b followed by k more bytes.
 constexpr auto kTables = [] {
     std::array<std::array<std::uint32_t, 256>, kStep> out{};
     for (std::uint32_t b = 0; b < 256; ++b) {

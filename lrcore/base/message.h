@@ -1,5 +1,5 @@
 #pragma once
-// Error messages out of words and numbers. Internal to lrcore.
+// Builds error messages from words and numbers. Internal to lrcore.
 
 #include <concepts>
 #include <cstdint>
@@ -15,7 +15,7 @@ inline void append(std::string& out, std::integral auto number) {
     out += std::to_string(number);
 }
 
-/// The parts one behind the other, numbers in decimal.
+/// Concatenates the parts; numbers in decimal.
 template <class... Parts>
 std::string message(const Parts&... parts) {
     std::string out;

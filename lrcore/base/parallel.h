@@ -5,13 +5,13 @@
 
 namespace lacedring::detail {
 
-/// in_parallel for a work of any type.
+/// in_parallel without its template parameter.
 void run_parts(unsigned threads, std::uint32_t parts, void (*call)(void* work, std::uint32_t part), void* work);
 
-/// Calls work(i) for each i below `parts` on at most `threads` threads, the calling one included; returns when all is
-/// done. Threads take part after part, so that one which starts late leaves its parts to the others. If the system
-/// creates no more threads, the existing ones do the work. Allocates nothing with one thread. Passes on what `work`
-/// throws; some parts are left out then.
+/// Calls work(i) for each i below `parts` on at most `threads` threads, including the calling thread; returns when all
+/// are done. Each thread takes the next free part, so a late thread delays nothing. If the system creates no more
+/// threads, the existing ones do the work. Allocates nothing with one thread. Rethrows an exception of `work`; some
+/// parts are then skipped.
 template <class Work>
 void in_parallel(unsigned threads, std::uint32_t parts, Work work) {
     run_parts(

@@ -1,5 +1,5 @@
 #pragma once
-// One generator of pseudo-random numbers: the same numbers everywhere, from the same seed.
+// Pseudo-random numbers: the same seed gives the same numbers on every platform.
 
 #include <cstdint>
 
@@ -12,7 +12,7 @@ constexpr std::uint64_t mix(std::uint64_t z) {
     return z ^ (z >> 31U);
 }
 
-/// SplitMix64. The standard's engines would do, but not its distributions: they differ between libraries.
+/// SplitMix64. Not <random>: its distributions differ between standard libraries.
 class SplitMix64 {
   public:
     explicit SplitMix64(std::uint64_t seed) : state_(seed) {}

@@ -1,5 +1,5 @@
 #pragma once
-// Recognizes streams and files by their first bytes, so that an error can name the kind that was given.
+// Recognizes streams and files by their first bytes, so that errors can name the kind of the input.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,5 @@
 #pragma once
-// Vectors of three numbers. Sums are taken from left to right, so that results are the same everywhere.
+// Vectors of three numbers. Sums are evaluated from left to right, so results are the same on every platform.
 
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
-// Bits of a valid stream, the first one lowest, as BitWriter writes them. Decoders that have to be fast, or read bytes
-// that nobody vouches for, are in C (include/lacedring); this is for encoders that read a stream again.
+// Reads bit fields of a valid stream, lowest bit first, as BitWriter writes them. Only for encoders that read a stream
+// back: decoders that must be fast or safe with untrusted bytes are in C (include/lacedring).
 
 #include <algorithm>
 #include <cstddef>
@@ -11,7 +11,7 @@ namespace lacedring {
 
 class BitReader {
   public:
-    /// Bits [at, end) of the words; behind them come ones.
+    /// Reads bits [at, end) of the words; bits beyond `end` read as ones.
     BitReader(std::span<const std::uint32_t> words, std::uint64_t at, std::uint64_t end)
         : words_(words), at_(at), end_(end) {}
 
@@ -30,7 +30,7 @@ class BitReader {
         }
         return out;
     }
-    /// How many ones come before a zero, at most `limit`: where there are as many, no zero is read.
+    /// Number of ones before a zero, at most `limit`. After `limit` ones, no zero is read.
     std::uint32_t unary(std::uint32_t limit) {
         std::uint32_t ones = 0;
         while (ones < limit && take(1) != 0) ++ones;
@@ -40,7 +40,7 @@ class BitReader {
         const std::uint32_t low = unary(31 - order) + order;
         return (take(low) | 1U << low) - (1U << order);
     }
-    /// UINT32_MAX: more ones than a number has.
+    /// Returns UINT32_MAX if there are 32 ones or more.
     std::uint32_t rice(std::uint32_t low) {
         const std::uint32_t ones = unary(32);
         return ones == 32 ? UINT32_MAX : (ones << low) + take(low);

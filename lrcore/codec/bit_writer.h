@@ -1,5 +1,5 @@
 #pragma once
-// Bits, the first one lowest, into bytes.
+// Writes bit fields into bytes, lowest bit first.
 
 #include <bit>
 #include <cstdint>
@@ -9,7 +9,7 @@ namespace lacedring {
 
 class BitWriter {
   public:
-    /// The lowest `count` (at most 32) bits of `value`.
+    /// Writes the lowest `count` (at most 32) bits of `value`.
     void put(std::uint32_t value, std::uint32_t count) {
         if (count == 0) return;
         window_ |= static_cast<std::uint64_t>(value & (UINT32_MAX >> (32 - count))) << fill_;
@@ -17,17 +17,17 @@ class BitWriter {
         bits_ += count;
         for (; fill_ >= 8; fill_ -= 8, window_ >>= 8) bytes_.push_back(static_cast<std::uint8_t>(window_));
     }
-    /// So many ones, and a zero.
+    /// Unary code of `ones`: that many ones and a zero.
     void put_unary(std::uint32_t ones) {
         for (; ones >= 16; ones -= 16) put(0xffff, 16);
         put((1U << ones) - 1, ones + 1);
     }
-    /// Golomb-Rice: value >> low in ones, then the low bits.
+    /// Golomb-Rice code: value >> low in unary, then the low bits.
     void put_rice(std::uint32_t value, std::uint32_t low) {
         put_unary(value >> low);
         put(value, low);
     }
-    /// Exp-Golomb of an order.
+    /// Exponential Golomb code.
     void put_golomb(std::uint32_t value, std::uint32_t order) {
         const std::uint32_t x = value + (1U << order);
         const auto width = static_cast<std::uint32_t>(std::bit_width(x));
@@ -39,7 +39,7 @@ class BitWriter {
     }
 
     std::size_t bits() const { return bits_; }
-    /// All bytes, the last one filled up with ones.
+    /// All bytes; pads the last byte with ones.
     std::vector<std::uint8_t>& finish() {
         if (fill_ > 0) put(0xff, 8 - fill_);
         return bytes_;

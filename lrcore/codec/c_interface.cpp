@@ -1,4 +1,4 @@
-// lacedring.h: the C interface, on C++'s.
+// Implements lacedring.h, the C interface, by the C++ interface.
 
 #include <algorithm>
 #include <cstring>
@@ -30,7 +30,7 @@ lacedring_code code_of(ErrorCode code) {
     }
 }
 
-/// False if it is wanted and does not fit. `capacity` counts elements.
+/// Sets `count` and copies the elements to `to` unless it is null. Returns false if they exceed `capacity`.
 bool put(const std::vector<std::uint32_t>& from, std::uint32_t* to, std::size_t capacity, std::size_t& count) {
     count = from.size();
     if (to == nullptr) return true;
@@ -70,7 +70,7 @@ LrStreamView<View> view_of(const lacedring_tables& t) {
     return out;
 }
 
-/// work(Operators) of whichever tables they are.
+/// Calls work with the Operators for the tables' format.
 template <class Work>
 auto with_operators(const lacedring_tables* t, Work work) {
     return t->format == LACEDRING_FORMAT_LR ? work(Operators<LrView>(view_of<LrView>(*t).view))
@@ -105,7 +105,8 @@ lacedring_code decode_all(const lacedring_stream* stream, Index* indices, std::s
     });
 }
 
-/// The triangle of a slot, without the linear count of an LR stream's triangles; none if the words are no stream.
+/// The triangle of a slot; none if the words are no stream. Skips StreamView, which counts the triangles of LR tables
+/// in linear time.
 std::optional<Triangle> triangle_of(const lacedring_stream& stream, std::uint32_t slot) {
     const auto decoded = [slot](const auto& view) {
         return view ? detail::decode_slot(*view, slot) : std::optional<Triangle>();
@@ -138,7 +139,7 @@ const char* lacedring_code_string(int code) {
         case LACEDRING_CODE_TOO_SMALL:
             return "a buffer is too small";
         case LACEDRING_CODE_TOO_LARGE:
-            return "more elements than the format numbers";
+            return "more elements than the format can number";
         case LACEDRING_CODE_OUT_OF_MEMORY:
             return "not enough memory";
     }
@@ -161,7 +162,8 @@ lacedring_code lacedring_encode_bounds(int format, std::size_t index_count, std:
         case LACEDRING_FORMAT_LEAN:
             words = LACEDRING_LEAN_HEADER_WORDS + 3 * triangles;
             break;
-        case LACEDRING_FORMAT_PACKED:  // turn bits, plain blocks of 29 bits a vertex; an entry and a head a group
+        // Turn bits, plain blocks of 29 bits per vertex; an entry and a head per group.
+        case LACEDRING_FORMAT_PACKED:
             words = LR_PACKED_HEADER_WORDS + blocks * (LR_PACKED_BLOCK_WORDS + 3 * LR_PACKED_BLOCK * 29 / 32) +
                     (blocks / LR_PACKED_GROUP + 1) *
                         (2 + (LR_PACKED_HEAD_BITS +
@@ -170,15 +172,17 @@ lacedring_code lacedring_encode_bounds(int format, std::size_t index_count, std:
                                  32) +
                     LR_PACKED_DOUBLES_WORDS + 1;
             break;
-        case LACEDRING_FORMAT_LR:  // 3T vertices at most, each 2 words or 1, and copies; 6 for a T0 or 3 for another
-                                   // triangle
+        // At most 3T vertices, each 2 words or 1, plus copies; 6 per T0, 3 per other triangle.
+        case LACEDRING_FORMAT_LR:
             words = kLrHeaderWords + 21 * triangles;
             break;
-        case LACEDRING_FORMAT_LR_COMPACT:  // a word and a record of 8 for a ring vertex
+        // A word and a record of 8 words per ring vertex.
+        case LACEDRING_FORMAT_LR_COMPACT:
             words = kLrHeaderWords + 42 * triangles;
             break;
     }
-    const bool tables = format == LACEDRING_FORMAT_LR || format == LACEDRING_FORMAT_LR_COMPACT;  // which copy vertices
+    const bool tables =
+        format == LACEDRING_FORMAT_LR || format == LACEDRING_FORMAT_LR_COMPACT;  // vertices may be copied
     const std::uint64_t vertices = std::uint64_t{vertex_count} + (tables ? index_count : 0);
     if (std::max(words, vertices) > SIZE_MAX / sizeof(std::uint32_t)) return LACEDRING_CODE_TOO_LARGE;
     encoded->word_capacity = static_cast<std::size_t>(words);

@@ -1,5 +1,5 @@
 #pragma once
-// The triangle of one slot, of any format. Internal to codec/.
+// Decodes one slot of any format. Internal to codec/.
 
 #include <optional>
 

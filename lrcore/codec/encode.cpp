@@ -1,4 +1,4 @@
-// From an index list to a stream: the steps in their order, with the settings that suit the format.
+// Encodes an index list: calls the steps in order, with the settings for the format.
 
 #include <algorithm>
 #include <iterator>
@@ -24,8 +24,9 @@ RingOptions ring_options(const EncodeOptions& options, std::size_t triangles) {
     out.k = options.periods.empty() ? 0 : options.periods[0];
     if (options.seeds) {
         out.seeds = *options.seeds;
-    } else if (options.effort > 0 && options.format != Format::lr_compact) {  // which tries each period with them
-        // For packed streams of large meshes, passes of the optimizer gain more than as much time spent on seeds.
+        // lr_compact would multiply seeds by periods.
+    } else if (options.effort > 0 && options.format != Format::lr_compact) {
+        // For packed streams of large meshes, time is better spent on optimizer passes than on seeds.
         const bool fewer = options.format == Format::packed && options.effort <= 6;
         out.seeds = recommended_seeds(fewer ? 6 * triangles : triangles);
     }
@@ -79,14 +80,14 @@ Result<Encoded> tables(CornerTable table, const RingOptions& ring, const EncodeO
     return out;
 }
 
-/// `table` is a CornerTable, const& or &&: LR tables take it over or copy it, to split its fans.
+/// `table` is a CornerTable const& or &&: encoding LR tables splits its fans, so it copies the table or moves from it.
 template <class Table>
 Result<Encoded> encode_table(Table&& table, const EncodeOptions& options) {
     if (options.effort >= std::size(kPasses)) {
         return invalid(detail::message("effort ", options.effort, " is above ", std::size(kPasses) - 1));
     }
     if (options.format != Format::lr_compact && options.periods.size() > 1) {
-        return invalid("several periods, which only lr_compact tries");
+        return invalid("only lr_compact takes several periods");
     }
     const Topology topology = table.topology;
     const RingOptions ring = ring_options(options, table.triangle_count());
@@ -98,7 +99,7 @@ Result<Encoded> encode_table(Table&& table, const EncodeOptions& options) {
     return out;
 }
 
-/// Moves a step's result into an Encoded; `order` lists its triangles as they decode.
+/// Moves a step's result into an Encoded. `order` becomes its triangle_order.
 template <class Stream>
 Encoded take(Stream& stream, Format format, std::vector<std::uint32_t>& order) {
     Encoded out;

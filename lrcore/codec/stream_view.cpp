@@ -1,4 +1,4 @@
-// All formats behind one interface: which stream it is, and the decoder that it takes.
+// Calls the decoder of a stream's format.
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@ struct Overload : Cases... {
     using Cases::operator()...;
 };
 template <class... Cases>
-Overload(Cases...) -> Overload<Cases...>;  // for clang 14
+Overload(Cases...) -> Overload<Cases...>;  // clang 14 needs this deduction guide
 
 static_assert(std::is_same_v<std::variant_alternative_t<std::size_t(Format::packed), StreamView::Any>, PackedView>);
 static_assert(std::is_same_v<std::variant_alternative_t<std::size_t(Format::lr_compact), StreamView::Any>,
@@ -53,7 +53,7 @@ Error wrong_size(const StreamView& view, const Indices& indices) {
                             " triangles")};
 }
 
-/// All triangles block by block, for index types that no decoder writes itself.
+/// Decodes all triangles block by block, for index types that the decoders do not write.
 template <class Index>
 void decode_blocks(const StreamView& view, Index* out) {
     std::array<std::uint32_t, std::size_t{3} * StreamView::kBlock> block{};
@@ -95,7 +95,7 @@ StreamView::StreamView(const Any& any_view) : view_(any_view) {
 Result<StreamView> view_stream(std::span<const std::uint32_t> words) {
     LR_ASSIGN(const StreamView::Any view, open(words, false));
     if (const auto* compact = std::get_if<LrStreamView<CompactLrView>>(&view)) {
-        for (const std::uint32_t w : compact->view.lr) {  // the count of triangles looks at the records
+        for (const std::uint32_t w : compact->view.lr) {  // StreamView counts triangles, which reads the records
             if (CompactLrView::is_long(w) && compact->view.record(w) + 1 >= compact->view.star.size()) {
                 return Error{ErrorCode::malformed, "LR tables: a record outside VO*"};
             }
@@ -114,7 +114,7 @@ Result<StreamView> validate(std::span<const std::byte> bytes) {
         return Error{ErrorCode::invalid_argument, "the stream does not begin at a multiple of four bytes"};
     }
     if (bytes.size() % sizeof(std::uint32_t) != 0) {
-        return Error{ErrorCode::malformed, detail::message(bytes.size(), " bytes are no whole number of words")};
+        return Error{ErrorCode::malformed, detail::message(bytes.size(), " bytes are not a whole number of words")};
     }
     return validate(
         std::span(reinterpret_cast<const std::uint32_t*>(bytes.data()), bytes.size() / sizeof(std::uint32_t)));
@@ -137,7 +137,8 @@ Result<void> decode(const StreamView& view, std::span<std::uint32_t> indices, un
 Result<void> decode(const StreamView& view, std::span<std::uint16_t> indices) {
     if (indices.size() != std::size_t{3} * view.triangles()) return wrong_size(view, indices);
     if (view.vertices() > 65536) {
-        return Error{ErrorCode::invalid_argument, detail::message(view.vertices(), " vertices; 16 bits number 65536")};
+        return Error{ErrorCode::invalid_argument,
+                     detail::message(view.vertices(), " vertices; 16-bit indices number at most 65536")};
     }
     decode_blocks(view, indices.data());
     return {};

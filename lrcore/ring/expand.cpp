@@ -1,9 +1,8 @@
 // RING-EXPANDER (LR 2011, section 4.2), depth first.
 //
 // The invaded region is a tree of triangles; walking around it clockwise meets its boundary edges in ring order, so
-// each edge that cannot be crossed is emitted at once as the next ring edge. The paper walks back through the triangles
-// with flags on them as breadcrumbs; here the edges still to be looked at are on a stack instead, which reads each
-// triangle once and lets those on the way back be fetched ahead.
+// each edge that cannot be crossed is emitted at once as the next ring edge. The paper walks back through flagged
+// triangles; here a stack holds the edges still to be tested. It reads each triangle once and allows prefetching.
 
 #include <algorithm>
 #include <optional>
@@ -20,7 +19,7 @@
 namespace lacedring {
 namespace {
 
-constexpr std::size_t kAhead = 6;  // edges on the stack whose triangle is fetched before its turn
+constexpr std::size_t kAhead = 6;  // distance on the stack of the triangle prefetched
 
 class Expander {
   public:
@@ -31,7 +30,7 @@ class Expander {
         return !table_.degenerate(t) && !visited(t, 0) && !visited(t, 1) && !visited(t, 2);
     }
 
-    /// Grows a region from seed's triangle and appends its boundary to `edges`; to `entered`, if there is one, the
+    /// Grows a region from seed's triangle and appends its boundary to `edges`. If `entered` is not null, appends the
     /// corners as in Expansion. k as in RingOptions.
     void grow(CornerId seed, std::uint32_t k, std::vector<RingEdge>& edges, std::vector<CornerId>* entered = nullptr) {
         if (k > 0) {
@@ -44,7 +43,7 @@ class Expander {
         }
     }
 
-    /// RING-EXPANDER; `entered` is used if kNoted.
+    /// RING-EXPANDER. Appends to `entered` if kNoted.
     template <bool kNoted>
     void grow_deep(CornerId seed, std::vector<RingEdge>& edges, std::vector<CornerId>& entered) {
         if constexpr (kNoted) entered.push_back(seed);
@@ -59,7 +58,7 @@ class Expander {
                     visited_.set(edge.right_tip.value);
                     if constexpr (kNoted) entered.push_back(c);
                     stack_.push_back(facing(next(c)));
-                    fetch(stack_.back().right);  // often the next to be popped
+                    fetch(stack_.back().right);  // often popped next
                     edge = facing(previous(c));
                     continue;
                 }
@@ -72,8 +71,8 @@ class Expander {
         }
     }
 
-    /// The same, interrupting the depth-first search every k triangles to go on from the oldest edge left
-    /// (HYBRID-RING-EXPANDER, section 6.1). The region is grown first and its boundary walked afterwards.
+    /// HYBRID-RING-EXPANDER (section 6.1): every k triangles the depth-first search continues from the oldest edge
+    /// left. Grows the region first, then walks its boundary.
     void grow_hybrid(CornerId seed, std::uint32_t k, std::vector<RingEdge>& edges) {
         if (invaded_.empty()) invaded_ = BitVector(table_.triangle_count());
         for (const CornerId c : {seed, next(seed), previous(seed)}) visited_.set(table_.vertex(c).value);
@@ -100,7 +99,8 @@ class Expander {
         RingEdge edge = facing(seed);
         while (true) {
             const CornerId c = edge.right;
-            // The region is a tree of triangles: what is invaded across an edge not yet walked was invaded through it.
+            // The region is a tree of triangles, so an invaded triangle across an edge not yet walked was entered
+            // through it.
             if (!c.is_null() && invaded_.test(triangle(c).value)) {
                 stack_.push_back(facing(next(c)));
                 fetch(stack_.back().right);
@@ -117,13 +117,13 @@ class Expander {
         for (const CornerId c : region_) invaded_.clear(triangle(c).value);
     }
 
-    /// Takes back a ring: its vertices are unvisited again.
+    /// Undoes a ring: marks its vertices as unvisited.
     void undo(std::span<const RingEdge> ring) {
         for (const RingEdge& edge : ring) visited_.clear(edge.start.value);
     }
 
-    /// What the ring costs, in references of a two-sided lean ring, up to a constant of its component: two per ring
-    /// vertex, less three for every triangle that need not go verbatim.
+    /// Cost of the ring in references of a two-sided lean ring, up to a constant per component: two per ring vertex,
+    /// minus three for every triangle that it saves from being stored verbatim.
     std::int64_t cost(std::span<const RingEdge> ring) {
         const auto size = static_cast<std::int64_t>(ring.size());
         std::int64_t covered = 0;
@@ -134,7 +134,7 @@ class Expander {
                 ++covered;
             }
         }
-        // A T2 takes one T0 neighbor along (wart skipping).
+        // A T2 also stores one T0 neighbor (wart skipping).
         paired_.clear();
         const RingWalk walk(ring);
         for (std::uint32_t side = 0; side < 2; ++side) {
@@ -159,17 +159,18 @@ class Expander {
     void fetch(CornerId c) const {
         if (!c.is_null()) detail::prefetch(&table_.corners[c.value]);
     }
-    /// The edge that corner x faces, x's triangle being invaded.
+    /// The edge that corner x of an invaded triangle faces.
     RingEdge facing(CornerId x) const {
         return {table_.vertex(previous(x)), x, table_.opposite(x), table_.vertex(x), kNullVertex};
     }
 
     const CornerTable& table_;
     BitVector visited_;             // paper: v.m
-    BitVector invaded_{0};          // paper: t.m; of the region being grown
-    std::vector<CornerId> region_;  // of the hybrid: corners through which it was entered
+    BitVector invaded_{0};          // paper: t.m, for the region being grown
+    std::vector<CornerId> region_;  // used by grow_hybrid: the corners as in Expansion
     std::vector<CornerId> queue_;
-    BitVector rung_;  // scratch of cost(): triangles with a ring edge; all clear between calls
+    // Scratch of cost(): triangles with a ring edge; all clear between calls.
+    BitVector rung_;
     std::vector<RingEdge> stack_;
     std::vector<TriangleId> paired_;
 };
@@ -177,7 +178,7 @@ class Expander {
 /// Sets costs[i], i > 0, to the cost of the ring from seeds[i]. `size` is the size of one such ring.
 void try_seeds(Expander& expander, const RingOptions& options, std::size_t size, std::span<const CornerId> seeds,
                std::span<std::int64_t> costs) {
-    constexpr std::size_t kEdgesOfThread = 1U << 15;  // a millisecond: some ten times what a thread takes to start
+    constexpr std::size_t kEdgesOfThread = 1U << 15;  // about 1 ms of work: ten times the start of a thread
     const auto threads = static_cast<std::uint32_t>(
         std::min<std::size_t>({options.threads, seeds.size() - 1, (seeds.size() - 1) * size / kEdgesOfThread}));
     const auto try_from = [&](Expander& with, std::size_t begin, std::size_t step) {
@@ -198,7 +199,7 @@ void try_seeds(Expander& expander, const RingOptions& options, std::size_t size,
 }  // namespace
 
 std::uint32_t recommended_seeds(std::size_t triangles) {
-    constexpr std::size_t kBudget = 4'000'000;  // triangles walked, all seeds together
+    constexpr std::size_t kBudget = 4'000'000;  // triangles walked for all seeds together
     return static_cast<std::uint32_t>(std::clamp<std::size_t>(kBudget / std::max<std::size_t>(triangles, 1), 1, 64));
 }
 
@@ -212,8 +213,8 @@ Rings expand_rings(const CornerTable& table, const RingOptions& options, Expansi
     std::vector<RingEdge> region;
     std::vector<CornerId> seeds;
     std::vector<std::int64_t> costs;
-    // With one_per_shell: which triangles belong to a shell that has its ring. Most meshes leave no vertices for
-    // another ring to begin at, so shells are walked only once that is in question.
+    // For one_per_shell: marks the triangles of shells that have a ring. Computed only when another seed is possible;
+    // most meshes have none.
     std::optional<Swirl> shells;
     std::size_t swirled = 0;
     const bool told = options.start.value < table.corners.size();
@@ -234,7 +235,7 @@ Rings expand_rings(const CornerTable& table, const RingOptions& options, Expansi
         expander.grow(best, options.k, rings.edges, entered);
         if (options.seeds <= 1 || rings.edges.size() - begin < 4) continue;
 
-        // More seeds, drawn from the triangles at the first ring; only the best seed is remembered and grown again.
+        // More seeds, drawn from the triangles beside the first ring; only the best seed is stored and grown again.
         region.assign(rings.edges.begin() + static_cast<std::ptrdiff_t>(begin), rings.edges.end());
         expander.undo(region);
         seeds.assign(1, best);
@@ -248,7 +249,7 @@ Rings expand_rings(const CornerTable& table, const RingOptions& options, Expansi
         costs[0] = expander.cost(region);
         try_seeds(expander, options, region.size(), seeds, costs);
         best = seeds[static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) - costs.begin())];
-        // The triangles that the first seed entered are listed already.
+        // `entered` already has the triangles of the first seed.
         const bool enter_again = entered != nullptr && best != first;
         if (enter_again) entered->resize(expansion->first.back());
         region.clear();

@@ -9,8 +9,8 @@
 namespace lacedring {
 namespace {
 
-/// The left corner of the ring edge after that of left corner x. `mask` says which corners of a triangle face a ring
-/// edge.
+/// The left corner of the ring edge after the edge with left corner x. mask(t) has a bit for each corner of t that
+/// faces a ring edge.
 template <class Mask>
 CornerId table_edge_after(const CornerTable& table, CornerId x, const Mask& mask) {
     const auto faces_ring = [&](CornerId c) { return (mask(triangle(c)) >> c.value % 3 & 1) != 0; };
@@ -27,7 +27,7 @@ CornerId table_edge_after(const CornerTable& table, CornerId x, const Mask& mask
     }
 }
 
-constexpr std::uint32_t kWord = 8;  // states that are looked at together
+constexpr std::uint32_t kWord = 8;  // states that are tested together
 
 std::uint64_t word(const std::uint8_t* states) {
     std::uint64_t out = 0;
@@ -72,7 +72,7 @@ bool Lacing::has_expensive() const {
 
 /// Are neighbors so far apart, on average, that ranges of `range` triangles have long borders?
 bool Lacing::scattered(std::uint32_t range) const {
-    constexpr std::uint32_t kStep = 16;  // looks at one triangle in so many
+    constexpr std::uint32_t kStep = 16;  // samples one triangle in kStep
     std::uint64_t distances = 0, corners = 0;
     for (std::uint32_t t = 0; t < size(); t += kStep) {
         for (std::uint32_t k = 0; k < 3; ++k, ++corners) {
@@ -85,9 +85,9 @@ bool Lacing::scattered(std::uint32_t range) const {
     return distances > corners * range / 32;
 }
 
-/// Sets the table's number of each triangle, breadth first, and moves the states there.
+/// Renumbers the triangles breadth first: sets opposite_, including the table's numbers, and reorders the states.
 void Lacing::renumber() {
-    constexpr std::size_t kAhead = 16;  // triangles of the queue that are fetched before their turn
+    constexpr std::size_t kAhead = 16;  // distance in the queue of the triangles prefetched
     const std::uint32_t count = size();
     std::vector<std::uint32_t> number(count, kNone);
     std::uint32_t back = 0;
@@ -134,7 +134,8 @@ void Lacing::number_triangles(std::uint32_t range) {
         }
     }
     if (all_on_rings_) return;
-    for (std::uint32_t t = 0; t < size(); ++t) {  // vertices off the rings are those of T0, and tips of T1
+    // A vertex off the rings is a vertex of a T0 or the tip of a T1.
+    for (std::uint32_t t = 0; t < size(); ++t) {
         if (ring_edges(state_[t]) > 1 || (state_[t] & kDegenerate) != 0) continue;
         for (std::uint32_t k = 0; k < 3; ++k) {
             if (!is_t0(t) && !faces_ring(4 * t + k)) continue;
@@ -157,7 +158,7 @@ void Lacing::mark_expensive(TriangleRange range, std::vector<std::uint32_t>& out
     std::uint32_t t = range.begin;
     for (; range.end - t >= kWord; t += kWord) {
         const std::uint64_t states = word(&state_[t]) & each(0xff ^ kMark);
-        const std::uint64_t keys = states & each(kT0Key | kDegenerate);  // zero: expensive
+        const std::uint64_t keys = states & each(kT0Key | kDegenerate);  // 0: expensive
         std::memcpy(&state_[t], &states, kWord);
         if (((keys - each(1)) & ~keys & each(0x80)) == 0) continue;
         for (std::uint32_t i = 0; i < kWord; ++i) look(t + i);
@@ -168,7 +169,7 @@ void Lacing::mark_expensive(TriangleRange range, std::vector<std::uint32_t>& out
 void Lacing::find_marked_t2(TriangleRange range, std::vector<std::uint32_t>& out) const {
     std::array<std::uint32_t, kWord> found;
     const auto look = [&](std::uint32_t t, std::uint32_t count) {
-        std::uint32_t n = 0;  // no branch on what a triangle is: no processor foretells it
+        std::uint32_t n = 0;  // no branch on the triangle's kind: it would be mispredicted
         for (std::uint32_t i = 0; i < count; ++i) {
             found[n] = t + i;
             n += std::uint32_t{marked(t + i)} & std::uint32_t{is_t2(t + i)};
@@ -188,7 +189,7 @@ Rings Lacing::rings(Lacing lacing, const std::vector<std::uint8_t>& states) {
     for (std::uint32_t t = 0; t < lacing.size(); ++t) state[lacing.opposite_[4 * std::size_t{t} + 3]] = states[t];
     lacing.opposite_ = {};
 
-    std::size_t size = 0;  // each edge has one triangle on its left
+    std::size_t size = 0;  // each edge has exactly one triangle on its left
     for (const std::uint8_t s : state) size += (s & kRight) != 0 ? 0 : kBits[s & kMask];
     Rings out;
     out.edges.reserve(size);

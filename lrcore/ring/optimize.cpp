@@ -1,15 +1,15 @@
-// A ring is changed by turning a triangle over to the ring's other side: its edges on the ring leave it, the others
-// enter it. Where that is a T2 whose ring edges meet in v, v leaves the ring; where it is a T1 whose tip v is on no
-// ring, v is laced in. Either way each ring stays one cycle. What is tried at a T2 is to take v out and lace it in
-// again elsewhere in its fan. That shortens one dead end and lengthens another: dead ends wander until they are as
-// short as a wart, or gone with their bifurcation. Most such changes cost nothing, so annealing at low temperatures
-// goes far. Only dead ends near a T0 without a wart are tried: few others can gain. Most changes that would not be kept
-// are known by the ring edges of the triangles around v, and not made.
+// A ring is changed by moving a triangle to the ring's other side: its ring edges leave the ring, its other edges join
+// it. Moving a T2 whose ring edges meet in v takes v out of the ring; moving a T1 whose tip v is on no ring laces v in.
+// Each ring stays one cycle. At a T2 the optimizer takes v out and laces it in elsewhere in its fan. This shortens one
+// dead end and lengthens another: dead ends wander until they are as short as a wart, or vanish with their bifurcation.
+// Most such changes cost nothing, so annealing works at low temperatures. Only dead ends near a T0 in no wart are
+// tried: few others can gain. An estimate from the triangles around v rejects most unfavorable changes before they are
+// made.
 //
-// Large meshes are annealed in parts. A change is made only where all that it reads and writes is in one part, so that
-// the parts of a pass do not depend on each other; borders between parts move from pass to pass. Parts and their random
-// numbers follow from the mesh and the seed alone: the result is the same for any number of threads. Temperatures are
-// in integers, which are the same on every machine.
+// Large meshes are annealed in parts. A change must read and write only triangles of its part, so the parts of a pass
+// are independent; the borders of parts move from pass to pass. Parts and their random numbers depend only on the mesh
+// and the seed, so the result is the same for any number of threads. Temperatures are integers, so the result is the
+// same on every machine.
 
 #include <algorithm>
 #include <array>
@@ -24,7 +24,7 @@
 namespace lacedring {
 namespace {
 
-/// By how much a change may raise the cost: Metropolis' rule.
+/// Metropolis rule: the random limit by which a change may raise the cost.
 class Temperature {
   public:
     static constexpr std::size_t kLevels = 512;
@@ -35,12 +35,12 @@ class Temperature {
     std::int64_t rise(std::uint64_t bits) const { return rise_[bits % kLevels]; }
 
   private:
-    /// -ln((i + 1/2) / kLevels) with 16 bits behind the point, by squaring.
+    /// -ln((i + 1/2) / kLevels) with 16 fraction bits, by squaring.
     static constexpr auto kMinusLog = [] {
         std::array<std::int64_t, kLevels> out{};
         for (std::size_t i = 0; i < kLevels; ++i) {
             std::uint64_t x = (2 * i + 1) << 21U;  // over 2^31; below 1
-            std::uint64_t log = 0;                 // -log2, 32 bits behind the point
+            std::uint64_t log = 0;                 // -log2 with 32 fraction bits
             for (; x < std::uint64_t{1} << 30U; x *= 2) log += std::uint64_t{1} << 32U;
             log += std::uint64_t{1} << 32U;
             x *= 2;  // in [1, 2)
@@ -57,7 +57,7 @@ class Temperature {
     std::array<std::int64_t, kLevels> rise_{};
 };
 
-/// e^-(x / 2^28), with 28 bits behind the point, for x up to 3 * 2^28.
+/// e^-(x / 2^28) with 28 fraction bits, for x up to 3 * 2^28.
 std::int64_t exponential(std::int64_t x) {
     std::int64_t sum = 0, term = std::int64_t{1} << 28;
     for (std::int64_t i = 1; i <= 20; ++i) {
@@ -81,15 +81,15 @@ class Annealer {
           rounds_(std::clamp<std::uint32_t>(kSmall / lacing.size(), 4, 24)),
           random_(random_seed) {}
 
-    /// Tries changes at every vertex off the rings and at every T2 near a T0 that is in no wart. `isolated` has corners
-    /// of the vertices off the rings.
+    /// Tries changes at every vertex off the rings and at every T2 near a T0 that is in no wart. `isolated` has a
+    /// corner of each vertex off the rings.
     void run(std::uint32_t pass, std::span<const std::uint32_t> isolated) {
         for (const std::uint32_t c : isolated) {
             if (!try_lace_in(c)) isolated_.push_back(c);
         }
         if (pass % (warts_are_cheap_ ? kMarkingWarts : kMarking) == 0) mark_near();
         lacing_.find_marked_t2(range_, ends_);
-        // A few at a time, so that what they touch stays in the cache.
+        // In batches, so that the triangles touched stay in the cache.
         for (std::size_t i = 0; i < ends_.size(); i += kBatch) {
             batch_.assign(ends_.data() + i, ends_.data() + std::min(i + kBatch, ends_.size()));
             for (std::uint32_t round = 0; round < rounds_ && !batch_.empty(); ++round) try_batch();
@@ -97,24 +97,27 @@ class Annealer {
         std::sort(isolated_.begin(), isolated_.end());
     }
 
-    std::int64_t cost() const { return cost_; }                            ///< of all changes made
-    std::size_t tried() const { return ends_.size() + isolated_.size(); }  ///< dead ends and vertices, about
+    std::int64_t cost() const { return cost_; }  ///< total change of cost
+    std::size_t tried() const {
+        return ends_.size() + isolated_.size();
+    }  ///< approximate number of dead ends and vertices
     std::vector<std::uint32_t>& isolated() { return isolated_; }
 
   private:
-    static constexpr std::uint32_t kReach = 24;  // triangles of a fan looked at each way, so that hubs cost no more
+    // Limit of triangles of a fan visited in each direction: bounds the time at vertices of high valence.
+    static constexpr std::uint32_t kReach = 24;
     static constexpr std::uint32_t kSmall = 32768;
-    static constexpr std::size_t kBatch = 128;  // dead ends
-    /// Edges from a T0 in no wart to the T2 that are tried, and passes that use the same marks; where warts are cheap.
+    static constexpr std::size_t kBatch = 128;  // dead ends per batch
+    /// If warts are cheap: the distance in triangles from a T0 in no wart up to which T2 are tried, and the number of
+    /// passes that use the same marks.
     static constexpr std::uint32_t kNearWarts = 6, kMarkingWarts = 2;
-    static constexpr std::uint32_t kNear = 20, kMarking = 8;  // where they are not
-    /// Up to kFar edges where less than one in kFew triangles would be near.
+    static constexpr std::uint32_t kNear = 20, kMarking = 8;  // if warts are not cheap
+    /// The distance grows up to kFar while less than one in kFew triangles is near.
     static constexpr std::uint32_t kFar = 20, kFew = 32;
 
-    /// The result of a try.
     enum class Try : std::uint8_t { done, refused, hopeless };
 
-    /// Collects the corners of vertex(c) near c, but not c, in their order around it.
+    /// Collects the corners of vertex(c) near c, excluding c, in their order around the vertex.
     void walk_fan(std::uint32_t c) {
         fan_ = 0;
         std::uint32_t x = c;
@@ -127,7 +130,8 @@ class Annealer {
         }
         const std::uint32_t first = fan_;
         x = c;
-        for (std::uint32_t n = 0; n < kReach; ++n) {  // on the other side of c, where the fan is open or too large
+        // Backward from c, if the fan is open or too large.
+        for (std::uint32_t n = 0; n < kReach; ++n) {
             x = lacing_.opposite(Lacing::previous(x));
             if (x == Lacing::kNone || !range_.has(x >> 2)) break;
             x = Lacing::previous(x);
@@ -141,8 +145,8 @@ class Annealer {
         state_[fan_++] = lacing_.state(x >> 2);
     }
 
-    /// About what it costs to take vertex(c) out of the T2 of c and lace it in at corner_[i]: counts the T0 that come
-    /// and go, but not those that get into a wart or lose theirs.
+    /// Estimates the cost of taking vertex(c) out of the T2 of c and lacing it in at corner_[i]: counts the T0 created
+    /// and removed, but ignores T0 that enter or leave a wart.
     std::int64_t estimate(std::uint32_t i) const {
         std::int64_t out = 0;
         if (i != 1 && Lacing::ring_edges(state_[0]) == 1) out += lacing_.cost_as_t0(state_[0]);
@@ -154,9 +158,9 @@ class Annealer {
         return Lacing::ring_edges(lacing_.state(across >> 2)) == 1 ? out + lacing_.wart_cost() : out;
     }
 
-    /// Takes a T2's vertex out, and mostly laces it in elsewhere. It is left out on the right side only: so the left
-    /// one remains a tree of triangles, all their vertices on the ring, and has dead ends for encoders to close it at.
-    /// If done, place_ is where it was laced in, or c.
+    /// Takes a T2's vertex out and usually laces it in elsewhere. Only a T2 on the left side may lose its vertex for
+    /// good: the T2 moves to the right, and the left side stays a tree of triangles with all vertices on the ring. If
+    /// done, place_ is the corner where the vertex was laced in, or c.
     Try try_t2(std::uint32_t t) {
         const std::uint32_t c = lacing_.t2_corner(t), across = lacing_.opposite(c);
         if (!lacing_.can_take_out(c)) return Try::hopeless;
@@ -188,7 +192,7 @@ class Annealer {
         if (!lacing_.within(range_, t) || !lacing_.within(range_, place_ >> 2)) return Try::refused;
         const std::uint32_t length = warts_are_cheap_ ? lacing_.dead_end(range_, t, kLong) : kLong;
         const std::int64_t cost = lacing_.turn_over(t, changes_) + lacing_.turn_over(place_ >> 2, changes_);
-        // If the edge that faces v is still on a ring, that may be one of two edges: v came from a ring of three.
+        // If the edge facing v is still on a ring, this ring may have only two edges: v was on a ring of three.
         if (cost > most || (lacing_.faces_ring(c) && lacing_.maybe_two_ring(range_, c)) ||
             (cost == 0 && length < kLong && (bits >> 13U) % 16 != 0 && lacing_.is_t2(place_ >> 2) &&
              lacing_.dead_end(range_, place_ >> 2, kLong) > length)) {
@@ -225,8 +229,8 @@ class Annealer {
         return corner_[(bits >> 32U) * places >> 32U];
     }
 
-    /// Tries a change at each T2 of batch_, and notes where the dead ends are then. Drops those where nothing can be
-    /// done.
+    /// Tries a change at each T2 of batch_, then replaces batch_ by the present ends of the dead ends. Drops T2 where
+    /// no change is possible.
     void try_batch() {
         std::size_t kept = 0;
         moved_.clear();
@@ -244,7 +248,7 @@ class Annealer {
         batch_.insert(batch_.end(), moved_.begin(), moved_.end());
     }
 
-    /// Marks the triangles near a T0 in no wart, and no others.
+    /// Marks the triangles of the range near a T0 in no wart, and clears all other marks.
     void mark_near() {
         std::vector<std::uint32_t> near;
         lacing_.mark_expensive(range_, near);
@@ -263,23 +267,24 @@ class Annealer {
         }
     }
 
-    static constexpr std::uint32_t kLong = 4;  // of a dead end: as good as longer ones
+    static constexpr std::uint32_t kLong = 4;  // dead ends of this length and longer are equally good
 
     Lacing& lacing_;
     TriangleRange range_;
     const Temperature& temperature_;
     std::int64_t isolated_cost_;
-    std::int64_t slack_;    // what an estimate may be above the cost
-    bool warts_are_cheap_;  // then dead ends are kept short: they become warts
-    std::uint32_t rounds_;  // changes tried at a dead end in a pass: more on small meshes, where chance weighs more
+    std::int64_t slack_;    // maximum by which an estimate may exceed the cost
+    bool warts_are_cheap_;  // true: dead ends are kept short, to become warts
+    // Changes tried per dead end and pass; more for small meshes, whose result depends more on chance.
+    std::uint32_t rounds_;
     detail::SplitMix64 random_;
     std::int64_t cost_ = 0;
     std::vector<std::uint32_t> isolated_;
     Lacing::Changes changes_;
-    std::array<std::uint32_t, 2 * kReach + 1> corner_;  // of the fan, fan_ of them
-    std::array<std::uint8_t, 2 * kReach + 1> state_;    // of their triangles
+    std::array<std::uint32_t, 2 * kReach + 1> corner_;  // the first fan_ are the fan's corners
+    std::array<std::uint8_t, 2 * kReach + 1> state_;    // states of their triangles
     std::uint32_t fan_ = 0, place_ = 0;
-    std::vector<std::uint32_t> ends_, batch_, moved_;  // triangles that were T2 when noted
+    std::vector<std::uint32_t> ends_, batch_, moved_;  // triangles that were T2 when added
 };
 
 /// The result of a pass over a part.
@@ -291,7 +296,7 @@ struct Outcome {
 
 /// The number of parts in which a mesh of that size is annealed.
 std::uint32_t number_of_parts(std::uint32_t triangles) {
-    constexpr std::uint32_t kLeast = 16384, kMost = 16;  // triangles of a part; parts
+    constexpr std::uint32_t kLeast = 16384, kMost = 16;  // minimum triangles per part; maximum number of parts
     return std::clamp(triangles / kLeast, 1U, kMost);
 }
 
@@ -299,7 +304,7 @@ std::uint32_t number_of_parts(std::uint32_t triangles) {
 std::vector<std::uint32_t> parts_of(std::uint32_t triangles, std::uint32_t pass) {
     const std::uint32_t parts = number_of_parts(triangles);
     if (parts == 1) return {0, triangles};
-    // Shifted by a multiple of the golden ratio each time: any place is far from a border in most passes.
+    // Shifts the parts by a multiple of the golden ratio per pass: any place is far from a border in most passes.
     const std::uint32_t size = triangles / parts;
     const auto shift = static_cast<std::uint32_t>(std::uint64_t{size} * (pass * 0x9e3779b9U) >> 32U);
     std::vector<std::uint32_t> out{0};
@@ -314,12 +319,13 @@ std::vector<std::uint32_t> parts_of(std::uint32_t triangles, std::uint32_t pass)
 }  // namespace
 
 Rings optimize_rings(const CornerTable& table, Rings rings, const OptimizeOptions& options) {
-    constexpr std::size_t kTriedOfThread = 8192;        // two milliseconds: forty times what a thread takes to start
-    constexpr std::uint32_t kMostTriangles = 1U << 30;  // that Lacing numbers the corners of
+    // 2 ms of work: forty times the start of a thread.
+    constexpr std::size_t kTriedOfThread = 8192;
+    constexpr std::uint32_t kMostTriangles = 1U << 30;  // limit of Lacing's corner numbers
     if (options.passes == 0 || rings.edges.empty() || table.triangle_count() >= kMostTriangles) return rings;
-    // Temperatures fall geometrically, in units of what a T0 gains by a wart, or one in a wart costs; further where
-    // warts are cheap.
-    constexpr std::int64_t kHot = 50;  // hundredths
+    // Temperatures fall geometrically, and further if warts are cheap. Their unit is the larger of a T0's gain from a
+    // wart and its cost in a wart.
+    constexpr std::int64_t kHot = 50;  // hundredths of a unit
     const std::int64_t cooling = 2 * std::int64_t{options.cost.t0_wart} < options.cost.t0
                                      ? 618095479   // ln(0.5 / 0.05) * 2^28
                                      : 396193577;  // ln(0.5 / 0.114) * 2^28
@@ -333,7 +339,7 @@ Rings optimize_rings(const CornerTable& table, Rings rings, const OptimizeOption
     std::vector<std::uint8_t> best = lacing.states();
     std::vector<std::uint32_t> isolated = lacing.take_isolated();
     std::int64_t cost = 0, best_cost = 0;
-    std::size_t tried = lacing.size() / 16;  // in the pass before
+    std::size_t tried = lacing.size() / 16;  // in the previous pass
     Temperature temperature;
     for (std::uint32_t p = 0; p < options.passes && tried > 0; ++p) {
         const bool cold = p + descent >= options.passes;

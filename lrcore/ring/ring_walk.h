@@ -1,5 +1,5 @@
 #pragma once
-// One ring read edge by edge, and what its triangles look like from there. Paper: LR 2011, section 4.3.
+// Walks a ring edge by edge and classifies its triangles. Paper: LR 2011, section 4.3.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace lacedring {
 
-/// A ring's edges and the triangles beside them. Holds no copy.
+/// A ring's edges and the triangles beside them. Does not own them.
 class RingWalk {
   public:
     RingWalk() = default;
@@ -25,20 +25,20 @@ class RingWalk {
     CornerId face(std::uint32_t side, std::size_t i) const { return side == 0 ? ring_[i].left : ring_[i].right; }
     VertexId tip(std::uint32_t side, std::size_t i) const { return side == 0 ? ring_[i].left_tip : ring_[i].right_tip; }
 
-    /// Is edge i's triangle that of the edge after it as well: the first copy of a T2?
+    /// Do edge i and the next edge have the same triangle on this side? If so, edge i has the first copy of a T2.
     bool repeats(std::uint32_t side, std::size_t i) const {
         const CornerId c = face(side, i), d = face(side, after(i));
         return !c.is_null() && !d.is_null() && triangle(c) == triangle(d);
     }
 
-    /// Are the ring's three edges those of one triangle (a T3, so to speak)?
+    /// Does the ring consist of the three edges of one triangle (a T3)?
     bool is_t3(std::uint32_t side) const { return size() == 3 && repeats(side, 0) && repeats(side, 1); }
 
-    /// Where edge i has the first copy of a T2: the corner across the T2's third edge. Null across a border.
+    /// The corner opposite the third edge of the T2 whose first copy is at edge i. Null across a border.
     CornerId across_t2(const CornerTable& table, std::uint32_t side, std::size_t i) const {
         const CornerId c = face(side, i), d = face(side, after(i));
-        return table.opposite(
-            CornerId{triangle(c).value * 9 + 3 - c.value - d.value});  // the corner that is neither c nor d
+        // The corner of the triangle that is neither c nor d.
+        return table.opposite(CornerId{triangle(c).value * 9 + 3 - c.value - d.value});
     }
 
   private:

@@ -1,4 +1,4 @@
-// Rossignac's chapter: O from V. Here for any triangle soup.
+// Computes O from V (Rossignac's chapter), for any triangle soup.
 
 #include "lacedring/topology.hpp"
 #include "lrcore/base/message.h"
@@ -8,11 +8,11 @@ namespace lacedring {
 
 Result<CornerTable> build_corner_table(std::span<const std::uint32_t> indices, std::uint32_t vertex_count) {
     constexpr std::uint32_t kMostVertices = 1U << 29;
-    // split_fans adds at most one vertex a corner: the sum must not exceed 32 bits.
+    // split_fans adds at most one vertex per corner; the total must fit in 32 bits.
     constexpr std::size_t kMostCorners = UINT32_MAX - 1;
     if (indices.size() % 3 != 0) {
         return Error{ErrorCode::invalid_argument,
-                     detail::message(indices.size(), " indices are no whole number of triangles")};
+                     detail::message(indices.size(), " indices are not a whole number of triangles")};
     }
     if (vertex_count > kMostVertices) {
         return Error{ErrorCode::too_large,
@@ -43,7 +43,7 @@ Result<CornerTable> build_corner_table(std::span<const std::uint32_t> indices, s
 }
 
 std::string check_corner_table(const CornerTable& table) {
-    if (table.corners.size() % 3 != 0) return "not three corners a triangle";
+    if (table.corners.size() % 3 != 0) return "not three corners per triangle";
     for (std::uint32_t i = 0; i < table.corners.size(); ++i) {
         if (table.corners[i].vertex.value >= table.vertex_count) return detail::message("V[", i, "] is no vertex");
         const CornerId c{i}, o = table.corners[i].opposite;

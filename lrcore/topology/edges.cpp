@@ -1,5 +1,6 @@
-// Half-edges are sorted into buckets by the smaller vertex of their edge; within a bucket, equal larger vertices meet.
-// Buckets hold three half-edges on average, so comparing all pairs is fastest; the rare large star is sorted.
+// Half-edges are sorted into buckets by the smaller vertex of their edge; within a bucket, half-edges with the same
+// larger vertex are joined. A bucket has three half-edges on average, so comparing all pairs is fastest; the rare large
+// bucket is sorted.
 
 #include "lrcore/topology/edges.h"
 
@@ -9,8 +10,8 @@
 namespace lacedring {
 namespace {
 
-// The larger vertex of the edge (the bucket gives the smaller one) and, in bit 31, whether the half-edge starts there:
-// so the corner table need not be read again to tell directions.
+// `key` is the larger vertex of the edge (the bucket implies the smaller one); bit 31 is set if the half-edge starts at
+// the larger vertex. So directions are known without reading the corner table again.
 struct HalfEdge {
     std::uint32_t key;
     std::uint32_t corner;
@@ -25,7 +26,7 @@ class Joiner {
   public:
     Joiner(CornerTable& table, NonManifoldEdges& nonmanifold) : table_(table), nonmanifold_(nonmanifold) {}
 
-    /// All half-edges of one edge.
+    /// Joins all half-edges of one edge.
     void join(std::span<const HalfEdge> group) {
         if (group.size() == 1) {
             ++table_.topology.border_edges;
@@ -41,7 +42,7 @@ class Joiner {
         }
     }
 
-    /// Groups a bucket by the larger vertex. Reorders the bucket.
+    /// Joins the half-edges of a bucket, grouped by the larger vertex. Reorders the bucket.
     void join_bucket(std::span<HalfEdge> bucket) {
         if (bucket.size() > kSmallStar) {
             std::sort(bucket.begin(), bucket.end(), [](const HalfEdge& a, const HalfEdge& b) {
@@ -113,7 +114,7 @@ void pair_nonmanifold(CornerTable& table, const NonManifoldEdges& nonmanifold) {
         return i;
     };
     const auto merge = [&](CornerId a, CornerId b) { parent[find(a)] = find(b); };
-    const auto merge_across = [&](CornerId c, CornerId o) {  // opposed: next meets previous
+    const auto merge_across = [&](CornerId c, CornerId o) {  // opposed half-edges: next meets previous
         merge(next(c), previous(o));
         merge(previous(c), next(o));
     };
@@ -122,7 +123,7 @@ void pair_nonmanifold(CornerTable& table, const NonManifoldEdges& nonmanifold) {
         if (!o.is_null() && i < o.value) merge_across(c, o);
     }
 
-    // An edge with very many triangles looks only so far for the best partner, to stay linear.
+    // Limits the search for the best partner, so that edges with very many triangles take linear time.
     constexpr std::size_t kLookahead = 32;
     std::vector<CornerId> forward, backward;
     for (std::size_t e = 0; e + 1 < nonmanifold.first.size(); ++e) {
@@ -130,11 +131,11 @@ void pair_nonmanifold(CornerTable& table, const NonManifoldEdges& nonmanifold) {
         backward.clear();
         for (std::uint32_t i = nonmanifold.first[e]; i < nonmanifold.first[e + 1]; ++i) {
             CornerId c = nonmanifold.corners[i];
-            // Listed before orient(): where that turned the triangle round, its last two corners have changed places.
+            // The corners were listed before orient(), which swapped the last two corners of flipped triangles.
             if (table.flipped(triangle(c)) && c.value % 3 != 0) c = c.value % 3 == 1 ? next(c) : previous(c);
             (edge_start(table, c) < edge_end(table, c) ? forward : backward).push_back(c);
         }
-        for (int wanted = 2; wanted >= 0; --wanted) {  // fans merged by the pair
+        for (int wanted = 2; wanted >= 0; --wanted) {  // number of fans that the pair merges
             for (std::size_t f = 0; f < forward.size();) {
                 const CornerId c = forward[f];
                 bool paired = false;

@@ -1,5 +1,5 @@
 #pragma once
-// How half-edges find each other. Internal to corner_table/.
+// Joins the half-edges of triangles into edges. Internal to lrcore/topology.
 
 #include <cstdint>
 #include <vector>
@@ -8,20 +8,23 @@
 
 namespace lacedring {
 
-/// Half-edges (named by the corner that faces them) of the edges that have more than two triangles, edge after edge.
+/// The half-edges of all edges with more than two triangles, edge after edge. A half-edge is named by the corner facing
+/// it.
 struct NonManifoldEdges {
     std::vector<CornerId> corners;
-    std::vector<std::uint32_t> first{0};  ///< where each edge begins in `corners`; one more entry at the end
+    /// Where each edge begins in `corners`; one more entry at the end.
+    std::vector<std::uint32_t> first{0};
 };
 
-/// Joins the two half-edges of every edge of two triangles, whatever their directions, and lists the edges of more.
-/// Counts border and non-manifold edges. O must be all null. Returns whether some joined pair runs the same way.
+/// Joins the half-edges of each edge of two triangles, whatever their directions; lists the edges of more triangles.
+/// Counts border and non-manifold edges. O must be all null. Returns whether two joined half-edges have the same
+/// direction.
 bool join_edges(CornerTable& table, NonManifoldEdges& nonmanifold);
 
-/// Flips triangles so that joined half-edges are opposed; unjoins those for which no choice fits.
+/// Flips triangles so that joined half-edges are opposed; unjoins half-edges if no orientation fits.
 void orient(CornerTable& table);
 
-/// Pairs opposed half-edges of each non-manifold edge, those first that merge fans at both ends.
+/// Pairs opposed half-edges of each non-manifold edge; prefers pairs that merge fans at both ends.
 void pair_nonmanifold(CornerTable& table, const NonManifoldEdges& nonmanifold);
 
 /// The edge that corner c faces, from its start to its end in the triangle's orientation.

@@ -11,7 +11,7 @@ namespace {
 
 using detail::cross, detail::dot, detail::minus;
 
-/// Neumaier's sum: its error does not grow with the number of terms.
+/// Neumaier's compensated sum: the error does not grow with the number of terms.
 class Sum {
   public:
     void add(double x) {
@@ -25,25 +25,25 @@ class Sum {
     double sum_ = 0, rest_ = 0;
 };
 
-/// Six times the volume between a point and the triangles seen from it.
+/// The volume between a point and triangles, as a sum of mixed products.
 class MixedProducts {
   public:
     explicit MixedProducts(const Point& from) : from_(from) {}
 
-    /// mp(P,Q,R) = mp(P,Q-P,R-P), which has small factors instead of large ones that cancel.
+    /// Uses mp(P,Q,R) = mp(P,Q-P,R-P): its factors are small, so less cancels.
     void add(const Point& p, const Point& q, const Point& r) {
         const Point a = minus(p, from_), e = minus(q, p), f = minus(r, p);
         const Point n = cross(e, f);
         sum_.add(dot(n, a));
-        // The same with every sign positive: what rounding is relative to.
+        // The same product with absolute values: rounding errors are relative to it.
         for (std::size_t i = 0; i < 3; ++i) {
             const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
             magnitude_ += (std::abs(e[i] * f[j]) + std::abs(e[j] * f[i])) * std::abs(a[k]);
         }
     }
     double volume() const { return sum_.value() / 6; }
-    /// Three differences, two products and three sums go into each of a determinant's six terms: 8 roundings of half an
-    /// epsilon. Twice that leaves room for the sum's own.
+    /// Each of a determinant's six terms takes three differences, two products and three sums: 8 roundings of half an
+    /// epsilon. Twice that also covers the rounding of the sum.
     double error() const { return 8 * std::numeric_limits<double>::epsilon() * magnitude_ / 6; }
 
   private:
@@ -110,7 +110,7 @@ std::uint32_t make_counterclockwise(CornerTable& table, const Positions& positio
     }
     if (shells == 0) return 0;
     if (table.flip.empty()) table.flip.assign((std::size_t{table.triangle_count()} + 63) / 64, 0);
-    // Corners 1 and 2 of every triangle change places; the whole shell does, so every opposite is renumbered alike.
+    // Swaps corners 1 and 2 of every triangle of the shell, and renumbers the opposites accordingly.
     constexpr std::uint32_t kMirrored[] = {0, 2, 1};
     for (std::uint32_t t = 0; t < table.triangle_count(); ++t) {
         if (!turned.test(t)) continue;

@@ -1,5 +1,6 @@
 // Orientation by flooding each component from its first triangle.
-// Rossignac's chapter, section on orientation: crossing an edge whose half-edges run the same way turns the triangle.
+// Rossignac's chapter, section on orientation: crossing an edge whose half-edges have the same direction flips the next
+// triangle.
 
 #include <utility>
 
@@ -8,7 +9,7 @@
 namespace lacedring {
 namespace {
 
-/// Turns triangle t round: corners 1 and 2 change places, in V and O.
+/// Flips triangle t: swaps corners 1 and 2 in V and O.
 void turn(CornerTable& table, TriangleId t) {
     const CornerId a = corner(t, 1), b = corner(t, 2);
     const CornerId oa = table.corners[a.value].opposite, ob = table.corners[b.value].opposite;
@@ -52,7 +53,8 @@ void orient(CornerTable& table) {
                 }
             }
         }
-        if (flipped * 2 > component.size()) {  // the other orientation keeps more triangles as they were
+        // The opposite orientation flips fewer triangles.
+        if (flipped * 2 > component.size()) {
             for (const TriangleId t : component) turn(table, t);
             flipped = component.size() - flipped;
         }

@@ -6,14 +6,14 @@
 namespace lacedring {
 namespace {
 
-/// The border edge after the one that corner c faces, in the orientation of its triangle.
+/// The border edge after the border edge that corner c faces, in the direction of c's triangle.
 CornerId next_border(const CornerTable& table, CornerId c) {
     CornerId x = next(c);
     while (!table.opposite(x).is_null()) x = next(table.opposite(x));
     return x;
 }
 
-/// Sets of vertices that triangles connect.
+/// Number of connected components of the used vertices.
 std::uint32_t count_components(const CornerTable& table) {
     std::vector<std::uint32_t> parent(table.vertex_count);
     std::iota(parent.begin(), parent.end(), 0U);
@@ -49,7 +49,7 @@ TopologyReport report_topology(const CornerTable& table) {
     report.shells = swirl_shells(table, [](std::uint32_t, CornerId) {});
     report.orientable = table.topology.cut_edges == 0;
 
-    // Fans: a corner begins one if nothing precedes it around its vertex; what is left then are closed cycles.
+    // First the open fans, from corners without a predecessor around their vertex; then the closed fans.
     std::vector<std::uint32_t> valence(table.vertex_count, 0), fans(table.vertex_count, 0);
     std::vector<bool> seen(corners, false), on_loop(corners, false);
     std::uint64_t border_half_edges = 0;

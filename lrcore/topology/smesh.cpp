@@ -29,7 +29,7 @@ SmeshCheck check_smesh(const CornerTable& table, const TopologyReport& report) {
                                                     count(report.border_loops, "loop", "loops"))};
     }
     if (report.shells > 1) return {SmeshFault::not_connected, detail::message(report.shells, " shells")};
-    // Before the vertices, since edges cut for want of an orientation cut their stars too.
+    // Tested before vertices: edges cut because no orientation fits also split stars into fans.
     if (!report.orientable) return {SmeshFault::not_orientable, "not orientable"};
     if (report.nonmanifold_vertices > 0) {
         return {SmeshFault::nonmanifold_vertex,

@@ -1,10 +1,10 @@
-// LR 2011, section 7, with the wart skipping of section 5. Differs from the paper:
-// - a ring that has triangles on (almost) one side only stores the left side alone, the few others go verbatim. The
-//   left side is a tree of triangles, more than a third of which have a ring edge, so this is never worse than storing
-//   them all verbatim: no mesh takes more than three references a triangle;
-// - a ring is rotated so that its closing edge has a free slot (a border, or a T2's redundant copy), which holds the
-//   ring's first vertex: several components cost nothing;
-// - a triangle that was turned round to orient the mesh has a flag in its word.
+// Encodes lean streams: LR 2011, section 7, with the wart skipping of section 5. Differs from the paper:
+// - a ring with (almost) all triangles on one side stores only the left side; the few others are stored verbatim. The
+// left side is a tree of triangles, more than a third of which have a ring edge, so this never takes more than storing
+// all triangles verbatim, three references per triangle;
+// - a ring is rotated so that its closing edge has a free slot (a border, or a T2's redundant copy). This slot stores
+// the ring's first vertex, so additional rings cost nothing;
+// - a triangle that was reversed to orient the mesh has a flag in its word.
 
 #include <algorithm>
 #include <array>
@@ -26,9 +26,9 @@ static_assert(std::endian::native == std::endian::little, "streams are little-en
 
 constexpr std::uint32_t kNone = UINT32_MAX;
 constexpr std::uint32_t kMostVertices = LR_LEAN_TIP_MASK + 1;
-constexpr std::uint32_t kMostSlots = UINT32_MAX / 3;  // three indices a slot, numbered by 32 bits
+constexpr std::uint32_t kMostSlots = UINT32_MAX / 3;  // three indices per slot, numbered by 32 bits
 
-/// How many sides of a ring are stored as slots: the left one, or both.
+/// Number of sides of a ring stored as slots: 1 (left) or 2.
 using Sides = std::uint32_t;
 
 class Encoder {
@@ -59,7 +59,7 @@ class Encoder {
         }
         out_.statistics.ring_vertices = rings2 + rings1;
         out_.vertex_order.reserve(table_.vertex_count);
-        // Room for every triangle without a ring edge as well: what no one touches costs no memory.
+        // Reserves space for every triangle without a ring edge; untouched pages cost no memory.
         std::size_t t0 = 0;
         for (std::uint32_t t = 0; t < table_.triangle_count(); ++t) t0 += rung_.test(t) ? 0 : 1;
         out_.words.reserve(LR_LEAN_HEADER_WORDS + std::size_t{2} * rings2 + rings1 + 3 * t0);
@@ -81,7 +81,8 @@ class Encoder {
     }
 
   private:
-    /// The T0 that the first copy of a T2 at edge i could hold, as its corner across the shared edge; else null.
+    /// The T0 that the first copy of a T2 at edge i could hold, given by its corner across the shared edge; null if
+    /// none.
     CornerId wart_at(std::uint32_t side, std::size_t i) const {
         if (!options_.wart_skipping || !walk_.repeats(side, i) || walk_.is_t3(side)) return kNullCorner;
         const CornerId y = walk_.across_t2(table_, side, i);
@@ -89,8 +90,7 @@ class Encoder {
         return y;
     }
 
-    /// The cheapest way to store a ring, counted in references: 2 or 1 a ring vertex, 3 for each triangle left
-    /// verbatim.
+    /// The cheaper number of sides, in references: 2 or 1 per ring vertex, plus 3 per triangle stored verbatim.
     Sides choose_sides(std::span<const RingEdge> ring) {
         walk_ = RingWalk(ring);
         std::int64_t on_right = 0, repeated = 0;
@@ -99,8 +99,8 @@ class Encoder {
             ++(walk_.repeats(1, i) ? repeated : on_right);
         }
         if (walk_.is_t3(1)) on_right = 1;
-        // A right side that is stored takes a slot a vertex and saves its triangles, and as many T0 as it has warts
-        // for.
+        // Storing the right side costs a slot per vertex; it saves storing its triangles and the T0 of its warts
+        // verbatim.
         const auto size = static_cast<std::int64_t>(walk_.size());
         if (size <= 3 * on_right) return 2;
         if (size > 3 * (on_right + repeated)) return 1;
@@ -129,7 +129,7 @@ class Encoder {
                 if (!t3) ++out_.statistics.t2;
                 continue;
             }
-            if (covered_.test(triangle(c).value)) continue;  // by another ring
+            if (covered_.test(triangle(c).value)) continue;  // stored by another ring
             covered_.set(triangle(c).value);
             tip[i] = c;
         }
@@ -147,7 +147,8 @@ class Encoder {
         }
     }
 
-    /// The edge that closes the ring: one with a free slot, if need be freed from its wart. Sets the side of the slot.
+    /// Chooses the edge that closes the ring: an edge with a free slot, or else with a wart, which is removed. Sets
+    /// `side` to the side of the slot.
     std::size_t closing_edge(std::uint32_t& side) {
         for (std::size_t i = 0; i < walk_.size(); ++i) {
             for (side = 0; side < sides_; ++side) {
@@ -156,7 +157,8 @@ class Encoder {
         }
         side = 0;
         const auto it = std::find(wart_[0].begin(), wart_[0].end(), true);
-        assert(it != wart_[0].end());  // the left side is a tree of triangles: its leaves are T2
+        // The left side is a tree of triangles, whose leaves are T2.
+        assert(it != wart_[0].end());
         const auto i = static_cast<std::size_t>(it - wart_[0].begin());
         covered_.clear(triangle(tip_[0][i]).value);
         tip_[0][i] = kNullCorner;
@@ -210,7 +212,7 @@ class Encoder {
             ++(rung_.test(i) ? out_.statistics.unrung : out_.statistics.t0);
             ++count;
         }
-        // Neighbours of the T0 that are left. covered_ is not needed any more: it marks those not yet counted.
+        // Counts the neighbors of the T0 left. covered_ is reused: it marks the triangles not yet counted.
         for (std::size_t s = out_.slot_triangle.size() - count; s < out_.slot_triangle.size(); ++s) {
             const TriangleId t{out_.slot_triangle[s]};
             if (rung_.test(t.value)) continue;
@@ -224,7 +226,7 @@ class Encoder {
         return count;
     }
 
-    /// Numbers the vertices off the rings after the ring vertices and puts the new numbers into the words.
+    /// Numbers the vertices off the rings after the ring vertices, and writes the new numbers into the words.
     void renumber() {
         std::vector<std::uint32_t> number(table_.vertex_count, kNone);
         const auto on_rings = static_cast<std::uint32_t>(out_.vertex_order.size());
@@ -261,10 +263,10 @@ class Encoder {
     const LeanOptions& options_;
     BitVector rung_;     // triangles with a ring edge
     BitVector covered_;  // triangles that have a slot
-    // The ring being written: how it is read, how many sides are stored, and what their slots hold.
+    // The ring being written: its walk, the number of sides stored, and the contents of their slots.
     RingWalk walk_;
     Sides sides_ = 2;
-    std::array<std::vector<CornerId>, 2> tip_;  // null where the slot is free
+    std::array<std::vector<CornerId>, 2> tip_;  // null: the slot is free
     std::array<std::vector<bool>, 2> wart_;
     std::vector<TriangleId> paired_;
     EncodedLean out_;

@@ -1,4 +1,4 @@
-// The lean stream's decoder and checks are lacedring_decode.h's, in C; here are C++'s types and messages.
+// The C++ interface of lean streams, on the decoder and checks in lacedring_decode.h (C).
 
 #include <cassert>
 
@@ -21,7 +21,7 @@ namespace {
 
 static_assert(LR_LEAN_MAGIC == magic::kLean);
 static_assert(LR_LEAN_HEADER_WORDS == LACEDRING_LEAN_HEADER_WORDS);
-// Of the packed stream's decoder, which is in the same C file, what only its implementation names.
+// Constants of the packed stream's decoder that only the C implementation defines.
 static_assert(LACEDRING_SPLIT_ == LR_PACKED_SPLIT && LACEDRING_BESIDE_ == LR_PACKED_BESIDE &&
               LACEDRING_START_ == LR_PACKED_START && LACEDRING_FAR_ == LR_PACKED_FAR &&
               LACEDRING_JUMP_ == LR_PACKED_JUMP && LACEDRING_TURN_ == LR_PACKED_TURN &&
@@ -57,7 +57,7 @@ std::string why(lacedring_status status, std::uint64_t where, std::span<const st
         case LACEDRING_STATUS_RING_VERTICES:
             return "more ring vertices than vertices";
         case LACEDRING_STATUS_SIZE:
-            return message(words.size() - LR_LEAN_HEADER_WORDS, " references, where the header says ", where);
+            return message(words.size() - LR_LEAN_HEADER_WORDS, " references; the header says ", where);
         case LACEDRING_STATUS_SLOTS:
             return "too many slots";
         case LACEDRING_STATUS_CHECKSUM:
@@ -68,7 +68,7 @@ std::string why(lacedring_status status, std::uint64_t where, std::span<const st
         case LACEDRING_STATUS_OPEN_RING:
             return message("the ring from vertex ", where, " does not close");
         case LACEDRING_STATUS_SHORT_RING:
-            return message("the ring from vertex ", where, " has fewer than three");
+            return message("the ring from vertex ", where, " has fewer than three vertices");
         case LACEDRING_STATUS_CLOSING_WORD:
             return message(ring_vertex(), "closing word ", detail::hexadecimal(word()));
         case LACEDRING_STATUS_WORD:
@@ -78,22 +78,22 @@ std::string why(lacedring_status status, std::uint64_t where, std::span<const st
             return message("verbatim triangle ", where, ": ", triangle[0], " ", triangle[1], " ", triangle[2]);
         }
         case LACEDRING_STATUS_TRIANGLES:
-            return message(where, " triangles, where the header says ", words[LR_LEAN_WORD_TRIANGLES]);
+            return message(where, " triangles; the header says ", words[LR_LEAN_WORD_TRIANGLES]);
         case LACEDRING_STATUS_GROUP:
         case LACEDRING_STATUS_BLOCK:
         case LACEDRING_STATUS_HEADER:
         case LACEDRING_STATUS_TURNS:
         case LACEDRING_STATUS_DOUBLES:
-            break;  // of packed streams
+            break;  // packed streams only
         case LACEDRING_STATUS_VERTEX_BLOCK:
         case LACEDRING_STATUS_TRIANGLE:
-            break;  // of seam sections
+            break;  // seam sections only
         case LACEDRING_STATUS_LIMIT:
         case LACEDRING_STATUS_CODED:
         case LACEDRING_STATUS_INTEGER:
         case LACEDRING_STATUS_POSITIONS:
         case LACEDRING_STATUS_COPY:
-            break;  // of the storage form
+            break;  // storage form only
     }
     return "unknown";
 }
@@ -124,7 +124,7 @@ Result<LeanView> view_lean(std::span<const std::uint32_t> words) {
 Result<LeanView> validate_lean(std::span<const std::uint32_t> words) {
     Result<LeanView> view = view_lean(words);
     if (!view) return view;
-    // The checksum is computed here, several times as fast as by the C file's small table.
+    // Computed here because crc32 is several times faster than the C file's version with a small table.
     if (words[LR_LEAN_WORD_CHECKSUM] != lean_checksum(words)) return malformed(LACEDRING_STATUS_CHECKSUM, 0, words);
     const lacedring_lean lean = as_c(*view);
     std::uint64_t where = 0;

@@ -15,7 +15,7 @@ class CorridorWalker {
         out_.corners.reserve(table_.triangle_count() - table_.topology.degenerate);
         out_.flags.reserve(out_.corners.capacity());
         for (std::size_t r = 0; r < rings_.count(); ++r) walk_ring(rings_.ring(r), polygons_.closing(r));
-        for (std::uint32_t t = 0; t < table_.triangle_count(); ++t) {  // those that no ring has anything to do with
+        for (std::uint32_t t = 0; t < table_.triangle_count(); ++t) {  // triangles that touch no ring
             if (!polygons_.visited(TriangleId{t}) && !table_.degenerate(TriangleId{t}))
                 visit(corner(TriangleId{t}, 0), 0);
         }
@@ -24,7 +24,8 @@ class CorridorWalker {
     }
 
   private:
-    /// A whole side at once where it is one polygon; what is left then are the parts that borders cut off.
+    /// Visits each side of the ring: first from the closing edge, which reaches all of it if it is one polygon; then
+    /// the parts that borders cut off.
     void walk_ring(std::span<const RingEdge> ring, std::size_t closing) {
         for (const std::uint8_t side : {std::uint8_t{0}, std::uint8_t{CorridorStep::kRight}}) {
             const CornerId c = side == 0 ? ring[closing].left : ring[closing].right;
@@ -37,7 +38,7 @@ class CorridorWalker {
         }
     }
 
-    /// Visits the part at a ring edge, the first that has one there: it ends at the border around the edge's start.
+    /// Visits the part at a ring edge. The part is entered across its border edge at the ring edge's start.
     void visit_part(CornerId c, std::uint8_t side) {
         while (true) {
             const CornerId edge = side == 0 ? next(c) : previous(c);  // faces the other edge at the start
@@ -47,7 +48,7 @@ class CorridorWalker {
         }
     }
 
-    /// Visits all that can be reached from a corner's triangle.
+    /// Visits all triangles reachable from a corner's triangle.
     void visit(CornerId c, std::uint8_t side) {
         while (true) {
             polygons_.visit(triangle(c));
@@ -65,7 +66,7 @@ class CorridorWalker {
                 if (stack_.empty()) return;
                 then = stack_.back();
                 stack_.pop_back();
-                if (polygons_.visited(triangle(then))) then = kNullCorner;  // reached from elsewhere: a handle
+                if (polygons_.visited(triangle(then))) then = kNullCorner;  // already reached another way: a handle
             }
             c = then;
         }

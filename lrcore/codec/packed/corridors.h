@@ -9,32 +9,34 @@
 
 namespace lacedring {
 
-/// One triangle visited: entered across the edge (a, b) that `corner` faces. Seen from there its other edges are (a, x)
-/// and (x, b), x being the corner's vertex.
+/// Flags of one triangle visited. It is entered across the edge (a, b) that its corner faces; its other edges are (a,
+/// x) and (x, b), where x is the corner's vertex.
 struct CorridorStep {
     enum Flag : std::uint8_t {
-        kRight = 1,   ///< on the right of its ring: a is the vertex of previous(corner), else of next(corner)
-        kEnterA = 2,  ///< something across (a, x) can be visited from here
-        kEnterB = 4,  ///< across (x, b)
-        kFirstA = 8,  ///< of both, (a, x) is next and (x, b) after all that lies behind; else the other way round
+        /// On the right of its ring: a is the vertex of previous(corner); else of next(corner).
+        kRight = 1,
+        kEnterA = 2,  ///< the triangle across (a, x) can be visited from here
+        kEnterB = 4,  ///< the triangle across (x, b) can be visited from here
+        /// If both can be visited: (a, x) and all behind it first, then (x, b); else the reverse.
+        kFirstA = 8,
     };
 };
 
 struct Corridors {
     std::vector<std::uint32_t> vertex_order;  ///< vertex_order[new] = old; ring vertices first, in ring order
-    std::vector<CornerId> corners;            ///< of each step
-    std::vector<std::uint8_t> flags;          ///< of each step
+    std::vector<CornerId> corners;            ///< per step
+    std::vector<std::uint8_t> flags;          ///< per step
     std::uint32_t ring_vertices = 0;
-    std::uint32_t events = 0;  ///< steps that a stream needs more than a turn bit for, about
+    std::uint32_t events = 0;  ///< approximate number of steps that need more than a turn bit
 };
 
-/// Visits every triangle of the table that is not degenerate, once: the polygons on either side of each ring, depth
-/// first. The fewest bits. Cost: O(T) time; 5 bytes a triangle and 4 a vertex for the result; while it runs 4 bits a
-/// triangle, 4 bytes a vertex.
+/// Visits every triangle of the table that is not degenerate, once: the polygons on both sides of each ring, depth
+/// first. This order gives the smallest streams. Cost: O(T) time; 5 bytes per triangle and 4 per vertex for the result;
+/// while it runs 4 bits per triangle and 4 bytes per vertex.
 Corridors walk_corridors(const CornerTable& table, const Rings& rings);
 
-/// Visits them in short pieces of corridors, each beside the one before: the vertices of a FIFO cache of 32 are mostly
-/// still there. Cost: about ten times that of walk_corridors; 4 bytes a vertex more.
+/// Visits the triangles in short pieces of corridors, each beside the previous piece, so that its vertices are mostly
+/// still in a FIFO cache of 32. Cost: about ten times that of walk_corridors; 4 bytes per vertex more.
 Corridors walk_pieces(const CornerTable& table, const Rings& rings);
 
 }  // namespace lacedring

@@ -1,4 +1,4 @@
-// Decodes whole streams and ranges by lacedring_decode.h, where the decoder is.
+// Decodes whole streams and ranges with the decoder in lacedring_decode.h.
 
 #include <algorithm>
 #include <cassert>
@@ -9,7 +9,8 @@
 namespace lacedring {
 namespace {
 
-constexpr std::uint32_t kBlocksOfThread = 512;  // a tenth of a millisecond or more: twice the time to start a thread
+// At least 0.1 ms of work: twice the start of a thread.
+constexpr std::uint32_t kBlocksOfThread = 512;
 
 }  // namespace
 

@@ -12,11 +12,12 @@
 namespace lacedring {
 namespace {
 
-constexpr std::size_t kFewest = 32;  // doubles: for fewer, the words that say that there are any may be too many
+// Minimum number of doubles: with fewer, the words that store them may outweigh the gain.
+constexpr std::size_t kFewest = 32;
 
 using Vertices = std::array<std::uint32_t, 3>;
 
-/// As the mesh has them.
+/// The vertices in the mesh's order.
 Vertices vertices_of(const CornerTable& table, std::uint32_t t) {
     Vertices v;
     for (std::uint32_t k = 0; k < 3; ++k) v[k] = table.vertex(corner(TriangleId{t}, k)).value;
@@ -24,7 +25,8 @@ Vertices vertices_of(const CornerTable& table, std::uint32_t t) {
     return v;
 }
 
-/// Two that have the same vertices are the same way round if these are equal.
+/// Rotates the smallest vertex to the front. Triangles with the same vertices have the same orientation if the results
+/// are equal.
 Vertices leading_smallest(Vertices v) {
     std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
     return v;
@@ -35,7 +37,7 @@ Vertices ascending(Vertices v) {
     return v;
 }
 
-/// The triangles by their vertices; those with the same ones by number.
+/// The triangles, sorted by their vertices; ties by number.
 std::vector<std::uint32_t> by_vertices(const CornerTable& table, const std::vector<Vertices>& keys) {
     std::vector<std::uint32_t> order(keys.size()), sorted(keys.size());
     std::iota(order.begin(), order.end(), 0U);
@@ -66,7 +68,7 @@ std::optional<Doubles> find_doubles(const CornerTable& table) {
             out.doubles.push_back({order[i], order[first], static_cast<std::uint32_t>(i - first), turned});
         }
     }
-    // No more doubles than other triangles: a stream's size bounds what it decodes to.
+    // Not more doubles than other triangles, so that a stream's size bounds the size of its decoded triangles.
     out.doubles.resize(
         std::min<std::size_t>(out.doubles.size(), (table.triangle_count() - table.topology.degenerate) / 2));
     if (out.doubles.size() < kFewest) return {};
@@ -83,13 +85,13 @@ std::optional<Doubles> find_doubles(const CornerTable& table) {
         const Vertices v = vertices_of(table, t);
         indices.insert(indices.end(), v.begin(), v.end());
     }
-    out.table = *build_corner_table(indices, table.vertex_count);  // which took more triangles before
+    out.table = *build_corner_table(indices, table.vertex_count);  // cannot fail: the mesh had more triangles
     return out;
 }
 
 void add_doubles(EncodedPacked& stream, const Doubles& doubles) {
     const auto own = static_cast<std::uint32_t>(stream.triangle_order.size());
-    std::vector<std::uint32_t> place;  // in the stream, of each of the mesh's triangles that are no doubles
+    std::vector<std::uint32_t> place;  // place in the stream of each mesh triangle that is no double
     for (std::uint32_t i = 0; i < own; ++i) {
         std::uint32_t& t = stream.triangle_order[i];
         t = doubles.triangle[t];

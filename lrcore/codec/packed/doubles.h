@@ -1,6 +1,6 @@
 #pragma once
-// Doubles: triangles whose three vertices an earlier triangle has, as where both sides of a sheet were modelled. A
-// packed stream has them as runs of that other triangle's numbers.
+// Doubles: triangles with the same three vertices as an earlier triangle, for example a sheet modeled from both sides.
+// A packed stream stores them as runs of references to the earlier triangles.
 
 #include <cstdint>
 #include <optional>
@@ -12,21 +12,22 @@ namespace lacedring {
 
 struct Doubles {
     struct Double {
-        std::uint32_t triangle;  ///< of the mesh
-        std::uint32_t of;        ///< the first one with its vertices
-        std::uint32_t turn;      ///< how many others come between, which is the order of their runs
-        bool turned;             ///< the other way round than `of`
+        std::uint32_t triangle;  ///< its number in the mesh
+        std::uint32_t of;        ///< the first triangle with the same vertices
+        /// Rank among the triangles with these vertices, from 0; doubles are sorted by it.
+        std::uint32_t turn;
+        bool turned;  ///< has the opposite orientation of `of`
     };
     std::vector<Double> doubles;
-    std::vector<std::uint32_t> triangle;  ///< of the mesh, of each triangle of `table`
-    CornerTable table;                    ///< of the mesh without its doubles
+    std::vector<std::uint32_t> triangle;  ///< the mesh's number of each triangle of `table`
+    CornerTable table;                    ///< the mesh without its doubles
 };
 
-/// None if there are too few to save anything. A mesh without non-manifold edges is not searched: two triangles of one
-/// component that both have its only three edges are all that it could have. Cost: O(T) time, 20 bytes a triangle.
+/// Returns nothing if there are too few doubles to save space. A mesh without non-manifold edges is not searched: a
+/// double there can only form a component of two triangles. Cost: O(T) time, 20 bytes per triangle.
 std::optional<Doubles> find_doubles(const CornerTable& table);
 
-/// From a stream of doubles.table to one of the whole mesh.
+/// Turns a stream of doubles.table into a stream of the whole mesh.
 void add_doubles(EncodedPacked& stream, const Doubles& doubles);
 
 }  // namespace lacedring

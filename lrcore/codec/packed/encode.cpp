@@ -1,4 +1,4 @@
-// Packed streams of meshes.
+// Encodes meshes as packed streams.
 
 #include <optional>
 

@@ -9,7 +9,7 @@
 namespace lacedring {
 namespace {
 
-/// The argument below `end` at which `cost` is least.
+/// The argument below `end` with the least `cost`.
 template <class Cost>
 std::uint32_t cheapest(std::uint32_t end, const Cost& cost) {
     std::uint32_t best = 0;
@@ -37,8 +37,8 @@ void for_each_gap(const PackedRecordPlan& record, const Use& use) {
     }
 }
 
-/// A reader takes 31 ones at most. With a low bit or more, the records of parts, which are planned later, have no
-/// more.
+/// Bits of a Rice code. A reader accepts at most 31 ones. Codes with at least one low bit never need more in the
+/// records of parts, which are planned later.
 std::uint64_t rice_bits(std::uint32_t gap, std::uint32_t low) {
     static_assert((LR_PACKED_PART - 1) >> 1 <= 31);
     return low == 0 || gap >> low > 31 ? UINT32_MAX : std::uint64_t{gap >> low} + 1 + low;
@@ -147,13 +147,13 @@ void write_record(const PackedRecordPlan& record, const GroupCodes& codes, std::
     statistics.wart_bits += out.bits() - begin;
 }
 
-/// Into entries_; returns what they take with so many bits for a step.
+/// Fills entries_; returns the bits they take with `bits` bits per step.
 std::uint64_t GroupLayout::set_entries(std::uint32_t bits) {
     const std::int32_t half = 1 << bits >> 1;
     entries_.assign(blocks_.size(), {});
     std::uint64_t cost = 0;
     std::size_t from = 0;
-    bool begun = blocks_[0].kind != LR_PACKED_PLAIN;  // does any block say where it begins?
+    bool begun = blocks_[0].kind != LR_PACKED_PLAIN;  // does a block so far have an entry?
     for (std::size_t k = 1; k < blocks_.size(); ++k) {
         cost += bits;
         if (blocks_[k].kind == LR_PACKED_PLAIN) {
@@ -180,7 +180,7 @@ void GroupLayout::choose_entries() {
     set_entries(entry_bits_);
 }
 
-/// The fewest bits with which some step leads near every end.
+/// Chooses the fewest offset bits with which one step size can express the end of every record.
 void GroupLayout::choose_offsets() {
     for (offset_bits_ = 0;; ++offset_bits_) {
         const std::int64_t half = 1 << offset_bits_ >> 1, most = std::max<std::int64_t>(half - 1, 0);

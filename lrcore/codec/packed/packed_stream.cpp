@@ -1,4 +1,4 @@
-// The packed stream's decoder and checks are lacedring_decode.h's, in C; here are C++'s types and messages.
+// The C++ interface of packed streams, on the decoder and checks in lacedring_decode.h (C).
 
 #include <bit>
 
@@ -32,17 +32,17 @@ std::string packed_fault(lacedring_status status, std::uint64_t where, std::span
         case LACEDRING_STATUS_SLOTS:
             return "more triangles than 32-bit indices can number";
         case LACEDRING_STATUS_SIZE:
-            return message(words.size(), " words are not what its triangles take");
+            return message(words.size(), " words do not match its number of triangles");
         case LACEDRING_STATUS_CHECKSUM:
             return "checksum does not match";
         case LACEDRING_STATUS_GROUP:
-            return message("block ", where, ": the head of its group");
+            return message("block ", where, ": the head of its group is invalid");
         case LACEDRING_STATUS_BLOCK:
-            return message("block ", where, " says something impossible");
+            return message("block ", where, " is invalid");
         case LACEDRING_STATUS_TURNS:
-            return "turns of triangles that there are not";
+            return "turn bits after the last triangle";
         case LACEDRING_STATUS_DOUBLES:
-            return message("run ", where, " of doubles says something impossible");
+            return message("run ", where, " of doubles is invalid");
         default:
             return "unknown";
     }
@@ -106,7 +106,7 @@ Result<PackedView> view_packed(std::span<const std::uint32_t> words) {
 Result<PackedView> validate_packed(std::span<const std::uint32_t> words) {
     const Result<PackedView> view = view_packed(words);
     if (!view) return view;
-    // The checksum is computed here, several times as fast as by the C file's small table.
+    // Computed here because crc32 is several times faster than the C file's version with a small table.
     if (words[LR_PACKED_WORD_CHECKSUM] != packed_checksum(words))
         return bad_packed(LACEDRING_STATUS_CHECKSUM, 0, words);
     const lacedring_packed packed = detail::as_c(*view);

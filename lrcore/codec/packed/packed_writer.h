@@ -14,7 +14,7 @@
 
 namespace lacedring {
 
-/// Writes the blocks of one group after the other.
+/// Writes groups of blocks.
 template <class Steps>
 class GroupWriter {
   public:
@@ -26,7 +26,7 @@ class GroupWriter {
           statistics_(statistics),
           layout_(vertex_bits) {}
 
-    /// Appends the group that begins at a block.
+    /// Appends the group that begins at block `block`.
     void write(std::uint32_t block, std::vector<std::uint8_t>& out) {
         const std::uint32_t end =
             std::min(block + LR_PACKED_GROUP, (triangles_ + LR_PACKED_BLOCK - 1) / LR_PACKED_BLOCK);
@@ -46,7 +46,7 @@ class GroupWriter {
     }
 
   private:
-    /// Appends the block's records to bodies_; its kind.
+    /// Appends the block's records to bodies_ and returns the block's kind.
     std::uint32_t write_records(const PackedRecordPlan& record, std::uint32_t first, std::uint32_t end) {
         const PackedStatistics before = statistics_;
         const std::vector<std::uint8_t>& whole = bytes_of(record, false);
@@ -105,7 +105,7 @@ class GroupWriter {
     BitWriter bits_;
 };
 
-/// The stream of all steps, without doubles. Steps: as Planner's. Cost: O(T). Errors: too_large.
+/// The stream of all steps, without doubles. Steps: as for Planner. Cost: O(T). Errors: too_large.
 template <class Steps>
 Result<std::vector<std::uint32_t>> write_packed(const Steps& steps, std::uint32_t vertices,
                                                 PackedStatistics& statistics) {
@@ -114,7 +114,7 @@ Result<std::vector<std::uint32_t>> write_packed(const Steps& steps, std::uint32_
     Planner<Steps> planner(steps, vertex_bits, words.data() + LR_PACKED_HEADER_WORDS);
     GroupWriter<Steps> writer(planner, triangles, vertex_bits, statistics);
     const std::size_t blocks = (std::size_t{triangles} + LR_PACKED_BLOCK - 1) / LR_PACKED_BLOCK;
-    const std::size_t table = words.size() - (blocks + LR_PACKED_GROUP - 1) / LR_PACKED_GROUP;  // of group 0: no word
+    const std::size_t table = words.size() - (blocks + LR_PACKED_GROUP - 1) / LR_PACKED_GROUP;  // group 0 has no word
     std::vector<std::uint8_t> groups;
     for (std::size_t block = 0; block < blocks; block += LR_PACKED_GROUP) {
         if (groups.size() / 4 > UINT32_MAX) return Error{ErrorCode::too_large, "packed stream: groups of 16 GiB"};

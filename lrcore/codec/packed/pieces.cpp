@@ -1,6 +1,6 @@
-// The order for the vertex cache. A corridor is a strip of triangles between two chains of ring vertices; a long one
-// brings a new vertex with every triangle. Beside it, across the ring edges of either chain, lie other corridors: the
-// next piece is taken there, along the same vertices, so that it brings only those of its other chain.
+// The order for the vertex cache. A corridor is a strip of triangles between two chains of ring vertices; in a long
+// corridor every triangle needs a new vertex. Other corridors lie beside it, across the ring edges of its chains. The
+// next piece is taken from one of these, along the same chain, so that only the vertices of its other chain are new.
 
 #include <algorithm>
 #include <array>
@@ -12,9 +12,11 @@ namespace lacedring {
 namespace {
 
 constexpr std::uint32_t kCache = 32;
-constexpr std::size_t kPiece = 31;  // triangles of a piece, or a few more: one of its chains and the next fit the cache
-constexpr std::uint32_t kWhole = 8;  // what would be left of a corridor, or a part of a T0, of so many is taken along
-constexpr double kStart = 12;        // a piece's start costs as much as so many vertices
+// Minimum triangles of a piece: one of its chains and the next piece's other chain fit in the cache.
+constexpr std::size_t kPiece = 31;
+// If at most this many triangles are left of a corridor or behind a T0, they join the piece.
+constexpr std::uint32_t kWhole = 8;
+constexpr double kStart = 12;  // cost of starting a piece, in vertices
 
 class PieceWalker {
   public:
@@ -27,7 +29,7 @@ class PieceWalker {
         out_.flags.reserve(out_.corners.capacity());
         for (std::size_t r = 0; r < rings_.count(); ++r) {
             const std::span<const RingEdge> ring = rings_.ring(r);
-            const RingEdge& closing = ring[polygons_.closing(r)];  // where small components need no start
+            const RingEdge& closing = ring[polygons_.closing(r)];  // small components need no START event there
             sweep(closing.left, 0);
             sweep(closing.right, CorridorStep::kRight);
             for (const RingEdge& edge : ring) {
@@ -51,12 +53,13 @@ class PieceWalker {
     struct Piece {
         std::vector<CornerId> corners;
         std::vector<std::uint8_t> flags;
-        std::vector<std::uint32_t> inserted;  // vertices that were not in the cache, and when they had been
+        // Vertices that were not in the cache; `before` has their previous times of insertion.
+        std::vector<std::uint32_t> inserted;
         std::vector<std::uint32_t> before;
         double score = 0;
     };
 
-    /// Piece after piece, each beside the last, until there is none.
+    /// Visits piece after piece, each beside the last, until no start is left.
     void sweep(CornerId c, std::uint8_t side) {
         if (c.is_null() || polygons_.visited(triangle(c))) return;
         Start start{c, side};
@@ -69,8 +72,8 @@ class PieceWalker {
         }
     }
 
-    /// Puts pieces of very few triangles behind one that they touch: together they would crowd blocks, and each would
-    /// bring its vertices once more.
+    /// Moves pieces of very few triangles behind a piece that they touch. In sequence they would need too many events
+    /// per block, and each would load its vertices again.
     void spread_scraps() {
         constexpr std::uint32_t kScrap = 8;
         const auto pieces = static_cast<std::uint32_t>(begins_.size());
@@ -110,7 +113,7 @@ class PieceWalker {
         out_.flags = std::move(sorted.flags);
     }
 
-    /// The best start beside a piece, by what growing there would bring.
+    /// The best start beside a piece, by the score of a trial piece grown there.
     Start next_start(const Piece& piece) {
         std::array<Start, 10> candidates;
         std::size_t count = 0;
@@ -127,7 +130,8 @@ class PieceWalker {
             }
             return false;
         };
-        // From either end of the piece, on either chain: the first two ring edges that have something beside them.
+        // Candidates are the first two ring edges with an unvisited triangle beside them, from each end of the piece
+        // and on each chain.
         const std::size_t n = piece.corners.size();
         std::size_t found = 0;
         for (std::size_t i = 0; i < n && found < 2; ++i) found += add(i) ? 1 : 0;
@@ -148,7 +152,7 @@ class PieceWalker {
         return best;
     }
 
-    /// Does the corridor that goes on at c end within a few triangles?
+    /// Does the corridor that continues at c end within kWhole triangles?
     bool ends_soon(CornerId c, std::uint8_t side) const {
         for (std::uint32_t i = 0; i < kWhole; ++i) {
             const Polygons::Step step = polygons_.step(c, side);
@@ -159,7 +163,7 @@ class PieceWalker {
         return false;
     }
 
-    /// Where the corridor that is entered at c begins, if that is only a few triangles back; else c.
+    /// The beginning of the corridor entered at c, if it is at most kWhole triangles back; else c.
     CornerId back(CornerId c, std::uint8_t side) const {
         CornerId at = c;
         for (std::uint32_t i = 0; i < kWhole; ++i) {
@@ -168,7 +172,8 @@ class PieceWalker {
             const Polygons::Step step = polygons_.step(o, side);
             if (!step.a.is_null() && !step.b.is_null()) return at;
             if (step.a.is_null() && step.b.is_null()) return polygons_.on_ring(next(o)) ? previous(o) : next(o);
-            const bool by_next = step.a.is_null() == (side == 0);  // the edge that goes on faces next(o)
+            // The corridor continues across the edge facing next(o).
+            const bool by_next = step.a.is_null() == (side == 0);
             at = by_next ? next(o) : previous(o);
         }
         return c;
@@ -181,7 +186,7 @@ class PieceWalker {
         inserted_[v] = ++time_;
     }
 
-    /// Walks on from a corner as far as a piece goes.
+    /// Grows a piece from `start`.
     void grow(Start start, Piece& piece) {
         piece.corners.clear();
         piece.flags.clear();
@@ -226,9 +231,10 @@ class PieceWalker {
     const CornerTable& table_;
     const Rings& rings_;
     Polygons polygons_;
-    std::vector<std::uint32_t> inserted_;  // by the mesh's vertex: when it came into the cache; 0 if never
+    // Time of insertion into the cache by the mesh's vertex; 0: never.
+    std::vector<std::uint32_t> inserted_;
     std::uint32_t time_ = 0;
-    std::vector<std::uint32_t> begins_;  // of each piece, in steps
+    std::vector<std::uint32_t> begins_;  // first step of each piece
     Piece best_, trial_;
     Corridors out_;
 };

@@ -1,6 +1,6 @@
 #pragma once
-// From the steps of a walk to turn bits, events and warts. The planner keeps the state that a reader of the record has,
-// and says in events whatever the next triangle needs and that state does not give.
+// Turns the steps of a walk into turn bits, events and warts. The planner tracks the state of a reader of the record,
+// and emits an event when the next triangle does not follow from this state.
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace lacedring {
 
-/// Steps of walk_corridors or walk_pieces, by the numbers that a stream has.
+/// Steps of walk_corridors or walk_pieces, with the stream's numbers of vertices.
 class CorridorSteps {
   public:
     CorridorSteps(const CornerTable& table, const Corridors& corridors)
@@ -24,13 +24,14 @@ class CorridorSteps {
     }
 
     std::uint32_t size() const { return static_cast<std::uint32_t>(corridors_.corners.size()); }
-    std::uint8_t flags(std::uint32_t i) const { return corridors_.flags[i]; }  ///< CorridorStep's
+    std::uint8_t flags(std::uint32_t i) const { return corridors_.flags[i]; }  ///< flags of CorridorStep
     bool on_right(std::uint32_t i) const { return (flags(i) & CorridorStep::kRight) != 0; }
     bool flipped(std::uint32_t i) const { return table_.flipped(triangle(corridors_.corners[i])); }
     PackedEdge edge(std::uint32_t i) const { return {number(facing(i, true)), number(facing(i, false))}; }
     std::uint32_t third(std::uint32_t i) const { return number(corridors_.corners[i]); }
 
-    /// The step that enters what lies across (x, b) of triangle i, or across (a, x); UINT32_MAX: none does.
+    /// The step that enters the triangle across (a, x) of triangle i if `a`, else across (x, b); UINT32_MAX if none
+    /// does.
     std::uint32_t across(std::uint32_t i, bool a) const {
         const CornerId o = table_.opposite(facing(i, !a));
         if (o.is_null()) return UINT32_MAX;
@@ -40,7 +41,7 @@ class CorridorSteps {
 
   private:
     std::uint32_t number(CornerId c) const { return number_[table_.vertex(c).value]; }
-    CornerId facing(std::uint32_t i, bool a) const {  // the corner at a, or at b
+    CornerId facing(std::uint32_t i, bool a) const {  // the corner at vertex a if `a`, else at b
         const CornerId c = corridors_.corners[i];
         return on_right(i) == a ? previous(c) : next(c);
     }
@@ -50,27 +51,28 @@ class CorridorSteps {
     std::vector<std::uint32_t> number_, step_;
 };
 
-/// Turns steps into records, and sets their turn bits. Steps is CorridorSteps, or has its functions.
+/// Turns steps into records and sets their turn bits. Steps has the functions of CorridorSteps.
 template <class Steps>
 class Planner {
     using Edge = PackedEdge;
-    static constexpr std::uint32_t kSplitOrder = 2;  // a guess: a group's order is known only when its events are
+    // Estimate: a group's order depends on its events.
+    static constexpr std::uint32_t kSplitOrder = 2;
 
   public:
     Planner(const Steps& steps, std::uint32_t vertex_bits, std::uint32_t* turns)
         : steps_(steps), vertex_bits_(vertex_bits), turns_(turns) {}
 
-    /// The record of triangles [first, end), and their turns. `reversed`: the orientation that its reader begins with,
-    /// where that is said elsewhere.
+    /// Plans the record of triangles [first, end) and sets their turn bits. `reversed`: the reader's initial
+    /// orientation, if it is stored outside the record.
     PackedRecordPlan plan(std::uint32_t first, std::uint32_t end, std::optional<bool> reversed = {}) {
         bitmap_ = false;
         base_ = false;
         PackedRecordPlan out = attempt(first, end, reversed.value_or(comes_reversed(first)));
-        constexpr std::uint32_t kTurnBits = 11;  // about what a TURN takes
+        constexpr std::uint32_t kTurnBits = 11;  // approximate bits of a TURN event
         const auto turned = std::count_if(out.events.begin(), out.events.end(),
                                           [](const PackedEvent& e) { return e.code == LR_PACKED_TURN; });
         if (static_cast<std::uint32_t>(turned) * kTurnBits <= end - first + kTurnBits) return out;
-        // The bitmap's base stays that of the bitmap before it: then a block can go on from the one before.
+        // Keeps the base of the previous bitmap, so that a block can continue from the previous block.
         bitmap_ = true;
         base_ = reversed ? *reversed != on_right(first) : last_base_;
         last_base_ = base_;
@@ -83,7 +85,7 @@ class Planner {
 
     Edge edge(std::uint32_t i) const { return steps_.edge(i); }
     std::uint32_t third(std::uint32_t i) const { return steps_.third(i); }
-    /// Does the triangle come out as (a, x, b), not (a, b, x)?
+    /// Is the triangle decoded as (a, x, b), not (a, b, x)?
     bool comes_reversed(std::uint32_t i) const { return on_right(i) != flipped(i); }
 
   private:
@@ -125,7 +127,7 @@ class Planner {
     std::uint8_t flags(std::uint32_t i) const { return steps_.flags(i); }
     bool on_right(std::uint32_t i) const { return steps_.on_right(i); }
     bool flipped(std::uint32_t i) const { return steps_.flipped(i); }
-    /// The orientation that events have to say: flips, too, where no bitmap says these.
+    /// The orientation that events must store; it includes flips unless a bitmap stores these.
     bool reversed(std::uint32_t i) const { return on_right(i) != (bitmap_ ? base_ : flipped(i)); }
     bool turn(std::uint32_t i) const { return (turns_[i / 32] >> (i % 32) & 1) != 0; }
     void set_turn(std::uint32_t i, bool bit) { turns_[i / 32] |= (bit ? 1U : 0U) << (i % 32); }
@@ -157,7 +159,7 @@ class Planner {
         finished_ = false;
     }
 
-    /// Another corridor, said in the fewest bits.
+    /// Starts another corridor, with the event of the fewest bits.
     void start(std::uint32_t i, Edge wanted) {
         constexpr std::uint32_t kNever = UINT32_MAX;
         const auto golomb = BitWriter::golomb_bits;
@@ -171,7 +173,7 @@ class Planner {
                 : kNever,
             6 + 2 * vertex_bits_ + 1,
         };
-        // In the order of LR_PACKED_BESIDE_*; a step back is folded in between the steps forward.
+        // In the order of LR_PACKED_BESIDE_*. Signs are folded: n >= 0 to 2n, n < 0 to -2n - 1.
         std::array<std::uint32_t, 4> beside{wanted.a - now_.b, wanted.b - now_.a, wanted.a - begun_.a,
                                             wanted.b - begun_.b};
         for (std::uint32_t& s : beside) s = s >> 31 != 0 ? ~s << 1 | 1 : s << 1;
@@ -191,17 +193,18 @@ class Planner {
             e.w = e.choice == LR_PACKED_START_ANY ? wanted.b : size;
         }
         reversed_ = r;
-        if (!scopes_.empty()) return;  // where a scope ends, all is as it was before it
+        if (!scopes_.empty()) return;  // the state before a scope is restored at its end
         begun_ = wanted;
         begun_reversed_ = r;
     }
 
-    /// Writes triangle i, and the one after it too if both are a wart's. Returns how many.
+    /// Writes triangle i, and also triangle i + 1 if both form a wart. Returns the number written.
     std::uint32_t write_triangle(std::uint32_t i) {
         const auto [a, b] = now_;
         const std::uint32_t x = third(i);
         const bool enter_a = (flags(i) & CorridorStep::kEnterA) != 0, enter_b = (flags(i) & CorridorStep::kEnterB) != 0;
-        if (x == a + 1 && x + 1 == b && !enter_a && !enter_b) {  // the corridor's last: both turns are true
+        // The corridor's last triangle: either turn is right.
+        if (x == a + 1 && x + 1 == b && !enter_a && !enter_b) {
             turn_along(i, x, i > first_ && !turn(i - 1));
         } else if (x == a + 1 && !enter_a && !(enter_b && x + 1 == b)) {
             turn_along(i, x, true);
@@ -219,7 +222,7 @@ class Planner {
         return 1;
     }
 
-    /// A T0 with something across both other edges.
+    /// Writes a T0 with triangles to visit across both other edges.
     std::uint32_t fork(std::uint32_t i, std::uint32_t x) {
         const auto [a, b] = now_;
         const bool first_a = (flags(i) & CorridorStep::kFirstA) != 0;
@@ -234,7 +237,7 @@ class Planner {
             set_turn(i + 1, first_a);
             return 2;
         }
-        // The triangle at which the walk returns to the rest; end_ if that is behind the record.
+        // The triangle at which the walk returns to the larger part; end_ if it is after the record.
         const std::uint32_t back = std::min(steps_.across(i, !first_a), end_);
         if (back == i + 1) {
             one_way(i, x, !first_a);
@@ -243,7 +246,8 @@ class Planner {
         const bool ascends = (first_a ? x > a : x < b) && size > 1;
         const bool counts = ascends && size > 2 && (size < end_ - i ? back == i + size : back == end_);
         const bool split = counts && BitWriter::golomb_bits(size - 3, kSplitOrder) <= vertex_bits_ + 6;
-        if (back > outer || (back == end_ && (outer < end_ || !split))) {  // never, as far as the reader is concerned
+        // The record does not return to the other part.
+        if (back > outer || (back == end_ && (outer < end_ || !split))) {
             one_way(i, x, first_a);
             return 1;
         }
@@ -282,7 +286,8 @@ class Planner {
         finished_ = now_.b - now_.a == 1;
     }
 
-    /// Is the smaller part of T0 i one triangle that is next and turned the same way, with more behind it?
+    /// Is the smaller part of T0 i a single triangle that comes next with the same orientation, and is the larger part
+    /// not empty?
     bool is_wart(std::uint32_t i, std::uint32_t outer) const {
         if (i + 1 == steps_.size() || (i + 1 < end_ && i + 1 >= outer)) return false;
         const bool first_a = (flags(i) & CorridorStep::kFirstA) != 0;
@@ -299,7 +304,7 @@ class Planner {
         e.w = count;
     }
 
-    /// Warts are counted among the triangles whose turn is that of the next one.
+    /// Wart gaps count candidates: triangles whose turn equals that of the next triangle.
     void write_warts() {
         std::uint32_t from = first_;
         for (const std::uint32_t wart : warts_) {
@@ -308,7 +313,7 @@ class Planner {
         }
     }
 
-    /// Counts the triangles of [from, to) whose turn equals that of the next triangle. Triangle `to` is of the record.
+    /// Counts the triangles of [from, to) whose turn equals that of the next triangle. Triangle `to` is in the record.
     std::uint32_t candidates(std::uint32_t from, std::uint32_t to) const {
         std::uint32_t count = 0;
         for (std::uint32_t i = from; i < to; i = (i / 32 + 1) * 32) {
@@ -323,11 +328,11 @@ class Planner {
     const Steps& steps_;
     std::uint32_t vertex_bits_;
     std::uint32_t* turns_;
-    bool bitmap_ = false;                    // does FLIPS say which triangles are flipped?
-    bool base_ = false, last_base_ = false;  // the flip that its bits are relative to
+    bool bitmap_ = false;                    // is there a FLIPS event?
+    bool base_ = false, last_base_ = false;  // flip that the FLIPS bits are relative to
     PackedRecordPlan* out_ = nullptr;
     std::uint32_t first_ = 0, end_ = 0;
-    // The state that a reader of the block has.
+    // The state of a reader of the block.
     Edge now_{}, begun_{};
     bool reversed_ = false, begun_reversed_ = false, finished_ = false;
     std::vector<Scope> scopes_;

@@ -1,5 +1,5 @@
 #pragma once
-// What both orders of the packed stream walk: the triangles on either side of the rings, and which edges part them.
+// The polygons on both sides of the rings, which both orders of the packed stream walk.
 
 #include <cstdint>
 #include <vector>
@@ -12,7 +12,7 @@ namespace lacedring {
 
 class Polygons {
   public:
-    /// Numbers the vertices and marks the ring edges. 4 bytes a vertex and 4 bits a triangle.
+    /// Numbers the vertices and marks the ring edges. 4 bytes per vertex and 4 bits per triangle.
     Polygons(const CornerTable& table, const Rings& rings)
         : table_(table),
           number_(table.vertex_count, UINT32_MAX),
@@ -28,7 +28,7 @@ class Polygons {
     }
 
     std::uint32_t number(CornerId c) const { return number_[table_.vertex(c).value]; }
-    bool on_ring(CornerId c) const { return ring_edge_.test(c.value); }  ///< the edge that c faces
+    bool on_ring(CornerId c) const { return ring_edge_.test(c.value); }  ///< is the edge that c faces on a ring?
     bool visited(TriangleId t) const { return visited_.test(t.value); }
     void visit(TriangleId t) { visited_.set(t.value); }
     void leave(TriangleId t) { visited_.clear(t.value); }
@@ -44,7 +44,8 @@ class Polygons {
         return o.is_null() || visited(triangle(o)) ? kNullCorner : o;
     }
 
-    /// A triangle entered at `c`: what can be entered from it across (a, x) and (x, b), and what a step is to say.
+    /// For a triangle entered at `c`: the corners that can be entered from it across (a, x) and (x, b), null if none;
+    /// and the flags of its CorridorStep.
     struct Step {
         CornerId a, b;
         std::uint8_t flags;
@@ -56,7 +57,8 @@ class Polygons {
         if (!out.a.is_null()) out.flags |= CorridorStep::kEnterA;
         if (!out.b.is_null()) out.flags |= CorridorStep::kEnterB;
         if (!out.a.is_null() && !out.b.is_null()) {
-            // The smaller part first: the walk is back soon, mostly in the same block. Its size shows in the numbers.
+            // The smaller part first, so that the walk usually returns within the same block. The vertex numbers give
+            // the sizes.
             const std::uint32_t a = number(facing_b), x = number(c), b = number(facing_a);
             const std::uint32_t size_a = x > a ? x - a : UINT32_MAX, size_b = b > x ? b - x : UINT32_MAX;
             if (size_a <= size_b) out.flags |= CorridorStep::kFirstA;
@@ -65,9 +67,9 @@ class Polygons {
     }
 
   private:
-    /// Numbers a ring's vertices from where its polygons are best entered, and marks its edges.
+    /// Numbers a ring's vertices, starting at the best edge to enter its polygons, and marks its edges.
     void number_ring(const RingWalk& walk, std::span<const RingEdge> ring) {
-        // Across a polygon's first edge should be a T2: any other triangle there is a T0 to the walk.
+        // A T2 should follow a polygon's first edge: any other triangle there would act as a T0.
         std::size_t closing = 0;
         int best = -1;
         for (std::size_t i = 0; i < ring.size() && best < 2; ++i) {
@@ -89,8 +91,8 @@ class Polygons {
 
     const CornerTable& table_;
     std::vector<std::uint32_t> number_, order_;
-    std::vector<std::uint32_t> closing_;  // of each ring
-    BitVector ring_edge_;                 // of the corners that face one
+    std::vector<std::uint32_t> closing_;  // per ring
+    BitVector ring_edge_;                 // per corner: does it face a ring edge?
     BitVector visited_;
 };
 

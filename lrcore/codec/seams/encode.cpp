@@ -1,5 +1,5 @@
-// Seam sections: which copies are home copies of their vertices, what decoders ask about each corner, and the bits of
-// the answers. Questions and codes: docs/seams-format.md.
+// Encodes seam sections: chooses the home copies of vertices, answers the decoder's questions about each corner, and
+// writes the answers as bits. docs/seams-format.md specifies questions and codes.
 
 #include <algorithm>
 #include <array>
@@ -20,12 +20,12 @@ constexpr std::uint32_t kPrivate = LACEDRING_SEAMS_PRIVATE;
 
 using Triangles = std::span<const std::uint32_t>;
 
-/// The answers that vertices and corners give in blocks without copies.
+/// The answers for vertices and corners of blocks without copies.
 constexpr SeamAnswer kPlainAnswers[] = {{0, LACEDRING_SEAM_V0, 1},     {0, LACEDRING_SEAM_LONE, 1},
                                         {0, LACEDRING_SEAM_RIGHT1, 1}, {1, LACEDRING_SEAM_START_L, 1},
                                         {1, LACEDRING_SEAM_MID_R, 1},  {1, LACEDRING_SEAM_PLAIN, 1}};
 
-/// All answers; none of blocks whose vertices have one home copy each, if `skip_plain`.
+/// The answers for all vertices. With `skip_plain`, omits blocks whose vertices have one home copy each.
 SeamAnswers answer_vertices(const SeamHomes& homes, std::uint32_t vertices, bool skip_plain) {
     SeamAnswers out;
     for (std::uint32_t first = 0, end = 0; first < vertices; first = end) {
@@ -46,13 +46,13 @@ SeamAnswers answer_vertices(const SeamHomes& homes, std::uint32_t vertices, bool
     return out;
 }
 
-/// Answers what decoders ask about the triangles' corners, as lacedring_seams.h asks it.
+/// Answers the decoder's questions about the triangles' corners, in the order of lacedring_seams.h.
 class CornerEncoder {
   public:
     CornerEncoder(Triangles triangles, std::span<const std::uint32_t> copies, const SeamHomes& homes)
         : triangles_(triangles), copies_(copies), homes_(homes), private_(homes.index.size(), kNone) {}
 
-    /// All answers; none of blocks whose vertices have one copy each, if `skip_plain`.
+    /// The answers for all corners. With `skip_plain`, omits blocks whose vertices have one copy each.
     SeamAnswers run(bool skip_plain) {
         const auto count = static_cast<std::uint32_t>(triangles_.size() / 3);
         out_.all.reserve(std::size_t{2} * count);
@@ -69,7 +69,7 @@ class CornerEncoder {
         return std::move(out_);
     }
 
-    /// The private copies in their order.
+    /// The private copies in the order of their numbers.
     const std::vector<std::uint32_t>& order() const { return order_; }
 
   private:
@@ -83,7 +83,7 @@ class CornerEncoder {
         bool is_last;
     };
 
-    /// Do all vertices of triangles `first` to `end` have one copy? Empty ones have no vertices.
+    /// Do all vertices of triangles [first, end) have one copy? Empty slots have no vertices.
     bool is_plain(std::uint32_t first, std::uint32_t end) const {
         const auto corners = triangles_.subspan(std::size_t{3} * first, std::size_t{3} * (end - first));
         return std::ranges::all_of(corners, [&](std::uint32_t v) { return v == kNone || homes_.single[v] != 0; });
@@ -98,7 +98,7 @@ class CornerEncoder {
         return private_[copies_[c]] != kNone && state == (kPrivate | private_[copies_[c]]);
     }
 
-    /// The state of corner c, whose copy is not that of state `current`.
+    /// Answers the questions about corner c, whose copy differs from that of state `current`; returns its state.
     std::uint32_t choose(std::uint32_t c, std::uint32_t current, const Question& q) {
         const std::uint32_t v = triangles_[c];
         std::uint32_t asked[2] = {kNone, kNone}, left = homes_.count(v);
@@ -220,7 +220,7 @@ class CornerEncoder {
         state(c) = choose(c, kNone, q);
     }
 
-    /// The same as below, of three vertices with one copy each.
+    /// Shortcut of the general case below, for three vertices with one copy each.
     void encode_plain(std::uint32_t i, const std::uint32_t (&pair)[2]) {
         const std::uint32_t* t = &triangles_[std::size_t{3} * i];
         const bool has_parent = pair[0] < 3;
@@ -252,15 +252,15 @@ class CornerEncoder {
     Triangles triangles_;
     std::span<const std::uint32_t> copies_;
     const SeamHomes& homes_;
-    std::vector<std::uint32_t> private_;                              // number of each copy that is no home
-    std::vector<std::uint32_t> order_;                                // copy of each number
-    std::array<std::uint32_t, std::size_t{3} * kSeamBlock> state_{};  // of the block's corners
+    std::vector<std::uint32_t> private_;                              // number of each private copy
+    std::vector<std::uint32_t> order_;                                // copy by private number
+    std::array<std::uint32_t, std::size_t{3} * kSeamBlock> state_{};  // states of the block's corners
     std::vector<std::uint8_t> sides_;
     std::uint32_t first_ = 0, end_ = 0;  // triangles of the block
     SeamAnswers out_;
 };
 
-/// Does a block without copies take no bits?
+/// Does a block without copies take no bits with this table?
 bool is_plain_free(const SeamTable& table) {
     return std::ranges::all_of(kPlainAnswers, [&](const SeamAnswer& a) { return table.likely[a.context] == a.value; });
 }
@@ -305,10 +305,10 @@ Result<EncodedSeams> encode_seams(std::span<const std::uint32_t> triangles, std:
         const std::uint32_t a = triangles[i], b = triangles[i + 1], c = triangles[i + 2];
         if ((a & b & c) == kNone) continue;
         if (std::max({a, b, c}) >= vertices || a == b || b == c || c == a) {
-            return invalid_seams(message("triangle ", i / 3, " has a vertex out of range, or one twice"));
+            return invalid_seams(message("triangle ", i / 3, " has a vertex out of range or a repeated vertex"));
         }
     }
-    // The caller's numbers, and for each corner which of them it has.
+    // The caller's numbers of copies, and for each corner the index of its number.
     std::vector<std::uint32_t> numbers;
     numbers.reserve(copies.size());
     for (std::size_t c = 0; c < copies.size(); ++c) {
@@ -323,7 +323,7 @@ Result<EncodedSeams> encode_seams(std::span<const std::uint32_t> triangles, std:
         std::uint32_t& of = owner[own[c]];
         if (of == kNone) of = triangles[c];
         if (of != triangles[c]) {
-            return invalid_seams(message("copy ", copies[c], " is of vertices ", of, " and ", triangles[c]));
+            return invalid_seams(message("copy ", copies[c], " belongs to vertices ", of, " and ", triangles[c]));
         }
     }
     if (numbers.size() + vertices > LACEDRING_SEAMS_MAX_COPIES) return too_large;
@@ -339,9 +339,10 @@ Result<EncodedSeams> encode_seams(const Encoded& surface, std::span<const std::u
                                   std::span<const std::uint32_t> vertex_of) {
     using detail::message;
     LR_ASSIGN(const StreamView view, view_stream(surface.words));
-    std::vector<std::uint32_t> first(surface.vertex_order.size(), kNone);  // the mesh's vertex, of the surface's
+    std::vector<std::uint32_t> first(surface.vertex_order.size(), kNone);  // a mesh vertex of each surface vertex
     for (std::uint32_t v = 0; v < vertex_of.size(); ++v) {
-        if (vertex_of[v] >= first.size()) return invalid_seams(message("surface vertex ", vertex_of[v]));
+        if (vertex_of[v] >= first.size())
+            return invalid_seams(message("surface vertex ", vertex_of[v], " is out of range"));
         if (first[vertex_of[v]] == kNone) first[vertex_of[v]] = v;
     }
     const std::vector<std::uint32_t> slots = slot_triangles(view);
@@ -355,7 +356,8 @@ Result<EncodedSeams> encode_seams(const Encoded& surface, std::span<const std::u
         const std::uint32_t begin = surface.vertex_order[slots[i]];
         std::uint32_t place = 0;
         while (place < 3 && (corners[place] >= vertex_of.size() || vertex_of[corners[place]] != begin)) ++place;
-        if (place == 3) return invalid_seams(message("triangle ", t, " of the mesh has other vertices"));
+        if (place == 3)
+            return invalid_seams(message("triangle ", t, " of the mesh has other vertices than the surface's"));
         for (std::uint32_t j = 0; j < 3; ++j) copies[i + j] = corners[(place + j) % 3];
     }
     Result<EncodedSeams> out = encode_seams(slots, view.vertices(), copies);
@@ -374,7 +376,7 @@ Result<EncodedSeams> encode_seams(const Encoded& surface, std::span<const std::u
     const auto lost = std::ranges::find(found, false);
     if (lost == found.end()) return out;
     return invalid_seams(
-        message("vertex ", lost - found.begin(), " has no corner, and is not its surface vertex's only one"));
+        message("vertex ", lost - found.begin(), " has no corner, and its surface vertex has other vertices"));
 }
 
 }  // namespace lacedring

@@ -11,27 +11,30 @@ namespace lacedring {
 namespace {
 
 constexpr std::uint32_t kNoRun = UINT32_MAX;
-constexpr std::uint32_t kClasses = 8;         // of runs
-constexpr std::uint32_t kRare = 7;            // the class of an Exp-Golomb code
-constexpr std::uint32_t kSampledBlocks = 64;  // of each kind, by which the table is chosen
+constexpr std::uint32_t kClasses = 8;  // number of classes of runs
+constexpr std::uint32_t kRare = 7;     // the class with an exponential Golomb code
+// Blocks of vertices, and of triangles, sampled to choose the table.
+constexpr std::uint32_t kSampledBlocks = 64;
 
 std::uint32_t run_bits(std::uint32_t run, std::uint32_t k) {
     return k == kRare ? 1 + BitWriter::golomb_bits(run, 5) : (run >> (k - 1)) + k;
 }
 
-/// The run that stands for `run` likely values and no other to come. Of the rare class there is a code for that.
+/// The run written for a block's last `run` likely values: the longest run with a code of the same size. kRare has an
+/// "endless" code instead.
 std::uint32_t last_run(std::uint32_t run, std::uint32_t k) {
     return run | ((1U << (k - 1)) - 1);
 }
 
-/// Finds the codes of a block: calls code(place, class, run, last) for each run, with the answer before which it is
-/// written. Returns the bits that they take. `end` becomes the place from which on a reader infers all codes.
+/// Finds the codes of a block: calls code(place, class, run, last) for each run, which is written before answer
+/// `place`. Returns the total bits. Sets `end` to the place from which a reader infers all codes.
 template <class Code>
 std::uint64_t find_codes(std::span<const SeamAnswer> answers, const SeamTable& table, std::size_t& end, Code code) {
     struct Run {
         std::uint32_t length = 0;
         std::size_t place = 0;
-        std::uint64_t single = 0;  // bits of class 0 that would be inferred, before it
+        // Likely answers of class 0 before the run, which a reader could infer at the block's end.
+        std::uint64_t single = 0;
     };
     Run runs[kClasses];
     std::uint64_t bits = 0, single = 0, single_before_end = 0;
@@ -81,7 +84,8 @@ std::uint64_t find_codes(std::span<const SeamAnswer> answers, const SeamTable& t
     return bits + single_before_end;
 }
 
-/// Chooses the table: each context's best class alone, then classes joined and contexts moved where that is smaller.
+/// Chooses the table: first the best class of each context by itself; then merges classes and moves contexts while this
+/// saves bits.
 class TableSearch {
   public:
     TableSearch(const SeamAnswers& vertices, const SeamAnswers& corners) {
@@ -115,7 +119,8 @@ class TableSearch {
   private:
     using Counts = std::array<std::array<std::uint64_t, 2>, kSeamContexts>;
 
-    /// Each context's best class, were it alone. `with_ends`: codes of runs that end with their block count, too.
+    /// Chooses the best class of each context by itself. `with_ends`: also count the codes of runs that end with their
+    /// block.
     void choose_alone(const Counts& counts, bool with_ends) {
         std::array<std::array<std::uint64_t, kClasses>, kSeamContexts> bits{};
         std::array<std::uint32_t, kSeamContexts> run{};
@@ -165,7 +170,7 @@ class TableSearch {
         return false;
     }
 
-    /// Moves a context to the class, of those in use, where it is smallest.
+    /// Moves a context to the used class with the fewest bits.
     bool move(std::uint32_t c) {
         std::array<bool, kClasses> used{true};
         for (const std::uint32_t k : table_.run_class) used[k] = true;
@@ -227,8 +232,8 @@ void write_block(BitWriter& out, std::span<const SeamAnswer> answers, const Seam
     }
 }
 
-/// A directory: lengths of blocks, copies that they make, and sums of both where groups begin. Returns its field widths
-/// as the header has them.
+/// Writes a directory: the length of each block, the number of copies it makes, and the sums of both at the beginning
+/// of groups. Returns the field widths in the format of the header.
 std::uint32_t write_directory(BitWriter& out, std::span<const std::uint32_t> lengths,
                               std::span<const std::uint32_t> copies) {
     if (lengths.empty()) return 0;

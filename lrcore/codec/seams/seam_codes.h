@@ -1,6 +1,6 @@
 #pragma once
-// The codes of a seam section: what decoders ask, answered, and the table by which answers become bits. Internal to
-// codec/seams; docs/seams-format.md.
+// The answers to a seam decoder's questions, and the table that converts answers to bits (docs/seams-format.md).
+// Internal to codec/seams.
 
 #include <array>
 #include <bit>
@@ -15,18 +15,18 @@ namespace lacedring {
 
 constexpr std::uint32_t kSeamContexts = LACEDRING_SEAM_CONTEXTS;
 
-/// An answer: a flag of a context, or bits as they are.
+/// An answer: a flag of a context, or raw bits.
 struct SeamAnswer {
     std::uint32_t value;
-    std::uint8_t context;  ///< kSeamContexts: bits
+    std::uint8_t context;  ///< kSeamContexts: raw bits
     std::uint8_t bits;
 };
 
-/// The answers of blocks, one behind the other.
+/// The answers of all blocks in sequence.
 struct SeamAnswers {
     std::vector<SeamAnswer> all;
-    std::vector<std::size_t> begin;     ///< of each block
-    std::vector<std::uint32_t> copies;  ///< made by each block
+    std::vector<std::size_t> begin;     ///< first answer of each block
+    std::vector<std::uint32_t> copies;  ///< number of copies each block makes
 
     bool flag(std::uint32_t context, bool value) {
         all.push_back({value ? 1U : 0U, static_cast<std::uint8_t>(context), 1});
@@ -52,10 +52,10 @@ struct SeamTable {
     std::array<std::uint8_t, kSeamContexts> likely{}, run_class{};
 };
 
-/// The table that makes the sections' blocks, or a sample of them, smallest.
+/// The table with the smallest blocks, as measured on all or sampled blocks.
 SeamTable best_table(const SeamAnswers& vertices, const SeamAnswers& corners);
 
-/// The section's words; none if it would be too large.
+/// The section's words; empty if it would be too large.
 std::vector<std::uint32_t> write_section(std::uint32_t homes, const SeamAnswers& vertices, const SeamAnswers& corners,
                                          const SeamTable& table);
 

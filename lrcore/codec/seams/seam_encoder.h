@@ -1,5 +1,5 @@
 #pragma once
-// From the copies of a surface's corners to the words of a section, for encode_seams and for what restores sections.
+// Encodes the copies of a surface's corners as a section. Used by encode_seams and by the storage form's decoder.
 // Internal to lrcore.
 
 #include <cstdint>
@@ -12,26 +12,26 @@
 
 namespace lacedring {
 
-/// Copies that are known to be sound: of a triangle's three vertices, which differ, or UINT32_MAX three times; each
-/// below `count`, and of one vertex.
+/// Copies that have been checked. A triangle has three different vertices, or UINT32_MAX three times. Each copy is
+/// below `count` and belongs to one vertex.
 struct SeamCopies {
     std::span<const std::uint32_t> triangles;
     std::uint32_t vertices = 0;
-    std::span<const std::uint32_t> copies;  ///< of each corner
+    std::span<const std::uint32_t> copies;  ///< per corner
     std::uint32_t count = 0;
 };
 
 struct SeamWords {
-    std::vector<std::uint32_t> words;  ///< empty: more than 4 GiB
-    std::vector<std::uint32_t> order;  ///< the copy of each number of the section; UINT32_MAX: of no corner
+    std::vector<std::uint32_t> words;  ///< empty if it would exceed 4 GiB
+    std::vector<std::uint32_t> order;  ///< copy by the section's number; UINT32_MAX: no corner has it
 };
 
-/// Chooses a section's table, of what decoders ask about vertices and about corners.
+/// Chooses a section's table from its answers about vertices and about corners.
 using SeamTableChoice = std::function<SeamTable(const SeamAnswers& vertices, const SeamAnswers& corners)>;
 
-/// The section of the copies. `skip_plain`: the table is not chosen by blocks that have no copies; these take no bits,
-/// mostly. `corners` are those of the triangles. Cost: O(T log T), 60 bytes a triangle; where there is no seam, some 10
-/// ns a triangle.
+/// Encodes the section of the copies. `corners` is made from the triangles. With `skip_plain`, blocks without copies do
+/// not influence the table; they usually take no bits. Cost: O(T log T), 60 bytes per triangle; without seams about 10
+/// ns per triangle.
 SeamWords write_seams(const SeamCopies& copies, const VertexCorners& corners, const SeamTableChoice& choose,
                       bool skip_plain);
 

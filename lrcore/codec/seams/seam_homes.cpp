@@ -10,11 +10,11 @@ namespace lacedring {
 namespace {
 
 constexpr std::uint32_t kNoState = UINT32_MAX;
-constexpr std::uint32_t kMostHomes = LACEDRING_SEAMS_MAX_STEPS;  // of a vertex: one step fewer, or as many with a wrap
+constexpr std::uint32_t kMostHomes = LACEDRING_SEAMS_MAX_STEPS;  // a vertex has one step fewer, or as many if it wraps
 
 using Triangles = std::span<const std::uint32_t>;
 
-/// The side of each triangle: that of its ring edge, or its parent's.
+/// The side of each triangle: the side of its ring edge, or its parent's side.
 std::vector<std::uint8_t> find_sides(Triangles triangles) {
     std::vector<std::uint8_t> out(triangles.size() / 3);
     for (std::uint32_t i = 0; i < out.size(); ++i) {
@@ -28,20 +28,21 @@ std::vector<std::uint8_t> find_sides(Triangles triangles) {
     return out;
 }
 
-/// Chooses the home copies of vertices: those of the fan on the left, in its order.
+/// Chooses the home copies of vertices: the copies of the fan on the left, in its order.
 class HomeFinder {
   public:
     HomeFinder(Triangles triangles, std::span<const std::uint32_t> copies, std::span<const std::uint8_t> sides)
         : triangles_(triangles), copies_(copies), sides_(sides), visited_(triangles.size()) {}
 
-    /// The home copies of vertex v, which has these corners, in increasing order. True: its fan wraps.
+    /// Finds the home copies of vertex v. `corners` are its corners in ascending order. Returns whether the fan wraps.
     bool find(std::uint32_t v, std::span<const std::uint32_t> corners, std::vector<std::uint32_t>& homes) {
         find_fan(v, corners);
         homes.clear();
         const auto add = [&](std::uint32_t copy) {
             if (homes.size() < kMostHomes - 2 && std::ranges::find(homes, copy) == homes.end()) homes.push_back(copy);
         };
-        std::uint32_t ends[2] = {kNoState, kNoState};  // copies at the ring edges to v - 1 and v + 1
+        // Copies at the ring edges (v - 1, v) and (v, v + 1).
+        std::uint32_t ends[2] = {kNoState, kNoState};
         for (const std::uint32_t c : fan_) add(copies_[c]);
         for (const std::uint32_t c : corners) {
             if (sides_[c / 3] != 0) continue;
@@ -67,7 +68,7 @@ class HomeFinder {
     }
 
   private:
-    /// The left corners of v from its ring edge (v - 1, v) to (v, v + 1), or as far as the triangles go from there.
+    /// Collects the left corners of v from ring edge (v - 1, v) to (v, v + 1), or up to a border.
     void find_fan(std::uint32_t v, std::span<const std::uint32_t> corners) {
         walk(corners, v + 1, v - 1, corner_next, corner_previous);
         std::ranges::reverse(fan_);
@@ -95,7 +96,7 @@ class HomeFinder {
     std::span<const std::uint8_t> sides_;
     BitVector visited_;
     std::vector<std::uint32_t> fan_;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> by_;  // vertex, corner
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> by_;  // pairs of a vertex and a corner
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The seam section's decoder and checks are lacedring_seams.h's, in C; here are C++'s types and messages.
+// The C++ interface of seam sections, on the decoder and checks in lacedring_seams.h (C).
 
 #include <algorithm>
 #include <bit>
@@ -28,17 +28,17 @@ std::string seam_fault(lacedring_status status, std::uint64_t where, std::span<c
         case LACEDRING_STATUS_MAGIC:
             return wrong_magic(words, "a seam section");
         case LACEDRING_STATUS_HEADER:
-            return message("word ", where, " of the header says something impossible for this mesh");
+            return message("word ", where, " of the header is invalid for this mesh");
         case LACEDRING_STATUS_SIZE:
-            return message(words.size(), " words are not what its blocks take");
+            return message(words.size(), " words do not match the size of its blocks");
         case LACEDRING_STATUS_CHECKSUM:
             return "checksum does not match";
         case LACEDRING_STATUS_VERTEX_BLOCK:
-            return message("vertex block ", where, " says something impossible");
+            return message("vertex block ", where, " is invalid");
         case LACEDRING_STATUS_BLOCK:
-            return message("block ", where, " says something impossible");
+            return message("block ", where, " is invalid");
         case LACEDRING_STATUS_TRIANGLE:
-            return message("triangle ", where, " has a vertex out of range, or one twice");
+            return message("triangle ", where, " has a vertex out of range or a repeated vertex");
         default:
             return "unknown";
     }
@@ -56,12 +56,12 @@ lacedring_seams as_c(const SeamView& view) {
     return out;
 }
 
-/// Corners of a block of `slots` slots.
+/// Number of corners of block `block`, if there are `slots` slots.
 std::size_t block_corners(std::uint32_t slots, std::uint32_t block) {
     return std::size_t{3} * std::min(slots - block * kSeamBlock, kSeamBlock);
 }
 
-/// The slots from `first` on, one by one, as many as there is room for.
+/// Decodes the slots from `first` on, as many as fit in `triangles`.
 void write_slots(const StreamView& stream, std::uint32_t first, std::span<std::uint32_t> triangles) {
     for (std::size_t i = 0; i < triangles.size(); i += 3, ++first) {
         const Triangle t = decode_triangle(stream, first).value_or(Triangle{{UINT32_MAX, UINT32_MAX, UINT32_MAX}});
@@ -82,12 +82,12 @@ Result<SeamView> view_seams(std::span<const std::uint32_t> words, std::uint32_t 
 
 namespace {
 
-/// Checks the section, and decodes it where `vertices` is not null.
+/// Checks the section, and also decodes it if `vertices` is not null.
 Result<SeamView> check_seams(std::span<const std::uint32_t> words, std::span<const std::uint32_t> triangles,
                              std::uint32_t vertex_count, std::span<std::uint32_t> copies,
                              std::vector<std::uint32_t>* vertices) {
     if (triangles.size() % 3 != 0 || triangles.size() / 3 > UINT32_MAX / 3) {
-        return Error{ErrorCode::malformed, "seam section: triangles of an impossible number of corners"};
+        return Error{ErrorCode::malformed, "seam section: invalid number of corners"};
     }
     const Result<SeamView> view = view_seams(words, static_cast<std::uint32_t>(triangles.size() / 3), vertex_count);
     if (!view) return view;

@@ -1,8 +1,8 @@
 #pragma once
-// The entropy coder of stored seams: binary arithmetic coding over adaptive bits. Nothing is around its words, as two
-// states and a count are around those of rans.h: sections of seams have few words. Internal to lrcore.
+// The entropy coder of stored seams: binary arithmetic coding over adaptive bits. Unlike rans.h, it stores no states
+// and no count, since seam sections have few words. Internal to lrcore.
 //
-// BitEncoder and BitDecoder have the same functions, as Encoder and Decoder of rans.h.
+// BitEncoder and BitDecoder have the same functions, like Encoder and Decoder of rans.h.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,11 +14,11 @@
 
 namespace lacedring::storage {
 
-/// The numbers that what was coded so far leaves: `low` to `high`. Their upper words differ between two bits.
+/// The interval of arithmetic coding: `low` to `high`. Between two bits, the upper words of both differ.
 struct BitInterval {
     std::uint64_t low = 0, high = UINT64_MAX;
 
-    /// The last number of a 0's part, which is zero / kScale of all.
+    /// The last number of the part of a 0, which is zero / kScale of the interval.
     std::uint64_t middle(std::uint32_t zero) const { return low + ((high - low) >> kScaleBits) * zero; }
     void take(std::uint64_t middle, bool one) {
         if (one) {
@@ -32,7 +32,7 @@ struct BitInterval {
         low <<= 32;
         high = high << 32 | UINT32_MAX;
     }
-    /// The upper word of the number that ends the words; all behind it are 0.
+    /// The last word an encoder writes; readers take all words after it as 0.
     std::uint32_t last() const { return static_cast<std::uint32_t>(low >> 32) + 1; }
 };
 
@@ -45,7 +45,7 @@ class BitEncoder {
         model.update(value ? 1 : 0);
         return value;
     }
-    /// The lowest `count` bits, the highest of them first.
+    /// Codes the lowest `count` bits, the highest of these first.
     std::uint32_t raw(std::uint32_t value, std::uint32_t count) {
         for (std::uint32_t i = count; i-- > 0;) put(kScale / 2, (value >> i & 1) != 0);
         return value;
@@ -69,7 +69,7 @@ class BitEncoder {
     std::vector<std::uint32_t> words_;
 };
 
-/// Any words: safe. What they say beyond their end is of no use, and bad() then says so.
+/// Safe with any words. Values read beyond the end are meaningless; bad() reports this.
 class BitDecoder {
   public:
     static constexpr bool kDecodes = true;
@@ -90,9 +90,9 @@ class BitDecoder {
         return out;
     }
 
-    /// The word behind the last one is read, and is 0.
+    /// Was more than one word beyond the end read? The first of them is legal and reads as 0.
     bool bad() const { return at_ > words_.size() + 1; }
-    /// Was all of it used, and does it end as an encoder ends?
+    /// Were all words used, and do they end as an encoder ends them?
     bool is_at_end() const { return at_ == words_.size() + 1 && number_ == std::uint64_t{interval_.last()} << 32; }
 
   private:

@@ -1,6 +1,6 @@
 #pragma once
-// Codes the choices of a vertex stream's blocks, whose integers are known, and writes the blocks. Internal to lrcore;
-// docs/storage-format.md has it to the bit.
+// Codes the choices of a vertex stream's blocks and writes the blocks; their integers are already known. Internal to
+// lrcore. Specified in docs/storage-format.md.
 
 #include <algorithm>
 #include <array>
@@ -14,13 +14,13 @@
 
 namespace lacedring::storage {
 
-/// Writes bits, the first one lowest, into words that it makes room for.
+/// Writes bit fields, lowest bit first, into words for which make_room was called.
 class BlockBits {
   public:
     void make_room(std::size_t words) {
         if (words_.size() < at_ + words) words_.resize(std::max(at_ + words, words_.size() + words_.size() / 2));
     }
-    /// At most 32 bits; `value` has no others.
+    /// Writes `count` bits, at most 32. The other bits of `value` must be 0.
     void put(std::uint32_t value, std::uint32_t count) {
         window_ |= static_cast<std::uint64_t>(value) << fill_;
         fill_ += count;
@@ -50,10 +50,10 @@ class BlockCoder {
     BlockCoder(Coder& coder, std::span<const VertexComponent> components, BlockBits& out)
         : coder_(coder), components_(components), n_(static_cast<std::uint32_t>(components.size())), out_(out) {}
 
-    /// Codes a block's choices, which a Decoder fills in, and writes the block. `values`: the integers of `count`
-    /// vertices. Returns whether that is possible.
+    /// Codes a block's choices (a Decoder sets `choices`) and writes the block. `values`: the integers of `count`
+    /// vertices. Returns false if the choices are invalid.
     bool code(const std::uint32_t* values, std::uint32_t count, BlockChoices& choices) {
-        // A vertex takes at most 57 bits a component, a run of four a plane and 9 bits a component.
+        // A vertex takes at most 57 bits per component; a run of four takes a plane and 9 bits per component.
         out_.make_room(2 + (std::size_t{count} * (57 + 3) * n_ + 10 * count + 40 * n_) / 32);
         if (!code_predictors(choices)) return false;
         write_begin(values, choices);
@@ -117,7 +117,7 @@ class BlockCoder {
         }
     }
 
-    /// Takes the planes out of the residuals.
+    /// Codes the planes and subtracts them from the residuals.
     bool code_planes(std::uint32_t count, BlockChoices& choices) {
         const std::uint32_t length = std::max(kPlaneRun, 4U << choices.size);
         PlaneChoice last;
@@ -152,7 +152,7 @@ class BlockCoder {
 
     bool code_plane(const PlaneFit& fit, PlaneChoice& plane) {
         const std::uint32_t likely = fit.axis();
-        std::uint32_t turn = (plane.axis + 3U - likely) % 3U;  // axes on from the likely one
+        std::uint32_t turn = (plane.axis + 3U - likely) % 3U;  // axis relative to the likely axis
         turn = coder_.bit(axis_[0], turn != 0 ? 1 : 0) == 0 ? 0 : 1 + coder_.bit(axis_[1], turn / 2);
         plane.axis = static_cast<std::uint8_t>((likely + turn) % 3);
         const std::array<std::int8_t, 2> nearest = fit.slopes(plane.axis);
@@ -165,10 +165,10 @@ class BlockCoder {
         return true;
     }
 
-    /// The context of a run's width: how large its residuals are beside the width before, and those of the next run.
+    /// The context of a run's width: the sizes of its residuals and of the next run's, relative to the previous width.
     static std::uint32_t context(std::uint64_t sum, std::uint64_t next, std::uint32_t width, std::uint32_t size) {
         if (sum == 0) return 0;
-        // Eighths of the mean of what the width's bits leave.
+        // The mean residual divided by 2^width, in eighths.
         const auto rest = [&](std::uint64_t of) {
             return static_cast<std::uint32_t>(std::min<std::uint64_t>((of >> width) * 2 >> size, 32));
         };
@@ -179,7 +179,7 @@ class BlockCoder {
                                                           6,  7,  7,  8,  8,  9,  9,  10, 10, 11, 11,
                                                           11, 11, 12, 12, 12, 12, 12, 12, 12, 12, 13};
 
-    /// The sums of a component's folded residuals in each run, and 0 behind the last one.
+    /// Computes the sum of each component's folded residuals per run; a 0 follows the last run.
     void find_sums(std::uint32_t count, std::uint32_t length) {
         for (std::uint32_t c = 0; c < n_; ++c) {
             std::uint32_t run = 0;
@@ -201,7 +201,7 @@ class BlockCoder {
         for (std::uint32_t begin = 0, run = 0; begin + 1 < count; begin += length, ++run) {
             const std::uint32_t end = std::min(count - 1, begin + length);
             if (n_ == 3 && begin % kPlaneRun == 0) write_plane(choices.planes[begin / kPlaneRun]);
-            std::uint32_t present = 0;  // a bit of each component
+            std::uint32_t present = 0;  // bit c: component c is not all zero
             for (std::uint32_t c = 0; c < n_; ++c) {
                 const std::uint64_t sum = sums_[c][run];
                 BlockChoices::Width& w = choices.widths[c][run];
@@ -210,7 +210,7 @@ class BlockCoder {
                     return false;
                 if (w.code == kAllZero && sum != 0) return false;
                 if (w.code != kAllZero) present |= 1U << c;
-                constexpr std::uint8_t kCodes[][2] = {{0, 1}, {1, 2}, {3, 3}, {7, 4}, {15, 4}};  // bits, how many
+                constexpr std::uint8_t kCodes[][2] = {{0, 1}, {1, 2}, {3, 3}, {7, 4}, {15, 4}};  // code, number of bits
                 out_.put(kCodes[w.code][0], kCodes[w.code][1]);
                 if (w.code == kGiven) out_.put(w.value, 5);
             }
@@ -221,7 +221,7 @@ class BlockCoder {
 
     using WidthModels = std::array<BitModel, 4>;
 
-    /// Also makes `width` the run's.
+    /// Also sets `width` to the run's width.
     bool code_width(WidthModels& models, BlockChoices::Width& w, std::uint32_t& width) {
         std::uint32_t code = 0;
         if (coder_.bit(models[0], w.code != kUnchanged ? 1 : 0) != 0) {
@@ -279,7 +279,7 @@ class BlockCoder {
     std::array<std::array<BitModel, 8>, 16> has_plane_;
     std::array<std::array<BitModel, 16>, 16> given_;
     std::array<BitModel, 2> axis_, exact_slope_;
-    std::array<std::array<WidthModels, 43>, 4> models_;  // of runs of each size, and each context
+    std::array<std::array<WidthModels, 43>, 4> models_;  // per size of runs and context
 };
 
 }  // namespace lacedring::storage

@@ -11,17 +11,17 @@
 namespace lacedring::storage {
 namespace {
 
-// Every machine has to find the same. All numbers are integers but for lengths and quotients, which are those of IEEE
-// doubles; no sum is of a rounded product, so that fused operations change nothing.
+// Results must be the same on every machine. All numbers are integers except lengths and quotients, which are IEEE
+// doubles. No rounded product is a term of a sum, so fused operations do not change results.
 
-using Sums = std::array<std::uint64_t, 3>;  // modulo 2^64: nothing overflows, whatever is stored
+using Sums = std::array<std::uint64_t, 3>;  // modulo 2^64: no overflow with any input
 
-constexpr std::int32_t kHalfTurn = 1 << 14;  // of angles
-constexpr std::int32_t kTangents = 1 << 12;  // of the table of angles: steps of a tangent of 1
-constexpr double kUnit = 1 << 15;            // the length of a normal whose weight is not its triangle's area
-constexpr std::size_t kBatch = 64;           // triangles
+constexpr std::int32_t kHalfTurn = 1 << 14;  // unit of angles
+constexpr std::int32_t kTangents = 1 << 12;  // table of angles: steps between tangents 0 and 1
+constexpr double kUnit = 1 << 15;            // length of normals that are not weighted by area
+constexpr std::size_t kBatch = 64;           // triangles per batch
 
-/// The angles whose tangents are i / kTangents, rounded.
+/// Rounded angles with tangent i / kTangents.
 constexpr auto kAngles = [] {
     std::array<std::uint16_t, kTangents + 1> out{};
     for (std::size_t i = 0; i < out.size(); ++i) {
@@ -35,17 +35,19 @@ constexpr auto kAngles = [] {
 
 using PaddedPlace = std::array<std::int32_t, 4>;
 
-/// Some triangles (p, q, r), one number of each behind the other: the compiler computes several at once.
+/// A batch of triangles (p, q, r), as a structure of arrays for vectorization.
 struct TriangleBatch {
     using Numbers = std::array<double, kBatch>;
     using Integers = std::array<std::int32_t, kBatch>;
 
     std::array<Integers, 3> from_p, from_q;
-    std::array<Numbers, 3> a, b;      // q - p and r - q
-    std::array<Numbers, 3> normal;    // a x b, then what is added to sums, but for the angle
-    Numbers length;                   // of the normal
-    std::array<Numbers, 3> cosine;    // of the angles at p, q and r, on the scale where `length` is their sine
-    std::array<Integers, 3> tangent;  // of the angle, or of what is left of it to a right one
+    std::array<Numbers, 3> a, b;  // q - p and r - q
+    // a x b, later scaled to its term of the sums before the factor of the angle.
+    std::array<Numbers, 3> normal;
+    Numbers length;  // length of the normal
+    // Cosines of the angles at p, q and r, scaled so that their sines are `length`.
+    std::array<Numbers, 3> cosine;
+    std::array<Integers, 3> tangent;  // tangent of the angle or of its complement
 
     LACEDRING_INLINE void set(std::size_t i, const PaddedPlace& p, const PaddedPlace& q, const PaddedPlace& r) {
         for (std::size_t c = 0; c < 3; ++c) {
@@ -134,7 +136,6 @@ void add_triangles(const VertexPlaces& places, std::span<const std::uint32_t> tr
     }
 }
 
-/// The octahedral integers of a vector.
 LACEDRING_INLINE std::array<std::int32_t, 2> octahedral(const Sums& sum, std::int32_t most) {
     std::array<std::uint64_t, 3> size;
     for (std::size_t i = 0; i < 3; ++i) size[i] = sum[i] >> 63 != 0 ? 0 - sum[i] : sum[i];
@@ -154,8 +155,7 @@ LACEDRING_INLINE std::array<std::int32_t, 2> octahedral(const Sums& sum, std::in
     return out;
 }
 
-/// Turns a point of the square over: the lower half's lie in the middle then, each at a place of its own. It is its own
-/// inverse.
+/// Turns the octahedral square inside out: points of the lower half move to its middle. A bijection, its own inverse.
 LACEDRING_INLINE void turn_over(std::uint32_t& x, std::uint32_t& y, std::uint32_t most) {
     const bool left = x >> 31 != 0, below = y >> 31 != 0;
     const std::uint32_t across = most + 1 - (below ? 0 - y : y), up = most + 1 - (left ? 0 - x : x);

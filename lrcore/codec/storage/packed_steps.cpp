@@ -86,7 +86,7 @@ class StepReader {
         }
     }
 
-    /// Triangles that say their vertices alone: (a, x, b), or (a, b, x). For now all are taken as the latter.
+    /// Reads the triangles of a plain block, which are (a, x, b) or (a, b, x). Assumes (a, b, x); find_plain() decides.
     void read_plain(std::uint64_t at, std::uint32_t triangle, std::uint32_t end) {
         plain_.push_back({triangle, end});
         BitReader bits(groups_, at, at + std::uint64_t{3} * (end - triangle) * bits_);
@@ -96,12 +96,13 @@ class StepReader {
         }
     }
 
-    /// Decides for each triangle of a plain block whether it is (a, x, b) or (a, b, x). It is the one whose edge (a, b)
-    /// an earlier step left open; of two such edges, the one that was left open last counts. Without such an edge the
-    /// triangle is taken as the one before it. This is a guess: store_packed restores the stream and compares.
+    /// Decides for each triangle of a plain block whether it is (a, x, b) or (a, b, x): the form whose edge (a, b) an
+    /// earlier step left open, most recently if both are open. If neither is open, takes the form of the previous
+    /// triangle. This is a guess: store_packed restores the stream and compares.
     void find_plain() {
         const auto key = [](std::uint32_t a, std::uint32_t b) { return std::uint64_t{a} << 32 | b; };
-        std::unordered_map<std::uint64_t, std::uint32_t> open;  // the step that left an edge, plus 1
+        // By edge: 1 + the step that left it open.
+        std::unordered_map<std::uint64_t, std::uint32_t> open;
         open.reserve(view_.own);
         const auto left_by = [&](std::uint32_t a, std::uint32_t b) {
             const auto found = open.find(key(a, b));
@@ -193,7 +194,7 @@ class StepReader {
         return e;
     }
 
-    /// Triangles [first, end) of the stream; a record that says nothing has no bits.
+    /// Reads the record of triangles [first, end); a record without content has no bits.
     void read_record(BitReader& bits, const Entry& entry, std::uint32_t first, std::uint32_t end, bool has_entry) {
         events_.clear();
         flips_.clear();
@@ -279,7 +280,7 @@ class StepReader {
         if (scopes_.empty()) begun_ = next;
     }
 
-    /// The polygon behind the one begun last, and as large.
+    /// Continues with the polygon after the last one begun, with the same size.
     void repeat() {
         const std::uint32_t size = begun_.edge.b - begun_.edge.a;
         now_.edge.a = begun_.edge.b + 1;
@@ -323,7 +324,7 @@ class StepReader {
     std::uint32_t bits_;
     std::uint32_t gap_bits_ = 0, wart_bits_ = 0, split_order_ = 0, count_order_ = 0;
     std::vector<PackedEvent> events_;
-    std::vector<bool> warts_, flips_;  // of each triangle of the record
+    std::vector<bool> warts_, flips_;  // per triangle of the record
     Entry now_, begun_;
     bool finished_ = false;
     std::vector<Scope> scopes_;

@@ -1,6 +1,6 @@
 #pragma once
-// The steps that a packed stream was written from: what each triangle was entered across, and what lies across its two
-// other edges. Internal to lrcore.
+// The steps from which a packed stream was written: the edge across which each triangle was entered, and the steps
+// across its two other edges. Internal to lrcore.
 
 #include <cstdint>
 #include <vector>
@@ -11,10 +11,10 @@
 
 namespace lacedring::storage {
 
-/// As Planner wants them.
+/// Steps with the interface that Planner requires.
 class PackedSteps {
   public:
-    enum Flag : std::uint8_t { kFlipped = 16 };  ///< beside CorridorStep's
+    enum Flag : std::uint8_t { kFlipped = 16 };  ///< in addition to CorridorStep's flags
 
     struct Step {
         PackedEdge edge;
@@ -34,13 +34,13 @@ class PackedSteps {
         steps_.reserve(steps);
         flags_.reserve(steps);
     }
-    /// `next`, or UINT32_MAX: the step across the one edge that the flags say is entered.
+    /// `next`: the step across the edge entered, if the flags name exactly one; else UINT32_MAX.
     void add(PackedEdge edge, std::uint32_t third, std::uint8_t flags, std::uint32_t next = UINT32_MAX) {
         const bool is_a = (flags & CorridorStep::kEnterA) != 0;
         steps_.push_back({edge, third, is_a ? next : UINT32_MAX, is_a ? UINT32_MAX : next});
         flags_.push_back(flags);
     }
-    /// Step i, across one of whose edges the next step is: by `up` (x, b), else (a, x).
+    /// Adds step i; the next step is across its edge (x, b) if `up` is 1, else across (a, x).
     void add_simple(std::uint32_t i, PackedEdge edge, std::uint32_t third, std::uint32_t right, std::uint32_t up) {
         const std::uint32_t next = i + 1;
         steps_.push_back({edge, third, next | (0 - up), next | (up - 1)});
@@ -54,9 +54,9 @@ class PackedSteps {
     std::vector<std::uint8_t> flags_;
 };
 
-/// Reads them back from a valid stream, without doubles; what is across the edges is not known yet. Of the flags kRight
-/// says whether the triangle comes out reversed, and the others are what its event says, if it has one. Those of plain
-/// blocks are a guess.
+/// Reads the steps from a valid stream, without doubles; the steps across edges are not yet set. The flag kRight means
+/// that the triangle is decoded reversed; the other flags come from its event, if it has one. Steps of plain blocks are
+/// a guess.
 PackedSteps read_steps(const PackedView& view);
 
 }  // namespace lacedring::storage

@@ -12,8 +12,8 @@
 namespace lacedring::storage {
 namespace {
 
-// Words before the coded steps: vertices, own triangles, runs of doubles and whether triangles are flipped. Then, if
-// there are runs, the words of the doubles as the stream has them.
+// Words before the coded steps: vertices, own triangles, runs of doubles (with kHasFlips). If there are runs, the
+// stream's words of the doubles follow.
 constexpr std::size_t kHeaderWords = 3;
 constexpr std::uint32_t kHasFlips = 0x80000000U;
 
@@ -21,7 +21,7 @@ Error malformed(const char* what) {
     return {ErrorCode::malformed, detail::message("stored packed stream: ", what)};
 }
 
-/// An edge of a step that a later one may be entered across: (a, x), or (x, b).
+/// An edge of a step, (a, x) or (x, b), across which a later step may be entered.
 struct Offer {
     PackedEdge edge;
     std::uint32_t step;
@@ -31,7 +31,7 @@ struct Offer {
     bool operator<(const Offer& other) const { return key() < other.key(); }
 };
 
-/// Sets the steps across each step's edges: a step is entered across the edge offered last that is the same.
+/// Sets the steps across each step's edges: a step is entered across the last equal edge offered.
 void link_across(PackedSteps& steps) {
     std::vector<Offer> offers;
     offers.reserve(2 * std::size_t{steps.size()});
@@ -47,22 +47,22 @@ void link_across(PackedSteps& steps) {
         const auto found = std::lower_bound(offers.begin(), offers.end(), Offer{edge, i, false});
         if (found == offers.begin() || (found - 1)->edge != edge) continue;
         const Offer& offer = *(found - 1);
-        // A ring edge is not crossed; where a tree of steps begins at one, that is from elsewhere.
+        // A ring edge links only successive steps; any other step entered there begins a new tree.
         if (edge.b - edge.a == 1 && offer.step + 1 != i) continue;
         std::uint32_t& across = offer.is_a ? steps.step(offer.step).across_a : steps.step(offer.step).across_b;
         if (across == UINT32_MAX) across = i;
     }
 }
 
-/// Sets the flags. Where trees of steps begin, on_right is what the triangle comes out as, and triangles that come out
-/// otherwise are flipped. Returns whether any is.
+/// Sets the flags. The first triangle of a tree of steps is on the right if it is decoded reversed; triangles of the
+/// tree decoded with the other orientation are flipped. Returns whether any triangle is flipped.
 bool set_flags(PackedSteps& steps) {
     bool has_flips = false;
     std::vector<std::uint8_t> right(steps.size(), 0), reached(steps.size(), 0);
     for (std::uint32_t i = 0; i < steps.size(); ++i) {
         const PackedSteps::Step& s = steps.step(i);
         const std::uint8_t reversed = steps.flags_of(i) & CorridorStep::kRight;
-        if (reached[i] == 0) right[i] = reversed;  // a tree's first
+        if (reached[i] == 0) right[i] = reversed;  // first step of a tree
         constexpr std::uint8_t kBoth = CorridorStep::kEnterA | CorridorStep::kEnterB;
         const std::uint8_t said = steps.flags_of(i) & (kBoth | CorridorStep::kFirstA);
         std::uint8_t flags = right[i] | (said & kBoth);
@@ -103,7 +103,8 @@ std::optional<std::vector<std::uint32_t>> store_packed(const PackedView& view) {
 Result<StoredPacked> StoredPacked::read(std::span<const std::uint32_t> stored, const PackedLimits& limits) {
     if (stored.size() < kHeaderWords) return malformed("shorter than its header");
     const std::uint32_t vertices = stored[0], own = stored[1], runs = stored[2] & ~kHasFlips;
-    if (vertices > limits.vertices || own > limits.triangles) return malformed("more than its file has");
+    if (vertices > limits.vertices || own > limits.triangles)
+        return malformed("more vertices or triangles than allowed");
     const std::size_t doubles = runs == 0 ? 0 : LR_PACKED_DOUBLES_WORDS + LR_PACKED_RUN_WORDS * std::size_t{runs};
     if (doubles > stored.size() - kHeaderWords) return malformed("doubles beyond its end");
     StoredPacked out;
@@ -113,7 +114,7 @@ Result<StoredPacked> StoredPacked::read(std::span<const std::uint32_t> stored, c
     out.steps_.reserve(own);
     Decoder coder(stored.subspan(kHeaderWords + doubles));
     WalkCoder<Decoder> walk(coder, out.steps_, vertices, (stored[2] & kHasFlips) != 0);
-    if (!walk.code(own) || !coder.is_at_end()) return malformed("its steps say something impossible");
+    if (!walk.code(own) || !coder.is_at_end()) return malformed("its steps are invalid");
     return out;
 }
 

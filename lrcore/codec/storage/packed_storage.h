@@ -1,5 +1,5 @@
 #pragma once
-// The storage form of packed streams. Internal to lrcore; docs/storage-format.md has it.
+// The storage form of packed streams. Internal to lrcore. Specified in docs/storage-format.md.
 
 #include <cstdint>
 #include <optional>
@@ -11,26 +11,25 @@
 
 namespace lacedring::storage {
 
-/// The most that a restored stream may have. The caller takes them from the file, or from the memory that it allows.
+/// Limits of a restored stream. The caller derives them from the file or from the memory it allows.
 struct PackedLimits {
     std::uint32_t vertices = 0, triangles = 0;
 };
 
-/// The storage form of a packed stream, which is valid; none: it has none that gives it back bit for bit. Cost: O(T log
-/// T).
+/// The storage form of a valid packed stream; none if no storage form restores it bit for bit. Cost: O(T log T).
 std::optional<std::vector<std::uint32_t>> store_packed(const PackedView& view);
 
-/// A stored packed stream on the way to the packed stream, in two steps: triangles are known before it is written.
+/// Restores a packed stream in two steps: read() yields the triangles, write() the stream.
 class StoredPacked {
   public:
-    /// `stored` has to outlive this. Cost: O(T); 25 bytes a triangle and 1 a vertex. Errors: malformed. Untrusted
-    /// input: safe.
+    /// `stored` must outlive the object. Cost: O(T); 25 bytes per triangle and 1 per vertex. Errors: malformed.
+    /// Untrusted input: safe.
     static Result<StoredPacked> read(std::span<const std::uint32_t> stored, const PackedLimits& limits);
 
-    /// The triangles, where these are the steps' alone, without doubles; else none.
+    /// The triangles; empty if the stream has doubles.
     std::vector<std::uint32_t> triangles() const;
 
-    /// The packed stream, bit for bit. It is not validated: what is stored may say anything. Errors: too_large.
+    /// The packed stream, bit for bit. It is not validated and may be invalid if `stored` is. Errors: too_large.
     Result<std::vector<std::uint32_t>> write() const;
 
   private:
@@ -39,7 +38,7 @@ class StoredPacked {
     std::span<const std::uint32_t> doubles_;
 };
 
-/// Both steps.
+/// read() and write() in one call.
 Result<std::vector<std::uint32_t>> restore_packed(std::span<const std::uint32_t> stored, const PackedLimits& limits);
 
 }  // namespace lacedring::storage

@@ -1,6 +1,5 @@
 #pragma once
-// Tries several predictions of an attribute's integers and keeps the one that takes the fewest bits. Internal to
-// lrcore.
+// Chooses the prediction of an attribute's integers by trial: the prediction with the fewest bits. Internal to lrcore.
 
 #include <algorithm>
 #include <array>
@@ -15,7 +14,7 @@
 
 namespace lacedring::storage {
 
-/// Between values and residuals, in the order of a walk: a VertexWalk, or a WalkRecord.
+/// Converts values to residuals, or back if kRestores, in the order of a walk (VertexWalk or WalkRecord).
 template <bool kRestores, class Walk>
 void predict(Walk& walk, const VertexParameters& parameters, std::uint32_t n, std::span<std::uint32_t> values,
              std::span<std::uint32_t> residuals) {
@@ -25,7 +24,7 @@ void predict(Walk& walk, const VertexParameters& parameters, std::uint32_t n, st
     });
 }
 
-/// A walk, recorded.
+/// Visitor that records a VertexWalk, to run it again.
 class WalkRecord {
   public:
     void start(std::uint32_t v, std::uint32_t from) { steps_.push_back({v, from, true, {}}); }
@@ -50,10 +49,9 @@ class WalkRecord {
     std::vector<Step> steps_;
 };
 
-/// Chooses how integers are predicted: by trial.
 class ParameterSearch {
   public:
-    /// `are_differences`: the values may need no prediction any more.
+    /// `are_differences`: also try no prediction, as the values are differences already.
     ParameterSearch(const WalkRecord& walk, std::uint32_t n, std::span<std::uint32_t> values, bool are_differences)
         : walk_(walk), n_(n), values_(values), rules_(std::span(kRules).first(are_differences ? 4 : 3)) {}
 
@@ -75,7 +73,7 @@ class ParameterSearch {
         if (parameters_.error != 0) vary(&VertexParameters::smooth, {0, 2, 4});
         return parameters_;
     }
-    /// Words that the values take by the best parameters.
+    /// Number of words of the values with the best parameters.
     std::size_t least() const { return least_; }
 
   private:
@@ -87,7 +85,7 @@ class ParameterSearch {
         return coder.finish().size();
     }
 
-    /// The best rule of each component alone.
+    /// Chooses the best rule of each component independently.
     void find_rules() {
         std::vector<std::uint32_t> alone(values_.size() / n_);
         for (std::uint32_t c = 0; c < n_; ++c) {
@@ -110,7 +108,7 @@ class ParameterSearch {
         least_ = now;
         parameters_ = parameters;
     }
-    /// Tries some values, rising, until one is worse than the one before.
+    /// Tries ascending values of a parameter until a value is worse than the previous one.
     void vary(std::uint32_t VertexParameters::*which, std::initializer_list<std::uint32_t> tries) {
         for (const std::uint32_t value : tries) {
             VertexParameters with = parameters_;

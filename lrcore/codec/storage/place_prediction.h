@@ -1,6 +1,6 @@
 #pragma once
-// Predicts texture coordinates, two integers a vertex, from the places of vertices: the map from the surface to the
-// texture goes on as it is in a neighboring triangle. Internal to lrcore; docs/storage-format.md has it to the bit.
+// Predicts texture coordinates (two integers per vertex) from the positions of vertices: extrapolates the affine map
+// from surface to texture of a neighboring triangle. Internal to lrcore. Specified in docs/storage-format.md.
 
 #include <array>
 #include <cmath>
@@ -19,7 +19,7 @@ class PlacePrediction {
 
     explicit PlacePrediction(const VertexPlaces& places) : places_(places), scaled_(places.positions) {}
 
-    /// The prediction of v by the values of its parallelograms.
+    /// Predicts v from the values at its parallelograms.
     LACEDRING_INLINE Pair predict(std::uint32_t v, const Parallelograms& by,
                                   std::span<const std::uint32_t> values) const {
         const Place at = place(v);
@@ -40,7 +40,7 @@ class PlacePrediction {
         return rounded_square(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
     }
 
-    /// Folds the triangle (x, y, v) into the plane of (x, y, z): v = x + along (y - x) - across (z - x) there.
+    /// Rotates the triangle (x, y, v) into the plane of (x, y, z), where v = x + along (y - x) - across (z - x).
     LACEDRING_INLINE Pair extend(const Place& v, const Parallelogram& by, std::span<const std::uint32_t> values) const {
         const Place x = place(by.x), y = place(by.y), z = place(by.z);
         Place edge;
@@ -54,12 +54,12 @@ class PlacePrediction {
             v_along += edge[c] * to_v[c];
             z_along += edge[c] * to_z[c];
         }
-        const double z_height = square_of_product(edge, to_z);  // squared
-        std::int64_t along = kOne, across = kOne;               // a parallelogram, where there is no plane
+        const double z_height = square_of_product(edge, to_z);  // squared height of z
+        std::int64_t along = kOne, across = kOne;               // default for degenerate triangles: a parallelogram
         if (z_height > 0) {
             const double heights = std::sqrt(square_of_product(edge, to_v) / z_height);
             across = static_cast<std::int64_t>(std::min(kOne * heights + 0.5, kMost));
-            // The sum is exact: an integer below 2^63, rounded once.
+            // Exact: an integer below 2^63, rounded only once.
             const std::int64_t sum =
                 kOne * static_cast<std::int64_t>(v_along) + across * static_cast<std::int64_t>(z_along);
             along = static_cast<std::int64_t>(std::clamp(static_cast<double>(sum) / square, -kMost, kMost));
@@ -81,11 +81,12 @@ class PlacePrediction {
     ScaledPlaces scaled_;
 };
 
-/// A visitor of VertexWalk between the values and their differences from the prediction, which another visitor codes.
+/// A visitor of VertexWalk that converts between values and their differences from the prediction; `Coding`, another
+/// visitor, codes the differences.
 template <bool kDecodes, class Coding>
 class PlaceVisitor {
   public:
-    /// Two `values` and two `differences` a vertex. Decoding makes values of the differences, else the other way round.
+    /// Two `values` and two `differences` per vertex. Computes values from differences if kDecodes, else the reverse.
     PlaceVisitor(const PlacePrediction& prediction, std::span<std::uint32_t> values,
                  std::span<std::uint32_t> differences, Coding& coding)
         : prediction_(prediction), values_(values), differences_(differences), coding_(coding) {}
@@ -94,7 +95,7 @@ class PlaceVisitor {
         const std::uint32_t by = from == kNone ? last_ : from;
         PlacePrediction::Pair base{};
         for (std::size_t c = 0; c < 2 && by != kNone; ++c) {
-            // The coder takes the difference of that vertex off; what is left is the difference of the values.
+            // `coding_` subtracts the difference of vertex `by`, so that it codes the difference of the two values.
             const std::size_t i = std::size_t{2} * by + c;
             base[c] = values_[i] - differences_[i];
         }

@@ -1,6 +1,6 @@
 #pragma once
-// Fits planes to the residuals of a run of vertices, in integers. They are what the encoder of a vertex stream is
-// likely to have chosen.
+// Fits planes to the residuals of a run of vertices, in integers, to predict the planes that the encoder of a vertex
+// stream has chosen.
 // Internal to lrcore.
 
 #include <array>
@@ -15,7 +15,7 @@ namespace lacedring::storage {
 /// The sums of products of three components' residuals.
 class PlaneFit {
   public:
-    /// `count` of each component: at most 32.
+    /// `count` residuals per component, at most 32.
     PlaneFit(const std::array<const std::uint32_t*, 3>& residuals, std::uint32_t count) {
         std::uint32_t all = 0;
         for (const std::uint32_t* of : residuals) {
@@ -41,7 +41,7 @@ class PlaneFit {
         }
     }
 
-    /// The axis whose component a plane is likely to make smallest, and twice the logarithm of how much smaller.
+    /// The axis whose component a plane is likely to reduce most, and twice the logarithm of the reduction.
     std::uint32_t axis() const { return axis_; }
     std::uint32_t gain() const { return gain_; }
 
@@ -68,7 +68,7 @@ class PlaneFit {
         gain_ = ratio(best, rest);
     }
 
-    /// Twice the logarithm of how much smaller a plane makes its axis' component.
+    /// Twice the logarithm of the factor by which a plane reduces its axis' component.
     std::uint32_t gain_of(std::uint32_t axis, const std::array<std::int8_t, 2>& slope) const {
         const std::uint32_t u = axis == 2 ? 0 : axis + 1, v = axis == 0 ? 2 : axis - 1;
         const std::int64_t a = slope[0], b = slope[1];
@@ -78,7 +78,7 @@ class PlaneFit {
         return ratio(16 * square_[axis], rest);
     }
 
-    /// The slopes of the plane nearest to the residuals, along an axis.
+    /// The slopes, along an axis, of the plane nearest to the residuals.
     std::array<std::int8_t, 2> slopes(std::uint32_t axis) const {
         const std::uint32_t u = axis == 2 ? 0 : axis + 1, v = axis == 0 ? 2 : axis - 1;
         const std::int64_t uu = square_[u], vv = square_[v], uv = cross_[axis], um = cross_[v], vm = cross_[u];
@@ -92,7 +92,7 @@ class PlaneFit {
     }
 
   private:
-    /// Twice the logarithm of a / b, in whole numbers; 0 where a is no larger.
+    /// Twice the logarithm of a / b as an integer; 0 if a <= b.
     static std::uint32_t ratio(std::int64_t a, std::int64_t b) {
         const std::uint32_t la = logarithm(a), lb = logarithm(b);
         return la > lb ? la - lb : 0;
@@ -102,14 +102,15 @@ class PlaneFit {
         const auto width = static_cast<std::uint32_t>(std::bit_width(static_cast<std::uint64_t>(x)));
         return 2 * (width - 1) + static_cast<std::uint32_t>(x >> (width - 2) & 1);
     }
-    /// x / y in quarters, from -4 to 3.
+    /// x / y in quarters, clamped to -4 to 3.
     static std::int8_t quarters(std::int64_t x, std::int64_t y) {
         if (x <= -y) return -4;
         if (4 * x >= 3 * y) return 3;
         return static_cast<std::int8_t>((8 * x + 9 * y) / (2 * y) - 4);
     }
 
-    std::array<std::int64_t, 3> square_{}, cross_{};  // of a component; of the two others
+    // Sums of products: of a component with itself; of the two others.
+    std::array<std::int64_t, 3> square_{}, cross_{};
     std::uint32_t axis_ = 0, gain_ = 0;
 };
 

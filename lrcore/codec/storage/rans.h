@@ -1,10 +1,9 @@
 #pragma once
-// The entropy coder of the storage form: range asymmetric numeral systems (rANS) over adaptive models, two states by
-// turns, and raw bits beside them. Internal to lrcore.
+// The entropy coder of the storage form: range asymmetric numeral systems (rANS) with adaptive models and two
+// alternating states, plus raw bits. Internal to lrcore.
 //
-// Encoder and Decoder have the same functions, so that a format is written once, as a template over the coder. An
-// encoder's function codes the value that it is given, and returns it. A decoder's function ignores the value that it
-// is given, and returns the one that was encoded.
+// Encoder and Decoder have the same functions, so that each format is one template over the coder. The Encoder's
+// functions code and return their argument; the Decoder's ignore it and return the decoded value.
 
 #include <algorithm>
 #include <array>
@@ -20,11 +19,11 @@
 namespace lacedring::storage {
 
 constexpr std::uint32_t kScaleBits = 15, kScale = 1U << kScaleBits;
-constexpr std::uint64_t kLeast = std::uint64_t{1} << 31;  ///< of a state between symbols
+constexpr std::uint64_t kLeast = std::uint64_t{1} << 31;  ///< lower bound of a state between symbols
 
-/// A bit whose probability is learnt: quickly at first, then from the last fifty or so.
+/// Adaptive model of a bit: adapts fast at first, then averages over about 50 bits.
 struct BitModel {
-    std::uint16_t zero = kScale / 2;  ///< of kScale
+    std::uint16_t zero = kScale / 2;  ///< probability of 0, times kScale
     std::uint16_t seen = 0;
 
     void update(std::uint32_t bit) {
@@ -44,11 +43,11 @@ struct BitModel {
     }();
 };
 
-/// One of 16 symbols. Frequencies follow what was coded, in steps: often at first, then every 64 symbols.
+/// Adaptive model of 16 symbols. Updates its frequencies often at first, then every 64 symbols.
 struct SymbolModel {
     static constexpr std::uint32_t kSymbols = 16;
 
-    std::array<std::uint16_t, kSymbols + 1> begin;  ///< of each symbol's range, and kScale
+    std::array<std::uint16_t, kSymbols + 1> begin;  ///< begin of each symbol's range; kScale at the end
     std::array<std::uint16_t, kSymbols> count;
     std::uint16_t total = kSymbols, left = kFirst, cycle = kFirst;
 
@@ -57,7 +56,7 @@ struct SymbolModel {
         rebuild();
     }
 
-    /// The symbol whose range `at` is in.
+    /// The symbol whose range contains `at`.
     LACEDRING_INLINE std::uint32_t find(std::uint32_t at) const { return detail::count_up_to(begin.data(), at) - 1; }
 
     void update(std::uint32_t symbol) {
@@ -92,7 +91,7 @@ struct SymbolModel {
     }
 };
 
-/// Records what is coded; finish() writes it, since rANS is written from its end.
+/// Records symbols; finish() writes them, since rANS encodes from the last symbol to the first.
 class Encoder {
   public:
     static constexpr bool kDecodes = false;
@@ -107,7 +106,7 @@ class Encoder {
         model.update(value);
         return value;
     }
-    /// The lowest `count` bits, at most 32.
+    /// Writes the lowest `count` bits (at most 32) of `value` as raw bits.
     std::uint32_t raw(std::uint32_t value, std::uint32_t count) {
         if (count == 0) return 0;
         value &= UINT32_MAX >> (32 - count);
@@ -122,11 +121,11 @@ class Encoder {
     }
     bool bad() const { return false; }
 
-    /// Words: how many words of symbols, those, and the raw bits'.
+    /// Returns the number of words of symbols, these words, and the words of raw bits.
     std::vector<std::uint32_t> finish() {
         if (fill_ > 0) raw_.push_back(static_cast<std::uint32_t>(window_));
         std::array<std::uint64_t, 2> states{kLeast, kLeast};
-        std::vector<std::uint32_t> words;  // from the last one to the first
+        std::vector<std::uint32_t> words;  // in reverse order
         for (std::size_t i = symbols_.size(); i-- > 0;) {
             std::uint64_t& x = states[i % 2];
             const std::uint32_t begin = symbols_[i] & 0xffff, size = symbols_[i] >> 16;
@@ -154,7 +153,7 @@ class Encoder {
     std::uint32_t fill_ = 0;
 };
 
-/// Any words: safe. What they say beyond their end is of no use, and bad() then says so.
+/// Safe with any words. Values read beyond the end are meaningless; bad() reports this.
 class Decoder {
   public:
     static constexpr bool kDecodes = true;
@@ -180,7 +179,7 @@ class Decoder {
         const std::uint32_t at = now_ & (kScale - 1), zero = model.zero;
         const std::uint32_t value = at >= zero ? 1 : 0;
         std::uint64_t x = after(at, value != 0 ? zero : 0, value != 0 ? kScale - zero : zero);
-        if (x < kLeast) {  // rare: a bit's information is small
+        if (x < kLeast) {  // rare, since a bit model has little information
             x = x << 32 | next_word();
             ++used_;
         }
@@ -191,7 +190,7 @@ class Decoder {
     LACEDRING_INLINE std::uint32_t symbol(SymbolModel& model, std::uint32_t /*value*/ = 0) {
         const std::uint32_t at = now_ & (kScale - 1), value = model.find(at);
         std::uint64_t x = after(at, model.begin[value], model.begin[value + 1] - model.begin[value]);
-        const std::uint64_t takes = x < kLeast ? 1 : 0;  // without a branch, which would be hard to predict
+        const std::uint64_t takes = x < kLeast ? 1 : 0;  // branchless: hard to predict
         x = x << (32 * takes) | (next_word() & (0 - takes));
         used_ += takes;
         go_on(x);
@@ -199,7 +198,7 @@ class Decoder {
         return value;
     }
     LACEDRING_INLINE std::uint32_t raw(std::uint32_t /*value*/, std::uint32_t count) {
-        // Without a branch; behind the end, any bits of the last ones.
+        // Branchless; beyond the end it returns some of the last bits.
         const std::uint64_t byte = std::min(raw_bit_ >> 3, last_byte_);
         std::uint64_t window;
         std::memcpy(&window, bytes_ + byte, sizeof window);
@@ -209,9 +208,9 @@ class Decoder {
     }
 
     bool bad() const { return bad_ || raw_bit_ > raw_end_ || used_ > last_ + 1; }
-    /// Was all of it used, and do both states end as they began?
+    /// Were all words used, and do both states end at their initial value?
     bool is_at_end() const {
-        const auto left = static_cast<std::uint32_t>(raw_end_ - raw_bit_);  // bits of the last word
+        const auto left = static_cast<std::uint32_t>(raw_end_ - raw_bit_);  // unused bits of the last word
         if (bad() || left >= 32) return false;
         std::uint32_t last = 0;
         if (left > 0) std::memcpy(&last, bytes_ + (raw_end_ / 8 - sizeof last), sizeof last);
@@ -223,7 +222,7 @@ class Decoder {
     LACEDRING_INLINE std::uint64_t after(std::uint32_t at, std::uint32_t begin, std::uint32_t size) const {
         return size * (now_ >> kScaleBits) + at - begin;
     }
-    /// Behind the end, the last word again.
+    /// Beyond the end it returns the last word again.
     std::uint32_t next_word() const { return at_[std::min(used_, last_)]; }
     LACEDRING_INLINE void go_on(std::uint64_t x) {
         now_ = next_;
@@ -235,16 +234,16 @@ class Decoder {
     static constexpr std::uint32_t kZero = 0;
 
     const std::uint32_t* at_ = &kZero;       // words of symbols
-    std::uint64_t used_ = 0, last_ = 0;      // of them; the number of the last one
-    const unsigned char* bytes_ = kNothing;  // of all words
-    std::uint64_t last_byte_ = 0;            // from which on there are eight
+    std::uint64_t used_ = 0, last_ = 0;      // words used; index of the last word
+    const unsigned char* bytes_ = kNothing;  // bytes of all words
+    std::uint64_t last_byte_ = 0;            // last position from which eight bytes can be read
     std::uint64_t raw_bit_ = 0, raw_end_ = 0;
     std::uint64_t now_ = kLeast, next_ = kLeast;
     bool bad_ = false;
 };
 
-/// A number of any size: the number of its bits by a model, those below the highest as they are. 2^15 and more take an
-/// escape.
+/// Adaptive model of numbers of any size: a symbol for the number of bits, then the bits below the highest as raw bits.
+/// Numbers of 2^15 and more use an escape symbol.
 struct NumberModel {
     SymbolModel bits;
 
@@ -253,13 +252,13 @@ struct NumberModel {
         const auto width = static_cast<std::uint32_t>(std::bit_width(value));
         std::uint32_t bits_of = coder.symbol(bits, std::min(width, 15U));
         if (bits_of == 15) bits_of = 15 + coder.raw(width - 15, 5);
-        if (bits_of > 32) return 0;  // of a decoder alone: nothing writes it
+        if (bits_of > 32) return 0;  // decoder only: no encoder writes this
         if (bits_of < 2) return bits_of;
         return 1U << (bits_of - 1) | coder.raw(value, bits_of - 1);
     }
 };
 
-/// 0, -1, 1, -2 ... as 0, 1, 2, 3 ...
+/// Maps 0, -1, 1, -2, ... to 0, 1, 2, 3, ...
 constexpr std::uint32_t fold(std::uint32_t x) {
     return x << 1 ^ (0U - (x >> 31));
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Codes what predictions of vertices leave, vertex by vertex. It needs no prediction: a reader can have all residuals
-// before it knows a triangle. Internal to lrcore; docs/storage-format.md has it to the bit.
+// Codes the residuals of vertices, vertex by vertex. It does not depend on predictions, so a reader can decode all
+// residuals before it knows the triangles. Internal to lrcore. Specified in docs/storage-format.md.
 
 #include <algorithm>
 #include <array>
@@ -12,21 +12,21 @@
 
 namespace lacedring::storage {
 
-/// `N` is the number of integers that a vertex has, or 0 for any number.
+/// `N` is the number of integers per vertex, or 0 for any number.
 template <class Coder, std::uint32_t N>
 class ResidualCoder {
   public:
-    /// `fine`: halves of a bit of a residual's expected size that a symbol has.
+    /// `fine`: VertexParameters::fine.
     ResidualCoder(Coder& coder, std::uint32_t integers, std::uint32_t fine)
         : coder_(coder), integers_(integers), fine_(fine), roles_(integers) {}
 
-    /// Codes whole vertices, folded; a Decoder fills them in.
+    /// Codes the folded residuals of whole vertices; a Decoder sets them.
     void code(std::span<std::uint32_t> residuals) {
         const std::uint32_t n = N != 0 ? N : integers_;
-        Coder coder = std::move(coder_);  // in registers
+        Coder coder = std::move(coder_);  // local, to keep it in registers
         for (std::size_t i = 0; i < residuals.size(); i += n) {
             std::uint32_t* at = residuals.data() + i;
-            std::uint32_t before = 0, second = 0;  // the levels of the integers before
+            std::uint32_t before = 0, second = 0;  // levels of the previous integers of the vertex
             for (std::uint32_t c = 0; c < n; ++c) {
                 Role& role = roles_[c];
                 const std::uint32_t level = c == 0             ? role.level
@@ -43,19 +43,19 @@ class ResidualCoder {
     static constexpr std::uint32_t kSteps = 32, kEscape = 15;
     static constexpr std::array<std::uint16_t, 16> kBegin{0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 64, 128, 256, 512, 1024};
     static constexpr std::array<std::uint8_t, 16> kBits{0, 0, 0, 0, 1, 1, 2, 2, 3, 3, 5, 6, 7, 8, 9, 0};
-    /// The mean size of the numbers that a symbol stands for, in 128ths of a bit, plus 128.
+    /// Mean size of a symbol's numbers, in 128ths of a bit, plus 128.
     static constexpr std::array<std::uint16_t, 16> kLevel{0,   256, 352, 400, 464,  512,  576,  640,
                                                           704, 768, 864, 992, 1120, 1248, 1376, 0};
 
-    /// The models of one integer of each vertex: for each step of the size that may be expected, in halves of a bit.
+    /// The models of one component: one per expected size, in steps of half a bit.
     struct Role {
-        std::uint32_t level = 0;  ///< the mean size of the last ones, in 128ths of a bit
+        std::uint32_t level = 0;  ///< mean size of recent residuals, in 128ths of a bit
         std::array<SymbolModel, kSteps> models;
-        NumberModel others;  ///< what no symbol has a range for
+        NumberModel others;  ///< numbers beyond the ranges of symbols
     };
 
-    /// The lowest bits of a residual are written as they are. A symbol codes the rest: a number up to 3, or a range of
-    /// numbers; the place in the range is written as it is, too. `level` is set to the residual's size.
+    /// Codes one residual. Its lowest bits are raw. A symbol codes the rest: a number up to 3, or a range of numbers;
+    /// the place in the range is raw. Sets `level` to the residual's size.
     LACEDRING_INLINE std::uint32_t code(Coder& coder, Role& role, std::uint32_t step, std::uint32_t value,
                                         std::uint32_t& level) {
         step = std::min(step, kSteps - 1);
@@ -86,7 +86,8 @@ class ResidualCoder {
     std::vector<Role> roles_;
 };
 
-/// run.operator()<N>(), where N is `count`, or 0 if it is more than 3: loops over few components are then unrolled.
+/// Calls run.operator()<N>() with N = `count`, or 0 if `count` is above 3, so that loops over few components are
+/// unrolled.
 template <class Run>
 void with_count(std::uint32_t count, const Run& run) {
     switch (count) {
@@ -101,7 +102,7 @@ void with_count(std::uint32_t count, const Run& run) {
     }
 }
 
-/// Codes the residuals of all vertices, `integers` of each.
+/// Codes the residuals of all vertices, `integers` per vertex.
 template <class Coder>
 void code_residuals(Coder& coder, std::uint32_t integers, std::uint32_t fine, std::span<std::uint32_t> residuals) {
     with_count(integers, [&]<std::uint32_t N>() { ResidualCoder<Coder, N>(coder, integers, fine).code(residuals); });

@@ -10,8 +10,9 @@
 namespace lacedring::storage {
 namespace {
 
-/// Codes the table of a section, whose answers are known: a context that is asked nothing, mostly says nothing, and the
-/// class of any other one goes with how rare its unlikely answers are.
+/// Codes the table of a section whose answers are known. Likely values and classes are predicted from the counts of
+/// answers: unused contexts usually have default entries, and a context's class depends on the frequency of its
+/// unlikely answers.
 template <class Coder>
 SeamTable code_table(Coder& coder, const SeamAnswers& vertices, const SeamAnswers& corners, SeamTable table) {
     std::array<std::array<std::uint32_t, 2>, kSeamContexts> counts{};
@@ -49,7 +50,7 @@ SeamTable table_of(std::span<const std::uint32_t> section) {
     return out;
 }
 
-/// Gives the walk's copies their numbers in the section, and names their vertices.
+/// Renumbers the walk's copies as in the section, and sets the vertex of each copy.
 void number_copies(std::span<const std::uint32_t> order, std::span<const std::uint32_t> triangles, std::uint32_t count,
                    RestoredSeams& seams) {
     std::vector<std::uint32_t> number(count);
@@ -62,7 +63,8 @@ void number_copies(std::span<const std::uint32_t> order, std::span<const std::ui
         seams.copies[c] = number[seams.copies[c]];
         seams.vertices[seams.copies[c]] = triangles[c];
     }
-    for (std::size_t i = 0; i < order.size(); ++i) {  // vertices without corners, each behind a home of the one before
+    // Copies of vertices without corners, each after a home of the previous vertex.
+    for (std::size_t i = 0; i < order.size(); ++i) {
         if (order[i] == UINT32_MAX) seams.vertices[i] = i == 0 ? 0 : seams.vertices[i - 1] + 1;
     }
 }
@@ -95,25 +97,25 @@ Result<RestoredSeams> restore_seams(std::span<const std::uint32_t> stored, std::
                                     std::uint32_t vertices) {
     constexpr std::uint32_t kNone = UINT32_MAX;
     const Error too_large{ErrorCode::too_large, "stored seam section: more than 2^30 copies, or 4 GiB"};
-    if (triangles.size() % 3 != 0) return malformed_seams("no triangles");
+    if (triangles.size() % 3 != 0) return malformed_seams("invalid number of corners");
     if (vertices > LACEDRING_SEAMS_MAX_COPIES || triangles.size() > UINT32_MAX - vertices) return too_large;
     for (std::size_t i = 0; i < triangles.size(); i += 3) {
         const std::uint32_t a = triangles[i], b = triangles[i + 1], c = triangles[i + 2];
         if ((a & b & c) == kNone) continue;
         if (std::max({a, b, c}) >= vertices || a == b || b == c || c == a) {
-            return malformed_seams("a triangle of a vertex that it does not have, or of one twice");
+            return malformed_seams("a triangle has a vertex out of range or a repeated vertex");
         }
     }
     BitDecoder coder(stored);
     const VertexCorners corners(triangles, vertices);
     SeamWalk<BitDecoder> walk(coder, triangles, vertices, corners);
-    if (!walk.run()) return malformed_seams("a copy is impossible");
+    if (!walk.run()) return malformed_seams("a copy is invalid");
     if (walk.count() > LACEDRING_SEAMS_MAX_COPIES) return too_large;
     const auto choose = [&](const SeamAnswers& of_vertices, const SeamAnswers& of_corners) {
         return code_table(coder, of_vertices, of_corners, {});
     };
     SeamWords made = write_seams({triangles, vertices, walk.copies(), walk.count()}, corners, choose, true);
-    if (!coder.is_at_end()) return malformed_seams("it does not end where its copies do");
+    if (!coder.is_at_end()) return malformed_seams("it does not end after its copies");
     if (made.words.empty()) return too_large;
     RestoredSeams out{std::move(made.words), walk.take_copies(), {}};
     number_copies(made.order, triangles, walk.count(), out);

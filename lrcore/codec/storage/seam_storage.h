@@ -1,5 +1,5 @@
 #pragma once
-// The storage form of seam sections. Internal to lrcore; docs/storage-format.md has it.
+// The storage form of seam sections. Internal to lrcore. Specified in docs/storage-format.md.
 
 #include <cstdint>
 #include <optional>
@@ -10,20 +10,20 @@
 
 namespace lacedring::storage {
 
-/// The storage form of a seam section, which is valid for these triangles; none: it has none that gives it back bit for
-/// bit. Cost: O(T log T), under a microsecond a triangle.
+/// The storage form of a seam section that is valid for these triangles; none if no storage form restores it bit for
+/// bit. Cost: O(T log T), under a microsecond per triangle.
 std::optional<std::vector<std::uint32_t>> store_seams(const SeamView& view, std::span<const std::uint32_t> triangles);
 
-/// A section, and what decode_seams and copy_vertices make of it.
+/// A section, and the results of decode_seams and copy_vertices for it.
 struct RestoredSeams {
     std::vector<std::uint32_t> words;
-    std::vector<std::uint32_t> copies;    ///< of each corner
-    std::vector<std::uint32_t> vertices;  ///< of each copy
+    std::vector<std::uint32_t> copies;    ///< copy of each corner
+    std::vector<std::uint32_t> vertices;  ///< vertex of each copy
 };
 
-/// The section, bit for bit. Whatever is stored: it is valid for the triangles, which are the slots of a connectivity
-/// (slot_triangles). Cost: O(T log T) time, O(T) where vertices have few triangles; some 150 bytes a triangle. Errors:
-/// malformed, too_large. Untrusted input, triangles included: safe.
+/// The section, bit for bit. The result is always valid for the triangles, which are the slots of a connectivity stream
+/// (slot_triangles). Cost: O(T log T) time, O(T) if vertices have few triangles; about 150 bytes per triangle. Errors:
+/// malformed, too_large. Untrusted input, including triangles: safe.
 Result<RestoredSeams> restore_seams(std::span<const std::uint32_t> stored, std::span<const std::uint32_t> triangles,
                                     std::uint32_t vertices);
 

@@ -1,7 +1,7 @@
 #pragma once
-// Which corners of each vertex share a copy: coded vertex by vertex along the seams, around each vertex from triangle
-// to triangle. A template over the coder (bit_coder.h), so that encoder and decoder ask the same. Internal to lrcore;
-// docs/storage-format.md.
+// Codes which corners of each vertex share a copy: vertex by vertex along the seams, and around each vertex from
+// triangle to triangle. A template over the coder (bit_coder.h), so that encoder and decoder take the same steps.
+// Internal to lrcore. Specified in docs/storage-format.md.
 
 #include <algorithm>
 #include <bit>
@@ -32,7 +32,7 @@ class SeamWalk {
           status_(vertices, kUndecided),
           seams_(vertices, 0) {}
 
-    /// False: the coder is a decoder, and what it says is impossible.
+    /// Codes all copies. Returns false if a decoder's input is invalid.
     bool run() {
         bool before = false;
         for (std::uint32_t v = 0; v < status_.size(); ++v) {
@@ -49,25 +49,25 @@ class SeamWalk {
         return true;
     }
 
-    /// The copy of each corner: of vertex v, v or a number that is not below the vertices.
+    /// The copy of each corner. The copies of vertex v are v itself and numbers >= `vertices`.
     const std::vector<std::uint32_t>& copies() const { return copies_; }
     std::vector<std::uint32_t> take_copies() { return std::move(copies_); }
-    /// All copies are below.
+    /// All copies are below count().
     std::uint32_t count() const { return count_; }
 
   private:
     static constexpr std::uint32_t kNone = UINT32_MAX;
 
-    /// Says of a vertex whether it has several copies, and whether they are known. An edge has the status of its other
-    /// end; if that is done, it has kDone, or kDone + 1 if the edge is a seam there.
+    /// Status of a vertex: whether it has several copies, and whether these are coded. An edge has the status of its
+    /// other end; kDone + 1 if that end is done and the edge is a seam there.
     enum Status : std::uint8_t { kSingle, kUndecided, kSeveral, kDone };
-    static constexpr std::uint32_t kEnds = 5;  ///< the statuses, and kDone + 1: a seam there
+    static constexpr std::uint32_t kEnds = 5;  ///< number of statuses of edges, including kDone + 1
 
-    /// An edge of the vertex and one of its corners: 2 j + s, the j-th corner's edge to the next vertex of its triangle
-    /// (s = 0) or to the one before it.
+    /// An edge of the vertex as seen from one of its corners: 2 j + s is the edge from the j-th corner to the next (s =
+    /// 0) or previous (s = 1) vertex of its triangle.
     using Side = std::uint32_t;
 
-    /// Edges of a vertex that is done.
+    /// Kinds of edges of a vertex that is done.
     enum Kind : std::uint32_t { kInner, kSeam, kBorder };
     /// The other end of an edge.
     struct Far {
@@ -75,8 +75,8 @@ class SeamWalk {
     };
     /// Another corner of the vertex across an edge.
     struct Link {
-        std::uint32_t end;   ///< of the edge
-        std::uint32_t copy;  ///< of the corner
+        std::uint32_t end;   ///< status of the edge
+        std::uint32_t copy;  ///< copy of the corner
     };
 
     void decide(std::uint32_t v, BitModel& model) {
@@ -111,7 +111,7 @@ class SeamWalk {
         visit_neighbors();
     }
 
-    /// Sets far_, and mate_: of each side, that of another corner at the same edge, or kNone.
+    /// Sets far_ and mate_: for each side, the side of another corner at the same edge, or kNone.
     void link_corners() {
         edges_.clear();
         far_.clear();
@@ -132,14 +132,14 @@ class SeamWalk {
         }
     }
 
-    /// What is known of the edge's other end.
+    /// The status of a side's edge.
     std::uint32_t end_of(Side side) const {
         const Status status = status_[far_[side].vertex];
         if (status != kDone) return status;
         const Side mate = mate_[side];
         return mate != kNone && copies_[far_[side].corner] != copies_[far_[mate].corner] ? kDone + 1 : kDone;
     }
-    /// The corners from a side's corner on, away from the side, and then those on the other side of it.
+    /// Codes the corners from the side's corner on, away from the side, then the corners beyond the side.
     void code_fan(Side start, bool at_seam) {
         at_seam_ = at_seam;
         for (const Side first : {start, mate_[start]}) {
@@ -181,14 +181,14 @@ class SeamWalk {
         ++since_;
     }
 
-    /// The copy of a corner that is of none of the copies that the links lead to.
+    /// Codes the copy of a corner that has none of the links' copies.
     std::uint32_t code_other(std::uint32_t wanted, std::span<const Link> links) {
         const auto rest = known_ - static_cast<std::uint32_t>(links.size());
         if (rest == 0 ||
             coder_.bit(new_[std::min(rest, 2U) - 1][std::min(left_, 2U)][at_seam_ ? 1 : 0], wanted == kNone)) {
             return known_++;
         }
-        std::uint32_t skipped[2] = {kNone, kNone};  // in order
+        std::uint32_t skipped[2] = {kNone, kNone};  // ascending
         for (std::size_t i = 0; i < links.size(); ++i) skipped[i] = links[i].copy;
         if (skipped[1] < skipped[0]) std::swap(skipped[0], skipped[1]);
         std::uint32_t index = wanted - (skipped[0] < wanted ? 1 : 0) - (skipped[1] < wanted ? 1 : 0);
@@ -201,7 +201,7 @@ class SeamWalk {
         return index;
     }
 
-    /// Of encoders: the number that the corner's copy has at the vertex, or kNone if it is a new one.
+    /// Encoders only: the number of the corner's copy at the vertex, or kNone if it is new.
     std::uint32_t wanted_copy(std::uint32_t corner) {
         if constexpr (Coder::kDecodes) return kNone;
         std::uint32_t& place = place_of_given_[given_[corner]];
@@ -215,14 +215,14 @@ class SeamWalk {
         edges_.clear();
         for (Side s = 0; s < sides; ++s) {
             const Side mate = mate_[s];
-            if (mate < s) continue;  // the edge is that of the mate
+            if (mate < s) continue;  // the mate has visited the edge
             const std::uint32_t kind = mate == kNone ? kBorder : copy_[s / 2] != copy_[mate / 2] ? kSeam : kInner;
             edges_.emplace_back(far_[s].vertex, kind);
             std::uint8_t& seams = seams_[far_[s].vertex];
             if (kind == kSeam && seams < 2) ++seams;
         }
         for (const auto& [v, kind] : edges_) decide(v, neighbor_[kind][seams_[v]]);
-        for (const bool seams : {false, true}) {  // those across seams are the next ones
+        for (const bool seams : {false, true}) {  // vertices across seams come next (the stack's top)
             for (const auto& [v, kind] : edges_) {
                 if ((kind == kSeam) == seams && status_[v] == kSeveral) stack_.push_back(v);
             }
@@ -233,20 +233,21 @@ class SeamWalk {
     std::span<const std::uint32_t> triangles_;
     const VertexCorners& corners_;
     std::span<const std::uint32_t> given_;
-    std::vector<std::uint32_t> place_of_given_;  // the number that a given copy has at its vertex
+    std::vector<std::uint32_t> place_of_given_;  // number of a given copy at its vertex
     std::vector<std::uint32_t> copies_;
     std::uint32_t count_;
     std::vector<Status> status_;
-    std::vector<std::uint8_t> seams_;  // edges of the vertex that are seams at their other end, at most 2
+    // Per vertex: number of its edges that are seams at their other end, at most 2.
+    std::vector<std::uint8_t> seams_;
     std::vector<std::uint32_t> stack_;
     bool bad_ = false;
 
-    // Of the vertex that is coded.
+    // State of the vertex being coded.
     std::span<const std::uint32_t> own_;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges_;  // other end and side, or kind
-    std::vector<Far> far_;                                        // of each side
-    std::vector<Side> mate_;                                      // of each side
-    std::vector<std::uint32_t> copy_;                             // of each corner, from 0; kNone: not coded yet
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges_;  // other end, and side or kind
+    std::vector<Far> far_;                                        // per side
+    std::vector<Side> mate_;                                      // per side
+    std::vector<std::uint32_t> copy_;                             // per corner; kNone: not coded yet
     std::uint32_t known_ = 0, left_ = 0, since_ = 0;
     bool at_seam_ = false;
 

@@ -7,7 +7,7 @@
 namespace lacedring::storage {
 namespace {
 
-/// Behind so many ones, with whatever zeros come before each.
+/// Skips `numbers` unary numbers: zeros, each number ended by a one.
 void skip_unary(BitReader& bits, std::uint32_t numbers) {
     while (numbers > 0) numbers -= bits.take(1);
 }

@@ -1,5 +1,6 @@
 #pragma once
-// Where the vertices of an attribute are: what predicts normals and texture coordinates. Internal to lrcore.
+// The positions of an attribute's vertices, from which normals and texture coordinates are predicted. Internal to
+// lrcore.
 
 #include <algorithm>
 #include <array>
@@ -13,15 +14,16 @@
 namespace lacedring::storage {
 
 struct VertexPlaces {
-    std::span<const std::uint32_t> positions;  ///< three integers a vertex, of a common scale; empty: there are none
-    std::span<const std::uint32_t> vertex_of;  ///< the vertex of each copy; empty: the attribute is of vertices
+    /// Three integers per vertex with a common scale; empty if unknown.
+    std::span<const std::uint32_t> positions;
+    std::span<const std::uint32_t> vertex_of;  ///< vertex of each copy; empty if the attribute has no copies
 
     LACEDRING_INLINE std::uint32_t vertex(std::uint32_t copy) const {
         return vertex_of.empty() ? copy : vertex_of[copy];
     }
 };
 
-/// Has each of `copies` a place? Cost: O(copies).
+/// Does each of `copies` have a position? Cost: O(copies).
 inline bool has_places(const VertexPlaces& places, std::uint32_t copies) {
     if (places.vertex_of.empty()) return places.positions.size() == std::size_t{3} * copies;
     return places.vertex_of.size() == copies &&
@@ -30,7 +32,7 @@ inline bool has_places(const VertexPlaces& places, std::uint32_t copies) {
 
 using Place = std::array<std::int32_t, 3>;
 
-/// The places of vertices from their least coordinates, in 20 bits: products of three are exact as doubles.
+/// Positions relative to their minimum, in 20 bits. Sums of three products of them are exact as doubles.
 class ScaledPlaces {
   public:
     explicit ScaledPlaces(std::span<const std::uint32_t> positions) : positions_(positions) {
@@ -68,8 +70,8 @@ class ScaledPlaces {
     std::uint32_t shift_;
 };
 
-/// The squared length of a vector of integers below 2^53, each rounded to a float first: its square is exact, and fused
-/// operations change nothing.
+/// The squared length of a vector of integers below 2^53. Each is first rounded to a float, whose square is exact, so
+/// fused operations do not change the result.
 LACEDRING_INLINE double rounded_square(double x, double y, double z) {
     x = static_cast<float>(x);
     y = static_cast<float>(y);

@@ -1,6 +1,6 @@
 #pragma once
-// Predicts the integers of an attribute in the order of a walk: from values to residuals, and back. Internal to lrcore;
-// docs/storage-format.md has it to the bit.
+// Predicts the integers of an attribute in the order of a walk; converts values to residuals and back. Internal to
+// lrcore. Specified in docs/storage-format.md.
 
 #include <algorithm>
 #include <array>
@@ -17,18 +17,21 @@ namespace lacedring::storage {
 
 /// The rule that predicts the integers of a vertex with known parallelograms.
 enum class VertexRule : std::uint8_t {
-    parallelograms,  ///< their mean, moved by `error` and `smooth`
-    mean,            ///< the mean of their base vertices
-    neighbor,        ///< the first base vertex
-    none,            ///< no prediction: 0
+    /// Mean of the parallelograms' predictions, adjusted by `error` and `smooth`.
+    parallelograms,
+    mean,      ///< the mean of their base vertices
+    neighbor,  ///< the first base vertex
+    none,      ///< no prediction: 0
 };
 
 struct VertexParameters {
-    std::array<VertexRule, 16> rules{};  ///< of each component
-    bool has_normal = false;             ///< 3 components by parallelograms, the steepest one by the surface's normal
-    std::uint32_t error = 0;             ///< sixteenths of the base vertices' mean error that are added
-    std::uint32_t fine = 7;              ///< halves of a bit of a residual's expected size that a symbol has
-    std::uint32_t smooth = 0;            ///< sixteenths of the way from there to the base vertices' mean
+    std::array<VertexRule, 16> rules{};  ///< per component
+    /// 3 components by parallelograms, the steepest of them by the surface's normal.
+    bool has_normal = false;
+    std::uint32_t error = 0;  ///< sixteenths of the base vertices' mean error added
+    /// Half bits of a residual's expected size that its symbol covers; lower bits are raw.
+    std::uint32_t fine = 7;
+    std::uint32_t smooth = 0;  ///< then, sixteenths of the way toward the base vertices' mean
 };
 
 /// x / 2^count, rounded to the nearest integer, halves up.
@@ -38,16 +41,16 @@ constexpr std::int64_t rounded(std::int64_t x, std::uint32_t count) {
 constexpr std::int32_t as_signed(std::uint32_t x) {
     return static_cast<std::int32_t>(x);
 }
-/// Of a number modulo 2^64 that stands for a signed one.
+/// Absolute value of a signed number modulo 2^64.
 constexpr std::uint64_t magnitude(std::uint64_t x) {
     return x >> 63 != 0 ? 0 - x : x;
 }
-/// A visitor of VertexWalk. `N` is the number of components, or 0 for any number. `kRestores`: it makes values of
-/// residuals; else residuals of values.
+/// A visitor of VertexWalk. `N` is the number of components, or 0 for any number. Computes values from residuals if
+/// kRestores, else residuals from values.
 template <std::uint32_t N, bool kRestores>
 class VertexPredictor {
   public:
-    /// `values`: `components` of each vertex. `residuals`: as many, folded, in the order of the walk.
+    /// `values`: `components` per vertex. `residuals`: as many, folded, in the order of the walk.
     VertexPredictor(const VertexParameters& parameters, std::uint32_t components, std::span<std::uint32_t> values,
                     std::span<std::uint32_t> residuals)
         : parameters_(parameters),
@@ -133,7 +136,7 @@ class VertexPredictor {
     static std::uint64_t difference(std::uint32_t x, std::uint32_t y) {
         return static_cast<std::uint64_t>(std::int64_t{as_signed(x - y)});
     }
-    /// (y - x) times (z - x); all modulo 2^64.
+    /// Adds the cross product (y - x) x (z - x), modulo 2^64.
     static void add_normal(const std::uint32_t* x, const std::uint32_t* y, const std::uint32_t* z,
                            std::array<std::uint64_t, 3>& normal) {
         std::uint64_t a[3], b[3];
@@ -146,7 +149,8 @@ class VertexPredictor {
         normal[2] += a[0] * b[1] - a[1] * b[0];
     }
 
-    /// The steepest component last: it is predicted where the plane through the prediction is.
+    /// Codes the steepest component last: its prediction is on the plane through the prediction, evaluated at the two
+    /// other components.
     LACEDRING_INLINE void by_normal(const std::array<std::uint64_t, 3>& normal,
                                     const std::array<std::uint32_t, kN>& moved, std::uint32_t* values) {
         const std::array<std::uint64_t, 3> size{magnitude(normal[0]), magnitude(normal[1]), magnitude(normal[2])};
@@ -163,7 +167,7 @@ class VertexPredictor {
         const auto part = [&](std::uint32_t c) {
             return cut(c) * std::clamp(as_signed(values[c] - moved[c]), -32767, 32767);
         };
-        const std::int32_t nk = cut(k), up = (part(u) + part(w)) / (nk == 0 ? 1 : nk);  // all are 0 where nk is
+        const std::int32_t nk = cut(k), up = (part(u) + part(w)) / (nk == 0 ? 1 : nk);  // if nk is 0, all parts are 0
         exchange(values[k], moved[k] - static_cast<std::uint32_t>(up), residual_[2]);
     }
 
@@ -172,8 +176,8 @@ class VertexPredictor {
     const VertexParameters parameters_;
     std::uint32_t components_;
     std::uint32_t *values_, *residual_;
-    bool has_one_rule_;                 // parallelograms
-    std::vector<std::int32_t> errors_;  // of each value, how far it is from the mean of its parallelograms
+    bool has_one_rule_;                 // all rules are parallelograms
+    std::vector<std::int32_t> errors_;  // per value: difference from the mean of its parallelograms
     std::uint32_t last_ = kNone;
 };
 

@@ -21,19 +21,19 @@ namespace {
 using Words = std::vector<std::uint32_t>;
 
 constexpr std::uint32_t kLayoutBits = 23;
-constexpr std::uint32_t kChunk = 1U << 16;  ///< vertices whose blocks are a part of their own
+constexpr std::uint32_t kChunk = 1U << 16;  ///< vertices whose blocks form one part
 static_assert(kChunk % (kVertexGroup * kVertexBlock) == 0);
 
-/// All of a stream.
+/// The contents of a stream.
 struct StoredStream {
     std::uint32_t vertices = 0;
     StreamChoices choices;
     VertexParameters parameters;
-    bool by_places = false;  // the integers are differences from what the positions lead one to expect
-    NormalBase base;         // of normals
+    bool by_places = false;  // the integers are differences from a prediction by positions
+    NormalBase base;         // normals only
     Words exceptions;        // two words each
     Words values;
-    std::vector<BlockChoices> blocks;  // of an encoder alone
+    std::vector<BlockChoices> blocks;  // encoder only
 
     std::uint32_t components() const { return choices.layout & 31; }
     std::uint32_t mapping() const { return choices.layout >> 5 & 7; }
@@ -45,14 +45,14 @@ Error malformed_vertices(const char* what) {
     return {ErrorCode::malformed, detail::message("stored vertex stream: ", what)};
 }
 
-/// A part: its words, and before them how many they are.
+/// Appends a part: the number of its words, then the words.
 void add_part(Encoder& coder, Words& out) {
     const Words words = coder.finish();
     out.push_back(static_cast<std::uint32_t>(words.size()));
     out.insert(out.end(), words.begin(), words.end());
 }
 
-/// Takes a part from the front; none, which no Decoder likes, if it has not all of its words.
+/// Removes a part from the front of `rest`. Returns an empty span, which a Decoder rejects, if the part is truncated.
 std::span<const std::uint32_t> take_part(std::span<const std::uint32_t>& rest) {
     if (rest.empty() || rest[0] > rest.size() - 1) return {};
     const auto part = rest.subspan(1, rest[0]);
@@ -60,7 +60,7 @@ std::span<const std::uint32_t> take_part(std::span<const std::uint32_t>& rest) {
     return part;
 }
 
-/// Codes how two integers a vertex are predicted by positions.
+/// Codes whether and how positions predict attributes of two integers per vertex.
 template <class Coder>
 bool code_places(Coder& coder, StoredStream& stream) {
     if (stream.components() != 2) return true;
@@ -71,8 +71,8 @@ bool code_places(Coder& coder, StoredStream& stream) {
     return stream.bits() >= 2 && stream.bits() <= 16;
 }
 
-/// Codes what a stream says before its integers, which a Decoder does not know yet: `has_usual_ranges` then says
-/// whether find_vertex_ranges gives the ranges.
+/// Codes the header of a stream. `has_usual_ranges`: the ranges are those of find_vertex_ranges; a Decoder computes
+/// them later, when it has the integers.
 template <class Coder>
 bool code_header(Coder& coder, StoredStream& stream, bool& has_usual_ranges) {
     StreamChoices& choices = stream.choices;
@@ -110,8 +110,8 @@ bool code_exceptions(Coder& coder, StoredStream& stream) {
     const std::uint32_t count = coder.raw(static_cast<std::uint32_t>(stream.exceptions.size() / 2), 32);
     NumberModel distance;
     BitModel same;
-    std::uint64_t next = 0;            // the least number that the exception may have
-    std::uint32_t last = 0x80000000U;  // -0, the usual one
+    std::uint64_t next = 0;            // lower bound of the exception's number
+    std::uint32_t last = 0x80000000U;  // -0, the most frequent exception
     for (std::uint32_t i = 0; i < count; ++i) {
         if constexpr (Coder::kDecodes) stream.exceptions.resize(2 * std::size_t{i} + 2);
         std::uint32_t* at = stream.exceptions.data() + 2 * std::size_t{i};
@@ -126,7 +126,7 @@ bool code_exceptions(Coder& coder, StoredStream& stream) {
     return true;
 }
 
-/// The blocks of some vertices as bits, and the bit where each begins.
+/// The blocks of a chunk as bits, and the first bit of each.
 struct BlocksOut {
     BlockBits bits;
     std::vector<std::uint64_t> begins;
@@ -151,7 +151,7 @@ bool code_blocks(Coder& coder, StoredStream& stream, std::uint32_t first, std::u
     return true;
 }
 
-/// The resident stream of its parts.
+/// Assembles the vertex stream from its parts.
 Result<Words> assemble(const StoredStream& stream, std::span<const BlocksOut> chunks, std::uint64_t most_words) {
     Words data;
     std::vector<std::uint64_t> begins;
@@ -171,10 +171,10 @@ Result<Words> assemble(const StoredStream& stream, std::span<const BlocksOut> ch
     parts.begins = begins;
     parts.data = data;
     if (parts.size() > most_words) return Error{ErrorCode::memory_limit, "stored vertex stream: too large"};
-    if (data.size() > UINT32_MAX) return malformed_vertices("more than its table numbers");
+    if (data.size() > UINT32_MAX) return malformed_vertices("more words than its table can number");
     for (std::size_t b = 0; b < begins.size(); ++b) {
         if ((begins[b] - begins[b / kVertexGroup * kVertexGroup]) >> parts.field_bits() == 0) continue;
-        return malformed_vertices("a block is farther than its table says");
+        return malformed_vertices("a block is farther than its table can express");
     }
     return make_vertex_stream(parts);
 }
@@ -200,7 +200,7 @@ StoredStream parts_of(const VertexView& view) {
     return out;
 }
 
-/// The integers as differences from what the positions lead one to expect, two a vertex.
+/// The differences of the integers from a prediction by positions, two per vertex.
 Words differences_of(StoredStream& stream, const WalkRecord& walk, std::span<const std::uint32_t> triangles,
                      const VertexPlaces& places) {
     Words out = stream.values;
@@ -220,7 +220,7 @@ Words differences_of(StoredStream& stream, const WalkRecord& walk, std::span<con
     return out;
 }
 
-/// Finds the parameters. Returns the integers as they are coded.
+/// Chooses the parameters. Returns the integers to code.
 Words choose_prediction(StoredStream& stream, const WalkRecord& walk, std::span<const std::uint32_t> triangles,
                         const VertexPlaces& places) {
     const std::uint32_t n = stream.components();
@@ -236,10 +236,11 @@ Words choose_prediction(StoredStream& stream, const WalkRecord& walk, std::span<
     return differences;
 }
 
-/// Makes values of the residuals.
+/// Computes the values from the residuals.
 void restore_values(StoredStream& stream, std::span<std::uint32_t> residuals, std::span<const std::uint32_t> triangles,
                     const VertexPlaces& places) {
-    VertexWalk walk(triangles, stream.vertices);  // first: making it takes more memory than having it
+    // Made first, since its construction needs more memory than the walk itself.
+    VertexWalk walk(triangles, stream.vertices);
     stream.values.resize(residuals.size());
     if (stream.by_places && !stream.is_octahedral()) {
         Words differences(residuals.size());
@@ -251,7 +252,7 @@ void restore_values(StoredStream& stream, std::span<std::uint32_t> residuals, st
     }
     predict<true>(walk, stream.parameters, stream.components(), stream.values, residuals);
     if (!stream.by_places) return;
-    walk = VertexWalk({}, 0);  // its memory
+    walk = VertexWalk({}, 0);  // frees its memory
     add_normals(stream.values, surface_normals(places, triangles, stream.vertices, stream.base, stream.bits()),
                 stream.bits());
 }
@@ -293,10 +294,10 @@ std::optional<std::vector<std::uint32_t>> store_vertices(const VertexView& view,
     return out;
 }
 
-/// Of the first part alone.
+/// Reads the header from the first part.
 Result<StoredStream> read_header(Decoder& coder, bool& has_usual_ranges) {
     StoredStream out;
-    const Error error = malformed_vertices("its header says something impossible");
+    const Error error = malformed_vertices("its header is invalid");
     if (coder.bad() || !code_header(coder, out, has_usual_ranges) || coder.bad()) return error;
     const std::uint32_t type = out.choices.layout >> 8 & 15;
     if (type > static_cast<std::uint32_t>(ComponentType::f64) || out.mapping() > 5) return error;
@@ -325,8 +326,8 @@ Result<VertexView> view_stored_vertices(std::span<const std::uint32_t> stored) {
 struct StoredVertices::State {
     StoredStream stream;
     bool has_usual_ranges = false;
-    Words residuals;                                     // in the order of the walk
-    std::vector<std::span<const std::uint32_t>> chunks;  // coded parts
+    Words residuals;                                     // in the walk's order
+    std::vector<std::span<const std::uint32_t>> chunks;  // coded parts of blocks
 };
 
 StoredVertices::StoredVertices(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -349,8 +350,8 @@ Result<StoredVertices> StoredVertices::read(std::span<const std::uint32_t> store
     state->residuals.resize(std::size_t{vertices} * n);
     code_residuals(coder, n, stream.parameters.fine, state->residuals);
     if (coder.bad()) return malformed_vertices("its integers end early");
-    if (!code_exceptions(coder, stream)) return malformed_vertices("an exception is impossible");
-    const Error error = malformed_vertices("it does not end where its parts do");
+    if (!code_exceptions(coder, stream)) return malformed_vertices("an exception is invalid");
+    const Error error = malformed_vertices("its parts do not end at its end");
     if (!coder.is_at_end()) return error;
     for (std::uint32_t first = 0; first < vertices; first += std::min(vertices - first, kChunk)) {
         state->chunks.push_back(take_part(rest));
@@ -363,12 +364,13 @@ Result<std::vector<std::uint32_t>> StoredVertices::restore(std::span<const std::
                                                            std::uint64_t most_words, const VertexPlaces& places,
                                                            unsigned threads) && {
     StoredStream& stream = state_->stream;
-    if (triangles.size() > UINT32_MAX || triangles.size() % 3 != 0) return malformed_vertices("no triangles");
+    if (triangles.size() > UINT32_MAX || triangles.size() % 3 != 0)
+        return malformed_vertices("invalid number of corners");
     for (const std::uint32_t v : triangles) {
-        if (v >= stream.vertices) return malformed_vertices("a triangle of a vertex that it does not have");
+        if (v >= stream.vertices) return malformed_vertices("a triangle has a vertex out of range");
     }
     if (stream.by_places && (places.positions.empty() || !has_places(places, stream.vertices)))
-        return malformed_vertices("it is predicted by the mesh's positions, and these are no integers");
+        return malformed_vertices("it needs the mesh's positions as integers");
     const std::uint32_t n = stream.components();
     restore_values(stream, state_->residuals, triangles, places);
     state_->residuals = {};
@@ -378,7 +380,7 @@ Result<std::vector<std::uint32_t>> StoredVertices::restore(std::span<const std::
         for (std::size_t i = 0; i < stream.values.size(); ++i) {
             const VertexComponent& c = stream.choices.components[i % n];
             if (static_cast<std::uint64_t>(stream.values[i] - c.low) >> c.first_bits != 0)
-                return malformed_vertices("an integer is out of its range");
+                return malformed_vertices("an integer is out of range");
         }
     }
     std::vector<BlocksOut> blocks(state_->chunks.size());
@@ -391,7 +393,7 @@ Result<std::vector<std::uint32_t>> StoredVertices::restore(std::span<const std::
         if (blocks[i].bits.words() > most_words) is_large = true;
     });
     if (is_large) return Error{ErrorCode::memory_limit, "stored vertex stream: too large"};
-    if (!is_good) return malformed_vertices("a block says something impossible");
+    if (!is_good) return malformed_vertices("a block is invalid");
     return assemble(stream, blocks, most_words);
 }
 

@@ -9,31 +9,31 @@ bool is_degenerate(const std::uint32_t* v) {
     return (v[0] == v[1]) | (v[1] == v[2]) | (v[2] == v[0]);
 }
 
-/// Pairs corners of triangle after triangle: of two that follow each other, and at edges of two vertices that follow
-/// each other.
+/// Pairs opposite corners in the two frequent cases: between successive triangles, and at ring edges (v, v + 1).
 class NearPairs {
   public:
     NearPairs(std::uint32_t vertices, std::uint32_t* opposite) : open_(vertices, kNone), opposite_(opposite) {}
 
-    /// Where the triangle of corner c, whose vertices are v[0] to v[2], shares two vertices with the one before, pairs
-    /// the corners of both.
+    /// If the triangle with corners c to c + 2 and vertices v[0] to v[2] shares two vertices with the previous
+    /// triangle, pairs their opposite corners.
     LACEDRING_INLINE void join_successive(const std::uint32_t* v, std::uint32_t c) {
-        constexpr std::uint8_t kAlone[8] = {3, 3, 3, 2, 3, 1, 0, 3};  // the one of three whose bit is 0
+        // Index of the bit that is 0; 3 unless exactly two bits are 1.
+        constexpr std::uint8_t kAlone[8] = {3, 3, 3, 2, 3, 1, 0, 3};
         const std::uint32_t p = v[-3], q = v[-2], r = v[-1];
-        std::uint32_t shared = 0;  // a bit of each vertex that is among the three before
+        std::uint32_t shared = 0;  // bit i: v[i] is a vertex of the previous triangle
         for (std::uint32_t i = 0; i < 3; ++i) {
             shared |= static_cast<std::uint32_t>((v[i] == p) | (v[i] == q) | (v[i] == r)) << i;
         }
         const std::uint32_t k = kAlone[shared];
         if (k == 3) return;
-        const std::uint32_t other = p ^ q ^ r ^ v[0] ^ v[1] ^ v[2] ^ v[k];  // the one before that is not shared
+        const std::uint32_t other = p ^ q ^ r ^ v[0] ^ v[1] ^ v[2] ^ v[k];  // the previous triangle's vertex not shared
         const std::uint32_t from = c - 3 + (other == q ? 1 : 0) + (other == r ? 2 : 0);
         if (opposite_[from] != kNone) return;
         opposite_[c + k] = from;
         opposite_[from] = c + k;
     }
 
-    /// Pairs an open corner that faces the edge (x, y), if that is a ring edge. Returns whether it is another one.
+    /// Pairs an unpaired corner that faces (x, y) if this is a ring edge. Returns whether it is another edge.
     LACEDRING_INLINE bool join_ring_edge(std::uint32_t corner, std::uint32_t x, std::uint32_t y) {
         if (opposite_[corner] != kNone) return false;
         if (x - y != 1 && y - x != 1) return true;
@@ -49,7 +49,7 @@ class NearPairs {
     }
 
   private:
-    std::vector<std::uint32_t> open_;  // of each vertex, a corner that faces the edge to the next one
+    std::vector<std::uint32_t> open_;  // per vertex v: an unpaired corner that faces (v, v + 1)
     std::uint32_t* opposite_;
 };
 
@@ -58,10 +58,10 @@ struct Facing {
     std::uint32_t corner, smaller, larger;
 };
 
-/// Pairs corners by their edges, whichever these are.
+/// Pairs corners by their edges, for any edges.
 void join_others(std::span<const std::uint32_t> triangles, std::uint32_t vertices,
                  std::span<const std::uint32_t> corners, std::span<std::uint32_t> opposite) {
-    // In the order of the smaller ends of their edges.
+    // Sorts them by the smaller end of their edges.
     std::vector<std::uint32_t> begin(std::size_t{vertices} + 1, 0);
     const auto facing = [&](std::uint32_t corner) {
         const std::uint32_t first = corner - corner % 3, k = corner - first;
@@ -78,7 +78,7 @@ void join_others(std::span<const std::uint32_t> triangles, std::uint32_t vertice
     struct Open {
         std::uint32_t smaller = kNone, corner = 0;
     };
-    std::vector<Open> open(vertices);  // by the larger end: an edge whose other triangle was not met yet
+    std::vector<Open> open(vertices);  // per larger end: an edge with one triangle so far
     for (const auto& [corner, smaller, larger] : sorted) {
         Open& edge = open[larger];
         const std::uint32_t found = edge.smaller == smaller ? UINT32_MAX : 0;
@@ -104,7 +104,8 @@ std::vector<std::uint32_t> opposite_corners(std::span<const std::uint32_t> trian
         if (before_is_good) {
             if (is_good) pairs.join_successive(v, c);
             if (others.size() - count < 3) others.resize(2 * others.size());
-            const auto join = [&](std::uint32_t corner, std::uint32_t x, std::uint32_t y) {  // of the triangle before
+            // Joins a corner of the previous triangle.
+            const auto join = [&](std::uint32_t corner, std::uint32_t x, std::uint32_t y) {
                 others[count] = corner;
                 count += pairs.join_ring_edge(corner, x, y) ? 1 : 0;
             };

@@ -3,9 +3,9 @@
 // to lrcore.
 //
 // A region grows from a triangle of each component. A triangle is complete when its vertices are known and it is the
-// component's first or shares an edge with a complete one. Where a complete triangle (x, y, z) and one that is not,
-// (x, y, v), share an edge, x + y - z predicts v. The next vertex is one with two such parallelograms, if there is one,
-// else one with a single parallelogram; of these the one that has been waiting longest.
+// component's first or shares an edge with a complete one. Where a complete triangle (x, y, z) and one that is not, (x,
+// y, v), share an edge, x + y - z predicts v. The next vertex is a vertex with two such parallelograms if there is one,
+// else a vertex with one; among equals the one waiting longest.
 
 #include <array>
 #include <cstdint>
@@ -16,31 +16,31 @@
 
 namespace lacedring::storage {
 
-/// Predicts the vertex opposite to z across the edge (x, y).
+/// Predicts the vertex opposite z across the edge (x, y).
 struct Parallelogram {
     std::uint32_t x, y, z;
     bool operator==(const Parallelogram&) const = default;
 };
 
-/// Of a vertex that has a single one, both are that one.
+/// Both are equal for a vertex with a single parallelogram.
 using Parallelograms = std::array<Parallelogram, 2>;
 
 constexpr std::uint32_t kNone = UINT32_MAX;
 
-/// For each corner the one that faces the same edge in another triangle, or kNone. Triangles that follow each other
-/// and share two vertices are neighbors, unless the earlier one has a neighbor there. Of the other triangles at an
-/// edge, the first and the second are neighbors, the third and the fourth, and so on. A triangle with a vertex twice
-/// has no neighbors. Cost: O(T + V).
+/// For each corner, the corner facing the same edge in the neighbor triangle, or kNone. Successive triangles that share
+/// two vertices are neighbors, unless the earlier one already has a neighbor there. Among the other triangles at an
+/// edge, the first and second are neighbors, the third and fourth, and so on. A triangle with a vertex twice has no
+/// neighbors. Cost: O(T + V).
 std::vector<std::uint32_t> opposite_corners(std::span<const std::uint32_t> triangles, std::uint32_t vertices);
 
 class VertexWalk {
   public:
-    /// Each of `triangles` is three numbers below `vertices`; they have to outlive the walk.
+    /// `triangles`: three numbers below `vertices` each; they must outlive the walk.
     VertexWalk(std::span<const std::uint32_t> triangles, std::uint32_t vertices)
         : triangles_(triangles), opposite_(opposite_corners(triangles, vertices)), vertices_(vertices) {}
 
-    /// Visits each vertex once: visitor.predicted(v, parallelograms), or visitor.start(v, from), where `from` is a
-    /// known vertex of a triangle of v, or kNone. Once only.
+    /// Visits each vertex once: calls visitor.predicted(v, parallelograms), or visitor.start(v, from), where `from` is
+    /// a known vertex of a triangle of v, or kNone. May be called only once.
     template <class Visitor>
     void run(Visitor& visitor) {
         const auto count = static_cast<std::uint32_t>(triangles_.size() / 3);
@@ -63,9 +63,10 @@ class VertexWalk {
     }
 
   private:
-    static constexpr std::uint8_t kKnown = 3;  // else the number of parallelograms, 2 at most
+    // state_ of a known vertex; else the number of parallelograms, at most 2.
+    static constexpr std::uint8_t kKnown = 3;
 
-    /// The vertices of a component's first triangle.
+    /// Visits the vertices of a component's first triangle.
     template <class Visitor>
     void start(Visitor& visitor, const std::uint32_t* v) {
         std::uint32_t from = kNone;
@@ -106,8 +107,8 @@ class VertexWalk {
         }
     }
 
-    /// The corner of a vertex that got a parallelogram before this one, or kNone. The corner across from this one is
-    /// that of a complete triangle, whose own opposite corner is of no use any more.
+    /// The previous corner of the same vertex that got a parallelogram, or kNone. The list is stored in opposite_ of
+    /// the corner across, whose entry is no longer needed since its triangle is complete.
     std::uint32_t before(std::uint32_t corner) const { return opposite_[opposite_[corner]]; }
 
     LACEDRING_INLINE Parallelogram parallelogram(std::uint32_t corner) const {
@@ -116,7 +117,8 @@ class VertexWalk {
         return {v[kNext[k]], v[kBefore[k]], triangles_[opposite_[corner]]};
     }
 
-    /// The neighbor of a complete triangle across from its corner is complete, too, or its vertex gets a parallelogram.
+    /// Visits the neighbor across from a complete triangle's corner: it becomes complete, or its vertex gets a
+    /// parallelogram.
     LACEDRING_INLINE void look_across(std::uint32_t corner) {
         const std::uint32_t across = opposite_[corner];
         if (across == kNone) return;
@@ -135,7 +137,7 @@ class VertexWalk {
         state_[v] = static_cast<std::uint8_t>(found + more);
     }
 
-    /// The vertex to visit now, or kNone.
+    /// The next vertex to visit, or kNone.
     std::uint32_t next() {
         if (head_[1] < tail_[1]) return waiting_[1][head_[1]++];
         while (head_[0] < tail_[0]) {
@@ -151,9 +153,9 @@ class VertexWalk {
     std::vector<std::uint32_t> opposite_;
     std::uint32_t vertices_;
     std::vector<std::uint8_t> complete_, state_;
-    std::vector<std::uint32_t> corner_;                  // of vertices, at the last parallelogram
-    std::vector<std::uint32_t> pending_;                 // complete triangles whose neighbors were not looked at
-    std::array<std::vector<std::uint32_t>, 2> waiting_;  // vertices with one parallelogram, and with two
+    std::vector<std::uint32_t> corner_;                  // per vertex: its corner at the last parallelogram
+    std::vector<std::uint32_t> pending_;                 // complete triangles whose neighbors have not been visited
+    std::array<std::vector<std::uint32_t>, 2> waiting_;  // queues of vertices with one and with two parallelograms
     std::array<std::uint32_t, 2> head_{}, tail_{};
 };
 

@@ -1,10 +1,10 @@
 #pragma once
-// Codes the steps of a packed stream, one after the other: where each is entered, and which vertex is its third.
-// Encoder and decoder run the same code. Internal to lrcore; docs/storage-format.md has it.
+// Codes the steps of a packed stream in order: the edge of entry and the third vertex of each. Encoder and decoder run
+// the same code. Internal to lrcore. Specified in docs/storage-format.md.
 //
-// Steps come depth first: most are entered across the edge that the step before left open, or across the edge that was
-// left open last. Most third vertices are the next one on one of the two chains. How many triangles the two ends of the
-// edge have so far, on both sides of the ring, tells which chain is likely.
+// Steps are in depth-first order: most are entered across the edge that the previous step left open, or across the last
+// open edge. Most third vertices are the next vertex on one of the two chains. The numbers of triangles that the ends
+// of the edge have so far, on both sides of the ring, predict which chain.
 
 #include <array>
 #include <vector>
@@ -17,7 +17,7 @@ namespace lacedring::storage {
 template <class Coder>
 class WalkCoder {
   public:
-    /// `steps` has them all where it encodes, and takes them where it decodes.
+    /// An encoder reads `steps`; a decoder appends to it.
     WalkCoder(Coder& coder, PackedSteps& steps, std::uint32_t vertices, bool has_flips)
         : coder_(coder),
           steps_(steps),
@@ -27,7 +27,7 @@ class WalkCoder {
           around_(std::size_t{vertices} + 1),
           opened_(steps.size(), UINT32_MAX) {}
 
-    /// False: what is stored is impossible.
+    /// Codes `count` steps. Returns false if a decoder's input is invalid.
     bool code(std::uint32_t count) {
         for (std::uint32_t i = 0; i < count;) {
             if (goes_on_) i = code_simple(i, count);
@@ -65,11 +65,13 @@ class WalkCoder {
         PackedEdge edge;
         std::uint32_t third;
         std::uint32_t enters, first_a;  ///< CorridorStep's flags: bit 0 (a, x), bit 1 (x, b)
-        std::uint32_t simple;           ///< a turn says all, and the next step is across the edge that it leaves open
+        /// 1: a turn bit suffices, and the next step continues across the edge it leaves open.
+        std::uint32_t simple;
         std::uint32_t right, flip;
     };
 
-    /// An edge across which a later step is expected: of step `from`, (a, x) or (x, b). UINT32_MAX: it has been.
+    /// An edge, (a, x) or (x, b) of step `from`, across which a later step is expected. `from` is UINT32_MAX after that
+    /// step.
     struct Open {
         PackedEdge edge;
         std::uint32_t from;
@@ -107,12 +109,12 @@ class WalkCoder {
             depth = 1 + depth_.code(coder_, depth - 1);
             drop = coder_.bit(drop_, drop);
         }
-        s.edge = {vertices_, vertices_};  // impossible, unless an edge is open there
+        s.edge = {vertices_, vertices_};  // invalid unless replaced by an open edge below
         if (depth >= open_.size()) return;
         const std::size_t at = open_.size() - 1 - depth;
         const Open open = open_[at];
         open_[at].from = UINT32_MAX;
-        if (drop != 0) open_.resize(at);  // closed from elsewhere, as at a handle
+        if (drop != 0) open_.resize(at);  // edges above it were reached another way, as at a handle
         if (open.from == UINT32_MAX) return;
         s.edge = open.edge;
         right_ = open.right;
@@ -122,8 +124,8 @@ class WalkCoder {
         }
     }
 
-    /// How many open edges are above the one across which step i is; UINT32_MAX: it is across none. `drop`: are those
-    /// of no more use?
+    /// The number of open edges above the edge that step i crosses; UINT32_MAX if it crosses none. Sets `drop` if the
+    /// edges above are not crossed later.
     std::uint32_t depth_of(std::uint32_t i, std::uint32_t& drop) const {
         constexpr std::uint32_t kLooked = 64;
         const std::uint32_t at = opened_[i];
@@ -166,8 +168,8 @@ class WalkCoder {
         root_ = s.edge;
     }
 
-    /// Steps from i on that go on from the one before, as long as turns say all of them; returns the next one, whose
-    /// first bit says that it is another one (is_fork_), or before which none was read. Most steps are such.
+    /// Fast path for most steps: codes steps from i on as long as each continues from the previous step and a turn bit
+    /// suffices. Returns the first other step. If its first bit was already coded, sets is_fork_.
     std::uint32_t code_simple(std::uint32_t i, std::uint32_t count) {
         if (has_flips_) return i;
         Coder coder = std::move(coder_);  // in registers
@@ -187,7 +189,7 @@ class WalkCoder {
             up = coder.bit(up_[context], up);
             for (const std::uint32_t v : {a, b}) count_at(v);
             const PackedEdge edge{a, b};
-            a += up;  // without a branch: turns are hard to predict
+            a += up;  // branchless: turns are hard to predict
             b -= 1 - up;
             const std::uint32_t x = (a & (0 - up)) | (b & (up - 1));
             count_at(x);
@@ -212,13 +214,13 @@ class WalkCoder {
         goes_on_edge_ = {up != 0 ? s.third : a, up != 0 ? b : s.third};
     }
 
-    /// A triangle that splits the polygon, or behind which the next step is not.
+    /// Codes a triangle that splits the polygon, or from which the next step does not continue.
     void code_fork(std::uint32_t i, Step& s) {
         const auto [a, b] = s.edge;
         const std::uint32_t span = b - a, size_a = s.third - a, size_b = b - s.third;
         const bool inside = size_a != 0 && size_a < span;
         goes_on_ = false;
-        // Of 16: what is entered; is x between a and b; is it nearer to a.
+        // Symbol: edges entered (bits 0 and 1), x is between a and b (4), x is nearer to a (8).
         const std::uint32_t kind =
             coder_.symbol(fork_, s.enters | (inside ? 4U : 0U) | (inside && size_a <= size_b ? 8U : 0U));
         s.enters = kind & 3;
@@ -230,7 +232,7 @@ class WalkCoder {
             s.third = coder_.raw(s.third, vertex_bits_);
         }
         if (s.enters == 3) {
-            const std::uint32_t x = s.third;  // the smaller part first, as polygons.h has it
+            const std::uint32_t x = s.third;  // the smaller part first, as in polygons.h
             const std::uint32_t small_a = x > a ? x - a : UINT32_MAX, small_b = b > x ? b - x : UINT32_MAX;
             const std::uint32_t usual = small_a <= small_b ? 1 : 0;
             s.first_a = usual ^ coder_.bit(first_, usual ^ s.first_a);
@@ -246,7 +248,8 @@ class WalkCoder {
         is_open_ = true;
     }
 
-    /// What is known of an edge's ends: their triangles so far, and whether the ring edges behind them have one.
+    /// The context of an edge: the numbers of triangles at its ends so far, and whether the ring edges (a, a + 1) and
+    /// (b - 1, b) have a triangle.
     std::uint32_t context_of(PackedEdge e) const {
         const std::uint32_t at_a = around_[e.a], at_b = around_[e.b], behind_b = around_[e.b > 0 ? e.b - 1 : 0];
         const std::uint32_t side = at_a / kRingEdge * 2 + behind_b / kRingEdge;
@@ -278,7 +281,7 @@ class WalkCoder {
         around_[v] = static_cast<std::uint8_t>(now + (now % kRingEdge < kMostTriangles ? 1 : 0));
     }
 
-    /// Of around_: of each vertex the number of triangles so far, and whether the edge to the next vertex has one.
+    /// Fields of around_ per vertex v: the number of triangles so far, and kRingEdge if edge (v, v + 1) has a triangle.
     static constexpr std::uint8_t kMostTriangles = 9, kRingEdge = 16;
     static constexpr std::size_t kContexts = 4 * 10 * 10;
 
@@ -288,10 +291,10 @@ class WalkCoder {
     bool has_flips_;
     std::vector<std::uint8_t> around_;
     std::vector<Open> open_;
-    std::vector<std::uint32_t> opened_;  ///< of each step, where it encodes: the place in open_ of the edge entered
-    bool is_open_ = false;               ///< the last one was opened by the step before
-    bool goes_on_ = false;               ///< the next step is across goes_on_edge_
-    bool is_fork_ = false;               ///< and it is known that it is not a simple one
+    std::vector<std::uint32_t> opened_;  ///< encoder only, per step: the place in open_ of its edge
+    bool is_open_ = false;               ///< the previous step opened the last edge
+    bool goes_on_ = false;               ///< the next step crosses goes_on_edge_
+    bool is_fork_ = false;               ///< and it is known not to be simple
     PackedEdge goes_on_edge_{};
     PackedEdge root_{};
     std::uint32_t right_ = 0, last_flip_ = 0, seen_ = 0;

@@ -1,6 +1,6 @@
-// LR 2011, sections 4.4 to 4.6 and 5. The ring decides every slot; a triangle is irregular where what the operators
-// infer across an edge is not what the corner table says. That is the paper's Ti, next to a T0, and also the rare
-// triangle at an edge that shares both its ends with another.
+// Builds LR tables: LR 2011, sections 4.4 to 4.6 and 5. The rings determine every slot. A triangle is irregular if the
+// opposite that the operators infer across one of its edges differs from the corner table's. Irregular are the paper's
+// Ti, next to a T0, and the rare triangles at an edge that shares both ends with another edge.
 
 #include <algorithm>
 #include <memory>
@@ -16,7 +16,7 @@
 namespace lacedring {
 namespace {
 
-constexpr std::uint32_t kPrefetched = 24;  // elements for which memory is fetched before their turn
+constexpr std::uint32_t kPrefetched = 24;  // distance of the elements prefetched
 
 class Builder {
   public:
@@ -40,7 +40,7 @@ class Builder {
             return Error{ErrorCode::too_large, "more corners than 32 bits number"};
         }
         number_isolated();
-        // Until here words hold the corner table's vertices.
+        // Up to here, words hold the corner table's vertices.
         for (std::size_t i = 0; i < out_.lr.size(); ++i) {
             if (i + kPrefetched < out_.lr.size())
                 detail::prefetch(number_.data() + (out_.lr[i + kPrefetched] & word::kTip));
@@ -59,7 +59,7 @@ class Builder {
     struct DeadEnd {
         std::uint32_t edge;
         CornerId wart;
-        VertexId tip;  // that corner's vertex
+        VertexId tip;  // vertex of `wart`
     };
     /// A slot and its triangle's tip corner in the corner table.
     struct Slot {
@@ -67,8 +67,8 @@ class Builder {
         CornerId tip;
     };
 
-    /// Sets the slots of one ring, whose vertices are numbered from `base`. The ring is turned so that its last edge
-    /// has the first copy of a T2 on its left, which no wart takes: that slot holds the ring's first vertex.
+    /// Sets the slots of one ring, whose vertices are numbered from `base`. Rotates the ring so that its last edge has
+    /// the first copy of a T2 on its left, in a slot that no wart uses: this slot stores the ring's first vertex.
     void place_ring(std::span<const RingEdge> ring, std::uint32_t base) {
         const RingWalk walk(ring);
         const auto size = static_cast<std::uint32_t>(ring.size());
@@ -79,14 +79,15 @@ class Builder {
         }
         std::vector<DeadEnd>& left = dead_ends_[0];
         auto closing = std::find_if(left.begin(), left.end(), [](const DeadEnd& end) { return end.wart.is_null(); });
-        if (closing == left.end()) {  // every dead end is a wart: give one up
+        if (closing == left.end()) {  // all dead ends are warts: remove one
             --closing;
             rung_.clear(triangle(closing->wart).value);
             closing->wart = kNullCorner;
         }
         const std::uint32_t last = closing->edge;
         first_edge_.push_back(last + 1 == size ? 0 : last + 1);
-        const DeadEnd* dead[2];  // the next on each side; behind a side's last is one that no edge meets
+        // The next dead end on each side; a sentinel ends each side's list.
+        const DeadEnd* dead[2];
         for (std::uint32_t side = 0; side < 2; ++side) {
             dead_ends_[side].push_back({UINT32_MAX, kNullCorner, kNullVertex});
             dead[side] = dead_ends_[side].data();
@@ -131,7 +132,7 @@ class Builder {
         }
     }
 
-    /// Marks the triangles at the ring's edges and lists those that are at two.
+    /// Marks the triangles at the ring's edges, and lists those at two ring edges as dead ends.
     void find_dead_ends(const RingWalk& walk) {
         const auto size = static_cast<std::uint32_t>(walk.size());
         for (std::uint32_t side = 0; side < 2; ++side) {
@@ -148,7 +149,7 @@ class Builder {
         }
     }
 
-    /// Gives dead ends the T0 across, each to the first that asks.
+    /// Assigns the T0 across to dead ends; a T0 goes to the first dead end beside it.
     void take_warts(const RingWalk& walk, std::uint32_t side) {
         std::vector<DeadEnd>& ends = dead_ends_[side];
         for (std::size_t i = 0; i < ends.size(); ++i) {
@@ -182,10 +183,10 @@ class Builder {
         out_.statistics.t0 = static_cast<std::uint32_t>(t0_.size());
     }
 
-    /// Numbers the vertices off the rings: those of triangles first.
+    /// Numbers the vertices off the rings: first those used by triangles.
     void number_isolated() {
         BitVector used(table_.vertex_count);
-        // The tip of any slot may be off the rings, where they are not as expand_rings makes them.
+        // Tips may be off the rings if the rings were not made by expand_rings.
         for (std::size_t i = 0; i < out_.lr.size() && out_.ring_vertices < table_.vertex_count; ++i) {
             if ((out_.lr[i] & word::kKind) != word::kBorder) used.set(out_.lr[i] & word::kTip);
         }
@@ -225,14 +226,13 @@ class Builder {
         }
     }
 
-    /// Sets kIrregular, tips as they are.
+    /// Sets kIrregular and leaves the tips unchanged.
     void mark_irregular() {
         const auto mark = [&](CornerId c) {
             if (!c.is_null() && c.value < 8 * out_.ring_vertices) out_.lr[c.value / 4] |= word::kIrregular;
         };
-        // Where two vertices have no more than one edge, two triangles by the ring that face each other are found from
-        // each other; only there is nothing to find next to a T0. Joined edges are the pairs of vertices of one or two
-        // triangles, those named below apart.
+        // If no two edges have the same ends, the operators infer all opposites between triangles with ring edges, so
+        // only triangles next to a T0 are irregular. Without non-manifold and cut edges this is the case.
         const Topology& topology = table_.topology;
         if (topology.nonmanifold_edges == 0 && topology.cut_edges == 0) {
             for (std::size_t i = 0; i < out_.vo.size(); i += 6) {
@@ -273,7 +273,8 @@ class Builder {
             out_.star.push_back(table_.opposite(start_corner(slot, tip)).value);
             out_.star.push_back(table_.opposite(end_corner(slot, tip)).value);
         }
-        for (std::size_t i = 0; i < out_.star.size(); i += 3) {  // until here, corners of the corner table
+        // Up to here, VO* holds corners of the corner table.
+        for (std::size_t i = 0; i < out_.star.size(); i += 3) {
             for (const std::size_t k : {i + 1, i + 2}) {
                 if (k + kPrefetched < out_.star.size()) fetch_place(CornerId{out_.star[k + kPrefetched]});
                 out_.star[k] = lr_corner(CornerId{out_.star[k]}).value;
@@ -289,8 +290,8 @@ class Builder {
         return (kind & word::kWart) != 0 || kind == word::kRedundant;
     }
 
-    /// Calls visit(slot, its tip corner in the corner table) for every slot that has a triangle of its own and whose
-    /// word is wanted, in order.
+    /// Calls visit(slot, tip corner in the corner table) in order for every slot that has its own triangle and for
+    /// whose word wanted(word) is true.
     template <class Wanted, class Visit>
     void for_slots(Wanted wanted, Visit visit) const {
         auto wart = warts_.begin();
@@ -315,7 +316,7 @@ class Builder {
         const std::uint32_t place = place_[triangle(c).value], first = place & ~3U;
         if (first >= 8 * out_.ring_vertices) return CornerId{first + c.value % 3};
         const CornerId tip{c.value - c.value % 3 + place % 4};
-        // After the tip comes the end on the left (8v+2), the start on the right (8v+6).
+        // The corner after the tip is the end on the left (8v+2) and the start on the right (8v+6).
         return CornerId{first + (c == tip ? 1U : c == next(tip) ? 2U : 0U)};
     }
 
@@ -328,7 +329,7 @@ class Builder {
         for_slots([](std::uint32_t) { return true; },
                   [&](std::uint32_t slot, CornerId tip) {
                       map.triangle[slot] = triangle(tip);
-                      map.start[slot] = previous(tip).value % 3;  // corner 4t is the one before the tip
+                      map.start[slot] = previous(tip).value % 3;  // corner 4t precedes the tip
                   });
         std::copy(t0_.begin(), t0_.end(), map.triangle.begin() + slots);
     }
@@ -336,12 +337,12 @@ class Builder {
     const CornerTable& table_;
     const Rings& rings_;
     const LrOptions& options_;
-    BitVector rung_;                     // triangles with a ring edge, or taken by a wart
+    BitVector rung_;                     // triangles with a ring edge or in a wart
     std::vector<std::uint32_t> number_;  // LR number of each vertex
-    std::unique_ptr<std::uint32_t[]>
-        place_;                              // of each triangle: 4 slot + its tip corner % 3, or 4 (2 m_r + i) for T0 i
-    std::vector<std::uint32_t> first_edge_;  // of each ring: the edge at its first vertex
-    std::vector<DeadEnd> dead_ends_[2];      // of one ring, left and right
+    // Per triangle: 4 slot + tip corner % 3, or 4 (2 m_r + i) for T0 i.
+    std::unique_ptr<std::uint32_t[]> place_;
+    std::vector<std::uint32_t> first_edge_;  // per ring: the edge at its first vertex
+    std::vector<DeadEnd> dead_ends_[2];      // dead ends of the current ring, left and right
     std::vector<TriangleId> t0_;
     std::vector<Slot> warts_;  // in order
     LrTable out_;

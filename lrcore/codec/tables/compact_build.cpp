@@ -1,4 +1,4 @@
-// LR 2011, section 6.
+// Builds the bit-efficient LR tables: LR 2011, section 6.
 
 #include "lacedring/lacedring.hpp"
 
@@ -27,8 +27,7 @@ class Packer {
         for (std::uint32_t v = 0; v < lr_.ring_vertices; ++v) {
             const std::uint32_t left = lr_.lr[2 * v], right = lr_.lr[2 * v + 1];
             std::uint32_t a = 0, b = 0;
-            // Two warts cannot meet at one edge, for the T2 beside each would be one triangle twice; a soup may still
-            // do it.
+            // Two warts at one edge would make the T2 beside each the same triangle; only triangle soups may have this.
             if (short_form(v, 0, a) && short_form(v, 1, b) && (a & b & 0x8000) == 0) {
                 out_.lr.push_back(a << 16 | b);
                 continue;
@@ -61,7 +60,7 @@ class Packer {
         return true;
     }
 
-    /// The slot as 16 bits, if they say what it is.
+    /// Sets `half` to the slot in 16 bits; returns false if it does not fit.
     bool short_form(std::uint32_t v, std::uint32_t side, std::uint32_t& half) const {
         const std::uint32_t w = lr_.lr[2 * v + side], kind = w & word::kKind;
         if (kind == word::kBorder) {
@@ -83,7 +82,7 @@ class Packer {
         return true;
     }
 
-    /// The slot as a word of the standard representation, tip and kind together.
+    /// The slot as a word of the standard representation, always with its tip.
     std::uint32_t entry(std::uint32_t v, std::uint32_t side) const {
         const std::uint32_t w = lr_.lr[2 * v + side];
         if ((w & (word::kSpecial | word::kIrregular)) != word::kIrregular) return w;

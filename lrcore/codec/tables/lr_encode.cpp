@@ -5,7 +5,7 @@
 namespace lacedring {
 namespace {
 
-/// Fills what follows from the map, and returns which LR vertices are copies.
+/// Sets vertex_order, triangle_order and copies of `out` from the map. Returns the copied vertices and their originals.
 std::vector<VertexCopy> translate(const LrMap& map, const std::vector<VertexId>& originals, EncodedLr& out) {
     const std::size_t mesh_vertices = map.vertex.size() - originals.size();
     std::vector<std::uint32_t> number(mesh_vertices);

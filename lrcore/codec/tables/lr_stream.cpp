@@ -17,8 +17,7 @@ Result<LrStreamView<View>> view_tables(std::span<const std::uint32_t> words, std
                                    words[kW_star], words[kW_isolated], std::uint64_t{words[kW_copies]} * 2};
     std::uint64_t total = kLrHeaderWords;
     for (const std::uint64_t size : sizes) total += size;
-    if (total != words.size())
-        return malformed_lr(detail::message(words.size(), " words, where the header says ", total));
+    if (total != words.size()) return malformed_lr(detail::message(words.size(), " words; the header says ", total));
     if (words[kW_vertices] >= word::kTip || std::uint64_t{words[kW_ring]} + words[kW_isolated] > words[kW_vertices]) {
         return malformed_lr(detail::message(words[kW_vertices], " vertices"));
     }

@@ -6,7 +6,7 @@
 namespace lacedring {
 
 std::vector<std::uint32_t> recommended_periods(std::size_t triangles) {
-    // Table 1 of the paper has its best between 38 and 720.
+    // The best k in the paper's Table 1 range from 38 to 720.
     if (triangles <= 300'000) return {0, 720, 512, 420, 360, 300, 256, 226, 180, 128, 106, 90, 64, 45, 32, 23, 16};
     if (triangles <= 3'000'000) return {0, 256, 128, 90, 64, 45, 32, 23};
     return {128, 64, 32};

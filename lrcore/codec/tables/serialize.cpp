@@ -1,4 +1,4 @@
-// LR tables as words: docs/lr-tables.md.
+// Writes LR tables as words (docs/lr-tables.md).
 
 #include "lacedring/lacedring.hpp"
 #include "lrcore/base/signature.h"

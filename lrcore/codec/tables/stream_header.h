@@ -1,5 +1,5 @@
 #pragma once
-// The header of LR tables as words: docs/lr-tables.md. Internal to codec/tables.
+// Header words of LR tables (docs/lr-tables.md). Internal to codec/tables.
 
 #include <cstdint>
 #include <span>

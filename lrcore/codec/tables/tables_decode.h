@@ -1,5 +1,5 @@
 #pragma once
-// Triangles out of LR tables: one, or all. Internal to codec/.
+// Decodes one or all triangles of LR tables. Internal to codec/.
 
 #include <algorithm>
 #include <cstdint>
@@ -21,7 +21,7 @@ std::uint32_t count_triangles(const LrStreamView<View>& stream) {
     return count;
 }
 
-/// Triangle t with the orientation of the input; its vertices may be copies.
+/// Triangle t with the input's orientation; its vertices may be copies.
 template <class View>
 Triangle table_triangle(const Operators<View>& ops, std::uint32_t t) {
     Triangle out{};
@@ -30,7 +30,7 @@ Triangle table_triangle(const Operators<View>& ops, std::uint32_t t) {
     return out;
 }
 
-/// The place of a corner's vertex in table_triangle.
+/// The index of a corner's vertex in table_triangle's result.
 template <class View>
 std::uint32_t place_of(const View& view, CornerId c) {
     const std::uint32_t k = c.value % 4;
@@ -50,7 +50,8 @@ std::optional<Triangle> decode_slot(const LrStreamView<View>& stream, std::uint3
 template <class View>
 void decode_tables(const LrStreamView<View>& stream, std::uint32_t* out) {
     const Operators<View> ops(stream.view);
-    // Copies and originals are used vertices. Unused vertices get no entry: the header alone counts them.
+    // Copies and originals are used vertices. Unused vertices get no entry: their number in the header is not
+    // trustworthy.
     std::vector<std::uint32_t> original(stream.copies.empty() ? 0 : stream.view.used_vertices());
     std::iota(original.begin(), original.end(), 0U);
     for (std::size_t i = 0; i < stream.copies.size(); i += 2) original[stream.copies[i]] = stream.copies[i + 1];

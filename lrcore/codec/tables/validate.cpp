@@ -1,4 +1,4 @@
-// Checks what the operators rely on; docs/lr-tables.md lists it. The words may be hostile.
+// Checks the conditions that the operators rely on (listed in docs/lr-tables.md). Safe with untrusted words.
 
 #include <vector>
 
@@ -31,7 +31,7 @@ std::string check_slots(const CompactLrView& view) {
     if (view.unit < 2 || view.unit > 4096 || view.unit % 2 != 0) return "unit of VO*";
     for (std::uint32_t v = 0; v < view.ring_vertices; ++v) {
         const std::uint32_t w = view.lr[v];
-        if (!CompactLrView::is_long(w)) continue;  // offsets are below m_r / 2 in effect: tip() wraps them
+        if (!CompactLrView::is_long(w)) continue;  // short offsets need no check: tip() wraps them
         const std::size_t at = view.record(w);
         const bool left = (w & compact::kLongLeftIrregular) != 0, right = (w & compact::kLongRightIrregular) != 0;
         const std::size_t size = 2 + (left ? 2U : 0U) + (right ? 2U : 0U);
@@ -82,14 +82,14 @@ std::string check_rings(const View& view) {
         if (!view.closes(v)) continue;
         if (v - first < 2 || view.first(v) != first)
             return detail::message("the ring from vertex ", first, " does not close");
-        // Its first vertex finds its last by the tip of a triangle of its own.
+        // ring_previous of the first vertex is the tip of its left slot, which must be the last vertex.
         if ((view.kind(first, 0) & word::kSpecial) != 0 || view.tip(first, 0) != v) {
-            return detail::message("the ring from vertex ", first, " does not find its end");
+            return detail::message("the ring from vertex ", first, ": the tip of its left slot is not the last vertex");
         }
         first = v + 1;
     }
     if (first != view.ring_vertices) return detail::message("the ring from vertex ", first, " does not close");
-    // The first copy of a T2, real or lent to a T0w, is followed by the second.
+    // After the first copy of a T2, or a T0w in its place, comes the second copy.
     for (std::uint32_t v = 0; v < view.ring_vertices; ++v) {
         for (std::uint32_t side = 0; side < 2; ++side) {
             const std::uint32_t kind = view.kind(v, side);
@@ -105,13 +105,13 @@ std::string check_rings(const View& view) {
             if (second && (view.kind(n, side) & word::kWart) != 0)
                 return detail::message("ring vertex ", v, ": a wart in a wart");
             if (second && view.tip(n, side) != v)
-                return detail::message("ring vertex ", v, ": a T2 that does not come back");
+                return detail::message("ring vertex ", v, ": the second copy of its T2 has another tip");
         }
     }
     return {};
 }
 
-/// Checks that the corners stored in VO, VO* and C are canonical or null, and the vertices in VO used. Needs
+/// Checks that the corners in VO, VO* and C are canonical or null, and that the vertices in VO are used. Requires
 /// check_rings.
 template <class View>
 std::string check_named(const View& view) {
@@ -121,7 +121,7 @@ std::string check_named(const View& view) {
     };
     const auto exists_or_null = [&](std::uint32_t c) { return c == kNullCorner.value || exists(c); };
     for (const std::uint32_t c : view.c) {
-        if (!exists(c)) return "an isolated vertex's corner is none";
+        if (!exists(c)) return "an isolated vertex has an invalid corner";
     }
     for (std::uint32_t i = 0; i < view.vo.size() / 2; ++i) {
         if (view.t0_vertex(i) >= view.used_vertices()) return detail::message("T0 ", i / 3, ": vertex");
@@ -138,11 +138,11 @@ std::string check_named(const View& view) {
     return {};
 }
 
-/// Walks each star once and checks the opposites on the way. Needs check_named.
+/// Walks each star once and checks the opposites met. Requires check_named.
 ///
-/// An involution pairs each corner with a smaller or a larger opposite. It is enough to check opposite(opposite(c)) ==
-/// c from the smaller corner of each pair, and that as many corners have a smaller opposite as have a larger one. Until
-/// that is known a walk might not return, so the number of steps is limited to the number of corners.
+/// Opposite is an involution if opposite(opposite(c)) == c for each c with a larger opposite, and if the numbers of
+/// corners with a larger and with a smaller opposite are equal. Before this is known a walk may not return, so the
+/// number of steps is limited to the number of corners.
 template <class View>
 class StarChecker {
   public:
@@ -153,9 +153,9 @@ class StarChecker {
         for (std::uint32_t v = 0; v < view_.used_vertices(); ++v) {
             if (!check_star(VertexId{v})) return std::move(why_);
         }
-        // Fewer if a vertex has several fans, of which v.c leads to one.
-        if (corners_ != most_) return detail::message(corners_, " corners around vertices, of ", most_);
-        if (larger_ != smaller_) return "opposites that are not undone";
+        // Fewer corners were walked if a vertex has several fans: v.c leads to only one.
+        if (corners_ != most_) return detail::message(corners_, " corners found around vertices, of ", most_);
+        if (larger_ != smaller_) return "opposite is not an involution";
         for (std::uint32_t slot = 0; slot < 2 * view_.ring_vertices; ++slot) {
             if (is_irregular(view_, slot) && !check_star_entries(slot)) return std::move(why_);
         }
@@ -176,9 +176,9 @@ class StarChecker {
     void count(CornerId c, CornerId o) { ++(c.value < o.value ? larger_ : smaller_); }
 
     struct Around {
-        VertexId after, before;  ///< of the corners after and before the one at the vertex
+        VertexId after, before;  ///< vertices of the next and previous corner
     };
-    /// Reads the triangle of c and checks that its vertices differ and that c's is v.
+    /// Reads the triangle of c into `at`; checks that its vertices differ and that vertex(c) is v.
     bool enter(CornerId c, VertexId v, Around& at) {
         if (corners_++ == most_) return fail("vertex ", v.value, ": its star does not end");
         at = {ops_.vertex(ops_.next(c)), ops_.vertex(ops_.previous(c))};
@@ -210,10 +210,11 @@ class StarChecker {
         }
     }
 
-    /// Walks backward from v.c to the other border. Each step is checked to be the inverse of a swing, so the walk
-    /// meets no corner that the forward walk met.
+    /// Walks backward from v.c to the other border. Each step is checked to invert a swing, so the walk meets no corner
+    /// of the forward walk.
     bool check_border(VertexId v, CornerId first, Around at) {
-        if (ops_.near_neighbors(v, [](VertexId) {})) return fail("vertex ", v.value, ": its border is not seen");
+        if (ops_.near_neighbors(v, [](VertexId) {}))
+            return fail("vertex ", v.value, ": near_neighbors misses its border");
         for (CornerId c = first;;) {
             const CornerId facing = ops_.previous(c), o = ops_.opposite(facing);
             if (o.is_null()) return true;
@@ -226,7 +227,7 @@ class StarChecker {
         }
     }
 
-    /// Compares near_neighbors with the walk.
+    /// Compares near_neighbors with the neighbors found by the walk.
     bool check_fan(VertexId v) {
         std::size_t i = 0;
         bool same = true;
@@ -235,7 +236,7 @@ class StarChecker {
         return !told || (same && i == neighbors_.size()) || fail("vertex ", v.value, ": neighbors");
     }
 
-    /// Checks the opposites in VO* against the operators, which do not read those that other slots imply.
+    /// Checks that the opposites in VO* agree with the operators, which infer some of them from other slots instead.
     bool check_star_entries(std::uint32_t slot) {
         const std::uint32_t v = slot / 2, side = slot % 2;
         for (std::uint32_t end = 0; end < 2; ++end) {
@@ -250,8 +251,8 @@ class StarChecker {
     const Operators<View> ops_;
     const std::uint32_t numbers_;
     std::uint64_t most_ = 0, corners_ = 0;    // corners of all triangles; corners walked
-    std::uint64_t larger_ = 0, smaller_ = 0;  // corners whose opposite is larger, smaller
-    std::vector<VertexId> neighbors_;         // of one vertex, in star order
+    std::uint64_t larger_ = 0, smaller_ = 0;  // corners with a larger, a smaller opposite
+    std::vector<VertexId> neighbors_;         // neighbors of one vertex, in star order
     std::string why_;
 };
 
@@ -259,7 +260,7 @@ std::string check_copies(std::uint32_t vertices, std::span<const std::uint32_t> 
     BitVector copied(copies.empty() ? 0 : vertices);
     for (std::size_t i = 0; i < copies.size(); i += 2) {
         if (copies[i] >= vertices || (i > 0 && copies[i] <= copies[i - 2])) {
-            return detail::message("copied vertex ", copies[i]);  // in increasing order: readers search
+            return detail::message("copied vertex ", copies[i]);  // ascending, for binary search
         }
         copied.set(copies[i]);
     }

@@ -1,8 +1,8 @@
-// Vertex streams: which predictor, plane and code widths are smallest for each block, and the bits of it.
+// Encodes vertex streams: chooses the best predictors, planes and code widths of each block, and writes its bits.
 //
-// A block is tried with a few sets of predictors. For each, residuals are formed, the plane of each run of vertices is
-// taken out of them, and the widths of the low bits are chosen by dynamic programming over the groups, for each size of
-// a group. Numbers and codes: docs/vertex-format.md.
+// A block is tried with a few sets of predictors. For each set, the encoder computes residuals, removes a plane from
+// each run of vertices, and chooses the widths of the low bits by dynamic programming over the runs, for each size of
+// runs. docs/vertex-format.md specifies numbers and codes.
 
 #include <algorithm>
 #include <array>
@@ -24,12 +24,13 @@ namespace {
 
 constexpr std::uint32_t kMost = kVertexMostZeros;
 constexpr std::uint32_t kGroupBlocks = kVertexGroup;
-constexpr std::uint32_t kSizes = 4;  // of a run of vertices with common widths: 4, 8, 16 or 32
+// Number of possible sizes of a run of vertices with common widths: 4, 8, 16 or 32.
+constexpr std::uint32_t kSizes = 4;
 constexpr std::uint32_t kPlaneRun = kVertexPlaneRun;
 constexpr std::uint32_t kWidths = 32;
 constexpr std::uint32_t kSame = 6 + 8 * 2;  // the predictor that repeats the last difference
 constexpr std::uint32_t kLast = 2 + 8 * 2;  // the predictor that repeats the last vertex
-constexpr std::uint32_t kNever = 1U << 26;  // sums of some stay below 2^32
+constexpr std::uint32_t kNever = 1U << 26;  // infinite cost; a sum of several stays below 2^32
 
 std::uint32_t quarter(std::uint32_t x) {
     return static_cast<std::uint32_t>(static_cast<std::int32_t>(x + 2) >> 2);
@@ -38,9 +39,10 @@ std::uint32_t zigzag(std::uint32_t residual) {
     return (residual << 1) ^ static_cast<std::uint32_t>(static_cast<std::int32_t>(residual) >> 31);
 }
 
-using Residuals = std::array<std::uint32_t, kVertexBlock>;  // of a component; those of the block but its first vertex
+// Residuals of one component, for all vertices of the block except the first.
+using Residuals = std::array<std::uint32_t, kVertexBlock>;
 
-/// About the bits of some residuals, in one run.
+/// Approximate bits of residuals coded as one run.
 std::uint32_t estimate(const std::uint32_t* residuals, std::uint32_t count) {
     std::uint64_t sum = 0;
     for (std::uint32_t i = 0; i < count; ++i) sum += zigzag(residuals[i]);
@@ -60,15 +62,15 @@ struct Plane {
 /// The widths of a component's low bits in a block, and the bits of all its codes.
 struct Widths {
     std::uint32_t bits = 0;
-    std::array<std::uint8_t, kVertexBlock / 4>
-        code{};  // of each run: 0 as before, 1 none, 2 one more, 3 one less, 4 given
-    std::array<std::uint8_t, kVertexBlock / 4> width{};  // of its low bits
+    // Code per run: 0 unchanged, 1 all residuals are 0, 2 one more, 3 one less, 4 explicit.
+    std::array<std::uint8_t, kVertexBlock / 4> code{};
+    std::array<std::uint8_t, kVertexBlock / 4> width{};  // width per run
 };
 
-/// Chooses the widths of runs of vertices of a component.
+/// Chooses the widths of the runs of one component.
 class WidthSearch {
   public:
-    /// Costs of each four vertices.
+    /// Computes the costs of each group of four vertices.
     explicit WidthSearch(const std::uint32_t* residuals, std::uint32_t count) : fours_((count + 3) / 4) {
         for (std::uint32_t g = 0; g < fours_; ++g) {
             const std::uint32_t begin = 4 * g, end = std::min(count, begin + 4);
@@ -88,14 +90,14 @@ class WidthSearch {
         }
     }
 
-    /// Runs of 4 << size vertices; the first one follows on a width of `before`.
+    /// The best widths for runs of 4 << size vertices, if the block begins with width `before`.
     Widths best(std::uint32_t size, std::uint32_t before) const {
-        const std::uint32_t most = std::min(std::max(widest_ + 1, before), kWidths - 1);  // no larger one is of use
+        const std::uint32_t most = std::min(std::max(widest_ + 1, before), kWidths - 1);  // larger widths are useless
         std::array<std::uint32_t, kWidths> bits;
         bits.fill(kNever);
         bits[before] = 0;
         std::array<std::array<std::uint8_t, kWidths>, kVertexBlock / 4> codes;
-        std::array<std::uint8_t, kVertexBlock / 4> from;  // the width before a given one
+        std::array<std::uint8_t, kVertexBlock / 4> from;  // [w]: the width before width w
         const std::uint32_t runs = (fours_ + (1U << size) - 1) >> size;
         for (std::uint32_t r = 0; r < runs; ++r) {
             const std::uint32_t begin = r << size, end = std::min(fours_, begin + (1U << size));
@@ -149,7 +151,7 @@ class WidthSearch {
     std::array<bool, kVertexBlock / 4> zero_{};
 };
 
-/// The choices by which a block is coded.
+/// The choices for coding a block.
 struct BlockPlan {
     std::uint64_t bits = std::numeric_limits<std::uint64_t>::max();
     std::uint32_t size = 0;  // runs of 4 << size vertices
@@ -164,7 +166,7 @@ class BlockEncoder {
     BlockEncoder(const VertexIntegers& of, std::span<const VertexComponent> components)
         : of_(of), n_(of.components), components_(components) {}
 
-    /// The best predictor of each component alone.
+    /// The best predictor of each component, chosen independently.
     std::vector<std::uint32_t> best_predictors(std::uint32_t first, std::uint32_t count) const {
         std::vector<std::uint32_t> out(n_);
         for (std::uint32_t c = 0; c < n_; ++c) {
@@ -183,7 +185,7 @@ class BlockEncoder {
         return out;
     }
 
-    /// The width that suits most of a component's residuals.
+    /// The width that fits the average of a component's residuals.
     std::uint32_t usual_width(std::uint32_t first, std::uint32_t count, std::uint32_t c,
                               std::uint32_t predictor) const {
         const Residuals residuals = predict(first, count, c, predictor);
@@ -222,7 +224,7 @@ class BlockEncoder {
         for (std::uint32_t i = 0, r = 0; i + 1 < count; i += 4U << plan.size, ++r) {
             if (n_ == 3 && i % kPlaneRun == 0) write_plane(out, plan.planes[i / kPlaneRun], last);
             for (const Widths& widths : plan.widths) {
-                constexpr std::uint8_t kCodes[][2] = {{0, 1}, {1, 2}, {3, 3}, {7, 4}, {15, 4}};  // bits, how many
+                constexpr std::uint8_t kCodes[][2] = {{0, 1}, {1, 2}, {3, 3}, {7, 4}, {15, 4}};  // code, number of bits
                 out.put(kCodes[widths.code[r]][0], kCodes[widths.code[r]][1]);
                 if (widths.code[r] == 4) out.put(widths.width[r], 5);
             }
@@ -271,7 +273,7 @@ class BlockEncoder {
         return out;
     }
 
-    /// The plane through the origin that is nearest to the residuals, the given axis being its steepest.
+    /// Fits a plane through the origin to the residuals: component `axis` as a function of the two others.
     static Plane fit(const std::vector<Residuals>& of, std::uint32_t axis, std::uint32_t begin, std::uint32_t end) {
         const std::uint32_t u = axis == 2 ? 0 : axis + 1, v = axis == 0 ? 2 : axis - 1;
         double uu = 0, uv = 0, vv = 0, um = 0, vm = 0;
@@ -294,13 +296,13 @@ class BlockEncoder {
         if (determinant > 1e-6 * uu * vv) {
             out.slope[0] = slope((um * vv - vm * uv) / determinant);
             out.slope[1] = slope((vm * uu - um * uv) / determinant);
-        } else if (uu > 0 || vv > 0) {  // all along a line
+        } else if (uu > 0 || vv > 0) {  // all residuals are on a line
             (uu >= vv ? out.slope[0] : out.slope[1]) = slope(uu >= vv ? um / uu : vm / vv);
         }
         return out;
     }
 
-    /// Takes planes out of the residuals, where that is smaller. Returns the bits that they take.
+    /// Subtracts planes from the residuals of runs where this saves bits. Returns the bits of the planes.
     static std::uint32_t take_planes(std::vector<Residuals>& residuals, std::uint32_t count, std::uint32_t run,
                                      std::array<Plane, kVertexBlock / kPlaneRun>& planes) {
         Plane last{0, {0, 0}};
@@ -343,7 +345,7 @@ class BlockEncoder {
             plain.push_back(predict(first, count, c, predictors[c]));
             fixed += components_[c].first_bits + (predictors[c] == components_[c].predictor ? 1 : 6);
         }
-        for (std::uint32_t longest = 0; longest < (n_ == 3 ? 2 : 1); ++longest) {  // runs of 32 have planes of 32
+        for (std::uint32_t longest = 0; longest < (n_ == 3 ? 2 : 1); ++longest) {  // planes of 16 or 32 vertices
             std::array<Plane, kVertexBlock / kPlaneRun> planes;
             std::vector<Residuals> residuals = plain;
             const std::uint32_t plane_bits = n_ == 3 ? take_planes(residuals, count, kPlaneRun << longest, planes) : 0;
@@ -386,7 +388,7 @@ std::vector<VertexComponent> find_components(const VertexIntegers& of, std::uint
     std::vector<VertexComponent> out(n);
     for (VertexComponent& component : out) component.predictor = kLast;
     find_vertex_ranges(of.values, of.mapping, out);
-    // The usual predictor and first width: those of most blocks, by some hundred samples.
+    // The usual predictor and first width: the most frequent in about a hundred sampled blocks.
     const std::uint32_t blocks = (vertices + kVertexBlock - 1) / kVertexBlock, step = std::max(1U, blocks / 128);
     const BlockEncoder encoder(of, out);
     std::vector<std::array<std::uint32_t, 32>> predictors(n), widths(n);
@@ -410,10 +412,10 @@ std::vector<VertexComponent> find_components(const VertexIntegers& of, std::uint
     return out;
 }
 
-/// The blocks of a group of the table.
+/// The coded blocks of one group of the table.
 struct Group {
     std::vector<std::uint32_t> words;
-    std::array<std::uint32_t, kGroupBlocks> begins{};  // bit of each block
+    std::array<std::uint32_t, kGroupBlocks> begins{};  // first bit of each block
 };
 
 Result<EncodedVertices> encode_integers(const VertexIntegers& integers, const VertexValues& values, unsigned threads) {
@@ -440,7 +442,7 @@ Result<EncodedVertices> encode_integers(const VertexIntegers& integers, const Ve
     for (const Group& group : groups)
         farthest = std::max(farthest, *std::max_element(group.begins.begin(), group.begins.end()));
     const auto field = static_cast<std::uint32_t>(std::bit_width(farthest));
-    const auto largest_error = [&] {  // as a float that is no less
+    const auto largest_error = [&] {  // rounded up to a float
         auto error = static_cast<float>(integers.largest_error);
         if (static_cast<double>(error) < integers.largest_error)
             error = std::bit_cast<float>(std::bit_cast<std::uint32_t>(error) + 1);
@@ -479,7 +481,8 @@ Result<EncodedVertices> encode_integers(const VertexIntegers& integers, const Ve
 Result<EncodedVertices> encode_vertices(const VertexValues& values, const VertexOptions& options) {
     LR_ASSIGN(VertexIntegers integers, to_integers(values, options));
     Result<EncodedVertices> out = encode_integers(integers, values, options.threads);
-    // Smaller and lossless beats what was asked for, unless the lattice is shared with other meshes.
+    // Lossless decimals replace the requested mapping if they are smaller, unless a given step shares the lattice with
+    // other meshes.
     if (!out || options.step != 0) return out;
     const std::optional<VertexIntegers> decimals = to_decimals(values);
     if (!decimals) return out;

@@ -11,13 +11,13 @@
 
 namespace lacedring {
 
-constexpr std::uint32_t kLatticeBits = 22;  // of the largest integer: two remain for the step
+constexpr std::uint32_t kLatticeBits = 22;  // bits of the largest integer; leaves two bits for the step
 
 float lattice_step(double step, double largest) {
     step = std::max({step, std::ldexp(largest, -static_cast<int>(kLatticeBits)), 0x1p-126});
     int exponent = 0;
     const auto width = [&] { return std::bit_width(static_cast<std::uint32_t>(std::ceil(largest / step)) + 1); };
-    const int bits = 24 - static_cast<int>(width());  // of the step: the product of both has 24
+    const int bits = 24 - static_cast<int>(width());  // bits of the step; integer and step together have 24
     const double fraction = std::ceil(std::ldexp(std::frexp(step, &exponent), bits));
     step = std::ldexp(fraction, exponent - bits);
     return step < 0x1p104 ? static_cast<float>(step) : 0.0F;
@@ -57,7 +57,7 @@ std::uint32_t integer_at(const VertexValues& values, std::size_t i) {
     }
 }
 
-/// The bits of a float, or the higher half of a double's, as an unsigned number that grows with it.
+/// Maps the bits of a float, or the upper half of a double, to an unsigned number, monotonically.
 std::uint32_t monotone(std::uint32_t bits) {
     return bits ^ ((bits >> 31) != 0 ? UINT32_MAX : 0x80000000U);
 }
@@ -65,8 +65,9 @@ std::uint32_t monotone(std::uint32_t bits) {
 Result<VertexIntegers> to_lattice(const VertexValues& values, const VertexOptions& options) {
     if (values.type != ComponentType::f32 && values.type != ComponentType::f64)
         return invalid("a lattice takes floats");
-    if (options.step == 0 && (options.bits < 1 || options.bits > kLatticeBits)) return invalid("1 to 22 bits");
-    if (!(options.step >= 0) || !std::isfinite(options.step)) return invalid("a step is positive");
+    if (options.step == 0 && (options.bits < 1 || options.bits > kLatticeBits))
+        return invalid("a lattice takes 1 to 22 bits");
+    if (!(options.step >= 0) || !std::isfinite(options.step)) return invalid("a step must be positive");
     const std::size_t n = values.components, size = values.data.size() / size_of(values.type);
     double extent = 0, largest = 0;
     for (std::size_t c = 0; c < n; ++c) {
@@ -94,14 +95,14 @@ Result<VertexIntegers> to_lattice(const VertexValues& values, const VertexOption
         const double value = number_at(values, i);
         double nearest = std::nearbyint(value / step);
         const double error = value - nearest * step;
-        if (2 * std::abs(error) > step) nearest += error > 0 ? 1 : -1;  // the quotient was rounded to the middle
+        if (2 * std::abs(error) > step) nearest += error > 0 ? 1 : -1;  // the quotient was rounded to a tie
         out.values[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(nearest));
         out.largest_error = std::max(out.largest_error, std::abs(value - nearest * step));
     }
     return out;
 }
 
-/// The octahedral integers whose vector is nearest to v, of which one component is not 0.
+/// The octahedral integers whose vector is nearest to v. v is not 0.
 void nearest_octahedral(const double v[3], std::uint32_t bits, std::int32_t out[2]) {
     const double sum = std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]);
     const auto most = static_cast<std::int32_t>((std::uint32_t{1} << (bits - 1)) - 1);
@@ -119,7 +120,8 @@ void nearest_octahedral(const double v[3], std::uint32_t bits, std::int32_t out[
         const std::int32_t a = corner(x, i & 1), b = corner(y, i >> 1);
         float unit[3];
         lacedring_octahedral(a, b, bits, unit);
-        double sine = 0;  // squared: the cosine of a small angle is 1 whatever the angle
+        // Squared sine of the angle; the cosine is too imprecise for small angles.
+        double sine = 0;
         for (int c = 0; c < 3; ++c) {
             const int d = (c + 1) % 3;
             const double across = v[c] * static_cast<double>(unit[d]) - v[d] * static_cast<double>(unit[c]);
@@ -135,7 +137,7 @@ void nearest_octahedral(const double v[3], std::uint32_t bits, std::int32_t out[
 Result<VertexIntegers> to_octahedral(const VertexValues& values, const VertexOptions& options) {
     const std::uint32_t n = values.components;
     if (values.type != ComponentType::f32 || (n != 3 && n != 4)) return invalid("octahedral takes 3 or 4 floats");
-    if (options.bits < 2 || options.bits > 16) return invalid("2 to 16 bits");
+    if (options.bits < 2 || options.bits > 16) return invalid("octahedral takes 2 to 16 bits");
     VertexIntegers out;
     out.mapping = VertexMapping::octahedral;
     out.components = n - 1;
@@ -190,12 +192,12 @@ Result<VertexIntegers> to_exact(const VertexValues& values) {
 
 constexpr double kPowers[] = {1, 10, 100, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
 
-/// The integer whose decimal the float is, if it is one.
+/// The integer n for which the float is n / power; none if there is no such n.
 std::optional<std::int32_t> decimal(float value, double power) {
     const double nearest = std::nearbyint(static_cast<double>(value) * power);
     if (!(std::abs(nearest) <= 0x7fffffff)) return {};
     const auto integer = static_cast<std::int32_t>(nearest);
-    const auto back = static_cast<float>(integer / power);  // of -0 it is 0, which differs
+    const auto back = static_cast<float>(integer / power);  // -0 becomes 0, which differs
     if (std::bit_cast<std::uint32_t>(back) != std::bit_cast<std::uint32_t>(value)) return {};
     return integer;
 }
@@ -212,7 +214,7 @@ std::optional<VertexIntegers> to_decimals(const VertexValues& values) {
         for (std::size_t i = 0; i < size; i += step, ++looked_at) {
             if (!decimal(value_at<float>(values, i), kPowers[d])) ++exceptions;
         }
-        // A digit takes 3.32 bits a value, an exception two words.
+        // A digit takes 3.32 bits per value, an exception two words.
         const double bits = 3.32 * d + 64 * static_cast<double>(exceptions) / static_cast<double>(looked_at);
         if (4 * exceptions > looked_at || bits >= least) continue;
         least = bits;
@@ -230,7 +232,7 @@ std::optional<VertexIntegers> to_decimals(const VertexValues& values) {
             out.values[i] = static_cast<std::uint32_t>(*found);
             continue;
         }
-        // Any integer does for an exception: the nearest one, if it is small enough, else that of the vertex before.
+        // An exception may have any integer: the nearest if it fits, else that of the previous vertex.
         const double nearest = std::nearbyint(static_cast<double>(value) * kPowers[digits]);
         if (std::abs(nearest) <= 0x7fffffff) {
             out.values[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(nearest));
@@ -246,10 +248,11 @@ std::optional<VertexIntegers> to_decimals(const VertexValues& values) {
 Result<VertexIntegers> to_integers(const VertexValues& values, const VertexOptions& options) {
     if (values.type > ComponentType::f64 || values.components == 0 || values.data.size() % values.stride() != 0 ||
         values.data.size() / values.stride() > UINT32_MAX || (values.normalized && values.type > ComponentType::u32)) {
-        return invalid("no whole number of values a vertex");
+        return invalid("not a whole number of vertices");
     }
     const std::uint32_t each = values.type == ComponentType::f64 && options.mapping != VertexMapping::lattice ? 2 : 1;
-    if (each * values.components > LACEDRING_VERTICES_MAX_COMPONENTS) return invalid("more than 16 integers a vertex");
+    if (each * values.components > LACEDRING_VERTICES_MAX_COMPONENTS)
+        return invalid("more than 16 integers per vertex");
     if (options.mapping != VertexMapping::lattice && options.mapping != VertexMapping::octahedral)
         return to_exact(values);
     Result<VertexIntegers> out =
@@ -260,7 +263,7 @@ Result<VertexIntegers> to_integers(const VertexValues& values, const VertexOptio
 
 Result<double> quantize_vertices(std::span<std::byte> values, std::uint8_t components, const VertexOptions& options) {
     if (options.mapping != VertexMapping::lattice && options.mapping != VertexMapping::octahedral)
-        return invalid("a mapping that loses nothing");
+        return invalid("the mapping is lossless");
     LR_ASSIGN(const VertexIntegers integers, to_integers({ComponentType::f32, components, false, values}, options));
     const auto put = [&](std::size_t i, float value) { std::memcpy(values.data() + 4 * i, &value, 4); };
     if (integers.mapping == VertexMapping::lattice) {

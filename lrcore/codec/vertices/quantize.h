@@ -1,5 +1,5 @@
 #pragma once
-// From the values of an attribute to the integers that a vertex stream codes.
+// Converts the values of an attribute to the integers of a vertex stream.
 
 #include <cstdint>
 #include <optional>
@@ -10,21 +10,21 @@
 namespace lacedring {
 
 struct VertexIntegers {
-    std::vector<std::uint32_t> values;  // `components` a vertex
+    std::vector<std::uint32_t> values;  // `components` per vertex
     std::uint32_t components = 0;
     VertexMapping mapping = VertexMapping::integers;
-    std::uint32_t bits = 0;                 // octahedral
-    float step = 0;                         // lattice
-    std::uint32_t digits = 0;               // decimals
-    std::vector<std::uint32_t> exceptions;  // decimals: two words each, as the stream has them
+    std::uint32_t bits = 0;                 // octahedral only
+    float step = 0;                         // lattice only
+    std::uint32_t digits = 0;               // decimals only
+    std::vector<std::uint32_t> exceptions;  // decimals only: two words each, as in the stream
     double largest_error = 0;
 };
 
 /// Cost: O(V). Errors: encode_vertices'.
 Result<VertexIntegers> to_integers(const VertexValues& values, const VertexOptions& options);
 
-/// Floats as decimals, with the number of digits that promises to be smallest; none if many of them are no decimals.
-/// `values` are some that to_integers takes. Cost: O(V).
+/// Converts floats to decimals, with the number of digits that is estimated to give the smallest stream; none if too
+/// many values are no decimals. `values` must be accepted by to_integers. Cost: O(V).
 std::optional<VertexIntegers> to_decimals(const VertexValues& values);
 
 }  // namespace lacedring

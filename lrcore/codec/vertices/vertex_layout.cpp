@@ -72,7 +72,7 @@ std::vector<std::uint32_t> make_vertex_stream(const VertexStreamParts& parts) {
         if (bit % 32 + field > 32) at[2 + bit / 32] |= static_cast<std::uint32_t>(distance >> (32 - bit % 32));
     }
     out.insert(out.end(), parts.data.begin(), parts.data.end());
-    out.insert(out.end(), {0, 0});  // loads of 64 bits end within the stream
+    out.insert(out.end(), {0, 0});  // padding, so that 64-bit loads stay within the stream
     const std::uint32_t header = crc32(std::as_bytes(std::span(out).first(kChecksum)));
     out[kChecksum] = crc32(std::as_bytes(std::span(out).subspan(kChecksum + 1)), header);
     return out;

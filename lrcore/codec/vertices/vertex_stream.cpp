@@ -1,4 +1,4 @@
-// The vertex stream's decoder and checks are lacedring_vertices.h's, in C; here are C++'s types and messages.
+// The C++ interface of vertex streams, on the decoder and checks in lacedring_vertices.h (C).
 
 #include <bit>
 #include <cassert>
@@ -27,15 +27,15 @@ std::string vertex_fault(lacedring_status status, std::uint64_t where, std::span
         case LACEDRING_STATUS_MAGIC:
             return wrong_magic(words, "a vertex stream");
         case LACEDRING_STATUS_HEADER:
-            return message("word ", where, " of the header says something impossible");
+            return message("word ", where, " of the header is invalid");
         case LACEDRING_STATUS_SIZE:
-            return message(words.size(), " words are not what its blocks take");
+            return message(words.size(), " words do not match the size of its blocks");
         case LACEDRING_STATUS_CHECKSUM:
             return "checksum does not match";
         case LACEDRING_STATUS_GROUP:
-            return message("block ", where, ": its group begins elsewhere");
+            return message("block ", where, ": its group has a wrong beginning");
         case LACEDRING_STATUS_BLOCK:
-            return message("block ", where, " says something impossible");
+            return message("block ", where, " is invalid");
         default:
             return "unknown";
     }
@@ -52,7 +52,7 @@ lacedring_vertices as_c(std::span<const std::uint32_t> words) {
     return out;
 }
 
-/// The checksum and all that decoders rely on; writes the values, too, if `values` is not null.
+/// Checks the checksum and everything that decoders rely on. Also writes the values if `values` is not null.
 Result<void> check_vertices(std::span<const std::uint32_t> words, std::byte* values) {
     const std::uint32_t header = crc32(std::as_bytes(words.first(kChecksumWord)));
     if (words[kChecksumWord] != crc32(std::as_bytes(words.subspan(kChecksumWord + 1)), header)) {

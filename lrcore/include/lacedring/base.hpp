@@ -10,20 +10,21 @@
 
 namespace lacedring {
 
-// Errors as values. Result<T> has the names of std::expected<T, Error>, which g++ 12 does not offer in C++20; but
-// value(), * and -> of an error are undefined: look first.
+// Errors as values. Result<T> has the interface of std::expected<T, Error>, which g++ 12 does not offer in C++20. But
+// value(), * and -> of an error are undefined behavior: check first.
 
 enum class ErrorCode : int {
     cannot_open,       ///< the file does not exist, is a folder, or may not be read
-    cannot_write,      ///< the output cannot be made
+    cannot_write,      ///< the output cannot be created or written
     malformed,         ///< the bytes do not follow their format
-    unsupported,       ///< the format is right, but this part of it is not read here
+    unsupported,       ///< valid, but a part of the format that this reader does not support
     invalid_argument,  ///< a parameter is out of its range
-    too_large,         ///< more elements than the representation numbers, or than memory holds
-    memory_limit,      ///< would take more memory than the caller allows
+    /// More elements than the representation can number or memory can hold.
+    too_large,
+    memory_limit,  ///< would use more memory than the caller allows
 };
 
-/// A program may give its own codes, from this value on, to its own errors; the library has none of them.
+/// Codes from this value on are free for a program's own errors; the library never uses them.
 constexpr int kFirstOwnErrorCode = 1000;
 
 /// What went wrong. `message` is one line: the place and the cause, without the file's name (the caller knows it).

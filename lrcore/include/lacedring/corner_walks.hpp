@@ -1,6 +1,6 @@
 #pragma once
-// The steps from corner to corner, and the walks around a vertex, of every structure that knows opposite corners: the
-// corner table, LR tables, and others that a program has.
+// Steps from corner to corner and walks around a vertex, for any structure with opposite corners: the corner table, LR
+// tables, and a program's own structures.
 
 #include <cstdint>
 
@@ -8,15 +8,15 @@
 
 namespace lacedring {
 
-/// Base of a structure `Self` with opposite(c), null across a border, and vertex(c). Triangle t has the corners
-/// kStride * t, + 1 and + 2. A `Self` with other ways to go on has functions of these names of its own, which are used
-/// here, too.
+/// Base class of a structure `Self` that has opposite(c), null across a border, and vertex(c). Triangle t has the
+/// corners kStride * t, kStride * t + 1 and kStride * t + 2. `Self` may redefine any of these functions; the others
+/// then call its version.
 template <class Self, std::uint32_t kStride>
 class CornerSteps {
   public:
     /// c.t
     static constexpr TriangleId triangle(CornerId c) { return TriangleId{c.value / kStride}; }
-    /// t.c: the triangle's first corner, or that `i` behind it; next gives the others.
+    /// t.c: the triangle's first corner plus `i`. next() gives the other corners.
     static constexpr CornerId corner(TriangleId t, std::uint32_t i = 0) { return CornerId{t.value * kStride + i}; }
     /// c.n
     static constexpr CornerId next(CornerId c) { return CornerId{c.value % kStride == 2 ? c.value - 2 : c.value + 1}; }
@@ -33,21 +33,21 @@ class CornerSteps {
         const CornerId l = self().left(c);
         return l.is_null() ? l : self().next(l);
     }
-    /// The corner whose swing is c, null at a border.
+    /// The corner x with swing(x) == c, null at a border.
     CornerId swing_back(CornerId c) const {
         const CornerId r = self().right(c);
         return r.is_null() ? r : self().previous(r);
     }
-    /// Has the triangle a vertex twice?
+    /// Does the triangle have a repeated vertex?
     bool degenerate(TriangleId t) const {
         const VertexId a = self().vertex(corner(t)), b = self().vertex(corner(t, 1)), c = self().vertex(corner(t, 2));
         return a == b || b == c || c == a;
     }
 
-    // The loops here and below have two ways out each: with one, the compiler has the next step wait for which it is.
+    // The loops here and below have two exits each: merging them makes each step depend on the exit test.
 
-    /// Calls visit(corner) for the corners around c's vertex, from c in swing order, and where that ends at a border
-    /// from c back to the other, until visit returns true. Returns whether no border was met. O(valence).
+    /// Calls visit(corner) for the corners around c's vertex until visit returns true: from c in swing order; at a
+    /// border, continues from c backward to the other border. Returns false if it met a border. O(valence).
     template <class Visit>
     bool around(CornerId c, Visit visit) const {
         for (CornerId x = c;;) {
@@ -65,18 +65,19 @@ class CornerSteps {
     const Self& self() const { return static_cast<const Self&>(*this); }
 };
 
-/// The same of a structure that also has corner(v), null for a vertex of no triangle. One template runs on all, as they
-/// visit in the same order. Where corner(v) may be another than the first in swing order at a border, `Self` has its
-/// own star_begin.
+/// CornerSteps for a structure that also has corner(v), null for a vertex of no triangle. All such structures visit in
+/// the same order. If corner(v) of a border vertex may not be the first corner in swing order, `Self` must redefine
+/// star_begin.
 template <class Self, std::uint32_t kStride>
 class CornerWalks : public CornerSteps<Self, kStride> {
   public:
     using CornerSteps<Self, kStride>::corner;
 
-    /// What says how many vertices and triangles there are.
+    /// The object that has the numbers of vertices and triangles.
     const Self& store() const { return self(); }
 
-    /// Only laced rings give one corner several numbers: here a corner is canonical or of no triangle.
+    /// c, or null if c belongs to no triangle. Only LR tables, which redefine this, have several numbers for one
+    /// corner.
     CornerId canonical(CornerId c) const { return self().is_canonical(self().triangle(c)) ? c : kNullCorner; }
 
     /// Is the vertex on a border? O(valence).
@@ -85,7 +86,7 @@ class CornerWalks : public CornerSteps<Self, kStride> {
         return !first.is_null() && !this->around(first, [](CornerId) { return false; });
     }
 
-    /// Where stars begin: at v.c, or if v is on a border at the corner that no swing leads to.
+    /// The first corner of v's star: v.c, or, if v is on a border, the corner that no swing leads to.
     CornerId star_begin(VertexId v) const { return self().corner(v); }
 
     /// Calls visit(corner) for every triangle around v in swing order, from star_begin. O(valence).
@@ -102,7 +103,7 @@ class CornerWalks : public CornerSteps<Self, kStride> {
         }
     }
 
-    /// Edges at v: its triangles, and one more on a border. O(valence).
+    /// Number of edges at v: its triangles, plus one on a border. O(valence).
     std::uint32_t valence(VertexId v) const {
         const CornerId first = self().corner(v);
         if (first.is_null()) return 0;
@@ -114,8 +115,8 @@ class CornerWalks : public CornerSteps<Self, kStride> {
         return closed ? count : count + 1;
     }
 
-    /// Calls visit(vertex) for every neighbor of v once, in the order of star: of each triangle that of next, and on a
-    /// border at last the other end. O(valence), times the cost of c.v.
+    /// Calls visit(vertex) once for every neighbor of v, in the order of star(): vertex(next(c)) for each corner c; on
+    /// a border, finally the last triangle's other vertex. O(valence), times the cost of vertex().
     template <class Visit>
     void neighbors(VertexId v, Visit visit) const {
         const CornerId first = self().star_begin(v);
@@ -123,7 +124,7 @@ class CornerWalks : public CornerSteps<Self, kStride> {
         for (CornerId c = first;;) {
             visit(self().vertex(self().next(c)));
             const CornerId l = self().left(c);
-            if (l.is_null()) return visit(self().vertex(self().previous(c)));  // beyond the last triangle
+            if (l.is_null()) return visit(self().vertex(self().previous(c)));  // last triangle before a border
             c = self().next(l);
             if (c == first) return;
         }

@@ -1,10 +1,10 @@
 #pragma once
-// Triangle meshes in one vertex reference a triangle, or in little more than one bit: encode() makes a stream of an
-// index list, validate() and decode() (streams.hpp) give its triangles back. This header has everything of the
+// Triangle meshes in one vertex reference per triangle, or in little more than one bit: encode() turns an index list
+// into a stream; validate() and decode() (streams.hpp) read its triangles. This header includes all C++ headers of the
 // library's core.
 //
-// The steps behind encode(), for those who want them one by one, are below it: build_corner_table (topology.hpp),
-// expand_rings and optimize_rings (ring.hpp), encode_lean, encode_packed, build_lr.
+// encode() consists of steps that can also be called one by one: build_corner_table (topology.hpp), expand_rings and
+// optimize_rings (ring.hpp), and encode_lean, encode_packed or build_lr below.
 
 #include <cstddef>
 #include <cstdint>
@@ -25,31 +25,34 @@
 namespace lacedring {
 
 enum class PackedProfile {
-    small,  ///< the fewest bits
-    cache,  ///< an order nearly as good for the vertex cache as the best, in about one bit and a half more
+    /// The fewest bits.
+    small,
+    /// An order nearly as good for the vertex cache as the best; about 1.5 bits per triangle more.
+    cache,
 };
 
-/// Counts of triangles by how a lean stream stores them, over all rings. Paper: section 4.3.
+/// Counts of triangles by the way a lean stream stores them, over all rings. Paper: LR 2011, section 4.3.
 struct LeanStatistics {
     std::uint32_t ring_vertices = 0;
-    std::uint32_t isolated = 0;   ///< vertices used by triangles, but on no ring
-    std::uint32_t t0 = 0;         ///< verbatim because without a ring edge, after wart skipping
+    std::uint32_t isolated = 0;   ///< used vertices that are on no ring
+    std::uint32_t t0 = 0;         ///< T0 left after wart skipping; stored verbatim
     std::uint32_t t0_wart = 0;    ///< T0 stored in the redundant copy of a T2
-    std::uint32_t t2 = 0;         ///< with two ring edges (or all three)
-    std::uint32_t irregular = 0;  ///< T1 and T2 that share an edge with a T0 left after wart skipping
-    std::uint32_t unrung = 0;     ///< T1 and T2 stored verbatim because their ring, or its side, is not worth its slots
+    std::uint32_t t2 = 0;         ///< triangles with two or three ring edges
+    std::uint32_t irregular = 0;  ///< T1 and T2 next to a T0 that is left after wart skipping
+    /// T1 and T2 stored verbatim because their ring, or one side of it, would cost more as slots.
+    std::uint32_t unrung = 0;
 };
 
 /// Counts of a packed stream's events and blocks.
 struct PackedStatistics {
     std::uint32_t ring_vertices = 0;
-    std::uint32_t events[8] = {};      ///< by code (docs/packed-format.md)
-    std::uint64_t event_bits[8] = {};  ///< with their gaps
+    std::uint32_t events[8] = {};      ///< number of events by code (docs/packed-format.md)
+    std::uint64_t event_bits[8] = {};  ///< bits of events by code, including their gaps
     std::uint32_t warts = 0;
     std::uint64_t wart_bits = 0;
-    std::uint32_t doubles = 0;        ///< triangles stored as another one's number
-    std::uint32_t parted_blocks = 0;  ///< whose events are too many for one record
-    std::uint32_t plain_blocks = 0;   ///< stored as three vertices a triangle
+    std::uint32_t doubles = 0;        ///< triangles stored as the number of an equal triangle
+    std::uint32_t parted_blocks = 0;  ///< blocks with too many events for one record
+    std::uint32_t plain_blocks = 0;   ///< blocks stored as three vertices per triangle
 };
 
 /// Counts of triangles by kind in LR tables, standard or bit-efficient. Paper: LR 2011, section 8.
@@ -59,44 +62,44 @@ struct LrStatistics {
 
 struct EncodeOptions {
     Format format = Format::packed;
-    PackedProfile profile = PackedProfile::small;  ///< of packed; any other format has one profile
-    bool wart_skipping = true;                     ///< of lean and lr; packed and lr_compact always do
-    /// 0 to 9: how long to look for good rings. It decides seeds, passes and periods where they say nothing.
+    PackedProfile profile = PackedProfile::small;  ///< packed only
+    bool wart_skipping = true;                     ///< lean and lr only; packed and lr_compact always skip warts
+    /// 0 to 9: time spent on better rings. It determines seeds, passes and periods that are not set.
     std::uint32_t effort = 6;
 
     std::optional<std::uint32_t> seeds = {};  ///< RingOptions::seeds
-    std::optional<std::uint32_t> passes =
-        {};  ///< OptimizeOptions::passes; lr_compact takes its rings as they are found
-    /// RingOptions::k: of lr_compact the values of which the best is kept, of any other format one or none.
+    /// OptimizeOptions::passes; lr_compact does not optimize its rings.
+    std::optional<std::uint32_t> passes = {};
+    /// RingOptions::k. lr_compact tries each value and keeps the best; any other format takes at most one.
     std::vector<std::uint32_t> periods = {};
     std::uint64_t random_seed = 1;
-    unsigned threads = 1;  ///< run on at most that many, including the calling one; the same words for any
+    unsigned threads = 1;  ///< maximum, including the calling thread; does not change the words
 
-    /// Called after each pass of the optimizer, by the calling thread, with how many are done; false: stop, the best so
-    /// far is encoded. Fewer passes are made where nothing is left to gain.
-    /// lr_compact, which has no such passes, never calls it.
+    /// The calling thread calls it after each optimizer pass with the number of passes done. If it returns false, the
+    /// best rings so far are encoded. The optimizer makes fewer passes if nothing is left to gain. lr_compact has no
+    /// such passes and never calls it.
     std::function<bool(std::uint32_t)> progress = {};
 };
 
-/// The optimizer's passes for a format at that effort.
+/// Number of optimizer passes for a format at an effort.
 std::uint32_t passes_at(std::uint32_t effort, Format format);
 
 /// How a mesh was encoded.
 struct EncodeReport {
-    Topology topology;            ///< how the triangles were joined; how many were degenerate and are left out
+    Topology topology;            ///< how the triangles were joined; counts the degenerate ones, which are left out
     std::uint32_t triangles = 0;  ///< in the stream
-    std::uint32_t copies = 0;     ///< vertices of the stream beyond the mesh's: LR tables copy non-manifold ones
-    std::uint32_t k = 0;          ///< RingOptions::k of the rings that were kept
-    std::uint32_t passes = 0;     ///< asked of the optimizer; 0 where the rings are as they were found
+    std::uint32_t copies = 0;     ///< vertices added to the mesh's: LR tables copy non-manifold vertices
+    std::uint32_t k = 0;          ///< RingOptions::k of the rings used
+    std::uint32_t passes = 0;     ///< optimizer passes requested; 0 if the rings are not optimized
     std::variant<LeanStatistics, PackedStatistics, LrStatistics> statistics;
 };
 
-/// A stream, and how it maps to the mesh that it was made from.
+/// A stream and its mapping to the encoded mesh.
 struct Encoded {
     Format format = Format::packed;
     std::vector<std::uint32_t> words;  ///< the whole stream
-    /// vertex_order[new] = old: bring the vertices' attributes into this order. A permutation of the mesh's
-    /// vertices; LR tables of a mesh with non-manifold vertices have entries that repeat (copies).
+    /// vertex_order[new] = old: bring the vertices' attributes into this order. A permutation of the mesh's vertices.
+    /// In LR tables of a mesh with non-manifold vertices, entries repeat (copies).
     std::vector<std::uint32_t> vertex_order;
     std::vector<std::uint32_t> triangle_order;  ///< triangle_order[i] = the mesh's triangle decoded i-th
     EncodeReport report;
@@ -104,48 +107,49 @@ struct Encoded {
     std::span<const std::byte> bytes() const { return std::as_bytes(std::span(words)); }
 };
 
-/// Encodes the triangles of `indices` (three each, below `vertex_count`): any triangle soup. Triangles with a
-/// repeated vertex are left out; all others come back with their orientation. The same words on every machine.
-/// Cost: O(T) time for each pass and seed; about 60 bytes a triangle. Errors: malformed (index out of range),
-/// invalid_argument (a number of indices that is no multiple of three, an option out of its range), too_large.
+/// Encodes any triangle soup: three `indices` per triangle, below `vertex_count`. Triangles with a repeated vertex are
+/// left out; all others keep their orientation. The words are the same on every machine. Cost: O(T) time for each pass
+/// and seed; about 60 bytes per triangle. Errors: malformed (index out of range), invalid_argument (a number of indices
+/// that is no multiple of three, an option out of its range), too_large.
 Result<Encoded> encode(std::span<const std::uint32_t> indices, std::uint32_t vertex_count,
                        const EncodeOptions& options = {});
 
-/// The same from a corner table that is there already. LR tables copy one that is not given up with std::move.
+/// Encodes the triangles of a corner table. For LR tables, the const overload copies the table.
 Result<Encoded> encode(const CornerTable& table, const EncodeOptions& options = {});
 Result<Encoded> encode(CornerTable&& table, const EncodeOptions& options = {});
 
-/// The seam section of a surface that encode() made a stream of. `indices` are those of the mesh with seams, and
-/// vertex_of[v] the surface's vertex of each of the mesh's vertices: encode() got vertex_of[indices[i]] for each i.
-/// copy_order[new] is the mesh's vertex of each copy; of a vertex without corners it is the one that the mesh has.
-/// Cost and errors: encode_seams' (seams.hpp); invalid_argument, too, where a vertex without corners is not alone.
+/// The seam section of a surface that encode() has encoded. `indices` belong to the mesh with seams; vertex_of[v] is
+/// the surface vertex of the mesh's vertex v, so encode() got vertex_of[indices[i]] for each i. The result's
+/// copy_order[new] is the mesh's vertex of each copy, also for vertices without corners. Cost and errors: encode_seams'
+/// (seams.hpp); also invalid_argument if several of the mesh's vertices map to a surface vertex without corners.
 Result<EncodedSeams> encode_seams(const Encoded& surface, std::span<const std::uint32_t> indices,
                                   std::span<const std::uint32_t> vertex_of);
 
-// The steps. Rings are as expand_rings and optimize_rings make them: the triangles on each ring's left are a tree.
+// The steps of encode(). Rings must come from expand_rings or optimize_rings: the triangles on each ring's left are a
+// tree.
 
-// From a corner table and its rings to a lean stream (streams.hpp). Paper: LR 2011, section 7 and section 5.
+// Makes a lean stream (streams.hpp) from a corner table and its rings. Paper: LR 2011, sections 7 and 5.
 
 struct LeanOptions {
     bool wart_skipping = true;
 };
 
-/// A lean stream and how it maps to the mesh that it was made from.
+/// A lean stream and its mapping to the encoded mesh.
 struct EncodedLean {
     std::vector<std::uint32_t> words;          ///< header and payload: the whole stream
     std::vector<std::uint32_t> vertex_order;   ///< vertex_order[new] = old, a permutation of the mesh's vertices
-    std::vector<std::uint32_t> slot_triangle;  ///< triangle of the mesh at each slot, UINT32_MAX where degenerate
+    std::vector<std::uint32_t> slot_triangle;  ///< the mesh's triangle at each slot, UINT32_MAX if degenerate
     LeanStatistics statistics;
 };
 
 /// Encodes every triangle of the table that is not degenerate.
-/// Cost: O(T) time; 4 bytes a reference for the words, 4 for slot_triangle, 4 a vertex for vertex_order, 4 while it
-/// runs. Errors: too_large (2^29 vertices, or 2^32 / 3 slots).
+/// Cost: O(T) time; 4 bytes per reference for the words, 4 per slot for slot_triangle, 4 per vertex for vertex_order,
+/// and 4 more per vertex while it runs. Errors: too_large (2^29 vertices, or 2^32 / 3 slots).
 Result<EncodedLean> encode_lean(const CornerTable& table, const Rings& rings, const LeanOptions& options = {});
 
-// From a corner table and its rings to a packed stream (streams.hpp).
+// Makes a packed stream (streams.hpp) from a corner table and its rings.
 
-/// A packed stream and how it maps to the mesh that it was made from.
+/// A packed stream and its mapping to the encoded mesh.
 struct EncodedPacked {
     std::vector<std::uint32_t> words;           ///< the whole stream
     std::vector<std::uint32_t> vertex_order;    ///< vertex_order[new] = old, a permutation of the mesh's vertices
@@ -154,16 +158,16 @@ struct EncodedPacked {
 };
 
 /// Encodes every triangle of the table that is not degenerate.
-/// Cost: O(T) time; beside the result 5 bytes a triangle, 5 a vertex and 4 bits a triangle while it runs.
+/// Cost: O(T) time; while it runs, beside the result, 5.5 bytes per triangle and 5 per vertex.
 /// Errors: too_large (2^29 vertices; records of 4 GiB: at least 300 million triangles).
 Result<EncodedPacked> encode_packed(const CornerTable& table, const Rings& rings,
                                     PackedProfile profile = PackedProfile::small);
 
-/// The smaller of two streams: over the rings of expand_rings, and over these optimized; of a mesh with doubled
-/// triangles both are of the mesh without the doubles, which only the stream gets. Errors: encode_packed's.
+/// The smaller of two streams: from the rings of expand_rings, and from the same rings optimized. Rings are made
+/// without doubled triangles; the stream stores those as doubles. Errors: encode_packed's.
 struct PackedChoice {
     EncodedPacked stream;
-    std::uint32_t passes = 0;  ///< of the optimizer; 0 where its rings were no better
+    std::uint32_t passes = 0;  ///< optimizer passes; 0 if its rings were no better
 };
 Result<PackedChoice> encode_smallest_packed(const CornerTable& table, const RingOptions& ring,
                                             const OptimizeOptions& optimize,
@@ -179,16 +183,16 @@ struct LrTable {
     LrView view() const { return {vertices, ring_vertices, lr, vo, star, c}; }
 };
 
-/// Which element of the corner table each element of the LR tables is.
+/// Maps the elements of the LR tables to those of the corner table.
 struct LrMap {
     std::vector<VertexId> vertex;  ///< vertex[LR vertex] = corner table's
-    std::vector<TriangleId>
-        triangle;  ///< triangle[LR triangle] = corner table's, null for redundant copies and borders
-    std::vector<std::uint32_t>
-        start;  ///< start[LR triangle] = 0, 1, 2: which of its corners is the LR triangle's first
+    /// triangle[LR triangle] = corner table's; null for redundant copies and borders.
+    std::vector<TriangleId> triangle;
+    /// start[LR triangle] = 0, 1, 2: which corner of the table's triangle is the LR triangle's first.
+    std::vector<std::uint32_t> start;
 };
 
-/// A copy of a vertex whose triangles form several fans (split_fans), and the vertex that it is a copy of; LR numbers.
+/// A copy of a vertex whose triangles form several fans (split_fans), and its original; LR numbers.
 struct VertexCopy {
     std::uint32_t copy, original;
 };
@@ -202,24 +206,24 @@ struct CompactLrTable {
     CompactLrView view() const { return {vertices, ring_vertices, unit, lr, vo, star, c}; }
 };
 
-/// Packs standard tables. Vertices, triangles and corners keep their numbers. Cost: O(T).
-/// A VO* beyond 2^27 entries is indexed in units of 4 or 8, its records padded; at 8 each record takes one unit.
-/// Errors: too_large (more than 2^26 records).
+/// Converts standard tables to bit-efficient ones. Vertices, triangles and corners keep their numbers. Cost: O(T). If
+/// VO* has more than 2^27 entries, records are padded and indexed in units of 4 or 8 entries; with 8, each record takes
+/// one unit. Errors: too_large (more than 2^26 records).
 Result<CompactLrTable> build_compact_lr(const LrView& lr);
 
-/// Header, L and R, VO, VO*, C, copies. 40 bytes beside 4 a reference and 8 a copy.
+/// Words of an LR stream: header, L and R, VO, VO*, C, copies. 40 bytes plus 4 per reference and 8 per copy.
 std::vector<std::uint32_t> serialize(const LrTable& table, std::span<const VertexCopy> copies);
 std::vector<std::uint32_t> serialize(const CompactLrTable& table, std::span<const VertexCopy> copies);
 
-// From a corner table to LR tables, and to LR streams in one call, non-manifold vertices and all.
+// Makes LR tables from a pseudo-manifold corner table, or LR streams from any corner table.
 
 struct LrOptions {
     bool wart_skipping = true;
 };
 
 /// Builds the tables from a pseudo-manifold corner table (split_fans) and its rings, one per shell
-/// (RingOptions::one_per_shell). Degenerate triangles take no part.
-/// Cost: O(T) time; 4 bytes a reference, and about 8 bytes a triangle while it runs. `map` may be null.
+/// (RingOptions::one_per_shell). Degenerate triangles are ignored. Cost: O(T) time; 4 bytes per reference, and about 8
+/// bytes per triangle while it runs. `map` may be null.
 /// Errors: too_large (2^28 vertices).
 Result<LrTable> build_lr(const CornerTable& table, const Rings& rings, const LrOptions& options = {},
                          LrMap* map = nullptr);
@@ -227,34 +231,37 @@ Result<LrTable> build_lr(const CornerTable& table, const Rings& rings, const LrO
 struct EncodedLr {
     std::vector<std::uint32_t> words;         ///< the stream (streams.hpp)
     std::vector<std::uint32_t> vertex_order;  ///< vertex_order[LR vertex] = the table's; copies repeat their original's
-    std::vector<std::uint32_t> triangle_order;  ///< the table's triangle of each one that decode_lr gives, in its order
+    /// triangle_order[i] = the table's triangle that decode_lr gives i-th.
+    std::vector<std::uint32_t> triangle_order;
     LrStatistics statistics;
-    std::uint32_t copies = 0;  ///< vertices beyond the table's, for fans of non-manifold vertices
-    std::uint32_t k = 0;       ///< of the ring that was kept; 0: depth first
+    std::uint32_t copies = 0;  ///< vertices added to the table's for fans of non-manifold vertices
+    std::uint32_t k = 0;       ///< RingOptions::k of the rings used
 };
 
-/// The standard tables. `table` is any corner table; it is split into a pseudo-manifold here, and one ring made per
-/// shell, optimized as `optimize` says. Cost: O(T) per seed and pass. Errors: those of build_lr.
+/// Makes the standard tables from any corner table: splits it into a pseudo-manifold, makes one ring per shell and
+/// optimizes the rings as `optimize` says. Cost: O(T) per seed and pass. Errors: those of build_lr.
 Result<EncodedLr> encode_lr(CornerTable table, const RingOptions& ring, const OptimizeOptions& optimize = {.passes = 0},
                             bool wart_skipping = true);
 
-/// The bit-efficient tables, with the best of `periods` (smallest_compact_lr).
+/// Makes the bit-efficient tables, with the best of `periods` (smallest_compact_lr).
 Result<EncodedLr> encode_compact_lr(CornerTable table, const RingOptions& ring, std::span<const std::uint32_t> periods);
 
-// Which k makes the bit-efficient tables smallest. Paper: LR 2011, section 8: run several times, keep the best.
+// Choice of the k with the smallest bit-efficient tables. Paper: LR 2011, section 8: run several times, keep the best.
 
-/// Periods worth trying on a mesh of that size, 0 (depth first) among them: fewer on large meshes.
+/// Values of RingOptions::k worth trying on a mesh of that size, 0 (depth first) first unless the mesh is very large;
+/// fewer for large meshes.
 std::vector<std::uint32_t> recommended_periods(std::size_t triangles);
 
 struct CompactChoice {
     std::uint32_t k = 0;
-    LrTable lr;  ///< the tables that were packed
+    LrTable lr;  ///< the standard tables that `compact` was made from
     LrMap map;
     CompactLrTable compact;
 };
 
-/// Builds and packs the tables with each k and keeps the smallest. `options.k` is ignored; one ring per shell is made.
-/// Cost: that of the rings and tables, times the number of periods. Errors: those of build_lr and build_compact_lr.
+/// Makes bit-efficient tables with each of `periods` as k and keeps the smallest. Ignores `options.k`; makes one ring
+/// per shell. Cost: that of the rings and tables, times the number of periods. Errors: those of build_lr and
+/// build_compact_lr.
 Result<CompactChoice> smallest_compact_lr(const CornerTable& table, const RingOptions& options,
                                           std::span<const std::uint32_t> periods);
 

@@ -9,32 +9,33 @@
 
 namespace lacedring {
 
-// The neighbors of a ring vertex v side by side, from fewer words than the corners around it take.
+// The neighbors of a ring vertex v, side by side, from fewer words than a walk over its corners reads.
 //
-// On either side of the ring, the triangles at v run from the slot that starts at v to the slot that ends at v. Along a
-// corridor those in between have v as their tip and lie in a row:
+// On each side of the ring, the triangles at v run from the slot that starts at v to the slot that ends at v. Along a
+// corridor, the triangles in between have v as their tip and lie in a row of slots:
 //
 //          x---o---o---o---o
 //           \   \  |  /   /            slots x, x + 1, ... have tip v
 //            \   \ | /   /
 //     v.n o-------- v --------o v.p    v.l or v.r is x; the tip of the slot that ends at v is where the row ends
 //
-// LrView::plain_fan counts such rows; here warts, T2, irregular triangles and T0 are stepped over as well.
+// LrView::plain_fan counts such rows. FanSide also handles warts, T2, irregular triangles and T0.
 
-/// The neighbors of v between v.n and v.p on one side, in this order: as many as triangles, less one.
+/// The neighbors of v between v.n and v.p on one side, in this order: one fewer than triangles there.
 template <class Store>
 class FanSide {
   public:
     std::uint32_t size = 0;
-    std::uint32_t vertex[16];  ///< `size` of them
+    std::uint32_t vertex[16];  ///< the first `size` are set
 
-    /// Lists those of side 0 (left) or 1 (right). w, p, pp: the words of v, v.p and v.p.p there. Constant time. False,
-    /// and the list of no use, where it is long or a border is near: Operators has to go by the corners.
+    /// Lists the neighbors of side 0 (left) or 1 (right). w, p, pp: the words of v, v.p and v.p.p on that side.
+    /// Constant time. Returns false if there are many or a border is near: the list is then invalid, and Operators must
+    /// walk over corners.
     template <std::uint32_t side>
     bool find(const Store& s, std::uint32_t v, std::uint32_t w, std::uint32_t p, std::uint32_t pp) {
         size = 0;
         if (is_wart(p) || is_redundant(p)) return true;  // v is the middle of a T2
-        // The slots of the triangle at v's edge and of the last one at v, and their words.
+        // The slots of the first and the last triangle at v.
         const std::uint32_t from = is_redundant(w) ? v + 1 : v, to = is_wart(pp) ? v - 2 : v - 1;
         if (is_wart(w)) vertex[size++] = ring_next(s, v + 1);
         std::uint32_t x = vertex[size++] = s.tip(w);
@@ -49,11 +50,11 @@ class FanSide {
             return true;
         }
         std::uint32_t slot = from;
-        // Which edge of `slot`'s triangle is (v, x): that of its end and tip (0) or of its start and tip (1)?
+        // The edge (v, x) of `slot`'s triangle: 0: end and tip; 1: start and tip.
         std::uint32_t edge = from == v ? 1 : 0;
         for (;;) {
             if ((w & word::kIrregular) != 0) {
-                std::uint32_t c = s.star_opposite(slot, side, edge);  // faces (v, x) from the other side
+                std::uint32_t c = s.star_opposite(slot, side, edge);  // the corner facing (v, x) from the other side
                 while (c >= 8 * s.ring_vertices) {
                     if (c == UINT32_MAX || size >= kMost) return false;
                     const std::uint32_t t0 = (c - 8 * s.ring_vertices) / 4 * 3, k = c % 4;
@@ -74,7 +75,8 @@ class FanSide {
             if (size >= kMost) return false;
             slot = x;
             edge = 0;
-            x = side == 0 ? x + 1 : ring_next(s, x);  // a left slot with a triangle of its own does not close its ring
+            // A left slot with its own triangle does not close its ring.
+            x = side == 0 ? x + 1 : ring_next(s, x);
             if (is_wart(w)) x = ring_next(s, x);
             vertex[size++] = x;
         }
@@ -83,7 +85,8 @@ class FanSide {
     }
 
   private:
-    static constexpr std::uint32_t kMost = 11;  // further ones may be four of a row, or one and v.p.p
+    // Leaves room for a row of four, or a vertex and v.p.p.
+    static constexpr std::uint32_t kMost = 11;
 
     static bool is_wart(std::uint32_t w) { return (w & (word::kSpecial | word::kWart)) == word::kWart; }
     static bool is_redundant(std::uint32_t w) { return (w & word::kKind) == word::kRedundant; }
@@ -92,17 +95,17 @@ class FanSide {
     static std::uint32_t ring_next(const Store& s, std::uint32_t v) { return s.closes(v) ? s.first(v) : v + 1; }
 };
 
-// The corner operators on a laced ring, each in constant time. Paper: LR 2011, sections 4.4 to 4.7 and 5.
+// The corner operators on LR tables, each in constant time. Paper: LR 2011, sections 4.4 to 4.7 and 5.
 //
-// Within a slot, corners have roles: start (at v), tip, end (at v.n, or v.n.n where a wart is skipped). Left corners
-// 8v+0, 1, 2 are start, tip, end; right corners 8v+4, 5, 6 are end, tip, start. So one piece of code serves both sides:
+// The corners of a slot have roles: start (at v), tip, end (at v.n, or at v.n.n if the slot has a wart). Left corners
+// 8v+0, 1, 2 are start, tip, end; right corners 8v+4, 5, 6 are end, tip, start. So the same code serves both sides:
 //
 //                 tip                        across the ring edge (start, end): the other side's tip
 //                /   \                       across (tip, end), facing the start corner: see facing_start()
 //               /     \                      across (start, tip), facing the end corner: see facing_end()
 //       v = start ---- end = v.n
 //
-// `Store` is LrView or CompactLrView, or a test's wrapper that counts what is read.
+// `Store` is LrView, CompactLrView, or a test's wrapper that counts reads.
 
 template <class Store>
 class Operators : public CornerWalks<Operators<Store>, 4> {
@@ -111,14 +114,14 @@ class Operators : public CornerWalks<Operators<Store>, 4> {
   public:
     using Walks::corner, Walks::next, Walks::previous;
 
-    /// `copies`: LrStreamView::copies, which original() looks in; no other operator needs them.
+    /// `copies`: LrStreamView::copies, used by original() only.
     explicit Operators(const Store& store, std::span<const std::uint32_t> copies = {})
         : s_(store), ring_(store.ring_vertices), copies_(copies) {}
 
     const Store& store() const { return s_; }
 
-    /// The vertex that v is a copy of, made for another of its fans of triangles; v itself if it is none. All operators
-    /// take a copy for a vertex of its own. O(log copies).
+    /// The vertex that v is a copy of, or v itself if it is no copy. A non-manifold vertex has a copy for each further
+    /// fan of triangles; all other operators treat copies as separate vertices. O(log copies).
     VertexId original(VertexId v) const {
         return VertexId{LrStreamView<Store>{.view = {}, .copies = copies_}.original(v.value)};
     }
@@ -126,26 +129,27 @@ class Operators : public CornerWalks<Operators<Store>, 4> {
     // Ring order (paper: v.n, v.p).
     std::uint32_t ring_next(std::uint32_t v) const { return s_.closes(v) ? s_.first(v) : v + 1; }
     std::uint32_t ring_previous(std::uint32_t v) const {
-        // The first vertex of a ring has a T2 on its left, between the ring's last edge and its first: its tip is the
-        // last.
+        // The left triangle of a ring's first vertex is a T2 with the ring's last and first edges; its tip is the last
+        // vertex.
         return v == 0 || s_.closes(v - 1) ? s_.tip(v, 0) : v - 1;
     }
 
     bool is_t0(CornerId c) const { return c.value >= 8 * ring_; }
 
-    /// Does the triangle exist, and is this its canonical number (not that of a T2's first copy)?
+    /// Does triangle number t exist, and is it canonical (not the first copy of a T2)?
     bool is_canonical(TriangleId t) const {
         return t.value >= 2 * ring_ || (s_.kind(t.value / 2, t.value % 2) & word::kSpecial) == 0;
     }
 
-    /// The same corner under its canonical number. Null for a corner of no triangle (a border slot).
+    /// The canonical number of corner c; null for a corner of no triangle (a border slot).
     CornerId canonical(CornerId c) const {
-        while (!is_t0(c)) {  // once, or twice in a triangle that is its whole ring
+        // Once, or twice if the triangle is the whole ring.
+        while (!is_t0(c)) {
             const Slot slot = slot_of(c);
             const std::uint32_t kind = s_.kind(slot.v, slot.side);
             if ((kind & word::kSpecial) == 0) return c;
             if (kind == word::kBorder) return kNullCorner;
-            constexpr Role kTurned[] = {kTip, kEnd, kStart};  // start, tip, end seen from the second copy
+            constexpr Role kTurned[] = {kTip, kEnd, kStart};  // roles in the second copy of start, tip, end
             c = at(ring_next(slot.v), slot.side, kTurned[slot.role]);
         }
         return c;
@@ -199,10 +203,10 @@ class Operators : public CornerWalks<Operators<Store>, 4> {
         return v.value < s_.used_vertices() ? CornerId{s_.isolated_corner(v.value - ring_)} : kNullCorner;
     }
 
-    /// v.c, or if v is on a border the corner that no swing leads to.
+    /// v.c, or, if v is on a border, the corner that no swing leads to.
     CornerId star_begin(VertexId v) const {
         const CornerId first = corner(v);
-        if constexpr (kHasFans) {  // with neighbors on all sides
+        if constexpr (kHasFans) {  // these find only vertices that are not on a border
             typename Store::PlainFan fan;
             FanSide<Store> left, right;
             if (v.value < ring_ && (s_.plain_fan(v.value, fan) || find_sides(v.value, left, right))) return first;
@@ -216,7 +220,8 @@ class Operators : public CornerWalks<Operators<Store>, 4> {
         return first;
     }
 
-    /// Edges at v: its triangles, and one more on a border. O(valence), constant where LrView::plain_fan sees it.
+    /// Number of edges at v: its triangles, plus one on a border. O(valence); constant if plain_fan or FanSide
+    /// succeeds.
     std::uint32_t valence(VertexId v) const {
         if constexpr (kHasFans) {
             typename Store::PlainFan fan;
@@ -227,14 +232,15 @@ class Operators : public CornerWalks<Operators<Store>, 4> {
         return Walks::valence(v);
     }
 
-    /// Calls visit(vertex) for every neighbor of v once, in the order of star. O(valence), likewise.
+    /// Calls visit(vertex) once for every neighbor of v, in the order of star(). Cost: as valence.
     template <class Visit>
     void neighbors(VertexId v, Visit visit) const {
         if (!near_neighbors(v, visit)) Walks::neighbors(v, visit);
     }
 
-    /// Visits the same vertices in the same order and returns true, if the slots near v give them in constant time.
-    /// Else returns false and visits nothing; always so on a border. valence and star use the same shortcut.
+    /// If the slots near v give its neighbors in constant time, visits them as neighbors() does and returns true.
+    /// Otherwise, and always on a border, visits nothing and returns false. valence and star_begin use the same
+    /// shortcut.
     template <class Visit>
     bool near_neighbors(VertexId v, Visit visit) const {
         if constexpr (kHasFans) {
@@ -249,7 +255,7 @@ class Operators : public CornerWalks<Operators<Store>, 4> {
             }
             FanSide<Store> left, right;
             if (find_sides(v.value, left, right)) {
-                // The first triangle of a star is that of v's left slot; with a T0w there, its T2w comes last.
+                // A star begins with the triangle of v's left slot. If this is a T0w, its T2w comes last.
                 std::uint32_t first = 0;
                 if (left.size == 0) {
                     visit(VertexId{v.value - 1});
@@ -269,12 +275,12 @@ class Operators : public CornerWalks<Operators<Store>, 4> {
     }
 
   private:
-    // What the representation answers itself where nothing special is near.
+    // Does the representation have its own shortcuts for common cases?
     static constexpr bool kHasOpposites = requires(const Store& store) { store.plain_opposite(0); };
 
     static constexpr bool kHasFans = requires { typename Store::PlainFan; };
 
-    /// Lists the neighbors on both sides; false where v is not well inside a ring, or not all were found.
+    /// Lists the neighbors on both sides; returns false if v is near an end of its ring, or not all were found.
     bool find_sides(std::uint32_t v, FanSide<Store>& left, FanSide<Store>& right) const {
         if (v < 2 || v + 1 >= ring_) return false;
         const std::uint32_t w = s_.word(v, 0), p = s_.word(v - 1, 0), pp = s_.word(v - 2, 0);
@@ -307,7 +313,7 @@ class Operators : public CornerWalks<Operators<Store>, 4> {
         const std::uint32_t n = ring_next(v);
         return (s_.kind(v, side) & (word::kSpecial | word::kWart)) == word::kWart ? ring_next(n) : n;
     }
-    /// The slot whose edge ends at v: v.p, or v.p.p where that slot skips v.p.
+    /// The slot whose edge ends at v: v.p.p if that slot skips v.p, else v.p.
     std::uint32_t before(std::uint32_t v, std::uint32_t side) const {
         const std::uint32_t p = ring_previous(v), pp = ring_previous(p);
         return skips(pp, side) ? pp : p;
@@ -315,14 +321,14 @@ class Operators : public CornerWalks<Operators<Store>, 4> {
     bool skips(std::uint32_t v, std::uint32_t side) const {
         return (s_.kind(v, side) & (word::kSpecial | word::kWart)) == word::kWart;
     }
-    /// A triangle with a redundant copy or a T0w in the slot before it has two ring edges.
+    /// Is the slot a redundant copy or a T0w? Then the next slot's triangle has two ring edges.
     static bool precedes_t2(std::uint32_t kind) { return (kind & word::kWart) != 0 || kind == word::kRedundant; }
 
-    /// What lies across v's ring edge, on side `side`.
+    /// The corner on side `side` that faces v's ring edge.
     CornerId across_ring(std::uint32_t v, std::uint32_t side) const {
         const std::uint32_t kind = s_.kind(v, side);
         if (kind == word::kBorder) return kNullCorner;
-        // A T2 whose first copy, real or taken by a T0w, is here: its second copy's end corner faces this edge.
+        // The slot is a T2's first copy or a T0w in its place: the end corner of the T2's second copy faces this edge.
         if (precedes_t2(kind)) {
             const CornerId c = at(ring_next(v), side, kEnd);
             return kind == word::kRedundant || kind == word::kClosing ? canonical(c) : c;
@@ -356,7 +362,8 @@ class Operators : public CornerWalks<Operators<Store>, 4> {
     }
 
   public:
-    /// Across (tip, end) of a regular triangle: the slot that starts at its end, or the one that ends at its tip.
+    /// The corner across (tip, end) of a regular triangle: in the slot that starts at its end, or in the slot that ends
+    /// at its tip.
     CornerId infer_start(std::uint32_t v, std::uint32_t side) const {
         const std::uint32_t n = end(v, side), u = s_.tip(v, side);
         if (slot_tip(n, side) == u) return canonical(at(n, side, kEnd));
@@ -365,7 +372,8 @@ class Operators : public CornerWalks<Operators<Store>, 4> {
         return slot_tip(p, side) == n ? canonical(at(p, side, kStart)) : kNullCorner;
     }
 
-    /// Across (start, tip) of a regular triangle: the slot that ends at its start, or the one that starts at its tip.
+    /// The corner across (start, tip) of a regular triangle: in the slot that ends at its start, or in the slot that
+    /// starts at its tip.
     CornerId infer_end(std::uint32_t v, std::uint32_t side) const {
         const std::uint32_t u = s_.tip(v, side), q = before(v, side);
         if (slot_tip(q, side) == u) return canonical(at(q, side, kStart));
@@ -374,7 +382,7 @@ class Operators : public CornerWalks<Operators<Store>, 4> {
     }
 
   private:
-    /// The third vertex of the slot's triangle, whichever copy it is; null where there is none.
+    /// The third vertex of the slot's triangle (for either copy of a T2); null if the slot has none.
     std::uint32_t slot_tip(std::uint32_t v, std::uint32_t side) const {
         const std::uint32_t kind = s_.kind(v, side);
         if (kind == word::kBorder) return kNullVertex.value;

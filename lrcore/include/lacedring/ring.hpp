@@ -1,5 +1,5 @@
 #pragma once
-// From a corner table to rings.
+// Rings over a corner table: making, checking and optimizing them.
 
 #include <cstdint>
 #include <functional>
@@ -12,22 +12,27 @@
 
 namespace lacedring {
 
-// The rings: cycles of mesh edges that visit most vertices once and part the triangles into two sides.
+// Rings are cycles of mesh edges that visit most vertices once and divide the triangles into two sides.
 // Paper: LR 2011, section 4.2 (RING-EXPANDER).
 
 struct Expansion;  // below
 
 struct RingOptions {
-    std::uint32_t seeds = 1;  ///< seed corners tried per component; the one with the cheapest ring is kept
+    /// Seed corners tried per component; the one with the cheapest ring is kept.
+    std::uint32_t seeds = 1;
     std::uint64_t random_seed = 1;
-    std::uint32_t k = 0;         ///< 0: RING-EXPANDER; else HYBRID-RING-EXPANDER, breadth first every k triangles
-    bool one_per_shell = false;  ///< never a further ring among vertices that a shell's ring left out
-    /// Where the ring of its component begins, and which ring is the first; null: each at its first triangle.
+    /// 0: RING-EXPANDER; else HYBRID-RING-EXPANDER with one breadth-first step every k triangles.
+    std::uint32_t k = 0;
+    /// Make no further ring among vertices that a shell's ring left out.
+    bool one_per_shell = false;
+    /// Seed corner of the first ring; null: start each component at its first triangle.
     CornerId start = kNullCorner;
-    unsigned threads = 1;  ///< try seeds on at most that many, including the calling one; the same rings for any
+    /// Maximum number of threads for trying seeds, including the calling thread; does not change the rings.
+    unsigned threads = 1;
 };
 
-/// Seeds worth trying on a mesh of that size: more on small meshes, where chance weighs more and trying is cheap.
+/// Number of seeds worth trying on a mesh of that size. More for small meshes: their result depends more on the seed,
+/// and tries are cheap.
 std::uint32_t recommended_seeds(std::size_t triangles);
 
 /// The edge from ring vertex v to v.n, and the corners that face it from the triangles beside it.
@@ -39,7 +44,7 @@ struct RingEdge {
     VertexId right_tip;  ///< vertex(right): v.r, null at a border
 };
 
-/// One ring is a run of `edges`; edge i goes from ring vertex i to the next of its ring.
+/// One ring is a run of `edges`; edge i goes from ring vertex i to the next vertex of its ring.
 struct Rings {
     std::vector<RingEdge> edges;       ///< ring after ring, in ring order
     std::vector<std::uint32_t> first;  ///< where each ring begins in `edges`; one more entry at the end
@@ -50,77 +55,82 @@ struct Rings {
     }
 };
 
-/// RING-EXPANDER, depth first (section 4.2), or with k HYBRID-RING-EXPANDER (section 6.1), over every component. A
-/// vertex is on at most one ring, once. Differs from the paper: the seed is a triangle whose three edges are all
-/// followed, borders are opposite(c) == null with no dummy triangles, ring edges are emitted while the invaded region
-/// is walked, and a component whose ring left three unvisited vertices in one triangle gets a further ring there. Cost:
-/// O(T) time per seed; 20 bytes a ring vertex for the result; while it runs V/8 + T/8 bytes and a stack of up to 20
-/// bytes a ring vertex; with more seeds than one, 40 bytes a vertex of the largest component on top, for each thread.
-/// `expansion`, if given, gets the order in which triangles were invaded; costs nothing where it is not.
+/// Makes rings on every component by RING-EXPANDER, depth first (section 4.2), or with k != 0 HYBRID-RING-EXPANDER
+/// (section 6.1). No vertex is on the rings twice. Differs from the paper: the seed is a triangle whose three edges are
+/// all followed; borders are opposite(c) == null, without dummy triangles; ring edges are emitted by a walk along the
+/// invaded region; and if a component's ring leaves out all three vertices of a triangle, another ring is made there.
+/// Cost: O(T) time per seed; 20 bytes per ring vertex for the result; while it runs V/8 + T/8 bytes and a stack of up
+/// to 20 bytes per ring vertex; with several seeds also 40 bytes per vertex of the largest component for each thread.
+/// Writes the order of invasion to `expansion` if it is not null.
 Rings expand_rings(const CornerTable& table, const RingOptions& options = {}, Expansion* expansion = nullptr);
 
-/// Checks that every ring is one cycle of mesh edges that visits no vertex twice. Empty if all is well.
+/// Checks that every ring is one cycle of mesh edges that visits no vertex twice. Returns the fault; empty if there is
+/// none.
 std::string check_rings(const CornerTable& table, const Rings& rings);
 
-// Rings with fewer triangles off the ring: local changes to any set of rings, by simulated annealing.
+// Improves rings, so that fewer triangles have no ring edge, by local changes and simulated annealing.
 
-/// What a ring costs, in any unit. A T0 beside a T2 (across its edge that is not on the ring) is a wart.
+/// Cost of a ring, in any unit. A T0 is in a wart if it shares a T2's edge off the ring.
 struct RingCost {
-    std::int32_t t0 = 3;         ///< a T0 beside no T2; > 0
-    std::int32_t t0_wart = 0;    ///< a T0 beside a T2
-    std::int32_t isolated = -2;  ///< a vertex off the rings; negative where its two slots are worth more than it costs
+    std::int32_t t0 = 3;       ///< a T0 in no wart; > 0
+    std::int32_t t0_wart = 0;  ///< a T0 in a wart
+    /// A vertex off the rings; negative if the two slots saved outweigh its cost.
+    std::int32_t isolated = -2;
 };
 
-/// In references: three a verbatim T0, two a ring vertex.
+/// In references: three per verbatim T0, two per ring vertex.
 constexpr RingCost kLeanRingCost{3, 0, -2};
-/// In references: a T0 has six, its three neighbors are irregular and have three more each; two a ring vertex, one an
-/// isolated one.
+/// In references: six per T0 and three for each of its three neighbors, which are irregular; two per ring vertex, one
+/// per isolated vertex.
 constexpr RingCost kLrRingCost{15, 0, -1};
-/// In tenths of bits: what SPLIT, WART and FAR events take in packed streams of real meshes.
+/// In tenths of bits: sizes of SPLIT, WART and FAR events in packed streams of real meshes.
 constexpr RingCost kPackedRingCost{110, 66, 300};
 
 struct OptimizeOptions {
     RingCost cost = {};
     std::uint32_t passes = 24;  ///< more give better rings; 0: none
     std::uint64_t random_seed = 1;
-    bool anneal = true;    ///< else no change that raises the cost is made
-    unsigned threads = 1;  ///< run on at most that many, including the calling one; the result is the same for any
-    /// Called after each pass, by the calling thread, with how many are done; false: stop, the best rings so far are
-    /// the result.
+    bool anneal = true;  ///< false: never make a change that raises the cost
+    /// Maximum, including the calling thread; does not change the result.
+    unsigned threads = 1;
+    /// The calling thread calls it after each pass with the number of passes done. If it returns false, the result is
+    /// the best rings so far.
     std::function<bool(std::uint32_t)> progress = {};
 };
 
-/// Rings over the same triangles whose cost is lower, or the same cycles. There are as many rings as before, each one
-/// cycle; vertices may move from ring to ring, off the rings and onto them. If the triangles on each ring's left were a
-/// tree, all their vertices on the ring, as expand_rings makes them, they still are. The same result for the same seed,
-/// on every machine and for any number of threads; meshes of few triangles run on few threads.
-/// Cost: O(T) a pass, 1 to 50 ns a triangle: the more T0 are in no wart, the more. Ends early when none is left. Beside
-/// the table 18 bytes a triangle, and 5 more while it begins. The rings given are freed (pass them with std::move)
-/// before most of that is needed. 2^30 triangles and more are left as they are.
+/// Returns rings of lower cost over the same triangles, or the given cycles if it finds none. The number of rings stays
+/// the same, each one cycle; vertices may move between rings, off the rings and onto them. If the triangles on each
+/// ring's left were a tree with all their vertices on the ring (as expand_rings makes them), they still are. The result
+/// depends only on the rings and the seed, not on the machine or the number of threads; small meshes use fewer threads.
+/// Cost: O(T) per pass, 1 to 50 ns per triangle, more if many T0 are in no wart; ends early when none of these is left.
+/// Memory beside the table: 18 bytes per triangle, and 5 more at the start. Frees `rings` (pass them with std::move)
+/// before it allocates most of this. Meshes of 2^30 or more triangles are returned unchanged.
 Rings optimize_rings(const CornerTable& table, Rings rings, const OptimizeOptions& options = {});
 
-// How expand_rings came to its rings, to be watched. Paper: LR 2011, section 4.2, Figure 3.
+// The steps of expand_rings, for display. Paper: LR 2011, section 4.2, Figure 3.
 
-/// The triangles that expand_rings invaded, in that order; of each ring those from the seed that it kept.
+/// The triangles that expand_rings invaded, in that order; for each ring only those of the seed it kept.
 struct Expansion {
-    /// Ring after ring: the seed, then for each triangle its corner c that faces the edge it was entered across (the
-    /// paper's c). vertex(c) is on no ring until then; opposite(c) is in a triangle that was invaded before. A ring of
-    /// n vertices has n - 2 of them.
+    /// Ring after ring: the seed, then for each triangle the corner c facing the edge across which it was entered (the
+    /// paper's c). vertex(c) was on no ring before; opposite(c) is in a triangle invaded before. A ring of n vertices
+    /// has n - 2 corners.
     std::vector<CornerId> corners;
-    std::vector<std::uint32_t> first;  ///< where each ring begins in `corners`; one more entry at the end
+    /// Where each ring begins in `corners`; one more entry at the end.
+    std::vector<std::uint32_t> first;
 
     bool operator==(const Expansion&) const = default;
 };
 
-/// A triangle that is never invaded has this bit in its step.
+/// Bit set in the step of a triangle that is never invaded.
 constexpr std::uint32_t kNeverInvaded = 0x80000000U;
 
-/// When it is settled on which side each triangle lies. A triangle of step s is settled once more than s triangles are
-/// invaded: by being the last of those, or, with kNeverInvaded, because its last vertex was reached through another
-/// one. What has a vertex on no ring, or is degenerate, is settled with the last triangle invaded. So the rings so far,
-/// after n triangles, are the edges between a triangle that is invaded (step < n) and one that is not (yet); such an
-/// edge stays on its ring if that one is settled (step & ~kNeverInvaded < n), and may still be crossed if it is not.
-/// Cost: O(T) time, 4 bytes a triangle for the result, 4 a vertex while it runs.
+/// For each triangle, the step s after which its side of the ring is final: once more than s triangles are invaded.
+/// Either the triangle is itself the one invaded at step s (counted from 0), or it has the bit kNeverInvaded and step s
+/// reached its last vertex through another triangle. Triangles with a vertex on no ring and degenerate triangles become
+/// final with the last triangle invaded. After n steps, the rings so far are the edges between an invaded triangle
+/// (step < n) and a triangle that is not invaded (yet). Such an edge stays on its ring if the latter is final (step &
+/// ~kNeverInvaded < n); otherwise it may still be crossed. Cost: O(T) time, 4 bytes per triangle for the result, 4 per
+/// vertex while it runs.
 std::vector<std::uint32_t> settling_steps(const CornerTable& table, const Expansion& expansion);
 
 }  // namespace lacedring

@@ -1,5 +1,5 @@
 #pragma once
-// A triangle soup as a surface: the corner table, what can be said of it, and how to walk it.
+// The corner table of a triangle soup, reports on its topology and geometry, and walks over it.
 
 #include <array>
 #include <cmath>
@@ -44,23 +44,25 @@ constexpr CornerId previous(CornerId c) {
 
 /// How the triangles of an index list were joined into a manifold.
 struct Topology {
-    std::uint32_t degenerate = 0;         ///< triangles with a repeated vertex; they take part in nothing
-    std::uint32_t border_edges = 0;       ///< edges of the input with one triangle
-    std::uint32_t nonmanifold_edges = 0;  ///< edges of the input with more than two triangles
-    std::uint32_t flipped = 0;            ///< triangles turned round to orient their component
-    std::uint32_t cut_edges = 0;  ///< manifold edges left unjoined because no orientation fits (a Moebius strip)
+    std::uint32_t degenerate = 0;         ///< triangles with a repeated vertex; joined to no other
+    std::uint32_t border_edges = 0;       ///< edges of one input triangle
+    std::uint32_t nonmanifold_edges = 0;  ///< edges of more than two input triangles
+    std::uint32_t flipped = 0;            ///< triangles reversed to orient their component
+    /// Manifold edges left unjoined because no orientation fits (a Moebius strip has one).
+    std::uint32_t cut_edges = 0;
 };
 
 /// Corner table of any triangle soup, made manifold by leaving edges unjoined and oriented by flipping triangles.
 /// No vertex is renumbered: a vertex whose triangles form several fans keeps its one number.
 struct CornerTable : TableCorners {
-    /// V and O side by side: whoever reads one of them mostly reads the other, so a triangle is one cache line.
+    /// V and O are interleaved because most code reads both: a triangle then lies in one cache line.
     struct Corner {
         VertexId vertex;
-        CornerId opposite;  ///< or null across a border, a cut or a degenerate triangle
+        CornerId opposite;  ///< null at a border, at a cut and in a degenerate triangle
     };
-    std::vector<Corner> corners;      ///< 3 per triangle, in the input's order; the last two swapped where flipped
-    std::vector<std::uint64_t> flip;  ///< bit t: triangle t was turned round; empty if none was
+    /// 3 per triangle, in the input's order; the last two are swapped in flipped triangles.
+    std::vector<Corner> corners;
+    std::vector<std::uint64_t> flip;  ///< bit t: triangle t was reversed; empty if none was
     std::uint32_t vertex_count = 0;
     Topology topology;
 
@@ -73,62 +75,62 @@ struct CornerTable : TableCorners {
 };
 
 /// Builds the corner table of `indices` (3 per triangle, each < vertex_count).
-/// Edges of two triangles are joined; at an edge of more, opposed half-edges are paired so that few vertices split into
-/// several fans (after Rossignac and Cardoze's Matchmaker). Orientation is made consistent per component where it can
-/// be. Cost: O(T) time; 24 bytes a triangle, and 26 more while it runs. Errors: too_large (2^29 vertices; or 2^32
-/// corners and vertices together), malformed (index out of range), invalid_argument (no multiple of three). Untrusted
-/// input: safe.
+/// Joins the triangles of each edge that has two. At an edge with more, pairs opposed half-edges so that few vertices
+/// get several fans (after Rossignac and Cardoze's Matchmaker). Orients each component consistently if possible. Cost:
+/// O(T) time; 24 bytes per triangle, and 26 more while it runs. Errors: too_large (more than 2^29 vertices, or 2^32
+/// corners and vertices together), malformed (index out of range), invalid_argument (the number of indices is no
+/// multiple of three). Untrusted input: safe.
 Result<CornerTable> build_corner_table(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);
 
-/// Checks V and O against each other: involution, shared edges opposed, no degenerate joined. Empty if all is well.
+/// Checks V and O: opposite is an involution, joined half-edges are opposed, and no degenerate triangle is joined.
+/// Returns the fault; empty if there is none.
 std::string check_corner_table(const CornerTable& table);
 
-/// Gives every fan of triangles around a vertex a vertex of its own, so that vertices and adjacency agree (a
-/// pseudo-manifold; Rossignac and Cardoze 1999). A vertex keeps its number for its first fan.
-/// Returns the copies: entry i is the vertex that the new vertex (old vertex_count + i) is a copy of; empty if the
-/// table was a pseudo-manifold. Cost: O(T) time, 3/8 byte a triangle while it runs.
+/// Makes the table a pseudo-manifold (Rossignac and Cardoze 1999): each fan of triangles around a vertex gets its own
+/// vertex. The first fan keeps the vertex's number. Returns the originals of the new vertices: entry i is the vertex
+/// that vertex (old vertex_count + i) is a copy of; empty if the table was a pseudo-manifold. Cost: O(T) time, 3/8 byte
+/// per triangle while it runs.
 std::vector<VertexId> split_fans(CornerTable& table);
 
-// What can be said of a mesh's topology. Rossignac's chapter, sections on borders, shells and handles.
+// Report on a mesh's topology. Rossignac's chapter, sections on borders, shells and handles.
 
 struct TopologyReport {
-    std::uint32_t triangles = 0;      ///< that are not degenerate
-    std::uint32_t used_vertices = 0;  ///< in at least one of them
-    std::uint32_t components = 0;     ///< triangles connected through shared vertices
-    std::uint32_t shells = 0;         ///< triangles connected through joined edges: pieces of surface
+    std::uint32_t triangles = 0;      ///< triangles that are not degenerate
+    std::uint32_t used_vertices = 0;  ///< vertices of such triangles
+    std::uint32_t components = 0;     ///< sets of triangles connected by shared vertices
+    std::uint32_t shells = 0;         ///< sets of triangles connected by joined edges
     std::uint32_t border_loops = 0;
-    std::uint32_t nonmanifold_vertices = 0;  ///< whose triangles form several fans
-    std::uint32_t fans = 0;                  ///< vertices, once each non-manifold vertex is split into its fans
+    std::uint32_t nonmanifold_vertices = 0;  ///< with several fans of triangles
+    std::uint32_t fans = 0;                  ///< number of used vertices after split_fans
     std::uint32_t max_valence = 0;           ///< edges at a vertex
     double valence6_percent = 0;             ///< share of used vertices with six edges
-    std::int64_t euler_characteristic = 0;   ///< of the split, joined surface
+    std::int64_t euler_characteristic = 0;   ///< Euler characteristic after split_fans
     bool closed = false;                     ///< no border
     bool orientable = true;
-    std::int64_t genus = 0;  ///< handles, summed over shells, their border loops capped
+    std::int64_t genus = 0;  ///< handles of all shells, with border loops capped
 };
 
-/// Cost: O(T) time, about 7 bytes a triangle.
+/// Cost: O(T) time, about 7 bytes per triangle.
 TopologyReport report_topology(const CornerTable& table);
 
-// What needs positions: vertex normals, and which side of a shell is outside.
-// Rossignac's chapter, sections 6 and 12. Everything is computed in double precision.
+// Geometry: vertex normals, and the outside of shells, in double precision. Rossignac's chapter, sections 6 and 12.
 
 using Point = std::array<double, 3>;
 
-/// Read access to the positions of vertices, f32 or f64, without a copy. What it is made of must outlive it.
+/// Read access to the positions of vertices, f32 or f64. Holds no copy: the values must outlive it.
 class Positions {
   public:
     Positions() = default;
     /// x, y, z of vertex 0, 1, 2, ...
     explicit Positions(std::span<const float> xyz) : bytes_(std::as_bytes(xyz)) {}
     explicit Positions(std::span<const double> xyz) : bytes_(std::as_bytes(xyz)), wide_(true) {}
-    /// The bytes of floats, or of doubles, at any alignment.
+    /// The bytes of floats or doubles, at any alignment.
     Positions(std::span<const std::byte> bytes, bool doubles) : bytes_(bytes), wide_(doubles) {}
 
     std::size_t size() const { return bytes_.size() / stride(); }
     bool empty() const { return size() == 0; }
 
-    /// The origin for a vertex that has no position.
+    /// The position of v; the origin if v has none.
     Point operator[](VertexId v) const {
         if (v.value >= size()) return {};
         const std::byte* from = bytes_.data() + v.value * stride();
@@ -150,49 +152,50 @@ class Positions {
     bool wide_ = false;
 };
 
-/// Unit normals, 3 floats a vertex of the table: the sum over its corners of the cross product of the triangle's sides,
-/// so weighted by area (chapter, section 6). After split_fans every fan has a normal of its own, if `positions` has the
-/// copies. A vertex without a normal gets (0,0,1). Differs from lrio's normals_f32 in that triangles
-/// count as the table oriented them, a file's own NORMAL is not looked at, and sums are of doubles. Cost: O(V + T)
-/// time, 24 bytes a vertex beside the result.
+/// Unit normals, 3 floats per vertex of the table. A normal is the sum of the cross products of the triangles around
+/// the vertex, so it is weighted by area (chapter, section 6). After split_fans each fan has its own normal, if
+/// `positions` includes the copies. A vertex without a normal gets (0,0,1). Differs from lrio's normals_f32: uses the
+/// table's orientation, ignores a file's NORMAL attribute, and sums in doubles. Cost: O(V + T) time, 24 bytes per
+/// vertex beside the result.
 std::vector<float> vertex_normals(const CornerTable& table, const Positions& positions);
 
-/// A shell without a border edge, and the volume that it bounds.
+/// A shell without a border edge, and its volume.
 struct ClosedShell {
-    TriangleId first;  ///< its triangle of the smallest number
+    TriangleId first;  ///< its triangle with the smallest number
     std::uint32_t triangles;
-    double volume;  ///< positive if its triangles are counterclockwise seen from outside
-    double error;   ///< bound of what rounding can have added to or taken from `volume`
+    /// Positive if its triangles are counterclockwise seen from outside.
+    double volume;
+    double error;  ///< bound of the rounding error of `volume`
 
-    /// Clockwise from outside. So is, rightly, the inner surface of a hollow body.
+    /// Clockwise from outside, as the inner surface of a hollow body should be.
     bool inside_out() const { return volume < -error; }
-    /// Bounds nothing, as far as doubles can tell, so it is neither clockwise nor counterclockwise.
+    /// Volume 0 within the rounding error: neither clockwise nor counterclockwise.
     bool flat() const { return std::abs(volume) <= error; }
 };
 
 /// The closed shells of the table, with signed volumes: a sixth of the sum of mixed products (chapter, section 12).
-/// Differs: each shell is measured from a vertex of its own, not from the average of all of the mesh's, so that small
-/// shells far from each other keep their precision. A shell that had to be cut (not orientable) is not closed.
-/// Cost: O(T) time, a quarter of a byte a triangle and 24 bytes a closed shell.
+/// Unlike the chapter, measures each shell from one of its own vertices, not from the average of the mesh's vertices,
+/// so that small shells far from each other keep their precision. A shell that was cut (not orientable) is not closed.
+/// Cost: O(T) time, a quarter of a byte per triangle and 24 bytes per closed shell.
 std::vector<ClosedShell> closed_shells(const CornerTable& table, const Positions& positions);
 
-/// Turns every closed shell that is inside out, hollows included, so that all are counterclockwise (chapter, section
-/// 12). `flip` and topology.flipped keep saying which triangles differ from the input. Returns how many shells were
-/// turned. Nothing in the library calls this by itself. Cost: as closed_shells.
+/// Reverses every closed shell that is inside out, including hollows, so that all are counterclockwise (chapter,
+/// section 12). Updates `flip` and topology.flipped. Returns the number of shells reversed. The library never calls it.
+/// Cost: as closed_shells.
 std::uint32_t make_counterclockwise(CornerTable& table, const Positions& positions);
 
-// Is a mesh simple? Rossignac's chapter, sections 1, 8 and 12: an smesh is homeomorphic to a sphere.
+// Test for simple meshes (smeshes): homeomorphic to a sphere. Rossignac's chapter, sections 1, 8 and 12.
 
-/// The first condition that a mesh does not meet, in this order.
+/// The first condition, in this order, that a mesh violates.
 enum class SmeshFault : std::uint8_t {
     none,                ///< it is an smesh
     empty,               ///< no triangles
     degenerate,          ///< a triangle with a repeated vertex
     nonmanifold_edge,    ///< a corner has several opposites
     border,              ///< a corner has no opposite
-    not_connected,       ///< several shells (the chapter's edge-connected components)
-    not_orientable,      ///< no orientation of the triangles fits
-    nonmanifold_vertex,  ///< a vertex's star is several fans
+    not_connected,       ///< it has several shells (the chapter's edge-connected components)
+    not_orientable,      ///< the triangles have no consistent orientation
+    nonmanifold_vertex,  ///< a vertex has several fans
     handles,             ///< Equation 1, |T| = 2|G| - 4, does not hold
     flat,                ///< bounds no volume, so it cannot be counterclockwise
     clockwise,           ///< inside out
@@ -200,7 +203,7 @@ enum class SmeshFault : std::uint8_t {
 
 struct SmeshCheck {
     SmeshFault fault = SmeshFault::none;
-    std::string reason;  ///< a phrase with the numbers, for people; empty for an smesh
+    std::string reason;  ///< a phrase that includes counts; empty for an smesh
 
     bool is_smesh() const { return fault == SmeshFault::none; }
 };
@@ -209,24 +212,25 @@ struct SmeshCheck {
 /// vertices that they use. A vertex that no triangle uses is not part of the surface.
 bool satisfies_equation_1(const TopologyReport& report);
 
-/// What connectivity says: an edge-connected manifold, orientable, of genus 0. `report` is report_topology(table).
-/// Edges count as they were in the input, before non-manifold ones were paired. The orientation is the table's: whether
-/// the input's triangles all had it, topology.flipped says. Cost: O(1).
+/// Checks connectivity only: an edge-connected, orientable manifold of genus 0. `report` is report_topology(table).
+/// Edges are checked as in the input, before non-manifold edges were paired. The input's own orientation was consistent
+/// if topology.flipped is 0. Cost: O(1).
 SmeshCheck check_smesh(const CornerTable& table, const TopologyReport& report);
 
-/// The chapter's whole definition: also counterclockwise. `shells` is closed_shells(table, positions). Cost: O(1).
+/// Checks the chapter's whole definition, which also requires counterclockwise triangles. `shells` is
+/// closed_shells(table, positions). Cost: O(1).
 SmeshCheck check_smesh(const CornerTable& table, const TopologyReport& report, std::span<const ClosedShell> shells);
 
 // Rossignac's chapter, section 9: the depth-first traversal that winds around the surface like a spiral.
 //
 //     swirl(c) { if (!c.t.m) { c.t.m = true; swirl(c.l); swirl(c.r); } }
 //
-// The chapter's c.l is opposite(previous(c)), our right; its c.r is our left. Its recursion is as deep as the mesh is
-// large. Here there is no recursion and no stack: the mark of a triangle remembers the corner at which it was entered,
-// and the opposite of that corner is the way back.
+// The chapter's c.l is opposite(previous(c)), our right; its c.r is our left. The chapter's recursion may be as deep as
+// the mesh has triangles. This implementation needs neither recursion nor a stack: a triangle's mark stores the corner
+// at which it was entered, and the opposite of that corner leads back.
 
-/// The marks of one or several swirls over a corner table, which must outlive it unchanged.
-/// Memory: a quarter of a byte a triangle.
+/// The marks of one or several swirls over a corner table. The table must stay unchanged and outlive it. Memory: a
+/// quarter of a byte per triangle.
 class Swirl {
   public:
     explicit Swirl(const CornerTable& table)
@@ -235,11 +239,10 @@ class Swirl {
     /// Was the triangle visited by a swirl?
     bool visited(TriangleId t) const { return mark(t) != 0; }
 
-    /// Calls visit(c) once for every triangle of the seed's shell that was not visited before and can be reached
-    /// through such ones, in the order of the chapter's swirl(seed). c is the corner at which the triangle is entered:
-    /// the edge that it faces was crossed. Where the chapter's procedure ends, the seed's own edge is crossed too,
-    /// which nobody does there: it leads to new triangles only where there are borders. Cost: O(triangles visited)
-    /// time; no memory.
+    /// Calls visit(c) once for every triangle reachable from the seed through triangles not visited before, in the
+    /// order of the chapter's swirl(seed). c is the corner facing the edge across which the triangle is entered. Unlike
+    /// the chapter's procedure, it finally also crosses the edge that the seed faces, which leads to new triangles only
+    /// in shells with borders. Cost: O(triangles visited) time; no memory.
     template <class Visit>
     void run(CornerId seed, Visit visit) {
         if (visited(triangle(seed))) return;
@@ -248,7 +251,7 @@ class Swirl {
             visit(c);
             return c;
         };
-        CornerId at = enter(seed);     // where the present triangle was entered
+        CornerId at = enter(seed);     // where the current triangle was entered
         CornerId side = previous(at);  // faces the edge to cross next
         for (;;) {
             const CornerId to = table_.opposite(side);
@@ -257,7 +260,7 @@ class Swirl {
                 side = previous(at);
                 continue;
             }
-            while (side != previous(at) && at != seed) {  // both sides done: back to where it was entered from
+            while (side != previous(at) && at != seed) {  // both sides done: return to the previous triangle
                 side = table_.opposite(at);
                 at = corner(triangle(side), mark(triangle(side)) - 1);
             }
@@ -269,7 +272,7 @@ class Swirl {
   private:
     static constexpr std::uint32_t kPerWord = 32;
 
-    /// 0, or 1 + the index in its triangle of the corner at which it was entered.
+    /// 0 if not visited; else 1 + the index (0 to 2) of the corner at which the triangle was entered.
     std::uint32_t mark(TriangleId t) const {
         return static_cast<std::uint32_t>(marks_[t.value / kPerWord] >> (t.value % kPerWord * 2)) & 3;
     }
@@ -283,8 +286,8 @@ class Swirl {
 };
 
 /// Swirls over every shell, each from the first corner of its first triangle, and calls visit(shell, c) for every
-/// triangle that is not degenerate; shells are numbered 0, 1, 2, ... Returns how many there are: the chapter's
-/// edge-connected components (section 8). Cost: O(T) time, a quarter of a byte a triangle.
+/// triangle that is not degenerate; shells are numbered 0, 1, 2, ... Returns their number: the chapter's edge-connected
+/// components (section 8). Cost: O(T) time, a quarter of a byte per triangle.
 template <class Visit>
 std::uint32_t swirl_shells(const CornerTable& table, Visit visit) {
     Swirl swirl(table);
