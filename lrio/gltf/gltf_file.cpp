@@ -225,7 +225,7 @@ bool GltfFile::requires_any_of(std::span<const char* const> names) const {
 }
 
 Result<void> GltfFile::take_memory(double bytes, double passing) {
-    const auto room = reading->check_memory(decoded_bytes + bytes + passing, 1, 0,
+    auto room = reading->check_memory(decoded_bytes + bytes + passing, 1, 0,
                                             static_cast<double>(file_bytes + buffers.loaded_bytes()));
     if (room) decoded_bytes += bytes;
     return room;

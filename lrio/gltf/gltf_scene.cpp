@@ -103,7 +103,7 @@ Result<std::vector<std::array<double, width>>> values_of(const std::optional<Acc
 Result<void> place_each(const Instances& several, std::size_t mesh, const Transform& node,
                         std::vector<MeshInstance>& instances, const Reading& reading, std::size_t file_bytes) {
     // An accessor without bytes of its own may have any count, and many nodes may name the same one.
-    const auto room = reading.check_memory(static_cast<double>(instances.size()) + static_cast<double>(several.count),
+    auto room = reading.check_memory(static_cast<double>(instances.size()) + static_cast<double>(several.count),
                                            2.0 * sizeof(MeshInstance),  // while the list grows it is there twice
                                            0, static_cast<double>(file_bytes));
     if (!room) return room;

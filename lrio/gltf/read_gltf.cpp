@@ -160,7 +160,7 @@ class GltfJoiner {
         double stride = 0;
         for (const Attribute& attribute : mesh_.attributes) stride += static_cast<double>(attribute.stride());
         constexpr double kSurface = 12 + 15 + 3 * 12;  // find_surface's, two positions and a normal
-        const auto room = reading_.check_memory(vertices, stride + (makes_normals_ ? kSurface : 0), corners / 3,
+        auto room = reading_.check_memory(vertices, stride + (makes_normals_ ? kSurface : 0), corners / 3,
                                                 static_cast<double>(file_bytes_ + file_.buffers.loaded_bytes()));
         if (!room) return room;
         for (Attribute& attribute : mesh_.attributes) {

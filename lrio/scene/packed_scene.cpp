@@ -21,7 +21,7 @@ Result<std::span<const std::byte>> SceneViews::range(const JsonValue& place) con
     const auto buffer = place.integer("buffer"), length = place.integer("byteLength");
     const std::uint64_t offset = place.integer("byteOffset").value_or(0);
     if (!buffer || !length || *buffer >= buffers_->count()) return malformed("buffer view without a buffer");
-    const auto bytes = buffers_->open(static_cast<std::size_t>(*buffer));
+    auto bytes = buffers_->open(static_cast<std::size_t>(*buffer));
     if (!bytes) return bytes;
     if (offset > bytes->size() || *length > bytes->size() - offset) {
         return malformed("{} bytes from byte {} on are not in buffer {} of {} bytes", *length, offset, *buffer,

@@ -144,10 +144,12 @@ class Unpacker {
         place(sets, parts);
         for (std::size_t a = 0; a < decoder.attributes().size(); ++a) {
             std::vector<std::span<std::byte>> to;
+            to.reserve(sets.size());
             for (auto& set : sets) to.push_back(bytes_of(set[a]));
             if (auto good = decoder.decode_attribute(a, to); !good) return good;
         }
         std::vector<std::span<std::uint32_t>> to;
+        to.reserve(parts.size());
         for (Target& part : parts) {
             to.emplace_back(reinterpret_cast<std::uint32_t*>(bytes_of(part).data()), part.size / sizeof(std::uint32_t));
         }
@@ -350,7 +352,7 @@ Result<std::vector<std::byte>> make_glb_head(const SceneFile& scene) {
 }
 
 Result<std::vector<std::byte>> make_glb_file(const SceneFile& scene) {
-    const Result<std::vector<std::byte>> head = lacedring::make_glb_head(scene);
+    Result<std::vector<std::byte>> head = lacedring::make_glb_head(scene);
     if (!head) return head;
     std::vector<std::byte> out(head->size() + (scene.bin.size() + 3) / 4 * 4);
     std::memcpy(out.data(), head->data(), head->size());

@@ -104,7 +104,7 @@ Result<PackedView> view_packed(std::span<const std::uint32_t> words) {
 }
 
 Result<PackedView> validate_packed(std::span<const std::uint32_t> words) {
-    const Result<PackedView> view = view_packed(words);
+    Result<PackedView> view = view_packed(words);
     if (!view) return view;
     // Computed here because crc32 is several times faster than the C file's version with a small table.
     if (words[LR_PACKED_WORD_CHECKSUM] != packed_checksum(words))

@@ -89,7 +89,7 @@ Result<SeamView> check_seams(std::span<const std::uint32_t> words, std::span<con
     if (triangles.size() % 3 != 0 || triangles.size() / 3 > UINT32_MAX / 3) {
         return Error{ErrorCode::malformed, "seam section: invalid number of corners"};
     }
-    const Result<SeamView> view = view_seams(words, static_cast<std::uint32_t>(triangles.size() / 3), vertex_count);
+    Result<SeamView> view = view_seams(words, static_cast<std::uint32_t>(triangles.size() / 3), vertex_count);
     if (!view) return view;
     if (words[kSeamChecksum] != crc32(std::as_bytes(words.subspan(kSeamChecksum + 1)))) {
         return bad_seams(LACEDRING_STATUS_CHECKSUM, 0, words);

@@ -350,6 +350,7 @@ class BlockEncoder {
             std::vector<Residuals> residuals = plain;
             const std::uint32_t plane_bits = n_ == 3 ? take_planes(residuals, count, kPlaneRun << longest, planes) : 0;
             std::vector<WidthSearch> searches;
+            searches.reserve(n_);
             for (const Residuals& of : residuals) searches.emplace_back(of.data(), count - 1);
             for (std::uint32_t size = longest * (kSizes - 1); size < (n_ == 3 && longest == 0 ? kSizes - 1 : kSizes);
                  ++size) {

@@ -90,7 +90,7 @@ Result<VertexView> view_vertices(std::span<const std::uint32_t> words) {
 }
 
 Result<VertexView> validate_vertices(std::span<const std::uint32_t> words) {
-    const Result<VertexView> view = view_vertices(words);
+    Result<VertexView> view = view_vertices(words);
     if (!view) return view;
     LR_TRY(check_vertices(words, nullptr));
     return view;
