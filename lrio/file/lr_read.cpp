@@ -273,7 +273,8 @@ class Reader {
     /// Are these `size` distinct numbers below `range`?
     static bool permutation_into(std::span<const std::uint32_t> order, std::size_t size, std::uint32_t range) {
         if (order.size() != size || size > range) return false;
-        // Sorts instead of flagging if `range` is far larger than `size`: a mostly degenerate input, or a hostile count.
+        // Sorts instead of flagging if `range` is far larger than `size`: a mostly degenerate input, or a hostile
+        // count.
         if (range / 64 > size) {
             std::vector<std::uint32_t> sorted(order.begin(), order.end());
             std::sort(sorted.begin(), sorted.end());

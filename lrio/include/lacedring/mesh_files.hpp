@@ -59,7 +59,8 @@ Result<Mesh> read_mesh(const std::filesystem::path& path, const ReadOptions& opt
 Result<Mesh> read_mesh(std::span<const std::byte> bytes, const std::filesystem::path& name,
                        const ReadOptions& options = {}, ReadReport* report = nullptr, Materials* materials = nullptr);
 
-/// Differences of a written file from the mesh, a line each: "NORMAL: 3 without a direction were made from the triangles".
+/// Differences of a written file from the mesh, a line each: "NORMAL: 3 without a direction were made from the
+/// triangles".
 using WriteNotes = std::vector<std::string>;
 
 /// Writes GLB, binary PLY or OBJ by the extension of `path` (.glb, .ply, .obj). PLY keeps every attribute bit for bit;
