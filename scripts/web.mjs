@@ -1,4 +1,4 @@
-// Serves folders from 127.0.0.1: what scripts/web and the tests in Chromium load pages from.
+// A web server of folders on 127.0.0.1, for scripts/web and the tests in Chromium.
 import { createReadStream, statSync } from "node:fs";
 import { createServer } from "node:http";
 import { dirname, join, normalize, sep } from "node:path";
@@ -8,7 +8,7 @@ const ROOT = join(dirname(fileURLToPath(import.meta.url)), "..");
 const TYPES = { html: "text/html", js: "text/javascript", mjs: "text/javascript", css: "text/css", json: "application/json", wasm: "application/wasm",
   svg: "image/svg+xml", png: "image/png", gltf: "model/gltf+json", glb: "model/gltf-binary", wgsl: "text/plain", glsl: "text/plain" };
 
-/** Where the page's parts are: the page, the package, the shaders that it loads, three.js, and its samples. */
+/** The folders that the page needs: the page, the package, the shaders, three.js, and the samples. */
 export const FOLDERS = { "": join(ROOT, "web"), lacedring: join(ROOT, "build/js"), shaders: join(ROOT, "shaders/include"),
   three: join(ROOT, "build/node/node_modules/three"), samples: join(ROOT, "build/samples") };
 
@@ -29,9 +29,9 @@ function find(folders, path) {
 }
 
 /**
- * Serves /NAME/... from the folder of that name, anything else from that of the name "". Port 0: any that is free.
- * `files`: bytes by name, at /files/NAME. `isolated`: clocks of pages have 5 microseconds. Resolves with the server; its
- * address().port is the port.
+ * Serves /NAME/... from folders[NAME], and all other paths from folders[""]. Port 0: any free port. `files`: bytes to serve at
+ * /files/NAME, by name. `isolated`: pages are cross-origin isolated, so that their clocks have a resolution of 5 microseconds.
+ * Resolves with the server, whose address().port is the port.
  */
 export function serve(folders, port = 0, { files = {}, isolated = false } = {}) {
   const more = isolated ? { "cross-origin-opener-policy": "same-origin", "cross-origin-embedder-policy": "require-corp" } : {};
