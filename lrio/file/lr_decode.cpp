@@ -136,7 +136,7 @@ Result<Mesh> decode_mesh(const LrFile& file, DecodedLr& decoded, Surface* surfac
     decoded.remove_extra(kept);
     Mesh mesh;
     mesh.vertex_count = static_cast<std::uint32_t>(kept.size());
-    std::vector<std::uint32_t> of_vertex = kept;  // for each kept one, its index in a per-vertex attribute
+    std::vector<std::uint32_t> of_vertex = kept;  // the same as indices into per-vertex attributes
     for (std::uint32_t& i : of_vertex) i = decoded.vertex_of.empty() ? i : decoded.vertex_of[i];
     const bool as_it_is = decoded.vertex_of.empty() && kept.size() == all;
     for (const LrAttribute& attribute : file.attributes) {

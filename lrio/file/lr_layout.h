@@ -37,14 +37,14 @@ constexpr const char* kKindNames[] = {"",   "lean",       "attribute", "vertex_o
 
 /// How a section's contents are coded.
 enum Coding : std::uint16_t {
-    kResident = 0,  // as in memory
-    kStored = 1,    // in storage form: packed streams, vertex streams and seams (docs/storage-format.md)
+    kResident = 0,  // LrForm::resident
+    kStored = 1,    // LrForm::stored, of packed streams, vertex streams and seams (docs/storage-format.md)
 };
 
 struct FileHeader {
     std::uint32_t magic, version, sections, vertices, input_triangles, copies;
-    std::uint32_t table_crc;   // of the section table
-    std::uint32_t header_crc;  // of the seven words before
+    std::uint32_t table_crc;   // CRC-32 of the section table
+    std::uint32_t header_crc;  // CRC-32 of the seven words before
 
     /// Number of values of an attribute.
     std::uint32_t values(bool per_copy) const { return per_copy ? copies : vertices; }
@@ -57,8 +57,8 @@ constexpr std::uint32_t kNormalized = 1U << 16, kVUp = 1U << 17, kPerCopy = 1U <
 
 struct Section {
     std::uint16_t kind;
-    std::uint16_t coding;  // of the contents
-    std::uint32_t crc;     // of the contents
+    std::uint16_t coding;  // Coding of the contents
+    std::uint32_t crc;     // CRC-32 of the contents
     std::uint64_t offset, size;
     std::uint32_t layout;       // type | components << 8 | the bits above
     std::uint32_t name_length;  // attributes: the contents begin with the name, padded with zeros to 8 bytes

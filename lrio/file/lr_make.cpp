@@ -25,7 +25,7 @@ std::vector<std::uint32_t> find_corners(const Mesh& mesh, const LrFile& file, st
     for (const std::uint32_t t : triangles) {
         const std::uint32_t* now = decoded->indices.data() + 3 * out.size();
         const std::uint32_t* before = mesh.indices.data() + std::size_t{3} * t;
-        std::uint32_t place = 0;  // of the only corner with the same vertex: a triangle's vertices differ
+        std::uint32_t place = 0;  // a triangle's vertices differ, so exactly one place has the same vertex
         while (place < 2 && before[place] != vertex_order[now[0]]) ++place;
         out.push_back(3 * t + place);
     }

@@ -292,9 +292,10 @@ class Reader {
     std::uint64_t max_bytes_;
     std::optional<Error> limit_;  ///< the memory_limit error of a section
     unsigned threads_;
-    bool is_stored_ = false;                                         ///< connectivity is in storage form
-    std::vector<std::size_t> stored_;                                ///< attributes in storage form
-    std::vector<std::optional<storage::StoredVertices>> residuals_;  ///< of each attribute, until it is restored
+    bool is_stored_ = false;           ///< connectivity is in storage form
+    std::vector<std::size_t> stored_;  ///< attributes in storage form
+    std::vector<std::optional<storage::StoredVertices>>
+        residuals_;  ///< residuals of each attribute until it is restored
     std::optional<storage::StoredPacked> steps_;
     LrFile file_;
     DecodedLr decoded_;

@@ -13,7 +13,7 @@ namespace lacedring::detail {
 
 inline constexpr std::uint64_t kGltfByte = 5120, kGltfUnsignedByte = 5121, kGltfShort = 5122, kGltfUnsignedShort = 5123,
                                kGltfUnsignedInt = 5125, kGltfFloat = 5126;
-inline constexpr std::uint64_t kGltfVertexTarget = 34962, kGltfIndexTarget = 34963;  ///< of buffer views
+inline constexpr std::uint64_t kGltfVertexTarget = 34962, kGltfIndexTarget = 34963;  ///< targets of buffer views
 
 /// An accessor's componentType; 0: glTF has none (i32, f64).
 std::uint64_t gltf_component_type(ComponentType type);

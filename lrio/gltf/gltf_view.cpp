@@ -140,7 +140,7 @@ Result<void> check_codec(Mode mode, std::byte first) {
         unsigned latest;
         const char* name;
     };
-    constexpr unsigned kLatest = MESHOPTIMIZER_VERSION >= 230 ? 1 : 0;  // of the vertex codec
+    constexpr unsigned kLatest = MESHOPTIMIZER_VERSION >= 230 ? 1 : 0;  // latest version of the vertex codec
     constexpr Codec kCodecs[] = {{0xa, kLatest, "vertex codec"}, {0xe, 1, "index codec"}, {0xd, 1, "sequence codec"}};
     const Codec& codec = kCodecs[static_cast<std::size_t>(mode)];
     const auto byte = std::to_integer<unsigned>(first);

@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint32_t none = UINT32_MAX;
 // Combs, stars, spirals and random walks of a million corners take 50 to 250 steps a corner, square spirals 480.
 constexpr std::uint64_t kFreeSteps = 100'000, kStepsACorner = 1000;
-constexpr std::size_t kOneTree = 64;  // most blockers for which one tree is enough
+constexpr std::size_t kOneTree = 64;  // up to this number of blockers, a single tree is searched
 
 /// The index of a normal's largest component; the last one among equals.
 std::size_t largest_of(const double (&size)[3]) {

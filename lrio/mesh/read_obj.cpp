@@ -116,7 +116,7 @@ class OtherStatements {
     std::uint64_t lines_ = 0, points_ = 0, free_forms_ = 0, parameters_ = 0, calls_ = 0, unknown_ = 0;
 };
 
-using Sizes = std::array<std::uint64_t, 3>;  // of v, vt and vn
+using Sizes = std::array<std::uint64_t, 3>;  // numbers of entries of v, vt and vn
 
 class ObjReader {
   public:

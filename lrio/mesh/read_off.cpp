@@ -18,7 +18,7 @@ struct Header {
     bool texture = false;
     bool color = false;
     bool normal = false;
-    bool normal_before_color = false;  ///< the word is NC..., not Geomview's CN...; not the order of the values
+    bool normal_before_color = false;  ///< the prefix N comes before C; says nothing about the order of the values
     bool higher_dimension = false;
 };
 

@@ -74,7 +74,7 @@ Result<Mesh> read_binary(std::string_view bytes, Reading& reading) {
         return malformed("byte 80: {} triangles, but there are bytes for {}", claimed, present);
     }
     std::vector<float> corners(static_cast<std::size_t>(claimed) * 9);
-    std::uint64_t attributes = 0;  // triangles with nonzero attribute bytes; some programs store a color in the two
+    std::uint64_t attributes = 0;  // triangles whose two attribute bytes are not 0: some programs store colors there
     for (std::size_t t = 0; t < claimed; ++t) {
         float* nine = corners.data() + t * 9;
         std::memcpy(nine, bytes.data() + header_bytes + t * triangle_bytes + normal_bytes, 9 * sizeof(float));

@@ -36,7 +36,7 @@ BitVector used_vertices(const Mesh& mesh) {
     return used;
 }
 
-/// The kept points in a grid whose cell size is the tolerance, so that a cell has few.
+/// The kept points in a grid. Its cell size is the tolerance, so that a cell has few points.
 class Kept {
   public:
     explicit Kept(double tolerance) : tolerance_(tolerance) {}

@@ -61,7 +61,7 @@ class TextScanner {
         if (at != end_ && is(*at, backslash & ends_word_)) skip_continuations();
     }
 
-    /// Skips blanks; is the rest of the line empty then?
+    /// Skips blanks. True: nothing else is left on the line.
     bool skip_to_line_end() {
         skip_blanks();
         return at_line_end();

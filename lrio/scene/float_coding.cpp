@@ -107,7 +107,8 @@ Result<std::vector<std::byte>> encode_floats(std::span<const std::byte> bytes, s
             const auto length = static_cast<unsigned>(std::bit_width(code));
             lengths[base + c * rows + i] = static_cast<std::byte>(length);
             if (length < 2) continue;
-            bits |= static_cast<std::uint64_t>(code & ((1U << (length - 1)) - 1)) << used;  // the highest bit is 1
+            bits |= static_cast<std::uint64_t>(code & ((1U << (length - 1)) - 1))
+                    << used;  // without the highest bit: it is always 1
             for (used += length - 1; used >= 8; used -= 8, bits >>= 8) tail.push_back(static_cast<std::byte>(bits));
         }
     }

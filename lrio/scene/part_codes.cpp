@@ -28,9 +28,10 @@ bool take_varint(std::span<const std::byte>& from, std::uint32_t& value) {
     return false;
 }
 
-/// The code of a run's part. 0: a new part, which had no run yet; its distance from the last new part's number + 1
-/// follows, folded to an unsigned number. 1 to kFar: the position from the end in the list of recently used parts.
-/// Larger codes: the part's number + kFar + 1.
+/// A run begins with the code of its part:
+/// 0: a part without earlier runs. A folded number follows: the part minus the previous such part, minus 1.
+/// 1 to kFar: a recently used part, by its position from the end of the list.
+/// Above kFar: any other part, as kFar + 1 + its number.
 constexpr std::size_t kFar = 64;
 
 std::uint32_t fold_distance(std::uint32_t distance) {

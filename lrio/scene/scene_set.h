@@ -13,7 +13,7 @@ namespace lacedring::detail {
 struct SetMesh {
     Mesh mesh;  ///< integer POSITION converted to floats, not normalized; other attributes unchanged
     bool integer_positions = false;
-    std::vector<std::uint32_t> first_triangle;  ///< of each part; then the number of triangles
+    std::vector<std::uint32_t> first_triangle;  ///< first triangle of each part; then the number of triangles
 };
 
 /// The size of a set in memory: numbers of vertices and triangles, and bytes of a vertex.

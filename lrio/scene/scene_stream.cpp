@@ -19,7 +19,7 @@ namespace {
 struct Joined {
     Mesh mesh;
     Surface surface;
-    std::vector<std::uint32_t> part_of;  ///< of each triangle
+    std::vector<std::uint32_t> part_of;  ///< part of each triangle
     std::size_t parts = 0;
 };
 

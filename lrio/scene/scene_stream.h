@@ -22,7 +22,7 @@ struct SceneStream {
 /// A set's mesh to encode, with quantized values, and the coding of its attributes.
 struct CodedSet {
     SetMesh set;
-    std::vector<VertexOptions> options;       ///< of each attribute
+    std::vector<VertexOptions> options;       ///< coding of each attribute
     std::vector<std::uint32_t> part_numbers;  ///< number in the stream of each part
 };
 

@@ -26,7 +26,7 @@ struct SceneViewWriter::Use {
 
 namespace {
 
-/// Bytes that a coding must save, because it makes the document about as much longer.
+/// A coding must save at least this number of bytes, since its description makes the document longer.
 constexpr std::size_t kWorthCoding = 64;
 
 std::set<std::uint64_t> rotations_of(const JsonValue& root) {

@@ -54,7 +54,7 @@ class StreamDecoder {
     LrFileView view_;
     std::unique_ptr<LrFile> restored_;    ///< the file of view_, if it was in storage form
     DecodedLr decoded_;                   ///< moved to indices_ and row_of_
-    std::optional<StreamView> stream_;    ///< the connectivity, if decode_parts is to decode it; indices_ is empty then
+    std::optional<StreamView> stream_;    ///< set: indices_ is empty, and decode_parts decodes this stream
     std::optional<Mesh> mesh_;            ///< attributes in an order other than the stream's
     std::vector<std::uint32_t> indices_;  ///< triangles of the stream's vertices, or of copies
     std::vector<std::uint32_t> row_of_;   ///< vertex of each copy, for attributes that are not per copy

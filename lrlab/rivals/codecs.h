@@ -41,7 +41,9 @@ Result<std::vector<std::uint32_t>> best_cache_order(std::span<const std::uint32_
 
 /// A mesh's meshlets.
 struct Meshlets {
-    std::size_t bytes = 0;  ///< in the layout of mesh shaders: 16 a meshlet, 4 a vertex, 3 a triangle padded to 4
+    /// Bytes in the layout of mesh shaders: per meshlet 16, 4 for each of its vertices, 3 for each triangle, padded
+    /// to 4.
+    std::size_t bytes = 0;
     std::vector<std::uint32_t> indices;  ///< the meshlets' triangles, in the mesh's vertex numbers
 };
 /// meshopt_buildMeshlets, with at most 64 vertices and 124 triangles each. `positions` has 3 floats a vertex. Positions

@@ -14,13 +14,13 @@
 
 namespace lacedring {
 
-/// A view of the arrays of a CornerTableC, or of a memory-mapped file; does not own them. Has the operators of
+/// A view of the arrays of a CornerTableC, or of a memory-mapped file; does not own them. Has the interface of
 /// Operators. Entries and arguments are not checked.
 struct CornerTableCView : CornerWalks<CornerTableCView, 3> {
     std::uint32_t vertices = 0;
-    std::span<const std::uint32_t> vertex_of;    ///< V, 3 a triangle
-    std::span<const std::uint32_t> opposite_of;  ///< O, 3 a triangle; UINT32_MAX across a border
-    /// C, 1 a vertex: at a border the first corner in swing order; UINT32_MAX: the vertex has no triangle.
+    std::span<const std::uint32_t> vertex_of;    ///< V: the vertex of each corner
+    std::span<const std::uint32_t> opposite_of;  ///< O: the opposite corner of each corner; UINT32_MAX: border
+    /// C: a corner of each vertex, at a border the first one in swing order; UINT32_MAX: the vertex has no triangle.
     std::span<const std::uint32_t> corner_of;
 
     using CornerWalks::corner;

@@ -18,7 +18,7 @@ namespace lacedring {
 namespace {
 
 constexpr int kVertexCodec = MESHOPTIMIZER_VERSION >= 230 ? 1 : 0;
-constexpr std::size_t kLargestStride = 256;  // of meshopt_encodeVertexBuffer
+constexpr std::size_t kLargestStride = 256;  // limit of meshopt_encodeVertexBuffer
 
 /// A vertex buffer.
 struct VertexBuffer {

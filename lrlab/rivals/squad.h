@@ -40,7 +40,7 @@
 
 namespace lacedring {
 
-/// A view of the arrays of a Squad, or of a memory-mapped file; does not own them. Has the operators of Operators.
+/// A view of the arrays of a Squad, or of a memory-mapped file; does not own them. Has the interface of Operators.
 /// Entries and arguments are not checked: results for a corner of a triangle that does not exist are meaningless.
 struct SquadView : CornerWalks<SquadView, 4> {
     static constexpr std::uint32_t kWrap = 0x80000000;        ///< in S: leads across a border to the fan's first corner
@@ -50,8 +50,8 @@ struct SquadView : CornerWalks<SquadView, 4> {
 
     std::uint32_t vertices = 0;              ///< number of vertices: matched, then unmatched, then unused ones
     std::uint32_t matched = 0;               ///< number of vertices with a record
-    std::span<const std::uint32_t> swings;   ///< S, 4 a record
-    std::span<const std::uint32_t> corners;  ///< C, 1 an unmatched vertex: its cycle's smallest corner; ascending
+    std::span<const std::uint32_t> swings;   ///< S: four words per record
+    std::span<const std::uint32_t> corners;  ///< C: the smallest corner in the cycle of each unmatched vertex
 
     using CornerWalks::corner;
 
@@ -112,7 +112,7 @@ struct SquadView : CornerWalks<SquadView, 4> {
     bool is_canonical(TriangleId t) const { return t.value % 2 == 0 || is_quad(t.value / 2); }
     /// The range of triangle numbers: 2 a record; some numbers have no triangle.
     std::uint32_t triangle_numbers() const { return static_cast<std::uint32_t>(swings.size() / 2); }
-    /// 4 a record, 1 an unmatched vertex.
+    /// 4 per record and 1 per unmatched vertex.
     std::size_t references() const { return swings.size() + corners.size(); }
 
   private:

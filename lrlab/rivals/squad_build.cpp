@@ -138,7 +138,8 @@ class Builder {
 
     const CornerTable& table_;
     SquadMatching matching_;
-    std::vector<std::uint32_t> place_;  // of each triangle: 4 * its number + index of its first corner
+    std::vector<std::uint32_t>
+        place_;  // for each triangle of the table: 4 * its new number + index of its first corner
     Squad out_;
 };
 

@@ -39,8 +39,8 @@ class Matcher {
   private:
     /// A vertex on an alternating path.
     struct Step {
-        CornerId kept;       // the vertex's corner in a triangle that it owns; in extend(), in the one that it keeps
-        CornerId taken;      // the previous step's vertex's corner in the triangle that this vertex gives up
+        CornerId kept;       // the vertex's corner in its triangle; in extend(), in the triangle that it keeps
+        CornerId taken;      // in the triangle that it gives up: the corner at the previous step's vertex
         std::size_t before;  // index of the previous step
     };
 
@@ -274,13 +274,13 @@ class Matcher {
     }
 
     const CornerTable& table_;
-    std::vector<std::uint8_t> state_;  // of each triangle
+    std::vector<std::uint8_t> state_;  // state of each triangle
     BitVector known_;                  // vertices met by the walk; searches clear visited ones temporarily
     std::vector<VertexId> order_;      // the vertices in the order of the walk
     std::vector<CornerId> seeds_;      // a corner of each vertex to which the walk gave no triangle
     std::vector<CornerId> stack_, later_;
     SquadMatching out_;
-    // Workspaces.
+    // Reused memory of searches.
     std::vector<TriangleId> forced_;
     std::vector<Step> steps_;
 };

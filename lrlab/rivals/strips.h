@@ -20,7 +20,7 @@ struct Strips {
 /// Errors: those of check_valences.
 Result<Strips> make_strips(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);
 
-/// Only Strips::restart, as an engine would make strips. Errors: those of check_valences.
+/// Makes only Strips::restart. Errors: those of check_valences.
 Result<std::vector<std::uint32_t>> make_restart_strip(std::span<const std::uint32_t> indices,
                                                       std::uint32_t vertex_count);
 

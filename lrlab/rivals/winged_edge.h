@@ -26,12 +26,12 @@ struct HalfEdge {
     CornerId next;
 };
 
-/// A view of the arrays of a WingedEdge, or of a memory-mapped file; does not own them. Has the operators of Operators,
+/// A view of the arrays of a WingedEdge, or of a memory-mapped file; does not own them. Has the interface of Operators,
 /// in constant time unless stated otherwise. Entries and arguments are not checked.
 struct WingedEdgeView : CornerWalks<WingedEdgeView, 3> {
     std::uint32_t vertices = 0;
-    std::span<const HalfEdge> half_edges;  ///< 3 a triangle
-    /// 1 a vertex: a half-edge that starts there, at a border the border half-edge; null: the vertex has no triangle.
+    std::span<const HalfEdge> half_edges;  ///< three per triangle
+    /// A half-edge that starts at each vertex, at a border the border half-edge; null: the vertex has no triangle.
     std::span<const CornerId> half_edge_at;
 
     using CornerWalks::corner;

@@ -69,7 +69,7 @@ VertexOptions vertex_options(const Attribute& attribute, const AttributeBits& bi
 /// The result of compressing an attribute.
 struct CompressedAttribute {
     std::string name;
-    std::uint64_t bytes_before = 0, bytes = 0;  ///< of the plain values, and of the stream
+    std::uint64_t bytes_before = 0, bytes = 0;  ///< bytes of the plain values, and of the stream
     double largest_error = 0;
     std::string exact;  ///< why it is lossless although bits were given, or empty
 };
@@ -106,9 +106,10 @@ bool is_lr(std::span<const std::byte> bytes);
 
 /// A section of a file.
 struct LrSection {
-    std::string kind;  ///< "lean", "packed", "lr", "lr_compact", "attribute", "vertices" (an attribute as a vertex
-                       ///< stream), "seams", "vertex_order" or "corner_order"
-    std::string name;  ///< the attribute's
+    /// "lean", "packed", "lr", "lr_compact", "attribute", "vertices" (an attribute as a vertex stream), "seams",
+    /// "vertex_order" or "corner_order".
+    std::string kind;
+    std::string name;  ///< the attribute's name
     ComponentType type = ComponentType::f32;
     std::uint8_t components = 0;
     bool per_copy = false;    ///< LrAttribute::per_copy
