@@ -8,8 +8,8 @@ namespace lacedring::detail {
 namespace {
 
 constexpr std::size_t kLeafBlockers = 8;
-// Rounding error of projections relative to size_of(p), at most 3.4e-16. Rotated boxes are enlarged by it, so that
-// rounding never changes an answer.
+// A bound of the rounding error of projections, relative to size_of(p); 3.4e-16 would suffice. Rotated boxes are
+// enlarged by it, so that rounding never changes an answer.
 constexpr double kRounding = 1e-15;
 
 double size_of(const PlanePoint& p) {

@@ -110,7 +110,7 @@ struct SquadView : CornerWalks<SquadView, 4> {
     bool is_quad(std::uint32_t record) const { return swings[4 * record + 3] != kSingle; }
     /// Does the triangle exist?
     bool is_canonical(TriangleId t) const { return t.value % 2 == 0 || is_quad(t.value / 2); }
-    /// The range of triangle numbers: 2 a record; some numbers have no triangle.
+    /// The range of triangle numbers: 2 per record; some numbers have no triangle.
     std::uint32_t triangle_numbers() const { return static_cast<std::uint32_t>(swings.size() / 2); }
     /// 4 per record and 1 per unmatched vertex.
     std::size_t references() const { return swings.size() + corners.size(); }
