@@ -1,5 +1,5 @@
-// Smooths a mesh: each vertex moves to the middle of its neighbors. Neighbors and positions are read where they lie in
-// the memory-mapped file (lacedring encode MESH --format lr -o IN.lr); no index list and no half-edges are made.
+// Smooths a mesh: each vertex moves to the average of its neighbors. Neighbors and positions are read in place from the
+// memory-mapped file (lacedring encode MESH --format lr -o IN.lr), without an index list or half-edges.
 #include <cstdio>
 #include <lacedring/file.hpp>
 #include <lacedring/lr_file.hpp>
@@ -27,7 +27,7 @@ Result<Mesh> smooth(const char* path) {
             for (std::size_t i = 0; i < 3; ++i) sum[i] += positions[u][i];
             ++count;
         });
-        if (count == 0 || ops.is_border(v)) sum = positions[v], count = 1;  // borders stay where they are
+        if (count == 0 || ops.is_border(v)) sum = positions[v], count = 1;  // border vertices do not move
         for (const double x : sum) moved.push_back(static_cast<float>(x / count));
     }
 

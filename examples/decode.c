@@ -1,4 +1,5 @@
-/* Prints the surface of an .lr file (docs/lr-file.md) of lacedring encode --resident MESH -o FILE.lr as OBJ. */
+/* Prints the surface of an .lr file (docs/lr-file.md) as OBJ. Make the file with lacedring encode --resident MESH -o
+   FILE.lr. */
 #define LACEDRING_DECODE_IMPLEMENTATION
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,10 +7,10 @@
 
 #include "lacedring_vertices.h"
 
-static uint32_t* file_words; /* the whole file; sections begin at multiples of eight bytes */
+static uint32_t* file_words; /* the whole file; sections begin at multiples of 8 bytes */
 static size_t file_count;
 
-/* The words of the first section of one kind: 7 is a packed stream, 8 an attribute as a vertex stream. */
+/* The words of the first section of a kind: 7 is a packed stream, 8 an attribute as a vertex stream. */
 static const uint32_t* section(uint32_t kind, size_t* count) {
     const uint32_t* s = file_words + 8; /* kind, CRC-32, offset, size, layout, length of the name */
     uint32_t left = file_count < 8 ? 0 : file_words[2];
@@ -41,7 +42,7 @@ int main(int argc, char** argv) {
     if (words == NULL || lacedring_packed_validate(words, count, &packed, NULL) != LACEDRING_STATUS_OK) {
         return fputs("no valid packed stream\n", stderr), 1;
     }
-    words = section(8, &count); /* the name POSITION, which is the first, takes eight bytes */
+    words = section(8, &count); /* begins with the name: POSITION, in 8 bytes */
     if (words == NULL || count < 2 || memcmp(words, "POSITION", 8) != 0 ||
         lacedring_vertices_validate(words + 2, count - 2, &positions, NULL) != LACEDRING_STATUS_OK ||
         positions.vertices != packed.vertices || positions.type != 6 || lacedring_vertices_values(&positions) != 3) {

@@ -1,5 +1,5 @@
-// A cube with a normal for each face. Its surface has 8 vertices, which the operators walk; each has three copies, one
-// for each normal. Counts the sharp edges, then grows the cube and expands the vertices to the copies, for drawing.
+// A cube with a normal for each face. The operators walk its surface of 8 vertices; each vertex has three copies, one
+// for each normal. Counts the sharp edges, then scales the cube and expands vertex positions to the copies for drawing.
 #include <array>
 #include <cstdio>
 #include <lacedring/lacedring.hpp>
@@ -17,7 +17,7 @@ Result<void> run() {
     const Result<StreamView> stream = validate(encoded->words);
     if (!stream) return stream.error();
 
-    // Encode: any number for each corner, equal where corners share a copy.
+    // Encodes the seams. Corners get arbitrary numbers; corners of a vertex with equal numbers share a copy.
     const std::vector<std::uint32_t> slots = slot_triangles(*stream);
     std::vector<std::uint32_t> numbers(slots.size());
     std::size_t corner = 0;
@@ -28,10 +28,10 @@ Result<void> run() {
     }
     const Result<EncodedSeams> section = encode_seams(slots, stream->vertices(), numbers);
     if (!section) return section.error();
-    std::vector<std::uint32_t> normals;  // an attribute in the order of the copies; here the face stands for its normal
+    std::vector<std::uint32_t> normals;  // of the copies, in their order; here the face's number instead of a vector
     for (const std::uint32_t number : section->copy_order) normals.push_back(number / 8);
 
-    // Walk the surface; a corner's attributes are those of its copy.
+    // Walks the surface. The attributes of a corner are those of its copy.
     const Result<SeamView> seams = validate_seams(section->words, slots, stream->vertices());
     if (!seams) return seams.error();
     const auto* tables = stream->get<LrStreamView<LrView>>();
@@ -40,12 +40,12 @@ Result<void> run() {
     std::uint32_t sharp = 0;
     for (const VertexId v : IdRange<VertexTag>(stream->vertices())) {
         ops.star(v, [&](CornerId c) {
-            const CornerId s = ops.swing(c);  // beyond the edge; null at a border
+            const CornerId s = ops.swing(c);  // the corner across the edge; null at a border
             if (!s.is_null() && normals[copies.copy(c)] != normals[copies.copy(s)]) ++sharp;
         });
     }
 
-    // Move the vertices, then give each copy the position of its vertex.
+    // Moves the vertices, then gives each copy the position of its vertex.
     std::vector<std::array<float, 3>> positions, drawn;
     for (const std::uint32_t v : encoded->vertex_order) {
         positions.push_back(

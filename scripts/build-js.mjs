@@ -1,4 +1,4 @@
-// node build-js.mjs WORK OUT: the .wasm files of WORK as modules of OUT/wasm, and a table of sizes.
+// node build-js.mjs WORK OUT: writes the .wasm files of WORK as modules to OUT/wasm, and prints a table of sizes.
 import { readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { brotliCompressSync } from "node:zlib";
 

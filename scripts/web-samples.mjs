@@ -1,5 +1,5 @@
-// node web-samples.mjs PROGRAM FOLDER: the samples of the page, packed from assets/, and FOLDER/index.json: what they are called
-// and the sizes that browsers cannot measure. Without the program they are plain, and the page encodes them itself.
+// node web-samples.mjs PROGRAM FOLDER: packs the page's samples from assets/ to FOLDER, and writes FOLDER/index.json with their names and
+// the sizes that browsers cannot measure. Without the program, copies plain samples, which the page encodes itself.
 import { execFileSync } from "node:child_process";
 import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";

@@ -1,4 +1,4 @@
-// Serves folders from 127.0.0.1: what scripts/web and the tests in Chromium load pages from.
+// A web server of folders on 127.0.0.1, for scripts/web and the tests in Chromium.
 import { createReadStream, statSync } from "node:fs";
 import { createServer } from "node:http";
 import { basename, dirname, join, normalize, resolve, sep } from "node:path";
@@ -8,7 +8,7 @@ const ROOT = join(dirname(fileURLToPath(import.meta.url)), "..");
 const TYPES = { html: "text/html", js: "text/javascript", mjs: "text/javascript", css: "text/css", json: "application/json", wasm: "application/wasm",
   svg: "image/svg+xml", png: "image/png", gltf: "model/gltf+json", glb: "model/gltf-binary", wgsl: "text/plain", glsl: "text/plain" };
 
-/** Where the page's parts are: the page, the package, the shaders that it loads, three.js, and its samples. */
+/** The folders that the page needs: the page, the package, the shaders, three.js, and the samples. */
 export const FOLDERS = { "": join(ROOT, "web"), lacedring: join(ROOT, "build/js"), shaders: join(ROOT, "shaders/include"),
   three: join(ROOT, "build/node/node_modules/three"), samples: join(ROOT, "build/samples") };
 

@@ -1,4 +1,4 @@
-// The attributes of an .lr file as vertex streams.
+// Compresses the attributes of an .lr file to vertex streams.
 
 #include <algorithm>
 #include <iterator>
@@ -8,7 +8,7 @@
 namespace lacedring {
 namespace {
 
-/// The bits for an attribute of that name.
+/// The quantization bits of the attribute called `name`; 0: lossless.
 std::uint32_t bits_for(std::string_view name, const AttributeBits& bits) {
     if (name == "POSITION") return bits.positions;
     if (name == "NORMAL" || name == "TANGENT") return bits.normals;

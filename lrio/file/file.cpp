@@ -40,7 +40,7 @@ class Descriptor {
 
     int number() const { return number_; }
     bool good() const { return number_ >= 0; }
-    /// False, with errno, if what was written did not arrive.
+    /// False, with errno, if written data could not be saved.
     bool close() { return ::close(std::exchange(number_, -1)) == 0; }
 
   private:
@@ -54,7 +54,7 @@ Error cannot_write(std::string why) {
     return {ErrorCode::cannot_write, std::move(why)};
 }
 
-/// Do the system's own tables lie there, which look like files and are none?
+/// Is the descriptor a file of /proc or /sys, which stat calls regular?
 bool is_system_table([[maybe_unused]] int descriptor) {
 #ifdef __linux__
     constexpr long kProc = 0x9fa0, kSys = 0x62656572;
@@ -85,11 +85,11 @@ Result<OpenFile> open_regular(const fs::path& path) {
     return OpenFile{std::move(file), static_cast<std::uint64_t>(what.st_size)};
 }
 
-/// Reads up to `most` bytes; `expected` is a guess at how many there are.
+/// Reads up to `most` bytes; `expected` is the probable size.
 Result<std::vector<std::byte>> read_up_to(int descriptor, std::uint64_t most, std::uint64_t expected) {
     constexpr std::size_t kLeast = 65536;
     std::vector<std::byte> bytes;
-    // One more than expected, to see the end without growing.
+    // One byte more than expected, so that the read that finds the end needs no larger buffer.
     bytes.resize(static_cast<std::size_t>(std::min(most, expected + 1)));
     std::size_t used = 0;
     while (used < most) {
@@ -117,7 +117,7 @@ Result<std::vector<std::byte>> read_file(const fs::path& path, std::uint64_t mos
     if (file.size > most) return too_large(most);
     Result<std::vector<std::byte>> bytes =
         read_up_to(file.descriptor.number(), most == UINT64_MAX ? most : most + 1, file.size);
-    if (bytes && bytes->size() > most) return too_large(most);  // it grew
+    if (bytes && bytes->size() > most) return too_large(most);  // the file grew meanwhile
     return bytes;
 }
 
@@ -160,21 +160,22 @@ Result<void> write_descriptor(int descriptor, std::span<const std::span<const st
 
 namespace {
 
-/// The target of a path: a path (which need not exist yet) to replace, or an object to write in place.
+/// The target of a path after symbolic links: a path to create or replace, or an object to write in place.
 struct Destination {
     fs::path path;
     bool in_place = false;
-    std::optional<::mode_t> mode;  ///< permissions of the file that is there
+    std::optional<::mode_t> mode;  ///< permissions of the existing file, if any
 };
 
-/// Is it a descriptor of this process, whose file another program may hold open? Renaming would not reach that program.
+/// Does the path name an open descriptor of this process? Another program may hold its file open, and would not see a
+/// file that replaces it.
 bool names_descriptor(const fs::path& path) {
     const std::string name = path.string();
     return name.starts_with("/proc/") || name.starts_with("/dev/fd/");
 }
 
 Result<Destination> find_destination(const fs::path& path) {
-    constexpr int kMostLinks = 40;  // as Linux has it
+    constexpr int kMostLinks = 40;  // Linux's limit
     Destination out{path, names_descriptor(path), {}};
     std::error_code status;
     for (int links = 0; !out.in_place && fs::is_symlink(out.path, status); ++links) {
@@ -200,8 +201,8 @@ Result<void> write_in_place(const fs::path& path, std::span<const std::span<cons
     return {};
 }
 
-/// A name in `folder` that no other writer has: `take` is called with new ones until it finds one that is free. Null,
-/// with errno, where it fails for another reason.
+/// Calls `take` with new names in `folder` until it succeeds, and returns that name. Null, with errno, if `take` fails
+/// for another reason than EEXIST.
 template <class Take>
 std::optional<fs::path> take_free_name(const fs::path& folder, Take take) {
     static std::atomic<std::uint64_t> counter = 0;
@@ -224,8 +225,8 @@ Result<void> write_file(const fs::path& path, std::span<const std::span<const st
     const fs::path& target = found.path;
     const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
 
-    // Without a name while it is written, so that a killed process leaves nothing behind; where the file system cannot
-    // do that, under a temporary one.
+    // The file has no name while it is written, so that a killed process leaves nothing behind. If the file system does
+    // not support unnamed files, it has a temporary name.
     Descriptor file(-1);
     std::optional<fs::path> temporary;
     if (::access("/proc/self/fd", X_OK) == 0) {
@@ -244,13 +245,14 @@ Result<void> write_file(const fs::path& path, std::span<const std::span<const st
         return why;
     };
     if (const Result<void> written = write_descriptor(file.number(), parts); !written) return give_up(written.error());
-    if (found.mode) (void)::fchmod(file.number(), *found.mode);  // best effort: who may read it stays as it was
+    if (found.mode) (void)::fchmod(file.number(), *found.mode);  // keeps the permissions; best effort
     if (nameless) {
         const std::string self = "/proc/self/fd/" + std::to_string(file.number());
         const auto link_as = [&](const fs::path& name) {
             return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
         };
-        // A new file gets its name at once. One that is there already is replaced, which takes a name of its own first.
+        // Links a new file to its name directly. linkat cannot replace an existing file: that takes a temporary name
+        // and rename.
         if (!found.mode && link_as(target)) return {};
         temporary = take_free_name(folder, link_as);
         if (!temporary) return cannot_write(std::strerror(errno));

@@ -1,4 +1,4 @@
-// From an .lr file in memory to its mesh.
+// Decodes an .lr file in memory to a mesh.
 
 #include <algorithm>
 #include <numeric>
@@ -11,10 +11,10 @@ namespace lacedring {
 namespace detail {
 namespace {
 
-/// Makes the resident section of stored seams, and what it decodes to.
+/// Restores seams from storage form: the words of the resident section, the copies, and the copies' vertices.
 Result<storage::RestoredSeams> restore(const StoredSeams& stored, std::span<const std::uint32_t> slots,
                                        std::uint32_t vertices) {
-    constexpr std::uint64_t kCorner = 50, kVertex = 50;  // bytes, while they are restored
+    constexpr std::uint64_t kCorner = 50, kVertex = 50;  // bytes of memory during the call
     if (kCorner * slots.size() + kVertex * vertices > stored.max_bytes) {
         return Error{ErrorCode::memory_limit, fmt::format("lr file: seams of {} triangles in storage form would take "
                                                           "more than {} MiB",
@@ -23,7 +23,7 @@ Result<storage::RestoredSeams> restore(const StoredSeams& stored, std::span<cons
     return storage::restore_seams(stored.words, slots, vertices);
 }
 
-/// The copies of the slots' corners, and the vertex of each copy.
+/// Sets out.indices to the copies of the slots' corners and out.vertex_of to the vertex of each copy.
 Result<void> decode_copies(const LrFileView& file, const StreamView& stream, bool untrusted, const StoredSeams* stored,
                            DecodedLr& out) {
     const std::vector<std::uint32_t> slots = slot_triangles(stream);
@@ -128,14 +128,15 @@ Attribute decode_attribute(const LrAttribute& attribute) {
 }
 
 Result<Mesh> decode_mesh(const LrFile& file, DecodedLr& decoded, Surface* surface) {
-    // The mesh's vertices: those of the connectivity, or their copies, but for extra ones. No triangle names these.
+    // The mesh's vertices are the copies if there are seams, else the connectivity's vertices, without the extra ones,
+    // which no triangle names.
     std::vector<std::uint32_t> kept(decoded.vertex_of.empty() ? decoded.vertices : decoded.vertex_of.size());
     std::iota(kept.begin(), kept.end(), 0U);
     const std::size_t all = kept.size();
     decoded.remove_extra(kept);
     Mesh mesh;
     mesh.vertex_count = static_cast<std::uint32_t>(kept.size());
-    std::vector<std::uint32_t> of_vertex = kept;  // the place of each in an attribute of vertices
+    std::vector<std::uint32_t> of_vertex = kept;  // the same as indices into per-vertex attributes
     for (std::uint32_t& i : of_vertex) i = decoded.vertex_of.empty() ? i : decoded.vertex_of[i];
     const bool as_it_is = decoded.vertex_of.empty() && kept.size() == all;
     for (const LrAttribute& attribute : file.attributes) {
@@ -159,7 +160,7 @@ Result<Mesh> decode_mesh(const LrFile& file, DecodedLr& decoded, Surface* surfac
     if (decoded.vertex_of.empty()) return mesh;
     std::vector<std::uint32_t> number(decoded.vertices, UINT32_MAX);
     surface->vertex_count = 0;
-    for (std::size_t i = 0; i < kept.size(); ++i) {  // as find_surface does, copies without triangles stay apart
+    for (std::size_t i = 0; i < kept.size(); ++i) {  // copies without triangles are not joined, as in find_surface
         std::uint32_t alone = UINT32_MAX, &joined = used[kept[i]] ? number[of_vertex[i]] : alone;
         if (joined == UINT32_MAX) joined = surface->vertex_count++;
         surface->vertex_of.push_back(joined);
@@ -186,7 +187,7 @@ Result<Mesh> decode_lr_original_order(const LrFile& file) {
     decoded.remove_extra(vertex_order);
     Result<Mesh> stream = detail::decode_mesh(file, decoded, nullptr);
     if (!stream) return stream;
-    // permute_attributes takes the new number of each old vertex: the inverse of the order.
+    // The inverse of the order: the stream's number of each input vertex.
     std::vector<std::uint32_t> number(vertex_order.size());
     for (std::uint32_t i = 0; i < number.size(); ++i) number[vertex_order[i]] = i;
     Mesh mesh;

@@ -1,6 +1,6 @@
 #pragma once
-// The layout of .lr files: header, section table, and where contents lie. Internal to lrio/file; docs/lr-file.md has
-// it.
+// The layout of .lr files (docs/lr-file.md): header, section table, contents; and helpers of readers and writers.
+// Internal to lrio/file.
 
 #include <fmt/format.h>
 
@@ -37,27 +37,28 @@ constexpr const char* kKindNames[] = {"",   "lean",       "attribute", "vertex_o
 
 /// How a section's contents are coded.
 enum Coding : std::uint16_t {
-    kResident = 0,  // as they lie in memory
-    kStored = 1,    // in storage form: packed streams, vertex streams and seams (docs/storage-format.md)
+    kResident = 0,  // LrForm::resident
+    kStored = 1,    // LrForm::stored, of packed streams, vertex streams and seams (docs/storage-format.md)
 };
 
 struct FileHeader {
     std::uint32_t magic, version, sections, vertices, input_triangles, copies;
-    std::uint32_t table_crc;   // of the section table
-    std::uint32_t header_crc;  // of the seven words before
+    std::uint32_t table_crc;   // CRC-32 of the section table
+    std::uint32_t header_crc;  // CRC-32 of the seven words before
 
-    /// Values of an attribute.
+    /// Number of values of an attribute.
     std::uint32_t values(bool per_copy) const { return per_copy ? copies : vertices; }
 };
 static_assert(sizeof(FileHeader) == 32);
 
-// Bits of Section::layout: of attributes, but for what a stream says itself.
+// Bits of Section::layout, for attributes. In sections of vertex streams, type, components and kNormalized are 0: the
+// streams' headers have them.
 constexpr std::uint32_t kNormalized = 1U << 16, kVUp = 1U << 17, kPerCopy = 1U << 18;
 
 struct Section {
     std::uint16_t kind;
-    std::uint16_t coding;  // of the contents
-    std::uint32_t crc;     // of the contents
+    std::uint16_t coding;  // Coding of the contents
+    std::uint32_t crc;     // CRC-32 of the contents
     std::uint64_t offset, size;
     std::uint32_t layout;       // type | components << 8 | the bits above
     std::uint32_t name_length;  // attributes: the contents begin with the name, padded with zeros to 8 bytes
@@ -68,51 +69,51 @@ constexpr std::size_t align8(std::size_t size) {
     return (size + 7) / 8 * 8;
 }
 
-/// Bytes that packed streams and attributes in storage form may take while they are restored, unless parse_lr is told.
+/// Default limit of the memory in bytes to restore streams from storage form.
 constexpr std::uint64_t default_memory(std::uint64_t file_bytes) {
     return std::max<std::uint64_t>(512 << 20, 128 * file_bytes);
 }
-/// Bytes that a packed stream takes while it is restored.
+/// Bytes of memory to restore a packed stream.
 constexpr std::uint64_t memory_to_restore(std::uint32_t triangles, std::uint32_t vertices) {
     return std::uint64_t{60} * triangles + std::uint64_t{8} * vertices;
 }
-/// The same of an attribute of so many values.
+/// Bytes of memory to restore an attribute of `values` values.
 constexpr std::uint64_t memory_to_restore(std::uint32_t values) {
     return std::uint64_t{128} * values;
 }
 
-/// The section kind of a format's words.
+/// The section kind of each Format's words.
 constexpr Kind kKinds[] = {kLean, kPacked, kLr, kLrCompact};
 
 inline Kind kind_of(Format format) {
     return kKinds[static_cast<std::size_t>(format)];
 }
-/// The format of a section kind, one of kKinds.
+/// The format of a section kind, which is one of kKinds.
 Format format_of(std::uint32_t kind);
 
 Error malformed_lr(std::string message);
 
-/// Empty if the bytes begin as an .lr file, else an error message that names their kind if it is known.
+/// Empty if the bytes begin like an .lr file, else an error message that names their file format if it is known.
 std::string not_an_lr_file(std::span<const std::byte> bytes);
 
-/// Takes the name off the contents' begin; empty if that is sound.
+/// Removes the name from the front of `contents` and sets out.name. Returns an error message, or empty.
 std::string view_name(const Section& section, std::span<const std::byte>& contents, AttributeView& out);
 
-/// Fills `out`; empty if the section is an attribute of the file's vertices or copies, else what is wrong.
+/// Fills `out` from a section of plain attribute values. Returns an error message, or empty.
 std::string view_attribute(const FileHeader& header, const Section& section, std::span<const std::byte> contents,
                            AttributeView& out);
 
-/// The same of an attribute that is a vertex stream in storage form: `words`, which say what its values are, are not
-/// looked at. `contents` may lie anywhere.
+/// The same for a vertex stream in storage form. The words are not read, so the type, components and normalized of
+/// `out` are not set. `contents` may have any alignment.
 std::string view_stored_of(const FileHeader& header, const Section& section, std::span<const std::byte> contents,
                            AttributeView& out);
 
-/// The same of an attribute that is a vertex stream. Reads no more of it than its header; `contents` may lie anywhere.
+/// The same for a vertex stream; checks only its header.
 std::string view_stream_of(const FileHeader& header, const Section& section, std::span<const std::byte> contents,
                            AttributeView& out);
 
-/// Checks header and section table and calls visit(header, section, contents) for each section; what visit returns, if
-/// not empty, is an error. The contents' checksums are visit's to look at.
+/// Checks the header and the section table, and calls visit(header, section, contents) for each section. `visit`
+/// returns an error message, or empty; it has to check the contents' checksum itself.
 template <class Visit>
 Result<FileHeader> visit_sections(std::span<const std::byte> bytes, Visit visit) {
     FileHeader header;
@@ -157,63 +158,62 @@ Result<FileHeader> visit_sections(std::span<const std::byte> bytes, Visit visit)
     return header;
 }
 
-/// The triangles that a file's connectivity holds, empty slots left out, and what its numbers stand for.
+/// The decoded connectivity and seams of a file.
 struct DecodedLr {
     std::uint32_t vertices = 0;
-    std::vector<std::uint32_t> indices;  ///< of copies where the file has seams
-    /// The vertex of each copy, where the file has seams.
-    std::vector<std::uint32_t> vertex_of;
-    /// Vertices that LR tables have more than the mesh (copies where the file has seams). Empty if there is none.
+    /// Triangles, without empty slots: indices of copies if the file has seams, else of vertices.
+    std::vector<std::uint32_t> indices;
+    std::vector<std::uint32_t> vertex_of;  ///< the vertex of each copy; empty: no seams
+    /// Marks the extra vertices of LR tables (with seams: the copies of extra vertices). Empty if there are none.
     std::vector<bool> extra;
 
     bool is_extra(std::size_t i) const { return i < extra.size() && extra[i]; }
-    /// Leaves out of `values`, one for each vertex or copy, those of extra ones.
+    /// Removes the elements of extra vertices or copies from `values`.
     void remove_extra(std::vector<std::uint32_t>& values) const;
 };
 
-/// A file in memory as one that lies somewhere; holds no copy.
+/// A view of `file`; copies nothing.
 LrFileView view_of(const LrFile& file);
 
-/// view_lr_file, and the sections' checksums.
+/// view_lr_file that also checks the sections' checksums.
 Result<LrFileView> view_checked_lr(std::span<const std::byte> bytes);
 
-/// Is the first attribute POSITION, of one float or double for each coordinate of each vertex? Errors: malformed.
+/// Checks that the first attribute is POSITION, with 3 floats or doubles a vertex. Errors: malformed.
 Result<void> check_position(const LrFileView& file);
 
-/// Errors: malformed (a coordinate that is not finite as a float: what draws or exports a mesh has no other).
+/// Checks that all coordinates are finite as floats, since meshes are drawn and exported as floats. Errors: malformed.
 Result<void> check_finite(ComponentType type, std::span<const std::byte> coordinates);
 
-/// A file's seams that are in storage form: their words, which become the resident section's, and the bytes of memory
-/// that this may take.
+/// Seams in storage form.
 struct StoredSeams {
-    std::vector<std::uint32_t>& words;
-    std::uint64_t max_bytes;
+    std::vector<std::uint32_t>& words;  ///< in storage form; replaced by the resident section's words
+    std::uint64_t max_bytes;            ///< memory limit for restoring them
 };
 
-/// Decodes the connectivity and the seams: `stored`, if that is not null, which it restores, else the file's. Errors:
-/// malformed; of files that are valid none, if `untrusted` is false; memory_limit of stored seams.
+/// Decodes the connectivity and the seams. Restores and decodes `stored` if it is not null, else decodes file.seams.
+/// `untrusted`: checks everything. If it is false, the file is valid. Errors: malformed, memory_limit (stored seams).
 Result<DecodedLr> decode_connectivity(const LrFileView& file, bool untrusted, const StoredSeams* stored = nullptr);
 
-/// Mesh and surface in stream order, as decode_lr's; takes what is decoded.
+/// Mesh and surface in stream order, as by decode_lr; moves from `decoded`.
 Result<Mesh> decode_mesh(const LrFile& file, DecodedLr& decoded, Surface* surface);
 
-/// parse_lr, and the connectivity that it decoded to check it.
+/// parse_lr that also returns the connectivity that it decoded for its checks.
 Result<LrFile> parse_lr(std::span<const std::byte> bytes, std::uint64_t max_bytes, DecodedLr& decoded,
                         unsigned threads);
 
-/// Three vertices of each triangle that an attribute's stream goes with: copies, if it has a value for each, or if
-/// there are no seams, else vertices, which go into `of_vertices` unless they are there.
+/// The triangles that index an attribute's values: of copies if it is per copy or there are no seams, else of vertices.
+/// The latter are computed into `of_vertices` unless it has them already.
 std::span<const std::uint32_t> triangles_of(const DecodedLr& decoded, bool per_copy,
                                             std::vector<std::uint32_t>& of_vertices);
 
-/// The integers of the positions' stream, three a vertex, if it has such of a common scale: a lattice's, or decimals;
-/// else none. The stream is valid.
+/// The integers of the positions' vertex stream, 3 a vertex, if its mapping has one scale for all (lattice or
+/// decimals); else empty. The stream is valid.
 std::vector<std::uint32_t> position_integers(const LrFile& file);
 
-/// Where the values of an attribute are, by position_integers.
+/// The places of an attribute's values; `positions` is position_integers' result.
 storage::VertexPlaces places_of(std::span<const std::uint32_t> positions, const DecodedLr& decoded, bool per_copy);
 
-/// The attribute with its values. Of a stream, which is valid, they are decoded.
+/// The attribute as plain values; decodes a stream, which must be valid.
 Attribute decode_attribute(const LrAttribute& attribute);
 
 }  // namespace lacedring::detail

@@ -1,4 +1,4 @@
-// Makes .lr files and writes them.
+// Makes .lr files from encoded meshes, serializes and writes them.
 
 #include <algorithm>
 
@@ -15,7 +15,7 @@ namespace {
 
 using namespace detail;  // lr_layout.h's
 
-/// The input's corner that each decoded triangle begins with. `triangles` are those of the input, in decoded order.
+/// The input corner with which each decoded triangle begins. `triangles` are the input's triangles in decoded order.
 std::vector<std::uint32_t> find_corners(const Mesh& mesh, const LrFile& file, std::span<const std::uint32_t> triangles,
                                         std::span<const std::uint32_t> vertex_order) {
     const Result<DecodedLr> decoded = decode_connectivity(view_of(file), false);
@@ -25,14 +25,14 @@ std::vector<std::uint32_t> find_corners(const Mesh& mesh, const LrFile& file, st
     for (const std::uint32_t t : triangles) {
         const std::uint32_t* now = decoded->indices.data() + 3 * out.size();
         const std::uint32_t* before = mesh.indices.data() + std::size_t{3} * t;
-        std::uint32_t place = 0;  // its three vertices differ, so that one of them is it
+        std::uint32_t place = 0;  // a triangle's vertices differ, so exactly one place has the same vertex
         while (place < 2 && before[place] != vertex_order[now[0]]) ++place;
         out.push_back(3 * t + place);
     }
     return out;
 }
 
-/// Have all of the mesh's vertices the value of the first one at their surface vertex?
+/// Do all copies of each surface vertex have the same value? first[v] is the first copy of surface vertex v.
 bool agrees_on_surface(const Attribute& attribute, const Surface& surface, std::span<const std::uint32_t> first) {
     const std::size_t stride = attribute.stride();
     for (std::size_t v = 0; v < surface.vertex_of.size(); ++v) {
@@ -42,7 +42,7 @@ bool agrees_on_surface(const Attribute& attribute, const Surface& surface, std::
     return true;
 }
 
-/// Without seams the surface is the mesh, and `seams` is empty.
+/// Makes the file of a mesh; if it has no seams, `surface` is the identity and `seams` is empty.
 LrFile make_file(const Mesh& mesh, const Surface& surface, Encoded encoded, EncodedSeams seams, bool keep_order) {
     LrFile file;
     file.vertex_count = static_cast<std::uint32_t>(encoded.vertex_order.size());
@@ -80,10 +80,10 @@ LrFile make_lr_file(const Mesh& mesh, Encoded encoded, bool keep_order) {
 
 namespace {
 
-/// The streams of a file in storage form, where they have one that is smaller; else empty.
+/// The storage form of each stream of a file; empty: the stream has none that is smaller.
 struct StoredStreams {
     std::vector<std::uint32_t> connectivity, seams;
-    std::vector<std::vector<std::uint32_t>> attributes;  ///< one for each, or none at all
+    std::vector<std::vector<std::uint32_t>> attributes;  ///< one for each attribute; or none if all are resident
 };
 
 StoredStreams store_streams(const LrFile& file) {
@@ -122,7 +122,7 @@ std::vector<std::byte> serialize_lr(const LrFile& file, LrForm form) {
     StoredStreams stored;
     if (form == LrForm::stored) stored = store_streams(file);
     std::vector<Section> sections;
-    std::vector<std::vector<std::byte>> names;  // beside sections; empty but for attributes
+    std::vector<std::vector<std::byte>> names;  // a padded name for each section; empty if it is no attribute
     std::vector<std::span<const std::byte>> contents;
     const auto add = [&](Kind kind, std::span<const std::byte> data) {
         sections.push_back({kind, kResident, 0, 0, 0, 0, 0});
@@ -165,7 +165,7 @@ std::vector<std::byte> serialize_lr(const LrFile& file, LrForm form) {
         sections[i].crc = crc32(contents[i], crc32(names[i]));
         end = sections[i].offset + sections[i].size;
     }
-    // parse_lr has to read the file without being told that it may take more memory.
+    // parse_lr must be able to read the file within its default memory limit.
     const std::uint64_t memory = std::max(memory_to_restore(file.input_triangles, file.vertex_count),
                                           memory_to_restore(std::max(file.vertex_count, file.copy_count)));
     if (form == LrForm::stored && memory > default_memory(end)) return serialize_lr(file, LrForm::resident);

@@ -1,4 +1,4 @@
-// Reads .lr files and checks all that is in them.
+// Reads .lr files and checks their contents.
 
 #include <algorithm>
 #include <optional>
@@ -126,7 +126,8 @@ class Reader {
         return attribute.per_copy ? file_.copy_count : file_.vertex_count;
     }
 
-    /// What needs nothing else: the steps of the connectivity, and the residuals of vertex streams.
+    /// Reads the parts in storage form that do not depend on each other: the connectivity's steps and the vertex
+    /// streams' residuals.
     Result<void> read_parts() {
         for (const std::size_t i : stored_) {
             const std::uint32_t values = values_of(file_.attributes[i]);
@@ -152,7 +153,7 @@ class Reader {
         });
     }
 
-    /// Vertices are predicted from their neighbors: the triangles are needed first.
+    /// Restores a vertex stream from its residuals. It needs the triangles, since values are predicted from neighbors.
     Result<void> restore_attribute(std::size_t i, std::span<const std::uint32_t> triangles,
                                    const storage::VertexPlaces& places, unsigned threads) {
         LrAttribute& attribute = file_.attributes[i];
@@ -168,8 +169,8 @@ class Reader {
         return {};
     }
 
-    /// The connectivity's stream, and what it decodes to. With several threads, beside that, the streams of vertices:
-    /// their triangles are known from the steps, which takes more memory.
+    /// Restores and decodes the connectivity's stream. With several threads, restores per-vertex streams at the same
+    /// time, with triangles from the steps; this takes more memory.
     Result<void> restore_connectivity() {
         std::vector<std::uint32_t> triangles;
         if (steps_ && threads_ > 1) triangles = steps_->triangles();
@@ -205,7 +206,7 @@ class Reader {
         return {};
     }
 
-    /// The streams that are not restored yet: normals behind the positions that they are predicted from.
+    /// Restores the remaining vertex streams. Streams predicted from positions (normals) come last.
     Result<void> restore_attributes() {
         std::vector<std::uint32_t> of_vertices, positions;
         for (const bool with_places : {false, true}) {
@@ -227,7 +228,7 @@ class Reader {
         return {};
     }
 
-    /// Does work(i) for each i below `parts`, on several threads; the first error, if any.
+    /// Calls work(i) for each i < `parts`, on several threads; returns the error of the lowest i, if any.
     template <class Work>
     Result<void> in_parts(std::size_t parts, Work work) {
         std::vector<Result<void>> good(parts);
@@ -269,10 +270,12 @@ class Reader {
         return {};
     }
 
-    /// `size` distinct numbers below `range`?
+    /// Are these `size` distinct numbers below `range`?
     static bool permutation_into(std::span<const std::uint32_t> order, std::size_t size, std::uint32_t range) {
         if (order.size() != size || size > range) return false;
-        if (range / 64 > size) {  // mostly degenerate input, or a hostile count: no flag for each
+        // Sorts instead of flagging if `range` is far larger than `size`: a mostly degenerate input, or a hostile
+        // count.
+        if (range / 64 > size) {
             std::vector<std::uint32_t> sorted(order.begin(), order.end());
             std::sort(sorted.begin(), sorted.end());
             return sorted.empty() ||
@@ -287,11 +290,12 @@ class Reader {
     }
 
     std::uint64_t max_bytes_;
-    std::optional<Error> limit_;  ///< what was more than may be
+    std::optional<Error> limit_;  ///< the memory_limit error of a section
     unsigned threads_;
-    bool is_stored_ = false;                                         ///< connectivity is in storage form
-    std::vector<std::size_t> stored_;                                ///< attributes in storage form
-    std::vector<std::optional<storage::StoredVertices>> residuals_;  ///< of each attribute, until it is restored
+    bool is_stored_ = false;           ///< connectivity is in storage form
+    std::vector<std::size_t> stored_;  ///< attributes in storage form
+    std::vector<std::optional<storage::StoredVertices>>
+        residuals_;  ///< residuals of each attribute until it is restored
     std::optional<storage::StoredPacked> steps_;
     LrFile file_;
     DecodedLr decoded_;

@@ -1,4 +1,4 @@
-// .lr files where they lie, in a mapping above all: what they consist of, without a copy.
+// Views .lr files in place, typically in a mapped file, and lists their sections.
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ using namespace detail;  // lr_layout.h's
 
 constexpr const char* kMappingNames[] = {"integers", "lattice", "octahedral", "floats", "decimals", "doubles"};
 
-/// Fills what a vertex stream's header says, which may lie anywhere; empty if it is sound.
+/// Fills `listed` from a vertex stream's header; `contents` may have any alignment. Returns an error message, or empty.
 std::string list_stream(const Section& section, std::span<const std::byte> contents, LrSection& listed) {
     std::vector<std::uint32_t> words((contents.size() + 3) / 4);
     if (!words.empty()) std::memcpy(words.data(), contents.data(), contents.size());
@@ -92,7 +92,7 @@ namespace {
 Result<LrFileView> view_sections(std::span<const std::byte> bytes, bool checksums) {
     LrFileView out;
     bool stored = false;
-    if (reinterpret_cast<std::uintptr_t>(bytes.data()) % 8 != 0) {  // words are read where they lie
+    if (reinterpret_cast<std::uintptr_t>(bytes.data()) % 8 != 0) {  // words are read in place
         if (std::string why = not_an_lr_file(bytes); !why.empty()) return Error{ErrorCode::malformed, std::move(why)};
         return Error{ErrorCode::invalid_argument, "the file does not begin at a multiple of eight bytes"};
     }

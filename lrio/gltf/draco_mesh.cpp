@@ -26,11 +26,11 @@ bool has_draco() {
 
 namespace {
 
-/// The counts at the beginning of the connectivity. Draco allocates for them before it decodes any.
+/// The counts at the beginning of the connectivity. Draco allocates memory for them before it decodes.
 struct Claim {
     std::uint32_t faces = 0;
-    std::uint32_t points = 0;  // edgebreaker: vertices, split ones twice
-    std::uint8_t tables = 0;   // edgebreaker: attributes that have connectivity of their own
+    std::uint32_t points = 0;  // Edgebreaker: vertices, split ones counted twice
+    std::uint8_t tables = 0;   // Edgebreaker: attributes with their own connectivity
 };
 
 bool peek_claim(draco::DecoderBuffer buffer, bool is_edgebreaker, Claim& out) {
@@ -45,7 +45,7 @@ bool peek_claim(draco::DecoderBuffer buffer, bool is_edgebreaker, Claim& out) {
     return true;
 }
 
-/// Draco's decoder, but that it asks for memory before it allocates by counts in the data.
+/// Draco's decoder that checks the memory limit before it allocates memory for counts in the data.
 template <class Decoder, bool is_edgebreaker>
 class BoundedDecoder : public Decoder {
   public:
@@ -56,8 +56,8 @@ class BoundedDecoder : public Decoder {
     bool DecodeGeometryData() override {
         Claim claim;
         if (!peek_claim(*this->buffer(), is_edgebreaker, claim)) return false;
-        // Bytes that Draco 1.5 allocates at most. For each face and point: corner table, points of corners, faces,
-        // lists of corners. For each attribute's table: vertices and seams of corners.
+        // Upper bounds of the bytes that Draco 1.5 allocates. Per face and point: corner table, points of corners,
+        // faces, lists of corners. Per attribute's table: vertices and seams of corners.
         constexpr double kFace = 80, kPoint = 24, kTableFace = 40, kTablePoint = 16;
         return take(claim.faces * (kFace + kTableFace * claim.tables) +
                     claim.points * (kPoint + kTablePoint * claim.tables)) &&
@@ -65,8 +65,9 @@ class BoundedDecoder : public Decoder {
     }
 
     bool DecodeAllAttributes() override {
-        // The attributes are known here, and none of their values is allocated yet: each is there as decoded, as 32-bit
-        // integers before that, and has the index of each point's value. Each decoder has an order of the points.
+        // The attributes are known here, but their values are not allocated yet. Draco allocates for each attribute the
+        // decoded values, the 32-bit integers that they are decoded from, and a value index per point; for each
+        // attribute decoder, an order of the points.
         double point_bytes = 16.0 * this->num_attributes_decoders();
         for (int i = 0; i < this->point_cloud()->num_attributes(); ++i) {
             const draco::PointAttribute& attribute = *this->point_cloud()->attribute(i);

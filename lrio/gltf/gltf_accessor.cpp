@@ -37,7 +37,7 @@ bool to_component_type(int gltf, ComponentType& out) {
 
 namespace {
 
-/// `count` elements of `size` bytes from `offset` on in a buffer view. `where` names them in an error.
+/// `count` elements of `size` bytes in a buffer view, beginning at byte `offset`. `where` is the prefix of errors.
 Result<StridedBytes> view_bytes(GltfFile& file, int view_index, std::uint64_t offset, std::size_t count,
                                 std::size_t size, const std::string& where) {
     const auto& views = file.model.bufferViews;

@@ -31,7 +31,7 @@ bool equals_ignoring_case(std::string_view text, std::string_view lower) {
                       [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
 }
 
-/// "scheme:" in front, as RFC 3986 has it. One letter is a drive, not a scheme: neither is read.
+/// Does the URI begin with "scheme:" (RFC 3986)? A single letter may be a Windows drive, but neither is read.
 bool has_scheme(std::string_view uri) {
     const std::size_t colon = uri.find_first_of(":/?#");
     if (colon == std::string_view::npos || colon == 0 || uri[colon] != ':') return false;
@@ -58,7 +58,7 @@ Result<std::vector<std::byte>> decode_data_uri(std::string_view rest) {
     return out;
 }
 
-/// Is `path` in `folder`, or below? Both are absolute and free of links and dots.
+/// Is `path` in `folder` or below it? Both are absolute paths without links and dots.
 bool is_inside(const fs::path& path, const fs::path& folder) {
     return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
@@ -98,7 +98,7 @@ bool decode_base64(std::string_view text, std::vector<std::byte>& out) {
         const std::int8_t value = kValues[static_cast<unsigned char>(text[i])];
         if (value < 0) return false;
         bits = bits << 6U | static_cast<std::uint32_t>(value);
-        // After 2, 3 and 4 digits there are 12, 18 and 24 bits: a byte more each time.
+        // After 2, 3 and 4 digits of a group there are 12, 18 and 24 bits: one more complete byte each time.
         if (i % 4 == 1) out[at++] = static_cast<std::byte>(bits >> 4U & 0xffU);
         if (i % 4 == 2) out[at++] = static_cast<std::byte>(bits >> 2U & 0xffU);
         if (i % 4 == 3) out[at++] = static_cast<std::byte>(bits & 0xffU);
@@ -182,8 +182,8 @@ Result<std::span<const std::byte>> GltfBuffers::load_file(const std::string& uri
     if (known != files_.end() && storage_[known->second].size() >= length) {
         return std::span<const std::byte>(storage_[known->second]);
     }
-    // Read again for a buffer that has more of the file: at least twice as much, so that all of it costs no more than
-    // the file does.
+    // A buffer needs more of the file than was read: reads at least twice as much as before, so that the total is
+    // proportional to the file's size.
     std::uint64_t wanted = length;
     if (known != files_.end()) {
         const std::uint64_t before = storage_[known->second].size();

@@ -1,9 +1,9 @@
 #pragma once
-// The bytes of a glTF's buffers: its BIN chunk, data URIs, and files beside it. Internal to lrio.
+// The bytes of a glTF's buffers: its BIN chunk, data URIs, and other files. Internal to lrio.
 //
-// A buffer is opened when something of it is asked for, and each file once, however many buffers name it. No more is
-// read than the glTF says that a buffer has. A file has to lie in the glTF's own folder, or below, after links are
-// resolved: a mesh must not carry other files of its reader away.
+// A buffer is opened at its first use. Buffers in the same file share its bytes, and at most byteLength bytes are read
+// for a buffer. After links are resolved, a file must be in the glTF's folder or below it: otherwise a converted mesh
+// could contain private files of the user.
 
 #include <cstddef>
 #include <cstdint>
@@ -31,11 +31,12 @@ class GltfBuffers {
 
     std::size_t count() const { return buffers_.size(); }
 
-    /// The buffer's byteLength bytes, which stay where they are. `index` < count().
-    /// Errors: cannot_open (a URI that names no file in the folder, too), malformed (too few bytes, no URI).
+    /// The buffer's byteLength bytes, valid as long as this object. `index` < count().
+    /// Errors: cannot_open (also a URI of a file outside the folder), malformed (too few bytes, no URI).
     Result<std::span<const std::byte>> open(std::size_t index);
 
-    /// All bytes of a file or a data URI, `most` of a file; they stay where they are. Errors: cannot_open, malformed.
+    /// The bytes of a data URI, or the first `most` bytes of a file or all if it is shorter; valid as long as this
+    /// object. Errors: cannot_open, malformed.
     Result<std::span<const std::byte>> open_uri(const std::string& uri, std::uint64_t most);
 
     /// Bytes of the files and data URIs opened so far.
@@ -54,15 +55,15 @@ class GltfBuffers {
     Reading* reading_ = nullptr;
     std::optional<std::span<const std::byte>> bin_;
     std::vector<Buffer> buffers_;
-    std::vector<std::vector<std::byte>> storage_;         ///< never shrinks, so that spans of its vectors stay valid
-    std::map<std::filesystem::path, std::size_t> files_;  ///< the latest of storage_ for each
+    std::vector<std::vector<std::byte>> storage_;         ///< vectors are never removed: spans of them stay valid
+    std::map<std::filesystem::path, std::size_t> files_;  ///< index into storage_ of each file's latest bytes
     std::uint64_t loaded_bytes_ = 0;
 };
 
-/// %XX as a byte. A % without two hexadecimal digits stands for itself: writers forget to escape it.
+/// Replaces each %XX by its byte. A % without two hexadecimal digits is kept: some writers do not escape it.
 std::string decode_percent(std::string_view text);
 
-/// False where a character is not base64's. Padding may be missing.
+/// Decodes base64; the padding may be missing. False: the text is not base64.
 bool decode_base64(std::string_view text, std::vector<std::byte>& out);
 
 }  // namespace lacedring::detail

@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kDraco = "KHR_draco_mesh_compression";
 
-/// tinygltf's value as an unsigned integer below 2^31; -1: it is none.
+/// tinygltf's value as an unsigned integer below 2^31; -1: it is not one.
 int unsigned_of(const tinygltf::Value& value) {
     return value.IsInt() && value.GetNumberAsInt() >= 0 ? value.GetNumberAsInt() : -1;
 }
@@ -51,10 +51,11 @@ class DracoFinder {
     }
 
   private:
-    /// An accessor of two sources becomes two: a tool that joins equal accessors joins those of different primitives,
-    /// since they are no more than a type and a count.
+    /// Records the accessor's source. An accessor with two sources is split into two: tools that merge equal accessors
+    /// also merge Draco accessors of different primitives, because these have only a type and a count.
     void note(int& accessor, DracoData::Source source) {
-        if (accessor < 0 || static_cast<std::size_t>(accessor) >= accessors_.size()) return;  // view_accessor tells it
+        // view_accessor reports an index out of range.
+        if (accessor < 0 || static_cast<std::size_t>(accessor) >= accessors_.size()) return;
         const auto [known, is_new] = known_.emplace(std::tuple(accessor, source), accessor);
         if (is_new) {
             if (file_.draco.sources.contains(accessor)) {
@@ -74,7 +75,8 @@ class DracoFinder {
 
     GltfFile& file_;
     std::vector<tinygltf::Accessor>& accessors_;
-    std::map<std::tuple<int, DracoData::Source>, int> known_;  ///< the accessor for each that is named, and its source
+    /// From the file's accessor and its source to the accessor that has this source.
+    std::map<std::tuple<int, DracoData::Source>, int> known_;
 };
 
 #ifdef LACEDRING_DRACO

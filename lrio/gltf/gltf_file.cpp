@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kDeepest = 256;
 
-/// Parsers call themselves for nested values: deep ones would overflow the stack.
+/// JSON parsers are recursive: deeply nested values would overflow the stack.
 bool nests_too_deep(std::string_view json) {
     std::size_t depth = 0;
     bool in_string = false;
@@ -43,7 +43,7 @@ std::uint32_t word_at(std::span<const std::byte> bytes, std::size_t offset) {
     return word;
 }
 
-/// A parser's complaint, shortened to one printable line, without the parser's name for it.
+/// A parser's error message as one short printable line, without the parser's "[...]" prefix.
 std::string one_line(std::string_view complaint) {
     if (complaint.starts_with('[')) complaint.remove_prefix(std::min(complaint.find(']') + 1, complaint.size()));
     std::string out;
@@ -58,7 +58,7 @@ std::size_t size_of_array(const nlohmann::json& document, const char* name) {
     return found != document.end() && found->is_array() ? found->size() : 0;
 }
 
-/// "2.0" as 2 and 0.
+/// Parses a version such as "2.0".
 bool parse_version(const nlohmann::json& asset, const char* name, int& major, int& minor) {
     const auto found = asset.find(name);
     if (found == asset.end() || !found->is_string()) return false;
@@ -80,7 +80,7 @@ Result<void> check_version(const nlohmann::json& document) {
     return {};
 }
 
-/// The library that decodes an extension's geometry. Null: it compresses none.
+/// The library that decodes an extension's geometry. Null: the extension does not compress geometry.
 const char* library_for(std::string_view name) {
     if (name == "KHR_draco_mesh_compression") return "libdraco";
     return name == "EXT_meshopt_compression" || name == "KHR_meshopt_compression" ? "meshoptimizer" : nullptr;
@@ -90,7 +90,7 @@ bool has_library_for(std::string_view name) {
     return name == "KHR_draco_mesh_compression" ? has_draco() : has_meshoptimizer();
 }
 
-/// Extensions that are read, or leave the triangles and their attributes as they are: what they add is lost, and said.
+/// Is the extension read, or without effect on triangles and attributes? Data of the latter kind is lost and reported.
 bool is_harmless(std::string_view name) {
     constexpr std::string_view kPrefixes[] = {"KHR_materials_", "EXT_materials_", "ADOBE_materials_", "KHR_lights_",
                                               "EXT_lights_",    "KHR_texture_",   "EXT_texture_",     "VRMC_"};
@@ -147,7 +147,7 @@ Result<void> check_extensions(const nlohmann::json& document, Reading& reading, 
     return {};
 }
 
-/// tinygltf takes a list that is none for an empty one.
+/// tinygltf treats a list of the wrong JSON type as empty.
 Result<void> check_lists(const nlohmann::json& document) {
     for (const char* name : {"scenes", "nodes", "meshes", "accessors", "bufferViews", "buffers"}) {
         const auto found = document.find(name);
@@ -178,8 +178,8 @@ void tell_what_is_left_out(const nlohmann::json& document, Reading& reading) {
     }
 }
 
-/// The document for tinygltf: geometry alone, with a buffer view for accessors that have none, since tinygltf refuses
-/// them as indices. `zeros` marks these accessors.
+/// The document for tinygltf: only the geometry. Accessors without a buffer view get one, because tinygltf refuses them
+/// as indices; `zeros` marks these accessors.
 nlohmann::json geometry_of(const nlohmann::json& document, std::vector<bool>& zeros) {
     nlohmann::json out = nlohmann::json::object();
     for (const char* name : {"asset", "scene", "scenes", "nodes", "meshes", "accessors", "bufferViews"}) {
@@ -226,7 +226,7 @@ bool GltfFile::requires_any_of(std::span<const char* const> names) const {
 
 Result<void> GltfFile::take_memory(double bytes, double passing) {
     auto room = reading->check_memory(decoded_bytes + bytes + passing, 1, 0,
-                                            static_cast<double>(file_bytes + buffers.loaded_bytes()));
+                                      static_cast<double>(file_bytes + buffers.loaded_bytes()));
     if (room) decoded_bytes += bytes;
     return room;
 }
@@ -247,7 +247,8 @@ Result<GltfChunks> split_gltf(std::span<const std::byte> bytes) {
     if (length > bytes.size()) return malformed("byte 8: {} bytes long, but has {}", length, bytes.size());
     bytes = bytes.first(length);
     GltfChunks out;
-    // JSON first, then BIN or nothing, then what nobody knows. A last chunk need not fill a whole word.
+    // The first chunk is JSON; the second, if any, is usually BIN; further chunks are ignored. The last chunk may lack
+    // its padding to 4 bytes.
     for (std::size_t at = kHeader, number = 0; number < 2 && at + kChunkHeader <= bytes.size(); ++number) {
         const std::uint32_t size = word_at(bytes, at), kind = word_at(bytes, at + 4);
         if (size > bytes.size() - at - kChunkHeader) {
@@ -259,7 +260,7 @@ Result<GltfChunks> split_gltf(std::span<const std::byte> bytes) {
         if (number == 1 && kind == kBin) out.bin = contents;
         at += kChunkHeader + size;
     }
-    // Some writers fill the chunk up with zeros, where spaces are due.
+    // Some writers pad the JSON chunk with zeros instead of spaces.
     while (out.json.ends_with('\0')) out.json.remove_suffix(1);
     return out;
 }

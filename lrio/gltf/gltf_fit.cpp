@@ -26,7 +26,7 @@ void store(std::vector<std::byte>& data, std::size_t i, T value) {
     std::memcpy(data.data() + i * sizeof(T), &value, sizeof(T));
 }
 
-/// False: a value is not the same as a float.
+/// Converts values to floats. False: `exact_only`, and some value is not representable.
 template <class From>
 bool to_floats(const Attribute& from, bool exact_only, Attribute& to) {
     const std::size_t count = from.data.size() / sizeof(From);
@@ -40,8 +40,8 @@ bool to_floats(const Attribute& from, bool exact_only, Attribute& to) {
     return true;
 }
 
-/// glTF has no doubles and no 32-bit integers but for indices: doubles are rounded, and integers become floats where
-/// every one of them stays what it is. Null: the attribute cannot be kept.
+/// glTF attributes have no doubles and no 32-bit integers: rounds doubles to floats, and converts integers to floats if
+/// all are representable. Null: the attribute cannot be kept.
 std::optional<Attribute> convert(const Attribute& from) {
     Attribute to{from.name, ComponentType::f32, from.components, false, {}, from.v_up};
     switch (from.type) {
@@ -59,7 +59,7 @@ std::optional<Attribute> convert(const Attribute& from) {
     }
 }
 
-/// Has glTF a type for so many components? Columns of small integers in matrices are padded: those are not written.
+/// Has glTF a type for this number of components? Matrices of small integers, whose columns glTF pads, are not written.
 bool has_type(const Attribute& attribute) {
     if (attribute.components >= 1 && attribute.components <= 4) return true;
     return attribute.type == ComponentType::f32 && (attribute.components == 9 || attribute.components == 16);
@@ -74,7 +74,7 @@ bool has_numbered_name(const std::string& name, std::string_view prefix) {
            std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// May an attribute of this name have this type? `quantized`: with KHR_mesh_quantization.
+/// Does glTF allow this type for an attribute of this name? Fit::quantized: only with KHR_mesh_quantization.
 Fit fit(const Attribute& a) {
     const bool is_float = a.type == ComponentType::f32;
     const bool is_signed = a.type == ComponentType::i8 || a.type == ComponentType::i16;
@@ -99,7 +99,7 @@ Fit fit(const Attribute& a) {
     return a.name.starts_with('_') ? Fit::core : Fit::no;
 }
 
-/// The name as UTF-8: bytes that are none become U+FFFD.
+/// The name as valid UTF-8: invalid bytes become U+FFFD.
 std::string utf8(const std::string& name) {
     return nlohmann::json::parse(nlohmann::json(name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace))
         .get<std::string>();
@@ -110,7 +110,7 @@ class Fitter {
     Fitter(const Mesh& mesh, WriteNotes& notes) : mesh_(mesh), notes_(notes) {}
 
     Result<GltfAttributes> run() {
-        std::set<std::string> known;  // names that glTF gives a meaning to
+        std::set<std::string> known;  // names written so far that glTF defines
         for (const Attribute& from : mesh_.attributes) {
             std::optional<Attribute> to = convert(from);
             if (!to || !has_type(*to)) {
@@ -151,7 +151,7 @@ class Fitter {
         return {};
     }
 
-    /// No NaN and no infinity, unit normals and tangents, v downwards.
+    /// Replaces NaN and infinity by 0, makes normals and tangents unit vectors, and flips v if the attribute is v_up.
     void mend_values(Attribute& a) {
         const bool is_normal = a.name == "NORMAL" && a.components == 3;
         const bool is_tangent = a.name == "TANGENT" && a.components == 4;
@@ -185,9 +185,10 @@ class Fitter {
 
     using Vector = std::array<double, 4>;
 
-    /// Directions whose length is not 1 are made so; those without a length are made from the triangles, or are any.
+    /// Normalizes directions whose length is not 1. Directions without a length become the triangles' normal, or
+    /// (1, 0, 0) if they are tangents.
     void mend_directions(Attribute& a, bool is_normal) {
-        constexpr double kTolerance = 0.005;  // small integers are no nearer to 1
+        constexpr double kTolerance = 0.005;  // the length error of 8-bit directions
         const std::size_t width = a.components;
         const auto value = [&](std::size_t i) {
             switch (a.type) {
@@ -226,7 +227,7 @@ class Fitter {
             }
             for (std::size_t c = 0; c < width; ++c) store(floats.data, v * width + c, static_cast<float>(d[c]));
         }
-        if (scaled + made == 0) return;  // their bits stay as they are
+        if (scaled + made == 0) return;  // keeps the original bits
         a = std::move(floats);
         if (scaled > 0)
             notes_.push_back(fmt::format("{}: {} were not of unit length and were made so", a.name, scaled));
@@ -244,7 +245,7 @@ class Fitter {
         return normals_f32(bare);
     }
 
-    /// Colors are 0 to 1.
+    /// Are the values in the range that glTF requires? Colors must be in [0, 1].
     static bool values_allowed(const Attribute& a) {
         if (!has_numbered_name(a.name, "COLOR_") || a.type != ComponentType::f32) return true;
         for (std::size_t i = 0; i * sizeof(float) < a.data.size(); ++i) {
@@ -254,7 +255,8 @@ class Fitter {
         return true;
     }
 
-    /// Numbered attributes count from 0 without gaps, and joints have weights.
+    /// Renames attributes that break glTF's rules: numbers count from 0 without gaps, and JOINTS_n and WEIGHTS_n come
+    /// in pairs.
     void rename_lonely(const std::set<std::string>& known) {
         for (const char* prefix : {"TEXCOORD_", "COLOR_", "JOINTS_", "WEIGHTS_"}) {
             const std::string_view name = prefix;

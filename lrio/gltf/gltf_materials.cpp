@@ -34,14 +34,14 @@ class MaterialReader {
     }
 
   private:
-    /// A list of the document; empty if it has none.
+    /// A list of the document; empty if the document lacks it.
     const Json& list(const char* name) const {
         static const Json kNone = Json::array();
         const auto found = file_.document.find(name);
         return found != file_.document.end() && found->is_array() ? *found : kNone;
     }
 
-    /// The member of an object that has it, else null.
+    /// A member of an object; null if the object lacks it.
     static const Json* member(const Json& object, const char* name) {
         if (!object.is_object()) return nullptr;
         const auto found = object.find(name);
@@ -81,7 +81,7 @@ class MaterialReader {
         return found->is_boolean() && found->get<bool>();
     }
 
-    /// A number of something of which there are `count`; `count` where the object has none.
+    /// The member `name` of the object, an index below `count`; `count` if the object lacks it.
     std::size_t index(const Json& object, const char* name, std::size_t count) {
         const Json* found = member(object, name);
         if (found == nullptr) return count;
@@ -97,7 +97,7 @@ class MaterialReader {
                                        : TextureWrap::repeat;
     }
 
-    /// The sampler's number for a property; 0: the usual one.
+    /// A property of the texture's sampler, as an OpenGL constant; 0: glTF's default.
     std::size_t sampler_value(const Json& texture, const char* name) {
         const Json& samplers = list("samplers");
         const std::size_t sampler = index(texture, "sampler", samplers.size());
@@ -235,8 +235,8 @@ class MaterialReader {
     GltfFile& file_;
     Reading& reading_;
     Materials out_;
-    std::string wrong_;                 ///< of the material being read
-    std::set<std::string> extensions_;  ///< that are not read
+    std::string wrong_;                 ///< error of the material being read, or empty
+    std::set<std::string> extensions_;  ///< used extensions that are not read
     std::size_t without_image_ = 0;
 };
 

@@ -7,9 +7,9 @@
 
 namespace lacedring::detail {
 
-/// All materials of the file, and behind them glTF's default one; of_triangle is empty. The report gets a line for each
-/// image that cannot be read, and one for extensions that change how a material looks and are not read. Errors:
-/// malformed (a value of the wrong type, a number of nothing), memory_limit.
+/// Reads all materials of the file and appends glTF's default material; leaves of_triangle empty. The report gets a
+/// line for each image that cannot be read, and a line with the material extensions that are not read. Errors:
+/// malformed (a value of the wrong type, an index out of range), memory_limit.
 Result<Materials> read_materials(GltfFile& file, Reading& reading);
 
 }  // namespace lacedring::detail

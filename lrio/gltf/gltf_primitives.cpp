@@ -48,7 +48,7 @@ Result<void> MeshPlans::plan_primitive(MeshPlan& plan, const tinygltf::Primitive
     }
     const std::size_t corners = primitive.corner_count(plan.blocks[primitive.block].count);
     if (corners % 3 != 0) return malformed("{} indices are not triangles", corners);
-    if (corners == 0) return {};  // placed a million times, nothing would still be work
+    if (corners == 0) return {};  // empty primitives would cost time if the mesh is placed a million times
     plan.corners += static_cast<double>(corners);
     ++plan.blocks[primitive.block].primitives;
     plan.primitives.push_back(primitive);
@@ -56,14 +56,16 @@ Result<void> MeshPlans::plan_primitive(MeshPlan& plan, const tinygltf::Primitive
 }
 
 Result<std::size_t> MeshPlans::find_block(MeshPlan& plan, const tinygltf::Primitive& from) {
-    // Only the latest block: primitives that share vertices follow one another, and a search could be quadratic.
+    // Compares only with the latest block: primitives that share vertices usually follow each other, and a search of
+    // all blocks could take quadratic time.
     if (!plan.blocks.empty() && *plan.blocks.back().accessors == from.attributes) return plan.blocks.size() - 1;
     VertexBlock block;
     block.accessors = &from.attributes;
     for (const auto& [name, accessor] : from.attributes) {
         const auto view = view_accessor(file_, accessor);
+        // A Mesh cannot hold padded matrices.
         if (!view && view.error().code == ErrorCode::unsupported &&
-            is_padded_matrix(file_.model.accessors[static_cast<std::size_t>(accessor)])) {  // no mesh can hold it
+            is_padded_matrix(file_.model.accessors[static_cast<std::size_t>(accessor)])) {
             unreadable_.insert(name);
             continue;
         }
@@ -128,7 +130,7 @@ Result<void> append_triangles(const PrimitivePlan& primitive, std::uint32_t firs
     } else if (primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
         Strip strip;
         for (const std::uint32_t v : list) strip.add(v, indices);
-    } else {  // the order of the specification: the fan's middle is each triangle's last corner
+    } else {  // in glTF's order, the fan's center is each triangle's last corner
         for (std::size_t i = 2; i < list.size(); ++i) {
             indices.insert(indices.end(), {list[i - 1], list[i], list[0]});
         }

@@ -1,5 +1,5 @@
 #pragma once
-// The triangle primitives of a glTF's meshes, checked before any value is read. Internal to lrio.
+// The triangle primitives of a glTF's meshes, checked before values are read. Internal to lrio.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,18 +19,18 @@ namespace lacedring::detail {
 
 using NamedViews = std::map<std::string, AccessorView>;
 
-/// Vertices that one or more primitives of a mesh use: those with the same accessors share them, as in the file.
+/// The vertices of successive primitives of a mesh that have the same accessors.
 struct VertexBlock {
     const std::map<std::string, int>* accessors = nullptr;
     NamedViews views;
     std::size_t count = 0;
-    std::size_t primitives = 0;  ///< that use it
+    std::size_t primitives = 0;  ///< number of primitives that use it
 };
 
 struct PrimitivePlan {
-    std::size_t block = 0;
+    std::size_t block = 0;  ///< index into MeshPlan::blocks
     int mode = TINYGLTF_MODE_TRIANGLES;
-    std::size_t number = 0;  ///< in its mesh
+    std::size_t number = 0;  ///< its index in the file's mesh
     std::optional<AccessorView> indices;
 
     std::size_t corner_count(std::size_t vertices) const {
@@ -43,11 +43,11 @@ struct PrimitivePlan {
 struct MeshPlan {
     bool made = false;
     std::vector<VertexBlock> blocks;
-    std::vector<PrimitivePlan> primitives;  ///< those with triangles
-    double vertices = 0, corners = 0;       ///< of all of them
+    std::vector<PrimitivePlan> primitives;  ///< primitives with triangles
+    double vertices = 0, corners = 0;       ///< totals of `blocks` and `primitives`
 };
 
-/// The meshes that a scene places, and what of them is no triangle.
+/// Plans the meshes that a scene places, and counts their contents that are not triangles.
 class MeshPlans {
   public:
     MeshPlans(GltfFile& file, Reading& reading) : file_(file), reading_(reading) {}
@@ -55,11 +55,11 @@ class MeshPlans {
     /// Errors: malformed, unsupported, view_accessor's.
     Result<void> make(const std::vector<MeshInstance>& instances);
 
-    /// One for each of the file's meshes; those that no instance places are not made.
+    /// A plan for each of the file's meshes; MeshPlan::made is false if no instance places the mesh.
     const std::vector<MeshPlan>& meshes() const { return meshes_; }
     std::size_t primitive_count() const;
 
-    /// Names of attributes that no Mesh can hold.
+    /// Names of attributes that a Mesh cannot hold.
     const std::set<std::string>& unreadable() const { return unreadable_; }
 
     /// Reports morph targets, points, lines and primitives without positions.
@@ -76,11 +76,12 @@ class MeshPlans {
     std::set<std::string> unreadable_;
 };
 
-/// Appends the primitive's triangles, the block's first vertex being `first_vertex`. Errors: malformed.
+/// Appends the primitive's triangles to `indices`. `first_vertex` is the index of the block's first vertex, `vertices`
+/// the block's number of vertices. Errors: malformed.
 Result<void> append_triangles(const PrimitivePlan& primitive, std::uint32_t first_vertex, std::size_t vertices,
                               std::vector<std::uint32_t>& indices);
 
-/// Reports the nodes, where there are several, and the placements beyond each mesh's first one.
+/// Reports the number of nodes if there are several, and of instances beyond the first of each mesh.
 void tell_of_nodes(const GltfFile& file, const MeshPlans& plans, const std::vector<MeshInstance>& instances,
                    Reading& reading);
 

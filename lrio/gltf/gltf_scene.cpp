@@ -50,13 +50,13 @@ Result<std::vector<int>> root_nodes(const tinygltf::Model& model) {
     return roots;
 }
 
-/// The placements of EXT_mesh_gpu_instancing. An attribute that is missing moves nothing.
+/// The instances of EXT_mesh_gpu_instancing. A missing attribute is the identity.
 struct Instances {
     std::size_t count = 0;
     std::optional<AccessorView> translation, rotation, scale;
 };
 
-/// Null: the node has none of the extension.
+/// Null: the node does not use the extension.
 Result<std::optional<Instances>> instances_of(GltfFile& file, const tinygltf::Node& node) {
     const auto extension = node.extensions.find("EXT_mesh_gpu_instancing");
     if (extension == node.extensions.end()) return std::optional<Instances>();
@@ -86,7 +86,7 @@ Result<std::optional<Instances>> instances_of(GltfFile& file, const tinygltf::No
     return std::optional<Instances>(out);
 }
 
-/// The values of an accessor as doubles, `unset` where there is none.
+/// The values of an accessor as doubles; without an accessor, `count` times `unset`.
 template <std::size_t width>
 Result<std::vector<std::array<double, width>>> values_of(const std::optional<AccessorView>& view, std::size_t count,
                                                          const std::array<double, width>& unset) {
@@ -102,10 +102,10 @@ Result<std::vector<std::array<double, width>>> values_of(const std::optional<Acc
 
 Result<void> place_each(const Instances& several, std::size_t mesh, const Transform& node,
                         std::vector<MeshInstance>& instances, const Reading& reading, std::size_t file_bytes) {
-    // An accessor without bytes of its own may have any count, and many nodes may name the same one.
+    // An accessor without a buffer view may have any count, and many nodes may name the same one. The size counts
+    // twice: a vector that grows has its elements twice for a moment.
     auto room = reading.check_memory(static_cast<double>(instances.size()) + static_cast<double>(several.count),
-                                           2.0 * sizeof(MeshInstance),  // while the list grows it is there twice
-                                           0, static_cast<double>(file_bytes));
+                                     2.0 * sizeof(MeshInstance), 0, static_cast<double>(file_bytes));
     if (!room) return room;
     LR_ASSIGN(const auto translation, values_of<3>(several.translation, several.count, {0, 0, 0}));
     LR_ASSIGN(const auto rotation, values_of<4>(several.rotation, several.count, {0, 0, 0, 1}));
@@ -132,7 +132,7 @@ Result<std::vector<MeshInstance>> place_meshes(GltfFile& file, Reading& reading,
         Transform parent;
         bool is_root;
     };
-    std::vector<Visit> stack;  // not recursion: hostile files nest nodes deep
+    std::vector<Visit> stack;  // instead of recursion: hostile files nest nodes deeply
     for (auto root = roots.rbegin(); root != roots.rend(); ++root) stack.push_back({*root, {}, true});
     std::vector<bool> visited(model.nodes.size(), false);
     while (!stack.empty()) {
@@ -154,7 +154,7 @@ Result<std::vector<MeshInstance>> place_meshes(GltfFile& file, Reading& reading,
                 return malformed("glTF: node {}: mesh {} does not exist", index, node.mesh);
             }
             const auto mesh = static_cast<std::size_t>(node.mesh);
-            // Joints alone place a skinned mesh (glTF 2.0, section 3.7.3.2).
+            // Only its joints place a skinned mesh, not its node (glTF 2.0, section 3.7.3.2).
             const Transform placed = node.skin == -1 ? transform : Transform{};
             const auto several = instances_of(file, node);
             if (!several)

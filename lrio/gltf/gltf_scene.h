@@ -1,5 +1,5 @@
 #pragma once
-// The meshes that a glTF's scene places. Internal to lrio.
+// The mesh instances of a glTF's scene. Internal to lrio.
 
 #include <cstddef>
 #include <vector>
@@ -11,13 +11,13 @@
 namespace lacedring::detail {
 
 struct MeshInstance {
-    std::size_t mesh = 0;  ///< < model.meshes.size()
+    std::size_t mesh = 0;  ///< index into model.meshes
     Transform transform;
 };
 
-/// The meshes of the default scene (else the first; without scenes all root nodes; without nodes each mesh once), depth
-/// first, a node before its children. A skinned mesh stays where its file has it; a node with EXT_mesh_gpu_instancing
-/// places its mesh once for each instance, in order.
+/// The mesh instances of the default scene, depth first, a node before its children. Without a default scene, takes the
+/// first scene; without scenes, all root nodes; without nodes, each mesh once. A skinned mesh is not transformed. A
+/// node with EXT_mesh_gpu_instancing places its mesh once for each of the extension's instances, in order.
 /// Errors: malformed (references out of range, cycles, nodes with two parents), memory_limit (instances),
 /// view_accessor's.
 Result<std::vector<MeshInstance>> place_meshes(GltfFile& file, Reading& reading, std::size_t file_bytes);

@@ -1,6 +1,6 @@
 #pragma once
-// Node transforms of glTF. The order of every operation is fixed (docs/formats-read.md), so that another program can
-// compute the same bits; C++20 without extensions never contracts a multiplication and an addition into one rounding.
+// Node transforms of glTF. The order of all operations is fixed (docs/formats-read.md), so that other programs can
+// compute the same bits. C++20 without extensions never contracts a multiplication and an addition into a fused one.
 // Internal to lrio.
 
 #include <array>
@@ -11,13 +11,13 @@
 
 namespace lacedring::detail {
 
-/// 4 x 4, column by column, as glTF has it.
+/// A 4 x 4 matrix in column-major order, as in glTF.
 struct Transform {
     std::array<double, 16> m{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
     bool is_identity() const { return m == Transform{}.m; }
 
-    /// The linear part's determinant times the transposed inverse of it: entry [3 * column + row].
+    /// The cofactor matrix of the linear part (determinant times inverse transpose): entry [3 * column + row].
     std::array<double, 9> cofactors() const {
         return {m[5] * m[10] - m[6] * m[9], m[6] * m[8] - m[4] * m[10], m[4] * m[9] - m[5] * m[8],
                 m[2] * m[9] - m[1] * m[10], m[0] * m[10] - m[2] * m[8], m[1] * m[8] - m[0] * m[9],
@@ -43,7 +43,7 @@ inline Transform operator*(const Transform& a, const Transform& b) {
     return out;
 }
 
-/// Translation * rotation (a unit quaternion x y z w, taken as it is) * scale.
+/// Translation * rotation * scale. The rotation is a quaternion x y z w, used without normalizing it.
 inline Transform from_parts(const Vector3& t, const std::array<double, 4>& q, const Vector3& s) {
     const auto [x, y, z, w] = q;
     return {{(1 - 2 * (y * y + z * z)) * s[0], 2 * (x * y + z * w) * s[0], 2 * (x * z - y * w) * s[0], 0,
@@ -68,7 +68,8 @@ inline Vector3 transform_direction(const Transform& a, const Vector3& d) {
     return out;
 }
 
-/// By the transposed inverse, up to its length: the sign of the determinant is all that dividing by it leaves.
+/// Transforms a normal by the inverse transpose, up to its length. Of the division of the cofactors by the determinant,
+/// only the determinant's sign (`mirrors`) affects the direction.
 inline Vector3 transform_normal(const std::array<double, 9>& cofactors, bool mirrors, const Vector3& n) {
     Vector3 out{};
     for (std::size_t row = 0; row < 3; ++row) {
@@ -78,7 +79,7 @@ inline Vector3 transform_normal(const std::array<double, 9>& cofactors, bool mir
     return out;
 }
 
-/// A vector without a direction (zero, or not finite) stays as it is.
+/// Normalizes a vector. A zero vector, or one that is not finite, stays unchanged.
 inline Vector3 normalized(const Vector3& v) {
     const double size = length(v);
     if (!(size > 0) || !std::isfinite(size)) return v;

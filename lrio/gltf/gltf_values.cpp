@@ -11,7 +11,7 @@ namespace lacedring {
 namespace detail {
 namespace {
 
-/// Packed values as floats, transformed if `to` is POSITION or a direction, behind the values of `to`.
+/// Appends packed values to `to` as floats, transformed if `to` is POSITION or a direction.
 void append_floats(const std::byte* packed, const Attribute& from, std::size_t count, const Transform& transform,
                    Attribute& to) {
     const bool turns = !transform.is_identity() && (to.name == "POSITION" || is_direction(to));
@@ -28,7 +28,7 @@ void append_floats(const std::byte* packed, const Attribute& from, std::size_t c
         if (turns) {
             Vector3 xyz{value[0], value[1], value[2]};
             if (to.name == "POSITION") {
-                if (from.normalized) {  // floats first, as a primitive alone has them
+                if (from.normalized) {  // rounds to floats first, as read_primitives does
                     for (double& x : xyz) x = static_cast<float>(x);
                 }
                 xyz = transform_point(transform, xyz);

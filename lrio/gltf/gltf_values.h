@@ -1,5 +1,5 @@
 #pragma once
-// Attribute values where a node puts them. Internal to lrio.
+// Attribute values transformed by a node. Internal to lrio.
 
 #include <cstddef>
 #include <span>
@@ -11,14 +11,14 @@
 
 namespace lacedring::detail {
 
-/// Is it a direction that a transform turns: NORMAL of 3 components, or TANGENT of 4?
+/// Is it a direction, which transforms rotate: NORMAL of 3 components, or TANGENT of 4?
 bool is_direction(const Attribute& attribute);
 
-/// Appends the accessor's elements to the attribute's. What `transform` changes, and what has another type than the
-/// attribute, becomes floats, which `to` then has. Errors: copy_elements's.
+/// Appends the accessor's elements to the attribute. Elements that `transform` changes, or whose type is not the
+/// attribute's, are converted to floats: `to` must be of floats then. Errors: copy_elements's.
 Result<void> append_values(const AccessorView& view, const Transform& transform, Attribute& to);
 
-/// Swaps the last two corners of each triangle.
+/// Reverses the orientation of each triangle by swapping its last two corners.
 void turn_round(std::span<std::uint32_t> indices);
 
 }  // namespace lacedring::detail

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kMeshoptNames[] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
 
-/// Bytes of a buffer. `where` names them in an error.
+/// Bytes of a buffer. `where` is the prefix of errors.
 Result<std::span<const std::byte>> buffer_bytes(GltfFile& file, std::uint64_t buffer, std::uint64_t offset,
                                                 std::uint64_t length, const std::string& where) {
     if (buffer >= file.buffers.count()) return malformed("{}: buffer {} does not exist", where, buffer);
@@ -37,7 +37,7 @@ Result<std::span<const std::byte>> uncompressed_bytes(GltfFile& file, std::size_
     return buffer_bytes(file, static_cast<std::uint64_t>(view.buffer), view.byteOffset, view.byteLength, where);
 }
 
-/// The extension's object in the JSON, not tinygltf's, which cuts integers to 32 bits. Null: the view has none.
+/// The extension's object in the JSON document; tinygltf's copy cuts integers to 32 bits. Null: the view has none.
 const nlohmann::json* find_meshopt(const GltfFile& file, std::size_t index) {
     const nlohmann::json& view = file.document.at("bufferViews").at(index);
     const auto extensions = view.find("extensions");
@@ -53,7 +53,7 @@ const nlohmann::json* find_meshopt(const GltfFile& file, std::size_t index) {
 enum class Mode { attributes, triangles, indices };
 enum class Filter { none, octahedral, quaternion, exponential };
 
-/// The extension's object.
+/// The parsed object of the extension.
 struct Compressed {
     std::uint64_t buffer = 0, offset = 0, length = 0;
     std::size_t stride = 0, count = 0;
@@ -61,7 +61,7 @@ struct Compressed {
     Filter filter = Filter::none;
 };
 
-/// An integer from `least` on. `unset` is the value where there is none; without, there has to be one.
+/// Reads an integer, at least `least`. A missing member has the value `unset`; without `unset` it is an error.
 Result<std::uint64_t> take_integer(const nlohmann::json& from, const char* name, std::uint64_t least,
                                    std::optional<std::uint64_t> unset = {}) {
     const auto found = from.find(name);
@@ -73,7 +73,8 @@ Result<std::uint64_t> take_integer(const nlohmann::json& from, const char* name,
     return value;
 }
 
-/// A string of `names`; the index of it.
+/// Reads a string that is one of `names`, and returns its index in them. A missing member has the value `unset`; if
+/// `unset` is null, it is an error.
 Result<std::size_t> take_name(const nlohmann::json& from, const char* name, std::span<const char* const> names,
                               const char* unset) {
     const auto found = from.find(name);
@@ -121,9 +122,9 @@ Result<Compressed> parse_compressed(const nlohmann::json& from, const tinygltf::
     return out;
 }
 
-/// The fewest bytes that so many elements are compressed to: what is kept for them is allocated before they are
-/// decoded. Indices take a byte for each triangle or index, a head and a tail. Attributes take, in version 0 of their
-/// codec, 2 bits for each byte of 16 elements; in version 1, 2 bits for each byte of 256.
+/// A lower bound of the compressed size, to refuse false counts before memory is allocated for them. Indices take a
+/// byte per triangle or index, plus head and tail. Attributes take 2 bits per 16 bytes in version 0 of the codec, and 2
+/// bits per 256 bytes in version 1, plus head and tail.
 std::uint64_t fewest_bytes(const Compressed& what, std::byte version) {
     if (what.mode == Mode::triangles) return what.count / 3 + 17;
     if (what.mode == Mode::indices) return what.count + 5;
@@ -131,14 +132,15 @@ std::uint64_t fewest_bytes(const Compressed& what, std::byte version) {
     return version == std::byte{0xa0} ? size / 64 + 33 : size / 1024 + 25;
 }
 
-/// Is the data of a version that meshoptimizer reads? Its first byte: 4 bits for the codec, 4 for the version.
+/// Checks that the installed meshoptimizer reads the data. The first byte has the codec in its upper 4 bits, and the
+/// version in its lower 4 bits.
 Result<void> check_codec(Mode mode, std::byte first) {
     struct Codec {
         unsigned mark;
         unsigned latest;
         const char* name;
     };
-    constexpr unsigned kLatest = MESHOPTIMIZER_VERSION >= 230 ? 1 : 0;  // of the vertex codec
+    constexpr unsigned kLatest = MESHOPTIMIZER_VERSION >= 230 ? 1 : 0;  // latest version of the vertex codec
     constexpr Codec kCodecs[] = {{0xa, kLatest, "vertex codec"}, {0xe, 1, "index codec"}, {0xd, 1, "sequence codec"}};
     const Codec& codec = kCodecs[static_cast<std::size_t>(mode)];
     const auto byte = std::to_integer<unsigned>(first);

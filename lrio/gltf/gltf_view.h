@@ -1,5 +1,5 @@
 #pragma once
-// Buffer views, those too that EXT_meshopt_compression or KHR_meshopt_compression holds. Internal to lrio.
+// Buffer views, plain or compressed with EXT_meshopt_compression or KHR_meshopt_compression. Internal to lrio.
 
 #include <cstddef>
 #include <span>
@@ -12,9 +12,9 @@ namespace lacedring::detail {
 /// Was lrio built with meshoptimizer?
 bool has_meshoptimizer();
 
-/// Returns the byteLength bytes of buffer view `index`, which exists. A compressed one is decoded once and kept in the
-/// file; its uncompressed copy is read only where the file has one and this meshoptimizer does not read the other.
-/// Errors: malformed, unsupported, memory_limit, GltfBuffers::open's.
+/// Returns the byteLength bytes of buffer view `index`, which exists. A compressed view is decoded once and kept in the
+/// file. If meshoptimizer does not support it and the file has an uncompressed fallback, returns the fallback. Errors:
+/// malformed, unsupported, memory_limit, GltfBuffers::open's.
 Result<std::span<const std::byte>> open_view(GltfFile& file, std::size_t index);
 
 }  // namespace lacedring::detail

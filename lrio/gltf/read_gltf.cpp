@@ -1,4 +1,4 @@
-// glTF and GLB: every triangle of the default scene in one list, node transforms applied.
+// Reads glTF and GLB: joins all triangles of the default scene into one mesh, with node transforms applied.
 
 #include <algorithm>
 #include <cstring>
@@ -61,8 +61,8 @@ class GltfJoiner {
         }
     }
 
-    /// Keeps the attributes that every block has alike, and NORMAL if any block has it: without it, shading would
-    /// change. Integer normals and tangents that a node turns become floats.
+    /// Keeps the attributes that all blocks have with the same type, and NORMAL if any block has it, since dropping it
+    /// would change the shading. Integer normals and tangents that a node transforms become floats.
     void choose_attributes(const std::vector<MeshInstance>& instances) {
         const bool moved = std::any_of(instances.begin(), instances.end(),
                                        [](const MeshInstance& i) { return !i.transform.is_identity(); });
@@ -108,7 +108,7 @@ class GltfJoiner {
         }
     }
 
-    /// Components of the floats that materials are drawn with; 0: an attribute that they do not need.
+    /// Number of components of an attribute that materials use; 0: they do not use the attribute.
     static std::uint8_t shading_components(std::string_view name) {
         return name == "TEXCOORD_0" || name == "TEXCOORD_1" ? 2 : name == "COLOR_0" ? 4 : 0;
     }
@@ -116,7 +116,7 @@ class GltfJoiner {
         return view.components == shading_components(name) || (name == "COLOR_0" && view.components == 3);
     }
 
-    /// Makes floats of what materials are drawn with, and adds it where not every primitive has it.
+    /// Keeps each attribute that materials use if any block has it, and makes it floats.
     void keep_for_materials() {
         std::erase_if(mesh_.attributes, [](const Attribute& a) { return shading_components(a.name) != 0; });
         for (const char* name : {"TEXCOORD_0", "TEXCOORD_1", "COLOR_0"}) {
@@ -129,7 +129,7 @@ class GltfJoiner {
         }
     }
 
-    /// The values of a block, or, where it has none, 0, or 1 of colors.
+    /// Appends a block's values; if it lacks the attribute, appends 1 for colors, else 0.
     static Result<void> append_shading(const VertexBlock& block, Attribute& to) {
         const std::size_t n = to.components;
         std::vector<float> values(block.count * n, to.name == "COLOR_0" ? 1.0F : 0.0F);
@@ -159,9 +159,9 @@ class GltfJoiner {
         if (vertices > static_cast<double>(max_vertices)) return too_many_vertices();
         double stride = 0;
         for (const Attribute& attribute : mesh_.attributes) stride += static_cast<double>(attribute.stride());
-        constexpr double kSurface = 12 + 15 + 3 * 12;  // find_surface's, two positions and a normal
+        constexpr double kSurface = 12 + 15 + 3 * 12;  // bytes: find_surface's, two positions and a normal
         auto room = reading_.check_memory(vertices, stride + (makes_normals_ ? kSurface : 0), corners / 3,
-                                                static_cast<double>(file_bytes_ + file_.buffers.loaded_bytes()));
+                                          static_cast<double>(file_bytes_ + file_.buffers.loaded_bytes()));
         if (!room) return room;
         for (Attribute& attribute : mesh_.attributes) {
             attribute.data.reserve(static_cast<std::size_t>(vertices) * attribute.stride());
@@ -211,8 +211,8 @@ class GltfJoiner {
         return {};
     }
 
-    /// The number of a primitive's material, or of its flat twin, which is made where it is needed. The last one of the
-    /// file's is for primitives without.
+    /// The index of a primitive's material, or of its flat-shaded copy if the primitive has no normals; the copy is
+    /// made at its first use. Primitives without a material get the default one, which read_materials appends.
     std::uint32_t material_of(int said, bool smooth) {
         const std::size_t usual = flat_.size() - 1;
         const std::size_t material = said < 0 ? usual : std::min(static_cast<std::size_t>(said), usual);
@@ -226,7 +226,7 @@ class GltfJoiner {
         return flat_[material];
     }
 
-    /// Gives the vertices of primitives without normals those of the surface that these primitives form together.
+    /// Computes normals for the primitives without normals, from the surface that these primitives form together.
     void make_normals() {
         if (without_normals_.empty()) return;
         Attribute& normals = *std::find_if(mesh_.attributes.begin(), mesh_.attributes.end(),
@@ -266,10 +266,10 @@ class GltfJoiner {
     std::size_t file_bytes_;
     MeshPlans plans_;
     Mesh mesh_;
-    bool makes_normals_ = false;                  ///< some primitives have normals, and others get some
-    std::vector<std::uint32_t> without_normals_;  ///< indices of triangles of the others
-    std::vector<std::uint32_t> flat_;             ///< of each of the file's materials: its flat twin; 0: none yet
-    std::set<std::string> dropped_;               ///< attributes
+    bool makes_normals_ = false;                  ///< some primitives have normals, others get computed ones
+    std::vector<std::uint32_t> without_normals_;  ///< the triangles of primitives without normals
+    std::vector<std::uint32_t> flat_;             ///< the flat-shaded copy of each material; 0: none yet
+    std::set<std::string> dropped_;               ///< names of attributes that the mesh lacks
 };
 
 }  // namespace

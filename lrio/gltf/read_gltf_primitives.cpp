@@ -1,4 +1,4 @@
-// glTF and GLB: the triangle primitives of the default scene, each for itself.
+// Reads glTF and GLB: the triangle primitives of the default scene one by one.
 
 #include <algorithm>
 #include <span>
@@ -16,7 +16,7 @@
 namespace lacedring::detail {
 namespace {
 
-/// Bytes of all attributes of a vertex.
+/// Bytes of a vertex's attributes.
 double vertex_bytes(const VertexBlock& block) {
     double bytes = 0;
     for (const auto& [name, view] : block.views) {
@@ -25,7 +25,7 @@ double vertex_bytes(const VertexBlock& block) {
     return bytes;
 }
 
-/// Is there room for all primitives, and for the largest vertices that several share?
+/// Checks the memory for all primitives and for the largest block, whose attributes are read before they are copied.
 Result<void> check_room(const MeshPlans& plans, const GltfFile& file, const Reading& reading, std::size_t file_bytes) {
     double bytes = 0, corners = 0, largest = 0;
     for (const MeshPlan& plan : plans.meshes()) {
@@ -57,10 +57,10 @@ Result<std::vector<Attribute>> read_attributes(const VertexBlock& block) {
     return out;
 }
 
-/// The vertices that the triangles use, in their order; numbers `indices` anew.
+/// The attributes of the vertices that the triangles use, in the same order; renumbers `indices`.
 std::vector<Attribute> take_used(const std::vector<Attribute>& attributes, std::vector<std::uint32_t>& indices,
                                  std::uint32_t& vertex_count) {
-    std::vector<std::uint32_t> used = indices;  // not a flag a vertex: many primitives may share many vertices
+    std::vector<std::uint32_t> used = indices;  // flags would cost O(block) for each of many primitives
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
     for (std::uint32_t& v : indices) {
@@ -71,7 +71,7 @@ std::vector<Attribute> take_used(const std::vector<Attribute>& attributes, std::
 }
 
 Result<void> read_mesh_primitives(const MeshPlan& plan, std::size_t mesh, std::vector<Primitive>& out) {
-    std::size_t in_memory = SIZE_MAX;  // number of the block whose attributes are
+    std::size_t in_memory = SIZE_MAX;  // index of the block in `attributes`
     std::vector<Attribute> attributes;
     for (const PrimitivePlan& from : plan.primitives) {
         const auto wrong = [&](const Error& error) {

@@ -1,4 +1,4 @@
-#include <fstream>  // tinygltf's writer wants it even where it opens no files
+#include <fstream>  // tinygltf's writer needs it even if it opens no files
 
 #define TINYGLTF_IMPLEMENTATION
 #include "lrio/gltf/tinygltf.h"

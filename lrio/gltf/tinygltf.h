@@ -1,8 +1,8 @@
 #pragma once
-// tinygltf, built into lrio in a namespace of its own. Internal to lrio.
+// tinygltf, built into lrio in its own namespace. Internal to lrio.
 //
-// libdraco exports a tinygltf of its own, which decodes Draco's data with few checks. In a program linked with libdraco
-// and libtinygltf, the first in the link's order is called for both.
+// libdraco exports its own tinygltf, which decodes Draco data with few checks. Without the namespace, a program linked
+// with libdraco might call that one.
 
 #define TINYGLTF_NO_EXTERNAL_IMAGE
 #define TINYGLTF_NO_FS

@@ -1,4 +1,4 @@
-// GLB: one mesh, one primitive, one node.
+// Writes GLB files with one mesh, one primitive and one node.
 
 #include <algorithm>
 #include <cstring>
@@ -37,7 +37,7 @@ class GlbMaker {
     }
 
   private:
-    /// glTF wants the bounds of POSITION.
+    /// Computes the bounds of POSITION, which glTF requires.
     void find_bounds(const Attribute& position) {
         low_.assign(3, std::numeric_limits<float>::infinity());
         high_.assign(3, -std::numeric_limits<float>::infinity());
@@ -58,7 +58,7 @@ class GlbMaker {
             std::memcpy(bin_.data() + offset + v * padded, attribute.data.data() + v * stride, stride);
         }
         Json view{{"buffer", 0}, {"byteOffset", offset}, {"byteLength", padded * mesh_.vertex_count}};
-        // 252 is the longest stride that may be written down, and no attribute here has more than 64 bytes
+        // glTF allows strides up to 252 bytes; attributes here have at most 64 bytes.
         view["byteStride"] = padded;
         view["target"] = kGltfVertexTarget;
         views_.push_back(std::move(view));
@@ -76,7 +76,7 @@ class GlbMaker {
     }
 
     std::size_t add_indices() {
-        const bool narrow = mesh_.vertex_count <= 65535;  // the highest value restarts strips and is not an index
+        const bool narrow = mesh_.vertex_count <= 65535;  // 65535 is no valid index: it means primitive restart
         const std::size_t size = narrow ? sizeof(std::uint16_t) : sizeof(std::uint32_t);
         const std::size_t offset = bin_.size();
         const std::size_t length = mesh_.indices.size() * size;

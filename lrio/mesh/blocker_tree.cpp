@@ -8,8 +8,9 @@ namespace lacedring::detail {
 namespace {
 
 constexpr std::size_t kLeafBlockers = 8;
-// Boxes that are turned only save work: what is rounded in them is allowed for, and does not change any answer.
-constexpr double kRounding = 1e-15;  // of the projections, relative to size_of(p); 3.4e-16 would do
+// A bound of the rounding error of projections, relative to size_of(p); 3.4e-16 would suffice. Rotated boxes are
+// enlarged by it, so that rounding never changes an answer.
+constexpr double kRounding = 1e-15;
 
 double size_of(const PlanePoint& p) {
     return std::abs(p.u) + std::abs(p.v);
@@ -34,7 +35,7 @@ PlaneTriangle::PlaneTriangle(const PlanePoint& first, const PlanePoint& second, 
 void BlockerTree::build(const std::vector<Blocker>& blockers, Order order) {
     blockers_ = blockers;
     places_.resize(blockers.size());
-    // For as long as it is built, `corner` is the number of the blocker.
+    // While the tree is built, `corner` holds the index of the blocker.
     for (std::uint32_t i = 0; i < blockers.size(); ++i) blockers_[i].corner = i;
     std::size_t leaves = 1;
     while (leaves * kLeafBlockers < blockers_.size()) leaves *= 2;
@@ -70,7 +71,7 @@ void BlockerTree::build_node(std::size_t node, std::size_t first, std::size_t la
     build_node(2 * node + 2, middle, last, order);
 }
 
-/// A second box, along the principal axis of the blockers: needles and slanted walls have small ones.
+/// Computes a second box along the principal axis of the blockers: it is small for needles and slanted walls.
 void BlockerTree::turn_box(Node& node, std::size_t first, std::size_t last) const {
     const PlanePoint origin = blockers_[first].point;
     double size = 0, u_sum = 0, v_sum = 0, uu = 0, uv = 0, vv = 0;
@@ -108,7 +109,7 @@ void BlockerTree::remove(std::uint32_t blocker) {
     }
 }
 
-/// False only where no blocker can lie in the triangle.
+/// False only if no blocker can be in the triangle.
 bool BlockerTree::Node::may_meet(const PlaneTriangle& t) const {
     if (count == 0 || low.u > t.high.u || high.u < t.low.u || low.v > t.high.v || high.v < t.low.v) return false;
     const auto apart = [&t](double x, double y, double z, const Range& range) {
@@ -118,7 +119,7 @@ bool BlockerTree::Node::may_meet(const PlaneTriangle& t) const {
         apart(project_across(t.a, direction), project_across(t.b, direction), project_across(t.c, direction), across)) {
         return false;
     }
-    // The corner of the box that lies farthest on the inner side of an edge tells whether any of the box does.
+    // The box is outside an edge if its corner farthest to the inner side is.
     const auto is_outside = [this](const PlanePoint& p, const PlanePoint& q) {
         const PlanePoint inmost{q.v > p.v ? low.u : high.u, q.u > p.u ? high.v : low.v};
         return orientation(p, q, inmost) < 0;

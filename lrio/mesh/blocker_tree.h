@@ -9,35 +9,36 @@
 
 namespace lacedring::detail {
 
-/// A corner of a polygon that may lie in an ear of it.
+/// A polygon corner that may be inside an ear of the polygon.
 struct Blocker {
     PlanePoint point;
     std::uint32_t corner = 0;
     bool removed = false;
 };
 
-/// A counterclockwise triangle, and what all searches in it need.
+/// A counterclockwise triangle with values that searches use.
 struct PlaneTriangle {
     PlanePoint a, b, c;
-    PlanePoint low, high;  ///< of its box
-    double slack;          ///< allowed for rounding where boxes are turned
+    PlanePoint low, high;  ///< bounding box
+    double slack;          ///< rounding error of its projections onto the axes of rotated boxes
 
     PlaneTriangle(const PlanePoint& first, const PlanePoint& second, const PlanePoint& third);
-    bool contains(const PlanePoint& p) const {  ///< the boundary, too
+    /// Includes the boundary.
+    bool contains(const PlanePoint& p) const {
         return orientation(a, b, p) >= 0 && orientation(b, c, p) >= 0 && orientation(c, a, p) >= 0;
     }
 };
 
-/// Blockers in a binary tree of boxes. What order is best depends on the polygon. Blockers that are neighbors in space
-/// have small boxes, but a long needle crosses O(sqrt B) of them; those that are neighbors in the polygon suit needles
-/// and combs, and are bad for spirals. So both trees are searched at once, until one of them has the answer.
+/// Blockers in a binary tree of boxes. The best order of the leaves depends on the polygon. Leaves of neighbors in
+/// space have small boxes, but a long needle crosses O(sqrt B) of them. Leaves of neighbors in the polygon suit needles
+/// and combs, but not spirals. So PolygonCutter searches a tree of each order at once, until one has the answer.
 class BlockerTree {
   public:
     enum class Order { outline, space };
 
     /// Takes a copy of the blockers. Cost: O(B log B).
     void build(const std::vector<Blocker>& blockers, Order order);
-    /// `blocker`: its number in what build() was given. Cost: O(log B).
+    /// `blocker`: its index in build()'s argument. Cost: O(log B).
     void remove(std::uint32_t blocker);
 
     /// A search for blockers in a triangle, box by box.
@@ -47,8 +48,8 @@ class BlockerTree {
             : tree_(tree), triangle_(triangle), stack_{{0, 0, tree.blockers_.size()}} {}
 
         bool is_done() const { return depth_ == 0; }
-        /// Looks at one box. Does test(blocker) hold for a blocker in it that lies in the triangle? Counts `steps`: the
-        /// box, and blockers.
+        /// Visits one box. True if test(blocker) holds for a blocker in the box and in the triangle. Adds the visited
+        /// box and blockers to `steps`.
         template <class Test>
         bool finds(std::uint64_t& steps, const Test& test) {
             const auto [node, first, last] = stack_[--depth_];
@@ -84,10 +85,10 @@ class BlockerTree {
         double low = 0, high = 0;
     };
     struct Node {
-        PlanePoint low, high;  // the box with sides along u and v
-        PlanePoint direction;  // of the box with sides along and across the blockers' longest extent
-        Range along, across;
-        std::uint32_t count = 0;  // of blockers that were not removed
+        PlanePoint low, high;     // the axis-aligned box
+        PlanePoint direction;     // unit vector along the rotated box
+        Range along, across;      // the rotated box: ranges along and across `direction`
+        std::uint32_t count = 0;  // blockers that are not removed
 
         bool may_meet(const PlaneTriangle& triangle) const;
     };
@@ -95,8 +96,8 @@ class BlockerTree {
     void build_node(std::size_t node, std::size_t first, std::size_t last, Order order);
     void turn_box(Node& node, std::size_t first, std::size_t last) const;
 
-    std::vector<Blocker> blockers_;      // the leaves are ranges of them
-    std::vector<std::uint32_t> places_;  // of blockers in blockers_, by their number
+    std::vector<Blocker> blockers_;      // leaves are ranges of it
+    std::vector<std::uint32_t> places_;  // index in blockers_ of each blocker of build()
     std::vector<Node> nodes_;            // the children of node i are 2i + 1 and 2i + 2
 };
 

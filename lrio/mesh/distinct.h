@@ -1,5 +1,5 @@
 #pragma once
-// Which of many items are equal: shared by weld and the STL and OBJ readers. Internal to lrio.
+// Groups equal items; used by weld, find_surface, and the STL and OBJ readers. Internal to lrio.
 
 #include <algorithm>
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace lacedring::detail {
 
-/// Spreads every bit of `word` over the hash: floats differ in few bits, and the table takes the lowest ones.
+/// Spreads each bit of `word` over the hash, since floats differ in few bits and the table uses the lowest bits.
 inline std::uint64_t mix(std::uint64_t hash, std::uint64_t word) {
     hash = (hash ^ word) * 0x9E3779B97F4A7C15U;
     hash ^= hash >> 32U;
@@ -32,7 +32,7 @@ inline std::uint64_t hash_bytes(const std::byte* bytes, std::size_t count, std::
     return hash;
 }
 
-/// Items 0..n-1 by equality: of[i] is the group of item i. Groups are numbered in the order of their first items.
+/// Groups of equal items: of[i] is the group of item i. Groups are numbered in the order of their first items.
 struct Groups {
     std::vector<std::uint32_t> of;
     std::uint32_t count = 0;
@@ -48,7 +48,7 @@ struct Groups {
     }
 };
 
-/// Groups by sorting: what is left where the hashes of a file were chosen to collide. O(count log count).
+/// Groups by sorting: the fallback for files made so that hashes collide. Cost: O(count log count).
 template <class Compare>
 Groups group_sorted(std::uint32_t count, const Compare& compare) {
     std::vector<std::uint32_t> items(count);
@@ -59,7 +59,7 @@ Groups group_sorted(std::uint32_t count, const Compare& compare) {
     });
     Groups groups;
     groups.of.resize(count);
-    // The first item of each item's group; then their numbers, in the order of first items.
+    // First sets groups.of[i] to the first item of i's group; then replaces first items by group numbers.
     for (std::uint32_t k = 0, first = 0; k < count; ++k) {
         if (k == 0 || compare(items[k - 1], items[k]) != 0) first = items[k];
         groups.of[items[k]] = first;
@@ -69,14 +69,14 @@ Groups group_sorted(std::uint32_t count, const Compare& compare) {
     return groups;
 }
 
-/// hash(i) and compare(i, j), which is negative, 0 or positive, tell of items 0..count-1; count < UINT32_MAX. An
-/// open-addressing table of first items, at most 5/8 full. Its probes are counted, and where they are many more than
-/// hashes that mean no harm need, sorting takes over, with the same result. Cost: O(count) expected, O(count log count)
-/// at most; 4 bytes an item and 6 to 13 a group.
+/// Groups the items 0..count-1 by hash(i) and compare(i, j), which is negative, 0 or positive; count < UINT32_MAX. Uses
+/// an open-addressing table of first items, at most 5/8 full. After far more probes than usual, as with hostile hashes,
+/// group_sorted gives the same result. Cost: O(count) expected, O(count log count) at most; 4 bytes an item and 6 to 13
+/// bytes a group.
 template <class Hash, class Compare>
 Groups group_equal(std::uint32_t count, const Hash& hash, const Compare& compare) {
     constexpr std::uint32_t none = UINT32_MAX;
-    constexpr std::uint64_t kProbesAnItem = 16, kFreeProbes = 65536;  // a full table takes 2 to 4 on average
+    constexpr std::uint64_t kProbesAnItem = 16, kFreeProbes = 65536;  // a 5/8 full table needs 2 to 4 on average
     Groups groups;
     groups.of.resize(count);
     std::vector<std::uint32_t> slots(1024, none);
@@ -108,7 +108,7 @@ Groups group_equal(std::uint32_t count, const Hash& hash, const Compare& compare
     return groups;
 }
 
-/// The same for items of `size` bytes that lie one after the other.
+/// The same for an array of items of `size` bytes each.
 inline Groups group_equal_bytes(const std::byte* data, std::size_t size, std::uint32_t count) {
     return group_equal(
         count, [=](std::uint32_t i) { return hash_bytes(data + i * size, size, size); },

@@ -7,7 +7,7 @@
 namespace lacedring::detail {
 namespace {
 
-/// The sign of a sum of doubles, exact: the partial sums are kept as doubles that do not overlap (Shewchuk 1997).
+/// The exact sign of a sum of doubles. Keeps the partial sums as nonoverlapping doubles (Shewchuk 1997).
 int sign_of_sum(std::span<const double> terms) {
     double parts[12];
     std::size_t count = 0;
@@ -22,7 +22,7 @@ int sign_of_sum(std::span<const double> terms) {
         parts[count++] = sum;
     }
     while (count != 0) {
-        const double part = parts[--count];  // the largest that is not 0 is larger than all others together
+        const double part = parts[--count];  // the largest nonzero part exceeds the sum of the smaller ones
         if (part != 0) return part > 0 ? 1 : -1;
     }
     return 0;

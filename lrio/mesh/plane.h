@@ -10,8 +10,8 @@ struct PlanePoint {
     bool operator==(const PlanePoint&) const = default;
 };
 
-/// The sign of a difference of two products of differences is right if it is larger than this times the products.
-/// Shewchuk's (3 + 16 e) e for e = 2^-53.
+/// The computed sign of x * y - z * w, where x, y, z and w are rounded differences, is right if |x * y - z * w| exceeds
+/// this times |x * y| + |z * w|. It is Shewchuk's (3 + 16 e) e for e = 2^-53.
 inline constexpr double kSureOrientation = 3.3306690738754716e-16;
 
 /// The sign of twice the area of the triangle: 1 counterclockwise, 0 collinear, -1 clockwise. Exact for coordinates

@@ -35,7 +35,7 @@ bool is_real(ComponentType type) {
 class HeaderParser {
   public:
     explicit HeaderParser(std::string_view bytes) : bytes_(bytes) {
-        // Files with lines that end in CR alone exist: the first line tells.
+        // Some files end lines with CR alone: the first line shows which line end to use.
         newline_ = bytes.starts_with("ply\r") && !bytes.starts_with("ply\r\n") ? '\r' : '\n';
     }
 
@@ -140,7 +140,7 @@ class HeaderParser {
     PlyHeader header_;
 };
 
-/// The attributes as the notes have them, or nothing where they do not fit the properties (another program's edit).
+/// The attributes of the notes; empty if the notes do not match the properties, because another program edited them.
 std::vector<PlyAttribute> plan_from_notes(const PlyElement& vertex, const std::vector<PlyAttributeNote>& notes) {
     std::vector<PlyAttribute> plan;
     std::size_t next = 0;
@@ -198,7 +198,7 @@ class PropertyPlanner {
         return missing;
     }
 
-    /// One attribute of properties that all have one type which suits it; else they stay apart.
+    /// Joins properties to one attribute if they exist and have one suitable type; else leaves them separate.
     bool take_group(std::string_view name, std::initializer_list<std::string_view> names) {
         std::vector<std::size_t> group;
         for (const std::string_view component : names) {

@@ -1,5 +1,5 @@
 #pragma once
-// The header of a PLY file, and which attributes its vertex properties make. Internal to lrio.
+// Parses PLY headers and maps vertex properties to attributes. Internal to lrio.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,9 +16,9 @@ enum class PlyFormat { ascii, little_endian, big_endian };
 
 struct PlyProperty {
     std::string name;
-    ComponentType type = ComponentType::f32;  ///< of the value, or of a list's items
+    ComponentType type = ComponentType::f32;  ///< type of the value or of a list's items
     bool is_list = false;
-    ComponentType count_type = ComponentType::u8;  ///< of a list's length
+    ComponentType count_type = ComponentType::u8;  ///< type of a list's length
 };
 
 struct PlyElement {
@@ -28,9 +28,8 @@ struct PlyElement {
     std::vector<PlyProperty> properties;
 };
 
-/// A line `comment lacedring attribute COMPONENTS FLAGS NAME`, with which write_ply keeps names and groups. The
-/// attributes take the vertex's properties in order. FLAGS is the sum of 1 for a normalized attribute and 2 for one
-/// that is v_up.
+/// A line `comment lacedring attribute COMPONENTS FLAGS NAME`, which write_ply writes for each attribute. The notes
+/// group the vertex's properties in order. FLAGS is the sum of 1 if the attribute is normalized and 2 if it is v_up.
 struct PlyAttributeNote {
     std::uint8_t components = 1;
     bool normalized = false;
@@ -53,11 +52,11 @@ struct PlyAttribute {
     std::vector<std::size_t> properties;
 };
 
-/// The first one is POSITION. An error if x, y and z are not there.
+/// The first attribute is POSITION. Errors: malformed (x, y or z is missing).
 Result<std::vector<PlyAttribute>> plan_ply_attributes(const PlyElement& vertex,
                                                       const std::vector<PlyAttributeNote>& notes);
 
-/// Names in comment lines: '%', control characters and leading or trailing blanks as %XX.
+/// Escapes a name for comment lines: '%', control characters and leading or trailing blanks become %XX.
 std::string escape_ply_name(std::string_view name);
 std::string unescape_ply_name(std::string_view name);
 

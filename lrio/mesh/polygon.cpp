@@ -10,11 +10,11 @@ namespace lacedring::detail {
 namespace {
 
 constexpr std::uint32_t none = UINT32_MAX;
-// Combs, stars, spirals and random walks of a million corners take 50 to 250 steps for each, square spirals 480.
+// Combs, stars, spirals and random walks of a million corners take 50 to 250 steps a corner, square spirals 480.
 constexpr std::uint64_t kFreeSteps = 100'000, kStepsACorner = 1000;
-constexpr std::size_t kOneTree = 64;  // blockers up to which one tree does
+constexpr std::size_t kOneTree = 64;  // up to this number of blockers, a single tree is searched
 
-/// The largest component of a normal; the last one among equals.
+/// The index of a normal's largest component; the last one among equals.
 std::size_t largest_of(const double (&size)[3]) {
     return size[2] >= size[0] && size[2] >= size[1] ? 2 : size[1] >= size[0] ? 1 : 0;
 }
@@ -30,7 +30,7 @@ bool PolygonCutter::is_plain_quad(std::uint32_t a, std::uint32_t b, std::uint32_
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t k = 0; k < 3; ++k) to[i][k] = double{p[i + 1][k]} - double{p[0][k]};
     }
-    double first[3], second[3], size[3];  // of the areas of the fan's triangles
+    double first[3], second[3], size[3];  // area vectors of the fan's two triangles; size of their sum
     for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t u = (k + 1) % 3, v = (k + 2) % 3;
         first[k] = to[0][u] * to[1][v] - to[0][v] * to[1][u];
@@ -54,7 +54,7 @@ std::span<const std::uint32_t> PolygonCutter::cut(std::span<const std::uint32_t>
     return triangles_;
 }
 
-/// Fills points_; false where all triangles of the fan have no area to speak of, so that there is no plane.
+/// Projects the polygon onto a plane and fills points_. False if the polygon has no area, and so no plane.
 bool PolygonCutter::project(std::span<const std::uint32_t> vertices) {
     const std::size_t n = vertices.size();
     space_.resize(3 * n);
@@ -64,7 +64,7 @@ bool PolygonCutter::project(std::span<const std::uint32_t> vertices) {
             std::memcpy(&space_[3 * i], positions_.data + std::size_t{vertices[i]} * 24, 24);
             for (std::size_t k = 0; k < 3; ++k) largest = std::max(largest, std::abs(space_[3 * i + k]));
         }
-        // Scaled so that no product of two coordinates is too small for a double, or rounded because it almost is.
+        // Scales the coordinates, and flushes tiny ones to 0, so that no product of two coordinates underflows.
         int exponent = 0;
         std::frexp(largest, &exponent);
         for (double& x : space_) {
@@ -129,7 +129,7 @@ void PolygonCutter::start_ring() {
     most_steps_ = kFreeSteps + kStepsACorner * n;
 }
 
-/// Makes the corner a candidate of the first rule that may accept it.
+/// Makes the corner a candidate for the first rule that may accept it.
 void PolygonCutter::enter(std::uint32_t corner) {
     const Corner& own = corners_[corner];
     const PlanePoint &a = corners_[own.previous].point, &c = corners_[own.next].point;
@@ -142,8 +142,8 @@ void PolygonCutter::enter(std::uint32_t corner) {
     std::push_heap(heap.begin(), heap.end(), std::greater<>());
 }
 
-/// The corner that is cut off next. A later rule is asked only when those before refuse every corner, and a corner is
-/// tried again only when a neighbor of it has changed, so each rule tries O(n) corners.
+/// Finds the corner to cut off next. A rule is used only if the earlier rules refuse all corners, and a corner is tried
+/// again only after a neighbor of it has changed; so each rule tries O(n) corners.
 bool PolygonCutter::find_ear(std::uint32_t& ear) {
     for (std::size_t rule = 0; rule < rules; ++rule) {
         Heap& heap = candidates_[rule];
@@ -165,7 +165,7 @@ bool PolygonCutter::find_ear(std::uint32_t& ear) {
     return false;
 }
 
-/// Is there no blocker in the convex corner's triangle? It may be touched: there is none inside.
+/// Has the convex corner's triangle no blocker? `may_be_touched`: blockers on its boundary are allowed.
 bool PolygonCutter::is_ear(std::uint32_t corner, bool may_be_touched) {
     const Corner& own = corners_[corner];
     const PlaneTriangle triangle(corners_[own.previous].point, own.point, corners_[own.next].point);
@@ -174,7 +174,7 @@ bool PolygonCutter::is_ear(std::uint32_t corner, bool may_be_touched) {
         const PlanePoint& p = blocker.point;
         if (may_be_touched) return orientation(a, b, p) > 0 && orientation(b, c, p) > 0 && orientation(c, a, p) > 0;
         if (p == b) return blocks_at_tip(blocker.corner, corner);
-        return p != a && p != c;  // the bridge to a hole comes to the same point twice
+        return p != a && p != c;  // a bridge to a hole passes the same point twice: not an obstacle
     });
 }
 
@@ -194,7 +194,7 @@ bool PolygonCutter::is_any_in(const PlaneTriangle& triangle, const Test& test) {
     }
 }
 
-/// Does an edge of a blocker at the tip's own point lead into the ear?
+/// Does an edge of `blocker`, a corner at the same point as the tip, lead into the ear?
 bool PolygonCutter::blocks_at_tip(std::uint32_t blocker, std::uint32_t tip) const {
     const PlanePoint &a = corners_[corners_[tip].previous].point, &b = corners_[tip].point,
                      &c = corners_[corners_[tip].next].point;
@@ -230,7 +230,7 @@ void PolygonCutter::cut_rest() {
     }
 }
 
-/// The corner with the lowest number comes first.
+/// Appends a triangle, rotated so that its lowest corner comes first.
 void PolygonCutter::emit(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     if (b < a) {
         triangles_.insert(triangles_.end(), {b, c, a});
@@ -245,7 +245,7 @@ void PolygonList::add_other(std::uint64_t corners) {
     if (corners < 3) {
         ++short_faces_;
     } else if (corners == 3 || corners > std::uint64_t{none} / 3) {
-        skip(corners - 2);  // so large a polygon, of gigabytes, stays a fan
+        skip(corners - 2);  // a polygon with more corners than can be counted (gigabytes) stays a fan
     } else {
         polygons_.push_back({skipped_, static_cast<std::uint32_t>(corners)});
         skipped_ = 0;

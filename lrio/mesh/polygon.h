@@ -1,6 +1,6 @@
 #pragma once
-// Polygons to triangles: the fan around the first corner where it is right, else ears are cut off. Internal to
-// lrio; docs/formats-read.md describes the same triangles for other programs.
+// Triangulates polygons: by the fan around the first corner if it covers the polygon, else by ear clipping. Internal to
+// lrio; docs/formats-read.md specifies the triangles for other programs.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,20 +20,20 @@ struct PositionView {
     bool doubles = false;
 };
 
-/// Cuts polygons into triangles. Its memory is reused from polygon to polygon.
+/// Triangulates polygons. Reuses its memory for the next polygon.
 class PolygonCutter {
   public:
     explicit PolygonCutter(PositionView positions) : positions_(positions) {}
 
-    /// The triangles of a polygon with these vertices: 3 numbers of its corners each, one triangle less than two for
-    /// each corner, valid until the next call. Empty: the fan (0, 1, 2), (0, 2, 3), ... is right. Any polygon is safe,
-    /// one that crosses itself, too. Cost: O(n log n) as a rule, and at most what a budget of O(n) steps allows.
+    /// The n - 2 triangles of a polygon with n vertices: 3 polygon corners (0 to n - 1) each, valid until the next
+    /// call. Empty: the fan (0, 1, 2), (0, 2, 3), ... is right. Any polygon is safe, even a self-intersecting one.
+    /// Cost: usually O(n log n); a budget of O(n) steps limits it.
     std::span<const std::uint32_t> cut(std::span<const std::uint32_t> vertices);
 
-    /// Is this quadrangle's fan right for sure? If not, cut() tells. Most polygons are such, so this is quick.
+    /// A quick test for the most common polygons: true if the fan of this quadrangle is right; false: call cut().
     bool is_plain_quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const;
 
-    /// Polygons whose budget ended before they were cut. What was left of each is a fan.
+    /// Number of polygons whose budget ended before they were cut; the rest of each became a fan.
     std::uint64_t given_up() const { return given_up_; }
 
   private:
@@ -41,16 +41,16 @@ class PolygonCutter {
 
     struct Corner {
         PlanePoint point;
-        std::uint32_t previous, next;  // of those that are left
-        std::uint32_t changes;         // of these two, UINT32_MAX once the corner is cut off
-        std::uint32_t blocker;         // its number, UINT32_MAX: it is none
+        std::uint32_t previous, next;  // among the remaining corners
+        std::uint32_t changes;         // counts changes of previous and next; UINT32_MAX: cut off
+        std::uint32_t blocker;         // index in blockers_; UINT32_MAX: no blocker
     };
-    /// A corner that a rule has to try: those with short cuts come first, those of about the same length in the order
-    /// of the polygon, which is kinder to caches than their exact order.
+    /// A corner that a rule has to try. Short cuts come first. Cuts of similar length are in the polygon's order, which
+    /// suits caches better than the exact order of lengths.
     struct Candidate {
-        std::uint32_t length;  // the exponent of the cut's length, squared
+        std::uint32_t length;  // floating-point exponent of the cut's squared length
         std::uint32_t corner;
-        std::uint32_t changes;  // of the corner; it counts only while this is right
+        std::uint32_t changes;  // Corner::changes when it was entered; outdated if the corner's differs
 
         bool operator>(const Candidate& other) const {
             if (length != other.length) return length > other.length;
@@ -78,7 +78,7 @@ class PolygonCutter {
     std::vector<PlanePoint> points_;  // counterclockwise
     std::vector<Corner> corners_;
     Heap candidates_[rules];
-    std::uint32_t left_ = 0;  // corners
+    std::uint32_t left_ = 0;  // number of remaining corners
     std::uint64_t steps_ = 0;
     std::uint64_t most_steps_ = 0;
     std::vector<Blocker> blockers_;
@@ -87,11 +87,11 @@ class PolygonCutter {
     std::vector<std::uint32_t> triangles_;
 };
 
-/// The polygons of a file among its triangles. A reader appends each as a fan; once all positions are known, the fans
-/// that are wrong are replaced, in place.
+/// Records where a file's polygons are in the triangle list. Readers append each polygon as a fan; when all positions
+/// are known, cut() replaces the wrong fans in place.
 class PolygonList {
   public:
-    /// The next face of the file has so many corners; below 3 it has no triangles.
+    /// Adds the file's next face. A face of fewer than 3 corners has no triangles.
     void add(std::uint64_t corners) {
         if (corners == 3 && skipped_ != UINT32_MAX) {
             ++skipped_;
@@ -99,22 +99,22 @@ class PolygonList {
             add_other(corners);
         }
     }
-    /// So many triangles follow that are no faces.
+    /// Skips triangles that are not faces, such as those of strips.
     void skip(std::uint64_t triangles);
 
-    /// `lists`: 3 entries a triangle each, the first one vertices, of which all others are reordered in the same way;
-    /// null ones are passed over. Tells what has no triangles or not the right ones. Cost: see PolygonCutter.
+    /// Each list has 3 entries a triangle. The first list has vertex indices; the others are reordered in the same way;
+    /// null lists are ignored. Reports faces without triangles and polygons that stayed fans. Cost: see PolygonCutter.
     void cut(PositionView positions, std::initializer_list<std::vector<std::uint32_t>*> lists, Reading& reading) const;
 
   private:
     struct Polygon {
-        std::uint32_t skipped;  // triangles between the polygon before and this one
+        std::uint32_t skipped;  // triangles between the previous polygon and this one
         std::uint32_t corners;
     };
 
     void add_other(std::uint64_t corners);
 
-    std::vector<Polygon> polygons_;  // of more than 3 corners
+    std::vector<Polygon> polygons_;  // polygons of more than 3 corners
     std::uint32_t skipped_ = 0;
     std::uint64_t short_faces_ = 0;
 };

@@ -38,7 +38,8 @@ Attribute float_attribute(std::string name, std::uint8_t components, std::span<c
 }
 
 bool is_underflow(std::string_view word) {
-    // The decimal exponent of the first digit that is not zero tells: no number near 1 is ever out of range.
+    // A number out of range is far from 1: it is an underflow if its first nonzero digit, after applying the exponent,
+    // is behind the point.
     const std::size_t mark = std::min(word.find_first_of("eE"), word.size());
     const std::string_view digits = word.substr(0, mark);
     long exponent = 0;
@@ -76,7 +77,7 @@ Result<Mesh> checked(Mesh mesh) {
         for (std::size_t i = 0; i * sizeof(double) < position.data.size(); ++i) {
             double value = 0;
             std::memcpy(&value, position.data.data() + i * sizeof(double), sizeof(double));
-            // what is from here on is rounded to a float that is infinite
+            // From this value on, rounding to float gives infinity.
             if (std::abs(value) < 0x1.ffffffp127) continue;
             return malformed("vertex {}: the position is beyond the range of floats", i / 3);
         }
@@ -92,7 +93,7 @@ std::string lower_extension(const std::filesystem::path& path) {
     return extension;
 }
 
-/// The format by the first bytes, else by the extension; `any` if neither tells.
+/// The format by signature, else by extension; `any` if neither is known.
 MeshFormat format_by_content(std::string_view raw, std::string_view text, const std::filesystem::path& name) {
     // Signatures first: files with the wrong extension are common.
     const std::size_t start = text.find_first_not_of(" \t\r\n");
@@ -145,7 +146,7 @@ Result<Mesh> read_bytes(std::span<const std::byte> bytes, Reading& reading) {
         case MeshFormat::any:
             break;
     }
-    return unsupported("the format is not recognised (glTF, GLB, OBJ, PLY, OFF and STL are read)");
+    return unsupported("the format is not recognized (glTF, GLB, OBJ, PLY, OFF and STL are read)");
 }
 
 }  // namespace
@@ -176,7 +177,8 @@ Result<Mesh> read_mesh(std::span<const std::byte> bytes, const std::filesystem::
     detail::Reading reading{options, report != nullptr ? *report : unwanted, name, materials};
     return detail::caught([&]() -> Result<Mesh> {
         Result<Mesh> mesh = detail::read_bytes(bytes, reading);
-        if (!mesh || reading.report.format == MeshFormat::gltf) return mesh;  // read_gltf knows of all its files
+        // read_gltf has checked the memory itself, counting the bytes of all its files.
+        if (!mesh || reading.report.format == MeshFormat::gltf) return mesh;
         double stride = 0;
         for (const Attribute& attribute : mesh->attributes) stride += static_cast<double>(attribute.stride());
         LR_TRY(reading.check_memory(mesh->vertex_count, stride, static_cast<double>(mesh->triangle_count()),

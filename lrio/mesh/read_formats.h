@@ -1,5 +1,5 @@
 #pragma once
-// The readers behind read_mesh and what they share. Internal to lrio.
+// The readers of read_mesh and their shared helpers. Internal to lrio.
 
 #include <fmt/format.h>
 
@@ -26,20 +26,21 @@ namespace lacedring::detail {
 
 static_assert(std::endian::native == std::endian::little, "Mesh holds little-endian bits, and so do most files");
 
-/// One call of read_mesh: what the readers are told, and what they tell beside the mesh.
+/// The inputs and outputs of one call of read_mesh, apart from the mesh.
 struct Reading {
     const ReadOptions& options;
     ReadReport& report;
-    std::filesystem::path name;      ///< of the file; empty: it has none
-    Materials* materials = nullptr;  ///< what a glTF's triangles look like; null: not wanted
+    std::filesystem::path name;      ///< of the file; empty: unnamed
+    Materials* materials = nullptr;  ///< receives a glTF's materials; null: not wanted
 
+    /// Adds "COUNT one" or "COUNT many" to the report's left_out, unless `count` is 0.
     void leave_out(std::uint64_t count, std::string_view one, std::string_view many);
-    /// Is there room for a mesh of so many vertices of `stride` bytes and so many triangles, read from `file_bytes`?
-    /// Doubles: a hostile file's counts overflow integers. Errors: memory_limit.
+    /// Checks that a mesh with vertices of `stride` bytes, read from a file of `file_bytes`, is within the memory
+    /// limit. Takes doubles, since a hostile file's counts would overflow integers. Errors: memory_limit.
     Result<void> check_memory(double vertices, double stride, double triangles, double file_bytes) const;
 };
 
-// Each takes the whole file, never throws on its content but for memory, and returns meshes that `checked` accepted.
+// Each reader gets the whole file, throws only if memory runs out, and returns a mesh that `checked` accepted.
 Result<Mesh> read_gltf(std::span<const std::byte> bytes, Reading& reading);
 Result<PrimitiveList> read_gltf_primitives(std::span<const std::byte> bytes, Reading& reading);
 Result<Mesh> read_obj(std::string_view text, Reading& reading);
@@ -50,13 +51,13 @@ Result<Mesh> read_stl(std::string_view bytes, Reading& reading);
 /// Does the text start, after white space and # comments, with one of OFF's header words?
 bool looks_like_off(std::string_view text);
 
-/// Is it binary STL by its length, or else ascii STL by its first word? A byte-order mark may come before the word.
+/// Is it binary STL by its length, or ascii STL by its first word, which may follow a byte-order mark?
 bool looks_like_stl(std::string_view bytes);
 
-/// What every reader ends with: some triangles, and finite positions (attributes[0]).
+/// Checks that the mesh has triangles and that its positions (attributes[0]) are finite as floats. Errors: malformed.
 Result<Mesh> checked(Mesh mesh);
 
-/// The index of a vertex is below this, so that UINT32_MAX is free to mean "none".
+/// The largest number of vertices: UINT32_MAX is never an index, and means "none".
 inline constexpr std::uint64_t max_vertices = UINT32_MAX - 1;
 
 template <class... Args>
@@ -73,17 +74,16 @@ inline Error too_many_vertices() {
     return {ErrorCode::too_large, "has more than 2^32 - 2 vertices"};
 }
 
-/// A piece of the file for an error message: short, on one line, printable.
+/// Quotes a piece of the file for an error message: short, on one line, printable.
 std::string shown(std::string_view text);
 
-/// The first 8 names, shown, with commas between them, and how many more there are.
+/// The first 8 names, each by shown(), separated by commas, and the number of further names.
 std::string shown_names(std::span<const std::string> names);
 
 /// A vertex attribute of floats.
 Attribute float_attribute(std::string name, std::uint8_t components, std::span<const float> values);
 
-/// Calls read(), and turns what it throws into an error: the standard library may run out of memory, and what the glTF
-/// library throws is not documented.
+/// Calls read() and converts exceptions to errors: memory may run out, and tinygltf's exceptions are not documented.
 template <class Read>
 auto caught(const Read& read) -> decltype(read()) {
     try {
@@ -99,8 +99,7 @@ auto caught(const Read& read) -> decltype(read()) {
     }
 }
 
-/// Splits a polygon, given corner by corner, into a fan around its first corner: emit(a, b, c) for each triangle. Fewer
-/// than 3 corners give nothing.
+/// Converts a polygon, given corner by corner, to a fan around its first corner: calls emit(a, b, c) for each triangle.
 template <class Corner>
 class Fan {
   public:
@@ -118,8 +117,8 @@ class Fan {
     std::size_t count_ = 0;
 };
 
-/// Splits a strip, given vertex by vertex, into triangles: every second one is turned round, as OpenGL and glTF have
-/// it.
+/// Converts a strip, given vertex by vertex, to triangles. Swaps two corners of every second triangle to keep the
+/// orientation, as OpenGL and glTF define it.
 class Strip {
   public:
     void add(std::uint32_t vertex, std::vector<std::uint32_t>& indices) {

@@ -1,5 +1,5 @@
-// Wavefront OBJ: v, vt, vn and f. A vertex is a distinct v/vt/vn, as renderers see it. The rest is counted and left
-// out.
+// Reads Wavefront OBJ: v, vt, vn and f. A mesh vertex is a distinct triple v/vt/vn. Other statements are counted and
+// left out.
 
 #include <algorithm>
 #include <array>
@@ -16,15 +16,15 @@ namespace {
 
 constexpr std::uint32_t absent = UINT32_MAX;
 
-/// One of the lists v, vt and vn, and how the corners of the faces refer to it.
+/// One of the lists v, vt and vn, and the references of face corners to it.
 struct List {
     std::string_view name;
-    std::size_t width;                   // floats an entry
-    std::vector<float> values;           // width floats an entry
-    std::vector<std::uint32_t> corners;  // an entry for each corner of the triangles; empty while no corner has one
-    std::uint64_t references = 0;        // from corners of faces
-    std::uint64_t highest = 0;           // 1 + the highest entry referred to: faces may come before what they use
-    bool before_first = false;           // a reference counts back from an entry that there was not yet
+    std::size_t width;                   // floats of an entry
+    std::vector<float> values;           // `width` floats an entry
+    std::vector<std::uint32_t> corners;  // the entry of each triangle corner; empty while no corner has one
+    std::uint64_t references = 0;        // number of references from face corners
+    std::uint64_t highest = 0;           // 1 + highest referenced entry, which may follow the face in the file
+    bool before_first = false;           // a negative reference points before the first entry
 
     std::size_t size() const { return values.size() / width; }
     bool used() const { return !corners.empty(); }
@@ -104,7 +104,7 @@ class OtherStatements {
 
     void add_groups(TextScanner& rest) {
         for (std::string_view name; !(name = rest.next_word_of_line()).empty();) {
-            if (name != "default") groups_.add(name);  // the group of all that is in no other
+            if (name != "default") groups_.add(name);  // "default" holds elements without a group
         }
     }
 
@@ -116,11 +116,11 @@ class OtherStatements {
     std::uint64_t lines_ = 0, points_ = 0, free_forms_ = 0, parameters_ = 0, calls_ = 0, unknown_ = 0;
 };
 
-using Sizes = std::array<std::uint64_t, 3>;  // of v, vt and vn
+using Sizes = std::array<std::uint64_t, 3>;  // numbers of entries of v, vt and vn
 
 class ObjReader {
   public:
-    /// With the sizes that the lists end with, the first reference to an entry that does not exist is an error at once.
+    /// If the final sizes of the lists are given, the first reference to a missing entry is an error at once.
     explicit ObjReader(std::string_view text, const Sizes* sizes = nullptr)
         : text_(text), scanner_(text, true, true), sizes_(sizes) {}
 
@@ -142,7 +142,7 @@ class ObjReader {
                 good = read_texture();
             } else if (keyword == "vn") {
                 good = read_normal();
-            } else if (keyword == "f" || keyword == "fo") {  // fo: of version 1, read as f ever since
+            } else if (keyword == "f" || keyword == "fo") {  // version 1 had "fo"; it means "f"
                 good = read_face();
             } else if (!keyword.empty()) {
                 others_.add(keyword, scanner_);
@@ -157,7 +157,7 @@ class ObjReader {
         return malformed("line {}: {}", scanner_.line(), fmt::format(format, std::forward<Args>(args)...));
     }
 
-    /// The numbers of the line, at most `most` of them. Their count, or an error.
+    /// Reads the line's numbers, from `least` to `most`, and returns their count.
     Result<std::size_t> read_line(float* out, std::size_t least, std::size_t most) {
         std::size_t count = 0;
         for (; count < most; ++count) {
@@ -176,7 +176,7 @@ class ObjReader {
             return at_line("vertex {} is not finite", vertices_.size() + 1);
         }
         if (vertices_.size() == max_vertices) return too_many_vertices();
-        // x y z [w], or x y z r g b; colors are left out unless every vertex has one.
+        // The numbers are x y z [w] or x y z r g b; colors are left out unless every vertex has one.
         if (count >= 6) {
             ++colored_;
             if (colors_.size() == vertices_.values.size()) colors_.insert(colors_.end(), numbers + 3, numbers + 6);
@@ -211,7 +211,7 @@ class ObjReader {
         while (true) {
             const std::string_view word = scanner_.next_word_of_line();
             if (word.empty()) break;
-            // v, v/vt, v//vn, v/vt/vn; some programs leave a slash behind with nothing after it
+            // v, v/vt, v//vn or v/vt/vn; some programs write a trailing slash
             const std::size_t slash = std::min(word.find('/'), word.size());
             std::string_view vt = word.substr(std::min(slash + 1, word.size()));
             const std::size_t second = std::min(vt.find('/'), vt.size());
@@ -236,7 +236,7 @@ class ObjReader {
         return {};
     }
 
-    /// Counts from 1, or from the end of the list so far if negative.
+    /// Resolves an OBJ index to an entry: it counts from 1 or, if negative, back from the end of the list so far.
     bool resolve(List& list, std::string_view word, std::uint32_t& out) {
         std::int64_t number = 0;
         if (!parse_number(word, number) || number == 0) return false;
@@ -244,7 +244,7 @@ class ObjReader {
         if (number < 0) number += static_cast<std::int64_t>(list.size()) + 1;
         ++list.references;
         if (number <= 0) {
-            // The file may have no vt or vn at all; if any follows, this is wrong.
+            // Allowed if the file has no vt (vn) at all; before_first makes it an error if an entry follows.
             if (&list == &vertices_ || list.size() != 0) return false;
             list.before_first = true;
             number = 1;
@@ -272,8 +272,8 @@ class ObjReader {
         list.corners.assign(vertices_.corners.size(), absent);
     }
 
-    /// Normals and texture coordinates of which the file has none at all are left out. Other references that do not
-    /// exist are an error; the text is read again to find the first one.
+    /// References to normals or texture coordinates are ignored if the file has none at all. Other references to
+    /// missing entries are errors; the text is read again to find the first one.
     Result<void> check_references() {
         const auto is_absent = [](const List& list) { return list.size() == 0; };
         if (vertices_.is_wrong() || (textures_.is_wrong() && !is_absent(textures_)) ||
@@ -314,7 +314,8 @@ class ObjReader {
                        normals_.used() ? &normals_.corners : nullptr},
                       reading);
         Mesh mesh;
-        // vertex -> entry of each list; without vt and vn the list of v is the list of vertices, unused ones included
+        // For each mesh vertex, its entry in each list. Without vt and vn they are unused: mesh vertices are the v
+        // list.
         std::vector<std::uint32_t> v;
         std::vector<std::uint32_t> vt;
         std::vector<std::uint32_t> vn;
@@ -368,7 +369,7 @@ class ObjReader {
             });
     }
 
-    /// Every v that no face uses becomes a vertex at the end, so that nothing of the file is lost.
+    /// Appends each v that no face uses as a mesh vertex, so that no position is lost.
     void append_unused(std::vector<std::uint32_t>& v) const {
         std::vector<bool> used(vertices_.size(), false);
         for (const std::uint32_t i : v) used[i] = true;
@@ -391,7 +392,8 @@ class ObjReader {
     List vertices_{"vertex", 3, {}, {}};
     List textures_{"texture coordinate", 2, {}, {}};
     List normals_{"normal", 3, {}, {}};
-    bool textures_used_ = false;  // List::used() cannot tell before the first triangle is complete
+    // List::used() of textures_ and normals_ is still false before the first triangle is complete.
+    bool textures_used_ = false;
     bool normals_used_ = false;
     PolygonList polygons_;
     std::vector<float> colors_;

@@ -1,4 +1,4 @@
-// Object File Format, ascii: prefixes ST, C and N before OFF; vertices, then faces.
+// Reads ascii OFF (Object File Format): a header word, OFF with the optional prefixes ST, C and N; vertices; faces.
 
 #include <algorithm>
 #include <cmath>
@@ -14,15 +14,15 @@ namespace lacedring::detail {
 namespace {
 
 struct Header {
-    std::size_t length = 0;  ///< of the header word; 0: it is none
+    std::size_t length = 0;  ///< of the header word; 0: there is no header word
     bool texture = false;
     bool color = false;
     bool normal = false;
-    bool normal_before_color = false;  ///< in the word, not in the file: Geomview's word has it behind
+    bool normal_before_color = false;  ///< the prefix N comes before C; says nothing about the order of the values
     bool higher_dimension = false;
 };
 
-/// The word may have its prefixes in any order, and the number of vertices right behind it.
+/// Accepts prefixes in any order, and the number of vertices directly after the word.
 Header parse_header(std::string_view text) {
     Header header;
     bool smooth = false, four = false, any = false;
@@ -59,7 +59,7 @@ class OffReader {
 
     Result<Mesh> read(Reading& reading) {
         scanner_.skip_space();
-        header_ = header_at(scanner_);  // may be left out
+        header_ = header_at(scanner_);  // the word is optional
         scanner_.skip_bytes(header_.length);
         if (header_.higher_dimension) return unsupported("OFF with more than 3 dimensions");
         LR_TRY(read_counts());
@@ -85,18 +85,18 @@ class OffReader {
         if (!one_line) word = scanner_.next_word();
         if (!parse_number(word, faces_)) return not_number(word, "the number of faces");
         if (vertices_ > max_vertices) return too_many_vertices();
-        // A vertex takes at least "0 0 0" and a line end, a face "3 0 0 0" (or "0"): never allocate for more.
+        // Limits allocations: a vertex takes at least 6 bytes ("0 0 0" and a line end), a face 2 ("0" and a line end).
         if (vertices_ > scanner_.remaining() / 6 + 1 || faces_ > scanner_.remaining() / 2 + 1) {
             return malformed("line {}: {} vertices and {} faces are more than the file has bytes for", scanner_.line(),
                              vertices_, faces_);
         }
-        // The number of edges, which nobody needs and some files lack.
+        // Skips the number of edges, which is not needed and missing in some files.
         if (!one_line && scanner_.skip_to_line_end()) scanner_.next_word();
         scanner_.skip_line();
         return {};
     }
 
-    /// One vertex a line, as nearly all files are; where words are missing so, vertices wherever their words are.
+    /// Reads one vertex per line, as nearly all files have them. If a line is too short, ignores line ends.
     Result<void> read_elements() {
         const TextScanner start = scanner_;
         by_line_ = true;
@@ -160,7 +160,7 @@ class OffReader {
         return {};
     }
 
-    /// Colors have three or four numbers, as many as the first vertex has.
+    /// Sets color_width_ to 3 or 4, by the first vertex.
     Result<void> find_color_width() {
         TextScanner ahead = scanner_;
         std::size_t words = 0;
@@ -172,9 +172,9 @@ class OffReader {
         return {};
     }
 
-    /// A face begins with a line of its own. Its indices may go on in the next lines; what follows them is its color.
+    /// A face begins on a new line. Its indices may continue on the next lines; the rest of the line is its color.
     Result<void> read_faces() {
-        // "3 0 0 0" and a line end: a triangle takes 8 bytes or more
+        // A triangle takes at least 8 bytes: "3 0 0 0" and a line end.
         indices_.reserve(3 * std::min<std::size_t>(static_cast<std::size_t>(faces_), scanner_.remaining() / 8 + 1));
         for (std::uint64_t f = 0; f < faces_; ++f, scanner_.skip_line()) {
             std::string_view word = scanner_.next_word();
@@ -200,8 +200,8 @@ class OffReader {
         return {};
     }
 
-    /// Geomview's order, whatever the header's, is normals before colors. MeshLab writes NCOFF, and then has the colors
-    /// first: four bytes, and a unit normal.
+    /// Do colors come before normals? In Geomview's format they never do, whatever the order of the header's prefixes.
+    /// But MeshLab writes NCOFF with four color bytes and then a unit normal.
     bool colors_come_first() const {
         if (!header_.normal_before_color || color_width_ != 4) return false;
         for (std::size_t i = 0; i < others_.size(); i += 7) {
@@ -239,7 +239,7 @@ class OffReader {
         if (!header_.color) return;
         const std::vector<float> colors = columns(others_, width, colors_first ? 0 : normals, color_width_);
         Attribute color = float_attribute("COLOR_0", static_cast<std::uint8_t>(color_width_), colors);
-        // Numbers from 0 to 1 where none is above 1, even if all are whole: "1 0 0 1" is red.
+        // If no number is above 1, the range is 0 to 1, even if all are whole: "1 0 0 1" is red.
         if (std::all_of(colors.begin(), colors.end(), is_byte) &&
             std::any_of(colors.begin(), colors.end(), [](float x) { return x > 1; })) {
             color.type = ComponentType::u8;
@@ -267,14 +267,14 @@ class OffReader {
     std::uint64_t vertices_ = 0;
     std::uint64_t faces_ = 0;
     bool by_line_ = true;
-    bool ended_early_ = false;  // the last error is that a word is missing
+    bool ended_early_ = false;  // the last error was a missing word
     std::vector<float> positions_;
     std::vector<float> others_;  // the normal and the color of each vertex
     std::vector<float> textures_;
     std::size_t color_width_ = 0;
     std::vector<std::uint32_t> indices_;
     PolygonList polygons_;
-    std::uint64_t longer_ = 0;  // vertices with more numbers than their own
+    std::uint64_t longer_ = 0;  // number of vertices whose line has surplus numbers
     std::uint64_t face_colors_ = 0;
 };
 

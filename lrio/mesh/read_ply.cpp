@@ -1,4 +1,4 @@
-// PLY: ascii and both binary orders. Faces may be lists or triangle strips, elements may come in any order.
+// Reads PLY: ascii and binary of both byte orders. Faces may be lists or triangle strips, in any order of elements.
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +39,7 @@ auto with_type(ComponentType type, const F& f) {
     return f(double{});
 }
 
-/// Lines with anything in them.
+/// Number of lines that are not blank.
 std::uint64_t count_lines(std::string_view data) {
     const char newline = data.find('\n') == std::string_view::npos ? '\r' : '\n';
     std::uint64_t lines = 0;
@@ -52,7 +52,7 @@ std::uint64_t count_lines(std::string_view data) {
     return lines;
 }
 
-/// The data as words, separated by any white space, or with one element a line.
+/// The data as words, with one element per line or with line ends as ordinary white space.
 template <bool by_line>
 class AsciiSource {
   public:
@@ -96,7 +96,7 @@ class AsciiSource {
         scanner_.skip_space();
     }
 
-    /// Lines that have more values than their element.
+    /// Number of lines that have more values than their element.
     std::uint64_t longer_lines() const { return longer_; }
 
     std::size_t bytes_left() {
@@ -199,7 +199,7 @@ class PlyReader {
     }
 
   private:
-    /// Never allocates for, or loops over, more elements than the bytes left can hold.
+    /// Checks that the remaining bytes can hold the elements, before memory is allocated for them.
     Result<void> check_count(const PlyElement& element) const {
         std::size_t least = 0;
         for (const PlyProperty& property : element.properties) {
@@ -212,7 +212,7 @@ class PlyReader {
 
     Result<void> read_vertices(const PlyElement& vertex) {
         LR_ASSIGN(auto plan, plan_ply_attributes(vertex, header_.notes));
-        // Where each property's value goes: `stride` apart from vertex to vertex, or nowhere for a list.
+        // Where each property's values go, `stride` bytes apart; null for lists, which are skipped.
         struct Target {
             std::byte* at = nullptr;
             std::size_t stride = 0;
@@ -231,7 +231,7 @@ class PlyReader {
                 targets[entry.properties[i]] = {entry.attribute.data.data() + i * size_of(type), stride, type,
                                                 is_position};
             }
-            mesh_.attributes.push_back(std::move(entry.attribute));  // moving the vector keeps its bytes in place
+            mesh_.attributes.push_back(std::move(entry.attribute));  // moving keeps the targets valid
         }
         for (std::uint64_t v = 0; v < vertex.count; ++v) {
             for (std::size_t p = 0; p < vertex.properties.size(); ++p) {
@@ -428,9 +428,9 @@ class PlyReader {
 };
 
 /// If there are as many lines of data as elements, reads an element from each line and skips the rest of the line.
-/// Otherwise, or if a line is too short, line ends are blanks.
+/// Otherwise, or if a line is too short, line ends are ordinary white space.
 Result<Mesh> read_ascii(std::string_view bytes, const PlyHeader& header, Reading& reading) {
-    double elements = 0;  // not an integer: the counts may be anything
+    double elements = 0;  // as an integer it could overflow
     for (const PlyElement& element : header.elements) {
         if (!element.properties.empty()) elements += static_cast<double>(element.count);
     }

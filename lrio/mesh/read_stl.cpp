@@ -1,4 +1,4 @@
-// STL: triangles without shared vertices, so those with identical position bits become one.
+// Reads STL. Its triangles share no vertices, so vertices at the same position are merged.
 
 #include <algorithm>
 #include <cctype>
@@ -34,7 +34,7 @@ bool has_binary_length(std::string_view bytes) {
 }
 
 bool is_ascii(std::string_view bytes) {
-    // Binary files may begin with "solid" too, but their headers and floats hold bytes that text has not.
+    // Binary files may begin with "solid", too, but their headers and floats contain control characters.
     if (has_binary_length(bytes)) return false;
     const std::string_view head = without_byte_order_mark(bytes).substr(0, 512);
     return equals_ignoring_case(TextScanner(head).next_word(), "solid") &&
@@ -45,7 +45,7 @@ Result<Mesh> merged(const std::vector<float>& corners) {
     const std::size_t count = corners.size() / 3;
     if (count > max_vertices) return Error{ErrorCode::too_large, "has more than 2^32 - 2 triangle corners"};
     const auto* data = reinterpret_cast<const std::byte*>(corners.data());
-    // -0 is where 0 is. The vertex keeps the bits of its first corner.
+    // -0 equals 0. A vertex keeps the bits of its first corner.
     std::vector<float> places;
     if (std::any_of(corners.begin(), corners.end(), [](float x) { return x == 0 && std::signbit(x); })) {
         places.reserve(corners.size());
@@ -74,7 +74,7 @@ Result<Mesh> read_binary(std::string_view bytes, Reading& reading) {
         return malformed("byte 80: {} triangles, but there are bytes for {}", claimed, present);
     }
     std::vector<float> corners(static_cast<std::size_t>(claimed) * 9);
-    std::uint64_t attributes = 0;  // two bytes behind each triangle, which some programs use for a color
+    std::uint64_t attributes = 0;  // triangles whose two attribute bytes are not 0: some programs store colors there
     for (std::size_t t = 0; t < claimed; ++t) {
         float* nine = corners.data() + t * 9;
         std::memcpy(nine, bytes.data() + header_bytes + t * triangle_bytes + normal_bytes, 9 * sizeof(float));
@@ -95,7 +95,7 @@ class AsciiStl {
     explicit AsciiStl(std::string_view text) : scanner_(text) {}
 
     Result<Mesh> read() {
-        while (true) {  // several solids may follow one another
+        while (true) {  // a file may have several solids
             scanner_.skip_space();
             if (scanner_.at_end()) break;
             if (!is_next("solid")) return unexpected("'solid'");
@@ -119,7 +119,7 @@ class AsciiStl {
     Result<void> read_solid() {
         while (is_next("facet")) {
             if (!is_next("normal")) return unexpected("'normal'");
-            for (int i = 0; i < 3; ++i) {  // not kept: it follows from the vertices, and is often wrong
+            for (int i = 0; i < 3; ++i) {  // ignored: the vertices imply the normal, and the file's is often wrong
                 float ignored = 0;
                 word_ = scanner_.next_word();
                 if (!parse_number(word_, ignored)) return unexpected("a number");

@@ -14,7 +14,7 @@
 namespace lacedring {
 namespace {
 
-/// -0 is 0.
+/// The position of v, with 0 for -0.
 Point position(const Positions& positions, std::uint32_t v) {
     Point p = positions[VertexId{v}];
     for (double& x : p) x += 0.0;
@@ -36,12 +36,13 @@ BitVector used_vertices(const Mesh& mesh) {
     return used;
 }
 
-/// Points that were kept, by the cells of a grid whose side is the tolerance: few fit into one.
+/// The kept points in a grid. Its cell size is the tolerance, so that a cell has few points.
 class Kept {
   public:
     explicit Kept(double tolerance) : tolerance_(tolerance) {}
 
-    /// The nearest kept point within the tolerance, or this one, which is kept then.
+    /// Returns the number of the nearest kept point within the tolerance; if there is none, keeps p and returns
+    /// `number`.
     std::uint32_t join(const Point& p, std::uint32_t number) {
         const Point cell = cell_of(p);
         std::uint32_t nearest = number;
@@ -70,8 +71,8 @@ class Kept {
         std::uint32_t number, next;
     };
 
-    /// A coordinate is its own cell if the grid is finer than floating-point numbers there: the quotient may be
-    /// infinite.
+    /// The cell of a point. Where the grid is finer than the spacing of doubles, a coordinate is its own cell, since
+    /// the quotient may be infinite.
     Point cell_of(Point p) const {
         constexpr double kNarrow = 9007199254740992.0;  // 2^53
         for (double& x : p) {
@@ -80,21 +81,21 @@ class Kept {
         }
         return p;
     }
-    /// Two cells may have one key: points are compared themselves.
+    /// Two cells may have the same key, so join() compares the distances of the points.
     static std::uint64_t key(Point cell) {
         for (double& x : cell) x += 0.0;
         return detail::hash_bytes(reinterpret_cast<const std::byte*>(cell.data()), sizeof cell, 0);
     }
 
     double tolerance_;
-    std::unordered_map<std::uint64_t, std::uint32_t> cells_;  // the last point of each
+    std::unordered_map<std::uint64_t, std::uint32_t> cells_;  // index in points_ of each cell's last point
     std::vector<Entry> points_;
 };
 
-/// The groups of each vertex, named by their first ones. Vertices that are not used are alone.
+/// The group of each vertex, named by the group's first vertex. Each unused vertex is its own group.
 struct VertexGroups {
-    std::vector<std::uint32_t> equal;  ///< of one position
-    std::vector<std::uint32_t> near;   ///< of a kept vertex; empty without a tolerance, which keeps all
+    std::vector<std::uint32_t> equal;  ///< groups of equal position
+    std::vector<std::uint32_t> near;   ///< groups of the same kept vertex; empty without a tolerance
 };
 
 VertexGroups group_vertices(const Mesh& mesh, const Positions& positions, double tolerance) {
@@ -129,7 +130,7 @@ VertexGroups group_vertices(const Mesh& mesh, const Positions& positions, double
     return out;
 }
 
-/// Two vertices of one group and one triangle, the greater one first, in increasing order.
+/// The pairs of vertices that are in the same group and triangle, the greater vertex first, sorted.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_in_triangles(const Mesh& mesh,
                                                                         std::span<const std::uint32_t> group) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
@@ -156,7 +157,7 @@ void keep_zeros(std::byte* to, const std::byte* from) {
     }
 }
 
-/// The positions of the surface's vertices: of their first copies, but 0 for -0 where another copy has 0.
+/// The positions of the surface's vertices: those of their first copies, but 0 for -0 if another copy has 0.
 Attribute surface_positions(const Attribute& positions, const Surface& surface) {
     Attribute out = std::move(permute_attributes({&positions, 1}, first_vertices(surface))[0]);
     const std::size_t stride = positions.stride();
@@ -197,11 +198,13 @@ Surface find_surface(const Mesh& mesh, double tolerance, SurfaceReport* report) 
     const VertexGroups groups = group_vertices(mesh, positions, tolerance);
     const std::vector<std::uint32_t>& group = groups.near.empty() ? groups.equal : groups.near;
     const std::vector<std::pair<std::uint32_t, std::uint32_t>> apart = pairs_in_triangles(mesh, group);
-    // Vertices of rank 0 of a group are joined. Those of a higher rank are joined if their positions are equal, since
-    // vertices of a group may be twice the tolerance apart.
+    // Vertices of one triangle get different ranks in their group. Vertices of rank 0 of a group are joined. Vertices
+    // of a higher rank are joined only if their positions are equal, since they may be twice the tolerance apart.
     std::vector<std::uint32_t> rank(apart.empty() ? 0 : mesh.vertex_count), ranks_apart;
-    std::vector<std::uint32_t> number(mesh.vertex_count, UINT32_MAX);  // of rank 0 of the group with that first vertex
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> higher;  // of a position and a rank
+    // The surface vertex of rank 0 of the group with this first vertex.
+    std::vector<std::uint32_t> number(mesh.vertex_count, UINT32_MAX);
+    // The surface vertex of a position and a rank above 0.
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> higher;
     std::vector<std::uint32_t> vertex_of(mesh.vertex_count);
     std::uint32_t count = 0;
     auto pair = apart.begin();

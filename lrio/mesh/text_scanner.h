@@ -1,6 +1,6 @@
 #pragma once
-// Words and numbers out of text that is in memory. Internal to lrio.
-// Lines are counted only when an error needs the number, so that reading pays nothing for it.
+// Scans words and numbers of a text in memory. Internal to lrio.
+// Lines are counted only when an error message needs the number, so that reading is not slowed down.
 
 #include <algorithm>
 #include <array>
@@ -14,8 +14,8 @@
 
 namespace lacedring::detail {
 
-/// The length of a number that a program of Microsoft's wrote for what is not finite, "1.#INF", "1.#QNAN" and so on,
-/// from the '#' on; 0: it is none. `before` is what stands before the '#'.
+/// Microsoft's C library writes numbers that are not finite as "1.#INF", "1.#QNAN" etc. Returns the length of such a
+/// number from the '#' on, or 0. `before` is the text before the '#'.
 inline std::size_t msvc_tail(std::string_view before, std::string_view from_hash) {
     if (!before.ends_with("1.")) return 0;
     for (const std::string_view name : {"#INF", "#IND", "#QNAN", "#SNAN"}) {
@@ -28,15 +28,15 @@ inline std::size_t msvc_tail(std::string_view before, std::string_view from_hash
     return 0;
 }
 
-/// Text may begin with a byte order mark of UTF-8.
+/// Removes a UTF-8 byte-order mark from the beginning.
 inline std::string_view without_byte_order_mark(std::string_view text) {
     return text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
 }
 
 class TextScanner {
   public:
-    /// With `comments`, '#' starts one that ends with the line, also right behind a word. With `continuation`, a line
-    /// that ends in '\\' goes on, except in a comment; blanks may follow the '\\'.
+    /// With `comments`, a '#' starts a comment up to the line's end, even directly after a word. With `continuation`, a
+    /// '\\' at a line's end continues the line, except in a comment; blanks may follow the '\\'.
     explicit TextScanner(std::string_view text, bool comments = false, bool continuation = false)
         : begin_(text.data()),
           at_(begin_),
@@ -51,7 +51,7 @@ class TextScanner {
 
     static bool is_space(char c) { return is(c, blank | line_end); }
 
-    /// Is nothing left on this line? Call after skip_blanks().
+    /// Is the rest of the line empty? Call after skip_blanks().
     bool at_line_end() const { return at_ == end_ || is(*at_, ends_line_); }
 
     void skip_blanks() {
@@ -61,13 +61,13 @@ class TextScanner {
         if (at != end_ && is(*at, backslash & ends_word_)) skip_continuations();
     }
 
-    /// Is there nothing more on this line?
+    /// Skips blanks. True: nothing else is left on the line.
     bool skip_to_line_end() {
         skip_blanks();
         return at_line_end();
     }
 
-    /// Past blanks, line ends and comments.
+    /// Skips blanks, line ends and comments.
     void skip_space() {
         while (true) {
             const char* at = at_;
@@ -81,10 +81,10 @@ class TextScanner {
     void skip_line() {
         const char* at = at_;
         while (at != end_ && !is(*at, line_end)) ++at;
-        at_ = at == end_ ? at : at + 1;  // the second half of CRLF is an empty line
+        at_ = at == end_ ? at : at + 1;  // the LF of CRLF is skipped later as an empty line
     }
 
-    /// Past the rest of the line and the lines that continue it.
+    /// Skips the rest of the line and its continuation lines.
     void skip_statement() {
         while (!skip_to_line_end()) word();
         skip_line();
@@ -114,7 +114,7 @@ class TextScanner {
         if (from == end_) return {};
         const char* at = from;
         while (at != end_ && !is(*at, ends_word_)) ++at;
-        if (at != from && (at == end_ || is_space(*at))) {  // nearly always, and this is where the time goes
+        if (at != from && (at == end_ || is_space(*at))) {  // the usual case, which takes most of the time
             at_ = at;
             return view(from, at);
         }
@@ -129,7 +129,7 @@ class TextScanner {
         return view(first.data(), last.data() + last.size());
     }
 
-    /// The line of a place in the text, from 1. Cost: O(text before it).
+    /// The line number of a place in the text, from 1. Cost: O(text before it).
     std::size_t line_of(const char* place) const {
         const char newline = std::find(begin_, end_, '\n') == end_ ? '\r' : '\n';
         return static_cast<std::size_t>(std::count(begin_, place, newline)) + 1;
@@ -153,7 +153,7 @@ class TextScanner {
         return {from, static_cast<std::size_t>(to - from)};
     }
 
-    /// The place after a '\\' that continues the line; null if it does not continue.
+    /// The beginning of the next line if the '\\' at `at` continues the line, else null.
     const char* continued(const char* at) const {
         if (!is(*at, backslash & ends_word_)) return nullptr;
         ++at;
@@ -170,7 +170,7 @@ class TextScanner {
         }
     }
 
-    /// The word that begins at `from` and has a '\\' or '#' at at_, which may end it.
+    /// Ends the word that begins at `from`; at_ is at a '\\' or '#', which may or may not end the word.
     std::string_view rest_of_word(const char* from) {
         for (; at_ != end_ && !is_space(*at_) && continued(at_) == nullptr; ++at_) {
             if (!is(*at_, hash & ends_line_)) continue;
@@ -184,7 +184,7 @@ class TextScanner {
     const char* begin_;
     const char* at_;
     const char* end_;
-    std::uint8_t ends_line_;  // classes of characters
+    std::uint8_t ends_line_;  // sets of Class
     std::uint8_t ends_word_;
 };
 
@@ -192,7 +192,7 @@ template <std::integral Integer>
 bool parse_number(std::string_view word, Integer& out) {
     const char* from = word.data();
     const char* end = from + word.size();
-    if (word.size() - 1 < 9) {  // nearly all are digits, and too few for any overflow of what they are added up in
+    if (word.size() - 1 < 9) {  // fast path: up to 9 digits cannot overflow 32 bits
         std::uint32_t value = 0;
         while (from != end && static_cast<unsigned char>(*from - '0') < 10) {
             value = value * 10 + static_cast<std::uint32_t>(*from++ - '0');
@@ -208,7 +208,7 @@ bool parse_number(std::string_view word, Integer& out) {
     return error == std::errc{} && stop == end && from != end;
 }
 
-/// Is the decimal number, whose value no double holds, too small rather than too big?
+/// Is the decimal number, which is out of the range of doubles, too small rather than too large?
 bool is_underflow(std::string_view word);
 
 /// Parses Microsoft's "1.#INF", "-1.#IND", "1.#QNAN" and "1.#SNAN", which std::from_chars does not read. Zeros and an
@@ -230,14 +230,14 @@ bool parse_msvc(std::string_view word, Real& out) {
         if (rest[0] == '-' || rest[0] == '+') rest.remove_prefix(1);
         if (rest.empty() || rest.find_first_not_of("0123456789") != std::string_view::npos) return false;
     }
-    const char third = word[hash + 3];  // of "#INF", and of no other
+    const char third = word[hash + 3];  // 'F' only in "#INF"
     const bool infinite = tail == 4 && (third == 'F' || third == 'f');
     out = infinite ? std::numeric_limits<Real>::infinity() : std::numeric_limits<Real>::quiet_NaN();
     if (negative) out = -out;
     return true;
 }
 
-/// Correctly rounded, whatever the locale is. Too small a number becomes zero and too big a one infinite.
+/// Parses a number with correct rounding, independent of the locale. Underflow gives zero, overflow infinity.
 template <std::floating_point Real>
 bool parse_number(std::string_view word, Real& out) {
     const char* from = word.data();

@@ -9,13 +9,13 @@ namespace lacedring {
 
 namespace {
 
-/// The bytes of one attribute that are compared, tightly packed.
+/// The values of an attribute that weld compares, tightly packed.
 struct Key {
     std::size_t stride;
     const std::byte* data;
 };
 
-/// Copies of the values with -0 as 0, or nothing where there is no -0: it is the same place.
+/// A copy of the values with 0 for -0; empty if there is no -0.
 template <class Real>
 std::vector<std::byte> without_negative_zero(const std::vector<std::byte>& data) {
     std::vector<std::byte> out;
@@ -54,7 +54,7 @@ WeldReport differences(const Mesh& mesh, const detail::Groups& groups, const std
 Mesh weld(const Mesh& mesh, Weld mode, WeldReport* report) {
     if (mode == Weld::none) return mesh;
     const Attribute* position = find_attribute(mesh, "POSITION");
-    std::vector<std::byte> positions;  // where they differ from the attribute's
+    std::vector<std::byte> positions;  // without -0; empty if the attribute has none
     if (position != nullptr && position->type == ComponentType::f32)
         positions = without_negative_zero<float>(position->data);
     if (position != nullptr && position->type == ComponentType::f64)

@@ -10,7 +10,7 @@
 namespace lacedring {
 namespace {
 
-/// What the writers rely on: see the invariant of Mesh.
+/// Checks the preconditions of the writers: the guarantees of Mesh.
 Result<void> check(const Mesh& mesh) {
     const auto refuse = [](std::string why) {
         return Error{ErrorCode::invalid_argument, "the mesh " + std::move(why)};
@@ -28,7 +28,7 @@ Result<void> check(const Mesh& mesh) {
     const bool in_range = std::all_of(mesh.indices.begin(), mesh.indices.end(),
                                       [&mesh](std::uint32_t v) { return v < mesh.vertex_count; });
     if (mesh.indices.size() % 3 != 0 || !in_range) return refuse("has indices out of range");
-    // No reader takes a mesh without triangles, so that none is written.
+    // The readers refuse meshes without triangles, so they are not written.
     if (mesh.indices.empty()) return Error{ErrorCode::unsupported, "the mesh has no triangles"};
     return {};
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The writers behind write_mesh: each makes the whole file in memory. Internal to lrio.
+// The writers of write_mesh. Each makes the whole file in memory. Internal to lrio.
 
 #include <fmt/format.h>
 
@@ -27,13 +27,13 @@ inline void append(Bytes& to, std::string_view text) {
     append(to, std::as_bytes(std::span(text.data(), text.size())));
 }
 
-/// Gives each name that is asked for once more a number behind it.
+/// Makes names unique by appending a number to a name that is taken.
 class UniqueNames {
   public:
     std::string take(const std::string& wanted) {
         if (used_.insert(wanted).second) return wanted;
         std::uint64_t& number = next_.try_emplace(wanted, 2).first->second;
-        while (true) {  // each turn passes a name that is in use, or ends: linear in all names
+        while (true) {  // each iteration skips a used name or returns: linear in all names
             std::string name = fmt::format("{}_{}", wanted, number++);
             if (used_.insert(name).second) return name;
         }
@@ -44,15 +44,15 @@ class UniqueNames {
     std::unordered_map<std::string, std::uint64_t> next_;
 };
 
-/// The mesh's attributes as glTF can hold them.
+/// A mesh's attributes converted for glTF.
 struct GltfAttributes {
-    std::vector<Attribute> attributes;  ///< names are unique UTF-8; types are those that glTF allows them
-    bool quantized = false;             ///< some need KHR_mesh_quantization
+    std::vector<Attribute> attributes;  ///< with unique UTF-8 names, and types that glTF allows for them
+    bool quantized = false;             ///< some attribute needs KHR_mesh_quantization
 };
-/// Errors: invalid_argument (a position that is not finite as a float).
+/// Converts the mesh's attributes. Errors: invalid_argument (a position that is not finite as a float).
 Result<GltfAttributes> fit_to_gltf(const Mesh& mesh, WriteNotes& notes);
 
-// The file is `head` and then `body`.
+// The file is `head` followed by `body`.
 Result<void> make_glb(const Mesh& mesh, Bytes& head, Bytes& body, WriteNotes& notes);
 void make_ply(const Mesh& mesh, Bytes& head, Bytes& body);
 void make_obj(const Mesh& mesh, Bytes& body, WriteNotes& notes);

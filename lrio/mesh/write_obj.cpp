@@ -1,4 +1,4 @@
-// OBJ in the shortest decimals that read back as the same floats.
+// Writes OBJ, with the shortest decimals that read back as the same floats.
 
 #include <fmt/compile.h>
 #include <fmt/format.h>
@@ -12,12 +12,12 @@
 namespace lacedring::detail {
 namespace {
 
-/// Values of one attribute, as the lines of one keyword.
+/// The values of an attribute, written as the lines of a keyword.
 struct Values {
     const Attribute* attribute = nullptr;
-    bool turn_v = false;  ///< texture coordinates whose v is downwards: OBJ's is upwards
+    bool turn_v = false;  ///< flip v of texture coordinates, which points up in OBJ
 
-    /// Only attributes of floats with `components` components are written.
+    /// Null unless the attribute has floats and `components` components.
     static Values of(const Mesh& mesh, std::string_view name, std::size_t components) {
         const Attribute* a = find_attribute(mesh, name);
         const bool fits = a != nullptr && a->components == components &&

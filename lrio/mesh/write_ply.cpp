@@ -1,4 +1,4 @@
-// Binary PLY with every attribute bit for bit. Comment lines carry what PLY has no words for (ply_header.h).
+// Writes binary PLY with all attributes bit for bit. Comment lines keep what PLY cannot express (ply_header.h).
 
 #include <cctype>
 #include <cstring>
@@ -33,7 +33,7 @@ std::string_view ply_type(ComponentType type) {
     return "double";
 }
 
-/// The names that other programs know, where the attribute has one for each component.
+/// The property names of an attribute: those that other programs know if there is one for each component.
 std::vector<std::string> component_names(const Attribute& attribute) {
     std::vector<std::string> names;
     if (attribute.name == "POSITION") names = {"x", "y", "z"};

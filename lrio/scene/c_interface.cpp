@@ -1,4 +1,4 @@
-// scene.h: the C interface, on C++'s.
+// The C interface scene.h, on top of scene.hpp.
 
 #include <cstdlib>
 #include <cstring>
@@ -20,7 +20,7 @@ lacedring_code scene_code(ErrorCode code) {
             return LACEDRING_CODE_OUT_OF_MEMORY;
         case ErrorCode::invalid_argument:
             return LACEDRING_CODE_INVALID_ARGUMENT;
-        default:  // all else is something about the bytes
+        default:  // all other errors are about the bytes
             return LACEDRING_CODE_MALFORMED;
     }
 }

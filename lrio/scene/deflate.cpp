@@ -32,7 +32,7 @@ Result<std::vector<std::byte>> inflate_bytes(std::span<const std::byte> bytes, s
     std::size_t done = 0;
     int state = Z_OK;
     while (state == Z_OK) {
-        if (done == out.size()) {  // as much again, so that a claim alone takes nothing
+        if (done == out.size()) {  // doubles the buffer: memory grows only with decoded bytes
             if (done > most) break;
             out.resize(std::clamp<std::size_t>(2 * done, std::size_t{4} * bytes.size() + 64, std::size_t{1} << 40));
         }

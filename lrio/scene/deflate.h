@@ -1,5 +1,5 @@
 #pragma once
-// zlib streams, which every browser and language can read. Internal to lrio.
+// Compresses and decompresses zlib streams. Internal to lrio.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,11 +10,11 @@
 
 namespace lacedring::detail {
 
-/// Errors: too_large (4 GiB).
+/// Compresses to a zlib stream. Errors: too_large (4 GiB).
 Result<std::vector<std::byte>> deflate_bytes(std::span<const std::byte> bytes);
 
-/// Errors: malformed (no zlib stream, bytes behind its end), `beyond` (more than `most` bytes come out). Untrusted
-/// input: safe; takes twice the bytes that come out, whatever `most` is.
+/// Decompresses a zlib stream. Errors: malformed (no zlib stream, bytes after its end), `beyond` (more than `most`
+/// decompressed bytes). Untrusted input: safe; takes at most twice the decompressed bytes, whatever `most` is.
 Result<std::vector<std::byte>> inflate_bytes(std::span<const std::byte> bytes, std::uint64_t most,
                                              ErrorCode beyond = ErrorCode::malformed);
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t kQuaternions = 0x80, kMostWidth = 16;
 
-/// The bits of a float as a number that grows with it.
+/// Maps the bits of a float to an integer with the same order as the floats.
 std::uint32_t rank_of(std::uint32_t bits) {
     return bits ^ ((bits >> 31) != 0 ? UINT32_MAX : 0x80000000U);
 }
@@ -22,8 +22,8 @@ std::uint32_t bits_of(std::uint32_t rank) {
     return rank ^ ((rank >> 31) != 0 ? 0x80000000U : UINT32_MAX);
 }
 
-/// The rank that a float is expected to have after two others of its column. In double precision, where the product is
-/// exact: compilers that fuse it with the difference get the same.
+/// Predicts a float's rank by the line through the two previous floats of its column. Computes in doubles, where the
+/// product is exact, so that compilers that fuse it with the subtraction get the same result.
 std::uint32_t expected_rank(std::uint32_t last, std::uint32_t before) {
     const auto a = static_cast<double>(std::bit_cast<float>(bits_of(last)));
     const auto b = static_cast<double>(std::bit_cast<float>(bits_of(before)));
@@ -31,7 +31,7 @@ std::uint32_t expected_rank(std::uint32_t last, std::uint32_t before) {
     return std::isfinite(line) ? rank_of(std::bit_cast<std::uint32_t>(line)) : last;
 }
 
-/// The rank of what the three other components leave of a unit quaternion.
+/// Predicts the rank of component `which` of a unit quaternion from the three others.
 std::uint32_t rest_rank(const std::uint32_t* row, std::uint32_t which, bool negative) {
     double rest = 1;
     for (std::uint32_t c = 0; c < 4; ++c) {
@@ -43,7 +43,7 @@ std::uint32_t rest_rank(const std::uint32_t* row, std::uint32_t which, bool nega
     return rank_of(std::bit_cast<std::uint32_t>(negative ? -root : root));
 }
 
-/// The number of the largest component; 4 is added if the component is negative.
+/// The index of the component with the largest magnitude, plus 4 if the component is negative.
 std::uint32_t largest_of(const std::uint32_t* row) {
     std::uint32_t which = 3;
     float most = -1;
@@ -75,7 +75,7 @@ std::uint32_t word_of(std::span<const std::byte> bytes) {
     return word;
 }
 
-/// The rank that component c of row i is expected to have; `ranks` are known up to there.
+/// Predicts the rank of component c of row i; `ranks` has all previous rows.
 std::uint32_t expect(const std::vector<std::uint32_t>& ranks, std::size_t i, std::size_t width, std::size_t c) {
     const std::size_t at = i * width + c;
     if (i == 0) return 0x80000000U;
@@ -90,7 +90,7 @@ Result<std::vector<std::byte>> encode_floats(std::span<const std::byte> bytes, s
     std::vector<std::uint32_t> ranks(count);
     if (count > 0) std::memcpy(ranks.data(), bytes.data(), 4 * count);
     for (std::uint32_t& rank : ranks) rank = rank_of(rank);
-    // The lengths of all codes, column by column, and before them which component of each quaternion is left out.
+    // The bit lengths of all codes, column by column; for quaternions, preceded by largest_of() of each row.
     std::vector<std::byte> lengths((quaternions ? rows : 0) + count);
     const std::size_t base = quaternions ? rows : 0;
     std::vector<std::byte> tail;
@@ -107,7 +107,8 @@ Result<std::vector<std::byte>> encode_floats(std::span<const std::byte> bytes, s
             const auto length = static_cast<unsigned>(std::bit_width(code));
             lengths[base + c * rows + i] = static_cast<std::byte>(length);
             if (length < 2) continue;
-            bits |= static_cast<std::uint64_t>(code & ((1U << (length - 1)) - 1)) << used;  // the highest bit is 1
+            bits |= static_cast<std::uint64_t>(code & ((1U << (length - 1)) - 1))
+                    << used;  // without the highest bit: it is always 1
             for (used += length - 1; used >= 8; used -= 8, bits >>= 8) tail.push_back(static_cast<std::byte>(bits));
         }
     }

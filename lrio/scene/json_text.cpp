@@ -9,7 +9,7 @@
 namespace lacedring::detail {
 namespace {
 
-/// Parses text that is known to be valid JSON.
+/// Parses text that is valid JSON.
 class JsonParser {
   public:
     explicit JsonParser(std::string_view text) : at_(text.data()), end_(text.data() + text.size()) {

@@ -1,4 +1,4 @@
-// Packs a glTF scene: plans, encodes its streams, and edits the document.
+// Packs a glTF scene: plans the streams, encodes them, and edits the document.
 
 #include <algorithm>
 
@@ -22,8 +22,8 @@ namespace {
 
 using namespace detail;
 
-/// Sets of at least so many triangles have a stream of their own; smaller ones share one, up to so many together: what
-/// a stream costs whatever is in it is then small, and a loader that wants one mesh need not decode all.
+/// Sets of at least kAlone triangles get their own stream. Smaller sets share streams of up to kTogether triangles:
+/// this spreads a stream's fixed cost, and still a loader that needs one mesh need not decode everything.
 constexpr std::size_t kAlone = 16384, kTogether = 65536;
 
 class Packer {
@@ -50,14 +50,14 @@ class Packer {
   private:
     double file_bytes() const { return static_cast<double>(file_.file_bytes + file_.buffers.loaded_bytes()); }
 
-    /// Sets of one stream.
+    /// The sets of a stream.
     struct Group {
         std::vector<std::uint32_t> sets;
         std::size_t triangles = 0;
         bool keep_order = false;
     };
 
-    /// Or does a part of it say so?
+    /// Does any part of the document use the extension?
     bool is_packed() const {
         const auto has_extension = [](const JsonValue::Member& member) {
             return extension_of(member.value) != nullptr;
@@ -71,7 +71,7 @@ class Packer {
                            [&](const auto& mesh) { return any(mesh.value.list("primitives")); });
     }
 
-    /// Primitives of Draco's as they are decoded (gltf_draco.h): lists of triangles, with accessors of their own.
+    /// Edits Draco primitives in the document to their decoded form (gltf_draco.h): triangle lists with own accessors.
     void name_draco_accessors() {
         const auto& accessors = file_.model.accessors;
         for (std::size_t i = json_.root.list("accessors").size(); i < accessors.size(); ++i) {
@@ -165,7 +165,7 @@ class Packer {
 
     void group_sets() {
         quantization_.emplace(plan_, meshes_, options_.bits);
-        std::map<std::string, std::size_t> open;  // the group that takes sets of a kind
+        std::map<std::string, std::size_t> open;  // by kind: the group to which small sets are added
         for (std::uint32_t s = 0; s < plan_.sets.size(); ++s) {
             const std::size_t triangles = meshes_[s].mesh.triangle_count();
             const std::string kind = quantization_->kind_of(s) + (plan_.sets[s].keep_order ? "|order" : "");
@@ -183,7 +183,7 @@ class Packer {
         }
     }
 
-    /// The parts of the group's sets, in the document's order of their first primitives.
+    /// The number of each part of each set: parts are numbered in the document's order of their first primitives.
     std::vector<std::vector<std::uint32_t>> number_parts(const Group& group) const {
         std::vector<std::vector<std::uint32_t>> out;
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::size_t, std::size_t>> places;
@@ -218,7 +218,7 @@ class Packer {
         auto stream = encode_scene_stream(std::move(sets), group.keep_order, options_.form, options_.bits.threads);
         if (!stream) return stream.error();
         degenerate_ += stream->degenerate;
-        // Counts, bounds and the fallback are those of the decoded stream: a reader sees the same.
+        // Counts, bounds and the fallback come from the decoded stream, so that they match what readers decode.
         StreamDecoder::Said said{{}, std::move(vertices)};
         for (const auto& numbers : part_numbers) said.set_of_part.resize(said.set_of_part.size() + numbers.size());
         for (std::size_t s = 0; s < group.sets.size(); ++s) {
@@ -263,7 +263,7 @@ class Packer {
         return out;
     }
 
-    /// Edits accessors and primitives of the group's sets.
+    /// Edits the accessors and primitives of the group's sets in the document.
     Result<void> describe(const Group& group, const std::vector<std::vector<std::uint32_t>>& part_numbers,
                           SceneStream stream, const Decoded& decoded) {
         const std::size_t number = streams_.size();
@@ -385,8 +385,8 @@ class Packer {
     Reading& reading_;
     PackReport& report_;
     JsonText json_;
-    JsonValue* accessors_ = nullptr;  ///< the document's, and its meshes
-    std::span<JsonValue::Member> meshes_json_;
+    JsonValue* accessors_ = nullptr;            ///< "accessors" of the document
+    std::span<JsonValue::Member> meshes_json_;  ///< "meshes" of the document
     ScenePlan plan_;
     std::vector<SetMesh> meshes_;
     std::optional<SceneQuantization> quantization_;
@@ -408,7 +408,7 @@ Result<SceneFile> pack_scene(std::span<const std::byte> bytes, const std::filesy
     }
     return caught([&]() -> Result<SceneFile> {
         LR_ASSIGN(auto file, load_gltf(bytes, reading, GltfUse::everything));
-        told.read.left_out.clear();  // of a mesh; here nothing is
+        told.read.left_out.clear();  // load_gltf lists what a mesh would lack; packing keeps everything
         return Packer(file, options, reading, told).run();
     });
 }

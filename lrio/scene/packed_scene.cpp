@@ -88,7 +88,7 @@ Result<PackedScene> PackedScene::load(std::span<const std::byte> bytes, Reading&
         if (auto good = check_json(text); !good) return good;
         out.json_ = std::make_unique<JsonText>(text);
         if (!out.json_->root.is_object()) return malformed("glTF: is not a JSON object");
-        // The buffers alone, as GltfBuffers takes them.
+        // GltfBuffers needs only the buffers, as nlohmann's JSON.
         const JsonValue* buffers = out.json_->root.find("buffers");
         out.buffer_list_ = std::make_unique<nlohmann::json>(nlohmann::json::object());
         if (buffers != nullptr && buffers->is_array()) {
@@ -108,7 +108,7 @@ Result<PackedScene> PackedScene::load(std::span<const std::byte> bytes, Reading&
         const auto index = view->integer();
         const auto packed = out.views().raw(index.value_or(UINT64_MAX));
         if (!packed) return packed.error();
-        // A value takes up to 32 times its text: what may be, of the memory that may be taken.
+        // The parsed JSON takes up to 32 times its text. Limits the text to a 40th of the memory limit, or less.
         std::uint64_t most = 64;
         while (most < UINT32_MAX / 2 && reading.check_memory(1, 80.0 * static_cast<double>(most), 0, file_bytes)) {
             most *= 2;

@@ -1,5 +1,5 @@
 #pragma once
-// A packed glTF as it is read: its document, and the bytes of its buffer views. Internal to lrio.
+// Reads a packed glTF: its document, and the bytes of its buffer views. Internal to lrio.
 
 #include <cstdint>
 #include <memory>
@@ -13,32 +13,32 @@
 
 namespace lacedring::detail {
 
-/// The bytes of buffer view `index` of a document, decoded where the extension codes them.
+/// The buffer views of a document. The extension may code a view: then it stands for other bytes than it has.
 class SceneViews {
   public:
     SceneViews(const JsonValue& root, GltfBuffers& buffers)
         : views_(root.list("bufferViews")), buffer_list_(root.list("buffers")), buffers_(&buffers) {}
 
-    /// As they lie in the buffer. Errors: malformed, GltfBuffers'.
+    /// The view's own range of its buffer, ignoring the extension. Errors: malformed, GltfBuffers'.
     Result<std::span<const std::byte>> raw(std::uint64_t index) const;
-    /// How many bytes they stand for, as the view says. Errors: raw's, and those of the bytes that are coded.
+    /// The view's byteLength, which is the size of contents(). Errors: malformed, GltfBuffers'.
     Result<std::uint64_t> size(std::uint64_t index) const;
-    /// What they stand for: a copy. Errors: malformed.
+    /// A copy of the view's bytes, decoded if they are coded. Errors: malformed, GltfBuffers'.
     Result<std::vector<std::byte>> contents(std::uint64_t index) const;
-    /// Does the view stand for nothing, its buffer being a placeholder?
+    /// Is the view in a placeholder buffer and not coded, so that it has no contents?
     bool is_placeholder(std::uint64_t index) const;
     /// Are its bytes coded?
     bool is_coded(std::uint64_t index) const;
 
   private:
     Result<std::span<const std::byte>> range(const JsonValue& place) const;
-    /// The bytes of a view as they are in the file, coded or not.
+    /// The bytes of a view in the file: the coded bytes if it is coded.
     Result<std::span<const std::byte>> stored(std::uint64_t index) const;
     std::span<const JsonValue::Member> views_, buffer_list_;
     GltfBuffers* buffers_;
 };
 
-/// The document of a glTF and its buffers, the packed document taken out of its buffer view.
+/// The document of a glTF, unpacked from its buffer view if it is packed, and its buffers.
 class PackedScene {
   public:
     /// `bytes` and `reading` outlive it. Errors: malformed, unsupported.
@@ -46,16 +46,16 @@ class PackedScene {
 
     JsonText& json() { return *json_; }
     SceneViews views() { return {json_->root, *buffers_}; }
-    /// Was the document in a buffer view? What its streams say as well is then left out of it.
+    /// Was the document packed in a buffer view? It then lacks the data that its streams have, too.
     bool is_document_packed() const { return text_ != nullptr; }
     bool has_bin_chunk() const { return has_bin_chunk_; }
-    /// Of the file, and of those that were opened beside it.
+    /// Bytes of the file and of other files opened for its buffers.
     double bytes() const { return file_bytes_ + static_cast<double>(buffers_->loaded_bytes()); }
 
   private:
     double file_bytes_ = 0;
     bool has_bin_chunk_ = false;
-    std::unique_ptr<std::string> text_;  ///< of a packed document
+    std::unique_ptr<std::string> text_;  ///< the text of a packed document; null: the document is plain
     std::unique_ptr<JsonText> json_;
     std::unique_ptr<nlohmann::json> buffer_list_;
     std::unique_ptr<GltfBuffers> buffers_;

@@ -9,13 +9,13 @@
 namespace lacedring::detail {
 namespace {
 
-/// Numbers of 7 bits a byte, the lowest ones first; the highest bit says that more follow.
+/// Writes a number as bytes of 7 bits, the lowest bits first; the highest bit of a byte says that more bytes follow.
 void put_varint(std::vector<std::byte>& out, std::uint32_t value) {
     for (; value >= 0x80; value >>= 7) out.push_back(static_cast<std::byte>(value | 0x80));
     out.push_back(static_cast<std::byte>(value));
 }
 
-/// False: there is none.
+/// Removes a number from the front of `from`. False: `from` does not begin with a valid number.
 bool take_varint(std::span<const std::byte>& from, std::uint32_t& value) {
     value = 0;
     for (unsigned shift = 0; shift < 35 && !from.empty(); shift += 7) {
@@ -28,8 +28,10 @@ bool take_varint(std::span<const std::byte>& from, std::uint32_t& value) {
     return false;
 }
 
-/// Codes are: 0, a part that had no run yet, its distance from the number behind the last such one following, even
-/// numbers forwards; 1 to kFar, that many parts back among those used; beyond, the part's number.
+/// A run begins with the code of its part:
+/// 0: a part without earlier runs. A folded number follows: the part minus the previous such part, minus 1.
+/// 1 to kFar: a recently used part, by its position from the end of the list.
+/// Above kFar: any other part, as kFar + 1 + its number.
 constexpr std::size_t kFar = 64;
 
 std::uint32_t fold_distance(std::uint32_t distance) {
@@ -43,7 +45,7 @@ std::uint32_t unfold_distance(std::uint32_t code) {
 
 Result<std::vector<std::byte>> encode_part_codes(std::span<const std::uint32_t> parts) {
     std::vector<std::byte> runs;
-    std::vector<std::uint32_t> recent;  // the last one is the latest
+    std::vector<std::uint32_t> recent;  // recently used parts, the latest last
     std::vector<bool> seen;
     std::uint32_t expected = 0;
     for (std::size_t from = 0; from < parts.size();) {

@@ -1,9 +1,9 @@
 #pragma once
-// Which part of a scene each triangle of a stream belongs to, in the stream's order. Internal to lrio;
-// docs/gltf/LACEDRING_mesh_compression has the format.
+// Codes the part of each triangle of a stream, in the stream's order. Internal to lrio;
+// docs/gltf/LACEDRING_mesh_compression specifies the format.
 //
-// Triangles come in runs of one part. A run says how far back its part was used last, among parts: a ring that crosses
-// back and forth between two parts says 2 each time.
+// The triangles form runs of equal parts. A run's code is the position of its part in a list of recently used parts: a
+// ring that alternates between two parts has the code 2 each time.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,10 +14,12 @@
 
 namespace lacedring::detail {
 
-/// The parts of triangles: all numbers below the largest one occur. Cost: O(triangles). Errors: deflate_bytes'.
+/// Encodes the part of each triangle. All numbers up to the largest part must occur. Cost: O(triangles). Errors:
+/// deflate_bytes'.
 Result<std::vector<std::byte>> encode_part_codes(std::span<const std::uint32_t> parts);
 
-/// The part of each of so many triangles: all parts below `parts` occur. Errors: malformed. Untrusted input: safe.
+/// Decodes the part of each of `triangles` triangles, and checks that all numbers below `parts` occur. Errors:
+/// malformed. Untrusted input: safe.
 Result<std::vector<std::uint32_t>> decode_part_codes(std::span<const std::byte> codes, std::size_t triangles,
                                                      std::size_t parts);
 

@@ -1,5 +1,5 @@
 #pragma once
-// A glTF to read triangles from, plain in memory where the file is packed. Internal to lrio.
+// A glTF from which triangles are read; a packed one is unpacked in memory. Internal to lrio.
 
 #include <cstddef>
 #include <optional>
@@ -13,14 +13,14 @@ namespace lacedring::detail {
 
 class PlainScene {
   public:
-    /// `bytes` outlive it. What unpacking takes is limited by itself, as what other compressed geometry decodes to.
-    /// Errors: unpack_scene's.
+    /// `bytes` outlives the result. The memory of unpacking has a limit of its own, separate from the mesh's. Errors:
+    /// unpack_scene's.
     static Result<PlainScene> open(std::span<const std::byte> bytes, Reading& reading);
 
-    /// Valid as long as this is, and stays where it is. Errors: split_gltf's.
+    /// Valid as long as this object, which must not move. Errors: split_gltf's.
     Result<GltfChunks> chunks() const;
 
-    std::size_t file_bytes = 0;  ///< as they were read, packed, with those of files beside it that unpacking opened
+    std::size_t file_bytes = 0;  ///< bytes of the original file and of other files that unpacking opened
 
   private:
     std::span<const std::byte> bytes_;

@@ -11,7 +11,7 @@
 namespace lacedring::detail {
 namespace {
 
-/// The name without the numbers of morph target and accessor.
+/// The name without its suffixes "@TARGET" and "#NUMBER".
 std::string_view semantic(std::string_view name) {
     return name.substr(0, name.find_first_of("@#"));
 }
@@ -28,12 +28,12 @@ double value_at(const Attribute& a, std::size_t i) {
     return static_cast<double>(value);
 }
 
-/// Sizes from one power of two up to the next are of one class.
+/// The class of a size: the exponent of the power of two at or below it.
 int size_class(double size) {
     return size > 0 && std::isfinite(size) ? static_cast<int>(std::floor(std::log2(size))) : INT16_MIN;
 }
 
-/// Weights of a vertex as multiples of 2^-bits whose sum stays 1.
+/// Rounds the weights of a vertex to multiples of 2^-bits, with a sum of exactly 1 if it was about 1.
 void round_weights(std::vector<double>& weights, std::uint32_t bits) {
     const double all = std::ldexp(1.0, static_cast<int>(bits));
     const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
@@ -47,7 +47,7 @@ void round_weights(std::vector<double>& weights, std::uint32_t bits) {
     double left = all;
     for (std::size_t i = 0; i < weights.size(); ++i) {
         const double exact = weights[i] / sum * all;
-        // None becomes 0: its joint would be named without effect.
+        // No positive weight becomes 0: its joint would have no effect.
         weights[i] = weights[i] > 0 ? std::max(std::floor(exact), 1.0) : 0.0;
         lost[i] = exact - weights[i];
         left -= weights[i];
@@ -58,7 +58,7 @@ void round_weights(std::vector<double>& weights, std::uint32_t bits) {
     for (double& w : weights) w /= all;
 }
 
-/// Rounds all weights of the set's vertices. Returns the largest error of each attribute.
+/// Rounds the weights of all vertices. `columns`: the attributes with weights. Returns the largest error of each.
 std::vector<double> quantize_weights(Mesh& mesh, const std::vector<std::size_t>& columns, std::uint32_t bits) {
     std::vector<double> errors(columns.size(), 0), weights;
     for (std::size_t v = 0; v < mesh.vertex_count; ++v) {
@@ -134,7 +134,7 @@ void SceneQuantization::measure_positions(const ScenePlan& plan, std::span<const
         }
     };
     std::vector<Box> boxes(meshes.size());
-    std::map<std::uint32_t, Box> mesh_boxes;  // by the document's mesh
+    std::map<std::uint32_t, Box> mesh_boxes;  // by the mesh's index in the document
     for (std::size_t s = 0; s < meshes.size(); ++s) {
         for (const Attribute& a : meshes[s].mesh.attributes) {
             if (semantic(a.name) != "POSITION" || is_morph(a.name) || a.type != ComponentType::f32) continue;
@@ -191,14 +191,14 @@ std::vector<VertexOptions> SceneQuantization::options_of(std::span<const std::ui
             options.mapping = VertexMapping::lattice;
             options.step = step;
         };
-        Range range;  // of all sets
+        Range range;  // maximum over all sets
         for (const std::uint32_t s : sets) {
             range.extent = std::max(range.extent, columns_[s][c].range.extent);
             range.largest = std::max(range.largest, columns_[s][c].range.largest);
         }
         const auto fraction = [](std::uint32_t bits) { return std::ldexp(1.0F, -static_cast<int>(bits)); };
         if (column.type != ComponentType::f32 || !column.roundable) {
-            // stays as it is
+            // lossless
         } else if (name == "POSITION") {
             lattice(position_step);
         } else if (name == "NORMAL" || name == "TANGENT") {

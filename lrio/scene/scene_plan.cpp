@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kNone = UINT32_MAX;
 
-/// Extensions of primitives that do not number vertices or triangles.
+/// Is it an extension of primitives that does not refer to vertices or triangles by index?
 bool is_order_free(std::string_view extension) {
     constexpr std::string_view kNames[] = {"KHR_draco_mesh_compression", "KHR_materials_variants", "EXT_mesh_features",
                                            "EXT_structural_metadata"};
@@ -24,7 +24,7 @@ struct Candidate {
     std::vector<SceneAttribute> attributes;
     std::optional<std::uint32_t> indices;
     int mode = 4;
-    bool in_order = false;  ///< an extension may number its vertices or triangles
+    bool in_order = false;  ///< an extension may refer to its vertices or triangles by index
 };
 
 class Planner {
@@ -116,7 +116,7 @@ class Planner {
         if (accessor && known(*accessor)) used_otherwise_[static_cast<std::size_t>(*accessor)] = true;
     }
 
-    /// Animations, skins, instances: values that are read by their numbers.
+    /// Marks accessors that animations, skins and instances use.
     void mark_other_uses() {
         for (const auto& animation : document_.list("animations")) {
             for (const auto& sampler : animation.value.list("samplers")) {
@@ -135,8 +135,8 @@ class Planner {
     }
 
     Result<ScenePlan> make_sets() {
-        std::map<std::uint32_t, std::vector<const Candidate*>> groups;  // by the first primitive's number, see below
-        std::map<std::uint32_t, std::uint32_t> first;                   // of each group
+        std::map<std::uint32_t, std::vector<const Candidate*>> groups;  // by the index of the first candidate
+        std::map<std::uint32_t, std::uint32_t> first;                   // index of each group's first candidate
         for (std::uint32_t i = 0; i < candidates_.size(); ++i) {
             const std::uint32_t group = find(candidates_[i].attributes[0].accessor);
             groups[first.try_emplace(group, i).first->second].push_back(&candidates_[i]);
@@ -154,7 +154,7 @@ class Planner {
         return std::move(plan_);
     }
 
-    /// Without attributes: it is not compressed, and counted.
+    /// Makes the set of a group. Without attributes, the set is not compressed; its primitives have been counted.
     Result<VertexSet> make_set(const std::vector<const Candidate*>& primitives) {
         VertexSet set;
         set.keep_order = keep_order_;
@@ -222,7 +222,9 @@ class Planner {
     std::size_t accessors_;
     std::vector<std::uint32_t> group_;
     std::vector<bool> used_otherwise_, is_indices_;
-    std::vector<bool> lacks_positions_;  ///< a reader could take their triangles for a part
+    /// Attributes of triangles without positions. Compressing their accessors would make readers of a packed document
+    /// treat these triangles as a part.
+    std::vector<bool> lacks_positions_;
     std::vector<Candidate> candidates_;
     ScenePlan plan_;
 };

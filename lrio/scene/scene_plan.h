@@ -1,5 +1,5 @@
 #pragma once
-// What of a glTF scene is compressed: its triangle primitives, by the vertices that they share. Internal to lrio.
+// Plans the compression of a glTF scene: groups its triangle primitives by shared vertices. Internal to lrio.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,38 +20,39 @@ struct PrimitivePlace {
     std::uint32_t mesh = 0, primitive = 0;
 };
 
-/// An index list, and the primitives that have it.
+/// An index list, and the primitives that use it.
 struct ScenePart {
-    std::optional<std::uint32_t> indices;  ///< accessor; none: the vertices in their order
+    std::optional<std::uint32_t> indices;  ///< accessor; none: the vertices in order
     int mode = 4;                          ///< triangles, strip or fan
     std::vector<PrimitivePlace> primitives;
 };
 
 struct SceneAttribute {
     std::uint32_t accessor = 0;
-    /// As in the stream: glTF's, with "@T" behind it in morph target T, and "#N" for the N-th accessor of one name.
+    /// The name in the stream: glTF's name, then "@T" if it is of morph target T, then "#N" if it is the N-th accessor
+    /// of that name.
     std::string name;
 };
 
-/// Vertices that primitives share: all accessors that are connected by primitives that use both, as attributes, morph
-/// targets or indices. All have as many elements.
+/// The vertices that some primitives share: two accessors are of the same set if a primitive uses both, as attributes,
+/// morph targets or indices. All attribute accessors of a set have the same count.
 struct VertexSet {
     std::size_t vertices = 0;
     std::vector<SceneAttribute> attributes;  ///< the first one is POSITION
     std::vector<ScenePart> parts;
-    bool keep_order = false;  ///< something else reads the vertices, or the primitives, by their numbers
+    bool keep_order = false;  ///< something refers to the vertices or triangles by index
 };
 
 struct ScenePlan {
     std::vector<VertexSet> sets;
-    std::map<std::string, std::size_t> not_compressed;  ///< primitives by what they are
+    std::map<std::string, std::size_t> not_compressed;  ///< number of primitives for each reason
 };
 
-/// Reads no values, but looks at where they lie. Errors: malformed (primitives that are not as glTF has them).
+/// Makes the plan. Checks accessors, but reads no values. Errors: malformed (primitives that violate glTF).
 Result<ScenePlan> plan_scene(const JsonValue& document, GltfFile& file, bool keep_order);
 
-/// Calls visit(name, accessor) for each attribute of a primitive, those of morph targets as "NAME@TARGET". What visit
-/// returns, if it is an error, ends it. Errors: malformed (a number that is none).
+/// Calls visit(name, accessor) for each attribute of a primitive, and with "NAME@TARGET" for those of morph targets.
+/// Stops if visit returns an error, and returns it. Errors: malformed (not an accessor index).
 template <class Visit>
 Result<void> visit_attributes(const JsonValue& primitive, Visit visit) {
     const auto all = [&](const JsonValue* attributes, const std::string& suffix) -> Result<void> {

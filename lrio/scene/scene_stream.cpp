@@ -15,11 +15,11 @@
 namespace lacedring::detail {
 namespace {
 
-/// Sets one behind the other, and their surfaces.
+/// The concatenated sets, and their surfaces.
 struct Joined {
     Mesh mesh;
     Surface surface;
-    std::vector<std::uint32_t> part_of;  ///< of each triangle
+    std::vector<std::uint32_t> part_of;  ///< part of each triangle
     std::size_t parts = 0;
 };
 
@@ -64,7 +64,7 @@ Result<void> compress(LrFile& file, const std::vector<VertexOptions>& options, u
         auto encoded = encode_vertices({a.type, a.components, a.normalized, a.data}, how);
         if (!encoded) {
             if (encoded.error().code != ErrorCode::invalid_argument) return encoded.error();
-            continue;  // stays as it lies in memory
+            continue;  // stays plain
         }
         a.words = std::move(encoded->words);
         a.data = {};
@@ -104,8 +104,8 @@ Result<SceneStream> encode_scene_stream(std::vector<CodedSet> sets, bool keep_or
     Result<StreamChoice> best = make_choice(joined.mesh, joined.surface, options, keep_order, form, threads);
     if (!best) return best.error();
     if (several) {
-        // Parts of one model often meet: their positions are then there once. Where they do not, as of many alike that
-        // lie in one another until their nodes move them, joining them is worth nothing.
+        // Sets of a model often meet: joining equal positions across sets then stores them once. But many equal sets
+        // may overlap until their nodes move them apart; joining these does not help. So the smaller stream is taken.
         const Surface across = find_surface(joined.mesh);
         if (across.vertex_count < joined.surface.vertex_count - joined.surface.vertex_count / 20) {
             Mesh moved = joined.mesh;

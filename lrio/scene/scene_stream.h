@@ -1,5 +1,5 @@
 #pragma once
-// Vertex sets as one .lr file: the extension's streams. Internal to lrio.
+// Encodes vertex sets to a stream of the extension: an .lr file, and part codes. Internal to lrio.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,20 +14,20 @@
 namespace lacedring::detail {
 
 struct SceneStream {
-    std::vector<std::byte> file;   ///< .lr
-    std::vector<std::byte> parts;  ///< part codes; empty where there is one part
-    std::uint32_t degenerate = 0;  ///< triangles that are left out
+    std::vector<std::byte> file;   ///< the .lr file
+    std::vector<std::byte> parts;  ///< part codes; empty if there is one part
+    std::uint32_t degenerate = 0;  ///< number of degenerate triangles, which are left out
 };
 
-/// A set's mesh as it is encoded: values quantized, copies merged. How each attribute is coded.
+/// A set's mesh to encode, with quantized values, and the coding of its attributes.
 struct CodedSet {
     SetMesh set;
-    std::vector<VertexOptions> options;       ///< of each attribute
-    std::vector<std::uint32_t> part_numbers;  ///< the stream's number of each of its parts
+    std::vector<VertexOptions> options;       ///< coding of each attribute
+    std::vector<std::uint32_t> part_numbers;  ///< number in the stream of each part
 };
 
-/// Sets whose attributes are alike and coded alike as one stream; they are taken over. Positions of different sets are
-/// joined where that makes the stream smaller. Cost: O(T). Errors: too_large.
+/// Encodes sets with the same attributes and coding to one stream. Joins equal positions of different sets if that
+/// makes the stream smaller. Cost: O(T). Errors: too_large.
 Result<SceneStream> encode_scene_stream(std::vector<CodedSet> sets, bool keep_order, LrForm form, unsigned threads);
 
 }  // namespace lacedring::detail

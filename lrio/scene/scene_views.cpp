@@ -14,19 +14,19 @@
 
 namespace lacedring::detail {
 
-/// What refers to a view.
+/// The references to a view.
 struct SceneViewWriter::Use {
     bool used = false;
-    bool image = false;
-    std::uint32_t width = 0;  ///< floats in rows, tightly packed; 0: other values, or more than one kind
-    bool mixed = false;
-    bool quaternions = false;
-    std::vector<std::pair<std::uint64_t, std::uint64_t>> ranges;  ///< begin and end of what accessors read
+    bool image = false;        ///< used by an image
+    std::uint32_t width = 0;   ///< floats in a row of an accessor, if tightly packed; 0: other values
+    bool mixed = false;        ///< accessors have different widths
+    bool quaternions = false;  ///< used by an accessor of rotations
+    std::vector<std::pair<std::uint64_t, std::uint64_t>> ranges;  ///< begin and end of the bytes that accessors read
 };
 
 namespace {
 
-/// What a coding has to save: what it adds to the document.
+/// A coding must save at least this number of bytes, since its description makes the document longer.
 constexpr std::size_t kWorthCoding = 64;
 
 std::set<std::uint64_t> rotations_of(const JsonValue& root) {
@@ -47,7 +47,7 @@ std::set<std::uint64_t> rotations_of(const JsonValue& root) {
     return out;
 }
 
-/// The views of the source that accessors read.
+/// Marks the source's views that accessors use.
 std::vector<bool> views_of_accessors(const GltfFile& file) {
     std::vector<bool> out(file.model.bufferViews.size(), false);
     for (const tinygltf::Accessor& accessor : file.model.accessors) {
@@ -57,7 +57,8 @@ std::vector<bool> views_of_accessors(const GltfFile& file) {
     return out;
 }
 
-/// Bytes of an accessor's element, and how many floats they are; 0 where its columns are padded or its type is unknown.
+/// Bytes of an accessor's element; 0: its columns are padded or its type is unknown. `floats`: number of floats of an
+/// element; 0: it has other values.
 std::size_t element_bytes(const tinygltf::Accessor& accessor, std::uint32_t& floats) {
     ComponentType type = ComponentType::f32;
     const int components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
@@ -92,7 +93,7 @@ std::vector<SceneViewWriter::Use> SceneViewWriter::find_uses() {
         const JsonValue& accessor = member.value;
         const std::uint64_t count = accessor.integer("count").value_or(0);
         std::uint32_t floats = 0;
-        const std::size_t known = file_.model.accessors.size();  // those that packing adds have no views
+        const std::size_t known = file_.model.accessors.size();  // accessors added by packing have no views
         const std::size_t bytes = number < known ? element_bytes(file_.model.accessors[number], floats) : 0;
         if (accessor.find("bufferView") != nullptr) {
             Use* use = use_of(accessor);
@@ -133,7 +134,8 @@ Result<void> SceneViewWriter::keep_others() {
         Use& use = uses[i];
         if (!use.used && known) continue;
         number[i] = views_.size();
-        if (!use.used && i < of_accessors.size() && of_accessors[i]) {  // empty, but others may count on its number
+        // Only streams replace its contents: keeps an empty view, since an extension may refer to later ones by index.
+        if (!use.used && i < of_accessors.size() && of_accessors[i]) {
             JsonValue view = JsonText::object();
             view.set("buffer", json_.number(plain_ ? 0 : 1));
             if (plain_) view.set("byteOffset", json_.number(bin_.add(std::vector<std::byte>(4))));
@@ -149,7 +151,7 @@ Result<void> SceneViewWriter::keep_others() {
         std::vector<std::byte> contents(bytes->begin(), bytes->end());
         if (use.image) image_bytes_ += contents.size();
         if (known && !use.image) {
-            // What was between the values that are left belonged to streams.
+            // Clears the bytes that no accessor reads any more: streams have their values.
             std::sort(use.ranges.begin(), use.ranges.end());
             std::uint64_t end = 0;
             const auto clear = [&](std::uint64_t to) {
@@ -239,7 +241,8 @@ std::uint64_t SceneViewWriter::add_plain(std::span<const std::byte> bytes, std::
 Result<SceneFile> SceneViewWriter::finish(const PackOptions& options) {
     SceneFile out;
     JsonValue& root = json_.root;
-    // A GLB has one buffer of bytes; the fallback of other files lies apart, where those who do not need it leave it.
+    // In a GLB the fallback is in the same buffer. With a bin_uri it is in a separate file, which readers of streams
+    // need not load.
     const bool apart = !options.bin_uri.empty() && fallback_.size() > 0;
     if (!apart && fallback_.size() > 0) {
         const std::vector<std::byte> bytes = fallback_.take();
@@ -252,7 +255,7 @@ Result<SceneFile> SceneViewWriter::finish(const PackOptions& options) {
     if (apart) {
         for (const std::size_t i : plain_views_) views_.members[i].value.set("buffer", json_.number(1));
     }
-    if (bin_.size() == 0 && views_.size() > 0) bin_.add(std::vector<std::byte>(4));  // what has views has a buffer
+    if (bin_.size() == 0 && views_.size() > 0) bin_.add(std::vector<std::byte>(4));  // views need a buffer
     if (views_.size() > 0) {
         root.set("bufferViews", std::move(views_));
     } else {
@@ -261,7 +264,7 @@ Result<SceneFile> SceneViewWriter::finish(const PackOptions& options) {
     out.bin = bin_.take();
     describe_buffers(json_, out.bin.size(), options.bin_uri);
     if (out.bin.empty()) {
-        // no views: no buffers
+        // no buffers, since there are no views
     } else if (apart) {
         out.fallback = fallback_.take();
         JsonValue buffer = JsonText::object();
@@ -295,8 +298,8 @@ bool SceneViewWriter::deflates_document(const PackOptions& options, const SceneF
 }
 
 Result<void> SceneViewWriter::pack_document(SceneFile& out) {
-    // Nobody reads what is in the streams as well before they are unpacked: bounds and counts, and which part a
-    // primitive has, since parts are numbered in the order of the primitives.
+    // Removes data that readers get from the streams: bounds, counts, and each primitive's stream and part, since parts
+    // are numbered in the order of the primitives.
     auto accessors = json_.root.list("accessors");
     for (const auto& stream : extension_of(json_.root)->list("streams")) {
         const bool ordered = stream.value.find("ordered") != nullptr;

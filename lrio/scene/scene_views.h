@@ -12,20 +12,21 @@
 
 namespace lacedring::detail {
 
-/// Makes the buffer: views that are still referred to, coded where that is smaller and nobody needs them plain; then
-/// streams.
+/// Makes the buffer of a packed scene: first the views that are still used, coded if that is smaller and allowed; then
+/// the streams.
 class SceneViewWriter {
   public:
-    /// Accessors of `json` that have streams have no views any more. `plain`: without codings.
+    /// The accessors of `json` that have streams have no buffer views. `plain`: views are not coded.
     SceneViewWriter(JsonText& json, GltfFile& file, bool plain) : json_(json), file_(file), plain_(plain) {}
 
-    /// The views that accessors, images and whatever is not known refer to. They get new numbers, unless an extension
-    /// may refer to views by theirs. Errors: malformed, those of reading buffers.
+    /// Adds the views that accessors and images use, renumbered. If unknown extensions may refer to views by index,
+    /// keeps all views and their indices. Errors: malformed, those of reading buffers.
     Result<void> keep_others();
+    /// Add the bytes of a stream, or of a fallback's accessor; return the index of the new view.
     std::uint64_t add_stream(std::span<const std::byte> bytes);
     std::uint64_t add_plain(std::span<const std::byte> bytes, std::size_t stride);
 
-    /// The document with its views and buffers.
+    /// Returns the document with its views and buffers.
     Result<SceneFile> finish(const PackOptions& options);
 
   private:
@@ -40,8 +41,8 @@ class SceneViewWriter {
     bool plain_;
     JsonValue views_ = JsonText::array();
     BinChunk bin_, fallback_;
-    std::vector<std::size_t> plain_views_;  ///< that lie in the buffer of the fallback
-    std::size_t placeholder_ = 0;           ///< bytes of the placeholder's buffer
+    std::vector<std::size_t> plain_views_;  ///< indices of the fallback's views
+    std::size_t placeholder_ = 0;           ///< byteLength of the placeholder buffer
     std::size_t image_bytes_ = 0;
 };
 

@@ -49,13 +49,13 @@ struct Bounds {
     std::array<float, 3> low{}, high{};
 };
 
-/// Of three floats a vertex, one at least, and of those that are numbers. Four vertices at a time, so that none waits
-/// for the one before.
+/// The bounds of at least one vertex of three floats; ignores NaN. Processes four vertices at a time, so that the steps
+/// do not depend on each other.
 Bounds bounds_of(std::span<const std::byte> positions) {
     std::array<float, 12> low{}, high{}, next{};
     low.fill(INFINITY);
     high.fill(-INFINITY);
-    for (std::size_t k = 0; k < 12; ++k) next[k] = float_at(positions, k % 3);  // where there are fewer than four
+    for (std::size_t k = 0; k < 12; ++k) next[k] = float_at(positions, k % 3);  // fills up an incomplete step
     for (std::size_t at = 0; at < positions.size(); at += sizeof next) {
         std::memcpy(next.data(), positions.data() + at, std::min(sizeof next, positions.size() - at));
         for (std::size_t k = 0; k < 12; ++k) {
@@ -71,7 +71,7 @@ Bounds bounds_of(std::span<const std::byte> positions) {
     return out;
 }
 
-/// Do the numbers say these floats?
+/// Is `numbers` a JSON array of exactly these floats?
 bool says(const JsonValue* numbers, std::span<const float> values) {
     if (numbers == nullptr || !numbers->is_array() || numbers->size() != values.size()) return false;
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -158,7 +158,7 @@ void describe_attribute(JsonText& json, JsonValue& accessor, const AttributeView
     const Bounds bounds = bounds_of(positions);
     const auto is_finite = [](float value) { return std::isfinite(value); };
     if (!std::ranges::all_of(bounds.low, is_finite) || !std::ranges::all_of(bounds.high, is_finite)) {
-        return say_nothing();  // displacements may be anything, JSON has no infinity
+        return say_nothing();  // morph targets may have infinite values, which JSON cannot express
     }
     const auto put = [&](const char* name, const std::array<float, 3>& values) {
         if (says(accessor.find(name), values)) return;
@@ -174,7 +174,7 @@ void describe_indices(JsonText& json, JsonValue& accessor, std::size_t count, st
     accessor.remove("min");
     accessor.remove("max");
     accessor.set("count", json.number(count));
-    // The highest number of each type restarts strips, and is no index.
+    // The largest number of each type is no valid index: it means primitive restart.
     const std::uint64_t needed = vertices <= 0xff     ? kGltfUnsignedByte
                                  : vertices <= 0xffff ? kGltfUnsignedShort
                                                       : kGltfUnsignedInt;

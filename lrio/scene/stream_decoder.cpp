@@ -61,7 +61,7 @@ Result<void> StreamDecoder::read(std::span<const std::byte> file) {
     return {};
 }
 
-/// Of files whose vertices or triangles do not come as they are stored.
+/// Decodes files whose vertices or triangles need another order than the stored one.
 Result<void> StreamDecoder::read_mesh(std::span<const std::byte> file) {
     if (!restored_) {
         LR_ASSIGN(LrFile whole, parse_lr(file, 0, decoded_, 1));
@@ -123,7 +123,7 @@ Result<void> StreamDecoder::number_by_ranges() {
     return {};
 }
 
-/// A vertex is of the set of its triangles.
+/// Assigns each vertex to the set of its triangles.
 Result<void> StreamDecoder::number_by_triangles() {
     set_of_.assign(vertex_count_, UINT32_MAX);
     for (std::size_t i = 0; i < indices_.size(); ++i) {
@@ -146,7 +146,7 @@ Result<void> StreamDecoder::number_by_triangles() {
     return {};
 }
 
-/// As the file has them: a row for each of its vertices or copies.
+/// Decodes an attribute in the file's order: a row for each vertex or copy.
 Result<void> StreamDecoder::decode_values(std::size_t attribute, std::span<std::byte> out) const {
     const AttributeView& from = view_.attributes[attribute];
     if (from.words.empty()) {
@@ -154,7 +154,7 @@ Result<void> StreamDecoder::decode_values(std::size_t attribute, std::span<std::
     } else {
         LR_ASSIGN(const VertexView stream, view_vertices(from.words));
         if (auto good = decode_vertices_checked(stream, out); !good) return good;
-        if (stream.mapping == VertexMapping::lattice) return {};  // of finite floats
+        if (stream.mapping == VertexMapping::lattice) return {};  // decodes to finite floats
     }
     return attribute == 0 ? check_finite(from.type, out) : Result<void>();
 }
@@ -186,7 +186,7 @@ Result<void> StreamDecoder::decode_attribute(std::size_t attribute, std::span<co
 
 void StreamDecoder::decode_parts(std::span<const std::span<std::uint32_t>> parts) const {
     if (stream_) {
-        (void)decode(*stream_, parts[0]);  // of the right size
+        (void)decode(*stream_, parts[0]);  // cannot fail: the size is right
         return;
     }
     if (corners_.size() == 1 && set_of_.empty()) {

@@ -1,4 +1,4 @@
-// Plain glTF of a packed scene.
+// Unpacks a packed scene to plain glTF.
 
 #include <algorithm>
 #include <cstring>
@@ -25,7 +25,7 @@ class Unpacker {
     Unpacker(PackedScene& scene, const Reading& reading, UnpackReport& report)
         : scene_(scene), reading_(reading), report_(report), accessors_(scene.json().root.list("accessors")) {}
 
-    /// `images`: without them, their buffer views have no contents.
+    /// `images`: if false, the images' buffer views get no contents.
     Result<SceneFile> run(const std::string& bin_uri, bool images) {
         LR_ASSIGN(auto plan, plan_unpacking(scene_, images));
         report_.primitives = plan.primitives;
@@ -42,7 +42,7 @@ class Unpacker {
   private:
     JsonValue& root() { return scene_.json().root; }
 
-    /// Moves the views that stay into the new buffer; the others' numbers are free for what comes.
+    /// Copies the views that stay to the new buffer. The indices of the others become free for new views.
     Result<void> keep_views(const std::vector<bool>& keep) {
         auto views = root().list("bufferViews");
         const SceneViews source = scene_.views();
@@ -63,7 +63,7 @@ class Unpacker {
         return {};
     }
 
-    /// The contents of a view, if there is room for them: a small file can have many views of the same bytes.
+    /// The contents of a view. Checks the memory, since a small file can have many views of the same bytes.
     Result<std::vector<std::byte>> open_view(const SceneViews& source, std::uint64_t view) {
         LR_ASSIGN(const auto size, source.size(view));
         LR_TRY(take_memory(2 * static_cast<double>(size), 0));
@@ -104,8 +104,8 @@ class Unpacker {
         return decode(stream, decoder);
     }
 
-    /// Before it is decoded: does each of its attributes have an accessor, and is there room? A few bytes may hold many
-    /// equal vertices.
+    /// Before decoding, checks that each set has an accessor for each attribute, and that the memory suffices: a few
+    /// bytes may encode many equal vertices.
     Result<void> check_stream(const StreamPlan& stream, const LrFileView& contents) {
         std::size_t stride = 0;
         for (const AttributeView& a : contents.attributes) stride += size_of(a.type) * a.components;
@@ -121,11 +121,11 @@ class Unpacker {
         return take_memory(vertices * static_cast<double>(stride), contents.input_triangles);
     }
 
-    /// Where an accessor's values are decoded to.
+    /// The place of an accessor's decoded values.
     struct Target {
-        std::size_t size = 0;  ///< bytes, as they are decoded
-        bool apart = false;    ///< they are not as the accessor has them, and decoded to apart_
-        std::size_t at = 0;    ///< in bin_, or apart_
+        std::size_t size = 0;  ///< bytes of the decoded values
+        bool apart = false;    ///< in apart_, because the values must be converted or padded; else in bin_
+        std::size_t at = 0;    ///< offset in bin_ or apart_
     };
 
     std::span<std::byte> bytes_of(const Target& target) {
@@ -209,7 +209,7 @@ class Unpacker {
         return {};
     }
 
-    /// Gives each its place, all at once, so that none moves once there are values.
+    /// Places all targets before decoding, since adding bytes to bin_ may move decoded values.
     void place(std::vector<std::vector<Target>>& sets, std::vector<Target>& parts) {
         std::size_t all = 0, apart = 0;
         const auto visit = [&](const auto& use) {
@@ -252,7 +252,7 @@ class Unpacker {
         return {};
     }
 
-    /// Of all views and streams together, as of one mesh.
+    /// Checks the memory of all views and streams so far.
     Result<void> take_memory(double bytes, double triangles) {
         taken_bytes_ += bytes;
         taken_triangles_ += triangles;
@@ -268,9 +268,9 @@ class Unpacker {
         unlist_extension(root(), "extensionsUsed", kExtension);
         unlist_extension(root(), "extensionsRequired", kExtension);
         JsonValue list = JsonText::array();
-        if (!views_.empty() && bin_.size() < 4) bin_.add(std::vector<std::byte>(4));  // what has views has a buffer
+        if (!views_.empty() && bin_.size() < 4) bin_.add(std::vector<std::byte>(4));  // views need a buffer
         for (std::size_t i = 0; i < views_.size(); ++i) {
-            if (free_[i]) {  // nothing was left to put there, and others are not to be renumbered
+            if (free_[i]) {  // an unused index gets a dummy view, so that other views keep their indices
                 JsonValue view = JsonText::object();
                 view.set("buffer", json.number(0));
                 view.set("byteLength", json.number(4));
@@ -292,7 +292,7 @@ class Unpacker {
     std::span<JsonValue::Member> accessors_;
     std::set<std::uint32_t> positions_;  ///< UnpackPlan's
     std::vector<JsonValue> views_;
-    std::vector<bool> free_;  ///< views that nothing refers to
+    std::vector<bool> free_;  ///< marks view indices that are not used yet
     std::size_t next_free_ = 0;
     BinChunk bin_;
     std::vector<std::byte> apart_;
@@ -320,7 +320,7 @@ Result<PlainScene> PlainScene::open(std::span<const std::byte> bytes, Reading& r
     out.file_bytes = bytes.size();
     if (!is_packed_scene(bytes)) return out;
     ReadOptions options = reading.options;
-    options.triangle_bytes = 0;  // the caller works on the mesh that is read, when this is gone
+    options.triangle_bytes = 0;  // the caller needs them only after the unpacked scene is freed
     UnpackReport report;
     Reading unpacking{options, report.read, reading.name};
     auto scene = PackedScene::load(bytes, unpacking);

@@ -110,7 +110,8 @@ class UnpackPlanner {
         return {};
     }
 
-    /// The stream and set of a primitive's attributes. None: it has no stream. Errors: malformed (not of one set).
+    /// The stream and set of a primitive's attributes. None: the primitive is not compressed. Errors: malformed (its
+    /// attributes are not of one set).
     Result<std::optional<std::pair<std::uint32_t, std::uint32_t>>> set_of(const JsonValue& primitive) {
         std::optional<std::pair<std::uint32_t, std::uint32_t>> out;
         bool first = true;
@@ -132,7 +133,7 @@ class UnpackPlanner {
     Result<void> plan_primitive(const JsonValue& primitive) {
         const JsonValue* extension = extension_of(primitive);
         const bool triangles = primitive.integer("mode").value_or(4) == 4;
-        // Lines may read the vertices of a set, too, beside attributes of their own.
+        // Points and lines may use the vertices of a set, and other attributes.
         if (extension == nullptr && (!scene_.is_document_packed() || !triangles)) return {};
         const auto set = set_of(primitive);
         if (!set) return set.error();
@@ -167,7 +168,7 @@ class UnpackPlanner {
         return {};
     }
 
-    /// Compressed geometry of other extensions refers to views by itself.
+    /// Refuses files that also use other compression extensions, since these refer to buffer views themselves.
     Result<void> check_extensions() {
         for (const auto& member : std::as_const(root_).list("extensionsUsed")) {
             const std::string name = member.value.is_string() ? plain_string(member.value) : "";
@@ -179,7 +180,7 @@ class UnpackPlanner {
         return {};
     }
 
-    /// A placeholder has no bytes, and room for its views.
+    /// Checks that placeholder buffers have no bytes and that their views are in range.
     Result<void> check_buffers() {
         const auto buffers = std::as_const(root_).list("buffers");
         std::vector<std::optional<std::uint64_t>> room(buffers.size());
@@ -206,7 +207,7 @@ class UnpackPlanner {
         return {};
     }
 
-    /// Does the document use extensions that may refer to views by their numbers?
+    /// Does the document use extensions that may refer to views by index?
     bool has_unknown_extensions() const {
         const JsonValue* used = std::as_const(root_).find("extensionsUsed");
         if (used == nullptr || !used->is_array()) return false;
@@ -217,12 +218,12 @@ class UnpackPlanner {
         return detail::has_unknown_extensions({{"extensionsUsed", std::move(names)}});
     }
 
-    /// Views of streams, of placeholders, and of a fallback go; others that nothing refers to stay where an extension
-    /// may refer to them.
+    /// Drops the views of streams, placeholders and the fallback. Keeps unused views only if unknown extensions may
+    /// refer to them.
     Result<void> choose_views() {
         const std::size_t count = root_.list("bufferViews").size();
         const SceneViews source = scene_.views();
-        std::vector<bool> hollow(count, false);  // nothing may refer to it
+        std::vector<bool> hollow(count, false);  // views of streams and placeholders: references to them are errors
         for (const StreamPlan& stream : out_.streams) {
             for (const std::uint64_t view : {stream.view, stream.parts_view.value_or(stream.view)}) {
                 if (view >= count) return malformed("buffer view {} does not exist", view);
@@ -272,10 +273,10 @@ class UnpackPlanner {
     JsonValue& root_;
     std::span<const JsonValue::Member> accessors_;
     UnpackPlan out_;
-    /// Stream and set of an accessor; UINT32_MAX: the indices of a part.
+    /// Stream and set of each accessor; stream UINT32_MAX: the accessor has the indices of a part.
     std::map<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>> set_of_;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint64_t> part_of_;  ///< by stream and indices
-    std::uint64_t parts_left_ = 0;  ///< that all streams together may still have
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint64_t> part_of_;  ///< by stream and indices accessor
+    std::uint64_t parts_left_ = 0;  ///< number of further parts that all streams together may have
 };
 
 }  // namespace

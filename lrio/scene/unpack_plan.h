@@ -1,5 +1,5 @@
 #pragma once
-// What a packed document says of its streams, checked before anything is decoded. Internal to lrio.
+// Reads a packed document's description of its streams and checks it before decoding. Internal to lrio.
 
 #include <cstdint>
 #include <optional>
@@ -12,26 +12,26 @@
 namespace lacedring::detail {
 
 struct StreamPlan {
-    std::uint64_t view = 0;
-    std::optional<std::uint64_t> parts_view;
-    std::vector<std::vector<std::uint32_t>> sets;  ///< accessors
-    bool ordered = false;
+    std::uint64_t view = 0;                        ///< buffer view of the .lr file
+    std::optional<std::uint64_t> parts_view;       ///< buffer view of the part codes
+    std::vector<std::vector<std::uint32_t>> sets;  ///< accessors of each set
+    bool ordered = false;                          ///< the input's order was kept
     struct Part {
         std::uint32_t set = UINT32_MAX;
-        std::optional<std::uint32_t> indices;
+        std::optional<std::uint32_t> indices;  ///< accessor
     };
     std::vector<Part> parts;
 };
 
 struct UnpackPlan {
     std::vector<StreamPlan> streams;
-    std::set<std::uint32_t> positions;  ///< accessors of sets that primitives, or morph targets, have as POSITION
-    std::vector<bool> kept;             ///< of each buffer view: its contents are part of the plain scene
-    std::size_t primitives = 0;         ///< that are compressed
+    std::set<std::uint32_t> positions;  ///< compressed accessors used as POSITION, also in morph targets
+    std::vector<bool> kept;             ///< marks the buffer views that the plain scene keeps
+    std::size_t primitives = 0;         ///< number of compressed primitives
 };
 
-/// Numbers of accessors and views exist, each stream has a primitive for every part, and nothing else refers to views
-/// without contents of their own. `images`: their views are kept. Errors: malformed.
+/// Makes the plan. Checks that indices of accessors and views exist, that each part of a stream has a primitive, and
+/// that nothing else refers to views of streams or placeholders. `images`: keeps the images' views. Errors: malformed.
 Result<UnpackPlan> plan_unpacking(PackedScene& scene, bool images);
 
 }  // namespace lacedring::detail

@@ -1,4 +1,4 @@
-// Grids closed to a band: the torus and the Moebius strip.
+// The torus and the Moebius strip: grids closed to a band.
 
 #include <algorithm>
 
@@ -12,7 +12,7 @@ struct Grid {
     std::uint64_t width = 3;
 };
 
-/// The grid of quads with about `quads` cells, about `aspect` times as long as wide, length >= 3 * width / 2.
+/// The best grid of about `quads` cells that is about `aspect` times as long as wide.
 Grid fit(std::uint64_t quads, std::uint64_t aspect, std::uint64_t least_width, std::uint64_t least_length) {
     Grid best{least_length, least_width};
     double best_score = 1e9;
@@ -76,7 +76,7 @@ Result<Mesh> make_moebius(std::uint64_t triangles, std::uint64_t) {
         }
     }
     const auto at = [&](std::uint32_t i, std::uint32_t j) {
-        return i < length ? i * (width + 1) + j : width - j;  // after one turn, the other way round
+        return i < length ? i * (width + 1) + j : width - j;  // the last column joins the first one upside down
     };
     for (std::uint32_t i = 0; i < length; ++i) {
         for (std::uint32_t j = 0; j < width; ++j) builder.quad(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));

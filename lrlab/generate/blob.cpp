@@ -1,4 +1,4 @@
-// A bumpy closed surface with irregular valences, as a scanner would give it: the sphere, many of its edges flipped.
+// The blob, a bumpy closed surface with irregular valences like a scan: a sphere with many edges flipped.
 
 #include <cmath>
 #include <cstring>
@@ -27,18 +27,18 @@ void write(std::vector<std::byte>& positions, std::size_t v, Point p) {
     std::memcpy(positions.data() + v * sizeof xyz, xyz, sizeof xyz);
 }
 
-/// Six times the volume of the tetrahedron with the origin: positive where the triangle faces outwards.
+/// Six times the volume of the tetrahedron with the origin: positive if the triangle faces outwards.
 double volume(Point a, Point b, Point c) {
     return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
-/// Opposite corners of a closed manifold. The list of the corners whose next vertex is v, found through head[v], is
-/// short: one corner a half-edge out of v.
+/// The opposite corners of a closed manifold. head[v] begins a short list of the unmatched corners whose next vertex is
+/// v: one for each half-edge that starts at v.
 std::vector<std::uint32_t> opposites(const std::vector<std::uint32_t>& V, std::uint32_t vertex_count) {
     const auto corners = static_cast<std::uint32_t>(V.size());
     std::vector<std::uint32_t> O(corners, UINT32_MAX);
     std::vector<std::uint32_t> head(vertex_count, UINT32_MAX);
-    // O serves as the links of the lists of corners still without an opposite, until they get one.
+    // While a corner has no opposite yet, its entry of O is the link to the next corner of its list.
     for (std::uint32_t c = 0; c < corners; ++c) {
         const std::uint32_t from = V[next(c)];
         const std::uint32_t to = V[previous(c)];
@@ -67,8 +67,8 @@ class Flipper {
         for (const std::uint32_t v : V_) ++valence_[v];
     }
 
-    /// Flips the edge opposite to about every fifteenth corner. Going through them in order keeps the triangles' order
-    /// local. About 35 % of the valences stay 6, a little fewer than in most scans.
+    /// Flips the edge opposite to about every fifteenth corner. Visiting corners in order keeps the triangles' order
+    /// local. About 35 % of the valences stay 6, slightly fewer than in most scans.
     void sweep(Random& random) {
         for (std::uint32_t c = 0; c < V_.size(); ++c) {
             if (random.below(15) == 0) flip(c);
@@ -76,8 +76,8 @@ class Flipper {
     }
 
   private:
-    /// Turns the edge ab, between the triangles cab and dba, into cd: unless the mesh has cd already, a valence would
-    /// be out of 3..12, or a triangle would come out thin or turned over.
+    /// Replaces the edge ab between the triangles cab and dba by cd. Does nothing if the mesh already has the edge cd,
+    /// a valence would leave 3..12, or a triangle would become thin or flip over.
     void flip(std::uint32_t corner) {
         const std::uint32_t c0 = corner;
         const std::uint32_t c1 = next(c0);
@@ -97,7 +97,7 @@ class Flipper {
         const double before = volume(pc, pa, pb) + volume(pd, pb, pa);
         if (volume(pc, pa, pd) < 0.2 * before || volume(pd, pb, pc) < 0.2 * before) return;
         if (adjacent(c0, d)) return;
-        // cab, dba become cad, dbc. Across ca and bc, db and ad the neighbours stay, on other corners.
+        // cab, dba become cad, dbc. The neighbors across bc and ad get other opposite corners.
         const std::uint32_t across_bc = O_[c1];
         const std::uint32_t across_ad = O_[d1];
         V_[c2] = d;
@@ -140,8 +140,7 @@ Result<Mesh> make_blob(std::uint64_t triangles, std::uint64_t seed) {
     Mesh mesh = build_sphere(shape).finish();
     std::vector<std::byte>& positions = mesh.attributes[0].data;
     Random random(seed);
-    // Moved by up to a fifth of an edge, still on the sphere: which flips are possible then differs from place to
-    // place.
+    // Moves vertices on the sphere by up to a fifth of an edge, so that the possible flips vary from place to place.
     const double reach = 0.6 / static_cast<double>(shape.rows());
     for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
         Point p = read(positions, v);

@@ -6,7 +6,7 @@
 namespace lacedring::detail {
 
 Turn turn(std::uint64_t k, std::uint64_t n) {
-    // Reduced to half a quadrant in integers, then Taylor's series: what is left is below pi/4, the error below 2^-52.
+    // Reduces the angle to at most pi/4 in integers, then sums the Taylor series. The error is below 2^-52.
     k %= n;
     const std::uint64_t octant = 8 * k / n;
     std::uint64_t rest = 8 * k - octant * n;

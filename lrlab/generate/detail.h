@@ -1,5 +1,5 @@
 #pragma once
-// What the generators share. Private to lrlab/generate.
+// Shared helpers of the generators. Private to lrlab/generate.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,10 +11,10 @@
 
 namespace lacedring::detail {
 
-/// Vertices that a mesh of ours may have: the lean stream numbers no more.
+/// Largest number of vertices of a generated mesh: the lean stream's limit.
 constexpr std::uint64_t kMostVertices = std::uint64_t{1} << 29;
 
-/// The numbers of one seed have nothing to do with those of the next.
+/// Random numbers; those of successive seeds are unrelated.
 class Random : public SplitMix64 {
   public:
     explicit Random(std::uint64_t seed) : SplitMix64(SplitMix64(seed).next()) {}
@@ -27,30 +27,30 @@ class Random : public SplitMix64 {
 
 using Point = Vec3<double>;
 
-/// Cosine and sine of k/n of a full turn; n >= 1, k < 2^60. Exact at multiples of a quarter turn.
+/// Cosine and sine of the angle k/n * 2 pi; n >= 1, k < 2^60. Exact at multiples of a quarter turn.
 struct Turn {
     double cos = 1;
     double sin = 0;
 };
 Turn turn(std::uint64_t k, std::uint64_t n);
 
-/// Smooth random function of space, in [-1, 1], features of size 1; |coordinates| < 2^31.
+/// Smooth noise in [-1, 1] with features of size 1; |coordinates| < 2^31.
 double noise(Point p, std::uint64_t seed);
 
-/// Several octaves of noise: `octaves` terms, each of twice the frequency and half the height of the one before.
+/// Sum of `octaves` terms of noise, each with twice the frequency and half the height of the previous one.
 double fractal_noise(Point p, int octaves, std::uint64_t seed);
 
 /// A mesh with positions under construction.
 class Builder {
   public:
     void reserve(std::uint64_t vertices, std::uint64_t triangles);
-    /// The caller sees to it that there are at most kMostVertices.
+    /// Adds a vertex and returns its index. The caller ensures that there are at most kMostVertices.
     std::uint32_t vertex(Point p);
     void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         const std::uint32_t abc[3] = {a, b, c};
         mesh_.indices.insert(mesh_.indices.end(), abc, abc + 3);
     }
-    /// Two triangles of the quad a, b, c, d; the diagonal is ac, or bd if `other`.
+    /// Adds two triangles for the quad a, b, c, d; the diagonal is ac, or bd if `other`.
     void quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d, bool other = false) {
         if (other) {
             triangle(a, b, d);
@@ -63,7 +63,7 @@ class Builder {
     std::uint32_t vertices() const { return mesh_.vertex_count; }
     std::uint64_t triangles() const { return mesh_.indices.size() / 3; }
     Mesh& mesh() { return mesh_; }
-    /// The mesh, POSITION in place.
+    /// Returns the mesh with its POSITION.
     Mesh finish();
 
   private:
@@ -71,28 +71,28 @@ class Builder {
     std::vector<std::byte> positions_;
 };
 
-/// True if a mesh of `made` triangles may stand for one of `wanted`: at most 2 % or 64 over.
+/// Is `made` at most 2 % or 64 triangles more than `wanted`?
 constexpr bool within_limit(std::uint64_t made, std::uint64_t wanted) {
     return made <= wanted + (wanted / 50 > 64 ? wanted / 50 : 64);
 }
 
-/// |made - wanted| relative to wanted: what the searches for grid sizes minimise.
+/// The relative error |made - wanted| / wanted, which the searches for grid sizes minimize.
 constexpr double misfit(std::uint64_t made, std::uint64_t wanted) {
     const std::uint64_t difference = made > wanted ? made - wanted : wanted - made;
     return static_cast<double>(difference) / static_cast<double>(wanted);
 }
 
-/// Rounded down.
+/// The square root, rounded down.
 std::uint64_t square_root(std::uint64_t n);
 
 Error too_many_generated();
 
-/// One corner-opposite table's worth of sphere: rings of latitude of mesh sizes m*min(i, f, 2f+e-i), 0 <= i <= 2f+e,
-/// that is m sectors, caps of f rings and a band of e rows (m = 5, e = f: the subdivided icosahedron).
+/// A sphere of m sectors: two caps of f rings and a band of e rows. Ring i, 0 <= i <= 2f+e, has m*min(i, f, 2f+e-i)
+/// vertices. m = 5 and e = f give the subdivided icosahedron.
 struct SphereShape {
-    std::uint64_t sectors = 5;
-    std::uint64_t cap = 1;
-    std::uint64_t band = 0;
+    std::uint64_t sectors = 5;  ///< m
+    std::uint64_t cap = 1;      ///< f
+    std::uint64_t band = 0;     ///< e
 
     std::uint64_t rows() const { return 2 * cap + band; }
     std::uint64_t ring_size(std::uint64_t i) const {
@@ -103,7 +103,7 @@ struct SphereShape {
     std::uint64_t vertices() const { return triangles() / 2 + 2; }
 };
 SphereShape sphere_shape(std::uint64_t triangles);
-/// Unit sphere, facing outwards, rings from the north pole to the south.
+/// The unit sphere, facing outwards, with rings from the north pole to the south pole.
 Builder build_sphere(const SphereShape& shape);
 
 Result<Mesh> make_sphere(std::uint64_t triangles, std::uint64_t seed);

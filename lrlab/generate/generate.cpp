@@ -34,7 +34,7 @@ std::span<const GeneratorInfo> generators() {
 Result<Mesh> generate(std::string_view kind, std::uint64_t triangles, std::uint64_t seed) {
     for (std::size_t i = 0; i < std::size(infos); ++i) {
         if (infos[i].name != kind) continue;
-        // No kind has clearly fewer than T/2 vertices; this also keeps the arithmetic of the makers far from overflow.
+        // Each kind has about T/2 vertices or more. The check also prevents overflow in the generators' arithmetic.
         if (triangles > 2 * detail::kMostVertices) return detail::too_many_generated();
         try {
             return makers[i](triangles, seed);

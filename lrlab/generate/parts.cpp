@@ -1,4 +1,4 @@
-// Many small unconnected pieces.
+// The kind `parts`: many small unconnected pieces.
 
 #include <algorithm>
 #include <array>
@@ -8,13 +8,13 @@
 namespace lacedring::detail {
 namespace {
 
-/// A piece's place: scaled, turned and moved.
+/// The transform of a piece: scale, random rotation, translation.
 class Frame {
   public:
     Frame(Random& random, Point centre, double size) : centre_(centre) {
         double q[4];
         double norm = 0;
-        do {  // a unit quaternion, evenly distributed
+        do {  // a uniformly distributed quaternion; the norm is divided out below
             norm = 0;
             for (double& c : q) {
                 c = random.signed_unit();
@@ -81,7 +81,7 @@ void add_strip(Builder& builder, const Frame& frame, std::uint32_t triangles) {
     }
 }
 
-/// `triangles` around a hub; closed: a disc.
+/// Adds a fan of triangles around a hub; a closed fan is a disk.
 void add_fan(Builder& builder, const Frame& frame, std::uint32_t triangles, bool closed) {
     const std::uint32_t rim = closed ? triangles : triangles + 1;
     const std::uint32_t hub = builder.vertex(frame(0, 0, 0.3));
@@ -135,7 +135,7 @@ Result<Mesh> make_parts(std::uint64_t triangles, std::uint64_t seed) {
     Random random(seed);
     Builder builder;
     builder.reserve(triangles, triangles);
-    // Eight triangles a piece on average; the pieces stand in a cube, a layer after the other.
+    // A piece has eight triangles on average. Pieces fill a cubic grid layer by layer.
     std::uint64_t side = 1;
     while (side * side * side * 8 < triangles) ++side;
     for (std::uint64_t piece = 0; builder.triangles() < triangles; ++piece) {

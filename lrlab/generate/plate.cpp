@@ -1,4 +1,4 @@
-// A plate with holes: a closed surface of any genus.
+// The kind `genus`: a plate with holes, which is a closed surface of any genus.
 
 #include <algorithm>
 #include <vector>
@@ -8,7 +8,7 @@
 namespace lacedring::detail {
 namespace {
 
-/// Holes stand in columns and rows with bars between them: column k of 2 * columns + 1 is a hole where k is odd.
+/// Holes are in columns and rows with bars between them: of 2 * columns + 1 columns, the odd ones have holes.
 struct Plate {
     std::uint64_t genus = 2;
     std::uint64_t columns = 2;
@@ -47,7 +47,8 @@ Plate fit(std::uint64_t triangles, std::uint64_t genus) {
     const std::uint64_t least_height = plate.height;
     triangles = std::max(triangles, plate.triangles());
 
-    // Four triangles a cell, a quarter of the cells or less in holes. The count grows with width and with height.
+    // A cell has four triangles, and at most a quarter of the cells is in holes. The number of triangles grows with
+    // width and height.
     Plate best = plate;
     double best_score = 1e9;
     const std::uint64_t ideal = std::max(square_root(triangles * least_height / (3 * least_width)), least_height);
@@ -55,7 +56,7 @@ Plate fit(std::uint64_t triangles, std::uint64_t genus) {
     const std::uint64_t step = std::max<std::uint64_t>(ideal / 200, 1);
     for (std::uint64_t height = first; height <= ideal + ideal / 3 + 1; height += step) {
         plate.height = height;
-        std::uint64_t low = least_width;  // the widest that has at most `triangles`, by bisection
+        std::uint64_t low = least_width;  // bisection: the largest width with at most `triangles`
         std::uint64_t high = triangles / height + least_width;
         while (low < high) {
             plate.width = (low + high + 1) / 2;
@@ -93,7 +94,7 @@ Result<Mesh> make_genus(std::uint64_t triangles, std::uint64_t seed) {
     for (std::uint32_t r = 0; r < plate.rows; ++r) {
         for (std::uint64_t y = plate.y(2 * r + 1); y < plate.y(2 * r + 2); ++y) hole_row[y] = r;
     }
-    const auto solid = [&](std::uint32_t x, std::uint32_t y) {  // x or y may be -1
+    const auto solid = [&](std::uint32_t x, std::uint32_t y) {  // x or y may be -1 (UINT32_MAX)
         if (x >= width || y >= height) return false;
         if (hole_column[x] == no_hole || hole_row[y] == no_hole) return true;
         return hole_row[y] * plate.columns + hole_column[x] >= plate.genus;
@@ -105,7 +106,8 @@ Result<Mesh> make_genus(std::uint64_t triangles, std::uint64_t seed) {
     const double middle_x = 0.5 * static_cast<double>(width);
     const double middle_y = 0.5 * static_cast<double>(height);
     const double thick = 0.6 / static_cast<double>(2 * plate.columns + 1);
-    std::vector<std::uint32_t> rows[2];  // top vertex of each grid point of the last two rows; the bottom one is next
+    // The top vertex of each grid point of the last two rows; the bottom vertex has the next index.
+    std::vector<std::uint32_t> rows[2];
     rows[0].resize(std::size_t{width} + 1);
     rows[1].resize(std::size_t{width} + 1);
     for (std::uint32_t y = 0; y <= height; ++y) {

@@ -1,4 +1,4 @@
-// Everything that a mesh should not have.
+// The kind `soup`: all defects that a mesh may have.
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@ namespace {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-/// A small patch of a grid, as vertex numbers from 0.
+/// A grid of width x height cells; vertices are numbered from 0.
 Triangles grid(std::uint32_t width, std::uint32_t height) {
     Triangles out;
     for (std::uint32_t j = 0; j < height; ++j) {
@@ -25,7 +25,7 @@ Triangles grid(std::uint32_t width, std::uint32_t height) {
     return out;
 }
 
-/// `width` cells across, closed with a half twist.
+/// A Moebius strip of length x width cells.
 Triangles moebius(std::uint32_t length, std::uint32_t width) {
     Triangles out;
     const auto at = [&](std::uint32_t i, std::uint32_t j) { return i < length ? i * (width + 1) + j : width - j; };
@@ -50,17 +50,17 @@ Piece make_piece(std::uint32_t kind, Random& random) {
     const std::uint32_t n = random.between(3, 7);
     Triangles& t = piece.triangles;
     switch (kind) {
-        case 0:  // a patch, for the rest to be unusual against
+        case 0:  // an ordinary patch
             piece.vertices = (n + 1) * (n + 2);
             t = grid(n, n + 1);
             break;
-        case 1:  // n triangles on the edge 0, 1, half of them the other way round
+        case 1:  // n triangles at the edge 0, 1, half of them with the opposite orientation
             piece.vertices = n + 2;
             for (std::uint32_t i = 0; i < n; ++i) {
                 t.push_back(i % 2 == 0 ? std::array{0U, 1U, i + 2} : std::array{1U, 0U, i + 2});
             }
             break;
-        case 2: {  // fans that meet in vertex 0 alone
+        case 2: {  // fans that share only vertex 0
             piece.vertices = 1;
             for (std::uint32_t f = 0; f < 3; ++f) {
                 for (std::uint32_t i = 0; i < n; ++i) t.push_back({0, piece.vertices + i, piece.vertices + i + 1});
@@ -68,7 +68,7 @@ Piece make_piece(std::uint32_t kind, Random& random) {
             }
             break;
         }
-        case 3: {  // a patch with triangles doubled, alike and reversed
+        case 3: {  // a patch with duplicate triangles of the same and of opposite orientation
             piece.vertices = (n + 1) * 4;
             t = grid(n, 3);
             for (std::uint32_t i = 0; i < n; ++i) {
@@ -78,7 +78,7 @@ Piece make_piece(std::uint32_t kind, Random& random) {
             }
             break;
         }
-        case 4: {  // degenerate triangles among others
+        case 4: {  // a patch with degenerate triangles
             piece.vertices = (n + 1) * 3;
             t = grid(n, 2);
             for (std::uint32_t i = 0; i < 4; ++i) {
@@ -89,7 +89,7 @@ Piece make_piece(std::uint32_t kind, Random& random) {
             }
             break;
         }
-        case 5: {  // a patch whose triangles face either way
+        case 5: {  // a patch of triangles with random orientation
             piece.vertices = (n + 1) * (n + 1);
             t = grid(n, n);
             for (auto& abc : t) {
@@ -97,7 +97,7 @@ Piece make_piece(std::uint32_t kind, Random& random) {
             }
             break;
         }
-        case 6: {  // a Moebius strip, some triangles turned
+        case 6: {  // a Moebius strip with some triangles reversed
             const std::uint32_t width = random.between(1, 3);
             piece.vertices = (n + 2) * (width + 1);
             t = moebius(n + 2, width);
@@ -106,7 +106,7 @@ Piece make_piece(std::uint32_t kind, Random& random) {
             }
             break;
         }
-        case 7:  // any triangles on few vertices
+        case 7:  // random triangles of few vertices
             piece.vertices = n + 2;
             for (std::uint32_t i = 0; i < 4 * n; ++i) {
                 const std::uint32_t a = random.below(n + 2);
@@ -115,11 +115,11 @@ Piece make_piece(std::uint32_t kind, Random& random) {
                 t.push_back({a, b, c});
             }
             break;
-        case 8:  // two tetrahedra that share an edge, and vertices that nothing uses
+        case 8:  // two tetrahedra that share an edge, and unused vertices
             piece.vertices = 6 + n;
             t = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}, {0, 1, 4}, {0, 5, 1}, {0, 4, 5}, {1, 5, 4}};
             break;
-        default:  // three patches on one straight edge of n cells
+        default:  // three patches that share a straight line of n edges
             piece.vertices = 3 * 2 * (n + 1);
             for (std::uint32_t p = 0; p < 3; ++p) {
                 for (auto abc : grid(n, 1)) {
@@ -141,9 +141,9 @@ Result<Mesh> make_soup(std::uint64_t triangles, std::uint64_t seed) {
     builder.reserve(triangles, triangles);
     std::uint64_t side = 1;
     while (side * side * side * 20 < triangles) ++side;
-    std::vector<std::uint32_t> number;  // of the mesh, for the vertices of the piece
+    std::vector<std::uint32_t> number;  // mesh vertex of each vertex of the piece
     for (std::uint64_t i = 0; builder.triangles() < triangles; ++i) {
-        // Each kind once, so that a mesh of 400 triangles or more has them all; then at random.
+        // First each kind once, so that a mesh of 400 triangles or more has all kinds; then random kinds.
         const auto kind = i < piece_kinds ? static_cast<std::uint32_t>(i) : random.below(piece_kinds);
         Piece piece = make_piece(kind, random);
         if (builder.vertices() + std::uint64_t{piece.vertices} > kMostVertices) return too_many_generated();
@@ -151,7 +151,7 @@ Result<Mesh> make_soup(std::uint64_t triangles, std::uint64_t seed) {
                            static_cast<double>(i / side / side)};
         number.clear();
         for (std::uint32_t v = 0; v < piece.vertices; ++v) {
-            // Sometimes a vertex of an earlier piece: pieces hang together at vertices, and now and then at edges.
+            // Sometimes reuses a vertex of an earlier piece, so that pieces are connected at vertices and some edges.
             if (builder.vertices() > 0 && random.below(40) == 0) {
                 number.push_back(builder.vertices() - 1 - random.below(std::min(builder.vertices(), 100U)));
                 continue;

@@ -1,4 +1,4 @@
-// The sphere, and the shape that the blob starts from.
+// The kind `sphere`, from which the blob is made, too.
 
 #include <algorithm>
 
@@ -18,7 +18,7 @@ SphereShape sphere_shape(std::uint64_t triangles) {
             for (const std::uint64_t sum : {rows, rows + 1}) {
                 const SphereShape shape{sectors, cap, sum > cap ? sum - cap : 0};
                 if (!within_limit(shape.triangles(), triangles)) continue;
-                const double stretch = misfit(shape.band + 1, cap + 1);  // equal: all triangles of much the same shape
+                const double stretch = misfit(shape.band + 1, cap + 1);  // 0: all triangles have similar shapes
                 const double score = misfit(shape.triangles(), triangles) + 0.002 * stretch;
                 if (score < best_score) {
                     best = shape;
@@ -39,7 +39,7 @@ Builder build_sphere(const SphereShape& shape) {
         const Turn latitude = turn(i, 2 * rows);
         const auto size = static_cast<std::uint32_t>(shape.ring_size(i));
         const std::uint32_t lower = builder.vertices();
-        // Every row of the band is shifted by half an edge, so that its triangles are about equilateral.
+        // Shifts each row of the band by half an edge, so that the triangles are nearly equilateral.
         const std::uint64_t shift = std::min(i < shape.cap ? 0 : i - shape.cap, shape.band);
         for (std::uint32_t j = 0; j < std::max(size, 1U); ++j) {
             const std::uint64_t equator = shape.sectors * shape.cap;
@@ -57,7 +57,7 @@ Builder build_sphere(const SphereShape& shape) {
             const std::uint32_t b = s * sector_below;
             const std::uint32_t steps = std::max(sector_above, sector_below);
             for (std::uint32_t j = 0; j < steps; ++j) {
-                // In the upper cap and the band a triangle that stands on the lower ring comes first.
+                // In the upper cap and the band, the triangles with an edge on the lower ring come first.
                 if (sector_below >= sector_above) {
                     if (sector_below == sector_above) {
                         builder.triangle(up(a + j), down(b + j), up(a + j + 1));

@@ -1,4 +1,4 @@
-// A height field with holes.
+// The kind `terrain`: a height field with holes.
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 namespace lacedring::detail {
 namespace {
 
-/// An ellipse of cells in its bounding box. In doubled coordinates its inequality adds a term of x to a term of y, so
-/// no two diagonal neighbours are inside without one of the other two: the hole never touches itself at a vertex.
+/// An ellipse of cells in its bounding box. Its inequality is a term of x plus a term of y. So if two diagonal
+/// neighbors are inside, one of the other two cells is, too: the hole never touches itself at a vertex.
 struct Hole {
     std::uint64_t x = 0, y = 0, width = 1, height = 1;
 
@@ -26,7 +26,7 @@ struct Hole {
     std::uint64_t cells() const {
         std::uint64_t sum = 0;
         for (std::uint64_t row = y; row < y + height; ++row) {
-            std::uint64_t low = x;  // the first cell inside is in the left half, or there is none
+            std::uint64_t low = x;  // bisection of the left half for the first cell inside
             std::uint64_t high = x + (width - 1) / 2;
             if (!contains(high, row)) continue;
             while (low < high) {
@@ -43,7 +43,7 @@ struct Hole {
     }
 };
 
-/// One hole in each of the equal tiles that the grid is divided into, a cell from the tile's border or more.
+/// The grid is divided into equal tiles. Each tile has a hole, at least a cell from the tile's border.
 struct Ground {
     std::uint64_t width = 8;
     std::uint64_t height = 5;
@@ -55,7 +55,7 @@ struct Ground {
         tiles_x = std::clamp<std::uint64_t>(width / 8, 2, 4);
         tiles_y = std::clamp<std::uint64_t>(height / 8, 1, 4);
         holes.clear();
-        Random random(seed);  // the same numbers whatever the size
+        Random random(seed);  // the same random numbers for all sizes
         for (std::uint64_t i = 0; i < tiles_x * tiles_y; ++i) {
             const std::uint64_t left = (i % tiles_x) * width / tiles_x + 1;
             const std::uint64_t right = (i % tiles_x + 1) * width / tiles_x - 1;
@@ -74,9 +74,9 @@ struct Ground {
         for (const Hole& hole : holes) cells -= hole.cells();
         return 2 * cells;
     }
-    bool solid(std::uint64_t x, std::uint64_t y) const {  // x or y may be -1
+    bool solid(std::uint64_t x, std::uint64_t y) const {  // x or y may be -1 (UINT64_MAX)
         if (x >= width || y >= height) return false;
-        // Tile boundaries are rounded down, so this tile is right or one too low.
+        // Tile borders are rounded down, so this tile may be one too low.
         std::uint64_t i = x * tiles_x / width;
         std::uint64_t j = y * tiles_y / height;
         if ((i + 1) * width / tiles_x <= x) ++i;
@@ -91,7 +91,7 @@ Ground fit(std::uint64_t triangles, std::uint64_t seed) {
     triangles = std::max(triangles, ground.triangles());
     Ground best = ground;
     double best_score = 1e9;
-    // The share of the holes does not change much with the size: one guess, then a search around it.
+    // The holes' share of the area hardly depends on the size: starts from a guess and searches around it.
     const std::uint64_t ideal = std::max<std::uint64_t>(square_root(triangles * 2 / 5), 5);
     const std::uint64_t step = std::max<std::uint64_t>(ideal / 20, 1);
     for (std::uint64_t height = std::max<std::uint64_t>(ideal - ideal / 4, 5); height <= ideal + ideal / 4 + 1;
@@ -106,7 +106,7 @@ Ground fit(std::uint64_t triangles, std::uint64_t seed) {
                 best = ground;
                 best_score = score;
             }
-            // Rounded up and down in turns, since a width that is one too large may be out of the limit.
+            // Rounds down and up alternately, since a width that is one too large may exceed the limit.
             const double wanted = static_cast<double>(ground.width) * static_cast<double>(triangles) /
                                   static_cast<double>(std::max<std::uint64_t>(made, 1));
             ground.width =
@@ -126,7 +126,7 @@ Result<Mesh> make_terrain(std::uint64_t triangles, std::uint64_t seed) {
     const double scale = 2.0 / static_cast<double>(std::max(ground.width, ground.height));
     std::vector<std::uint32_t> vertex[2];
     std::vector<double> level[2];
-    std::vector<char> filled[2];  // with a guard cell on either side
+    std::vector<char> filled[2];  // with a guard cell at each end
     for (int i = 0; i < 2; ++i) {
         vertex[i].resize(ground.width + 1);
         level[i].resize(ground.width + 1);
@@ -150,7 +150,7 @@ Result<Mesh> make_terrain(std::uint64_t triangles, std::uint64_t seed) {
         }
         for (std::uint64_t x = 0; y > 0 && x < ground.width; ++x) {
             if (below[x + 1] == 0) continue;
-            // The diagonal follows the ground, as in a map: valences are irregular.
+            // Chooses the diagonal with the smaller height difference, so that valences are irregular.
             const double ac = std::fabs(z_before[x] - z[x + 1]);
             const double bd = std::fabs(z_before[x + 1] - z[x]);
             builder.quad(before[x], before[x + 1], here[x + 1], here[x], bd < ac);

@@ -23,10 +23,10 @@ struct PagedFile::State {
     std::byte* base = nullptr;
     std::size_t bytes = 0, pages = 0, page_bytes = 0, max_pages = 0, reads = 0;
     bool direct = false;
-    std::vector<bool> resident;        // of each page
-    std::vector<std::uint32_t> queue;  // the resident pages, oldest at `oldest`; a ring of `pages` entries
+    std::vector<bool> resident;        // is each page resident?
+    std::vector<std::uint32_t> queue;  // the resident pages, a ring buffer of `pages` entries from `oldest` on
     std::size_t oldest = 0, queued = 0;
-    State* next = nullptr;  // in the list that the handler looks through
+    State* next = nullptr;  // in the handler's list
 
     State() = default;
     State(const State&) = delete;
@@ -45,7 +45,7 @@ struct PagedFile::State {
         ::madvise(base + page * page_bytes, page_bytes, MADV_DONTNEED);
         ::mprotect(base + page * page_bytes, page_bytes, PROT_NONE);
     }
-    /// False if it cannot be read. Runs in a signal handler: system calls only.
+    /// Reads a page. False: read error. Runs in a signal handler, so it may only make system calls.
     bool load(std::size_t page) {
         while (queued >= max_pages) evict();
         std::byte* at = base + page * page_bytes;
@@ -68,7 +68,7 @@ struct PagedFile::State {
 
 namespace {
 
-PagedFile::State* mapped = nullptr;  // all of them
+PagedFile::State* mapped = nullptr;  // list of all mapped files
 struct sigaction before_ours;
 
 void on_fault(int signal, siginfo_t* info, void*) {
@@ -76,7 +76,7 @@ void on_fault(int signal, siginfo_t* info, void*) {
     for (PagedFile::State* s = mapped; s != nullptr; s = s->next) {
         if (!s->holds(info->si_addr)) continue;
         const auto page = static_cast<std::size_t>(static_cast<std::byte*>(info->si_addr) - s->base) / s->page_bytes;
-        if (s->resident[page]) break;  // a write: not ours to mend
+        if (s->resident[page]) break;  // a write to a resident page is the program's error
         if (!s->load(page)) {
             ::signal(SIGBUS, SIG_DFL);
             ::raise(SIGBUS);
@@ -84,7 +84,7 @@ void on_fault(int signal, siginfo_t* info, void*) {
         errno = saved;
         return;
     }
-    ::sigaction(signal, &before_ours, nullptr);  // the access happens again, and whoever was there before us sees it
+    ::sigaction(signal, &before_ours, nullptr);  // the access is repeated, and the previous handler gets the signal
     errno = saved;
 }
 
@@ -92,17 +92,17 @@ Error cannot_write(int why) {
     return {ErrorCode::cannot_write, std::strerror(why)};
 }
 
-/// A file that no folder lists, or -1 and errno.
+/// Opens an unnamed file. -1: error, with errno.
 int open_nameless(const std::filesystem::path& folder) {
     const int fd = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
-    if (fd >= 0 || (errno != EOPNOTSUPP && errno != EISDIR)) return fd;  // file systems without such files say either
+    if (fd >= 0 || (errno != EOPNOTSUPP && errno != EISDIR)) return fd;  // else: no O_TMPFILE on this file system
     std::string name = (folder / "lacedring-XXXXXX").string();
     const int named = ::mkostemp(name.data(), O_CLOEXEC);
     if (named >= 0) ::unlink(name.c_str());
     return named;
 }
 
-/// 0, or errno.
+/// Writes `parts` and extends the file to `bytes`. Returns 0 or errno.
 int write_padded(int fd, std::span<const std::span<const std::byte>> parts, std::size_t bytes) {
     for (std::span<const std::byte> part : parts) {
         while (!part.empty()) {
@@ -149,7 +149,7 @@ Result<PagedFile> PagedFile::make(const std::filesystem::path& folder,
     void* base = ::mmap(nullptr, s->pages * page_bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (base == MAP_FAILED) return Error{ErrorCode::too_large, std::strerror(errno)};
     s->base = static_cast<std::byte*>(base);
-    ::madvise(base, s->pages * page_bytes, MADV_NOHUGEPAGE);  // one of 2 MB would be resident beyond what was read
+    ::madvise(base, s->pages * page_bytes, MADV_NOHUGEPAGE);  // a 2 MB page would make unread pages resident
     s->resident.assign(s->pages, false);
     s->queue.resize(s->pages);
 

@@ -1,11 +1,10 @@
 #pragma once
-// A memory-mapped file of which no more than so many bytes are resident: what lets a structure be measured in less
-// memory than it takes, without a privilege or a smaller machine.
+// A memory-mapped file with a limit of resident bytes. It serves to measure structures with less memory than they need,
+// without privileges or a smaller machine.
 //
-// The addresses are reserved without access. Touching one raises SIGSEGV; the handler reads that page of the file into
-// its place and lets the program go on. Once `limit` bytes are resident, the page that was read longest ago gives its
-// memory back first (first in, first out). The file is read past the system's own cache where the file system can
-// (O_DIRECT), so that a page that left really is read again.
+// The addresses are reserved without access. Touching a page raises SIGSEGV; the handler reads the page from the file,
+// and the program continues. At the limit, the page that was read first is evicted first (FIFO). If the file system
+// supports O_DIRECT, reads bypass the system's cache, so that an evicted page is really read again.
 
 #include <cstddef>
 #include <filesystem>
@@ -19,14 +18,15 @@ namespace lacedring {
 class PagedFile {
   public:
     static constexpr std::size_t kPageBytes = std::size_t{32} << 10;
-    static constexpr std::size_t kMinPages = 8;  ///< an instruction may touch two; a copy by the library some more
+    static constexpr std::size_t kMinPages = 8;  ///< an instruction may touch two pages, memcpy a few more
 
-    /// Pages with and without access in turn are so many mappings; Linux has 65,530 a process.
+    /// Alternating protections split the mapping; Linux allows 65,530 mappings per process.
     static constexpr std::size_t kMaxPages = 60000;
 
-    /// Writes `parts`, one after the other, to a file without a name in `folder`, and maps it; nothing is resident, and
-    /// nothing limited. `page_bytes` is a power of two, raised to the system's. The file is gone with the object or the
-    /// process. Errors: cannot_write (no such folder, no space), too_large (more than kMaxPages, or no such addresses).
+    /// Writes `parts`, one after the other, to an unnamed file in `folder` and maps it. At first, no page is resident
+    /// and there is no limit. `page_bytes` is a power of two; the system's page size is the minimum. The file is
+    /// deleted with the object or the process. Errors: cannot_write (no such folder, no space), too_large (more than
+    /// kMaxPages, or no address space).
     static Result<PagedFile> make(const std::filesystem::path& folder,
                                   std::span<const std::span<const std::byte>> parts,
                                   std::size_t page_bytes = kPageBytes);
@@ -34,23 +34,23 @@ class PagedFile {
     PagedFile& operator=(PagedFile&&) noexcept;
     ~PagedFile();
 
-    /// The file, at an address that does not change. To be read by one thread at a time, not by system calls (which do
-    /// not raise SIGSEGV). As with mmap, a read error ends the process with SIGBUS.
+    /// The file, at a fixed address. Only one thread may read it at a time, and system calls must not: they fail
+    /// instead of raising SIGSEGV. As with mmap, a read error ends the process with SIGBUS.
     std::span<const std::byte> bytes() const;
 
-    /// From here on at most `bytes` are resident, rounded down to pages, but kMinPages. Gives up what is more.
+    /// Limits residency to max(kMinPages, bytes / page_bytes()) pages; evicts the excess now.
     void limit(std::size_t bytes);
     std::size_t limit() const;
 
-    /// Bytes of the mapping that are in memory, as the system says (mincore). O(pages).
+    /// Resident bytes of the mapping according to the system (mincore). O(pages).
     std::size_t resident() const;
-    /// Pages read from the file so far.
+    /// Number of pages read from the file so far.
     std::size_t pages_read() const;
     std::size_t page_bytes() const;
-    /// Is the file read from its disk, and not from memory of the system's?
+    /// Are pages read from the disk, not from the system's cache?
     bool direct() const;
 
-    struct State;  ///< the implementation's
+    struct State;  ///< defined in paged_file.cpp
 
   private:
     explicit PagedFile(std::unique_ptr<State> state);

@@ -14,7 +14,7 @@ namespace lacedring {
 namespace {
 
 CodedIndices encode(std::vector<std::uint32_t> ordered, std::uint32_t vertex_count) {
-    // gltfpack's; the library's default is 0 for readers older than 2020.
+    // Index codec version 1, as gltfpack; the library's default is version 0, for readers from before 2020.
     static const bool newest = (meshopt_encodeIndexVersion(1), true);
     (void)newest;
     CodedIndices out;
@@ -24,7 +24,7 @@ CodedIndices encode(std::vector<std::uint32_t> ordered, std::uint32_t vertex_cou
     std::uint32_t behind = static_cast<std::uint32_t>(used);
     out.order.resize(vertex_count);
     for (std::uint32_t v = 0; v < vertex_count; ++v) {
-        if (number[v] == UINT32_MAX) number[v] = behind++;  // of no triangle
+        if (number[v] == UINT32_MAX) number[v] = behind++;  // unused vertices come last
         out.order[number[v]] = v;
     }
     for (std::uint32_t& v : ordered) v = number[v];
@@ -35,7 +35,7 @@ CodedIndices encode(std::vector<std::uint32_t> ordered, std::uint32_t vertex_cou
     return out;
 }
 
-/// Scale that keeps squared areas within the range of floats: 1, or a power of two, which rounds nothing.
+/// A scale that keeps squared areas within the range of floats: 1, or a power of two, which is exact.
 float down_scale(std::span<const float> positions) {
     constexpr float kLarge = 0x1p30F;
     float largest = 0;
@@ -101,7 +101,7 @@ Result<Meshlets> make_meshlets(std::span<const std::uint32_t> indices, std::span
     LR_TRY(check_valences(indices, vertex_count));
     std::vector<float> scaled;
     if (const float scale = down_scale(positions); scale != 1) {
-        constexpr float kMost = std::numeric_limits<float>::max();  // positions given as doubles may round to infinity
+        constexpr float kMost = std::numeric_limits<float>::max();  // positions rounded from doubles may be infinite
         scaled.reserve(positions.size());
         for (const float x : positions) scaled.push_back(std::clamp(x, -kMost, kMost) * scale);
         positions = scaled;

@@ -1,5 +1,6 @@
 #pragma once
-// General compressors: bytes that each makes of a format at its best. Those that a build lacks give nothing.
+// Sizes of data compressed by general-purpose compressors at their best levels. std::nullopt: the build lacks the
+// compressor.
 
 #include <cstddef>
 #include <optional>

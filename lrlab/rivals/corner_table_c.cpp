@@ -7,7 +7,7 @@ CornerTableC build_corner_table_c(const CornerTable& table) {
     out.vertex_of.resize(table.corners.size());
     out.opposite_of.resize(table.corners.size());
     out.corner_of.assign(table.vertex_count, kNullCorner.value);
-    for (std::uint32_t t = table.triangle_count(); t-- > 0;) {  // backwards: C is a vertex's lowest corner
+    for (std::uint32_t t = table.triangle_count(); t-- > 0;) {  // backwards, so that C is a vertex's lowest corner
         const bool degenerate = table.degenerate(TriangleId{t});
         for (std::uint32_t i = 0; i < 3; ++i) {
             const CornerId c = corner(TriangleId{t}, i);

@@ -1,4 +1,4 @@
-// Whole meshes by Draco.
+// Encodes and decodes whole meshes with Draco.
 
 #include "lrlab/rivals/whole_mesh.h"
 
@@ -25,11 +25,11 @@ namespace lacedring {
 
 namespace {
 
-/// An attribute as Draco gets it: floats where it quantizes, else the mesh's own values.
+/// An attribute for Draco: floats if Draco quantizes it, else the mesh's values.
 struct DracoInput {
     const Attribute* attribute = nullptr;
     std::uint32_t bits = 0;     // 0: lossless
-    std::vector<float> floats;  // where quantized
+    std::vector<float> floats;  // empty if lossless
 };
 
 double number(const Attribute& attribute, std::size_t i) {
@@ -76,7 +76,8 @@ void add_attribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, draco
     mesh.attribute(id)->buffer()->Write(0, values.data(), values.size());
 }
 
-/// The mesh, its attributes with the unique ids 0, 1, ...; `numbered`: and the numbers of its vertices behind them.
+/// Converts the mesh; its attributes get the unique ids 0, 1, ... `numbered`: adds an attribute with the vertices'
+/// numbers.
 std::unique_ptr<draco::Mesh> draco_mesh(const Mesh& mesh, const std::vector<DracoInput>& inputs, bool numbered) {
     auto out = std::make_unique<draco::Mesh>();
     out->SetNumFaces(mesh.triangle_count());
@@ -110,7 +111,7 @@ struct Coded {
     std::unique_ptr<draco::Mesh> decoded;
 };
 
-/// `level`: of Draco's tools, 10 the smallest.
+/// `level`: the compression level of Draco's tools, 0 to 10; 10 gives the smallest files.
 Result<draco::EncoderBuffer> encode_draco_at(const draco::Mesh& mesh, const std::vector<DracoInput>& inputs,
                                              int level) {
     draco::ExpertEncoder encoder(mesh);
@@ -143,7 +144,8 @@ Result<Coded> encode_draco(const draco::Mesh& mesh, const std::vector<DracoInput
     return out;
 }
 
-/// Compares a numbered mesh with its original: triangles, lossless values, and the error of others.
+/// Compares a decoded numbered mesh with the original: checks triangles and lossless values, and sets the largest
+/// errors of quantized values.
 void compare(const draco::Mesh& decoded, const Mesh& mesh, const std::vector<DracoInput>& inputs, RivalMesh& out) {
     const auto values_of = [&](std::size_t unique_id, draco::PointIndex point) {
         return decoded.GetAttributeByUniqueId(static_cast<std::uint32_t>(unique_id))->GetAddressOfMappedIndex(point);

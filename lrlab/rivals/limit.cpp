@@ -68,7 +68,7 @@ Result<void> check_places(std::span<const std::uint32_t> indices, std::span<cons
         while (end < places.size() && places[end] == places[begin]) ++end;
         most = std::max(most, end - begin);
     }
-    // The number of triangles looked at takes the place of the sum of squared valences.
+    // Uses the number of visited triangles as the sum of squared valences.
     const auto moderate = [&](std::uint64_t looked_for) {
         return Valences{looked_for * most, places.size(), 0}.moderate();
     };

@@ -1,5 +1,5 @@
 #pragma once
-// Limits of meshoptimizer: meshes on which its orders would take quadratic time.
+// Finds meshes for which meshoptimizer would take quadratic time.
 
 #include <cstdint>
 #include <span>
@@ -21,14 +21,14 @@ struct Valences {
 /// Cost: O(T), 4 bytes a vertex.
 Valences count_valences(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);
 
-/// Checks that meshoptimizer's orders (vertex cache, strips, meshlets) end in linear time. For each triangle they look
-/// at all triangles left at its vertices: a fan of 100,000 takes minutes. Cost: that of count_valences.
-/// Errors: too_large (the valences are not moderate).
+/// Checks that meshoptimizer's algorithms (vertex cache, strips, meshlets) take linear time. For each triangle they
+/// visit all remaining triangles at its vertices: a fan of 100,000 takes minutes. Cost: that of count_valences. Errors:
+/// too_large (the valences are not moderate).
 Result<void> check_valences(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);
 
-/// The same for meshlets of many components: where a component ends, meshoptimizer searches the next triangle by its
-/// centroid, among all triangles with the same centroid. `positions` has three a vertex. Cost: O(T log T), 8 bytes a
-/// triangle. Errors: too_large.
+/// The same for meshlets of many components: at a component's end, meshoptimizer searches the next triangle by its
+/// centroid, and visits all triangles with the same centroid. `positions` has 3 floats a vertex. Cost: O(T log T), 8
+/// bytes a triangle. Errors: too_large.
 Result<void> check_places(std::span<const std::uint32_t> indices, std::span<const float> positions);
 
 }  // namespace lacedring

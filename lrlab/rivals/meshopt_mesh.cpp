@@ -1,4 +1,4 @@
-// Whole meshes by meshoptimizer's codecs, as gltfpack -c stores them.
+// Encodes whole meshes with meshoptimizer's codecs, as gltfpack -c does.
 
 #include <fmt/format.h>
 #include <meshoptimizer.h>
@@ -18,9 +18,9 @@ namespace lacedring {
 namespace {
 
 constexpr int kVertexCodec = MESHOPTIMIZER_VERSION >= 230 ? 1 : 0;
-constexpr std::size_t kLargestStride = 256;  // of meshopt_encodeVertexBuffer
+constexpr std::size_t kLargestStride = 256;  // limit of meshopt_encodeVertexBuffer
 
-/// Vertices as they lie in a vertex buffer.
+/// A vertex buffer.
 struct VertexBuffer {
     std::size_t stride = 0;
     std::vector<std::uint8_t> data;
@@ -30,7 +30,7 @@ std::size_t padded(std::size_t bytes) {
     return (bytes + 3) / 4 * 4;
 }
 
-/// Integers of `width` bytes, each attribute filled up to 4 bytes.
+/// Packs integers to `width` bytes each, and pads each vertex to a multiple of 4 bytes.
 VertexBuffer pack(const std::vector<std::uint32_t>& values, std::size_t components, std::size_t width) {
     VertexBuffer out{padded(components * width), {}};
     const std::size_t vertices = values.size() / components;
@@ -42,7 +42,8 @@ VertexBuffer pack(const std::vector<std::uint32_t>& values, std::size_t componen
     return out;
 }
 
-/// A lattice's integers count from the least of each component; octahedral ones are signed.
+/// Packs integers to the fewest bytes. Lattice integers are made relative to the minimum of their component; octahedral
+/// integers are signed.
 VertexBuffer pack(VertexIntegers integers) {
     const std::size_t n = integers.components;
     if (integers.mapping == VertexMapping::octahedral) return pack(integers.values, n, integers.bits <= 8 ? 1 : 2);
@@ -59,7 +60,7 @@ VertexBuffer pack(VertexIntegers integers) {
     return pack(integers.values, n, most < 256 ? 1 : most < 65536 ? 2 : 4);
 }
 
-/// Values as they are.
+/// Pads an attribute's values to a multiple of 4 bytes a vertex.
 VertexBuffer pack(const Attribute& attribute) {
     VertexBuffer out{padded(attribute.stride()), {}};
     const std::size_t vertices = attribute.data.size() / attribute.stride();

@@ -1,4 +1,4 @@
-// Fills S: the swings that leave the records.
+// Builds a SQuad from a matching: fills S with the swings that leave the records.
 
 #include <fmt/format.h>
 
@@ -39,7 +39,7 @@ class Builder {
     }
 
   private:
-    /// c's triangle gets number t, and begins with c.
+    /// Gives c's triangle the number t and c as first corner.
     void place(CornerId c, std::uint32_t t) { place_[triangle(c).value] = 4 * t + c.value % 3; }
     /// The SQuad's number of a corner of the table.
     std::uint32_t number(CornerId c) const {
@@ -62,14 +62,14 @@ class Builder {
         words[1] = beyond(next(a));
         words[2] = beyond(previous(a));
     }
-    /// What follows c around its vertex.
+    /// The word of S for c: the corner that follows c around its vertex.
     std::uint32_t beyond(CornerId c) const {
         if (const CornerId s = table_.swing(c); !s.is_null()) return number(s);
         for (CornerId b = c; !b.is_null(); b = table_.swing_back(b)) c = b;
         return number(c) | SquadView::kWrap;
     }
 
-    /// Unmatched vertices in the order of the smallest corner that S has at them.
+    /// Sorts the unmatched vertices by the smallest corner of their cycle in S, and fills `corners`.
     void sort_unmatched() {
         std::vector<std::uint32_t> wanted(matching_.unmatched.empty() ? 0 : table_.vertex_count, kNone);
         for (std::uint32_t i = 0; i < matching_.unmatched.size(); ++i) wanted[matching_.unmatched[i].value] = i;
@@ -138,7 +138,8 @@ class Builder {
 
     const CornerTable& table_;
     SquadMatching matching_;
-    std::vector<std::uint32_t> place_;  // of each triangle: 4 times its number, plus which of its corners is first
+    std::vector<std::uint32_t>
+        place_;  // for each triangle of the table: 4 * its new number + index of its first corner
     Squad out_;
 };
 

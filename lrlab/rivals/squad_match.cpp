@@ -1,6 +1,5 @@
-// A triangle and a vertex that owns it are told by a byte of the triangle: which of its corners is at the vertex, and
-// on which side of that corner the vertex owns a second triangle. So every step below is a few look-ups beside a
-// corner.
+// The state of a triangle is a byte: its corner at the vertex that owns it, and the side of that corner on which the
+// vertex owns a second triangle. So each step needs only a few look-ups.
 
 #include "lrlab/rivals/squad_match.h"
 
@@ -11,13 +10,13 @@
 namespace lacedring {
 namespace {
 
-// What is known of a triangle, in a byte.
-constexpr std::uint8_t kOwner = 3;      // which of its corners is at the vertex that owns it, or
+// The state of a triangle.
+constexpr std::uint8_t kOwner = 3;      // mask: the index of its corner at the owner, or kFree
 constexpr std::uint8_t kFree = 3;       // no vertex owns it
-constexpr std::uint8_t kPairSwing = 4;  // its vertex also owns the triangle of that corner's swing
-constexpr std::uint8_t kPairBack = 8;   // its vertex also owns the one before
+constexpr std::uint8_t kPairSwing = 4;  // its owner also owns the triangle of that corner's swing
+constexpr std::uint8_t kPairBack = 8;   // its owner also owns the triangle of that corner's swing_back
 constexpr std::uint8_t kPaired = kPairSwing | kPairBack;
-constexpr std::uint8_t kSeen = 16;   // the walk has been there
+constexpr std::uint8_t kSeen = 16;   // visited by the walk
 constexpr std::uint8_t kExtra = 32;  // free, and in a record
 
 class Matcher {
@@ -38,11 +37,11 @@ class Matcher {
     }
 
   private:
-    /// One vertex on an alternating path.
+    /// A vertex on an alternating path.
     struct Step {
-        CornerId kept;   // a corner at the vertex, in a triangle that it owns or, extending a quad, keeps
-        CornerId taken;  // a triangle that the vertex gives up: the corner at the vertex of the step before
-        std::size_t before;
+        CornerId kept;       // the vertex's corner in its triangle; in extend(), in the triangle that it keeps
+        CornerId taken;      // in the triangle that it gives up: the corner at the previous step's vertex
+        std::size_t before;  // index of the previous step
     };
 
     std::uint8_t& state(CornerId c) { return state_[triangle(c).value]; }
@@ -56,7 +55,7 @@ class Matcher {
         for (std::uint32_t t = 0; t < table_.triangle_count(); ++t) {
             if ((state_[t] & kSeen) != 0 || table_.degenerate(TriangleId{t})) continue;
             const CornerId seed = corner(TriangleId{t}, 0);
-            for (const CornerId c : {next(seed), previous(seed)}) {  // the two that no triangle is entered for
+            for (const CornerId c : {next(seed), previous(seed)}) {  // no triangle is entered for these two vertices
                 known_.set(table_.vertex(c).value);
                 seeds_.push_back(c);
                 order_.push_back(table_.vertex(c));
@@ -79,8 +78,9 @@ class Matcher {
         stack.pop_back();
         return c;
     }
-    /// Enters a triangle across the edge that faces c, on the way right first. Beyond a triangle whose tip is known,
-    /// the walk goes on only where it would end otherwise: the vertices there are the rings' isolated ones.
+    /// Visits the triangle of c, which is entered across the edge opposite to c. The walk continues to the right first.
+    /// If the tip is known already, its neighbors are deferred until the walk would end: their new vertices are like
+    /// the isolated vertices of rings.
     void enter(CornerId c) {
         if (c.is_null() || (state(c) & kSeen) != 0) return;
         state(c) |= kSeen;
@@ -96,8 +96,8 @@ class Matcher {
         stack.push_back(table_.right(c));
     }
 
-    /// Gives the vertex of `seed` a triangle: a free one, best with a free one beside it; else one whose owner finds
-    /// another, by breadth-first search over the owners. Finds one if there is one.
+    /// Gives the vertex of `seed` a triangle: a free one, preferably next to another free one; else one whose owner can
+    /// take another triangle, found by breadth-first search over the owners. Succeeds if any solution exists.
     void own_one(CornerId seed) {
         std::vector<Step>& steps = steps_;
         steps.assign(1, {seed, kNullCorner, 0});
@@ -129,8 +129,8 @@ class Matcher {
         for (const Step& step : steps) known_.set(table_.vertex(step.kept).value);
     }
 
-    /// visit(neighbour's corner) for each neighbour that the triangle may be paired with. An owned triangle is paired
-    /// with a free one across an edge at its owner, which is an edge that does not face the owner.
+    /// Calls visit(c) for each neighbor with which the triangle may be paired; c is the neighbor's corner opposite to
+    /// the shared edge. An owned triangle is paired with a free one across an edge at its owner.
     template <class Visit>
     void choices(TriangleId t, Visit visit) const {
         const std::uint8_t mine = state_[t.value];
@@ -145,7 +145,8 @@ class Matcher {
             visit(c);
         }
     }
-    /// Pairs the triangle with its only choice, or with any; then whatever that forces.
+    /// Pairs the triangle if it has only one choice, or, without `forced_only`, any choice; then makes all pairs that
+    /// become forced.
     void settle(TriangleId t, bool forced_only) {
         forced_.push_back(t);
         while (!forced_.empty()) {
@@ -160,7 +161,8 @@ class Matcher {
             if (count == 0 || (count > 1 && forced_only)) continue;
             forced_only = true;
             const CornerId facing = table_.opposite(c);
-            const CornerId owned = (state_[a.value] & kOwner) == kFree ? c : facing;  // of the two that face the edge
+            // The corner opposite to the shared edge in the owned triangle.
+            const CornerId owned = (state_[a.value] & kOwner) == kFree ? c : facing;
             const CornerId at = owner_corner(owned);
             join(at, owned == next(at) ? table_.swing(at) : table_.swing_back(at));
             for (const TriangleId x : {a, triangle(c)}) {
@@ -171,7 +173,7 @@ class Matcher {
             }
         }
     }
-    /// Gives the triangles of a and b to their vertex; one corner is the other's swing.
+    /// Gives the triangles of a and b to their common vertex; one corner is the other's swing.
     void join(CornerId a, CornerId b) {
         if (table_.swing(a) != b) std::swap(a, b);
         own(a);
@@ -185,9 +187,9 @@ class Matcher {
         }
     }
 
-    /// Gives the owner of c's triangle a second one: a neighbour of the first, taken from a vertex that keeps its other
-    /// triangle and takes a neighbour of that, and so on until one is free. Breadth first, from `reach` vertices at
-    /// most.
+    /// Gives the owner of c's triangle a second triangle, a neighbor of the first. If it has an owner, that vertex
+    /// keeps its other triangle and takes a neighbor of it, and so on to a free triangle. Breadth-first search from at
+    /// most `reach` vertices.
     void extend(CornerId c, std::uint32_t reach) {
         std::vector<Step>& steps = steps_;
         steps.assign(1, {c, kNullCorner, 0});
@@ -239,7 +241,7 @@ class Matcher {
         out_.matched = static_cast<std::uint32_t>(out_.records.size());
     }
 
-    /// Renumbered, in the order in which the records before them meet them.
+    /// Adds records for the free triangles; with `renumber`, in the order of adjacent records.
     void add_extras(bool renumber) {
         for (std::uint32_t r = 0; renumber && r < out_.matched; ++r) {
             const auto [a, quad] = out_.records[r];
@@ -256,7 +258,7 @@ class Matcher {
             if (!o.is_null()) add_extra(triangle(o));
         }
     }
-    /// Makes a record of the triangle, and a free neighbour if there is one, if it is free itself.
+    /// If the triangle is free, makes a record of it and of a free neighbor if there is one.
     void add_extra(TriangleId t) {
         const auto wanted = [&](CornerId c) { return free(c) && (state(c) & kExtra) == 0; };
         if (!wanted(corner(t, 0))) return;
@@ -272,13 +274,13 @@ class Matcher {
     }
 
     const CornerTable& table_;
-    std::vector<std::uint8_t> state_;  // a byte a triangle
-    BitVector known_;                  // vertices that the walk has met; cleared for a while where a search has been
-    std::vector<VertexId> order_;      // in the order in which it met them
-    std::vector<CornerId> seeds_;      // a corner of each that it gave no triangle
+    std::vector<std::uint8_t> state_;  // state of each triangle
+    BitVector known_;                  // vertices met by the walk; searches clear visited ones temporarily
+    std::vector<VertexId> order_;      // the vertices in the order of the walk
+    std::vector<CornerId> seeds_;      // a corner of each vertex to which the walk gave no triangle
     std::vector<CornerId> stack_, later_;
     SquadMatching out_;
-    // Workspaces.
+    // Reused memory of searches.
     std::vector<TriangleId> forced_;
     std::vector<Step> steps_;
 };

@@ -1,13 +1,14 @@
 #pragma once
-// The winged edge customised to triangles: 9.5 references a triangle. Paper: LR 2011, section 3 (Baumgart; half-edges).
+// The winged edge specialized to triangles: 9.5 references a triangle. Paper: LR 2011, section 3 (Baumgart;
+// half-edges).
 //
-// Each half-edge holds its start vertex, the opposite half-edge and the next one; each vertex holds a half-edge that
-// starts there. Half-edge h is named by the corner that faces it, so corner c is in half-edge c:
+// Each half-edge stores its start vertex, the opposite half-edge and the next one; each vertex stores a half-edge that
+// starts there. A half-edge has the number of the corner opposite to it:
 //
 //             v(c)                half-edge c starts at v(c.n) and ends at v(c.p); c.n and c.p follow it
 //             /  \                c.v is the start of half-edge c.p, which is c.n.n: next is read, not computed
 //            / c  \               c.o is the corner in c's opposite half-edge
-//           / ---> \              c.t: half-edges 3t, 3t+1, 3t+2 are those of triangle t (so no face is held)
+//           / ---> \              c.t: half-edges 3t, 3t+1, 3t+2 are those of triangle t (so no face is stored)
 //      v(c.n)     v(c.p)
 
 #include <cstddef>
@@ -25,13 +26,13 @@ struct HalfEdge {
     CornerId next;
 };
 
-/// The arrays, wherever they are: in a WingedEdge, or in a memory-mapped file. Holds no copy. The names of Operators,
-/// each in constant time unless it says otherwise. Entries are trusted, as are the arguments.
+/// A view of the arrays of a WingedEdge, or of a memory-mapped file; does not own them. Has the interface of Operators,
+/// in constant time unless stated otherwise. Entries and arguments are not checked.
 struct WingedEdgeView : CornerWalks<WingedEdgeView, 3> {
     std::uint32_t vertices = 0;
-    std::span<const HalfEdge> half_edges;    ///< 3 a triangle
-    std::span<const CornerId> half_edge_at;  ///< 1 a vertex: a half-edge that starts there, at a border the one
-                                             ///< on it; null: of no triangle
+    std::span<const HalfEdge> half_edges;  ///< three per triangle
+    /// A half-edge that starts at each vertex, at a border the border half-edge; null: the vertex has no triangle.
+    std::span<const CornerId> half_edge_at;
 
     using CornerWalks::corner;
 
@@ -49,14 +50,14 @@ struct WingedEdgeView : CornerWalks<WingedEdgeView, 3> {
         return h.is_null() ? h : next(h);
     }
 
-    /// Triangles keep the input's numbers; degenerate ones are held, and take part in nothing.
+    /// Triangles keep the input's numbers; degenerate ones are stored, but no operator reaches them.
     bool is_canonical(TriangleId t) const {
         const VertexId a = half_edges[3 * t.value].start, b = half_edges[3 * t.value + 1].start;
         const VertexId c = half_edges[3 * t.value + 2].start;
         return a != b && b != c && c != a;
     }
     std::uint32_t triangle_numbers() const { return static_cast<std::uint32_t>(half_edges.size() / 3); }
-    /// 9 n + m.
+    /// 9 n + m for n triangles and m vertices.
     std::size_t references() const { return 3 * half_edges.size() + half_edge_at.size(); }
 };
 
@@ -69,8 +70,8 @@ struct WingedEdge {
     }
 };
 
-/// From a pseudo-manifold corner table (split_fans), so that one half-edge reaches a vertex's whole star.
-/// Cost: O(T) time; nothing but the result.
+/// Converts a pseudo-manifold corner table (split_fans), so that a vertex's whole star is reached from one half-edge.
+/// Cost: O(T) time; no memory beside the result.
 WingedEdge build_winged_edge(const CornerTable& table);
 
 }  // namespace lacedring

@@ -1,5 +1,5 @@
 #pragma once
-// Whole files in and out.
+// Reads, maps and writes whole files.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,16 +12,16 @@
 
 namespace lacedring {
 
-/// Reads a whole regular file. Pipes, devices and what /proc and /sys hold are refused without being opened for long:
-/// reading one may block for ever, never end, or have an effect.
+/// Reads a whole regular file. Refuses pipes, devices and the files of /proc and /sys: reading them may block forever,
+/// never end, or have side effects.
 /// Errors: cannot_open (missing, a folder, no permission, not a regular file), too_large (more than `most` bytes).
 Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::uint64_t most = UINT64_MAX);
 
-/// Reads the first `count` bytes of a regular file, fewer where it is shorter. Errors: cannot_open, as read_file.
+/// Reads the first `count` bytes of a regular file, or all if it is shorter. Errors: cannot_open, as read_file.
 Result<std::vector<std::byte>> read_file_start(const std::filesystem::path& path, std::uint64_t count);
 
-/// A regular file mapped into memory for reading, at the start of a page. Whoever truncates the file while it is mapped
-/// makes reads behind its new end fatal (SIGBUS): for files of one's own.
+/// A regular file mapped into memory for reading; the mapping is page-aligned. If another process truncates the file,
+/// reading beyond its new end raises SIGBUS: map only files that nobody else changes.
 class MappedFile {
   public:
     /// Errors: cannot_open, as read_file.
@@ -41,13 +41,13 @@ class MappedFile {
     std::span<const std::byte> bytes_;
 };
 
-/// Reads what is left of an open descriptor, of a pipe too. Errors: cannot_open (a read error), too_large.
+/// Reads an open descriptor, which may be a pipe, to its end. Errors: cannot_open (a read error), too_large.
 Result<std::vector<std::byte>> read_descriptor(int descriptor, std::uint64_t most = UINT64_MAX);
 
-/// Writes `parts` one after the other to a file without a name, then gives it the name `path`: `path` is whole or
-/// untouched, whatever ends the process, and keeps its permissions. Threads and processes may write one path at once;
-/// the last one stays. Links are followed; devices, pipes and descriptors (/dev/stdout) are written in place. Errors:
-/// cannot_write (a loop of links, too).
+/// Writes `parts` one after the other to an unnamed file, then names it `path`. So `path` is complete or untouched even
+/// if the process is killed; an existing file's permissions are kept. Several threads or processes may write one path
+/// at once; the last writer wins. Follows symbolic links; writes devices, pipes and descriptors (/dev/stdout) in place.
+/// Errors: cannot_write (also for a loop of links).
 Result<void> write_file(const std::filesystem::path& path, std::span<const std::span<const std::byte>> parts);
 
 /// Writes `parts` to an open descriptor. Errors: cannot_write.

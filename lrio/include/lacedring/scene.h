@@ -1,8 +1,7 @@
-/* Packed glTF scenes in C99: what `lacedring pack` writes, or pack_scene (scene.hpp), into plain glTF. Link with
-   lacedring::io.
+/* C99 interface to unpack glTF scenes that `lacedring pack` or pack_scene (scene.hpp) wrote. Link with lacedring::io.
 
-   Codes and messages are those of lacedring.h; nothing here prints, exits or throws, no file is opened, and functions
-   may be called from several threads at once. Untrusted input is safe. */
+   Codes and messages are those of lacedring.h. The functions do not print, exit, throw or open files; several threads
+   may call them at once. Untrusted input is safe. */
 #ifndef LACEDRING_SCENE_H
 #define LACEDRING_SCENE_H
 
@@ -15,20 +14,20 @@
 extern "C" {
 #endif
 
-/* Does the glTF or GLB have the extension LACEDRING_mesh_compression? Of bytes that are no glTF: 0. Cost: O(the JSON),
-   in up to 32 times its bytes of memory; 0 where there is not so much. */
+/* 1 if the glTF or GLB has the extension LACEDRING_mesh_compression, else 0; 0 also if the bytes are not glTF or memory
+   is short. Cost: O(JSON), with up to 32 bytes of memory for each byte of JSON. */
 int lacedring_is_packed_scene(const void* bytes, size_t size);
 
-/* Plain GLB of a packed GLB, or of a packed glTF whose buffers are `data:` URIs. Of one that is not packed: the same
-   with one buffer. `max_bytes`: of memory that what is decoded may take; 0: 512 MiB, or 128 times `size` where that is
-   more. The bytes need not stay. On success *glb is the file, *glb_size bytes, for lacedring_free; on an error *glb is
-   null and *glb_size 0. `message` may be null. Errors: MALFORMED (no glTF; streams that do not follow their format; a
-   part of glTF that is not read; a buffer in a file of its own), INVALID_ARGUMENT (a null pointer), TOO_LARGE (4 GiB;
-   the machine's memory), OUT_OF_MEMORY (`max_bytes`). Cost: O(the plain file). */
+/* Unpacks a GLB, or a glTF whose buffers are `data:` URIs, to a plain GLB. An input that is not packed is rewritten
+   with one buffer. `max_bytes` limits the memory of decoded data; 0: 512 MiB or 128 times `size`, whichever is more.
+   `bytes` may be freed after the call. On success, *glb points to *glb_size bytes, which the caller frees with
+   lacedring_free; on an error, *glb is null and *glb_size 0. `message` may be null. Errors: MALFORMED (no glTF; streams
+   that violate their format; a part of glTF that is not read; a buffer in a separate file), INVALID_ARGUMENT (a null
+   pointer), TOO_LARGE (4 GiB; the machine's memory), OUT_OF_MEMORY (`max_bytes`). Cost: O(plain file). */
 enum lacedring_code lacedring_unpack_scene(const void* bytes, size_t size, uint64_t max_bytes, unsigned char** glb,
                                            size_t* glb_size, struct lacedring_message* message);
 
-/* Frees what a function of this header returned. Null: does nothing. */
+/* Frees the *glb of lacedring_unpack_scene. Null: does nothing. */
 void lacedring_free(void* memory);
 
 #ifdef __cplusplus

@@ -1,6 +1,6 @@
 #pragma once
-// glTF scenes in and out, whole: triangles become streams of the glTF extension LACEDRING_mesh_compression
-// (docs/gltf), and all else stays as it is.
+// Packs whole glTF scenes and unpacks them: triangles become streams of the glTF extension LACEDRING_mesh_compression
+// (docs/gltf); everything else stays unchanged.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,29 +18,30 @@ namespace lacedring {
 
 /// How the JSON document of a packed scene is stored.
 enum class SceneJson : std::uint8_t {
-    automatic,  ///< deflated in a GLB's binary chunk where it would be more than a fifth of the file without its images
+    automatic,  ///< packed if the plain JSON would be more than a fifth of the file without its images, else plain
     plain,      ///< as in any glTF
-    packed,     ///< deflated
+    packed,     ///< deflated, in a GLB's binary chunk
 };
 
 struct PackOptions {
-    /// As gltfpack's defaults, and finer; all 0: lossless. Integers stay as they are.
+    /// At least as fine as gltfpack's defaults; all 0: lossless. Integers are never quantized.
     AttributeBits bits = {.positions = 14, .normals = 10, .texcoords = 12, .colors = 8, .weights = 8};
-    bool keep_order = false;  ///< of vertices and triangles: about 8 bytes a vertex more
-    bool fallback = false;    ///< plain buffers beside the streams, for loaders without the extension
+    bool keep_order = false;  ///< keeps the order of vertices and triangles, for about 8 more bytes a vertex
+    bool fallback = false;    ///< adds plain buffers, for loaders without the extension
     SceneJson json = SceneJson::automatic;
-    LrForm form = LrForm::stored;  ///< of the streams
-    /// URI of the binary buffer; empty: it is a GLB's. One with a URI has its fallback in a file of its own.
+    LrForm form = LrForm::stored;  ///< form of the streams
+    /// URI of the binary buffer; empty: the buffer is a GLB's binary chunk. With a bin_uri, the fallback is in the file
+    /// of fallback_uri.
     std::string bin_uri, fallback_uri;
 };
 
 struct PackReport {
-    std::size_t primitives = 0;                             ///< that are compressed
-    std::uint64_t triangles = 0;                            ///< of those
-    std::uint64_t geometry_before = 0, geometry_after = 0;  ///< of accessors, and of streams
-    std::map<std::string, double> max_error;                ///< by attribute, of those that lose something
-    std::map<std::string, std::size_t> not_compressed;      ///< primitives, by what they are
-    std::vector<std::string> notes;                         ///< a line each: what changed beside that
+    std::size_t primitives = 0;                             ///< number of compressed primitives
+    std::uint64_t triangles = 0;                            ///< of the compressed primitives
+    std::uint64_t geometry_before = 0, geometry_after = 0;  ///< bytes of accessors before, of streams after
+    std::map<std::string, double> max_error;                ///< largest error of each lossy attribute
+    std::map<std::string, std::size_t> not_compressed;      ///< number of primitives for each reason
+    std::vector<std::string> notes;                         ///< other changes, a line each
     ReadReport read;
 };
 
@@ -50,10 +51,9 @@ struct SceneFile {
     std::vector<std::byte> bin, fallback;
 };
 
-/// Packs a glTF or GLB. Numbers of nodes, meshes, accessors and the like stay what they are, and so does what nobody
-/// knows. `name` gives the folder of its buffers (read_mesh). Cost: that of encoding the triangles. Errors: those of
-/// read_mesh; unsupported (is packed already); invalid_argument (a packed document with a URI or a fallback). Untrusted
-/// input: safe.
+/// Packs a glTF or GLB. The indices of nodes, meshes, accessors etc. and all unknown contents stay unchanged. `name`
+/// gives the folder of its buffers (read_mesh). Errors: as read_mesh; unsupported (is packed already); invalid_argument
+/// (a packed document with a URI or a fallback). Untrusted input: safe. Cost: as encoding the triangles.
 Result<SceneFile> pack_scene(std::span<const std::byte> bytes, const std::filesystem::path& name,
                              const PackOptions& options = {}, const ReadOptions& read = {},
                              PackReport* report = nullptr);
@@ -64,19 +64,20 @@ struct UnpackReport {
     ReadReport read;
 };
 
-/// Plain glTF of a packed one; of one that is not packed, the same with one buffer. Errors and the rest as above.
+/// Unpacks a glTF or GLB to plain glTF; an input that is not packed is rewritten with one buffer. `name` and errors as
+/// in read_mesh. Untrusted input: safe.
 Result<SceneFile> unpack_scene(std::span<const std::byte> bytes, const std::filesystem::path& name,
                                const std::string& bin_uri = "", const ReadOptions& read = {},
                                UnpackReport* report = nullptr);
 
-/// Does the glTF have the extension?
+/// Does the glTF have the extension LACEDRING_mesh_compression?
 bool is_packed_scene(std::span<const std::byte> bytes);
 
-/// All of a GLB file before the bytes of `bin`, which follow, with zeros up to a multiple of 4. Errors: too_large (4
-/// GiB).
+/// The bytes of a GLB file before those of `bin`. The caller appends `bin`, padded with zeros to a multiple of 4.
+/// Errors: too_large (4 GiB).
 Result<std::vector<std::byte>> make_glb_head(const SceneFile& scene);
 
-/// A GLB file of a scene whose buffer has no URI. Errors: too_large (4 GiB).
+/// The GLB file of a scene whose buffer has no URI. Errors: too_large (4 GiB).
 Result<std::vector<std::byte>> make_glb_file(const SceneFile& scene);
 
 }  // namespace lacedring
