@@ -16,7 +16,7 @@ std::string period_title(std::uint32_t k) {
     return fmt::format("k = {}, {}", k, k == 1 ? "breadth first" : "hybrid");
 }
 
-/// One column of the histograms, and one line of their table.
+/// One column of the histograms, which is one row of their table.
 struct Bin {
     std::string label;  ///< under the column
     std::string title;
@@ -56,7 +56,7 @@ std::string histogram(const MeshReport& mesh, const PeriodFigures& period, std::
                            percent == 0 ? "" : " %");
     }
     for (std::size_t i = 0; i < columns.size(); ++i) {
-        const bool outside = i + 2 >= columns.size();  // no offset along the ring
+        const bool outside = i + 2 >= columns.size();  // the last two are iso and T0
         const double percent = 100.0 * columns[i].count(period.offsets) / static_cast<double>(mesh.triangles);
         const double x = kLeft + step * (static_cast<double>(i) + (outside ? 0.6 : 0));
         const double height = kHeight * percent / top;

@@ -13,10 +13,10 @@
 namespace lacedring::app {
 namespace {
 
-/// Nothing is fetched and nothing runs, whatever a file is called.
+/// The browser fetches nothing and runs no script, whatever file names the page contains.
 constexpr std::string_view kPolicy = "default-src 'none'; img-src data:; style-src 'unsafe-inline'";
 
-/// How the page calls a mesh: its file without folders, or with them where two would be called the same.
+/// The title of a mesh on the page: its file name, or its path if another mesh has the same file name.
 std::string title_of(const MeshReport& mesh, std::span<const MeshReport> meshes) {
     const auto file = [](const MeshReport& m) { return std::filesystem::path(m.path).filename().string(); };
     const std::string out = file(mesh);
@@ -138,7 +138,7 @@ std::string table_of_sizes(const MeshReport& mesh, const std::string& title) {
                                : "");
 }
 
-/// "meshopt_index_codec", with places to break it.
+/// A format's name with line breaks allowed after underscores.
 std::string breakable(std::string_view name) {
     std::string out;
     for (const char c : name) c == '_' ? out += "_<wbr>" : out += c;
@@ -152,7 +152,7 @@ double median(std::vector<double> values) {
     return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2;
 }
 
-/// A row a mesh, and the median below.
+/// One row per mesh, and the medians below.
 std::string overview(std::span<const MeshReport> meshes) {
     constexpr std::string_view kColumns[] = {
         "index_u32", "strip_restart", "meshopt_index_codec", "packed", "packed_cache", "lean", "lr", "lr_compact"};

@@ -35,7 +35,7 @@ void add_rival(TotalTable& table, const Mesh& mesh, const char* name, const Resu
         entry.errors.emplace_back(mesh.attributes[i].name, rival->largest_errors[i]);
 }
 
-/// Median of a figure over the tables that have it; none where none has.
+/// Median of a figure over the tables that have it; empty if no table has it.
 template <class Figure>
 std::optional<double> median_of(std::span<const TotalTable> tables, Figure figure) {
     std::vector<double> values;
