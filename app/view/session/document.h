@@ -27,7 +27,7 @@ struct RingSettings {
     std::uint32_t k = 100;    ///< period of the hybrid
     std::uint32_t seeds = 1;  ///< per component
     std::uint64_t random_seed = 1;
-    CornerId start = kNullCorner;  ///< seed corner; null: of the first triangle
+    CornerId start = kNullCorner;  ///< seed corner; null: in the first triangle
     std::uint32_t passes = 24;     ///< of the optimizer
     bool warts = true;             ///< wart skipping
 
