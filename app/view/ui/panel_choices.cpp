@@ -1,4 +1,4 @@
-// Left: what is opened and how it is shown.
+// The left panel: which file is open, and how it is shown.
 #include <imgui.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace lacedring::view {
 namespace {
 
-constexpr float kLabel = 104;  // nominal pixels before a field
+constexpr float kLabel = 104;  // width of a label in nominal pixels
 
 void label(const char* text, const char* explained) {
     ImGui::AlignTextToFramePadding();
@@ -23,7 +23,7 @@ void label(const char* text, const char* explained) {
     ImGui::SetNextItemWidth(-1);
 }
 
-/// A list of a setting's values. `other`: what it shows of a value that is in no list.
+/// Draws a list of a setting's values. `other`: text for a value that is not in the list.
 void choose(State& state, const char* name, const char* title, const char* explained, const char* other = "") {
     const Setting& setting = *find_setting(name);
     const double now = setting.get(state.choices);
@@ -40,7 +40,7 @@ void choose(State& state, const char* name, const char* title, const char* expla
     ImGui::PopID();
 }
 
-/// Values of a number, as `labels` has them.
+/// Draws a list of some values of a setting that is a number.
 template <std::size_t N>
 void choose_number(State& state, const char* name, const char* title, const std::pair<const char*, int> (&values)[N],
                    const char* explained) {
@@ -76,7 +76,7 @@ void check(State& state, const char* name, const char* title, const char* explai
     explain(explained);
 }
 
-/// `end`: in the place of the setting's largest value.
+/// Draws a slider. `end` replaces the setting's largest value.
 void slide(State& state, const char* name, double end, const char* format, ImGuiSliderFlags flags = 0) {
     const Setting& setting = *find_setting(name);
     auto value = static_cast<float>(std::min(setting.get(state.choices), end));
@@ -88,7 +88,7 @@ void slide(State& state, const char* name, double end, const char* format, ImGui
     ImGui::PopID();
 }
 
-/// Scrolls to the last item, once for each path.
+/// Scrolls to the last item, once per path.
 void show_once(const std::string& path) {
     ImGuiStorage& storage = *ImGui::GetStateStorage();
     const int now = static_cast<int>(std::hash<std::string>()(path));
@@ -114,7 +114,7 @@ void list_files(State& state, const std::vector<std::string>& files, const char*
 
 void draw_files(State& state) {
     if (!ImGui::BeginTabBar("files")) return;
-    // Whole lines of it, and some even in a low window.
+    // A whole number of lines, and at least three even in a low window.
     const float line = ImGui::GetTextLineHeightWithSpacing();
     const float room = ImGui::GetContentRegionAvail().y - ImGui::GetStyle().ItemSpacing.y;
     const ImVec2 size{0, line * std::max(3.0F, std::floor(room / line))};
@@ -137,7 +137,7 @@ void draw_files(State& state) {
     ImGui::EndTabBar();
 }
 
-/// How the ring-expander is watched.
+/// Draws the controls for watching the ring-expander.
 void draw_growth(State& state) {
     const double end = state.facts.growth_end(), at = state.choices.growth;
     label("Speed", "Triangles a second");

@@ -1,4 +1,4 @@
-// Right: sizes, times and memory.
+// The right panel: sizes, times and memory.
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -16,7 +16,7 @@
 namespace lacedring::view {
 namespace {
 
-constexpr float kTall = 780;  // nominal pixels of a panel that has room for tall plots
+constexpr float kTall = 780;  // height of the panel in nominal pixels from which plots are tall
 
 /// Writes at the right edge of the panel.
 void at_right(const std::string& text) {
@@ -81,7 +81,7 @@ void draw_stream_figures(const State& state) {
     }
 }
 
-/// Bars of the last frames, the newest on the right.
+/// Draws bars of the last frames, the newest on the right.
 void plot(ImVec2 at, ImVec2 size, const State& state, float FrameCost::*member, float most) {
     constexpr int kFrames = 120;
     ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -149,13 +149,13 @@ struct Bar {
     double bits;
 };
 
-/// A line of figures, and below it a bar as long as its bits.
+/// Draws a format's figures, and below them a bar of its bits.
 void draw_format(const Bar& bar, float bits_at, float bytes_at) {
     const app::FormatNote note = app::note_on(bar.format->name);
     const bool baseline = note.origin == app::Origin::baseline;
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight();
-    constexpr double kMost = 96;  // an index list of 32 bits: a longer bar is cut, its number is not
+    constexpr double kMost = 96;  // bits of a 32-bit index list; longer bars are cut
     const float length = std::max(px(1.5F), width * static_cast<float>(std::min(1.0, bar.bits / kMost)));
     const auto put = [&](const std::string& text, float right, ImGuiCol colour) {
         ImGui::SameLine(right - ImGui::CalcTextSize(text.c_str()).x);
@@ -202,7 +202,7 @@ void draw_formats(const State& state) {
         ImGui::TextDisabled("%s", state.facts.document ? "being measured" : "no mesh");
         return;
     }
-    // What is on the screen has one figure: that of its ring.
+    // For lean and packed, show the size with the ring on the screen, as everywhere on the panel.
     const Document& document = *state.facts.document;
     std::vector<Bar> bars;
     for (const app::MeasuredFormat& format : state.facts.formats->formats) {

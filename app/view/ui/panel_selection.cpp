@@ -1,4 +1,4 @@
-// Bottom: the selected corner, what the operators say of it, and what streams hold of its triangle.
+// The box of the selection: the selected corner, the results of the operators, and its triangle in the streams.
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -16,7 +16,7 @@ ImVec4 colour(std::uint32_t rgba) {
     return ImGui::ColorConvertU32ToFloat4(rgba | 0xff000000U);
 }
 
-/// "L[12] = 34": the slots of the lean stream that hold a triangle.
+/// The slot of the lean stream that holds a triangle, its word and its vertices, as text.
 std::string lean_text(const Document& document, std::uint32_t t) {
     const gpu::Model& model = *document.model;
     const LeanView& view = document.views.lean;
@@ -54,7 +54,8 @@ void cell(const std::string& text) {
     ImGui::TextUnformatted(text.c_str());
 }
 
-/// A line of the table: the letter that marks the corner on the surface, and where it is.
+/// Draws a line of the table: the letter that marks the corner on the surface, the operator's name, and the numbers of
+/// corner, triangle and vertex.
 void line(const Document& document, const char* letter, const char* name, std::uint32_t rgba, CornerId c,
           const char* explained) {
     ImGui::TableNextRow();
@@ -126,7 +127,7 @@ void draw_streams(const State& state, CornerId c) {
 
 void draw_selection(const State& state) {
     const CornerId c = state.facts.selection.corner;
-    // Beside each other where there is room.
+    // Beside each other if there is room.
     const float width = ImGui::GetContentRegionAvail().x;
     if (width < px(560)) {
         draw_operators(*state.facts.document, c);
