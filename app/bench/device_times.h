@@ -31,19 +31,23 @@ struct Way {
     std::string name;  ///< "plain", "plain_best_order", "lean", "lean_pull", "packed_mesh", ...
     gpu::Source source = gpu::Source::plain;
     gpu::Path path = gpu::Path::compute;
-    Times draw;             ///< without decoding
-    Times decode;           ///< to index buffer, draw commands and vertices; only for streams by Path::compute
-    Times decode_and_draw;  ///< both in one submission; only for streams by Path::compute
+    Times draw;  ///< without decoding
+    /// Decoding to index buffer, draw commands and vertices; only for streams by Path::compute.
+    Times decode;
+    /// Decoding and drawing in one submission; only for streams by Path::compute.
+    Times decode_and_draw;
     /// Connectivity that must stay on the device to draw again: index buffer or stream.
     std::uint64_t connectivity_bytes = 0;
-    std::uint64_t bytes_read = 0;  ///< connectivity read for one picture, by shaders or as indices
+    /// Bytes of connectivity read for one picture, by shaders or as indices.
+    std::uint64_t bytes_read = 0;
     /// Vertex shader runs for one picture, if the device counts them; empty for Path::mesh.
     std::optional<std::uint64_t> vertex_invocations;
 };
 
 struct DeviceTimes {
     std::vector<Way> ways;
-    Times vertices;  ///< decoding only the vertex stream of Source::packed_vertices
+    /// Decoding only the vertex stream of Source::packed_vertices.
+    Times vertices;
     /// vkCmdCopyBuffer of lean's index buffer. Its wall time is meaningful only on lavapipe.
     Times copy;
     std::uint64_t index_bytes = 0;                            ///< of lean's index buffer

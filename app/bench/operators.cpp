@@ -66,7 +66,8 @@ class Bench {
         const std::uint32_t triangles = ops_.store().triangle_numbers(), vertices = ops_.store().vertices;
         const std::size_t corners = std::size_t{3} * triangles;
         time("vertex", corners, [&] {
-            float sum = 0;  // a maximum, which does not depend on the numbering
+            // A maximum, which does not depend on the numbering.
+            float sum = 0;
             each_corner([&](CornerId c) { sum = std::max(sum, positions_[3 * std::size_t{ops_.vertex(c).value}]); });
             return static_cast<double>(sum);
         });

@@ -13,7 +13,8 @@ namespace lacedring::app {
 
 struct Subject {
     LoadedMesh loaded;
-    Mesh mesh;          ///< the surface, whose connectivity is measured, also for rivals
+    /// The surface, whose connectivity is measured, also for rivals.
+    Mesh mesh;
     CornerTable table;  ///< of the surface
     RingOptions ring;   ///< options of `rings`
     Rings rings, optimised;

@@ -58,7 +58,8 @@ Result<StoredParts> stored_parts(std::span<const std::byte> file) {
     const Result<LrContents> contents = list_lr(file);
     if (!contents) return contents.error();
     StoredParts out{contents->vertices, contents->input_triangles, {}, {}};
-    constexpr std::size_t kHead = 32, kEntry = 32, kName = 8;  // docs/lr-file.md: sections begin at multiples of 8
+    // docs/lr-file.md: sections begin at multiples of 8.
+    constexpr std::size_t kHead = 32, kEntry = 32, kName = 8;
     std::size_t at = kHead + kEntry * contents->sections.size();
     for (const LrSection& section : contents->sections) {
         const auto bytes = file.subspan(at, section.bytes).subspan(section.name.empty() ? 0 : kName);

@@ -13,8 +13,9 @@ struct InputOptions {
     std::string format;          ///< "gltf", "obj", ...; "": detected
     bool keep_vertices = false;  ///< does not merge equal copies of a vertex
     bool allow_outside = false;
-    bool materials = false;        ///< reads materials, too
-    bool scene_hint = false;       ///< notes on lost scene data recommend `pack`
+    bool materials = false;  ///< reads materials, too
+    /// Recommend `pack` in notes on scene data that is not kept.
+    bool scene_hint = false;
     std::uint64_t max_memory = 0;  ///< MiB; 0: by the file's size (ReadOptions)
     /// Bytes per triangle that the command takes at its peak, without the mesh (docs/reliability.md).
     std::uint32_t triangle_bytes = 0;

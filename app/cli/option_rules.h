@@ -37,7 +37,8 @@ class OptionRules {
 
   private:
     struct Rule {
-        std::string option;  ///< the rule is checked only if it is given; empty: always
+        /// The rule is checked only if it is given; empty: always.
+        std::string option;
         std::string message;
         std::function<bool()> broken;
     };

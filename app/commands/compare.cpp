@@ -57,7 +57,8 @@ struct DrawnScene {
     std::size_t placed = 0;      ///< primitives, counted once per node
     std::size_t mirrored = 0;    ///< placed ones whose node mirrors them
     std::size_t triangles = 0;   ///< of all placed primitives
-    std::string why;             ///< how the drawn mesh differs; empty: it does not
+    /// How the drawn mesh differs; empty: it does not.
+    std::string why;
 };
 
 /// Checks that the drawn mesh consists of every primitive as placed by every node.

@@ -29,7 +29,8 @@ struct RenderOptions {
     RingChoice ring;
     bool no_warts = false;
     PictureSize size;
-    std::uint32_t samples = 0;  ///< 0: kSamples, or fewer if the device's limit is lower
+    /// 0: kSamples, or fewer if the device's limit is lower.
+    std::uint32_t samples = 0;
     double crease = 40;
     gpu::CameraOptions camera;
     gpu::ContextOptions context;

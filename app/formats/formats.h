@@ -30,10 +30,12 @@ struct MeasuredFormat {
     const char* ring = nullptr;  ///< "expander", "hybrid" or "optimized"; null: no ring
     std::uint32_t k = 0;         ///< period of the hybrid
     std::uint32_t passes = 0;    ///< of the optimizer
-    std::size_t copies = 0;      ///< of non-manifold vertices: entries added to `order`
+    /// Copies of non-manifold vertices, which `order` has in addition.
+    std::size_t copies = 0;
     std::size_t seam_bytes = 0;  ///< of the seam section; not part of `bytes`
     std::size_t deflated = 0;    ///< bytes after zlib; 0: not deflated
-    std::string invalid = {};    ///< why its own validation failed; empty: valid
+    /// Why the format's own validation failed; empty: valid.
+    std::string invalid = {};
 
     /// Number of vertices of the format; `vertices` is FormatSet::vertices.
     std::size_t vertex_count(std::uint32_t vertices) const { return vertices + copies; }

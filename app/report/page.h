@@ -13,7 +13,8 @@ namespace lacedring::app {
 struct ReportPage {
     std::string command;  ///< the shell command that made the page
     std::string version;
-    std::string device;         ///< that drew the pictures; empty: no pictures
+    /// Name of the device that drew the pictures; empty: no pictures.
+    std::string device;
     std::uint32_t samples = 0;  ///< per pixel
     std::span<const MeshReport> meshes;
     std::vector<std::pair<std::string, std::string>> left_out;  ///< meshes that failed, and why

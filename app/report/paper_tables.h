@@ -54,7 +54,8 @@ struct SeedFigures {
 constexpr std::uint32_t kSeedCounts[] = {1, 4, 16, 64};
 struct SeedRow {
     std::string path;
-    std::size_t vertices = 0;  ///< in use, including the copies that split_fans adds
+    /// Vertices in use, including the copies that split_fans adds.
+    std::size_t vertices = 0;
     std::size_t triangles = 0;
     std::vector<SeedFigures> figures;  ///< one per entry of kSeedCounts
 };

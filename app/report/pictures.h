@@ -24,9 +24,10 @@ class ReportPictures {
     void add_options(CLI::App& command);
 
     struct Device {
-        std::string name;           ///< empty: no device, no pictures
-        std::uint32_t samples = 0;  ///< per pixel: 9, or fewer if the device's largest image is too small
-        std::string skipped;        ///< why there is no device
+        std::string name;  ///< empty: no device, no pictures
+        /// Samples per pixel: 9, or fewer if the device's largest image is too small.
+        std::uint32_t samples = 0;
+        std::string skipped;  ///< why there is no device
     };
     /// Opens the device. That none is found is an error only if an option asks for one. Errors: those of the device.
     Result<Device> open();

@@ -34,7 +34,8 @@ struct PrimitiveSizes {
     std::vector<Row> rows;
     std::size_t triangles = 0;
     std::vector<FormatBytes> sum;  ///< formats that every primitive has
-    std::string invalid;           ///< the first format that failed its validation, and why; empty: none
+    /// The first format that failed its validation, and why; empty: none.
+    std::string invalid;
 };
 
 /// Errors: those of make_formats, with the primitive's label.

@@ -29,7 +29,8 @@ struct TotalTable {
     std::size_t triangles = 0, vertices = 0, copies = 0;  ///< in the packed file
     std::vector<TotalEntry> entries;
     std::vector<std::pair<std::string, std::string>> absent;  ///< name, reason
-    std::string invalid;  ///< the format that decoded to another mesh, and the difference; empty: none
+    /// The format that decoded to another mesh, and the difference; empty: none.
+    std::string invalid;
 
     const TotalEntry* find(std::string_view name) const;
 };

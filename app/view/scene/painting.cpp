@@ -133,7 +133,8 @@ struct PaintLayer::Job {
     Paint paint = Paint::none;
     std::shared_ptr<const void> of;
     std::atomic<bool> done = false;
-    std::shared_ptr<const Painting> painting;  // set before `done`; null: not enough memory
+    // Set before `done`; null: not enough memory.
+    std::shared_ptr<const Painting> painting;
 };
 
 Result<std::shared_ptr<const Painting>> PaintLayer::get(const std::shared_ptr<const Document>& document, Paint paint) {

@@ -16,8 +16,10 @@ enum class Paint { none, corridors, blocks, growth, ring };
 
 /// The layer of one Paint over one document. Both vectors may be empty.
 struct Painting {
-    std::vector<std::uint32_t> colours;      ///< RGBA per triangle of the mesh; 0: not painted
-    std::vector<gpu::GrowthTriangle> sides;  ///< side of the ring, per triangle of the mesh
+    /// RGBA per triangle of the mesh; 0: not painted.
+    std::vector<std::uint32_t> colours;
+    /// Side of the ring, per triangle of the mesh.
+    std::vector<gpu::GrowthTriangle> sides;
 };
 
 /// Cost: O(T) time; for corridors, 5 bytes per triangle of temporary memory.
@@ -58,7 +60,8 @@ class PaintLayer {
   private:
     static constexpr std::size_t kPaints = 5;
     struct Made {
-        std::shared_ptr<const void> of;  ///< the part of the document that it was made of
+        /// The part of the document that it was made of.
+        std::shared_ptr<const void> of;
         std::shared_ptr<const Painting> painting;
     };
     struct Job;
@@ -67,7 +70,8 @@ class PaintLayer {
 
     Threads& threads_;
     std::array<Made, kPaints> made_;
-    std::shared_ptr<Job> job_;  // shared with its thread; null: none is running
+    // Shared with its thread; null: none is running.
+    std::shared_ptr<Job> job_;
     std::shared_ptr<const Painting> colours_, sides_;
     Wanted laid_;                    // the layers that the scene shows
     CornerId marked_ = kNullCorner;  // the corner whose marks the scene shows

@@ -33,7 +33,8 @@ void leave(VkCommandBuffer commands, const gpu::Target& target) {
 
 constexpr std::uint32_t kTimestamps = 3;
 constexpr std::uint32_t kGroup = 8;  // side of a workgroup of compose.comp
-constexpr double kLeastEdge = 1.5;   // mean edge in pixels from which the ring's line is drawn
+// The ring's line is drawn if the mean edge is longer than this, in pixels.
+constexpr double kLeastEdge = 1.5;
 
 }  // namespace
 
@@ -155,7 +156,8 @@ Result<void> Scene::reload() {
         LR_ASSIGN(gpu::Painter again, painter.again());
         painters.emplace(key, std::move(again));
     }
-    context_->wait_idle();  // the last picture may still use the old pipelines
+    // The last picture may still use the old pipelines.
+    context_->wait_idle();
     *expander_ = std::move(expander);
     compose_ = std::move(compose);
     silhouettes_ = std::move(silhouettes);

@@ -24,10 +24,13 @@ struct Shown {
     gpu::View view = gpu::View::smooth;
     gpu::Source source = gpu::Source::lean;
     gpu::Path path = gpu::Path::compute;
-    Mode mode = Mode::single;   ///< split, difference: the left picture is of Source::plain
-    bool exact = true;          ///< as `lacedring render` (docs/renderer.md), else in one pass
+    /// In the modes split and difference, the left picture is of Source::plain.
+    Mode mode = Mode::single;
+    /// Draw exactly as `lacedring render` does (docs/renderer.md); else in one pass.
+    bool exact = true;
     std::uint32_t samples = 3;  ///< along each side of a pixel
-    bool decode_again = false;  ///< expands the stream again for this picture
+    /// Expand the stream again for this picture.
+    bool decode_again = false;
 
     bool operator==(const Shown&) const = default;
     int sides() const { return mode == Mode::single ? 1 : 2; }
@@ -155,7 +158,8 @@ class Scene {
     bool painted_ = false, coloured_ = false, grows_ = false, parted_ = false, blank_ = true;
     std::vector<Mark> under_marks_;  // the paint under the marks
     std::uint32_t invaded_ = 0, fresh_ = 0;
-    double edge_pixels_ = 0;  // mean length of an edge in the picture drawn last
+    // Mean length of an edge in the picture drawn last.
+    double edge_pixels_ = 0;
     Shown drawn_;
     gpu::Descriptors descriptors_;
     std::unique_ptr<Uploader> uploader_;  // last member: destroyed first

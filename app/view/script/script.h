@@ -72,10 +72,12 @@ class Script {
     std::string name_;
     std::vector<Line> lines_;
     std::size_t at_ = 0;
-    int frames_ = 0;          ///< to draw before the next line
-    int waited_ = 0;          ///< frames that the current line has waited
-    int seen_ = 0;            ///< frames since the awaited error has appeared
-    bool turning_ = false;    ///< pictures of a turntable are being written
+    int frames_ = 0;  ///< to draw before the next line
+    int waited_ = 0;  ///< frames that the current line has waited
+    /// Frames since the awaited error has appeared.
+    int seen_ = 0;
+    /// Pictures of a turntable are being written.
+    bool turning_ = false;
     std::uint64_t look_ = 0;  ///< the awaited check of the shaders' files
     std::chrono::steady_clock::time_point waiting_since_{};
 };

@@ -46,20 +46,24 @@ struct StreamFigures {
 struct OwningModel : gpu::Model {
     std::shared_ptr<const Mesh> mesh;
     std::shared_ptr<const Materials> owned_materials;
-    bool has_materials = false;  ///< the file has materials: first shown with them
+    /// The file has materials, with which it is shown first.
+    bool has_materials = false;
 };
 
 struct Document {
     std::string path;
     std::shared_ptr<const Mesh> mesh;
     std::shared_ptr<const Surface> surface;
-    std::shared_ptr<const CornerTable> table;    ///< of the surface
-    std::shared_ptr<const Rings> rings;          ///< of lean
-    std::shared_ptr<const Expansion> expansion;  ///< how expand_rings made them, before the optimizer
+    std::shared_ptr<const CornerTable> table;  ///< of the surface
+    std::shared_ptr<const Rings> rings;        ///< of lean
+    /// How expand_rings made the rings, before the optimizer.
+    std::shared_ptr<const Expansion> expansion;
     std::shared_ptr<const OwningModel> model;
-    gpu::StreamViews views;  ///< of the model's streams; packed is empty until it is made
+    /// Views of the model's streams; packed is empty until it is made.
+    gpu::StreamViews views;
     RingSettings settings;
-    bool optimised = false;  ///< the optimizer has run settings.passes passes
+    /// The optimizer has run settings.passes passes.
+    bool optimised = false;
     /// If this is a coarse stand-in: the triangles of the mesh that is being loaded; else 0.
     std::size_t stand_in = 0;
     TopologyReport report;  ///< set when `optimised`
@@ -85,10 +89,12 @@ struct Document {
 struct Tables {
     std::shared_ptr<const Mesh> mesh;
     EncodedLr lr;
-    LrView view;                          ///< of lr.words
-    double crease = 180;                  ///< crease_angle
-    std::vector<std::uint32_t> number;    ///< mesh triangle -> LR triangle; UINT32_MAX: degenerate
-    std::vector<std::uint32_t> triangle;  ///< LR triangle -> mesh triangle; UINT32_MAX: none
+    LrView view;          ///< of lr.words
+    double crease = 180;  ///< crease_angle
+    /// number[mesh triangle] = LR triangle; UINT32_MAX: degenerate.
+    std::vector<std::uint32_t> number;
+    /// triangle[LR triangle] = mesh triangle; UINT32_MAX: none.
+    std::vector<std::uint32_t> triangle;
 };
 /// Errors: malformed (the tables are not valid).
 Result<Tables> make_tables(std::shared_ptr<const Mesh> mesh, EncodedLr lr);

@@ -27,7 +27,8 @@ using Clock = std::chrono::steady_clock;
 constexpr double kSoon = 0.25;
 // A job waits so long for the older job, which was stopped, to end; after that both compute at once.
 constexpr std::chrono::seconds kTurn{1};
-constexpr std::size_t kLarge = 2000000;  // triangles of a mesh from which a stand-in is shown
+// Meshes of at least so many triangles have a stand-in.
+constexpr std::size_t kLarge = 2000000;
 // Files and folders being read at once, including those of stopped requests.
 constexpr std::size_t kMostReaders = 8;
 
@@ -77,8 +78,9 @@ RingOptions ring_options(const RingSettings& settings, bool quick) {
 struct Loader::Shared {
     std::mutex mutex;
     std::condition_variable changed;
-    std::function<void()> wake;   // empty after the loader's destructor
-    std::shared_ptr<Job> newest;  // the current request; null: none, or canceled
+    std::function<void()> wake;  // empty after the loader's destructor
+    // The current request; null: none, or canceled.
+    std::shared_ptr<Job> newest;
     News news;
     Progress progress;
     std::size_t readers = 0, computing = 0;  // numbers of threads
@@ -295,7 +297,8 @@ Result<void> Loader::Job::finish(Document& document, bool quick) {
         if (shown || since_asked() < kSoon) return;
         shown = true;
         Result<EncodedLean> lean = encode_lean(table, rings, {.wart_skipping = settings.warts});
-        if (!lean) return;  // reported when the optimized rings are encoded
+        // Reported when the optimized rings are encoded.
+        if (!lean) return;
         Document early = document;
         auto model = std::make_shared<OwningModel>(*document.model);
         model->lean = std::move(*lean);
@@ -374,7 +377,8 @@ void Loader::Job::show_stand_in(const app::LoadedMesh& loaded) {
     document.mesh = std::make_shared<const Mesh>(std::move(mesh));
     document.surface = std::move(surface);
     if (!make(document, std::make_shared<const Materials>(), false))
-        return;  // the same error will come from the mesh itself
+        // The same error will come from the mesh itself.
+        return;
 }
 
 /// Measures every format with the ring recommended for it; skips a mesh that was measured before.

@@ -17,7 +17,8 @@ class Loader {
   public:
     /// `wake` is called by other threads when there is news, but never after the destructor.
     Loader(Threads& threads, std::function<void()> wake);
-    ~Loader();  ///< Stops the current request, without waiting for its thread.
+    /// Stops the current request, without waiting for its thread.
+    ~Loader();
     Loader(const Loader&) = delete;
     Loader& operator=(const Loader&) = delete;
 

@@ -20,13 +20,15 @@ using Files = std::map<std::string, Stamp>;
 using gpu::ShaderSet;
 
 constexpr std::chrono::milliseconds kBetweenLooks{150};
-constexpr std::chrono::milliseconds kWriting{15};  // about the time an editor takes to write a file
+// About the time an editor takes to write a file.
+constexpr std::chrono::milliseconds kWriting{15};
 constexpr int kMostWaits = 20;
 
 /// The thread's state of one shader.
 struct Known {
     const gpu::Shader* built_in = nullptr;
-    Files files;                                    ///< it was compiled from; empty: not compiled yet
+    /// The files that it was compiled from; empty: not compiled yet.
+    Files files;
     std::string error;                              ///< of the last compilation
     std::shared_ptr<const ShaderSet::Words> words;  ///< null: same as built in
 };
@@ -175,7 +177,8 @@ void ShaderWatch::Shared::watch() {
     // The files that shaders not compiled yet were built from; empty if the program was built from another folder.
     std::optional<Files> built;
     if (folder == built_from) built = built_files(folder);
-    std::optional<ShaderCompiler> compiler;  // made when first needed: it has large tables
+    // Made when first needed: it has large tables.
+    std::optional<ShaderCompiler> compiler;
     for (bool first = true;; first = false) {
         bool forced = false;
         {

@@ -17,7 +17,8 @@ class ShaderWatch {
     /// changed after the build are compiled, else all. Errors: kDeviceFailure (no thread).
     static Result<std::unique_ptr<ShaderWatch>> create(Threads& threads, std::filesystem::path folder,
                                                        std::filesystem::path built_from);
-    ~ShaderWatch();  ///< Ends the watch, without waiting for the thread.
+    /// Ends the watch, without waiting for the thread.
+    ~ShaderWatch();
     ShaderWatch(const ShaderWatch&) = delete;
     ShaderWatch& operator=(const ShaderWatch&) = delete;
 
@@ -26,13 +27,15 @@ class ShaderWatch {
     void force();
 
     struct News {
-        bool fresh = false;  ///< news since the last call; else only `looks` is current
+        /// There is news since the last call; else only `looks` is current.
+        bool fresh = false;
         /// Lines of "shaders/draw/surface.frag:42: why". With an error, `replaced` is as before.
         std::string error;
-        bool changed = false;               ///< use `replaced`
-        gpu::ShaderSet::Replaced replaced;  ///< all shaders that differ from the built-in ones
-        std::uint32_t compiled = 0;         ///< shaders compiled so far
-        std::uint64_t looks = 0;            ///< number of completed checks of the files
+        bool changed = false;  ///< use `replaced`
+        /// All shaders that differ from the built-in ones.
+        gpu::ShaderSet::Replaced replaced;
+        std::uint32_t compiled = 0;  ///< shaders compiled so far
+        std::uint64_t looks = 0;     ///< number of completed checks of the files
     };
     News take();
     bool has_news() const;

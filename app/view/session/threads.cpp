@@ -26,7 +26,8 @@ Result<void> Threads::start(std::function<void()> work) {
     auto ended = std::make_shared<std::atomic<bool>>(false);
     Result<std::thread> thread = start_thread([work = std::move(work), ended]() mutable {
         work();
-        work = {};  // release shared objects before the thread counts as ended
+        // Release shared objects before the thread counts as ended.
+        work = {};
         *ended = true;
     });
     if (!thread) return thread.error();

@@ -62,7 +62,8 @@ class Uploader {
 
     /// `wake` is called by the thread when a job is done. Errors: kDeviceFailure (no thread; Vulkan).
     static Result<std::unique_ptr<Uploader>> create(gpu::Context& context, std::function<void()> wake);
-    ~Uploader();  ///< Stops the current job and waits for the thread, which uses the device.
+    /// Stops the current job and waits for the thread, which uses the device.
+    ~Uploader();
     Uploader(const Uploader&) = delete;
     Uploader& operator=(const Uploader&) = delete;
 

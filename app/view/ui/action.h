@@ -59,12 +59,14 @@ struct Step {
 };
 /// Saves the picture as a PNG file.
 struct SavePicture {
-    std::string path;     ///< empty: the first free name in the working folder
+    /// Empty: the first free name in the working folder.
+    std::string path;
     bool window = false;  ///< with panels and notices
 };
 /// Saves a whole turn without panels, one picture per frame, as PNG files in a folder, which is created if missing.
 struct SaveTurn {
-    std::string folder;  ///< empty: the first free name in the working folder
+    /// Empty: the first free name in the working folder.
+    std::string folder;
     std::uint32_t pictures = 90;
 };
 

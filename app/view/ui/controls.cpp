@@ -12,7 +12,8 @@
 namespace lacedring::view {
 namespace {
 
-constexpr double kClick = 4;  // nominal pixels that the mouse may move during a click
+// Nominal pixels that the mouse may move during a click.
+constexpr double kClick = 4;
 
 /// The direction for a digit key, as in f3d: 1 front, 3 right, 7 top, 9 three-quarter.
 std::optional<Vector> side(int key, const Vector& up) {

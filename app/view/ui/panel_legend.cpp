@@ -137,7 +137,8 @@ std::vector<Entry> entries(const State& state, bool ring_line) {
     return out;
 }
 
-constexpr float kMark = 42, kBetween = 18;  // nominal pixels before the text; between entries
+// Nominal pixels before the text; between entries.
+constexpr float kMark = 42, kBetween = 18;
 
 float width_of(const Entry& entry) {
     return ImGui::CalcTextSize(entry.what.c_str()).x + (entry.kind == Entry::text ? 0 : px(kMark));

@@ -16,7 +16,8 @@
 namespace lacedring::view {
 namespace {
 
-constexpr float kTall = 780;  // height of the panel in nominal pixels from which plots are tall
+// Panels of at least this height, in nominal pixels, have tall plots.
+constexpr float kTall = 780;
 
 /// Writes at the right edge of the panel.
 void at_right(const std::string& text) {
@@ -155,7 +156,8 @@ void draw_format(const Bar& bar, float bits_at, float bytes_at) {
     const bool baseline = note.origin == app::Origin::baseline;
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight();
-    constexpr double kMost = 96;  // bits of a 32-bit index list; longer bars are cut
+    // Bits of a 32-bit index list; longer bars are cut.
+    constexpr double kMost = 96;
     const float length = std::max(px(1.5F), width * static_cast<float>(std::min(1.0, bar.bits / kMost)));
     const auto put = [&](const std::string& text, float right, ImGuiCol colour) {
         ImGui::SameLine(right - ImGui::CalcTextSize(text.c_str()).x);

@@ -16,7 +16,8 @@ namespace {
 
 constexpr float kLeft = 268, kRight = 316, kBar = 30, kLegend = 44;  // nominal pixels
 constexpr float kGap = 8;
-constexpr float kNarrow = 900;  // in narrower windows the side panels are drawers, opened from the bar
+// In windows narrower than this, the side panels are drawers, opened from the bar.
+constexpr float kNarrow = 900;
 // A box over the picture, in front of panels, that takes no focus from them.
 constexpr ImGuiWindowFlags kOver = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |

@@ -39,7 +39,8 @@ Result<PictureSize::Change> PictureSize::make(gpu::Context& context, Scene& scen
         wanted = gpu::Target::fitting_samples(context, extent_, wanted);
         const bool other_size = made_.width != extent_.width || made_.height != extent_.height;
         if (!other_size && samples_ == wanted && sides_ >= sides) return Change::none;
-        context.wait_idle();  // the window may still be copying the last picture
+        // The window may still be copying the last picture.
+        context.wait_idle();
         Result<void> made = scene.resize(extent_, wanted, sides);
         if (made && other_size) made = overlay.resize(extent_);
         if (made) {

@@ -25,7 +25,8 @@ constexpr std::array<NamedValue, N> values_of(const std::array<gpu::Named<Choice
 }
 constexpr auto kViews = values_of(gpu::kViews);
 constexpr auto kAllSources = values_of(gpu::kSources);
-constexpr auto kSources = std::span(kAllSources).first<3>();  // without packed vertices, which the viewer does not draw
+// All sources but packed vertices, which the viewer does not draw.
+constexpr auto kSources = std::span(kAllSources).first<3>();
 static_assert(gpu::kSources[2].value == gpu::Source::packed);
 constexpr auto kPaths = values_of(gpu::kPaths);
 constexpr NamedValue kModes[] = {named("single", "off", Mode::single), named("split", "side by side", Mode::split),

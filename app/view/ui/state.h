@@ -23,12 +23,15 @@ enum class Weld { position, attributes, none };
 /// Choices of the user, a script or the command line. settings.h gives most of them by name.
 struct Choices {
     Shown shown;
-    bool view_chosen = false;  ///< false: files with materials are shown with them
-    double divider = 0.5;      ///< its place, as a fraction of the picture's width
+    /// A view was chosen; else files with materials are shown with them.
+    bool view_chosen = false;
+    /// Place of the divider, as a fraction of the picture's width.
+    double divider = 0.5;
     RingSettings ring;
     Weld weld = Weld::position;
     Paint paint = Paint::none;
-    bool ring_line = true;  ///< draw the ring over views that do not show it
+    /// Draw the ring over views that do not show it.
+    bool ring_line = true;
     bool outlines = false;  ///< draw silhouettes, borders and creases
     bool panels = true;
     Drawer drawer = Drawer::none;
@@ -50,16 +53,19 @@ struct Choices {
 struct FrameCost {
     float decode = 0;  ///< on the device
     float draw = 0;    ///< on the device
-    float cpu = 0;     ///< of the drawing thread, without waiting for the device
+    /// Time of the drawing thread, without waiting for the device.
+    float cpu = 0;
 };
 
 struct ShaderFacts {
     std::string folder;          ///< watched; empty: none
     std::string error;           ///< why the last edit is not in use
     std::uint32_t compiled = 0;  ///< shaders compiled so far
-    std::uint32_t reloads = 0;   ///< number of times that pipelines were recreated
-    std::uint32_t replaced = 0;  ///< shaders in use that differ from the built-in ones
-    std::uint64_t looks = 0;     ///< completed checks of their files
+    /// Number of times that pipelines were recreated.
+    std::uint32_t reloads = 0;
+    /// Shaders in use that differ from the built-in ones.
+    std::uint32_t replaced = 0;
+    std::uint64_t looks = 0;  ///< completed checks of their files
 };
 
 /// Part of the window, in pixels.
@@ -78,16 +84,21 @@ struct Facts {
     double clock = 0;       ///< seconds since the start
     Loader::Progress progress;
     std::deque<FrameCost> costs;
-    double frame_seconds = 0;  ///< for the last newly drawn frame, panels included
+    /// Time of the last newly drawn frame, panels included.
+    double frame_seconds = 0;
     /// From requesting a file or a ring until its first document was on the screen.
     double first_seconds = 0;
-    double shown_seconds = 0;                         ///< from the request until the current document was on the screen
-    double longest_frame = 0;                         ///< seconds from handling events to showing the resulting frame
-    double started = 0;                               ///< seconds from the program's start to its first frame
+    /// From the request of the current document until it was on the screen.
+    double shown_seconds = 0;
+    /// Seconds from handling events to showing the resulting frame.
+    double longest_frame = 0;
+    /// Seconds from the program's start to its first frame.
+    double started = 0;
     std::uint64_t device_bytes = 0, device_held = 0;  ///< memory in use; allocated
     Area free;                                        ///< the part not covered by panels
     bool window_too_large = false;                    ///< the device cannot show such a window
-    std::uint32_t samples = 0;                        ///< per side of a pixel, for pictures at rest
+    /// Samples along each side of a pixel, for pictures at rest.
+    std::uint32_t samples = 0;
     std::string device;
     bool mesh_shaders = false;
     std::optional<gpu::Difference> difference;
@@ -107,7 +118,8 @@ struct Facts {
 struct State {
     Choices choices;
     Facts facts;
-    std::vector<Action> actions;  ///< asked for by panels, performed after they are drawn
+    /// Asked for by panels, performed after they are drawn.
+    std::vector<Action> actions;
 
     void ask(Action action) { actions.push_back(std::move(action)); }
 };

@@ -21,8 +21,8 @@ namespace lacedring::view {
 namespace {
 
 constexpr std::size_t kHistory = 120;  // frames in the plot
-// A picture that takes longer, in seconds, is drawn only after the camera has rested: kRest for exact ones, kLongRest
-// for those with several samples.
+// Pictures that take longer than kNoticed seconds wait until the camera rests: exact ones for kRest seconds, those with
+// several samples for kLongRest.
 constexpr double kNoticed = 0.03;
 constexpr double kRest = 0.15, kLongRest = 0.4;
 
@@ -366,7 +366,8 @@ void Viewer::take_document() {
     if (other && !same_file) {
         tell_error(perform(action::FrameAll{options_.camera}));
         const Vector up = options_.camera.up;
-        options_.camera = {};  // it was for the first mesh; keep only its up
+        // It was for the first mesh; keep only its up.
+        options_.camera = {};
         options_.camera.up = up;
     }
     stale(Freshness::redraw);
@@ -400,7 +401,8 @@ Result<void> Viewer::resize() {
     LR_ASSIGN(const PictureSize::Change change,
               size_.make(context_, scene_, *overlay_, chosen.samples, chosen.sides()));
     if (change == PictureSize::Change::none) return {};
-    if (change == PictureSize::Change::size) end_turn();  // all pictures of a turn have the same size
+    // All pictures of a turn have the same size.
+    if (change == PictureSize::Change::size) end_turn();
     if (size_.smaller_than_window()) {
         state_.facts.tell(
             fmt::format("drawn at {} x {}: the device draws no larger picture", extent().width, extent().height), 4);

@@ -166,12 +166,14 @@ class Viewer {
     PictureSize size_;
     Selecting selecting_;
     Freshness freshness_ = Freshness::redraw;
-    double divider_ = 0;                        // first column of the right picture in the composed image
+    // Divider of the composed image: the first column of the right picture.
+    double divider_ = 0;
     const OwningModel* drawn_model_ = nullptr;  // in the last picture
     // Seconds for the last exact picture with one sample, and with several.
     double exact_seconds_ = 0, fine_seconds_ = 1;
-    double still_seconds_ = 1;  // since the camera moved; -1: moved since the last frame
-    int quiet_frames_ = 0;      // frames since the last event
+    // Seconds since the camera moved; -1: it has moved since the last frame.
+    double still_seconds_ = 1;
+    int quiet_frames_ = 0;  // frames since the last event
     const gpu::GpuMaterials* told_materials_ = nullptr;
     std::shared_ptr<const Tables> outlined_;  // the tables whose outlines are drawn
     const Document* presented_ = nullptr;     // the last document that was on the screen

@@ -52,7 +52,8 @@ void apply_theme(float scale) {
     style.ItemSpacing = {8, 5};
     style.ItemInnerSpacing = {6, 4};
     style.ScrollbarSize = 11;
-    style.WindowMinSize = {16, 16};  // the bar is lower than ImGui's default minimum
+    // The bar is lower than ImGui's default minimum.
+    style.WindowMinSize = {16, 16};
     style.GrabMinSize = 10;
     style.WindowRounding = 0;
     style.FrameRounding = 3;
@@ -62,7 +63,8 @@ void apply_theme(float scale) {
     style.WindowBorderSize = 0;
     style.PopupBorderSize = 1;
     style.ScaleAllSizes(scale);
-    style.FrameBorderSize = scale;  // a border makes fields and empty boxes visible
+    // A border makes fields and empty boxes visible.
+    style.FrameBorderSize = scale;
     const ImVec4 ground{0.105F, 0.11F, 0.12F, 1}, field{0.18F, 0.185F, 0.20F, 1}, over{0.24F, 0.25F, 0.27F, 1},
         accent{0.87F, 0.42F, 0.13F, 1}, bright{0.95F, 0.50F, 0.20F, 1}, dim{0.42F, 0.23F, 0.12F, 1};
     ImVec4* c = style.Colors;
