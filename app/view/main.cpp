@@ -27,7 +27,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 const Clock::time_point kStart = Clock::now();
-constexpr std::chrono::milliseconds kPatience{500};  // waits that long for threads at the end
+constexpr std::chrono::milliseconds kPatience{500};  // longest wait for threads at the end
 
 struct Options {
     ViewerOptions viewer;

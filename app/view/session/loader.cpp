@@ -23,11 +23,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// A requested ring is shown after so many seconds, even if the optimizer has not finished.
+// Seconds after which a requested ring is shown, even if the optimizer has not finished.
 constexpr double kSoon = 0.25;
-// A job waits so long for the older job, which was stopped, to end; after that both compute at once.
+// A job waits this long for the older, stopped job to end; after that both compute at once.
 constexpr std::chrono::seconds kTurn{1};
-// Meshes of at least so many triangles have a stand-in.
+// Meshes of at least this many triangles get a stand-in.
 constexpr std::size_t kLarge = 2000000;
 // Files and folders being read at once, including those of stopped requests.
 constexpr std::size_t kMostReaders = 8;
