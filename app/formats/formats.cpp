@@ -45,7 +45,7 @@ void add_indices(MeasuredFormat& format, const Subject& subject, Encoded encoded
         decode_seams(*valid, slots, copies);
         std::erase(copies, UINT32_MAX);
         if (oriented_triangles(copies, seams->copy_order) != subject.triangles) {
-            format.invalid = "its seams give other corners";
+            format.invalid = "the seam section decodes to other corners";
         }
         format.seam_bytes = 4 * seams->words.size();
     }

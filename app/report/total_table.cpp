@@ -83,7 +83,7 @@ Result<TotalTable> make_total(const std::string& path, const Mesh& mesh, const S
         const std::vector<std::byte> bytes = serialize_lr(file->file, LrForm::stored);
         stored = entry_of("storage", bytes, false);
         const Result<LrFile> restored = parse_lr(bytes);
-        if (!restored || serialize_lr(*restored) != file->bytes) table.invalid = "storage: restored as something else";
+        if (!restored || serialize_lr(*restored) != file->bytes) table.invalid = "storage: restores to another file";
     }
     stored.errors = table.entries[table.entries.size() - 2].errors;
     table.entries.push_back(std::move(stored));

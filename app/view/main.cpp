@@ -119,7 +119,7 @@ int run(Options& options, Threads& threads) {
     }
     std::error_code error;
     if (!options.viewer.shaders.empty() && !std::filesystem::is_directory(options.viewer.shaders, error)) {
-        return app::fail(options.viewer.shaders.string(), {ErrorCode::cannot_open, "is no folder"});
+        return app::fail(options.viewer.shaders.string(), {ErrorCode::cannot_open, "is not a folder"});
     }
     Result<std::unique_ptr<Window>> window = Window::create(options.size.width, options.size.height);
     if (!window) return app::fail("view", window.error());
@@ -175,21 +175,20 @@ int start(int argc, char** argv, Threads& threads) {
     app::add_input_options(program, options.viewer.input.options, 250);
     options.viewer.input.options.materials = true;
     app::add_size(program, options.size);
-    program.add_option("--scale", options.scale, "pixels a nominal pixel of the panels; the display's unless told")
+    program.add_option("--scale", options.scale, "pixels per nominal pixel of the panels; default: the display's")
         ->check(CLI::Range(0.5, 8.0));
-    program.add_flag("--no-panels", options.no_panels, "the picture alone, until Tab is pressed");
-    program.add_option("--fps", options.viewer.frame_cap, "pictures a second at most; 0: no limit")
+    program.add_flag("--no-panels", options.no_panels, "no panels until Tab is pressed");
+    program.add_option("--fps", options.viewer.frame_cap, "most pictures per second; 0: no limit")
         ->check(CLI::Range(0, 1000))
         ->capture_default_str();
     auto* screenshot =
-        program.add_option("--screenshot", options.screenshot, "write a PNG file when all is shown, and end")
+        program.add_option("--screenshot", options.screenshot, "write a PNG file when the mesh is ready, and exit")
             ->type_name("PNG")
             ->needs(mesh);
-    program.add_option("--script", options.script, "do what the lines of a file say (docs/viewer.md)")
+    program.add_option("--script", options.script, "execute the lines of a file (docs/viewer.md)")
         ->type_name("FILE")
         ->excludes(screenshot);
-    program
-        .add_option("--shaders", options.viewer.shaders, "folder of shaders to compile whenever one of them changes")
+    program.add_option("--shaders", options.viewer.shaders, "folder of shaders, compiled again when they change")
         ->type_name("DIR");
     app::add_camera(program, options.viewer.camera);
     app::add_device_options(program, options.context);

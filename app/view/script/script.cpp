@@ -297,7 +297,7 @@ Result<bool> Script::wait(const Words& words, const Stage& stage) {
     // The notice is on the screen two frames after the error.
     if (what == "error") return !facts.error.empty() && ++seen_ > 3;
     if (what == "shaders") {
-        if (stage.viewer.shaders() == nullptr) return wrong("no sources of shaders to wait for");
+        if (stage.viewer.shaders() == nullptr) return wrong("no shader sources to wait for");
         if (waited_ == 0) look_ = stage.viewer.shaders()->next_look();
         return facts.shaders.looks >= look_;
     }
@@ -314,7 +314,7 @@ Result<bool> Script::copy(const Words& words, const Stage&) {
 
 Result<bool> Script::settle(const Viewer& viewer) const {
     if (waited_ >= 2 && viewer.settled()) return true;
-    return waited_ > 600 ? wrong("nothing settles: no picture") : Result<bool>(false);
+    return waited_ > 600 ? wrong("the picture does not settle") : Result<bool>(false);
 }
 
 Result<bool> Script::save(const Words& words, const Stage& stage) {

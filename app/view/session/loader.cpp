@@ -201,7 +201,7 @@ void Loader::list(const std::string& path) {
     if (started) return;
     const std::lock_guard lock(shared_->mutex);
     --shared_->readers;
-    shared_->news.error = path + ": its folder is not listed: " + started.error().message;
+    shared_->news.error = path + ": cannot list its folder: " + started.error().message;
 }
 
 Loader::Progress Loader::progress() const {
@@ -325,13 +325,13 @@ Result<void> Loader::Job::finish(Document& document, bool quick) {
         return options;
     };
     auto lean_rings = std::make_shared<Rings>(
-        optimize_rings(table, rings, optimise_options(kLeanRingCost, share, 0.8, "optimising the ring")));
+        optimize_rings(table, rings, optimise_options(kLeanRingCost, share, 0.8, "optimizing the ring")));
     if (stopped()) return {};
     auto model = std::make_shared<OwningModel>(*document.model);
     LR_ASSIGN(model->lean, encode_lean(table, *lean_rings, {.wart_skipping = settings.warts}));
     if (!quick) {
         const OptimizeOptions optimise =
-            optimise_options(kPackedRingCost, 0.8, 1.0, "optimising for the packed stream");
+            optimise_options(kPackedRingCost, 0.8, 1.0, "optimizing for the packed stream");
         LR_ASSIGN(PackedChoice packed, encode_smallest_packed(table, ring_options(settings, quick), optimise));
         model->packed = std::move(packed.stream);
     }

@@ -96,7 +96,7 @@ Error errors(const std::string& file, const std::string& log) {
         if (!placed) line.insert(0, file + ": ");
         if (said.insert(line).second) out += (out.empty() ? "" : "\n") + line;
     }
-    return {ErrorCode::malformed, out.empty() ? file + ": glslang refuses it and does not say why" : out};
+    return {ErrorCode::malformed, out.empty() ? file + ": glslang refuses it without an error message" : out};
 }
 
 }  // namespace
@@ -122,7 +122,7 @@ Result<std::vector<std::uint32_t>> ShaderCompiler::compile(const std::string& na
                                                            std::map<std::string, Stamp>& files) {
     const std::string file = "shaders/" + name;
     const std::optional<EShLanguage> stage = stage_of(name);
-    if (!stage) return Error{ErrorCode::unsupported, file + ": no stage has this ending"};
+    if (!stage) return Error{ErrorCode::unsupported, file + ": no shader stage has this extension"};
     const std::optional<std::string> text = read(folder_ / name, files);
     if (!text) return Error{ErrorCode::malformed, file + ": cannot be read"};
 

@@ -167,7 +167,7 @@ void ShaderWatch::Shared::run() {
     } catch (const std::bad_alloc&) {
         const std::lock_guard lock(mutex);
         news.fresh = true;
-        news.error = "not enough memory to compile shaders: they are not watched any more";
+        news.error = "not enough memory to compile shaders: watching them has stopped";
     }
 }
 

@@ -85,14 +85,14 @@ void draw_operators(const Document& document, CornerId c) {
         ImGui::TextDisabled("  %s", name);
     }
     line(document, "c", "selected", kSelectedColour, c, "The corner nearest to where you clicked");
-    line(document, "n", "next", grey, next(c), "Of the same triangle, counterclockwise. Key N");
-    line(document, "p", "previous", grey, previous(c), "Of the same triangle, clockwise. Key P");
+    line(document, "n", "next", grey, next(c), "The next corner of the triangle, counterclockwise. Key N");
+    line(document, "p", "previous", grey, previous(c), "The previous corner of the triangle, clockwise. Key P");
     line(document, "o", "opposite", kOppositeColour, table.opposite(c),
-         "Of the triangle across the edge that faces the corner. Key O");
+         "The corner of the neighbor across the edge that faces the selected corner. Key O");
     line(document, "l", "left", kLeftColour, table.left(c), "The next corner's opposite. Key L");
     line(document, "r", "right", kRightColour, table.right(c), "The previous corner's opposite. Key R");
     line(document, "s", "swing", kFanColour, table.swing(c),
-         "Of the next triangle around the same vertex; violet: all of them. Key S");
+         "The corner of the next triangle around the same vertex. All triangles around it are violet. Key S");
     ImGui::EndTable();
 }
 
@@ -110,13 +110,13 @@ void draw_streams(const State& state, CornerId c) {
     const std::size_t fan = around(*document.table, c).size();
     ImGui::TextDisabled("%zu triangle%s around the vertex", fan, fan == 1 ? "" : "s");
     if (document.surface->has_seams()) {
-        part(
-            "vertex copy", fmt::format("{} of {}", document.copy_at(c), document.mesh->vertex_count),
-            "The file's vertex at this corner: its normal, texture coordinates and the like. Beyond a seam, corners of "
-            "the same vertex have another copy");
+        part("vertex copy", fmt::format("{} of {}", document.copy_at(c), document.mesh->vertex_count),
+             "The file's vertex at this corner, with its normal, texture coordinates and so on. Across a seam, corners "
+             "of the same vertex have another copy");
     }
     part("LR tables hold", state.facts.tables ? lr_text(*state.facts.tables, *document.table, c) : "being made",
-         "Their own numbers: L[v] and R[v] are the triangles left and right of ring edge v, VO the T0 triangles");
+         "In the tables' own numbers. L[v] and R[v] are the triangles left and right of ring edge v, VO the T0 "
+         "triangles");
     part("lean holds", lean_text(document, triangle(c).value),
          "Vertices in ring order. Slot 2v is the triangle left of ring edge v, slot 2v + 1 the one right of it");
     part("packed holds", packed_text(document, triangle(c).value),

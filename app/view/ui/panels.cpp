@@ -138,8 +138,8 @@ void draw_bar(State& state) {
         const std::string text = opened(document, told ? room / 2 : room);
         bar_text(text, left);
         explain(fmt::format(
-                    "{}\n{}.\nCopies: vertices of the file, where it has several at a place. Borders: loops. Genus: "
-                    "handles",
+                    "{}\n{}.\nCopies: vertices of the file, if several are at the same place. Borders: border loops. "
+                    "Genus: number of handles",
                     document.path, fmt::join(counts(document), ", "))
                     .c_str());
         left += ImGui::CalcTextSize(text.c_str()).x + px(24);

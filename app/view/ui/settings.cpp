@@ -185,7 +185,7 @@ Action cycle(const Choices& choices, std::string_view name, bool back) {
 
 Result<Action> parse_setting(std::string_view name, const std::string& value) {
     const Setting* setting = find_setting(name);
-    if (setting == nullptr) return wrong_value(fmt::format("nothing is called {}", name));
+    if (setting == nullptr) return wrong_value(fmt::format("no setting is called {}", name));
     for (const NamedValue& one : setting->values) {
         if (value == one.name) return Action(action::Set{setting, one.value});
     }

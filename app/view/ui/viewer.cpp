@@ -318,7 +318,7 @@ void Viewer::take_news() {
     if (news_.document) {
         // Hold tables and formats back: they belong to the document that is not shown yet.
         if (!facts.progress.busy || facts.progress.background) {
-            facts.progress = {.busy = true, .background = false, .what = "to the device", .share = 1};
+            facts.progress = {.busy = true, .background = false, .what = "uploading", .share = 1};
         }
     } else {
         if (news_.tables && facts.document && news_.tables->mesh == facts.document->mesh) {
