@@ -1,4 +1,4 @@
-// lacedring: parses the command line, runs one command, and turns what went wrong into one line and an exit code.
+// The program lacedring: parses the command line, runs one command, reports a failure as one line and an exit code.
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -16,15 +16,16 @@
 
 namespace {
 
-/// Opens what the caller closed of the standard streams, so that no file of ours gets their numbers. Reading finds
-/// nothing, and writing fails, as it does on a closed stream.
+/// Opens /dev/null in place of each standard stream that the caller closed, so that no other file gets its number.
+/// Read-only: reading finds nothing, and writing fails as on a closed stream.
 void open_standard_streams() {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-        if (::fcntl(stream, F_GETFD) == -1) (void)::open("/dev/null", O_RDONLY);  // takes the lowest number
+        // open() returns the lowest free number, which is `stream`.
+        if (::fcntl(stream, F_GETFD) == -1) (void)::open("/dev/null", O_RDONLY);
     }
 }
 
-/// An exit code, once what was printed has arrived.
+/// Flushes standard output. Returns `code`, or bad_input if `code` is done but the output could not be written.
 int finish(int code) {
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
     lacedring::app::say("lacedring: standard output: cannot be written\n");
@@ -45,7 +46,7 @@ int run(int argc, char** argv) {
         return lacedring::app::wrong_usage;
     }
     try {
-        std::reverse(words.begin(), words.end());  // as CLI11 takes them
+        std::reverse(words.begin(), words.end());  // CLI11 takes the last word first
         program.parse(std::move(words));
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() != 0) {
@@ -67,14 +68,15 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    std::signal(SIGXFSZ, SIG_IGN);  // a file past its size limit, and
-    std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone, are errors to report, not deaths
+    // Without these signals, writing fails with an error that is reported.
+    std::signal(SIGXFSZ, SIG_IGN);  // file-size limit exceeded
+    std::signal(SIGPIPE, SIG_IGN);  // the reader closed the pipe
     open_standard_streams();
     try {
         return run(argc, argv);
     } catch (const std::bad_alloc&) {
         std::fputs("lacedring: not enough memory\n", stderr);
-    } catch (const std::exception& error) {  // a bug: nothing of ours throws
+    } catch (const std::exception& error) {  // a bug: our own code never throws
         std::fprintf(stderr, "lacedring: internal error: %s\n", error.what());
     }
     return lacedring::app::bad_input;

@@ -13,7 +13,7 @@
 namespace lacedring::app {
 namespace {
 
-constexpr std::uint32_t kHybridPeriod = 32;  // of Figure 8's middle picture
+constexpr std::uint32_t kHybridPeriod = 32;  // as in the middle of Figure 8
 
 Result<CornerTable> build(const Subject& subject) {
     return build_corner_table(subject.mesh.indices, subject.mesh.vertex_count);
@@ -37,7 +37,7 @@ Candidates construction(const Subject& subject) {
         out.absent.emplace_back("strips", orders.error().message);
     }
     out.add("ring_hybrid", [&s] { expand_rings(s.table, {s.ring.seeds, 1, kHybridPeriod}); });
-    // From a corner table of a pseudo-manifold to the tables, ring included.
+    // From a pseudo-manifold corner table to LR tables and SQuad, ring included.
     const auto split = std::make_shared<CornerTable>(s.table);
     split_fans(*split);
     const auto make_lr = [&s, split](std::uint32_t k) {
@@ -48,7 +48,7 @@ Candidates construction(const Subject& subject) {
         if (const auto lr = make_lr(kHybridPeriod)) (void)build_compact_lr(lr->view());
     });
     out.add("squad", [split] { (void)build_squad(*split); });
-    // The optimiser alone, at its default, and from index list to packed stream with it.
+    // "optimize": the optimizer alone, with default options. "packed": from index list to stream, optimizer included.
     out.add("optimize", [&s] { (void)optimize_rings(s.table, s.rings, packed_optimization()); });
     out.add("packed_encode", [&s] { (void)encode_packed(s.table, s.rings); });
     out.add("packed_cache_encode", [&s] { (void)encode_packed(s.table, s.rings, PackedProfile::cache); });
@@ -61,7 +61,7 @@ Candidates construction(const Subject& subject) {
 
 Result<Candidates> decoding(const Subject& subject, const VertexOptions& positions) {
     const Subject& s = subject;
-    /// Memory that the candidates share: inputs and results of decoding.
+    /// Inputs and results of decoding, shared by the candidates.
     struct Buffers {
         std::vector<std::uint32_t> indices, copy, unpacked, decoded;
         CodedIndices codec;

@@ -1,5 +1,5 @@
 #pragma once
-// The lists of candidates that bench times on the CPU; rivals are among them.
+// The work that bench times on the CPU, rivals included.
 
 #include <map>
 #include <string>
@@ -21,11 +21,11 @@ struct Candidates {
     }
 };
 
-/// From an index list to the structures and streams, step by step and as a whole. `subject` must stay where it is.
+/// Building structures and streams from an index list, in steps and as a whole. The candidates refer to `subject`.
 Candidates construction(const Subject& subject);
 
-/// From streams to index lists, positions and copies. `subject` must stay where it is. Errors: those of encode_vertices
-/// and encode_seams, invalid_argument if the rival decodes something else.
+/// Decoding streams to index lists, positions and vertex copies. The candidates refer to `subject`. Errors: those of
+/// encode_vertices and encode_seams; invalid_argument if a rival decodes something else.
 Result<Candidates> decoding(const Subject& subject, const VertexOptions& positions);
 
 }  // namespace lacedring::app

@@ -14,14 +14,14 @@
 namespace lacedring::app {
 namespace {
 
-/// Something to time, and where its times go.
+/// Commands to time, and the vector that receives their times.
 struct Work {
     Times* times;
     std::function<void(VkCommandBuffer)> record;
 };
 
-/// Runs each piece of work between timestamps, in turns. The first round is not counted: pages are touched, shaders
-/// compiled.
+/// Runs the works in turn, each between timestamps. The first round is not counted: it touches pages and compiles
+/// shaders.
 Result<void> run_in_turns(gpu::Commands& commands, const TimingOptions& options, std::span<const Work> works) {
     const std::uint32_t repeats = options.repeats;
     const auto total = static_cast<std::uint32_t>((repeats + 1) * works.size());
@@ -40,7 +40,7 @@ Result<void> run_in_turns(gpu::Commands& commands, const TimingOptions& options,
     return {};
 }
 
-/// A model whose index list is in the rival's best order, and vertices in the order of their use.
+/// A copy of a model with its index list in meshoptimizer's best order and its vertices in order of use.
 struct BestOrder {
     std::vector<std::uint32_t> indices;
     gpu::Model model;
@@ -69,7 +69,7 @@ struct BestOrder {
     }
 };
 
-/// A way, and what it is drawn from.
+/// A way, and its model on the device.
 struct Uploaded {
     Way way;
     gpu::Drawable drawable;
@@ -85,7 +85,7 @@ Result<void> count_bytes(gpu::Renderer& renderer, Uploaded& uploaded, std::size_
     const gpu::GpuMesh& mesh = uploaded.drawable.mesh;
     const std::uint64_t index_bytes = std::uint64_t{12} * mesh.slots;
     if (way.path == gpu::Path::compute) {
-        way.connectivity_bytes = index_bytes;  // the stream may go once it is decoded
+        way.connectivity_bytes = index_bytes;  // the stream may be freed after decoding
         way.bytes_read = index_bytes;
         return {};
     }
@@ -93,7 +93,7 @@ Result<void> count_bytes(gpu::Renderer& renderer, Uploaded& uploaded, std::size_
     const std::uint64_t times = way.path == gpu::Path::pull ? 3 : 1;
     way.connectivity_bytes = stream_bytes;
     way.bytes_read = sizeof(std::uint32_t) * words.all * times;
-    if (mesh.pulls_copies()) {  // instead of the stream, which is decoded before
+    if (mesh.pulls_copies()) {  // the stream is decoded before; shaders read indices
         LR_TRY(renderer.read_copies(uploaded.drawable));
         way.connectivity_bytes = index_bytes;
         way.bytes_read = index_bytes * times;
@@ -101,8 +101,7 @@ Result<void> count_bytes(gpu::Renderer& renderer, Uploaded& uploaded, std::size_
     return {};
 }
 
-/// Runs of vertex shaders for one picture in one pass, as the device counts them (DeviceInfo::statistics). What draws
-/// it must be decoded.
+/// Counts the runs of vertex shaders for one picture in one pass. Needs DeviceInfo::statistics, and a decoded drawable.
 Result<std::uint64_t> vertex_invocations(gpu::Renderer& renderer, const gpu::Drawable& drawable) {
     VkQueryPoolCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
@@ -132,7 +131,7 @@ Result<DeviceTimes> measure_device(gpu::Context& context, const gpu::Model& mode
     renderer_options.width = options.width;
     renderer_options.height = options.height;
     LR_ASSIGN(gpu::Renderer renderer, gpu::Renderer::create(context, renderer_options));
-    std::list<Uploaded> all;  // their places are kept
+    std::list<Uploaded> all;  // elements must not move
     const auto add = [&](std::string name, const gpu::Model& of, gpu::Source source, gpu::Path path) -> Result<void> {
         LR_ASSIGN(gpu::Drawable drawable, renderer.upload(of, source, path));
         all.emplace_back(std::move(name), std::move(drawable));

@@ -22,7 +22,7 @@ Candidate candidate(std::string name, const Times& times) {
 Result<GpuFigures> measure_gpu(const LoadedMesh& mesh, const VertexOptions& vertices,
                                const gpu::ContextOptions& options, int rounds) {
     OptimizeOptions optimize;
-    optimize.progress = progress_bar("optimising the ring", optimize.passes);
+    optimize.progress = progress_bar("optimizing the ring", optimize.passes);
     const Result<gpu::Model> model = gpu::make_model(
         mesh.mesh, {.packed = true, .vertices = vertices, .optimize = std::move(optimize), .surface = mesh.surface});
     if (!model) return model.error();

@@ -1,5 +1,5 @@
 #pragma once
-// The part of bench that needs a device: its times and its memory.
+// The part of bench that needs a device: times and memory on it.
 
 #include <memory>
 #include <optional>
@@ -18,7 +18,7 @@ class App;
 
 namespace lacedring::app {
 
-/// A way of drawing, beside its times: see Way.
+/// Costs of a way of drawing besides its times: see Way.
 struct DrawCost {
     std::uint64_t connectivity_bytes = 0;
     std::uint64_t bytes_read = 0;
@@ -27,26 +27,27 @@ struct DrawCost {
 
 struct GpuFigures {
     std::string device;
-    std::vector<Candidate> decode;  ///< the streams' names, "vertices", "copy": wall and GPU seconds
-    std::vector<Candidate> draw;    ///< Way's names, and "lean_decode_every_frame", "packed_decode_every_frame"
-    std::vector<DrawCost> cost;     ///< of each of `draw`
+    std::vector<Candidate> decode;  ///< named after the streams, "vertices", "copy"
+    /// Named as Way::name, and "lean_decode_every_frame", "packed_decode_every_frame".
+    std::vector<Candidate> draw;
+    std::vector<DrawCost> cost;  ///< one per entry of `draw`
     std::uint64_t device_bytes = 0;
     std::vector<std::pair<std::string, std::string>> absent;  ///< name of a missing way, reason
     std::size_t validation_messages = 0;                      ///< printed on standard error
 };
 
-/// The device, as the command line asks for it. A program that was built without Vulkan (no_gpu.cpp) has none, nor
-/// options for it.
+/// Measures on the device that the command line chooses. A program built without Vulkan (no_gpu.cpp) has neither a
+/// device nor these options.
 class GpuBench {
   public:
     GpuBench();
     ~GpuBench();
 
-    /// --no-gpu, and those of a device.
+    /// Adds --no-gpu and the options for the device.
     void add_options(CLI::App& command);
 
-    /// With the streams that the program recommends, optimised. Nothing where there shall or can be no device: then
-    /// `skipped` says why. Errors: those of the renderer, and of a device that was asked for.
+    /// Measures the streams with the optimizer's ring. Empty without a device: then `skipped` says why. Errors: those
+    /// of the renderer; a missing device, if an option asks for one.
     Result<std::optional<GpuFigures>> measure(const LoadedMesh& mesh, const VertexOptions& vertices, int rounds,
                                               std::string& skipped) const;
 

@@ -9,7 +9,7 @@
 namespace lacedring::app {
 namespace {
 
-/// A line of /proc/self/status in bytes, 0 if it is not there.
+/// The value of a line of /proc/self/status in bytes; 0 if there is no such line.
 std::size_t status_bytes(const char* key) {
     std::FILE* file = std::fopen("/proc/self/status", "r");
     if (file == nullptr) return 0;

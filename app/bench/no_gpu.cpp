@@ -1,4 +1,5 @@
-// For a program without Vulkan.
+// GpuBench of a program built without Vulkan: no device.
+
 #include "app/bench/gpu.h"
 
 namespace lacedring::app {

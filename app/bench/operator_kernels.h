@@ -1,5 +1,5 @@
 #pragma once
-// What is timed on every structure that answers the corner operators.
+// Work that is timed on every structure with corner operators.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace lacedring::app {
 
-/// c.o, or for SQuad, whose own step it is, c.s.
+/// c.o; for SQuad c.s, which is the operator that it stores.
 template <class Ops>
 CornerId step_of(const Ops& ops, CornerId c) {
     if constexpr (std::is_same_v<Ops, SquadView>) {
@@ -22,8 +22,8 @@ CornerId step_of(const Ops& ops, CornerId c) {
     }
 }
 
-/// The z of the sum of cross products around v; on a border the gap counts as a triangle. 0 if only rounding, which
-/// depends on where a star begins, would decide its sign.
+/// The z of the sum of cross products around v; on a border the gap counts as a triangle. Returns 0 for values near 0,
+/// whose sign would depend on rounding, and so on where the star begins.
 template <class Ops>
 float normal_z(const Ops& ops, const std::vector<float>& positions, VertexId v) {
     const float* p = positions.data() + 3 * std::size_t{v.value};

@@ -20,13 +20,13 @@
 namespace lacedring::app {
 namespace {
 
-constexpr std::size_t kNormal = 3;  // its place among what round() measures
+constexpr std::size_t kNormal = 3;  // index of "normal" in the result of round()
 
 /// One structure and the vertex positions in its own order.
 template <class Ops>
 class Bench {
   public:
-    /// `order[v]`: the corner table's vertex that the structure calls v; empty if it keeps the numbers.
+    /// `order[v]`: the corner table's vertex that is the structure's vertex v; empty: the numbers are the same.
     Bench(const char* name, Ops ops, std::size_t references, std::size_t triangles, const std::vector<float>& positions,
           const std::vector<VertexId>& order)
         : ops_(std::move(ops)), positions_(positions) {
@@ -51,7 +51,7 @@ class Bench {
         }
     }
 
-    /// One round of every operator; returns a checksum of each, which every structure must agree on.
+    /// Times every operator once. Returns a checksum per operator, which must be equal for all structures.
     std::vector<double> round() {
         std::vector<double> sums;
         const auto time = [&](const char* name, std::size_t elements, const auto& work) {
@@ -66,7 +66,8 @@ class Bench {
         const std::uint32_t triangles = ops_.store().triangle_numbers(), vertices = ops_.store().vertices;
         const std::size_t corners = std::size_t{3} * triangles;
         time("vertex", corners, [&] {
-            float sum = 0;  // of something that does not depend on the numbering
+            // A maximum, which does not depend on the numbering.
+            float sum = 0;
             each_corner([&](CornerId c) { sum = std::max(sum, positions_[3 * std::size_t{ops_.vertex(c).value}]); });
             return static_cast<double>(sum);
         });
@@ -109,12 +110,13 @@ class Bench {
     const float* position(VertexId v) const { return positions_.data() + 3 * std::size_t{v.value}; }
     bool above(CornerId c) const { return position(ops_.vertex(c))[0] > plane_; }
 
-    /// Follows every contour from triangle to triangle; the triangles met.
+    /// Follows every contour from triangle to triangle. Returns the number of triangles.
     std::size_t contour(std::vector<bool>& seen) const {
         std::size_t met = 0;
         for (const CornerId seed : crossing_) {
             if (seen[ops_.triangle(seed).value]) continue;
-            CornerId c = seed;  // made to face the edge entered by: its ends lie on either side
+            // Begin with a corner that faces an edge cut by the plane.
+            CornerId c = seed;
             if (above(ops_.next(c)) == above(ops_.previous(c))) c = ops_.next(c);
             while (!c.is_null() && !seen[ops_.triangle(c).value]) {
                 seen[ops_.triangle(c).value] = true;
@@ -192,7 +194,7 @@ Result<OperatorBench> measure_operators(const Mesh& mesh, CornerTable table, int
         const std::vector<double> expected = a.round();
         for (const std::vector<double>& sums : {b.round(), c ? c->round() : expected, d.round(), e.round()}) {
             for (std::size_t i = 0; i < sums.size(); ++i) {
-                // The sign of a normal near the horizon depends on where its star begins. All else is exact.
+                // The sign of a normal's z near 0 depends on where the star begins. All else is exact.
                 const double allowed = i == kNormal ? 2 + expected[i] * 1e-3 : 0;
                 if (std::abs(sums[i] - expected[i]) <= allowed) continue;
                 return Error{ErrorCode::invalid_argument, "structures disagree on an operator"};

@@ -1,5 +1,5 @@
 #pragma once
-// Figure 10 of LR 2011, in memory: the same algorithms on every structure that answers the corner operators.
+// Figure 10 of LR 2011, in memory: the same algorithms on every structure with corner operators.
 
 #include <string>
 #include <utility>
@@ -32,9 +32,9 @@ struct OperatorBench {
 /// Returns why SQuad's operators cannot be timed on a pseudo-manifold table (its c.v is O(valence)); empty if they can.
 std::string no_squad_operators(const CornerTable& table);
 
-/// Times sequential loops over all corners (c.v; c.o, c.s for SQuad) and vertices (valence, normal), and the contours
-/// of a plane through the mesh's middle, per triangle met. Structures take turns; vertex positions are in each one's
-/// own order. Errors: invalid_argument if two structures disagree on a result.
+/// Times sequential loops over all corners (c.v; c.o, or c.s for SQuad) and vertices (valence, normal), and walks along
+/// the contours of a plane through the mesh's middle (time per triangle). Structures take turns; each has vertex
+/// positions in its own order. Errors: invalid_argument if two structures disagree on a result.
 Result<OperatorBench> measure_operators(const Mesh& mesh, CornerTable table, int rounds);
 
 }  // namespace lacedring::app

@@ -26,16 +26,17 @@ constexpr int kPlanes = 8;
 constexpr const char* kVisitNames[kVisits] = {"vertex",   "opposite", "valence", "normal", "vertex",
                                               "opposite", "valence",  "normal",  "contour"};
 
-/// The visits in the corner table's numbers, with both kinds of step.
+/// The visits in the corner table's numbering.
 struct Reference {
     CornerTableCView table;
-    Visits visits;  // step: opposite
-    std::vector<CornerId> swing;
+    Visits visits;                // visits.step: opposites
+    std::vector<CornerId> swing;  // SQuad's visits.step
 };
 
-/// Where the elements of the corner table are in a structure.
+/// Maps vertices and corners of the corner table to those of a structure.
 struct Numbering {
-    std::vector<std::uint32_t> vertex_to, place;  // place: 4 times a triangle's number, plus its first corner's place
+    // place[triangle]: 4 * its number in the structure + the place of its first corner.
+    std::vector<std::uint32_t> vertex_to, place;
 
     Numbering(const LrMap& map, const CornerTableCView& table)
         : vertex_to(table.vertices), place(table.triangle_numbers()) {
@@ -71,7 +72,8 @@ void add_contours(const CornerTableCView& table, const std::vector<float>& posit
         for (std::uint32_t t = 0; t < table.triangle_numbers(); ++t) {
             Contour contour{table.corner(TriangleId{t}), 0, kNullCorner, plane};
             if (seen[t]) continue;
-            if (above(table.next(contour.seed)) == above(table.previous(contour.seed)))  // its ends: on either side
+            // Find a corner that faces an edge cut by the plane.
+            if (above(table.next(contour.seed)) == above(table.previous(contour.seed)))
                 contour.seed = table.next(contour.seed);
             if (above(table.next(contour.seed)) == above(table.previous(contour.seed))) continue;
             CornerId c = contour.seed;
@@ -114,7 +116,7 @@ Reference make_reference(const CornerTableCView& table, const std::vector<float>
     return out;
 }
 
-/// The same visits in a structure's numbers.
+/// Translates the visits to a structure's numbering.
 template <class Ops, class To>
 Visits translate(const Reference& reference, const To& to) {
     constexpr bool swings = std::is_same_v<Ops, SquadView>;
@@ -151,14 +153,14 @@ std::span<const std::uint32_t> words_in(const PagedFile& file) {
     return {reinterpret_cast<const std::uint32_t*>(file.bytes().data()), file.bytes().size() / 4};
 }
 
-/// Makes the structures one after the other, so that no two are in memory at once.
+/// Writes the structures to paged files one after the other, so that no two are in memory at once.
 class Maker {
   public:
     Maker(const Reference& reference, const std::vector<float>& positions, std::filesystem::path scratch,
           std::size_t page_bytes)
         : reference_(reference), positions_(positions), scratch_(std::move(scratch)), page_bytes_(page_bytes) {}
 
-    /// `view(words)` finds the operators in the file's words.
+    /// `view(words)` makes the operators on the file's words.
     template <class View, class To>
     Result<void> add(const char* name, std::initializer_list<std::span<const std::uint32_t>> arrays, const To& to,
                      const std::vector<VertexId>& order, const View& view) {
@@ -220,7 +222,7 @@ Result<void> add_all(Maker& maker, const CornerTable& table, const CornerTableC&
         [](std::span<const std::uint32_t> words) { return Operators<CompactLrView>(view_compact_lr(words)->view); });
 }
 
-/// 32 KiB; smaller where the corner table would be few pages, larger where it would be too many to map.
+/// 32 KiB; smaller if the corner table has few pages, larger if it has too many to map.
 std::size_t choose_page(std::size_t bytes) {
     std::size_t page = PagedFile::kPageBytes;
     while (bytes / page < 512 && page > 4096) page /= 2;
@@ -228,7 +230,7 @@ std::size_t choose_page(std::size_t bytes) {
     return page;
 }
 
-/// Largest first, in whole pages.
+/// The memory limits in bytes, in whole pages, largest first.
 std::vector<std::size_t> choose_limits(const ResidentOptions& options, std::size_t corner_table, std::size_t lr,
                                        std::size_t lr_compact, std::size_t page) {
     std::vector<std::size_t> out;
@@ -292,7 +294,7 @@ Result<ResidentFigures> measure_resident(const Mesh& mesh, CornerTable input, co
     for (const auto& s : structures)
         out.structures.push_back({s->name(), s->file().bytes().size(), s->file().direct()});
 
-    const std::size_t last = structures.size() - 1;  // of lr_compact; lr is the one before
+    const std::size_t last = structures.size() - 1;  // lr_compact; lr is before it
     const std::vector<std::size_t> limits =
         choose_limits(options, bytes(0), bytes(last - 1), bytes(last), out.page_bytes);
     ProgressBar bar("operators, memory limited", limits.size() * kVisits * static_cast<std::uint64_t>(options.rounds));

@@ -1,5 +1,5 @@
 #pragma once
-// The operators on one structure in a paged file, checked against what the corner table says.
+// Times the operators of one structure in a paged file, and checks results against the corner table's.
 
 #include <algorithm>
 #include <array>
@@ -33,7 +33,7 @@ enum Visit {
     kVisits
 };
 
-/// Where a plane enters a run of triangles: `seed` faces the edge entered by, and after `steps` triangles, `last` does.
+/// A walk along the triangles that a plane cuts: contour_step, called `steps` times from `seed`, ends at `last`.
 struct Contour {
     CornerId seed;
     std::uint32_t steps;
@@ -41,18 +41,20 @@ struct Contour {
     double plane;
 };
 
-/// What is to be visited and what must come out, in one structure's numbers.
+/// The elements to visit and the expected results, in one structure's numbering.
 struct Visits {
     static constexpr std::size_t kWarmUps = 8;
-    std::size_t sample = 0;           ///< elements that are timed
-    std::vector<CornerId> corners;    ///< a sample, then kWarmUps others, to be visited before the clock starts
-    std::vector<VertexId> vertices;   ///< likewise
-    std::vector<VertexId> vertex_of;  ///< of the first sample of corners
-    std::vector<CornerId> step;       ///< likewise: opposite, or SQuad's swing
+    std::size_t sample = 0;  ///< elements that are timed
+    // The timed sample, then kWarmUps samples that are visited before the clock starts.
+    std::vector<CornerId> corners;
+    std::vector<VertexId> vertices;
+    // Expected results of the timed sample.
+    std::vector<VertexId> vertex_of;
+    std::vector<CornerId> step;  ///< opposite, or SQuad's swing
     std::vector<std::uint32_t> valence;
-    std::vector<float> normal;  ///< its z, not of unit length
+    std::vector<float> normal;  ///< z of the normal, not normalized
     std::vector<Contour> contours;
-    std::uint64_t vertex_sum = 0, step_sum = 0, valence_sum = 0, up = 0;  ///< over all the mesh
+    std::uint64_t vertex_sum = 0, step_sum = 0, valence_sum = 0, up = 0;  ///< of the whole mesh
     std::size_t corner_count = 0, vertex_count = 0, contour_triangles = 0;
 };
 
@@ -60,8 +62,8 @@ constexpr std::uint64_t summand(CornerId c) {
     return c.is_null() ? 0 : c.value + std::uint64_t{1};
 }
 
-/// Corner c faces the edge by which a plane enters its triangle: the one that faces the edge where it leaves, from the
-/// other side; null at a border.
+/// Goes on to the next triangle that a plane cuts. Corner c faces the edge where the plane enters c's triangle; the
+/// result faces the edge where the plane leaves it, from the next triangle. Null at a border.
 template <class Ops>
 CornerId contour_step(const Ops& ops, const std::vector<float>& positions, double plane, CornerId c) {
     const auto above = [&](CornerId x) { return positions[3 * std::size_t{ops.vertex(x).value}] > plane; };
@@ -79,19 +81,19 @@ class PagedStructure {
     struct Timing {
         double seconds = 0;
         std::size_t operations = 0, pages = 0;
-        bool right = false;  ///< the results are the corner table's
+        bool right = false;  ///< the results equal the corner table's
     };
-    /// Runs one kind of visit until the pages are those that it leaves, then once more with the clock running.
+    /// Runs one kind of visit untimed, until the resident pages are those that it leaves behind, then times it once.
     Timing time(Visit visit) {
         const bool random = visit >= kRandomVertex && visit <= kRandomNormal;
         const bool fits = file_.bytes().size() <= file_.limit();
         std::size_t before = file_.pages_read();
-        if (random) {  // other elements, until as many pages were read as stay
+        if (random) {  // other samples, until a limit's worth of pages has been read
             for (std::size_t i = 1; i <= Visits::kWarmUps; ++i) {
                 run(visit, i);
                 if (fits || file_.pages_read() - before >= file_.limit() / file_.page_bytes()) break;
             }
-        } else if (!fits || visit == kContour) {  // contours are short: the processor's caches count
+        } else if (!fits || visit == kContour) {  // contours are short: warm up the processor's caches, too
             run(visit, 0);
         }
         Timing out;
@@ -101,7 +103,7 @@ class PagedStructure {
         out.right = check(visit);
         return out;
     }
-    /// Every page read once, as far as the limit lets them stay.
+    /// Reads every page once. As many as the limit allows stay resident.
     void touch_all() {
         std::uint8_t sum = 0;
         for (std::size_t at = 0; at < file_.bytes().size(); at += file_.page_bytes()) {
@@ -113,7 +115,7 @@ class PagedStructure {
     PagedFile& file() { return file_; }
 
   protected:
-    /// Visits everything, or one sample of those in Visits; the number of operators asked.
+    /// Visits all elements, or one sample of Visits. Returns the number of operator calls.
     virtual std::size_t run(Visit visit, std::size_t sample) = 0;
 
     bool check(Visit visit) const {
@@ -128,7 +130,7 @@ class PagedStructure {
                 return sum_ == v_.step_sum;
             case kScanValence:
                 return sum_ == v_.valence_sum;
-            case kScanNormal:  // where a star begins decides the sign of one near the horizon
+            case kScanNormal:  // the sign of a z near 0 depends on where the star begins
                 return std::abs(static_cast<double>(sum_) - static_cast<double>(v_.up)) <=
                        2 + static_cast<double>(v_.up) * 1e-3;
             case kRandomVertex:
@@ -171,7 +173,7 @@ class PagedOperators final : public PagedStructure {
     std::size_t run(Visit visit, std::size_t sample) override {
         const std::uint32_t vertices = ops_.store().vertices;
         sum_ = 0;
-        // Locals, which no store of a result can alias.
+        // Local copies: the compiler knows that storing a result does not change them.
         std::uint64_t sum = 0;
         const Ops ops = ops_;
         const CornerId* corners = v_.corners.data() + sample * v_.sample;
@@ -220,8 +222,8 @@ class PagedOperators final : public PagedStructure {
     template <class Each>
     static void each_corner(const Ops& ops, Each each) {
         for (std::uint32_t t = 0; t < ops.store().triangle_numbers(); ++t) {
-            // The corner table has every number, since degenerate triangles are left out, and would look into V to
-            // tell.
+            // All numbers of the corner table are in use, as degenerate triangles are left out. Its is_canonical would
+            // read V, and so pages.
             if constexpr (!std::is_same_v<Ops, CornerTableCView>) {
                 if (!ops.is_canonical(TriangleId{t})) continue;
             }

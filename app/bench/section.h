@@ -1,5 +1,5 @@
 #pragma once
-// The parts of what bench measures, and their JSON.
+// The sections of bench's results, and their JSON.
 
 #include <cstdint>
 #include <map>
@@ -17,11 +17,11 @@ namespace lacedring::app {
 struct Section {
     std::string name;
     std::vector<Candidate> candidates;
-    std::map<std::string, std::uint64_t> bytes = {};  ///< of what a candidate decodes, where that is told
+    std::map<std::string, std::uint64_t> bytes = {};  ///< input size of a candidate, if known
 
     /// Median seconds of the named candidate; 0 if it is missing.
     double median(std::string_view candidate) const;
-    /// {"a_over_b": seconds of a over seconds of b}; null where either is missing.
+    /// {"a_over_b": seconds of a over seconds of b}; null if either is missing.
     nlohmann::ordered_json ratio(const std::string& a, const std::string& b) const;
 };
 
@@ -35,7 +35,7 @@ nlohmann::ordered_json to_json(const Section& section, const Counts& counts);
 /// Measures the candidates, with a progress bar.
 void measure(Section& section, int rounds);
 
-/// Measures the candidates; `absent` gets the others' reasons, their names with `suffix`.
+/// Measures the candidates, and adds the reasons of the absent ones to `absent` under NAME + `suffix`.
 Section measure_unpacking(const char* name, UnpackBench made, int rounds, nlohmann::ordered_json& absent,
                           const std::string& suffix);
 

@@ -21,7 +21,7 @@ Result<Subject> make_subject(LoadedMesh loaded, std::uint32_t seeds) {
     out.ring = {seeds, 1};
     out.rings = expand_rings(out.table, out.ring);
     OptimizeOptions optimize = packed_optimization();
-    optimize.progress = progress_bar("optimising the ring", optimize.passes);
+    optimize.progress = progress_bar("optimizing the ring", optimize.passes);
     out.optimised = optimize_rings(out.table, out.rings, optimize);
     Result<EncodedLean> lean = encode_lean(out.table, out.rings);
     if (!lean) return lean.error();
@@ -34,7 +34,8 @@ Result<Subject> make_subject(LoadedMesh loaded, std::uint32_t seeds) {
     const Result<LeanView> lean_view = view_lean(out.lean.words);
     const Result<PackedView> packed_view = view_packed(out.packed.words),
                              cache_view = view_packed(out.packed_cache.words);
-    if (!lean_view || !packed_view || !cache_view) return Error{ErrorCode::malformed, "a stream that was just encoded"};
+    if (!lean_view || !packed_view || !cache_view)
+        return Error{ErrorCode::malformed, "a stream is invalid right after encoding"};
     out.lean_view = *lean_view;
     out.packed_view = *packed_view;
     out.packed_cache_view = *cache_view;

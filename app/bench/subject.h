@@ -1,5 +1,5 @@
 #pragma once
-// The mesh that bench measures, and what was made of it before anything is timed.
+// The mesh that bench measures, and the structures and streams made of it before anything is timed.
 
 #include <cstdint>
 
@@ -13,20 +13,21 @@ namespace lacedring::app {
 
 struct Subject {
     LoadedMesh loaded;
-    Mesh mesh;          ///< the surface: connectivity is its, the rivals' too; what is drawn has its copies
+    /// The surface, whose connectivity is measured, also for rivals.
+    Mesh mesh;
     CornerTable table;  ///< of the surface
-    RingOptions ring;   ///< of these
+    RingOptions ring;   ///< options of `rings`
     Rings rings, optimised;
-    EncodedLean lean;
-    EncodedPacked packed, packed_cache;  ///< of the optimised rings
+    EncodedLean lean;                    ///< of `rings`
+    EncodedPacked packed, packed_cache;  ///< of `optimised`
     LeanView lean_view;
     PackedView packed_view, packed_cache_view;
 };
 
-/// The options by which the packed stream's ring is optimised.
+/// Options for optimizing the ring of the packed stream.
 OptimizeOptions packed_optimization();
 
-/// Errors: build_corner_table's.
+/// Errors: those of build_corner_table, encode_lean and encode_packed.
 Result<Subject> make_subject(LoadedMesh loaded, std::uint32_t seeds);
 
 }  // namespace lacedring::app

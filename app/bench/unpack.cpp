@@ -17,7 +17,7 @@ namespace lacedring::app {
 namespace {
 
 constexpr ReadOptions kNoLimit{.max_bytes = UINT64_MAX};
-constexpr int kSmallestDraco = 10;  // the level
+constexpr int kSmallestDraco = 10;  // level
 
 using Bytes = std::vector<std::byte>;
 
@@ -26,13 +26,13 @@ Result<Bytes> packed_glb(const Mesh& mesh) {
     if (!plain) return plain.error();
     PackOptions options;
     options.bits.threads = std::max(1U, std::thread::hardware_concurrency());
-    options.form = LrForm::resident;  // `restore` times the other one
+    options.form = LrForm::resident;  // restore_candidates times storage form
     const Result<SceneFile> packed = pack_scene(*plain, {}, options, kNoLimit);
     if (!packed) return packed.error();
     return make_glb_file(*packed);
 }
 
-/// Adds a candidate that decodes what was made, or says why it is absent.
+/// Adds a candidate that decodes the bytes in `made`; if making or decoding them fails, adds it to out.absent.
 template <class Decode>
 void add(UnpackBench& out, const char* name, Result<Bytes> made, const Decode& decode) {
     if (made) {
@@ -48,7 +48,7 @@ void add(UnpackBench& out, const char* name, Result<Bytes> made, const Decode& d
     out.candidates.push_back({name, [bytes, decode] { (void)decode(*bytes); }, {}, {}});
 }
 
-/// The words of the connectivity and of the positions, in storage form; none where they are resident.
+/// The words of the connectivity and of the positions in storage form.
 struct StoredParts {
     std::uint32_t vertices = 0, triangles = 0;
     std::vector<std::uint32_t> packed, positions;
@@ -58,7 +58,8 @@ Result<StoredParts> stored_parts(std::span<const std::byte> file) {
     const Result<LrContents> contents = list_lr(file);
     if (!contents) return contents.error();
     StoredParts out{contents->vertices, contents->input_triangles, {}, {}};
-    constexpr std::size_t kHead = 32, kEntry = 32, kName = 8;  // docs/lr-file.md: sections begin at multiples of 8
+    // docs/lr-file.md: sections begin at multiples of 8.
+    constexpr std::size_t kHead = 32, kEntry = 32, kName = 8;
     std::size_t at = kHead + kEntry * contents->sections.size();
     for (const LrSection& section : contents->sections) {
         const auto bytes = file.subspan(at, section.bytes).subspan(section.name.empty() ? 0 : kName);
@@ -73,7 +74,7 @@ Result<StoredParts> stored_parts(std::span<const std::byte> file) {
     return out;
 }
 
-/// Triangles and positions by lacedring_storage.h, without the streams that parse_lr makes. False: malformed.
+/// Decodes triangles and positions with lacedring_storage.h, without making resident streams. False: malformed.
 bool decode_arrays(const StoredParts& parts) {
     const auto memory = [](std::size_t bytes) { return std::make_unique_for_overwrite<std::byte[]>(bytes); };
     const auto numbers = [](std::size_t count) { return std::make_unique_for_overwrite<std::uint32_t[]>(count); };

@@ -1,5 +1,5 @@
 #pragma once
-// Whole meshes, bytes in memory to arrays in memory, beside Draco's decoder.
+// Decoding whole meshes from bytes in memory to arrays in memory, beside Draco's decoder.
 
 #include <cstdint>
 #include <map>
@@ -16,20 +16,22 @@ namespace lacedring::app {
 
 struct UnpackBench {
     std::vector<Candidate> candidates;
-    std::map<std::string, std::uint64_t> bytes;               ///< of what a candidate decodes
+    std::map<std::string, std::uint64_t> bytes;               ///< input size of each candidate
     std::vector<std::pair<std::string, std::string>> absent;  ///< name, reason
 };
 
-/// "lacedring": a GLB of the mesh, packed with the default bits, to plain glTF (unpack_scene); "draco" and
-/// "draco_smallest": the same mesh with the same bits by Draco at its tools' level 7, their default, and 10, to
-/// attributes and an index list. All from bytes in memory to vectors of their own, on one thread.
+/// Candidates, each on one thread and to vectors of its own:
+/// "lacedring": unpack_scene of a GLB of the mesh, packed with the default bits, to plain glTF;
+/// "draco", "draco_smallest": Draco at level 7, its tools' default, and at level 10, with the same bits, to attributes
+/// and an index list.
 UnpackBench unpack_candidates(const Mesh& mesh);
 
-/// "lacedring": an .lr file in storage form to resident streams (parse_lr), which have blocks that decode alone;
-/// "lacedring_decoded": from there to positions and an index list, too (decode_lr); "lacedring_arrays": to these
-/// straight (lacedring_storage.h), from the file's sections; "draco": the same positions with the same bits by Draco at
-/// level 10, its smallest, to positions and an index list. `encoded` is the mesh's, as packed; of its attributes only
-/// POSITION is taken. All from bytes in memory, on one thread.
+/// Candidates, each on one thread, for the mesh with POSITION as its only attribute:
+/// "lacedring": parse_lr of an .lr file in storage form to resident streams, whose blocks decode alone;
+/// "lacedring_decoded": parse_lr, then decode_lr to positions and an index list;
+/// "lacedring_arrays": from the file's sections directly to positions and an index list (lacedring_storage.h);
+/// "draco": Draco at level 10, its smallest, with the same bits, to positions and an index list.
+/// `encoded`: the packed stream of the mesh.
 UnpackBench restore_candidates(const Mesh& mesh, Encoded encoded, const AttributeBits& bits);
 
 }  // namespace lacedring::app

@@ -10,7 +10,7 @@
 namespace lacedring::app {
 namespace {
 
-/// Positions as floats, in an order.
+/// Positions as floats, in the given order.
 std::vector<float> ordered_positions(const Mesh& mesh, std::span<const std::uint32_t> order) {
     const std::vector<float> positions = positions_f32(mesh);
     std::vector<float> out;
@@ -21,7 +21,7 @@ std::vector<float> ordered_positions(const Mesh& mesh, std::span<const std::uint
     return out;
 }
 
-/// The input and output of a candidate. Candidates are copied; this is shared.
+/// Inputs and outputs of the candidates, shared by their copies.
 struct Coded {
     EncodedVertices stream;
     std::vector<float> floats;
@@ -29,7 +29,7 @@ struct Coded {
     std::vector<std::uint16_t> integers;
 };
 
-/// The lattice's integers, counted from the least of each component, 4 a vertex, in the other order.
+/// The lattice's integers in `coded_order`, minus the minimum of each component, padded to 4 per vertex.
 std::vector<std::uint16_t> as_users_store(const VertexView& view, std::span<const std::uint32_t> order,
                                           std::span<const std::uint32_t> coded_order) {
     std::vector<std::int32_t> all(std::size_t{3} * view.vertices);

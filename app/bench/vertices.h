@@ -1,5 +1,5 @@
 #pragma once
-// Decoding of positions on the CPU, beside meshoptimizer's vertex codec.
+// Decoding positions on the CPU, beside meshoptimizer's vertex codec.
 
 #include <cstdint>
 #include <span>
@@ -13,7 +13,7 @@
 
 namespace lacedring::app {
 
-/// Bits of the positions that bench decodes, unless told; the rival's integers have 16 at most.
+/// Bits of the positions that bench decodes: the default, and the most, as the rival's integers have 16 bits.
 constexpr std::uint32_t kBenchPositions = 14, kMostBenchPositions = 16;
 
 struct VertexBench {
@@ -21,9 +21,9 @@ struct VertexBench {
     std::vector<std::pair<std::string, std::string>> absent;  ///< name, reason
 };
 
-/// "vertices": a vertex stream to floats; "meshopt_vertex_codec": the same integers, stored as its users do, 4 of 16
-/// bits a vertex, to integers. Each has the vertices in its own order, `order[new] = old`; no `coded_order`: no rival.
-/// Errors: invalid_argument if the rival decodes other integers.
+/// "vertices": a vertex stream to floats; "meshopt_vertex_codec": the same integers, stored as its users do, as 4 of 16
+/// bits per vertex, to integers. `order`, `coded_order`: their vertex orders, order[new] = old; empty `coded_order`: no
+/// rival. Errors: invalid_argument if the rival decodes other integers.
 Result<VertexBench> vertex_candidates(const Mesh& mesh, const VertexOptions& options,
                                       std::span<const std::uint32_t> order, std::span<const std::uint32_t> coded_order);
 

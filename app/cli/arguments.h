@@ -1,5 +1,5 @@
 #pragma once
-// The words of the command line before CLI11 sees them.
+// Prepares the words of the command line for CLI11.
 
 #include <string>
 #include <vector>
@@ -10,12 +10,12 @@ class App;
 
 namespace lacedring::app {
 
-/// The arguments, with `--weld position` as `--weld=position`: --weld alone takes no value, so that CLI11 would take
-/// the word for a mesh.
+/// The arguments, with `--weld position` joined to `--weld=position`: --weld also works without a value, so CLI11 would
+/// take `position` for a mesh. Likewise `--weld attributes`.
 std::vector<std::string> arguments(int argc, char** argv);
 
-/// Turns `help` and `help COMMAND` into --help. Empty, or what is wrong with the command's name: an unknown one, with
-/// the nearest known one, or one that this program was built without.
+/// Turns `help` and `help COMMAND` into --help. Returns what is wrong with the command's name (missing; unknown, with
+/// the nearest known one; not in this build), or "".
 std::string check_command(const CLI::App& program, std::vector<std::string>& words);
 
 /// A message of CLI11 as one line.

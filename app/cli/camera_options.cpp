@@ -73,7 +73,7 @@ Result<gpu::CameraOptions> parse_camera(std::vector<std::string> words) {
     CLI::App command;
     gpu::CameraOptions camera;
     add_camera(command, camera);
-    std::reverse(words.begin(), words.end());  // as CLI11 takes them
+    std::reverse(words.begin(), words.end());  // CLI11 takes the last word first
     try {
         command.parse(words);
     } catch (const CLI::ParseError& error) {

@@ -1,5 +1,5 @@
 #pragma once
-// The camera on the command line, as f3d has it.
+// Options of the camera, with the names that f3d uses.
 
 #include <string>
 #include <vector>
@@ -15,7 +15,7 @@ namespace lacedring::app {
 
 void add_camera(CLI::App& command, gpu::CameraOptions& camera);
 
-/// The same options as words, each with its value behind it or after a "=". Errors: invalid_argument.
+/// Parses the same options from words: `--name value` or `--name=value`. Errors: invalid_argument.
 Result<gpu::CameraOptions> parse_camera(std::vector<std::string> words);
 
 }  // namespace lacedring::app

@@ -51,7 +51,7 @@ void add_ring_options(CLI::App& command, RingChoice& choice) {
 
 namespace {
 
-/// 0 for auto. The text was checked.
+/// The value of --k; 0 for auto. CLI11 has checked the text.
 std::uint32_t period(const RingChoice& choice) {
     std::uint32_t k = 0;
     std::from_chars(choice.k.data(), choice.k.data() + choice.k.size(), k);
@@ -72,7 +72,7 @@ RingOptions ring_options(const RingChoice& choice, std::size_t triangles) {
 RingOptions compact_ring_options(const RingChoice& choice) {
     RingOptions options;
     options.random_seed = choice.random_seed;
-    options.seeds = choice.seeds == 0 ? 1 : choice.seeds;  // each period is tried with them
+    options.seeds = choice.seeds == 0 ? 1 : choice.seeds;  // each period is tried with every seed
     return options;
 }
 
@@ -80,7 +80,7 @@ std::vector<std::uint32_t> ring_periods(const RingChoice& choice, std::size_t tr
     if (choice.ring == "expander") return {0};
     if (const std::uint32_t k = period(choice); k != 0) return {k};
     std::vector<std::uint32_t> periods = recommended_periods(triangles);
-    if (choice.ring == "hybrid") std::erase(periods, 0U);  // that is the expander
+    if (choice.ring == "hybrid") std::erase(periods, 0U);  // 0 is the expander
     return periods;
 }
 

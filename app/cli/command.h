@@ -24,55 +24,57 @@ namespace lacedring::app {
 /// Exit codes: a contract (docs/command-line.md).
 enum Exit : int { done = 0, check_failed = 1, wrong_usage = 2, bad_input = 3, no_device = 4 };
 
-/// What main runs once the command line is parsed; the command that was chosen sets it. Returns an Exit.
+/// The work of a command. The chosen command sets it while the command line is parsed; main runs it. Returns an Exit.
 using Action = std::function<int(RunLog&)>;
 
-/// How the rings are to be made.
+/// Options for making rings.
 struct RingChoice {
-    std::string ring;         ///< "", for what each format is best with; "expander" or "hybrid", for all
-    std::string k = "auto";   ///< of the hybrid: a number, or the best of recommended_periods
+    std::string ring;         ///< "expander" or "hybrid"; "": the best for each format
+    std::string k = "auto";   ///< period of the hybrid; "auto": the best of recommended_periods
     std::uint32_t seeds = 0;  ///< 0: recommended_seeds
     std::uint64_t random_seed = 1;
-    std::uint32_t effort = EncodeOptions{}.effort;  ///< what is not said below is decided by it (encode)
-    std::uint32_t threads = 0;                      ///< at most; 0: all of the machine
-    std::string optimize = "auto";  ///< passes of the optimiser: a number, or as many as optimize_rings recommends
+    /// EncodeOptions::effort; decides the options that are not given.
+    std::uint32_t effort = EncodeOptions{}.effort;
+    std::uint32_t threads = 0;      ///< at most; 0: all of the machine
+    std::string optimize = "auto";  ///< passes of the ring optimizer, or "auto"
 };
-/// Refuses a number with a minus sign, which CLI11 would take for one near 2^64.
+/// A check for CLI11, which would read -1 as 2^64 - 1: returns an error for a number with a minus sign, else "".
 std::string refuse_negative(const std::string& number);
 void add_ring_options(CLI::App& command, RingChoice& choice);
-/// For a format that is best with the ring-expander. With --ring hybrid, --k auto means the paper's median, 100.
+/// Options for formats that are smallest with the ring-expander. With --ring hybrid, --k auto means the paper's median,
+/// 100.
 RingOptions ring_options(const RingChoice& choice, std::size_t triangles);
-/// For one that is best with the hybrid: the options beside the period, and the periods to try.
+/// Options for lr_compact, which is smallest with the hybrid, and the periods to try.
 RingOptions compact_ring_options(const RingChoice& choice);
 std::vector<std::uint32_t> ring_periods(const RingChoice& choice, std::size_t triangles);
 
-/// All of it for one format and a mesh of that size.
+/// All options of encode for one format and a mesh of `triangles` triangles.
 EncodeOptions encode_options(const RingChoice& choice, Format format, std::size_t triangles);
 
-/// How rings are to be optimised for a format whose ring costs what `cost` says. Not at all where --ring or --k says
-/// which ring it is to be, unless --optimize does.
+/// Options for optimizing rings, with `cost` as the format's cost function. No passes if --ring or --k chooses a ring
+/// and --optimize is not given.
 OptimizeOptions optimize_options(const RingChoice& choice, const RingCost& cost);
 
-/// An option of bits to which an attribute is quantized; 0 unless given.
+/// Adds an option for the bits to which an attribute is quantized.
 void add_bits(CLI::App& command, const char* name, std::uint32_t& bits, std::uint32_t least, std::uint32_t most,
               const char* what);
 void add_position_bits(CLI::App& command, std::uint32_t& bits);
-/// Lossless for 0 bits. `threads`: as asked for.
+/// Options for encoding positions; 0 bits: lossless. `threads`: 0 for all of the machine.
 VertexOptions position_options(std::uint32_t bits, std::uint32_t threads = 0);
 
-/// --threads, for all of these: threads at most, 0 for all of the machine.
+/// Adds --threads, which sets all of `asked`.
 void add_threads(CLI::App& command, const std::vector<std::uint32_t*>& asked);
-/// The threads to run on where so many were asked for.
+/// Number of threads to run on: `asked`, or all of the machine for 0.
 unsigned thread_count(std::uint32_t asked);
 
-/// Calls work(i), which returns an Exit, for each input, and says each one's notes behind it. One bad input does not
-/// keep the others from their results. Returns the first exit code that is not done.
+/// Calls work(i), which returns an Exit, for each input, and prints the input's notes after it. Goes on after a bad
+/// input. Returns the first exit code that is not done.
 int for_each_input(const std::vector<std::string>& inputs, RunLog& log, const std::function<int(std::size_t)>& work);
 
-/// Prints a JSON document on standard output. Bytes that are no UTF-8 (of file or attribute names) are replaced.
+/// Prints a JSON document on standard output. Replaces bytes that are not UTF-8 (in names of files or attributes).
 void print_json(const nlohmann::ordered_json& document);
 
-/// Prints "lacedring: FILE: what" on standard error, one line, and returns the exit code for the error.
+/// Prints "lacedring: FILE: MESSAGE" on standard error, in one line, and returns the exit code for the error.
 int fail(const std::string& file, const Error& error);
 
 }  // namespace lacedring::app

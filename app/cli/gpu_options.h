@@ -12,10 +12,10 @@ class App;
 
 namespace lacedring::app {
 
-/// --device, --device-memory, --validation
+/// Adds --device, --device-memory and --validation.
 void add_device_options(CLI::App& command, gpu::ContextOptions& options);
 
-/// Was any of them given? Then a command that also works without a device must not go on without one.
+/// Whether any of them was given. Then a command that could work without a device must fail if there is none.
 bool asks_for_device(const gpu::ContextOptions& options);
 
 /// A WIDTHxHEIGHT option.
@@ -25,7 +25,7 @@ struct PictureSize {
 };
 void add_size(CLI::App& command, PictureSize& size);
 
-/// Prints the validation messages on standard error, if there are any. Returns how many.
+/// Prints the validation messages on standard error; returns their number.
 std::size_t print_validation(gpu::Context& context);
 
 }  // namespace lacedring::app

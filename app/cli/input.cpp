@@ -36,7 +36,7 @@ double bytes_of(const Mesh& mesh, std::uint32_t triangle_bytes) {
     return bytes;
 }
 
-/// Checks the limit once a mesh is decoded: what parse_lr was allowed is for its streams alone.
+/// Checks the memory limit for a decoded .lr file: parse_lr has checked it only for the streams.
 Result<void> check_memory(const Mesh& mesh, const InputOptions& options) {
     const double bytes = bytes_of(mesh, options.triangle_bytes);
     constexpr double kMebibyte = 1 << 20;
@@ -45,7 +45,7 @@ Result<void> check_memory(const Mesh& mesh, const InputOptions& options) {
                                                       mesh.triangle_count(), bytes / kMebibyte, options.max_memory)};
 }
 
-/// `list`, if not null, gets the primitives of a glTF that has several.
+/// Reads a mesh without welding it. `list`, if not null, gets the primitives of a glTF that has several.
 Result<LoadedMesh> read(const MeshInput& input, RunLog& log, PrimitiveList* list) {
     const InputOptions& options = input.options;
     const auto bytes = read_input(input.path, options, log);
@@ -75,7 +75,8 @@ Result<LoadedMesh> read(const MeshInput& input, RunLog& log, PrimitiveList* list
                  "not kept: " + listed(report.left_out) + (hint ? " (lacedring pack keeps scenes)" : ""));
     }
     if (list != nullptr && report.primitives > 1) {
-        how.triangle_bytes = 0;  // primitives are worked on one by one, in what the joined mesh's work takes
+        // Commands process primitives one by one, in the memory that was counted for the joined mesh.
+        how.triangle_bytes = 0;
         how.held_bytes = static_cast<std::uint64_t>(bytes_of(*mesh, options.triangle_bytes));
         Result<PrimitiveList> primitives = read_primitives(*bytes, name, how);
         if (!primitives) return primitives.error();
@@ -84,7 +85,7 @@ Result<LoadedMesh> read(const MeshInput& input, RunLog& log, PrimitiveList* list
     return LoadedMesh{std::move(*mesh), {}, {}, std::move(report.streams), std::move(materials)};
 }
 
-/// Joins what seams cut, unless the file had its surface.
+/// Joins vertices cut apart by seams, unless the file came with its surface.
 SurfaceReport join_seams(Mesh& mesh, Surface& surface, const InputOptions& options) {
     SurfaceReport report;
     if (surface.has_seams() && options.tolerance == 0) return report;
@@ -113,12 +114,12 @@ void note_moves(const SurfaceReport& report, const std::string& path, RunLog& lo
     }
 }
 
-/// A name as it is said beside every primitive of a mesh: its length is the file's, and so may be their number.
+/// Shortens a mesh's name. It is stored with each of the mesh's primitives, and the file decides its length.
 std::string shortened(const std::string& name) {
     constexpr std::size_t kMost = 80;
     if (name.size() <= kMost) return name;
     std::size_t end = kMost;
-    while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0U) == 0x80U) --end;  // a whole UTF-8 character
+    while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0U) == 0x80U) --end;  // cut between UTF-8 characters
     return name.substr(0, end) + "...";
 }
 
@@ -178,7 +179,7 @@ std::string input_name(const std::string& path) {
 }
 
 Result<std::vector<std::byte>> read_input(const std::string& path, const InputOptions& options, RunLog& log) {
-    constexpr std::uint64_t kMostFromPipe = std::uint64_t{4} << 30;  // that may never end
+    constexpr std::uint64_t kMostFromPipe = std::uint64_t{4} << 30;  // a pipe may never end
     const std::uint64_t limit = options.max_memory << 20;
     if (path == "-") return read_descriptor(STDIN_FILENO, limit != 0 ? limit : kMostFromPipe);
     log.read(path);

@@ -1,5 +1,5 @@
 #pragma once
-// Meshes that commands read: files, .lr files, standard input.
+// Reads the input of commands: mesh files, .lr files, standard input.
 
 #include <cstdint>
 #include <optional>
@@ -20,47 +20,47 @@ class App;
 
 namespace lacedring::app {
 
-/// Adds --weld, --no-weld, --weld-tolerance, --input-format, --allow-outside and --max-memory. `triangle_bytes`:
-/// InputOptions.
+/// Adds --weld, --no-weld, --weld-tolerance, --input-format, --allow-outside and --max-memory, and sets
+/// InputOptions::triangle_bytes.
 void add_input_options(CLI::App& command, InputOptions& options, std::uint32_t triangle_bytes);
 
-/// --allow-outside, or --max-memory, alone.
+/// Adds only --allow-outside, or only --max-memory.
 void add_allow_outside(CLI::App& command, InputOptions& options);
 void add_max_memory(CLI::App& command, InputOptions& options);
 
-/// The library's options for them.
+/// The library's form of these options.
 ReadOptions read_options(const InputOptions& options);
 
-/// As messages and JSON name it.
+/// Name of an input in messages and JSON: the path, or "standard input".
 std::string input_name(const std::string& path);
 
-/// The whole file, or standard input. Errors: those of read_file.
+/// Reads the whole file, or standard input. Errors: those of read_file.
 Result<std::vector<std::byte>> read_input(const std::string& path, const InputOptions& options, RunLog& log);
 
-/// A mesh, its surface (with --no-weld and --weld=attributes each vertex is its own), and of an .lr file what it
-/// consists of.
+/// A mesh and its surface.
 struct LoadedMesh {
     Mesh mesh;
+    /// It has no seams after --no-weld and --weld=attributes.
     Surface surface;
-    std::optional<LrContents> lr;
-    std::vector<std::uint64_t> streams = {};  ///< ReadReport's
-    Materials materials = {};                 ///< InputOptions::materials
+    std::optional<LrContents> lr;             ///< contents of an .lr file
+    std::vector<std::uint64_t> streams = {};  ///< ReadReport::streams
+    Materials materials = {};                 ///< if InputOptions::materials
 
     bool has_materials() const { return !materials.of_triangle.empty() && materials.materials.size() > 1; }
 };
 
-/// The corner table of the surface. Errors: build_corner_table's.
+/// Builds the corner table of the surface. Errors: those of build_corner_table.
 Result<CornerTable> surface_table(const LoadedMesh& loaded);
 
-/// Reads and welds. An .lr file is validated and decoded. `log` is told what is not kept.
+/// Reads and welds a mesh; validates and decodes an .lr file. Notes in `log` which data of the file are not kept.
 Result<LoadedMesh> load_file(const MeshInput& input, RunLog& log);
 
-/// A primitive of a scene, welded by itself.
+/// A primitive of a scene, welded on its own.
 struct LoadedPrimitive {
-    std::size_t mesh = 0, number = 0;  ///< Primitive's
+    std::size_t mesh = 0, number = 0;  ///< as in Primitive
     std::string name;                  ///< of the mesh, shortened
     PrimitiveMode mode = PrimitiveMode::triangles;
-    std::size_t placed = 0;  ///< how often the scene places it
+    std::size_t placed = 0;  ///< number of nodes that place it
     Mesh geometry;
     Surface surface;
 
@@ -70,11 +70,12 @@ struct LoadedPrimitive {
 
 struct LoadedScene {
     LoadedMesh joined;
-    std::vector<LoadedPrimitive> primitives;  ///< empty where the joined mesh is of one only
-    std::vector<PlacedMesh> placed;           ///< likewise
+    // Both empty unless the file has several primitives.
+    std::vector<LoadedPrimitive> primitives;
+    std::vector<PlacedMesh> placed;
 };
 
-/// load_file, and the primitives of a glTF that has several. Errors: also read_primitives'.
+/// Like load_file, and also loads the primitives of a glTF that has several. Errors: also those of read_primitives.
 Result<LoadedScene> load_scene(const MeshInput& input, RunLog& log);
 
 }  // namespace lacedring::app

@@ -8,20 +8,22 @@ namespace lacedring::app {
 
 /// Options of every command that reads meshes.
 struct InputOptions {
-    std::string weld;            ///< "none", "attributes", or else position
-    double tolerance = 0;        ///< of positions that are one
-    std::string format;          ///< "" as read_mesh tells, or "gltf", "obj", ...
-    bool keep_vertices = false;  ///< copies that do not differ stay apart
+    std::string weld;            ///< "none" or "attributes"; else by position
+    double tolerance = 0;        ///< joins positions up to this distance
+    std::string format;          ///< "gltf", "obj", ...; "": detected
+    bool keep_vertices = false;  ///< does not merge equal copies of a vertex
     bool allow_outside = false;
-    bool materials = false;        ///< reads what triangles look like, too
-    bool scene_hint = false;       ///< what a scene loses is said with the command that keeps it
+    bool materials = false;  ///< reads materials, too
+    /// Recommend `pack` in notes on scene data that is not kept.
+    bool scene_hint = false;
     std::uint64_t max_memory = 0;  ///< MiB; 0: by the file's size (ReadOptions)
-    /// Bytes that the command takes for each triangle at its peak, the mesh aside (docs/reliability.md).
+    /// Bytes per triangle that the command takes at its peak, without the mesh (docs/reliability.md).
     std::uint32_t triangle_bytes = 0;
-    std::uint32_t threads = 0;  ///< that restore what is in storage form, at most; 0: all of the machine
+    /// Most threads that restore streams from storage form; 0: all of the machine.
+    std::uint32_t threads = 0;
 };
 
-/// One mesh. The path "-" is standard input.
+/// The path "-" is standard input.
 struct MeshInput {
     std::string path;
     InputOptions options;

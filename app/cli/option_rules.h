@@ -1,5 +1,5 @@
 #pragma once
-// Options that have an effect only beside others: elsewhere they are wrong usage, never ignored.
+// Rules for options that take effect only with certain other options. Elsewhere they are an error, never ignored.
 
 #include <functional>
 #include <initializer_list>
@@ -12,8 +12,8 @@ class App;
 
 namespace lacedring::app {
 
-/// Rules between the options of one command. They are checked in the order in which they were added, when the command
-/// line is parsed: call check() in the command's callback.
+/// Rules between the options of one command, checked in the order in which they were added. Call check() in the
+/// command's callback, which runs when the command line is parsed.
 ///
 ///     auto rules = std::make_shared<OptionRules>(*command);
 ///     rules->only_with({"--profile"}, "--format packed", [options] { return options->format == "packed"; });
@@ -24,20 +24,21 @@ class OptionRules {
   public:
     explicit OptionRules(const CLI::App& command) : command_(command) {}
 
-    /// Each of `options`, where given, is an error unless `applies`: "--crease applies only with --view silhouette".
-    /// Names of options that the command does not have (in a build without Vulkan) are passed over.
+    /// Makes each of `options` an error unless `applies`: "--crease applies only with --view silhouette". Ignores
+    /// options that the command does not have (in a build without Vulkan).
     OptionRules& only_with(std::initializer_list<const char*> options, std::string with, std::function<bool()> applies);
-    /// Makes the options an error beside `other`: "--size has no effect with --no-gpu".
+    /// Makes each of `options` an error if `other` is given: "--size has no effect with --no-gpu".
     OptionRules& never_with(std::initializer_list<const char*> options, const char* other);
-    /// An error that says `message` where `wrong`.
+    /// Makes it an error, with this message, if `wrong` returns true.
     OptionRules& forbid(std::string message, std::function<bool()> wrong);
 
-    /// Throws CLI::ValidationError, wrong usage in one line, for the first rule that is broken.
+    /// Throws CLI::ValidationError with a message of one line for the first broken rule.
     void check() const;
 
   private:
     struct Rule {
-        std::string option;  ///< must be given for the rule to be broken; empty: always looked at
+        /// The rule is checked only if it is given; empty: always.
+        std::string option;
         std::string message;
         std::function<bool()> broken;
     };

@@ -20,7 +20,7 @@ std::string lower_extension(const fs::path& path) {
     return extension;
 }
 
-/// Is it a kind of file that has an extension of its own?
+/// Whether the extension belongs to a known kind of file.
 bool is_known(std::string_view extension) {
     constexpr std::string_view kKnown[] = {".lr",  ".glb", ".gltf", ".bin", ".obj",  ".mtl", ".ply",  ".off", ".stl",
                                            ".png", ".jpg", ".jpeg", ".bmp", ".tga",  ".gif", ".webp", ".svg", ".pdf",

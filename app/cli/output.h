@@ -1,5 +1,5 @@
 #pragma once
-// Files that commands write. What the user did not mean is refused before anything is written.
+// Writes the output files of commands. Refuses probable mistakes before anything is written.
 
 #include <filesystem>
 #include <span>
@@ -25,19 +25,19 @@ struct OutputOptions {
 void add_output(CLI::App& command, OutputOptions& options, const std::string& what);
 void add_force(CLI::App& command, OutputOptions& options);
 
-/// As messages name it.
+/// Name of an output in messages: the path, or "standard output".
 std::string output_name(const std::filesystem::path& path);
 
-/// Refuses an output that is one of the files read (through links, too), and one with the extension of another kind of
-/// file than `extensions` (".lr"), unless --force. Errors: invalid_argument.
+/// Unless --force is given, refuses an output that is one of the files read (also through links), or has the extension
+/// of a kind of file that is not in `extensions` (".lr"). Errors: invalid_argument.
 Result<void> check_output(const std::filesystem::path& path, const OutputOptions& options, const RunLog& log,
                           std::span<const std::string_view> extensions);
 
-/// Writes to the path, or to standard output. Errors: cannot_write.
+/// Writes `parts` one after the other to the path, or to standard output for "-". Errors: cannot_write.
 Result<void> write_output(const std::filesystem::path& path, std::span<const std::span<const std::byte>> parts);
 
-/// Output paths, one an input: the output itself for one input, else FOLDER/STEM + `extension` for each.
-/// Errors: invalid_argument (several inputs and no folder, or two of one name).
+/// Output paths, one per input: options.path for a single input, else FOLDER/STEM + `extension`; creates FOLDER.
+/// Errors: invalid_argument (several inputs and no folder, or two equal outputs), cannot_write (FOLDER).
 Result<std::vector<std::filesystem::path>> output_paths(const std::vector<std::string>& inputs,
                                                         const OutputOptions& options, std::string_view extension);
 

@@ -1,6 +1,6 @@
 #pragma once
-// Text on standard output and standard error. A stream that is closed, or whose disk is full, ends no command: main
-// looks at standard output once the command is done, and what standard error cannot say is lost.
+// Prints text on standard output and standard error. A failing stream (closed, disk full) does not end a command: main
+// checks standard output after the command, and failures of standard error are ignored.
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@ namespace lacedring::app {
 inline void write_text(std::FILE* stream, fmt::string_view format, fmt::format_args args) {
     fmt::memory_buffer text;
     fmt::vformat_to(std::back_inserter(text), format, args);
-    (void)std::fwrite(text.data(), 1, text.size(), stream);  // a failure stays with the stream
+    (void)std::fwrite(text.data(), 1, text.size(), stream);  // the stream remembers a failure
 }
 
 /// Writes results on standard output.
@@ -29,7 +29,7 @@ void say(fmt::format_string<Args...> format, Args&&... args) {
     write_text(stderr, format, fmt::make_format_args(args...));
 }
 
-/// Text out of a file, or a file's name, without line ends and other control characters that a terminal would obey.
+/// Replaces line ends and other control characters, which a terminal would obey, in text or names from files.
 inline std::string printable(std::string text, char instead = '?') {
     for (char& c : text) {
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = instead;

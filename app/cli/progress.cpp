@@ -14,7 +14,7 @@ namespace lacedring::app {
 namespace {
 
 constexpr std::uint64_t kWidth = 40;
-constexpr std::chrono::milliseconds kMoment{500};
+constexpr std::chrono::milliseconds kMoment{500};  // before the bar appears
 
 }  // namespace
 
@@ -23,7 +23,7 @@ ProgressBar::ProgressBar(std::string what, std::uint64_t total)
 
 ProgressBar::~ProgressBar() {
     if (!shown_) return;
-    say("\r{:{}}\r", "", what_.size() + kWidth + 44);  // over two numbers of twenty digits
+    say("\r{:{}}\r", "", what_.size() + kWidth + 44);  // two numbers have up to 20 digits each
     std::fflush(stderr);
 }
 
@@ -40,9 +40,9 @@ std::function<bool(std::uint32_t)> progress_bar(const char* what, std::uint32_t 
     if (isatty(STDERR_FILENO) == 0) return {};
     const auto bar = std::make_shared<std::optional<ProgressBar>>(std::in_place, what, total);
     return [=](std::uint32_t done) {
-        if (!*bar) bar->emplace(what, total);  // the same work once more
+        if (!*bar) bar->emplace(what, total);  // the work begins again
         (*bar)->show(done);
-        if (done >= total) bar->reset();  // gone before what is printed next
+        if (done >= total) bar->reset();  // erased before the next output
         return true;
     };
 }

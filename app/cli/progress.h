@@ -8,11 +8,11 @@
 
 namespace lacedring::app {
 
-/// A bar that appears when the work takes longer than a moment, and is gone when this is. Nothing where standard error
-/// is no terminal. Not thread-safe.
+/// A bar that appears after 0.5 s of work and is erased by the destructor. Prints nothing if standard error is not a
+/// terminal. Not thread-safe.
 class ProgressBar {
   public:
-    /// `what` is being done, in `total` steps.
+    /// `what` names the work, which takes `total` steps.
     ProgressBar(std::string what, std::uint64_t total);
     ~ProgressBar();
     ProgressBar(const ProgressBar&) = delete;
@@ -28,8 +28,8 @@ class ProgressBar {
     bool terminal_ = false, shown_ = false;
 };
 
-/// A bar as a callback that is told how many steps are done, and returns true. Empty where standard error is no
-/// terminal. `what` must stay.
+/// A bar as a callback: call it with the number of steps done; it returns true. Empty if standard error is not a
+/// terminal. `what` must outlive the callback.
 std::function<bool(std::uint32_t)> progress_bar(const char* what, std::uint32_t total);
 
 }  // namespace lacedring::app

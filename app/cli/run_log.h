@@ -1,5 +1,5 @@
 #pragma once
-// Notes for standard error, and the files that a command has read.
+// Collects notes for standard error, and the files that a command has read.
 
 #include <filesystem>
 #include <string>
@@ -12,18 +12,18 @@ namespace lacedring::app {
 
 class RunLog {
   public:
-    /// A line about a file for standard error. It waits until the work has succeeded: an error is one line alone.
+    /// Adds a line about a file for standard error. It is printed only if the work succeeds: a failure prints one line.
     void note(const std::string& file, const std::string& text) { notes_.push_back(file + ": " + text); }
     void read(std::filesystem::path file) { files_.push_back(std::move(file)); }
 
-    /// Every file that was read so far, those beside a mesh too.
+    /// All files read so far, including those that a mesh file refers to.
     const std::vector<std::filesystem::path>& files() const { return files_; }
 
-    /// Says the notes.
+    /// Prints the notes and removes them.
     void flush() {
         for (std::string& line : std::exchange(notes_, {})) say("lacedring: {}\n", printable(std::move(line), ' '));
     }
-    /// Forgets the notes of what failed.
+    /// Removes the notes, after a failure.
     void discard() { notes_.clear(); }
 
   private:

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Percent-encoded, as URIs have it.
+/// Percent-encodes a file name for a URI.
 std::string uri_of(const std::string& name) {
     std::string out;
     for (const char c : name) {

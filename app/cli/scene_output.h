@@ -1,5 +1,5 @@
 #pragma once
-// Scenes that commands write: a GLB, or a .gltf and its buffers beside it.
+// Writes scenes: a .glb, or a .gltf with its buffers in files beside it.
 
 #include <filesystem>
 #include <string>
@@ -9,24 +9,24 @@
 
 namespace lacedring::app {
 
-/// The files of a scene at `path`: of a .gltf the names of its buffers, which are "" of a GLB.
+/// The files of a scene.
 struct SceneOutput {
     std::filesystem::path path;
-    std::string bin, fallback;
+    std::string bin, fallback;  ///< URIs of a .gltf's buffers; "" for a .glb
 
     explicit SceneOutput(const std::filesystem::path& path);
 };
 
-/// Refuses what check_output does, of all files that would be written. Errors: invalid_argument.
+/// Applies check_output to all files that would be written. Errors: invalid_argument.
 Result<void> check_scene_output(const SceneOutput& output, const OutputOptions& options, const RunLog& log);
 
-/// Writes the buffers, then the document. Returns the bytes of all files. Errors: cannot_write, too_large.
+/// Writes the buffers, then the document. Returns the size of all files in bytes. Errors: cannot_write, too_large.
 Result<std::uint64_t> write_scene(const SceneFile& scene, const SceneOutput& output);
 
-/// "FILE: images of its folder stay there" where images are files and the output lies elsewhere.
+/// Adds a note if the scene refers to image files, which are not copied, and the output is in another folder.
 void note_images(const SceneFile& scene, const std::string& input, const SceneOutput& output, RunLog& log);
 
-/// Bytes of an input and of the files that were read beside it.
+/// Size in bytes of an input (`file` bytes) and of the other files it refers to.
 std::uint64_t input_bytes(std::uint64_t file, const ReadReport& read);
 
 }  // namespace lacedring::app

@@ -38,7 +38,7 @@ struct BenchOptions {
     bool json = false;
 };
 
-/// All that was measured of one mesh.
+/// All measurements of one mesh.
 struct Figures {
     std::string path;
     Counts counts;
@@ -47,10 +47,10 @@ struct Figures {
     std::vector<OperatorFigures> operators;
     std::optional<ResidentFigures> resident;
     std::optional<GpuFigures> gpu;
-    std::string gpu_skipped;  ///< why there are none of the device
+    std::string gpu_skipped;  ///< why `gpu` is empty
     Json peak = Json::object(), absent = Json::object();
 
-    // Seconds of the first one over those of the second.
+    // Median seconds of the first candidate divided by those of the second.
     Json construct_ratio() const { return construct.ratio("strips", "lean"); }
     Json decode_cpu_ratio() const { return decode.ratio("meshopt_vertex_codec", "vertices"); }
     Json unpack_ratio() const { return unpack.ratio("draco", "lacedring"); }
@@ -58,13 +58,13 @@ struct Figures {
     Json decode_gpu_ratio() const { return decode_gpu.ratio("packed_vertices", "packed"); }
 };
 
-/// Structures that disagree on a result are a check that failed, and no wrong usage.
+/// Like fail, but invalid_argument, which means that structures disagree on a result, is a failed check.
 int failed(const std::string& path, const Error& error) {
     const int code = fail(path, error);
     return error.code == ErrorCode::invalid_argument ? static_cast<int>(check_failed) : code;
 }
 
-/// Measures the candidates, with a progress bar, and notes which are absent.
+/// Measures the candidates, with a progress bar, and adds the absent ones to `absent`.
 Section measured(const char* name, Candidates candidates, int rounds, Json& absent) {
     for (const auto& [what, reason] : candidates.absent) absent[what] = reason;
     Section out{name, std::move(candidates.list)};
@@ -72,7 +72,7 @@ Section measured(const char* name, Candidates candidates, int rounds, Json& abse
     return out;
 }
 
-/// Peak memory of those that are there.
+/// Peak memory of building lean, packed and strips.
 Json peaks(const Section& construct) {
     Json out = Json::object();
     ProgressBar bar("peak memory", 3);
@@ -117,7 +117,7 @@ Result<Figures> measure_cpu(const BenchOptions& options, const std::string& path
     return out;
 }
 
-/// Adds what the device takes, if there is one.
+/// Adds the times on the device, if there is one.
 Result<void> add_device(const BenchOptions& options, const Subject& subject, Figures& out) {
     Result<std::optional<GpuFigures>> gpu =
         options.gpu.measure(subject.loaded, position_options(options.positions), options.rounds, out.gpu_skipped);
@@ -242,7 +242,7 @@ void print_figures(const BenchOptions& options, const Figures& figures) {
     }
 }
 
-/// One mesh: its figures printed, or put into `meshes`. Returns an Exit.
+/// Measures one mesh and prints its figures or, with --json, adds them to `meshes`. Returns an Exit.
 int bench(const BenchOptions& options, const std::string& path, Json& meshes, std::size_t& messages, RunLog& log) {
     Result<LoadedMesh> loaded = load_file({path, options.input}, log);
     if (!loaded) return fail(path, loaded.error());

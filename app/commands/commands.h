@@ -1,5 +1,5 @@
 #pragma once
-// Every command, in the order in which --help lists them.
+// All commands. add_commands adds them in the order of --help.
 
 #include "app/cli/command.h"
 

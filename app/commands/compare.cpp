@@ -1,4 +1,4 @@
-// lacedring compare MESH: the mesh's own index list against its streams, pixel by pixel.
+// lacedring compare MESH: draws a mesh from its index list and from its streams, and compares the pixels.
 
 #include "renderer/verify/compare.h"
 
@@ -45,22 +45,23 @@ struct Compared {
     gpu::Comparison comparison;
 };
 
-/// A path that was not tried, and why.
+/// A path that was not compared, and why.
 struct Skipped {
     const char* path;
     std::string reason;
 };
 
-/// The primitives of a scene in the mesh that is drawn.
+/// The scene that the drawn mesh was joined from.
 struct DrawnScene {
-    std::size_t primitives = 0;  ///< 0: the mesh is of one
-    std::size_t placed = 0;      ///< primitives where nodes place them
-    std::size_t mirrored = 0;    ///< of these, with their triangles turned round
-    std::size_t triangles = 0;   ///< of all placed ones
-    std::string why;             ///< the mesh that is drawn is not theirs; empty: it is
+    std::size_t primitives = 0;  ///< 0: the file has a single primitive
+    std::size_t placed = 0;      ///< primitives, counted once per node
+    std::size_t mirrored = 0;    ///< placed ones whose node mirrors them
+    std::size_t triangles = 0;   ///< of all placed primitives
+    /// How the drawn mesh differs; empty: it does not.
+    std::string why;
 };
 
-/// Every primitive through every node's transform has to be in the mesh that all pictures are of.
+/// Checks that the drawn mesh consists of every primitive as placed by every node.
 DrawnScene check_scene(const LoadedScene& scene, double tolerance) {
     DrawnScene out;
     out.primitives = scene.primitives.size();
@@ -81,7 +82,7 @@ DrawnScene check_scene(const LoadedScene& scene, double tolerance) {
     return out;
 }
 
-/// Visibility is a property of the mesh: the same for every result.
+/// Whether nearly nothing of the mesh is visible. This depends on the mesh only, so any result may tell.
 bool is_blank(std::span<const Compared> all) {
     return std::any_of(all.begin(), all.end(), [](const Compared& compared) { return compared.comparison.blank; });
 }
@@ -230,7 +231,7 @@ int run_compare(const CompareOptions& options, RunLog& log) {
     for (std::size_t i = 0; i < all.size(); ++i) all[i].comparison = std::move((*comparisons)[i]);
     const std::size_t messages = print_validation(**context);
 
-    // Where anything differs there is always a picture of it; beside the working folder's files, named after the mesh.
+    // A difference is always drawn: into --diff, else into a file in the working folder named after the mesh.
     const auto other =
         std::find_if(all.begin(), all.end(), [](const Compared& compared) { return !compared.comparison.same(); });
     const bool same = other == all.end();

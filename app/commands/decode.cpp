@@ -18,13 +18,13 @@ namespace fs = std::filesystem;
 
 struct DecodeOptions {
     std::vector<std::string> inputs;
-    InputOptions input;  ///< its memory limit
+    InputOptions input;  ///< only max_memory and threads
     OutputOptions output;
-    std::string format;  ///< "" by the extension
+    std::string format;  ///< "": by the extension
     bool original_order = false;
 };
 
-/// "glb" as write_mesh knows it.
+/// The format given by --output-format, else by the path's extension.
 MeshFormat output_format(const DecodeOptions& options, const fs::path& path) {
     return writable_format(options.format.empty() ? path : fs::path("x." + options.format));
 }
@@ -34,7 +34,7 @@ Result<void> write(const Mesh& mesh, const DecodeOptions& options, const fs::pat
     return write_mesh(mesh, path, &notes);
 }
 
-/// Joints and weights came with a scene's skin.
+/// Whether the mesh has joints, which refer to a scene's skin.
 bool has_skin(const Mesh& mesh) {
     return std::ranges::any_of(mesh.attributes, [](const Attribute& a) { return a.name.starts_with("JOINTS_"); });
 }

@@ -30,15 +30,16 @@ struct EncodeCommand {
     bool no_warts = false;
     bool keep_order = false;
     bool orient = false;
-    bool storage = false, resident = false;  ///< as they were given
+    bool storage = false, resident = false;  ///< whether the options are given
     AttributeBits bits;
 
     bool is(Format one) const { return format == name_of(one); }
-    /// Packed streams have a storage form; the other formats are for programs that map their files.
+    /// Packed streams are stored in storage form unless --resident is given. The other formats are only resident: they
+    /// are for programs that map their files.
     LrForm form() const { return is(Format::packed) && !resident ? LrForm::stored : LrForm::resident; }
 };
 
-/// "POSITION 4.8e-06": the largest error of each attribute that has one; "" if all is lossless.
+/// "POSITION 4.8e-06, ...": the largest error of each lossy attribute; "" if all are lossless.
 std::string errors_of(const std::vector<CompressedAttribute>& attributes) {
     std::string out;
     for (const CompressedAttribute& attribute : attributes) {
@@ -48,9 +49,9 @@ std::string errors_of(const std::vector<CompressedAttribute>& attributes) {
     return out;
 }
 
-/// Bytes in a file.
+/// Bytes of connectivity in a file.
 struct Connectivity {
-    std::size_t bytes = 0, seams = 0;  ///< the former with seams
+    std::size_t bytes = 0, seams = 0;  ///< `bytes` includes `seams`
 };
 
 Connectivity connectivity_of(std::span<const std::byte> file) {
@@ -65,7 +66,7 @@ Connectivity connectivity_of(std::span<const std::byte> file) {
     return out;
 }
 
-/// Turns the triangles round that the table has the other way. Returns how many.
+/// Reverses the triangles that the table holds reversed, so that neighbors agree. Returns their number.
 std::uint32_t orient(Mesh& mesh, CornerTable& table) {
     for (const TriangleId t : table.triangles()) {
         if (!table.flipped(t)) continue;

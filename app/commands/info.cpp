@@ -1,4 +1,4 @@
-// lacedring info MESH: what the file holds and what its topology is.
+// lacedring info MESH: contents and topology of a file.
 
 #include <fmt/format.h>
 
@@ -20,10 +20,10 @@ struct InfoOptions {
     bool json = false;
 };
 
-/// The closed shells of a mesh, summed up.
+/// Numbers and total volume of the closed shells of a mesh.
 struct Solid {
     std::size_t shells = 0, inside_out = 0, flat = 0;
-    double volume = 0;  ///< hollows count as what they take away
+    double volume = 0;  ///< hollows are subtracted
 };
 
 Solid sum(const std::vector<ClosedShell>& shells) {

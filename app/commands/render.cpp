@@ -24,12 +24,13 @@ struct RenderOptions {
     OutputOptions output;
     std::string source = "lean";
     std::string path = "compute";
-    std::string view;             ///< "": material where the file has any, else smooth
+    std::string view;             ///< "": material if the file has any, else smooth
     std::uint32_t positions = 0;  ///< bits
     RingChoice ring;
     bool no_warts = false;
     PictureSize size;
-    std::uint32_t samples = 0;  ///< 0: kSamples, or as many as the device draws
+    /// 0: kSamples, or fewer if the device's limit is lower.
+    std::uint32_t samples = 0;
     double crease = 40;
     gpu::CameraOptions camera;
     gpu::ContextOptions context;
@@ -40,7 +41,7 @@ constexpr std::uint32_t kSamples = 3;
 
 using ContextPointer = std::unique_ptr<gpu::Context>;
 
-/// Returns an Exit. Makes `context`, once, when a mesh has been read.
+/// Draws one mesh. Creates `context` if it is null, after the mesh is read. Returns an Exit.
 int render(const RenderOptions& options, const std::string& input, const std::filesystem::path& output,
            ContextPointer& context, RunLog& log) {
     MeshInput from{input, options.input};
@@ -55,7 +56,7 @@ int render(const RenderOptions& options, const std::string& input, const std::fi
     if (const auto good = check_output(output, options.output, log, kExtensions); !good) {
         return fail(output_name(output), good.error());
     }
-    // Pictures show the ring as the paper makes it, unless the optimiser is asked for.
+    // Pictures show the paper's ring, without the optimizer, unless --optimize is given.
     OptimizeOptions optimize = optimize_options(options.ring, kLeanRingCost);
     if (options.ring.optimize == "auto") optimize.passes = 0;
     const gpu::Source source = gpu::find_named(gpu::kSources, options.source).value_or(gpu::Source::lean);
@@ -79,7 +80,7 @@ int render(const RenderOptions& options, const std::string& input, const std::fi
 
     gpu::RendererOptions renderer_options;
     renderer_options.view = gpu::find_named(gpu::kViews, view_name).value_or(gpu::View::smooth);
-    // An explicit --samples is drawn or fails; the default falls back to fewer samples.
+    // An explicit --samples is used as it is, or drawing fails; the default falls back to fewer samples.
     const std::uint32_t samples =
         options.samples != 0
             ? options.samples

@@ -23,13 +23,13 @@ struct ReportOptions {
     InputOptions input;
     RingChoice ring;
     ReportPictures pictures;
-    std::string command;  ///< as it was given
+    std::string command;  ///< the command line
 };
 
-/// The command with the options that were given, positional arguments last.
+/// The command line as shell words: the options that were given, then the positional arguments.
 std::string command_line(const CLI::App& command) {
     std::string out = "lacedring " + command.get_name(), positional;
-    bool dashes = false;  // does a file look like an option?
+    bool dashes = false;  // a file name begins with a dash
     for (const CLI::Option* option : command.get_options()) {
         if (option->count() == 0) continue;
         const bool flag = option->get_items_expected_max() == 0;

@@ -28,7 +28,7 @@ struct StatsOptions {
     RingChoice ring;
     bool paper = false;
     AttributeBits bits;
-    std::vector<std::string> attributes;  ///< the only ones that --table total counts; empty: all
+    std::vector<std::string> attributes;  ///< counted by --table total; empty: all
     std::string table = "sizes";
     bool json = false;
 };
@@ -132,24 +132,24 @@ void print_sizes(const std::string& path, const Mesh& mesh, const FormatSet& set
     print("\n");
 }
 
-/// Tables of rings that are made for them alone.
+/// Whether the table shows rings that are made only for it.
 bool makes_rings(const StatsOptions& options) {
     return options.table == "offsets" || options.table == "periods" || options.table == "seeds";
 }
 
-/// Does a document or a table have the primitives of scenes?
+/// Whether the output shows the primitives of scenes.
 bool shows_primitives(const StatsOptions& options) {
     return options.json || options.table == "sizes";
 }
 
-/// A scene without its primitives.
+/// Loads a scene without its primitives.
 Result<LoadedScene> load_joined(const MeshInput& input, RunLog& log) {
     Result<LoadedMesh> loaded = load_file(input, log);
     if (!loaded) return loaded.error();
     return LoadedScene{std::move(*loaded), {}, {}};
 }
 
-/// Every format, and the rows of size tables. Returns an Exit.
+/// Measures every format: prints it, fills `json`, or adds a row to `rows` for a table of sizes. Returns an Exit.
 int add_sizes(const StatsOptions& options, const std::string& path, const LoadedScene& scene, Json& json,
               std::vector<MeshRow>& rows) {
     const LoadedMesh& loaded = scene.joined;
@@ -181,7 +181,7 @@ int add_sizes(const StatsOptions& options, const std::string& path, const Loaded
     return done;
 }
 
-/// Whole meshes, as text or into the mesh's JSON. Returns an Exit.
+/// Measures whole meshes (--table total): prints the table or, if not null, fills `json`. Returns an Exit.
 int add_total(const StatsOptions& options, const std::string& path, LoadedMesh loaded, Json* json,
               std::vector<TotalTable>& tables, RunLog& log) {
     Mesh& mesh = loaded.mesh;
@@ -189,7 +189,7 @@ int add_total(const StatsOptions& options, const std::string& path, LoadedMesh l
     std::erase_if(mesh.attributes, [&](const Attribute& attribute) {
         return !wanted.empty() && std::find(wanted.begin(), wanted.end(), attribute.name) == wanted.end();
     });
-    if (!wanted.empty() && loaded.surface.has_seams()) {  // copies that differ in nothing any more are one
+    if (!wanted.empty() && loaded.surface.has_seams()) {  // some copies may now be equal
         mesh = merge_copies(mesh, loaded.surface);
     }
     Result<TotalTable> table = make_total(path, mesh, loaded.surface, options.ring, options.bits, log);
@@ -208,7 +208,8 @@ int add_total(const StatsOptions& options, const std::string& path, LoadedMesh l
     return done;
 }
 
-/// What more rings show, as text or into the mesh's JSON. Returns an Exit.
+/// Makes rings for --table offsets, periods or seeds: prints their figures or, if not null, fills `json`; `rows` gets
+/// those of seeds. Returns an Exit.
 int add_ring_figures(const StatsOptions& options, const std::string& path, const Mesh& mesh, Json* json,
                      std::vector<SeedRow>& rows) {
     const RingOptions ring = compact_ring_options(options.ring);

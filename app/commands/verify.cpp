@@ -1,5 +1,5 @@
-// lacedring verify MESH|IN.lr: every format gives back the same multiset of oriented triangles, and a file the same
-// attributes; of a scene each primitive likewise.
+// lacedring verify MESH|IN.lr: checks that every format decodes to the same multiset of oriented triangles, and an .lr
+// file to the same attributes; also for each primitive of a scene.
 
 #include <fmt/format.h>
 
@@ -23,7 +23,7 @@ struct VerifyOptions {
 
 using Json = nlohmann::ordered_json;
 
-/// Why the first format, or the file, does not give the mesh back; empty if all do.
+/// Checks every format and an .lr file of the primitive. Returns the first failure; empty: none.
 std::string check_primitive(const LoadedPrimitive& primitive, const RingChoice& ring) {
     const Mesh& mesh = primitive.geometry;
     {
@@ -37,8 +37,8 @@ std::string check_primitive(const LoadedPrimitive& primitive, const RingChoice& 
     return why.empty() ? why : "attributes: " + why;
 }
 
-/// Checks each primitive for itself, and where the scene places it. Prints, or fills `json`. Returns whether all are
-/// good.
+/// Checks each primitive on its own, and in the joined mesh. Prints failures, or fills `json`. Returns whether all
+/// pass.
 bool verify_primitives(const VerifyOptions& options, const LoadedScene& scene, Json& json) {
     const PlacedDifference placed = check_placed(scene, options.input.options.tolerance);
     std::size_t failed = 0;

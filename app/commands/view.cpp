@@ -1,5 +1,4 @@
-// lacedring view [MESH]: hands over to lacedring-view beside this program, so that no other command loads a window
-// library.
+// lacedring view [MESH]: runs lacedring-view, a program of its own, so that no other command loads a window library.
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -35,7 +34,7 @@ int run(const std::vector<std::string>& arguments) {
 
 void add_view(CLI::App& program, Action& action) {
     CLI::App* command = program.add_subcommand("view", "interactive viewer");
-    command->set_help_flag();  // the viewer's own
+    command->set_help_flag();  // --help is passed to the viewer
     command->prefix_command();
     command->callback([command, &action] { action = [words = command->remaining()](RunLog&) { return run(words); }; });
 }

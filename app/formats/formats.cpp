@@ -21,15 +21,15 @@ void set_ring(MeasuredFormat& format, std::uint32_t k, std::uint32_t passes) {
     format.passes = passes;
 }
 
-/// A mesh, its surface, and the mesh's oriented triangles where that has seams.
+/// A mesh, its surface, and, if the mesh has seams, its oriented triangles.
 struct Subject {
     const Mesh& mesh;
     const Surface& surface;
     std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Fills `format.indices` and `format.order` and measures the seams, which have to give back the mesh's corners. `view`
-/// is of encoded.words.
+/// Sets `format.indices`, `order` and `seam_bytes`; `invalid` if the seam section does not decode to the mesh's
+/// corners. `view`: of encoded.words.
 void add_indices(MeasuredFormat& format, const Subject& subject, Encoded encoded, const StreamView& view) {
     format.indices = decode(view);
     if (subject.surface.has_seams()) {
@@ -45,14 +45,14 @@ void add_indices(MeasuredFormat& format, const Subject& subject, Encoded encoded
         decode_seams(*valid, slots, copies);
         std::erase(copies, UINT32_MAX);
         if (oriented_triangles(copies, seams->copy_order) != subject.triangles) {
-            format.invalid = "its seams give other corners";
+            format.invalid = "the seam section decodes to other corners";
         }
         format.seam_bytes = 4 * seams->words.size();
     }
     format.order = std::move(encoded.vertex_order);
 }
 
-/// The lean stream, decoded twice: as a whole, and slot by slot.
+/// Measures a lean stream and decodes it twice: as a whole, and slot by slot.
 MeasuredFormat lean_format(const char* name, std::uint32_t k, std::uint32_t passes, const Subject& subject,
                            EncodedLean stream) {
     MeasuredFormat format;
@@ -79,7 +79,7 @@ MeasuredFormat lean_format(const char* name, std::uint32_t k, std::uint32_t pass
     return format;
 }
 
-/// LR tables, as the words that a file holds, validated and decoded.
+/// Measures LR tables, full or bit-efficient, and decodes them.
 MeasuredFormat lr_format(const char* name, const Subject& subject, Encoded encoded) {
     MeasuredFormat format;
     format.name = name;
@@ -96,7 +96,7 @@ MeasuredFormat lr_format(const char* name, const Subject& subject, Encoded encod
     return format;
 }
 
-/// The packed stream, decoded twice: as a whole, and some triangles of each block alone.
+/// Measures a packed stream and decodes it twice: as a whole, and some triangles of each block on their own.
 MeasuredFormat packed_format(const char* name, const Subject& subject, Encoded encoded) {
     MeasuredFormat format;
     format.name = name;
@@ -121,11 +121,11 @@ MeasuredFormat packed_format(const char* name, const Subject& subject, Encoded e
     return format;
 }
 
-/// The bit-efficient tables with the ring that makes them smallest.
+/// Adds bit-efficient LR tables, made with the period that makes them smallest.
 void add_compact(FormatSet& set, const CornerTable& table, const Subject& subject, EncodeOptions options,
                  std::vector<std::uint32_t> periods, bool paper) {
     options.periods = std::move(periods);
-    if (paper && options.periods.size() > 1) std::erase(options.periods, 0U);  // the hybrid, not the expander
+    if (paper && options.periods.size() > 1) std::erase(options.periods, 0U);  // 0 is the expander, not the hybrid
     Result<Encoded> compact = encode(table, options);
     if (!compact) {
         set.absent.emplace_back("lr_compact", compact.error().message);
@@ -137,7 +137,7 @@ void add_compact(FormatSet& set, const CornerTable& table, const Subject& subjec
     set.formats.push_back(lr_format("lr_compact", subject, std::move(*compact)));
 }
 
-/// Empty, or what of the mesh's vertices `order` loses. Copies of non-manifold vertices may come on top.
+/// Checks that `format.order` has every vertex once, plus format.copies copies of some. Returns what is wrong, or "".
 std::string check_order(const MeasuredFormat& format, std::uint32_t vertices) {
     std::vector<bool> seen(vertices, false);
     std::size_t again = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Every format that one mesh can be stored in, made and measured. Shared by stats and verify.
+// Makes and measures one mesh in every format: for stats, verify, bench, report and the viewer.
 
 #include <algorithm>
 #include <cstdint>
@@ -18,23 +18,26 @@
 
 namespace lacedring::app {
 
-/// One format of one mesh. `indices` are the triangles as the format gives them back, in its order.
+/// One mesh in one format.
 struct MeasuredFormat {
     std::string name;
     std::size_t bytes = 0;
-    std::size_t references = 0;               ///< 0 where it has none
-    std::vector<std::uint32_t> indices = {};  ///< numbered as `order` says
-    /// order[new] = vertex of the surface; empty if the format keeps its numbers
+    std::size_t references = 0;  ///< 0: the format has none
+    /// The decoded triangles in the format's order, with the format's vertex numbers.
+    std::vector<std::uint32_t> indices = {};
+    /// order[vertex number of the format] = vertex of the surface; empty: the numbers are the same.
     std::vector<std::uint32_t> order = {};
-    const char* ring = nullptr;  ///< "expander", "hybrid" or "optimized"; null for a format without one
-    std::uint32_t k = 0;         ///< of the hybrid
-    std::uint32_t passes = 0;    ///< of the optimiser
-    std::size_t copies = 0;      ///< of non-manifold vertices: entries of `order` beyond the mesh's vertices
-    std::size_t seam_bytes = 0;  ///< of the seam section, beside `bytes`
-    std::size_t deflated = 0;    ///< bytes after zlib, of a format that is for transmission; else 0
-    std::string invalid = {};    ///< what the format's own validation found wrong; empty if nothing
+    const char* ring = nullptr;  ///< "expander", "hybrid" or "optimized"; null: no ring
+    std::uint32_t k = 0;         ///< period of the hybrid
+    std::uint32_t passes = 0;    ///< of the optimizer
+    /// Copies of non-manifold vertices, which `order` has in addition.
+    std::size_t copies = 0;
+    std::size_t seam_bytes = 0;  ///< of the seam section; not part of `bytes`
+    std::size_t deflated = 0;    ///< bytes after zlib; 0: not deflated
+    /// Why the format's own validation failed; empty: valid.
+    std::string invalid = {};
 
-    /// Numbers that `indices` may use. `vertices`: FormatSet's.
+    /// Number of vertices of the format; `vertices` is FormatSet::vertices.
     std::size_t vertex_count(std::uint32_t vertices) const { return vertices + copies; }
 };
 
@@ -48,8 +51,8 @@ struct FormatSet {
     LrStatistics lr_compact;
     std::uint32_t lr_compact_long = 0;  ///< n_l of section 8
     PackedStatistics packed;
-    std::optional<CacheFigures> best_order;  ///< of meshoptimizer's vertex-cache order; empty if absent
-    RingOptions ring;                        ///< lean's
+    std::optional<CacheFigures> best_order;  ///< of meshoptimizer's vertex-cache order
+    RingOptions ring;                        ///< of lean
     std::vector<MeasuredFormat> formats;
     std::vector<std::pair<std::string, std::string>> absent;  ///< name, reason
 
@@ -60,22 +63,24 @@ struct FormatSet {
 /// The index list without degenerate triangles.
 std::vector<std::uint32_t> without_degenerate(std::span<const std::uint32_t> indices);
 
-/// Told what is made next, and which share of the work is done. false: stop, what there is so far is the result.
+/// Called before each format `what` is made, when `share` of the work is done. Return false to stop: the result then
+/// has only the formats made so far.
 using FormatProgress = std::function<bool(double share, const std::string& what)>;
 
-/// Makes every format of the mesh and decodes it again. All are of the surface; ours have a seam
-/// section beside, if the mesh has seams. Errors: those of
-/// build_corner_table. `paper`: the paper's procedures alone. `progress`, if given, takes the place of the bar on a
-/// terminal. `quick`: only index lists, strips, lean, lr and packed, for scenes of many primitives.
+/// Encodes the surface in every format and decodes it again; our formats also get a seam section if the mesh has seams.
+/// `paper`: only the paper's procedures, without the optimizer. `progress`, if given, replaces the progress bar on the
+/// terminal. `quick`: only index lists, strips, lean, lr and packed, for scenes with many primitives. Errors: those of
+/// build_corner_table and of encode for packed.
 Result<FormatSet> make_formats(const Mesh& mesh, const Surface& surface, const RingChoice& choice, bool paper = false,
                                const FormatProgress& progress = {}, bool quick = false);
 
 struct FormatCheck {
     std::string name;
-    std::string why;  ///< what is wrong with the format; empty: it gives back the same oriented triangles and vertices
+    /// What is wrong; empty: the format decodes to the same oriented triangles and vertices.
+    std::string why;
 };
 
-/// Every format of a FormatSet, checked against the mesh that it was made of.
+/// Compares every format of the set with the mesh that the set was made of.
 std::vector<FormatCheck> check_formats(const FormatSet& set, const Mesh& mesh, const Surface& surface);
 
 }  // namespace lacedring::app

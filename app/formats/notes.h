@@ -1,15 +1,15 @@
 #pragma once
-// What each format is, in a few words.
+// A short description of each format.
 
 #include <string_view>
 
 namespace lacedring::app {
 
-/// Whose idea a format is.
+/// Who designed a format.
 enum class Origin { ours, paper, baseline };
 struct FormatNote {
     Origin origin;
-    const char* what;  ///< in a few words
+    const char* what;  ///< the description
 };
 FormatNote note_on(std::string_view format);
 

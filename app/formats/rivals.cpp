@@ -15,15 +15,15 @@
 namespace lacedring::app {
 namespace {
 
-/// The vertex of each corner, by walking each star once; UINT32_MAX if no star contains the corner.
+/// Finds the vertex of each corner by walking each star once; UINT32_MAX if no star contains the corner.
 std::vector<std::uint32_t> vertices_by_stars(const SquadView& view) {
     std::vector<std::uint32_t> out(std::size_t{4} * view.triangle_numbers(), UINT32_MAX);
     for (std::uint32_t v = 0; v < view.vertices; ++v) view.star(VertexId{v}, [&](CornerId c) { out[c.value] = v; });
     return out;
 }
 
-/// Tells c.v of every corner in O(T), from the stars: SquadView::vertex is O(valence), which is quadratic over all
-/// corners of a vertex. Up to kFew triangles at a vertex, both must agree; a disagreement is stored in `invalid`.
+/// Returns the vertex of a corner in O(1), after walking all stars once. SquadView::vertex takes O(valence) per corner.
+/// For vertices of up to kFew triangles it compares both; `invalid` gets a disagreement.
 class SquadReader {
   public:
     SquadReader(const SquadView& view, std::string& invalid)
@@ -49,7 +49,8 @@ class SquadReader {
     std::vector<std::uint32_t> vertex_, triangles_;
 };
 
-/// A structure that answers the corner operators, read back triangle by triangle. Arrays alone: these have no file.
+/// Measures a structure with corner operators and reads it back triangle by triangle. Its size is that of its arrays:
+/// these structures have no file format.
 template <class View>
 MeasuredFormat rival_format(const char* name, const View& view, std::vector<std::uint32_t> order,
                             const std::vector<bool>& flipped) {

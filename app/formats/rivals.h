@@ -1,5 +1,5 @@
 #pragma once
-// The baseline formats of a FormatSet. A format that cannot be made is listed in FormatSet::absent with the reason.
+// Adds baseline formats to a FormatSet. A format that cannot be made is added to FormatSet::absent with the reason.
 
 #include <cstdint>
 #include <vector>
@@ -15,7 +15,8 @@ void add_strips(FormatSet& set, const Mesh& mesh, const std::vector<std::uint32_
 /// Adds meshoptimizer's index codec and meshlets, and sets FormatSet::best_order.
 void add_codecs(FormatSet& set, const Mesh& mesh, const std::vector<std::uint32_t>& triangles);
 
-/// Adds the structures with corner operators: winged edge, corner table, SQuad. `table` is that of the surface.
+/// Adds the structures with corner operators: winged edge, corner table, SQuad. `table`: the surface's corner table;
+/// `vertices`: its number of vertices.
 void add_structures(FormatSet& set, CornerTable table, std::uint32_t vertices);
 
 }  // namespace lacedring::app

@@ -16,7 +16,7 @@ bool alike(const Attribute& a, const Attribute& b) {
     return a.name == b.name && a.type == b.type && a.components == b.components && a.normalized == b.normalized;
 }
 
-/// Compares the triangles of `part` with those of `joined` from `first` on. `part` has its positions first.
+/// Compares the triangles of `part` with those of `joined` that begin at `first`. Returns the first difference.
 std::string compare_corners(const Mesh& joined, std::size_t first, const Mesh& part,
                             const std::vector<float>& joined_positions) {
     const std::vector<float> positions = positions_f32(part);
@@ -57,10 +57,10 @@ PlacedDifference check_placed(const LoadedScene& scene, double tolerance) {
         by_mesh[primitive.mesh].push_back(&primitive);
     }
     const std::vector<float> positions = tolerance == 0 ? positions_f32(joined) : std::vector<float>();
-    std::size_t at = 0;  // triangles that are done
+    std::size_t at = 0;  // triangles compared so far
     for (std::size_t place_number = 0; place_number < scene.placed.size(); ++place_number) {
         const PlacedMesh& placed = scene.placed[place_number];
-        if (placed.mesh >= by_mesh.size()) continue;  // one without triangles
+        if (placed.mesh >= by_mesh.size()) continue;  // a mesh without triangles
         for (const LoadedPrimitive* primitive : by_mesh[placed.mesh]) {
             const std::size_t triangles = primitive->geometry.triangle_count();
             std::string why;
@@ -87,7 +87,7 @@ std::size_t count_triangles(const LoadedScene& scene) {
 std::string check_file(const Mesh& mesh, const Surface& surface, std::uint32_t threads) {
     Result<CornerTable> table = surface_table({mesh, surface, {}});
     if (!table) return table.error().message;
-    if (without_degenerate(surface_mesh(mesh, surface).indices).empty()) return "";  // encode makes no file of it
+    if (without_degenerate(surface_mesh(mesh, surface).indices).empty()) return "";  // encode refuses such a mesh
     EncodeOptions how{.format = Format::packed, .effort = 0};
     how.threads = thread_count(threads);
     const Result<WholeFile> whole = make_file(mesh, surface, std::move(*table), how, {}, true);

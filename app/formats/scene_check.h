@@ -11,20 +11,20 @@ namespace lacedring::app {
 
 /// The first difference between the joined mesh and the placed primitives.
 struct PlacedDifference {
-    const LoadedPrimitive* primitive = nullptr;  ///< null: triangles that are of none
-    std::string why;                             ///< empty: there is none
+    const LoadedPrimitive* primitive = nullptr;  ///< null: triangles of no primitive
+    std::string why;                             ///< empty: no difference
 };
 
-/// Compares the joined mesh with every primitive through every node's transform, corner by corner: positions, and the
-/// attributes that both have alike. With a tolerance, which moves vertices, numbers of triangles alone.
+/// Compares the joined mesh with every primitive as placed by every node, corner by corner: positions, and attributes
+/// that both have in the same type. With a tolerance > 0, which moves vertices, compares only numbers of triangles.
 /// Cost: O(joined mesh).
 PlacedDifference check_placed(const LoadedScene& scene, double tolerance);
 
 /// Triangles of all primitives, each counted once.
 std::size_t count_triangles(const LoadedScene& scene);
 
-/// Makes a lossless .lr file of the mesh and reads it: empty, or what it does not give back. Cost: encode's at effort
-/// 0, and the attributes' streams. `threads`: as asked for.
+/// Makes a lossless .lr file of the mesh, reads it, and returns the first difference; empty: none. `threads`: 0 for all
+/// of the machine. Cost: encode at effort 0, and compressing the attributes.
 std::string check_file(const Mesh& mesh, const Surface& surface, std::uint32_t threads);
 
 }  // namespace lacedring::app

@@ -34,7 +34,7 @@ Result<WholeFile> make_file(const Mesh& mesh, const Surface& surface, CornerTabl
     Result<LrFile> file = make_lr_file(mesh, surface, std::move(*encoded), keep_order);
     if (!file) return file.error();
     WholeFile out{std::move(*file), {}, {}};
-    // LR tables are read in place by programs that want positions there, too.
+    // Attributes beside LR tables stay uncompressed: programs read such files in place.
     const bool streams = out.file.format == Format::lean || out.file.format == Format::packed;
     if (streams || quantizes(bits)) {
         AttributeBits threaded = bits;

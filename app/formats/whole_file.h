@@ -17,20 +17,20 @@ constexpr std::initializer_list<const char*> kAttributeBits = {"--positions", "-
                                                                "--weights"};
 void add_attribute_bits(CLI::App& command, AttributeBits& bits);
 
-/// True if any of the options was given.
+/// Whether any attribute is quantized.
 bool quantizes(const AttributeBits& bits);
 
 struct WholeFile {
     LrFile file;
-    std::vector<CompressedAttribute> attributes;  ///< empty where they stay as they lie in memory
+    std::vector<CompressedAttribute> attributes;  ///< empty: stored uncompressed
     std::vector<std::byte> bytes;
 };
-/// `table` is that of the surface. Errors: malformed (no triangle is left), those of encode, make_lr_file and
-/// compress_attributes.
+/// `table`: the surface's corner table. Errors: malformed (all triangles are degenerate), those of encode, make_lr_file
+/// and compress_attributes.
 Result<WholeFile> make_file(const Mesh& mesh, const Surface& surface, CornerTable table, const EncodeOptions& options,
                             const AttributeBits& bits, bool keep_order = false);
 
-/// Notes which attributes stay lossless although bits were given, and why.
+/// Adds a note for each attribute that stays lossless although bits were given, with the reason.
 void note_lossless(RunLog& log, const std::string& input, const std::vector<CompressedAttribute>& attributes);
 
 }  // namespace lacedring::app

@@ -16,7 +16,7 @@ std::string period_title(std::uint32_t k) {
     return fmt::format("k = {}, {}", k, k == 1 ? "breadth first" : "hybrid");
 }
 
-/// One column of the histograms, and one line of their table.
+/// One column of the histograms, which is one row of their table.
 struct Bin {
     std::string label;  ///< under the column
     std::string title;
@@ -56,7 +56,7 @@ std::string histogram(const MeshReport& mesh, const PeriodFigures& period, std::
                            percent == 0 ? "" : " %");
     }
     for (std::size_t i = 0; i < columns.size(); ++i) {
-        const bool outside = i + 2 >= columns.size();  // no offset along the ring
+        const bool outside = i + 2 >= columns.size();  // the last two are iso and T0
         const double percent = 100.0 * columns[i].count(period.offsets) / static_cast<double>(mesh.triangles);
         const double x = kLeft + step * (static_cast<double>(i) + (outside ? 0.6 : 0));
         const double height = kHeight * percent / top;
@@ -125,8 +125,8 @@ std::string bit_bars(const MeshReport& mesh, const BitScale& scale) {
                               std::exp2(power));
     }
     std::string out = fmt::format(
-        "<figure class=\"bars\">\n<figcaption>Bits per triangle, connectivity alone. Logarithmic scale: at each line "
-        "twice as many as at the one before.</figcaption>\n"
+        "<figure class=\"bars\">\n<figcaption>Bits of connectivity per triangle. Logarithmic scale: each line is twice "
+        "the one before.</figcaption>\n"
         "<ul class=\"key\"><li><span class=\"swatch ours\"></span>lean, packed: this program’s</li>"
         "<li><span class=\"swatch paper\"></span>LR: the paper’s</li>"
         "<li><span class=\"swatch baseline\"></span>baselines</li></ul>\n"
@@ -147,10 +147,9 @@ std::string bit_bars(const MeshReport& mesh, const BitScale& scale) {
 
 std::string offset_histograms(const MeshReport& mesh) {
     std::string out =
-        "<h3>Offsets along the ring</h3>\n<p class=\"note\">How far each triangle’s tip lies from its ring edge, along "
-        "the ring, in rings grown with three periods k (section 6.1 and Figure 8 of the paper; LR tables, standard, "
-        "not "
-        "optimised). ";
+        "<h3>Offsets along the ring</h3>\n<p class=\"note\">Distance along the ring from each triangle’s ring edge to "
+        "its tip, for rings made with three periods k (section 6.1 and Figure 8 of the paper; standard LR tables, "
+        "without the optimizer). ";
     if (mesh.periods.empty() || mesh.triangles == 0) {
         return out + fmt::format("Absent: {}.</p>\n", escape_html(mesh.no_periods));
     }

@@ -1,5 +1,5 @@
 #pragma once
-// The charts of a report, as HTML and inline SVG: no script, and every number also stands in a table.
+// The charts of a report, as HTML and inline SVG without scripts. Every number is also in a table.
 
 #include <span>
 #include <string>
@@ -8,19 +8,19 @@
 
 namespace lacedring::app {
 
-/// Powers of two that bars of bits per triangle lie between: the same for all meshes of a page.
+/// Range of the logarithmic axis of bits per triangle, as exponents of two; the same for all meshes of a page.
 struct BitScale {
-    int low = -1, high = 7;  ///< 0.5 to 128 at least
+    int low = -1, high = 7;  ///< at least 0.5 to 128 bits
 };
 BitScale bit_scale(std::span<const MeshReport> meshes);
 
-/// A bar a format, shortest first, on a logarithmic scale.
+/// One bar per format, shortest first.
 std::string bit_bars(const MeshReport& mesh, const BitScale& scale);
 
-/// Section 6.1 and Figure 8 of the paper: a histogram a period, and the table of their numbers.
+/// One histogram of offsets per period, and a table of their numbers: section 6.1 and Figure 8 of the paper.
 std::string offset_histograms(const MeshReport& mesh);
 
-/// "ours", "paper", "baseline": the class that gives a format its colour.
+/// The CSS class that colors a format: "ours", "paper" or "baseline".
 const char* class_of(Origin origin);
 
 }  // namespace lacedring::app

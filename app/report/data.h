@@ -1,5 +1,5 @@
 #pragma once
-// What a report says of one mesh: the figures of `stats`, without the index lists that they were taken from.
+// The figures of one mesh in a report: those of `stats`, without the index lists.
 
 #include <optional>
 #include <string>
@@ -17,16 +17,17 @@ namespace lacedring::app {
 struct FormatFigures {
     std::string name;
     std::size_t bytes = 0;
-    std::size_t deflated = 0;  ///< 0 where stats has none
-    double bits = 0;           ///< a triangle
-    double references = 0;     ///< a triangle; 0 where it has none
+    std::size_t deflated = 0;  ///< 0 if the format is not deflated
+    double bits = 0;           ///< per triangle
+    double references = 0;     ///< per triangle; 0 if the format has none
     double share = 0;          ///< percent of index_u32's bytes
     CacheFigures cache;
-    std::string ring;  ///< what made its ring, and passes of the optimiser; empty for a format without one
+    /// The expander that made its ring, and the optimizer's passes; empty for a format without a ring.
+    std::string ring;
 };
 
 struct ReportPicture {
-    std::string view;  ///< as `render --view` calls it
+    std::string view;  ///< a name of `render --view`
     std::uint32_t width = 0, height = 0;
     std::string uri;
 };
@@ -34,23 +35,23 @@ struct ReportPicture {
 struct MeshReport {
     std::string path;
     std::size_t triangles = 0;
-    std::uint32_t vertices = 0, copies = 0;  ///< of the surface, and of the mesh
+    std::uint32_t vertices = 0, copies = 0;  ///< vertices of the surface; of the mesh
     TopologyReport report;
     Topology topology;
     LeanStatistics lean;
-    std::optional<CacheFigures> best_order;  ///< as in FormatSet
+    std::optional<CacheFigures> best_order;  ///< FormatSet::best_order
     std::vector<FormatFigures> formats;
     std::vector<std::pair<std::string, std::string>> absent;  ///< name, reason
-    std::vector<PeriodFigures> periods;                       ///< one each of kFigure8Periods
-    std::string no_periods;                                   ///< why there are none
+    std::vector<PeriodFigures> periods;                       ///< one per entry of kFigure8Periods
+    std::string no_periods;                                   ///< why `periods` is empty
     std::vector<ReportPicture> pictures;
-    std::string no_pictures;  ///< why there are none
+    std::string no_pictures;  ///< why `pictures` is empty
 
     const FormatFigures* find(std::string_view name) const;
 };
 
-/// Everything but the pictures. `invalid` is what a format's own validation found wrong, if anything: then it is a bug,
-/// and there is no report. Errors: those of make_formats.
+/// Measures everything except the pictures. If a format fails its own validation (a bug), sets `invalid` to the reason;
+/// the result is then incomplete. Errors: those of make_formats.
 Result<MeshReport> measure_mesh(const std::string& path, const LoadedMesh& loaded, const RingChoice& choice,
                                 std::string& invalid);
 

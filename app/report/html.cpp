@@ -9,7 +9,8 @@ namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  // U+FFFD
 
-/// Bytes of the UTF-8 sequence that `text` begins with, and its code point; 0 if it is no such sequence.
+/// Returns the length in bytes of the UTF-8 sequence at the start of `text`, or 0 if it is invalid; sets `code` to its
+/// code point.
 std::size_t first_code_point(std::string_view text, std::uint32_t& code) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     const std::uint32_t lead = byte(0);
@@ -44,7 +45,8 @@ std::string escape_html(std::string_view text) {
         if (length == 0 || is_forbidden(code)) {
             out += kReplacement;
         } else if (code < 0x20) {
-            out += {'\xE2', '\x90', static_cast<char>(0x80 + code)};  // U+2400 and on: pictures of control characters
+            // U+2400 to U+241F: pictures of control characters
+            out += {'\xE2', '\x90', static_cast<char>(0x80 + code)};
         } else if (code == '&') {
             out += "&amp;";
         } else if (code == '<') {

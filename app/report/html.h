@@ -9,11 +9,11 @@
 
 namespace lacedring::app {
 
-/// `text` as it may stand in an element or a quoted attribute. What HTML cannot hold (control characters, bytes that
-/// are no UTF-8) is replaced by something visible.
+/// Escapes `text` for an element or a quoted attribute. Characters that HTML cannot hold (control characters, invalid
+/// UTF-8) are replaced by visible ones.
 std::string escape_html(std::string_view text);
 
-/// A file name: escaped, and kept from turning the text around it if it is written right to left.
+/// A file name: escaped, and isolated so that right-to-left letters do not reorder the text around it.
 std::string name_html(std::string_view name);
 
 /// "28,944"
@@ -26,7 +26,7 @@ std::string counted(std::uint64_t number, std::string_view one, std::string_view
 /// "data:image/png;base64,..."
 std::string png_uri(std::span<const std::byte> png);
 
-/// One argument as a POSIX shell reads it back.
+/// Quotes an argument, if needed, for a POSIX shell.
 std::string shell_word(std::string_view argument);
 
 }  // namespace lacedring::app

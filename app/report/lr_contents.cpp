@@ -31,7 +31,6 @@ const char* type_name(ComponentType type) {
     return kNames[static_cast<std::size_t>(type)];
 }
 
-/// The sections of an .lr file as JSON.
 nlohmann::ordered_json to_json(const LrContents& lr) {
     nlohmann::ordered_json sections = nlohmann::ordered_json::array();
     for (const LrSection& section : lr.sections) {

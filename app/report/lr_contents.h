@@ -11,10 +11,10 @@ namespace lacedring::app {
 const char* type_name(ComponentType type);
 
 /// {"version","format","bytes","vertices","copies","vertex_order","corner_order",
-/// "sections":[{"kind","bytes","name","type","components","per_copy"}]}
+/// "sections":[{"kind","bytes","stored","name","type","components","per_copy","mapping","max_error"}]}
 nlohmann::ordered_json to_json(const LrContents& lr);
 
-/// Lines of text, indented.
+/// Prints the same as indented lines of text.
 void print_contents(const LrContents& lr);
 
 }  // namespace lacedring::app

@@ -1,4 +1,5 @@
-// For a program without Vulkan.
+// ReportPictures of a program built without Vulkan: no pictures.
+
 #include <CLI/CLI.hpp>
 
 #include "app/report/pictures.h"

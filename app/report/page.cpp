@@ -13,10 +13,10 @@
 namespace lacedring::app {
 namespace {
 
-/// Nothing is fetched and nothing runs, whatever a file is called.
+/// The browser fetches nothing and runs no script, whatever file names the page contains.
 constexpr std::string_view kPolicy = "default-src 'none'; img-src data:; style-src 'unsafe-inline'";
 
-/// How the page calls a mesh: its file without folders, or with them where two would be called the same.
+/// The title of a mesh on the page: its file name, or its path if another mesh has the same file name.
 std::string title_of(const MeshReport& mesh, std::span<const MeshReport> meshes) {
     const auto file = [](const MeshReport& m) { return std::filesystem::path(m.path).filename().string(); };
     const std::string out = file(mesh);
@@ -59,7 +59,7 @@ std::string ring_line(const MeshReport& mesh) {
     return fmt::format(
         "<p class=\"note ringline\">Ring of lean ({}): {} on it, {} isolated; T0 {}\u00A0%, in warts {}\u00A0%, T2 "
         "{}\u00A0% of the "
-        "triangles. T0, T1 and T2 have none, one and two edges on the ring; a wart is a T0 next to a T2.</p>\n",
+        "triangles. T0, T1 and T2 have zero, one and two edges on the ring; a wart is a T0 next to a T2.</p>\n",
         lean == nullptr ? "" : lean->ring, counted(mesh.lean.ring_vertices, "vertex", "vertices"),
         grouped(mesh.lean.isolated), share(mesh.lean.t0), share(mesh.lean.t0_wart), share(mesh.lean.t2));
 }
@@ -74,18 +74,17 @@ std::string pictures(const MeshReport& mesh, const std::string& title) {
     };
     static constexpr Text kTexts[] = {
         {"smooth", "The mesh", "the mesh, smoothly shaded", "Interpolated normals."},
-        {"class", "The ring and its triangles",
-         "triangles coloured by what they are to the ring, the ring as a black line",
+        {"class", "The ring and its triangles", "triangles colored by their class, the ring as a black line",
          "The ring (black) and the triangles: "
          "<span class=\"legend\"><span class=\"swatch\" style=\"background:#ead8ae\"></span>T1 left,</span> "
          "<span class=\"legend\"><span class=\"swatch\" style=\"background:#d97c28\"></span>T1 right,</span> "
          "<span class=\"legend\"><span class=\"swatch\" style=\"background:#4d9a4a\"></span>T0,</span> "
          "<span class=\"legend\"><span class=\"swatch\" style=\"background:#35609f\"></span>T2,</span> "
          "<span class=\"legend\"><span class=\"swatch\" style=\"background:#b02530\"></span>a wart’s T0,</span> "
-         "<span class=\"legend\"><span class=\"swatch\" style=\"background:#7c7c7c\"></span>its T2.</span>"},
-        {"ring", "Order along the ring", "vertices coloured by their place along the ring, the ring as a black line",
+         "<span class=\"legend\"><span class=\"swatch\" style=\"background:#7c7c7c\"></span>a wart’s T2.</span>"},
+        {"ring", "Order along the ring", "vertices colored by their place along the ring, the ring as a black line",
          "Vertices by their place: <span class=\"legend\">first <span class=\"ramp\"></span> last;</span> "
-         "<span class=\"legend\">grey: on no ring.</span>"},
+         "<span class=\"legend\">gray: on no ring.</span>"},
     };
     std::string out = "<div class=\"pictures\">\n";
     for (const ReportPicture& picture : mesh.pictures) {
@@ -128,17 +127,17 @@ std::string table_of_sizes(const MeshReport& mesh, const std::string& title) {
     }
     return out +
            fmt::format(
-               "</tbody></table></div>\n<p class=\"note\">Connectivity alone, headers included; per triangle of the "
+               "</tbody></table></div>\n<p class=\"note\">Connectivity only, headers included; per triangle of the "
                "input. ACMR and ATVR: vertices transformed per triangle and per vertex, in the format’s order, "
                "with a FIFO cache of 32.{} "
-               "Deflated: where the format is for transmission. Ring: how it was grown, and passes of the "
-               "optimiser.</p>\n",
+               "Deflated: only formats for transmission. Ring: the expander that made it, and passes of the "
+               "optimizer.</p>\n",
                mesh.best_order ? fmt::format(" meshoptimizer’s best order for the vertex cache: ACMR {}, ATVR {}.",
                                              fixed(mesh.best_order->acmr, 3), fixed(mesh.best_order->atvr, 3))
                                : "");
 }
 
-/// "meshopt_index_codec", with places to break it.
+/// A format's name with line breaks allowed after underscores.
 std::string breakable(std::string_view name) {
     std::string out;
     for (const char c : name) c == '_' ? out += "_<wbr>" : out += c;
@@ -152,7 +151,7 @@ double median(std::vector<double> values) {
     return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2;
 }
 
-/// A row a mesh, and the median below.
+/// One row per mesh, and the medians below.
 std::string overview(std::span<const MeshReport> meshes) {
     constexpr std::string_view kColumns[] = {
         "index_u32", "strip_restart", "meshopt_index_codec", "packed", "packed_cache", "lean", "lr", "lr_compact"};
@@ -228,7 +227,7 @@ std::string report_page(const ReportPage& page) {
         count == 1 ? title_of(page.meshes.front(), page.meshes) : fmt::format("{} meshes", count);
     const std::string drawn = page.device.empty()
                                   ? std::string("none: no pictures")
-                                  : fmt::format("{}; {} sample{} a pixel, from the lean stream",
+                                  : fmt::format("{}; {} sample{} per pixel, from the lean stream",
                                                 escape_html(page.device), page.samples, page.samples == 1 ? "" : "s");
     std::string out = fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -236,8 +235,8 @@ std::string report_page(const ReportPage& page) {
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
         "<meta name=\"generator\" content=\"lacedring {}\">\n<title>LacedRing report: {}</title>\n<style>{}</style>\n"
         "</head>\n<body>\n<header><h1>LacedRing report{}</h1>\n"
-        "<p class=\"note\">What the connectivity of {} costs in every format, measured after each was made and decoded "
-        "again.</p>{}</header>\n<main>\n",
+        "<p class=\"note\">Size of the connectivity of {} in every format. Each format was made, validated and "
+        "decoded.</p>{}</header>\n<main>\n",
         kPolicy, escape_html(page.version), escape_html(subject), kReportStyle, count == 1 ? "" : ": " + subject,
         count == 1 ? "this mesh" : "these meshes", left_out(page));
     if (count > 1) out += overview(page.meshes);

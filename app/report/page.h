@@ -1,5 +1,5 @@
 #pragma once
-// The page of `report`: one HTML document that needs nothing beside itself.
+// The page of `report`: one self-contained HTML document.
 
 #include <span>
 #include <string>
@@ -11,10 +11,11 @@
 namespace lacedring::app {
 
 struct ReportPage {
-    std::string command;  ///< as it could be run again
+    std::string command;  ///< the shell command that made the page
     std::string version;
-    std::string device;         ///< that drew; empty if none did
-    std::uint32_t samples = 0;  ///< a pixel
+    /// Name of the device that drew the pictures; empty: no pictures.
+    std::string device;
+    std::uint32_t samples = 0;  ///< per pixel
     std::span<const MeshReport> meshes;
     std::vector<std::pair<std::string, std::string>> left_out;  ///< meshes that failed, and why
 };

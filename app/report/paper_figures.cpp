@@ -1,4 +1,4 @@
-// The figures of paper_tables.h: rings made with several periods and several numbers of seeds.
+// Implements figures_by_period and figures_by_seeds of paper_tables.h.
 
 #include <algorithm>
 

@@ -39,7 +39,7 @@ double mesh_triangles(const Mesh& mesh, const FormatSet&) {
     return static_cast<double>(mesh.triangle_count());
 }
 
-// Table 1. Without tables (too_large) the shares are 0 and the references missing.
+// Table 1. If the LR tables cannot be built (too_large), their shares are 0 and their references missing.
 constexpr Column kTable1[] = {
     {"n", 0, mesh_triangles},
     {"%v6", 1, [](const Mesh&, const FormatSet& s) { return s.report.valence6_percent; }},
@@ -82,7 +82,7 @@ double acmr(const FormatSet& set, std::string_view name) {
     return format == nullptr ? kNone : analyze_fifo32(format->indices, format->vertex_count(set.vertices)).acmr;
 }
 
-// Not the paper's: the packed stream and its rivals.
+// Not in the paper: the packed stream and its rivals.
 constexpr Column kPacked[] = {
     {"triangles", 0, mesh_triangles},
     {"packed, bits", 3, [](const Mesh&, const FormatSet& s) { return bits(s, "packed"); }},
@@ -97,8 +97,8 @@ constexpr Column kPacked[] = {
     {"LR, rpt", 3, [](const Mesh&, const FormatSet& s) { return bits(s, "lr") / 32; }},
 };
 
-// Section 1: three 16-bit coordinates a vertex in use beside the connectivity, in bits per triangle. The corner table
-// is the paper's, V and O alone.
+// Section 1, in bits per triangle: connectivity plus three 16-bit coordinates per vertex in use. The corner table is
+// the paper's: V and O only.
 double coordinate_bits(const FormatSet& set) {
     return 48.0 * set.report.used_vertices / set.triangles();
 }
@@ -129,7 +129,7 @@ constexpr Column kStorage[] = {
 
 using Row = std::vector<std::string>;
 
-/// Cells padded, so that the Markdown also reads as it is.
+/// Prints a Markdown table. Cells are padded so that it is also readable as plain text.
 void print_cells(const std::vector<Row>& rows) {
     std::vector<std::size_t> width(rows.front().size(), 3);
     for (const Row& row : rows) {

@@ -1,5 +1,5 @@
 #pragma once
-// What the paper's tables and figures need beside the sizes of formats, and those tables as Markdown (docs/results.md).
+// The numbers of the paper's tables and figures, and these tables as Markdown (docs/results.md).
 
 #include <span>
 #include <string>
@@ -11,30 +11,30 @@
 
 namespace lacedring::app {
 
-/// A column of a table with a row a mesh.
+/// A column of a table that has one row per mesh.
 struct Column {
     const char* title;
-    int decimals;  ///< counts have none, and no mean
+    int decimals;  ///< 0: a count, without mean and median
     double (*value)(const Mesh&, const FormatSet&);
 };
-/// "packed", "table1", "lean" (section 8) or "storage" (section 1); empty for any other name.
+/// Columns of the table "packed", "table1", "lean" (section 8) or "storage" (section 1); empty for any other name.
 std::span<const Column> size_table(std::string_view name);
 
 struct MeshRow {
     std::string path;
-    std::vector<double> values;  ///< one a column, NaN where there is none
+    std::vector<double> values;  ///< one per column; NaN: missing
 };
-/// With more than one mesh, mean and median below.
+/// Prints the table; with more than one mesh, mean and median below.
 void print(std::span<const Column> columns, std::span<const MeshRow> rows);
 
-/// One period of the hybrid: sections 6.1 and 7, Figure 8.
+/// Figures for one period k of the hybrid: sections 6.1 and 7, Figure 8.
 struct PeriodFigures {
-    double triangles = 0;  ///< that are encoded
+    double triangles = 0;  ///< without degenerate ones
     std::uint32_t k = 0;   ///< 0: depth first
     OffsetCounts offsets;
-    double lr_references = 0, lean_references = 0, compact_bits = 0;  ///< a triangle, without headers
+    double lr_references = 0, lean_references = 0, compact_bits = 0;  ///< per triangle, without headers
     double acmr16 = 0, acmr32 = 0;                                    ///< of the triangles in lean's order
-    double acmr32_ring = 0;  ///< of those with a slot on the ring: the others come last
+    double acmr32_ring = 0;                                           ///< of the ring slots alone (all but T0)
 };
 constexpr std::uint32_t kFigure8Periods[] = {1, 32, 0};
 constexpr std::uint32_t kPeriods[] = {1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 0};
@@ -45,18 +45,19 @@ void print_offsets(const std::string& path, std::span<const PeriodFigures> perio
 void print_periods(const std::string& path, std::span<const PeriodFigures> periods);
 nlohmann::ordered_json to_json(std::span<const PeriodFigures> periods);
 
-/// Some seed corners per component, standard LR: section 4.2.
+/// Figures of standard LR for a number of seed corners tried per component: section 4.2.
 struct SeedFigures {
     std::uint32_t seeds = 0;
     std::uint32_t isolated = 0, t0 = 0;
-    double lr_references = 0;  ///< a triangle
+    double lr_references = 0;  ///< per triangle
 };
 constexpr std::uint32_t kSeedCounts[] = {1, 4, 16, 64};
 struct SeedRow {
     std::string path;
-    std::size_t vertices = 0;  ///< in use, copies for further fans included
+    /// Vertices in use, including the copies that split_fans adds.
+    std::size_t vertices = 0;
     std::size_t triangles = 0;
-    std::vector<SeedFigures> figures;  ///< one each of kSeedCounts
+    std::vector<SeedFigures> figures;  ///< one per entry of kSeedCounts
 };
 /// `ring.seeds` is ignored. Errors: those of build_corner_table and build_lr.
 Result<SeedRow> figures_by_seeds(const std::string& path, const Mesh& mesh, RingOptions ring);

@@ -14,7 +14,7 @@
 namespace lacedring::app {
 namespace {
 
-/// Along each side of a pixel.
+/// Samples along each side of a pixel.
 std::uint32_t report_samples(const gpu::Context& context, const PictureSize& size) {
     return gpu::Target::fitting_samples(context, {size.width, size.height}, 3);
 }
@@ -44,7 +44,7 @@ Result<ReportPicture> draw_view(gpu::Context& context, const PictureSize& size, 
 struct ReportPictures::Drawer {
     bool off = false;
     PictureSize size{960, 720};
-    gpu::CameraOptions camera;  ///< of every mesh
+    gpu::CameraOptions camera;  ///< the same for every mesh
     gpu::ContextOptions options;
     std::unique_ptr<gpu::Context> context;  ///< null: no pictures
 };
@@ -79,7 +79,7 @@ std::size_t ReportPictures::print_messages() const {
 
 Result<void> ReportPictures::draw(const LoadedMesh& loaded, const RingChoice& choice, MeshReport& report) const {
     if (!drawer_->context) return {};
-    // With the very stream that the size table is of.
+    // The same options, and so the same lean stream, as in the table of sizes.
     const Mesh& mesh = loaded.mesh;
     const Result<gpu::Model> model = gpu::make_model(mesh, {.ring = ring_options(choice, mesh.triangle_count()),
                                                             .optimize = optimize_options(choice, kLeanRingCost),

@@ -1,5 +1,5 @@
 #pragma once
-// The pictures of a report, by the renderer.
+// Draws the pictures of a report with the renderer.
 
 #include <memory>
 #include <string>
@@ -13,29 +13,31 @@ class App;
 
 namespace lacedring::app {
 
-/// Draws the pictures, as the command line asks for them. A program that was built without Vulkan (no_pictures.cpp)
-/// draws none, and has no options for them.
+/// Draws the pictures with the options of the command line. A program built without Vulkan (no_pictures.cpp) draws none
+/// and has only the option --no-gpu.
 class ReportPictures {
   public:
     ReportPictures();
     ~ReportPictures();
 
-    /// --no-gpu, and those of a device, a picture and a camera.
+    /// Adds --no-gpu and the options for the device, the size of a picture and the camera.
     void add_options(CLI::App& command);
 
     struct Device {
-        std::string name;           ///< empty: there is none
-        std::uint32_t samples = 0;  ///< a pixel: as many as `render` takes, fewer where images are not large enough
-        std::string skipped;        ///< why there is none
+        std::string name;  ///< empty: no device, no pictures
+        /// Samples per pixel: 9, or fewer if the device's largest image is too small.
+        std::uint32_t samples = 0;
+        std::string skipped;  ///< why there is no device
     };
-    /// Errors: those of a device that was asked for.
+    /// Opens the device. That none is found is an error only if an option asks for one. Errors: those of the device.
     Result<Device> open();
 
-    /// Draws the mesh smooth, with the ring of lean, and in ring order, into `report`. Where the mesh cannot be drawn,
-    /// `report.no_pictures` says why. Nothing without a device. Errors: of the device, and of a camera that cannot be.
+    /// Draws three pictures into `report`: the mesh with smooth shading, the ring of lean, and the order along the
+    /// ring. If the mesh cannot be drawn, `report.no_pictures` says why. Does nothing without a device. Errors: of the
+    /// device, and an impossible camera.
     Result<void> draw(const LoadedMesh& loaded, const RingChoice& choice, MeshReport& report) const;
 
-    /// Prints the validation messages on standard error, if there are any. Returns how many.
+    /// Prints the validation messages on standard error; returns their number.
     std::size_t print_messages() const;
 
   private:

@@ -15,13 +15,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kMostRows = 24;  // of a table
+constexpr std::size_t kMostRows = 24;  // in one table
 
 const char* mode_name(PrimitiveMode mode) {
     return mode == PrimitiveMode::triangles ? "triangles" : mode == PrimitiveMode::strip ? "strip" : "fan";
 }
 
-/// A name in so many columns. Bytes are counted, so that names beyond ASCII are a little narrower.
+/// Shortens a name to `width` columns. It counts bytes, so names with non-ASCII characters come out narrower.
 std::string fitted(const std::string& name, std::size_t width) {
     const std::string text = printable(name);
     return text.size() <= width ? text : text.substr(0, width - 3) + "...";
@@ -61,7 +61,7 @@ Json formats_to_json(const std::vector<FormatBytes>& formats, std::size_t triang
     return out;
 }
 
-/// Adds to the formats of `sum`, and takes those out that `more` has not.
+/// Adds the sizes in `more` to `sum`; removes formats from `sum` that `more` lacks.
 void add_formats(std::vector<FormatBytes>& sum, const std::vector<FormatBytes>& more) {
     std::erase_if(sum, [&more](FormatBytes& format) {
         const auto other = std::ranges::find(more, format.name, &FormatBytes::name);

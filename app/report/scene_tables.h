@@ -1,5 +1,5 @@
 #pragma once
-// The primitives of a scene, one by one, in info and stats.
+// Tables of a scene's primitives, for info and stats.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -15,10 +15,10 @@ namespace lacedring::app {
 nlohmann::ordered_json primitives_to_json(const LoadedScene& scene);
 /// {"primitives","triangles","placed_triangles","vertices","copies"}
 nlohmann::ordered_json sum_to_json(const LoadedScene& scene);
-/// The same as a table, of the first primitives.
+/// Prints both as a table; of many primitives, only the first.
 void print_primitives(const LoadedScene& scene);
 
-/// Bytes of one format. `seams`: of the seam section beside.
+/// Size of one format. `seams`: bytes of its seam section, not counted in `bytes`.
 struct FormatBytes {
     std::string name;
     std::size_t bytes = 0, seams = 0;
@@ -34,10 +34,11 @@ struct PrimitiveSizes {
     std::vector<Row> rows;
     std::size_t triangles = 0;
     std::vector<FormatBytes> sum;  ///< formats that every primitive has
-    std::string invalid;           ///< what is wrong with a format of some primitive; empty if nothing
+    /// The first format that failed its validation, and why; empty: none.
+    std::string invalid;
 };
 
-/// Errors: those of make_formats, with the primitive's number.
+/// Errors: those of make_formats, with the primitive's label.
 Result<PrimitiveSizes> measure_primitives(const LoadedScene& scene, const RingChoice& choice, bool paper);
 
 /// Adds "primitives" and "sum" to the JSON of a mesh.

@@ -35,7 +35,7 @@ void add_rival(TotalTable& table, const Mesh& mesh, const char* name, const Resu
         entry.errors.emplace_back(mesh.attributes[i].name, rival->largest_errors[i]);
 }
 
-/// Median of a figure over the tables that have it; none where none has.
+/// Median of a figure over the tables that have it; empty if no table has it.
 template <class Figure>
 std::optional<double> median_of(std::span<const TotalTable> tables, Figure figure) {
     std::vector<double> values;
@@ -83,7 +83,7 @@ Result<TotalTable> make_total(const std::string& path, const Mesh& mesh, const S
         const std::vector<std::byte> bytes = serialize_lr(file->file, LrForm::stored);
         stored = entry_of("storage", bytes, false);
         const Result<LrFile> restored = parse_lr(bytes);
-        if (!restored || serialize_lr(*restored) != file->bytes) table.invalid = "storage: restored as something else";
+        if (!restored || serialize_lr(*restored) != file->bytes) table.invalid = "storage: restores to another file";
     }
     stored.errors = table.entries[table.entries.size() - 2].errors;
     table.entries.push_back(std::move(stored));

@@ -1,5 +1,5 @@
 #pragma once
-// stats --table total: whole meshes, connectivity and attributes, beside others at the same quantization.
+// stats --table total: sizes of whole meshes (connectivity and attributes) beside rival formats, equally quantized.
 
 #include <cstddef>
 #include <nlohmann/json_fwd.hpp>
@@ -20,29 +20,30 @@ namespace lacedring::app {
 struct TotalEntry {
     const char* name;
     std::size_t bytes = 0;
-    std::optional<std::size_t> zstd, brotli;  ///< none in a build without
+    std::optional<std::size_t> zstd, brotli;  ///< empty: built without the compressor
     bool random_access = false;
-    std::vector<std::pair<std::string, double>> errors;  ///< largest one of each attribute
+    std::vector<std::pair<std::string, double>> errors;  ///< largest error of each attribute
 };
 
 struct TotalTable {
-    std::size_t triangles = 0, vertices = 0, copies = 0;  ///< that the packed file has
+    std::size_t triangles = 0, vertices = 0, copies = 0;  ///< in the packed file
     std::vector<TotalEntry> entries;
     std::vector<std::pair<std::string, std::string>> absent;  ///< name, reason
-    std::string invalid;  ///< a format that decoded to another mesh, and in what; empty if none
+    /// The format that decoded to another mesh, and the difference; empty: none.
+    std::string invalid;
 
     const TotalEntry* find(std::string_view name) const;
 };
 
-/// Makes every format of NAME in docs/command-line.md. Errors: those of build_corner_table and make_file.
+/// Makes the mesh in every format of the table. Errors: those of build_corner_table and make_file.
 Result<TotalTable> make_total(const std::string& path, const Mesh& mesh, const Surface& surface, const RingChoice& ring,
                               const AttributeBits& bits, RunLog& log);
 
 nlohmann::ordered_json to_json(const TotalTable& table);
-/// Versions of what it compares with.
+/// Versions of the rivals' libraries.
 nlohmann::ordered_json total_versions();
 void print_total(const std::string& path, const TotalTable& table);
-/// Medians over several meshes.
+/// Prints medians over several meshes.
 void print_medians(std::span<const TotalTable> tables);
 
 }  // namespace lacedring::app

@@ -1,4 +1,5 @@
-// lacedring view [MESH]
+// The program lacedring-view, run by `lacedring view [MESH]`: parses the command line, makes window and device, and
+// runs the loop of events and frames.
 
 #include <fmt/format.h>
 
@@ -26,7 +27,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 const Clock::time_point kStart = Clock::now();
-constexpr std::chrono::milliseconds kPatience{500};  // with threads, when the window is closed
+constexpr std::chrono::milliseconds kPatience{500};  // longest wait for threads at the end
 
 struct Options {
     ViewerOptions viewer;
@@ -37,7 +38,8 @@ struct Options {
     bool no_panels = false;
 };
 
-/// Events up to the first press, of the mouse or a key: ImGui must see that before the release, a frame later.
+/// Handles events up to and including the first press of a button or key: ImGui must see a press one frame before its
+/// release.
 void feed(Viewer& viewer, std::deque<Event>& events) {
     while (!events.empty()) {
         const Event event = std::move(events.front());
@@ -45,7 +47,7 @@ void feed(Viewer& viewer, std::deque<Event>& events) {
         viewer.handle(event);
         const bool more_moves = event.kind == Event::move && !events.empty() && events.front().kind == Event::move;
         if ((event.kind == Event::button || event.kind == Event::key) && event.down) return;
-        // A move before a press: panels must know that the mouse is over them.
+        // End the frame after the last of a row of moves: panels must know the mouse's place before a press.
         if (event.kind == Event::move && !more_moves && !events.empty()) return;
     }
 }
@@ -57,10 +59,10 @@ Result<void> loop(Viewer& viewer, Window& window, gpu::Swapchain& swapchain, Scr
     const VkExtent2D extent = window.extent();
     viewer.handle({.kind = Event::resize, .x = double(extent.width), .y = double(extent.height)});
     while (!viewer.closing()) {
-        // Nothing moves: an event or a thread's news wakes us, and a bar is drawn on a few times a second.
+        // If nothing moves, sleep until an event or a thread wakes us, at most 0.1 s, so that progress bars advance.
         const bool rest = events.empty() && !viewer.moving() && (script == nullptr || script->waiting());
         for (Event& event : window.poll(rest ? 0.1 : 0.0)) {
-            // A script is the only one who presses anything.
+            // With a script, ignore the input of the real mouse and keyboard.
             if (script == nullptr || event.kind == Event::resize || event.kind == Event::refresh) {
                 events.push_back(std::move(event));
             }
@@ -70,9 +72,9 @@ Result<void> loop(Viewer& viewer, Window& window, gpu::Swapchain& swapchain, Scr
         }
         const bool asleep = script == nullptr && events.empty() && viewer.idle();
         feed(viewer, events);
-        if (viewer.closing()) break;  // nobody waits for another picture
+        if (viewer.closing()) break;  // no further frame is needed
         const Clock::time_point now = Clock::now();
-        // A script's time is its frames', so that what it sees is the same on every machine.
+        // A script's clock counts frames, so that it gives the same pictures on every machine.
         const double seconds = script != nullptr ? 1.0 / 60 : std::chrono::duration<double>(now - last).count();
         last = now;
         if (asleep) continue;
@@ -90,8 +92,8 @@ Result<void> loop(Viewer& viewer, Window& window, gpu::Swapchain& swapchain, Scr
             window.set_clipboard(text);
             if (script == nullptr) app::print("{}\n", text);
         }
-        if (script != nullptr) continue;  // as fast as it goes
-        // Not every driver waits for the display.
+        if (script != nullptr) continue;  // without a frame limit
+        // Limit the frame rate: not every driver waits for the display.
         const std::uint32_t cap = viewer.visible() ? viewer.state().choices.frame_cap : 20;
         if (cap == 0) continue;
         std::this_thread::sleep_until(
@@ -100,7 +102,7 @@ Result<void> loop(Viewer& viewer, Window& window, gpu::Swapchain& swapchain, Scr
     return {};
 }
 
-/// Ends the process at once, where returning from main would destroy what threads still use.
+/// Ends the process at once, without destroying objects that threads still use.
 [[noreturn]] void leave(int code) {
     std::fflush(stdout);
     std::_Exit(code);
@@ -117,13 +119,13 @@ int run(Options& options, Threads& threads) {
     }
     std::error_code error;
     if (!options.viewer.shaders.empty() && !std::filesystem::is_directory(options.viewer.shaders, error)) {
-        return app::fail(options.viewer.shaders.string(), {ErrorCode::cannot_open, "is no folder"});
+        return app::fail(options.viewer.shaders.string(), {ErrorCode::cannot_open, "is not a folder"});
     }
     Result<std::unique_ptr<Window>> window = Window::create(options.size.width, options.size.height);
     if (!window) return app::fail("view", window.error());
     options.context.instance_extensions = (*window)->extensions();
     options.context.device_extensions = {VK_KHR_SWAPCHAIN_EXTENSION_NAME};
-    // Hiding the window speaks to its system first: a connection that is lost is the one error to tell of.
+    // Hiding the window contacts the window system first: if its connection is lost, only that error is reported.
     const auto fail = [&](const std::string& on, const Error& what) {
         (*window)->hide();
         return app::fail(on, what);
@@ -150,14 +152,14 @@ int run(Options& options, Threads& threads) {
         Result<std::unique_ptr<Viewer>> viewer = Viewer::create(**context, threads, options.viewer);
         if (!viewer) return viewer.error();
         Result<void> looped = loop(**viewer, **window, *swapchain, script ? &*script : nullptr);
-        // A picture of a mesh that could not be read is none.
+        // Without a mesh, the screenshot has failed.
         if (looped && !options.screenshot.empty() && !(*viewer)->state().facts.document) {
             failed_on = "--screenshot";
             looped = Error{ErrorCode::malformed, (*viewer)->state().facts.error};
         }
         (*window)->hide();
-        // The device must be idle before its objects are destroyed. A thread that computes for long in between
-        // is not waited for: then nothing is destroyed.
+        // The device must be idle before its objects are destroyed. If a thread still uses it after kPatience, end the
+        // process without destroying anything.
         if (!(*viewer)->stop(kPatience)) leave(exit_code(failed_on, looped));
         return looped;
     }();
@@ -173,21 +175,20 @@ int start(int argc, char** argv, Threads& threads) {
     app::add_input_options(program, options.viewer.input.options, 250);
     options.viewer.input.options.materials = true;
     app::add_size(program, options.size);
-    program.add_option("--scale", options.scale, "pixels a nominal pixel of the panels; the display's unless told")
+    program.add_option("--scale", options.scale, "pixels per nominal pixel of the panels; default: the display's")
         ->check(CLI::Range(0.5, 8.0));
-    program.add_flag("--no-panels", options.no_panels, "the picture alone, until Tab is pressed");
-    program.add_option("--fps", options.viewer.frame_cap, "pictures a second at most; 0: no limit")
+    program.add_flag("--no-panels", options.no_panels, "no panels until Tab is pressed");
+    program.add_option("--fps", options.viewer.frame_cap, "most pictures per second; 0: no limit")
         ->check(CLI::Range(0, 1000))
         ->capture_default_str();
     auto* screenshot =
-        program.add_option("--screenshot", options.screenshot, "write a PNG file when all is shown, and end")
+        program.add_option("--screenshot", options.screenshot, "write a PNG file when the mesh is ready, and exit")
             ->type_name("PNG")
             ->needs(mesh);
-    program.add_option("--script", options.script, "do what the lines of a file say (docs/viewer.md)")
+    program.add_option("--script", options.script, "execute the lines of a file (docs/viewer.md)")
         ->type_name("FILE")
         ->excludes(screenshot);
-    program
-        .add_option("--shaders", options.viewer.shaders, "folder of shaders to compile whenever one of them changes")
+    program.add_option("--shaders", options.viewer.shaders, "folder of shaders, compiled again when they change")
         ->type_name("DIR");
     app::add_camera(program, options.viewer.camera);
     app::add_device_options(program, options.context);
@@ -217,14 +218,14 @@ int main(int argc, char** argv) {
         code = lacedring::view::start(argc, argv, threads);
     } catch (const std::bad_alloc&) {
         std::fputs("lacedring: not enough memory\n", stderr);
-    } catch (const std::exception& error) {  // a bug: nothing of ours throws
+    } catch (const std::exception& error) {  // a bug: our own code never throws
         lacedring::app::say("lacedring: internal error: {}\n", error.what());
     }
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
         std::fputs("lacedring: standard output: cannot be written\n", stderr);
         if (code == lacedring::app::done) code = lacedring::app::bad_input;
     }
-    // A thread that waits for a disk, or computes for long, is left behind.
+    // Do not wait longer for threads that wait for a disk or compute: end the process.
     if (!threads.finish(lacedring::view::kPatience)) lacedring::view::leave(code);
     return code;
 }

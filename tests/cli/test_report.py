@@ -263,7 +263,7 @@ class Report(CliTest):
         words = page.words()
         for view in VIEWS:
             self.assertIn(view, words)
-        self.assertRegex(words, r"Device\s*[^;]+Vulkan 1\.\d+\.\d+; 9 samples a pixel")
+        self.assertRegex(words, r"Device\s*[^;]+Vulkan 1\.\d+\.\d+; 9 samples per pixel")
         # The same page, byte for byte, when it is made again.
         os.rename(self.path("out.html"), self.path("first.html"))
         page = self.page(self.path("torus-800-1.ply"), self.path("blob-800-1.ply"), "--size", "200x150")

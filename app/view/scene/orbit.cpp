@@ -31,7 +31,7 @@ Result<void> Orbit::frame(const gpu::Model& model, const gpu::CameraOptions& opt
     view_angle_ = options.view_angle;
     size_ = model.radius;
     const auto& m = camera->view_from_world;
-    // The rows of the matrix are the axes; the eye is what it takes to the origin.
+    // The rows of the matrix are the axes; it moves the eye to the origin.
     const Vector right{m[0], m[4], m[8]}, up{m[1], m[5], m[9]}, back{m[2], m[6], m[10]};
     const Vector eye = (right * m[12] + up * m[13] + back * m[14]) * -1.0;
     const auto to_mesh = [&](const Vector& p) {
@@ -79,7 +79,7 @@ void Orbit::turn(double dx, double dy, double height) {
     const Axes a = axes();
     Vector offset = rotated(eye_ - focal_, up_, -dx * step);
     const Vector right = rotated(a.right, up_, -dx * step);
-    // Not over the pole: up would turn over.
+    // Stop before the pole, where up would flip.
     const double elevation = std::asin(std::clamp(dot(unit(offset), up_), -1.0, 1.0));
     const double limit = radians(89.5);
     const double change = std::clamp(elevation + dy * step, -limit, limit) - elevation;
@@ -119,7 +119,7 @@ gpu::CameraOptions Orbit::options() const {
 }
 
 std::string Orbit::text() const {
-    // As many digits as a double has: `render` then takes exactly this picture.
+    // All digits of a double: `render` then draws exactly this picture.
     const auto vector = [](const Vector& v) { return fmt::format("{:.17g},{:.17g},{:.17g}", v[0], v[1], v[2]); };
     std::string out =
         fmt::format("--camera-position={} --camera-focal-point={} --up={}", vector(eye_), vector(focal_), vector(up_));

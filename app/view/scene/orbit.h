@@ -1,5 +1,5 @@
 #pragma once
-// A camera that turns around what it looks at.
+// A camera that turns around its focal point. Points and directions are in the mesh's coordinates.
 
 #include <array>
 #include <string>
@@ -11,31 +11,31 @@ namespace lacedring::view {
 
 class Orbit {
   public:
-    /// Three-quarter view, or as `options` say; the mesh fits the middle `width` x `height` pixels of the picture.
-    /// `extent`: of the picture.
+    /// Looks at the whole mesh: from three quarters, or as `options` say. The mesh fits the middle fit[0] x fit[1]
+    /// pixels of a picture of extent[0] x extent[1] pixels.
     Result<void> frame(const gpu::Model& model, const gpu::CameraOptions& options, std::array<double, 2> extent,
                        std::array<double, 2> fit);
-    /// Looks at a ball of the mesh, from where it looks already.
+    /// Looks at a ball of the mesh, keeping the direction.
     void look_at(const Vector& centre, double radius);
-    /// From that side. "front", "right", "top", ... as f3d has them.
+    /// Moves the eye to the side `direction` of the focal point, keeping the distance.
     void look_from(const Vector& direction);
 
-    /// Pixels; a picture's height is half a turn.
+    /// Turns by a mouse movement in pixels; the picture's height is half a turn.
     void turn(double dx, double dy, double height);
-    /// The point under the cursor stays there. Pixels from the picture's middle, y up.
+    /// Zooms; the point under the cursor stays there. x, y: pixels from the picture's middle, y up.
     void zoom(double factor, double x, double y, double height, double width);
     void pan(double dx, double dy, double height, double width);
     void turn_degrees(double degrees);
 
-    /// For make_camera and for `lacedring render`.
+    /// The camera for make_camera, and as options of `lacedring render`.
     gpu::CameraOptions options() const;
     std::string text() const;
 
     const Vector& eye() const { return eye_; }
     const Vector& focal() const { return focal_; }
-    /// Direction of the ray through a pixel (from the middle, y up). Mesh coordinates, as all here.
+    /// Direction of the ray through a pixel. x, y: from the picture's middle, y up.
     Vector ray(double x, double y, double height, double width) const;
-    /// Where a point is seen, from the picture's upper left corner; none behind the eye.
+    /// Pixel of a point, from the picture's upper left corner; empty for points behind the eye.
     std::optional<std::array<double, 2>> project(const Vector& point, double height, double width) const;
 
   private:
@@ -43,11 +43,11 @@ class Orbit {
         Vector right, up, back;
     };
     Axes axes() const;
-    double per_pixel(double height, double width) const;  // at the focal point
+    double per_pixel(double height, double width) const;  // mesh units per pixel, at the focal point
 
     Vector eye_{0, 0, 3}, focal_{}, up_{0, 1, 0};
     double view_angle_ = 30;
-    double size_ = 1;  // of the mesh: its ball's radius
+    double size_ = 1;  // radius of the mesh
 };
 
 }  // namespace lacedring::view

@@ -13,7 +13,7 @@
 namespace lacedring::view {
 namespace {
 
-/// Colours that neighbouring numbers do not share.
+/// A color for a number; neighboring numbers mostly get different colors.
 std::uint32_t hashed(std::uint32_t i) {
     constexpr std::array<std::uint32_t, 12> kColours{rgba(214, 96, 60),   rgba(66, 140, 196),  rgba(232, 184, 92),
                                                      rgba(96, 164, 108),  rgba(146, 104, 182), rgba(196, 70, 98),
@@ -41,8 +41,8 @@ std::vector<gpu::GrowthTriangle> growth(const Document& document) {
     return out;
 }
 
-/// Says of each triangle whether it is left or right of the finished rings. Triangles that are connected without
-/// crossing a ring are on one side.
+/// Finds for each triangle whether it is left or right of the finished rings. Triangles that are connected without
+/// crossing a ring are on the same side.
 std::vector<gpu::GrowthTriangle> ring_sides(const Document& document) {
     const CornerTable& table = *document.table;
     std::vector<gpu::GrowthTriangle> out = triangles_across(table);
@@ -71,7 +71,7 @@ std::vector<gpu::GrowthTriangle> ring_sides(const Document& document) {
     return out;
 }
 
-/// The part of a document that a painting shows: another document with the same part has the same painting.
+/// The part of a document that a painting is made of. Documents that share it have the same painting.
 std::shared_ptr<const void> part(const Document& document, Paint paint) {
     if (paint == Paint::growth) return document.expansion;
     if (paint == Paint::ring) return document.rings;
@@ -99,7 +99,7 @@ std::vector<std::uint32_t> corridors(const Document& document) {
             stack.pop_back();
             for (std::uint32_t i = 0; i < 3; ++i) {
                 const CornerId o = table.opposite(corner(TriangleId{t}, i));
-                // On the same side: across a ring edge lies the other one.
+                // A neighbor of the same class is on the same side: across a ring edge is a triangle of the other.
                 if (o.is_null() || classes[triangle(o).value] != classes[t]) continue;
                 std::uint32_t& there = out[triangle(o).value];
                 if (there != UINT32_MAX) continue;
@@ -133,7 +133,8 @@ struct PaintLayer::Job {
     Paint paint = Paint::none;
     std::shared_ptr<const void> of;
     std::atomic<bool> done = false;
-    std::shared_ptr<const Painting> painting;  // once done; null: there was not enough memory
+    // Set before `done`; null: not enough memory.
+    std::shared_ptr<const Painting> painting;
 };
 
 Result<std::shared_ptr<const Painting>> PaintLayer::get(const std::shared_ptr<const Document>& document, Paint paint) {
@@ -142,7 +143,7 @@ Result<std::shared_ptr<const Painting>> PaintLayer::get(const std::shared_ptr<co
         if (!job->painting) return Error{ErrorCode::too_large, "not enough memory for these colors"};
         made_[static_cast<std::size_t>(job->paint)] = {job->of, job->painting};
     }
-    for (std::size_t i = 0; i < kPaints; ++i) {  // nothing of another mesh or ring is kept
+    for (std::size_t i = 0; i < kPaints; ++i) {  // drop paintings of another mesh or ring
         if (made_[i].of != part(*document, static_cast<Paint>(i))) made_[i] = {};
     }
     if (paint == Paint::none) return std::shared_ptr<const Painting>();

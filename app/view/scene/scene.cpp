@@ -23,7 +23,7 @@ constexpr Access kComposeWrite{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS
 constexpr Access kTransferRead{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
 constexpr Access kTransferWrite{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
 
-/// What was drawn, to be read by compose.comp and by triangle_at.
+/// Makes the drawn images readable for compose.comp and triangle_at.
 void leave(VkCommandBuffer commands, const gpu::Target& target) {
     for (const gpu::Image* image : {&target.colour(), &target.triangles()}) {
         gpu::image_barrier(commands, image->handle(), image->aspect(), kColourWrite, kComposeRead,
@@ -32,8 +32,9 @@ void leave(VkCommandBuffer commands, const gpu::Target& target) {
 }
 
 constexpr std::uint32_t kTimestamps = 3;
-constexpr std::uint32_t kGroup = 8;  // compose.comp
-constexpr double kLeastEdge = 1.5;   // pixels of a mean edge from which the growing ring has a line
+constexpr std::uint32_t kGroup = 8;  // side of a workgroup of compose.comp
+// The ring's line is drawn if the mean edge is longer than this, in pixels.
+constexpr double kLeastEdge = 1.5;
 
 }  // namespace
 
@@ -73,7 +74,7 @@ Result<void> Scene::resize(VkExtent2D extent, std::uint32_t samples, int sides) 
     }
     blank_ = blank_ || !sides_.contains(drawn_.samples);
     if (other) {
-        extent_ = {};  // until all is there
+        extent_ = {};  // until all images are made
         LR_ASSIGN(composed_, gpu::Image::create(*context_, "composed", extent, gpu::Target::kColour,
                                                 VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT));
     }
@@ -127,7 +128,7 @@ Result<bool> Scene::adopt(const std::shared_ptr<const OwningModel>& model, const
 Result<void> Scene::set_outlines(const EncodedLr* tables, double crease) {
     adjacency_.reset();
     crease_ = crease;
-    // Surfaces are pushed back, or no longer.
+    // With outlines, painters push surfaces back in depth: recreate them.
     painters_.clear();
     for (auto& [key, entry] : entries_) entry.plans.clear();
     if (tables == nullptr || !model_) return {};
@@ -139,7 +140,7 @@ Result<void> Scene::set_outlines(const EncodedLr* tables, double crease) {
 }
 
 Result<void> Scene::reload() {
-    uploader_->finish();  // it knows the expander
+    uploader_->finish();  // it uses the expander
     LR_ASSIGN(gpu::Expander expander, expander_->again());
     decltype(compose_) compose;
     for (const auto& [constants, pipeline] : compose_) {
@@ -155,13 +156,14 @@ Result<void> Scene::reload() {
         LR_ASSIGN(gpu::Painter again, painter.again());
         painters.emplace(key, std::move(again));
     }
-    context_->wait_idle();  // the last picture may still be drawn with those that go
+    // The last picture may still use the old pipelines.
+    context_->wait_idle();
     *expander_ = std::move(expander);
     compose_ = std::move(compose);
     silhouettes_ = std::move(silhouettes);
     painters_ = std::move(painters);
-    // Index buffers are of the old shaders: streams are expanded anew, index lists uploaded anew, for they were turned
-    // in place. What was planned for expanding holds: the layouts are the same.
+    // Index buffers were written by the old shaders. Expand streams again, and upload index lists again, because they
+    // were rotated in place. Plans for expanding stay valid: the layouts are the same.
     std::erase_if(entries_, [](const auto& entry) { return entry.first.source == gpu::Source::plain; });
     for (auto& [key, entry] : entries_) {
         entry.plans.clear();
@@ -183,7 +185,7 @@ UploadKey Scene::key_of(const Shown& shown, int side) {
     return {shown.source, shown.path, with};
 }
 
-/// True once all that `shown` needs of the model is in `entries`.
+/// Starts uploading what `shown` needs of the model; returns whether all of it is in `entries`.
 Result<bool> Scene::upload(const std::shared_ptr<const OwningModel>& model, const Shown& shown, Entries& entries) {
     if (std::optional<Uploader::Done> done = uploader_->take()) {
         if (done->job.model == model) {
@@ -213,7 +215,7 @@ Result<gpu::Painter*> Scene::painter(gpu::View view, std::uint32_t samples) {
 
 Result<bool> Scene::prepare(const Shown& shown) {
     if (!model_) return true;
-    // While another model is on its way, this one is drawn as far as it is there.
+    // While another model is being uploaded, upload nothing of this one.
     if (adopting_) {
         for (int side = 0; side < shown.sides(); ++side) {
             if (!entries_.contains(key_of(shown, side))) return false;
@@ -323,7 +325,7 @@ Result<void> Scene::record_compose(VkCommandBuffer commands, std::uint32_t divid
     push.triangles = (painted_ || parted_) && model_ ? model_->triangle_count() : 0;
     push.invaded = invaded_;
     push.fresh = fresh_;
-    // The ring's line, faded and thinned like the one of the view of the ring (renderer/draw/painter.cpp).
+    // The ring's line fades and thins with short edges, as in View::ring (renderer/draw/painter.cpp).
     const double strength = std::clamp((edge_pixels_ - 1) / 9, 0.0, 1.0);
     const double closer = std::clamp((edge_pixels_ - 10) / 40, 0.0, 1.0);
     const auto width = static_cast<std::uint32_t>(std::lround((0.7 + 1.5 * strength + 1.3 * closer) * drawn_.samples));
@@ -415,7 +417,7 @@ Result<void> Scene::set_marks(std::span<const Mark> marks) {
         std::memcpy(at, &mark.colour, sizeof(mark.colour));
         return under;
     };
-    while (!under_marks_.empty()) {  // a triangle may have been marked twice
+    while (!under_marks_.empty()) {  // in reverse order: a triangle may have been marked twice
         exchange(under_marks_.back());
         under_marks_.pop_back();
     }

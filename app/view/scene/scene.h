@@ -1,6 +1,6 @@
 #pragma once
-// The drawn picture: a model on the device, one or two pictures of it, and these composed into one image of the
-// window's size. Knows of no window and no panel.
+// The drawn picture: a model on the device, and one or two pictures of it, composed into one image of the window's
+// size. Independent of the window and the panels.
 
 #include <functional>
 #include <map>
@@ -19,15 +19,18 @@ namespace lacedring::view {
 
 enum class Mode { single, split, difference };
 
-/// What a picture is of.
+/// What a picture shows, and how it is drawn.
 struct Shown {
     gpu::View view = gpu::View::smooth;
     gpu::Source source = gpu::Source::lean;
     gpu::Path path = gpu::Path::compute;
-    Mode mode = Mode::single;   ///< of the two others, the left picture is of Source::plain
-    bool exact = true;          ///< as `lacedring render` draws (docs/renderer.md), else in one pass
-    std::uint32_t samples = 3;  ///< of a pixel, along each side
-    bool decode_again = false;  ///< expands the stream for this picture even if it has been
+    /// In the modes split and difference, the left picture is of Source::plain.
+    Mode mode = Mode::single;
+    /// Draw exactly as `lacedring render` does (docs/renderer.md); else in one pass.
+    bool exact = true;
+    std::uint32_t samples = 3;  ///< along each side of a pixel
+    /// Expand the stream again for this picture.
+    bool decode_again = false;
 
     bool operator==(const Shown&) const = default;
     int sides() const { return mode == Mode::single ? 1 : 2; }
@@ -39,7 +42,7 @@ struct SceneTimes {
     double draw = 0;
 };
 
-/// A triangle of the mesh and its RGBA.
+/// A triangle of the mesh, and its color as RGBA.
 struct Mark {
     std::uint32_t triangle;
     std::uint32_t colour;
@@ -47,62 +50,63 @@ struct Mark {
 
 class Scene {
   public:
-    /// `wake` is called, by another thread, when something that was awaited is there.
+    /// `wake` is called by another thread when an upload is done.
     static Result<Scene> create(gpu::Context& context, std::function<void()> wake);
 
-    /// Pixels of the composed image. Pictures have one sample a pixel, or `samples` along each side; `sides` of them
-    /// are drawn. What was drawn stays where these are the same.
+    /// Makes the images: the composed one of `extent` pixels, and `sides` pictures with 1 sample per pixel, and with
+    /// `samples` along each side of a pixel. Keeps images whose size does not change.
     Result<void> resize(VkExtent2D extent, std::uint32_t samples, int sides);
-    /// Takes another model once what `shown` needs of it is on the device: true. Until then, and if that fails, all
-    /// stays as it is. Colours stay in any case: those of another mesh have to be taken away. Errors: those of prepare.
+    /// Switches to `model` once the parts that `shown` needs are on the device; returns whether it has. Until then, and
+    /// on failure, the scene is unchanged. Keeps paint, marks and sides: clear those of another mesh. Errors: those of
+    /// prepare.
     Result<bool> adopt(const std::shared_ptr<const OwningModel>& model, const Shown& shown);
     const OwningModel* model() const { return model_.get(); }
-    /// Draws outlines over the surface, asked of these LR tables of the model's surface; null: none.
-    /// Edges at which the surface turns by more than `crease` degrees are among them.
+    /// Draws outlines over the surface, found with the LR tables of the model's surface; null: none. Outlines include
+    /// edges where the surface turns by more than `crease` degrees.
     Result<void> set_outlines(const EncodedLr* tables, double crease);
-    /// RGBA a triangle of the mesh, to be laid over it; empty: none. Not while a frame is being drawn.
+    // Layers over the surface. Do not set them while a frame is being drawn.
+    /// Sets the paint: RGBA per triangle of the mesh; empty: none.
     Result<void> set_paint(std::span<const std::uint32_t> colours);
-    /// Colours of single triangles over those of set_paint, in the place of those set before. Likewise.
+    /// Sets the colors of single triangles, over the paint. Replaces all earlier marks.
     Result<void> set_marks(std::span<const Mark> marks);
-    /// A triangle of the mesh each, whose sides of the ring a line parts, under both; empty: none. `colours`: laid over
-    /// the surface, too. Likewise.
+    /// Sets the side of the ring of each triangle of the mesh, under paint and marks; empty: none. A line separates the
+    /// sides; `colours`: the sides are also colored.
     Result<void> set_sides(std::span<const gpu::GrowthTriangle> triangles, bool colours);
-    /// How far it has grown, and how many of the last triangles are told from the others.
+    /// Sets how many triangles are invaded, and how many of the last ones are highlighted.
     void grow(std::uint32_t invaded, std::uint32_t fresh);
 
-    /// Makes every pipeline anew, of the context's shaders as they are now. If one cannot be made, nothing changes.
-    /// Waits for the device.
+    /// Recreates all pipelines from the context's current shaders. If one fails, nothing changes. Waits for the device.
     Result<void> reload();
 
-    /// Has what the picture needs put on the device, beside this thread; true once it is there. Errors: unsupported (a
-    /// stream that the model does not have), and the device's.
+    /// Starts uploading what the picture needs, on a thread; returns whether all of it is on the device. Errors:
+    /// unsupported (the model lacks the stream), those of the device.
     Result<bool> prepare(const Shown& shown);
-    /// Stops putting models on the device for good. False: that still goes on after `patience`.
+    /// Stops uploading for good. Returns false if an upload still runs after `patience`.
     bool stop(std::chrono::milliseconds patience) { return uploader_->stop(patience); }
     /// Nothing has been drawn since the last resize: compose cannot be recorded.
     bool blank() const { return blank_; }
-    /// Records an empty picture, to be composed.
+    /// Records drawing an empty picture.
     void record_clear(VkCommandBuffer commands);
-    /// Records the drawing of what was prepared, of a model, and leaves the pictures to be composed.
+    /// Records drawing the prepared pictures of the model.
     Result<void> record_draw(VkCommandBuffer commands, const Shown& shown, const gpu::CameraOptions& camera);
-    /// Records putting them together. `divider`: first column of the right picture.
+    /// Records composing the pictures. `divider`: first column of the right picture.
     Result<void> record_compose(VkCommandBuffer commands, std::uint32_t divider);
-    /// The last picture.
+    /// The picture drawn last.
     const Shown& drawn() const { return drawn_; }
-    /// Materials of the picture drawn last; null: it was drawn without them.
+    /// Materials of the picture drawn last; null: drawn without materials.
     const gpu::GpuMaterials* materials() const;
-    /// The ring's line is laid over it: its edges are long enough.
+    /// Whether the ring's line is drawn over the picture. It is not if the mesh's edges are too short.
     bool has_ring_line() const;
 
-    /// In VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL once composed.
+    /// The composed image; in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL once composed.
     const gpu::Image& composed() const { return composed_; }
     VkExtent2D extent() const { return extent_; }
 
-    /// Of the last record_draw whose commands have run. None without timestamps.
+    /// Times of the last record_draw whose commands have run; empty if the device has no timestamps.
     std::optional<SceneTimes> times() const;
-    /// The original triangle at a pixel of the picture drawn last, if any. Waits for the device.
+    /// The mesh's triangle at a pixel of the picture drawn last, if any. Waits for the device.
     Result<std::optional<std::uint32_t>> triangle_at(std::uint32_t x, std::uint32_t y, bool right);
-    /// Of the two pictures drawn last, mode split or difference. Waits for the device.
+    /// Compares the two pictures drawn last (Mode::split or difference). Waits for the device.
     Result<gpu::Difference> difference();
 
   private:
@@ -120,16 +124,16 @@ class Scene {
     Result<gpu::Painter*> painter(gpu::View view, std::uint32_t samples);
     static UploadKey key_of(const Shown& shown, int side);
     Result<void> write_sets();
-    /// Makes the buffer so large, if it is not, and mapped.
+    /// Makes the buffer at least `bytes` large, and mapped.
     Result<void> hold(gpu::Buffer& buffer, const char* name, std::size_t bytes);
     Result<VkPipeline> compose_pipeline();
 
     gpu::Context* context_ = nullptr;
     std::optional<gpu::Commands> commands_;
     std::optional<gpu::Transfer> transfer_;
-    std::unique_ptr<gpu::Expander> expander_;  // stays where it is: the uploader knows it
+    std::unique_ptr<gpu::Expander> expander_;  // must not move: the uploader refers to it
     gpu::Layout layout_;
-    std::map<std::array<std::uint32_t, 3>, gpu::PipelineHandle> compose_;  // by its constants
+    std::map<std::array<std::uint32_t, 3>, gpu::PipelineHandle> compose_;  // by specialization constants
     gpu::QueryPoolHandle queries_;
     bool timed_ = false;
 
@@ -137,27 +141,28 @@ class Scene {
     std::optional<gpu::Adjacency> adjacency_;
     double crease_ = 0;
     std::shared_ptr<const OwningModel> model_;
-    std::map<std::pair<gpu::View, std::uint32_t>, gpu::Painter> painters_;  // by samples
-    Entries entries_;
-    Entries adopted_;  // of the model that is to be taken
-    std::shared_ptr<const OwningModel> adopting_;
+    std::map<std::pair<gpu::View, std::uint32_t>, gpu::Painter> painters_;  // by view and samples
+    Entries entries_;                                                       // of model_
+    Entries adopted_;                                                       // of adopting_
+    std::shared_ptr<const OwningModel> adopting_;                           // the model to switch to
 
     VkExtent2D extent_{};
     /// The pictures of one number of samples.
     struct Sides {
         std::optional<gpu::Target> targets[2];
-        VkDescriptorSet sets[2] = {};  ///< for composing the left picture alone, and both
+        VkDescriptorSet sets[2] = {};  ///< for composing one picture, and two
     };
     std::map<std::uint32_t, Sides> sides_;
     gpu::Image composed_;
     gpu::Buffer paint_, growth_, pixel_;
     bool painted_ = false, coloured_ = false, grows_ = false, parted_ = false, blank_ = true;
-    std::vector<Mark> under_marks_;  // what set_marks covered
+    std::vector<Mark> under_marks_;  // the paint under the marks
     std::uint32_t invaded_ = 0, fresh_ = 0;
-    double edge_pixels_ = 0;  // of a mean edge, in the picture drawn last
+    // Mean length of an edge in the picture drawn last.
+    double edge_pixels_ = 0;
     Shown drawn_;
     gpu::Descriptors descriptors_;
-    std::unique_ptr<Uploader> uploader_;  // goes first
+    std::unique_ptr<Uploader> uploader_;  // last member: destroyed first
 };
 
 }  // namespace lacedring::view

@@ -9,7 +9,7 @@
 namespace lacedring::view {
 namespace {
 
-/// In the mesh's coordinates, of the numbers that are drawn.
+/// Position of a vertex as drawn, in the mesh's coordinates.
 Vector place(const gpu::Model& model, std::uint32_t v) {
     Vector out;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -92,7 +92,7 @@ std::vector<CornerId> around(const CornerTable& table, CornerId corner) {
     std::vector<CornerId> out{corner};
     for (CornerId c = table.swing(corner); !c.is_null() && c != corner; c = table.swing(c)) out.push_back(c);
     if (!table.swing(out.back()).is_null()) return out;
-    // A border ended it: the rest lies the other way.
+    // Stopped at a border: collect the rest in the other direction.
     for (CornerId c = table.right(corner); !c.is_null(); c = table.right(previous(c))) {
         if (out.size() > table.corners.size()) break;
         out.push_back(previous(c));

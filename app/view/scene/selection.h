@@ -1,5 +1,5 @@
 #pragma once
-// A corner, and what the operators say of it.
+// The selected corner: finding it, applying operators to it, and marking it.
 
 #include <array>
 #include <optional>
@@ -17,31 +17,31 @@ struct Selection {
     bool any() const { return !corner.is_null(); }
 };
 
-/// The corner's vertex, in the mesh's coordinates, as it is drawn.
+/// Position of the corner's vertex as drawn, in the mesh's coordinates.
 std::array<double, 3> place_of(const Document& document, CornerId corner);
 
-/// The corner of triangle t whose vertex is nearest to the ray, mesh coordinates.
+/// The corner of triangle t whose vertex is nearest to the ray, in the mesh's coordinates.
 CornerId nearest_corner(const Document& document, std::uint32_t t, const std::array<double, 3>& eye,
                         const std::array<double, 3>& ray);
 
-/// How far along the ray it meets triangle t, in lengths of `ray`; none if it misses it or runs along it.
+/// Distance at which the ray meets triangle t, in lengths of `ray`; empty if it misses t or is parallel to it.
 std::optional<double> ray_meets(const Document& document, std::uint32_t t, const std::array<double, 3>& eye,
                                 const std::array<double, 3>& ray);
 
-/// The triangle that the ray meets first; none if it misses all. Cost: O(T).
+/// The triangle that the ray meets first; empty if it misses all. Cost: O(T).
 std::optional<std::uint32_t> ray_hit(const Document& document, const std::array<double, 3>& eye,
                                      const std::array<double, 3>& ray);
 
-/// Where the operator n p o s l r leads; null where there is nothing.
+/// Applies the operator n, p, o, s, l or r; null at a border.
 CornerId step(const Document& document, CornerId corner, char operation);
 
-/// All corners around the vertex of a corner, by swings both ways.
+/// All corners around the vertex of a corner, found by swings in both directions.
 std::vector<CornerId> around(const CornerTable& table, CornerId corner);
 
-/// The selected triangle, its neighbours and the fan of its vertex, with their colours; the later ones count.
+/// Colors of the selected triangle, its neighbors and the fan of its vertex. Later marks override earlier ones.
 std::vector<Mark> selection_marks(const Document& document, CornerId corner);
 
-/// Centre and radius of a ball around the fan of the corner's vertex, in the mesh's coordinates.
+/// Center and radius of a ball around the fan of the corner's vertex, in the mesh's coordinates.
 std::pair<std::array<double, 3>, double> ball(const Document& document, CornerId corner);
 
 constexpr std::uint32_t rgba(unsigned r, unsigned g, unsigned b, unsigned a = 255) {

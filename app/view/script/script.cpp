@@ -57,7 +57,7 @@ std::optional<int> button_named(const std::string& name) {
     return static_cast<int>(at - kNames.begin());
 }
 
-/// Reads the words after the first one.
+/// Parses the words after the first one as numbers.
 bool numbers(const std::vector<std::string>& words, std::initializer_list<double*> out) {
     std::size_t i = 1;
     for (double* number : out) {
@@ -108,7 +108,7 @@ Result<void> Script::advance(Viewer& viewer, Window& window, std::deque<Event>& 
             return {};
         }
         if (at_ >= lines_.size()) {
-            events.push_back({.kind = Event::close});  // nobody else could
+            events.push_back({.kind = Event::close});  // the end of the script ends the viewer
             return {};
         }
         const Line& line = lines_[at_];
@@ -168,7 +168,7 @@ Result<bool> Script::run(const Words& words, const Stage& stage) {
 
 namespace {
 
-/// The command's usage is the message.
+/// An error whose message is the command's usage.
 Error misused() {
     return wrong("");
 }
@@ -239,12 +239,12 @@ Result<bool> Script::key(const Words& words, const Stage& stage) {
 }
 
 Result<bool> Script::resize(const Words& words, const Stage& stage) {
-    constexpr double kMost = 32767;  // X's
+    constexpr double kMost = 32767;  // limit of X
     double x = 0, y = 0;
     if (!numbers(words, {&x, &y}) || !is_count(x, 1, kMost) || !is_count(y, 1, kMost)) return misused();
     const auto width = static_cast<std::uint32_t>(x), height = static_cast<std::uint32_t>(y);
     if (waited_ == 0) stage.window.set_size(width, height);
-    // The window system decides; a second is enough for it to.
+    // The window system may refuse the size: wait for at most a second.
     return (stage.viewer.window().width == width && stage.viewer.window().height == height) || waited_ > 60;
 }
 
@@ -294,10 +294,10 @@ Result<bool> Script::wait(const Words& words, const Stage& stage) {
     if (what == "tables") return facts.tables != nullptr || failed;
     if (what == "formats") return facts.formats != nullptr || failed;
     if (what == "ready") return (document && document->optimised && facts.formats && settled) || failed;
-    // A notice is on the screen two frames after the error.
+    // The notice is on the screen two frames after the error.
     if (what == "error") return !facts.error.empty() && ++seen_ > 3;
     if (what == "shaders") {
-        if (stage.viewer.shaders() == nullptr) return wrong("no sources of shaders to wait for");
+        if (stage.viewer.shaders() == nullptr) return wrong("no shader sources to wait for");
         if (waited_ == 0) look_ = stage.viewer.shaders()->next_look();
         return facts.shaders.looks >= look_;
     }
@@ -314,7 +314,7 @@ Result<bool> Script::copy(const Words& words, const Stage&) {
 
 Result<bool> Script::settle(const Viewer& viewer) const {
     if (waited_ >= 2 && viewer.settled()) return true;
-    return waited_ > 600 ? wrong("nothing settles: no picture") : Result<bool>(false);
+    return waited_ > 600 ? wrong("the picture does not settle") : Result<bool>(false);
 }
 
 Result<bool> Script::save(const Words& words, const Stage& stage) {
@@ -350,7 +350,7 @@ Result<bool> Script::print(const Words&, const Stage& stage) {
     return true;
 }
 
-/// The triangle that a ray through the pixel hits, by looking at all of them.
+/// Prints the triangle that a ray through the pixel hits, found by testing all triangles.
 Result<bool> Script::ray(const Words& words, const Stage& stage) {
     double x = 0, y = 0;
     if (!numbers(words, {&x, &y})) return misused();

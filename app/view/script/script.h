@@ -1,5 +1,5 @@
 #pragma once
-// A viewer driven by lines of text: what a person would do, in the order written. docs/viewer.md has the lines.
+// Drives the viewer by a script, whose lines stand for a user's actions. docs/viewer.md describes them.
 
 #include <chrono>
 #include <deque>
@@ -14,15 +14,15 @@ namespace lacedring::view {
 
 class Script {
   public:
-    /// Errors: cannot_open; a wrong line is found when it is its turn.
+    /// Reads a script. Errors: cannot_open. A wrong line is an error only when it is executed.
     static Result<Script> read(const std::filesystem::path& path);
-    /// Opens nothing, waits for the mesh to be as it will stay, takes one picture.
+    /// A script that waits until the mesh is ready, saves one picture, and ends the viewer.
     static Script screenshot(const std::string& path);
 
-    /// Before each frame: performs what the lines say, up to the first that has to wait.
-    /// Errors: invalid_argument, "FILE:LINE: why".
+    /// Call before each frame. Executes lines up to the first that has to wait. Errors: invalid_argument,
+    /// "FILE:LINE: why".
     Result<void> advance(Viewer& viewer, Window& window, std::deque<Event>& events);
-    /// A line waits for something.
+    /// Whether a line is waiting.
     bool waiting() const { return waited_ > 0; }
 
   private:
@@ -37,7 +37,7 @@ class Script {
         Window& window;
         std::deque<Event>& events;
     };
-    /// A kind of line. `run` gives false for not yet: it is called again after the next frame.
+    /// A kind of line. `run` returns false if it has to wait: it is called again before the next frame.
     struct Command {
         const char* name;
         const char* usage;
@@ -65,17 +65,20 @@ class Script {
     Result<bool> save_turn(const Words& words, const Stage& stage);
     Result<bool> print(const Words& words, const Stage& stage);
     Result<bool> ray(const Words& words, const Stage& stage);
-    /// Before a picture: what was changed must be drawn, and settle. A wait of that many frames is an error.
+    /// Whether earlier changes are drawn and settled, as needed before a picture is saved. Errors: invalid_argument
+    /// after 600 frames.
     Result<bool> settle(const Viewer& viewer) const;
 
     std::string name_;
     std::vector<Line> lines_;
     std::size_t at_ = 0;
-    int frames_ = 0;          ///< to be drawn before the next line
-    int waited_ = 0;          ///< frames
-    int seen_ = 0;            ///< of these, since what is waited for is there
-    bool turning_ = false;    ///< pictures of a turntable are being written
-    std::uint64_t look_ = 0;  ///< of the watch over shaders, that is waited for
+    int frames_ = 0;  ///< to draw before the next line
+    int waited_ = 0;  ///< frames that the current line has waited
+    /// Frames since the awaited error has appeared.
+    int seen_ = 0;
+    /// Pictures of a turntable are being written.
+    bool turning_ = false;
+    std::uint64_t look_ = 0;  ///< the awaited check of the shaders' files
     std::chrono::steady_clock::time_point waiting_since_{};
 };
 

@@ -1,4 +1,4 @@
-// The output of the line `print` of a script: the viewer's state as JSON.
+// The viewer's state as JSON, for the line `print` of a script.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -53,7 +53,7 @@ std::string state_text(Viewer& viewer) {
         out["corner"] = c.value;
         out["triangle"] = triangle(c).value;
         if (state.facts.tables) {
-            // The tables' answers, and the corner table's.
+            // Results by the LR tables, and by the corner table.
             for (const char operation : {'n', 'p', 'o', 's', 'l', 'r'}) {
                 const CornerId by_lr = lr_step(*state.facts.tables, *state.facts.document->table, c, operation);
                 const CornerId by_table = step(*state.facts.document, c, operation);
@@ -67,7 +67,7 @@ std::string state_text(Viewer& viewer) {
                              {"covered", state.facts.difference->covered}};
     }
     out["started_ms"] = state.facts.started * 1e3;
-    out["longest_frame_ms"] = state.facts.longest_frame * 1e3;  // since the last such line
+    out["longest_frame_ms"] = state.facts.longest_frame * 1e3;  // since the last `print`
     const ShaderFacts& shaders = state.facts.shaders;
     out["shaders"] = {{"folder", shaders.folder},
                       {"compiled", shaders.compiled},

@@ -22,13 +22,13 @@ Mesh coarse(const Mesh& mesh) {
     Mesh out;
     std::vector<float> kept;
     constexpr std::uint32_t kUnused = UINT32_MAX;
-    std::vector<std::uint32_t> vertex_in(std::size_t{kCells} * kCells * kCells, kUnused);  // a cell
+    std::vector<std::uint32_t> vertex_in(std::size_t{kCells} * kCells * kCells, kUnused);  // per cell
     std::vector<std::uint32_t> vertex(mesh.vertex_count, kUnused);
     for (const std::uint32_t v : mesh.indices) {
         if (vertex[v] != kUnused) continue;
         std::uint32_t cell = 0;
         for (std::size_t i = 0; i < 3; ++i) {
-            const float share = (positions[3 * std::size_t{v} + i] - low[i]) / side;  // no number where it is none
+            const float share = (positions[3 * std::size_t{v} + i] - low[i]) / side;  // NaN for a NaN position
             const float at = std::clamp(share >= 0 ? share : 0.0F, 0.0F, 1.0F) * static_cast<float>(kCells - 1);
             cell = cell * kCells + static_cast<std::uint32_t>(at);
         }
@@ -47,7 +47,7 @@ Mesh coarse(const Mesh& mesh) {
         std::ranges::rotate(t, std::ranges::min_element(t));
         triangles.push_back(t);
     }
-    // Sheets that fell together leave the same triangle several times.
+    // Parallel sheets in the same cells give the same triangle several times.
     std::ranges::sort(triangles);
     const auto [end, last] = std::ranges::unique(triangles);
     triangles.erase(end, last);

@@ -1,5 +1,5 @@
 #pragma once
-// One mesh and what was made of it. Made by the loader, never changed after.
+// One mesh, its ring and its streams. Made by the loader; immutable.
 
 #include <algorithm>
 #include <chrono>
@@ -21,54 +21,57 @@ namespace lacedring::view {
 
 using Input = app::MeshInput;
 
-/// How the ring is made, as the panel has it.
+/// Options for making the ring, as on the panel.
 struct RingSettings {
     bool hybrid = false;
-    std::uint32_t k = 100;    ///< of the hybrid
+    std::uint32_t k = 100;    ///< period of the hybrid
     std::uint32_t seeds = 1;  ///< per component
     std::uint64_t random_seed = 1;
-    CornerId start = kNullCorner;  ///< where it begins; null: at the first triangle
-    std::uint32_t passes = 24;     ///< of the optimiser
+    CornerId start = kNullCorner;  ///< seed corner; null: in the first triangle
+    std::uint32_t passes = 24;     ///< of the optimizer
     bool warts = true;             ///< wart skipping
 
     bool operator==(const RingSettings&) const = default;
 };
 
-/// RingSettings::hybrid
-
-/// Figures of one stream. Per triangle of the input, as everywhere.
+/// Figures of one stream, per triangle of the input.
 struct StreamFigures {
     std::size_t bytes = 0;
-    double references = 0;  ///< a triangle; 0 where it has none
-    double bits = 0;        ///< a triangle
-    double acmr = 0;        ///< FIFO of 32
+    double references = 0;  ///< per triangle; 0: the stream has none
+    double bits = 0;        ///< per triangle
+    double acmr = 0;        ///< with a FIFO cache of 32
 };
 
-/// A model that keeps what it points to.
+/// A model that owns the mesh and the materials it points to.
 struct OwningModel : gpu::Model {
     std::shared_ptr<const Mesh> mesh;
     std::shared_ptr<const Materials> owned_materials;
-    bool has_materials = false;  ///< of the file: it is drawn with them at first
+    /// The file has materials, with which it is shown first.
+    bool has_materials = false;
 };
 
 struct Document {
     std::string path;
     std::shared_ptr<const Mesh> mesh;
     std::shared_ptr<const Surface> surface;
-    std::shared_ptr<const CornerTable> table;    ///< the surface's
-    std::shared_ptr<const Rings> rings;          ///< lean's
-    std::shared_ptr<const Expansion> expansion;  ///< how these were begun, before the optimiser
+    std::shared_ptr<const CornerTable> table;  ///< of the surface
+    std::shared_ptr<const Rings> rings;        ///< of lean
+    /// How expand_rings made the rings, before the optimizer.
+    std::shared_ptr<const Expansion> expansion;
     std::shared_ptr<const OwningModel> model;
-    gpu::StreamViews views;  ///< of the model's streams; packed is empty until it is made
+    /// Views of the model's streams; packed is empty until it is made.
+    gpu::StreamViews views;
     RingSettings settings;
-    bool optimised = false;    ///< the optimiser has run, as often as the settings say
-    std::size_t stand_in = 0;  ///< triangles of the mesh that this is a coarse one of, until that is ready; else 0
-    TopologyReport report;     ///< once the optimiser has run
+    /// The optimizer has run settings.passes passes.
+    bool optimised = false;
+    /// If this is a coarse stand-in: the triangles of the mesh that is being loaded; else 0.
+    std::size_t stand_in = 0;
+    TopologyReport report;  ///< set when `optimised`
     StreamFigures plain, lean, packed;
-    std::chrono::steady_clock::time_point asked;  ///< when a file or a ring was
-    double seconds = 0;                           ///< from then until this was made
+    std::chrono::steady_clock::time_point asked;  ///< when the file or the ring was requested
+    double seconds = 0;                           ///< from the request until this was made
 
-    /// The mesh's vertex at a corner of the table: the copy of its surface vertex.
+    /// The vertex of the mesh at a corner of the table: one of the copies of the corner's surface vertex.
     std::uint32_t copy_at(CornerId c) const {
         const std::uint32_t t = c.value / 3, place = c.value % 3;
         return mesh->indices[3 * std::size_t{t} + (place > 0 && table->flipped(TriangleId{t}) ? 3 - place : place)];
@@ -82,27 +85,29 @@ struct Document {
     }
 };
 
-/// What takes longer, and comes later.
+/// LR tables of a mesh's surface. They take longer to make and arrive after the document.
 struct Tables {
-    std::shared_ptr<const Mesh> mesh;  ///< of whose surface they are
+    std::shared_ptr<const Mesh> mesh;
     EncodedLr lr;
-    LrView view;                          ///< of its words
-    double crease = 180;                  ///< degrees from which on an edge is one (crease_angle)
-    std::vector<std::uint32_t> number;    ///< LR triangle of each of the mesh's, UINT32_MAX: degenerate
-    std::vector<std::uint32_t> triangle;  ///< the mesh's triangle of each LR number, UINT32_MAX: none
+    LrView view;          ///< of lr.words
+    double crease = 180;  ///< crease_angle
+    /// number[mesh triangle] = LR triangle; UINT32_MAX: degenerate.
+    std::vector<std::uint32_t> number;
+    /// triangle[LR triangle] = mesh triangle; UINT32_MAX: none.
+    std::vector<std::uint32_t> triangle;
 };
 /// Errors: malformed (the tables are not valid).
 Result<Tables> make_tables(std::shared_ptr<const Mesh> mesh, EncodedLr lr);
 
-/// The smallest of some angles from 40 degrees on at which most of the edges that are sharper continue each other:
-/// lines that a person sees, not single folds of a scan. 180: none.
+/// Angle in degrees between triangles from which an edge is drawn as a crease: the smallest of 40, 55, 70 and 90 at
+/// which most of the sharper edges form longer lines, unlike the single folds of a scan; 180 if there is none.
 double crease_angle(const Document& document);
 
-/// Where the operator n p o s l r leads by the LR tables, from and to corners of the corner table; null where there is
-/// nothing.
+/// Applies the operator n, p, o, s, l or r with the LR tables. Takes and returns corners of the corner table; null at a
+/// border.
 CornerId lr_step(const Tables& tables, const CornerTable& table, CornerId corner, char operation);
 
-/// What the tables hold for a corner's triangle, in one line.
+/// The entries of the tables for a corner's triangle, as one line of text.
 std::string lr_text(const Tables& tables, const CornerTable& table, CornerId corner);
 
 }  // namespace lacedring::view

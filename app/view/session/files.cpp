@@ -50,7 +50,7 @@ std::vector<std::string> meshes_beside(const fs::path& path) {
 std::vector<std::string> sample_meshes() {
     std::error_code error;
     const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
-    // Beside the program in the build folder, LACEDRING_ASSETS from there once installed.
+    // "lacedring-assets" is beside the program in the build folder; LACEDRING_ASSETS is the path from an installed one.
     for (const char* place : {"lacedring-assets", LACEDRING_ASSETS}) {
         if (fs::is_directory(folder / place, error)) return meshes_beside(folder / place);
     }
@@ -58,7 +58,7 @@ std::vector<std::string> sample_meshes() {
 }
 
 std::vector<std::string> read_recent() {
-    constexpr std::uint64_t kMost = std::uint64_t{1} << 20;  // a dozen paths
+    constexpr std::uint64_t kMost = std::uint64_t{1} << 20;  // far more than a dozen paths
     const Result<std::vector<std::byte>> bytes = read_file(recent_file(), kMost);
     std::vector<std::string> out;
     if (!bytes) return out;
@@ -79,13 +79,13 @@ void add_recent(std::vector<std::string>& recent, const std::string& path, bool 
     const fs::path to = recent_file();
     if (!write || to.empty()) return;
     fs::create_directories(to.parent_path(), error);
-    // A pipe or a device of that name is left alone: writing to one may block.
+    // Do not write to a pipe or a device of that name: it may block.
     const fs::file_type there = fs::status(to, error).type();
     if (there != fs::file_type::regular && there != fs::file_type::not_found) return;
     std::string text;
     for (const std::string& line : recent) text += line + '\n';
     const std::span<const std::byte> part = std::as_bytes(std::span(text));
-    (void)write_file(to, std::span(&part, 1));  // the list is lost then, and nothing else
+    (void)write_file(to, std::span(&part, 1));  // on failure only the list is lost
 }
 
 std::string free_name(const std::string& prefix, const std::string& suffix) {

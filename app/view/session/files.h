@@ -1,5 +1,5 @@
 #pragma once
-// Files to choose from: those of a folder, and those opened before.
+// Lists of files to choose from: the meshes in a folder, samples, and files opened before.
 
 #include <filesystem>
 #include <string>
@@ -7,17 +7,18 @@
 
 namespace lacedring::view {
 
-/// Meshes in the folder of `path`, by name; by their extensions alone.
+/// The meshes in the folder of `path`, sorted by name. Only extensions are looked at.
 std::vector<std::string> meshes_beside(const std::filesystem::path& path);
 
-/// The meshes that come with the program (assets/); none where they were not installed.
+/// The meshes that come with the program (assets/); empty if they were not installed.
 std::vector<std::string> sample_meshes();
 
-/// Newest first. Kept in $XDG_STATE_HOME/lacedring/recent (~/.local/state); lost silently where that cannot be written.
+/// Files opened before, newest first, kept in $XDG_STATE_HOME/lacedring/recent (~/.local/state). If that cannot be
+/// written, the list is lost without a message.
 std::vector<std::string> read_recent();
 void add_recent(std::vector<std::string>& recent, const std::string& path, bool write);
 
-/// PREFIX-1.png, PREFIX-2.png, ...: the first that is not there yet.
+/// The first name of PREFIX-1SUFFIX, PREFIX-2SUFFIX, ... that does not exist.
 std::string free_name(const std::string& prefix, const std::string& suffix);
 
 }  // namespace lacedring::view

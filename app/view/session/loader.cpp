@@ -23,11 +23,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kSoon = 0.25;  // seconds after which something must be seen of a ring that was asked for
-// Two jobs do not compute at once, unless the older one has not noticed for so long that it was stopped.
+// Seconds after which a requested ring is shown, even if the optimizer has not finished.
+constexpr double kSoon = 0.25;
+// A job waits this long for the older, stopped job to end; after that both compute at once.
 constexpr std::chrono::seconds kTurn{1};
-constexpr std::size_t kLarge = 2000000;  // triangles of a mesh that has a stand-in
-constexpr std::size_t kMostReaders = 8;  // files and folders being read, those that nobody waits for any more included
+// Meshes of at least this many triangles get a stand-in.
+constexpr std::size_t kLarge = 2000000;
+// Files and folders being read at once, including those of stopped requests.
+constexpr std::size_t kMostReaders = 8;
 
 void measure(Document& document) {
     const auto figures = [&](std::size_t bytes, std::size_t references, const std::vector<std::uint32_t>& indices) {
@@ -51,7 +54,7 @@ void measure(Document& document) {
     document.packed = figures(packed.bytes(), 0, indices);
 }
 
-/// A model whose streams are made, and their figures.
+/// Sets the document's model, the views of its streams, and their figures.
 Result<void> set_model(Document& document, std::shared_ptr<const OwningModel> model) {
     const gpu::Source source = model->packed.words.empty() ? gpu::Source::lean : gpu::Source::packed;
     LR_ASSIGN(document.views, gpu::view_streams(*model, source));
@@ -75,13 +78,14 @@ RingOptions ring_options(const RingSettings& settings, bool quick) {
 struct Loader::Shared {
     std::mutex mutex;
     std::condition_variable changed;
-    std::function<void()> wake;   // empty once the loader is gone
-    std::shared_ptr<Job> newest;  // null: nothing is being done, or nobody wants it
+    std::function<void()> wake;  // empty after the loader's destructor
+    // The current request; null: none, or canceled.
+    std::shared_ptr<Job> newest;
     News news;
     Progress progress;
-    std::size_t readers = 0, computing = 0;  // threads
-    std::uint64_t listing = 0;               // number of the newest one
-    std::weak_ptr<const Mesh> measured;      // whose formats were
+    std::size_t readers = 0, computing = 0;  // numbers of threads
+    std::uint64_t listing = 0;               // number of the newest call of list()
+    std::weak_ptr<const Mesh> measured;      // the mesh whose formats were measured
 
     void say_news() {
         if (wake) wake();
@@ -94,7 +98,7 @@ class Loader::Job {
     Job(std::shared_ptr<Shared> shared, Request request)
         : shared_(std::move(shared)), request_(std::move(request)), asked_(Clock::now()) {}
 
-    /// With the mutex held. Nothing of it is news from then on.
+    /// Call with the mutex held. The job publishes nothing after that.
     void stop() { stop_ = true; }
     const std::string& path() const { return request_.input ? request_.input->path : request_.document->path; }
     bool reads() const { return request_.input.has_value(); }
@@ -119,7 +123,7 @@ class Loader::Job {
     const Request request_;
     const Clock::time_point asked_;
     std::atomic<bool> stop_ = false;
-    bool reading_ = false, computing_ = false;  // counted in what is shared
+    bool reading_ = false, computing_ = false;  // counted in Shared
 };
 
 Loader::Loader(Threads& threads, std::function<void()> wake) : threads_(threads), shared_(std::make_shared<Shared>()) {
@@ -197,7 +201,7 @@ void Loader::list(const std::string& path) {
     if (started) return;
     const std::lock_guard lock(shared_->mutex);
     --shared_->readers;
-    shared_->news.error = path + ": its folder is not listed: " + started.error().message;
+    shared_->news.error = path + ": cannot list its folder: " + started.error().message;
 }
 
 Loader::Progress Loader::progress() const {
@@ -255,7 +259,7 @@ void Loader::Job::run() {
     shared_->changed.notify_all();
 }
 
-/// Reads the file: it may take for ever.
+/// Reads the file. On a dead network disk it may never return.
 Result<app::LoadedMesh> Loader::Job::read() {
     say("reading the file", 0.05);
     app::RunLog log;
@@ -267,7 +271,7 @@ Result<app::LoadedMesh> Loader::Job::read() {
     return mesh;
 }
 
-/// Waits until the job before this one has stopped computing. False: this one was stopped meanwhile.
+/// Waits until the older job has stopped computing, for at most kTurn. Returns false if this job was stopped.
 bool Loader::Job::begin_computing() {
     std::unique_lock lock(shared_->mutex);
     shared_->changed.wait_for(lock, kTurn, [this] { return stop_ || shared_->computing == 0; });
@@ -277,23 +281,24 @@ bool Loader::Job::begin_computing() {
     return true;
 }
 
-/// Rings and streams. `quick`: one seed, nothing optimised, lean alone.
+/// Makes rings and streams, and publishes the document. `quick`: one seed, no optimizer, only lean.
 Result<void> Loader::Job::finish(Document& document, bool quick) {
     const RingSettings& settings = request_.settings;
     const CornerTable& table = *document.table;
-    // In steps of the bar: ring, lean's passes, packed's passes.
+    // Where the progress bar stands; then come lean's passes up to 0.8 and packed's up to 1.
     const double share = quick ? 0.55 : document.optimised ? 0.0 : 0.6;
     say("making the ring", share);
     auto expansion = std::make_shared<Expansion>();
     const Rings rings = expand_rings(table, ring_options(settings, quick), expansion.get());
     if (stopped()) return {};
     bool shown = quick || reads();
-    // An optimiser that takes its time lets the ring be seen as it was made.
+    // While the optimizer runs, show the ring as expand_rings made it, once kSoon has passed.
     const auto show = [&] {
         if (shown || since_asked() < kSoon) return;
         shown = true;
         Result<EncodedLean> lean = encode_lean(table, rings, {.wart_skipping = settings.warts});
-        if (!lean) return;  // reported when the optimized rings are encoded
+        // Reported when the optimized rings are encoded.
+        if (!lean) return;
         Document early = document;
         auto model = std::make_shared<OwningModel>(*document.model);
         model->lean = std::move(*lean);
@@ -311,7 +316,7 @@ Result<void> Loader::Job::finish(Document& document, bool quick) {
         options.cost = cost;
         options.passes = quick ? 0 : settings.passes;
         options.random_seed = settings.random_seed;
-        options.threads = std::max(std::thread::hardware_concurrency(), 2U) - 1;  // one draws
+        options.threads = std::max(std::thread::hardware_concurrency(), 2U) - 1;  // one is left for drawing
         options.progress = [&, from, to, what](std::uint32_t done) {
             say(what, from + (to - from) * done / settings.passes);
             show();
@@ -320,20 +325,20 @@ Result<void> Loader::Job::finish(Document& document, bool quick) {
         return options;
     };
     auto lean_rings = std::make_shared<Rings>(
-        optimize_rings(table, rings, optimise_options(kLeanRingCost, share, 0.8, "optimising the ring")));
+        optimize_rings(table, rings, optimise_options(kLeanRingCost, share, 0.8, "optimizing the ring")));
     if (stopped()) return {};
     auto model = std::make_shared<OwningModel>(*document.model);
     LR_ASSIGN(model->lean, encode_lean(table, *lean_rings, {.wart_skipping = settings.warts}));
     if (!quick) {
         const OptimizeOptions optimise =
-            optimise_options(kPackedRingCost, 0.8, 1.0, "optimising for the packed stream");
+            optimise_options(kPackedRingCost, 0.8, 1.0, "optimizing for the packed stream");
         LR_ASSIGN(PackedChoice packed, encode_smallest_packed(table, ring_options(settings, quick), optimise));
         model->packed = std::move(packed.stream);
     }
     LR_TRY(gpu::encode_seams(*model));
     if (stopped()) return {};
     document.rings = std::move(lean_rings);
-    // Where it went the same way it stays the same one, so that what is made of it does.
+    // Keep the old object if the expansion is the same, so that paintings made of it stay valid.
     if (!document.expansion || *document.expansion != *expansion) document.expansion = std::move(expansion);
     LR_TRY(set_model(document, std::move(model)));
     document.settings = settings;
@@ -342,7 +347,7 @@ Result<void> Loader::Job::finish(Document& document, bool quick) {
     return {};
 }
 
-/// The corner table and the surface of a mesh, shown with a quick ring.
+/// Makes the corner table and the drawn surface of a mesh, and publishes it with a quick ring.
 Result<void> Loader::Job::make(Document& document, const std::shared_ptr<const Materials>& materials,
                                bool has_materials) {
     say("building the corner table", 0.3);
@@ -359,7 +364,7 @@ Result<void> Loader::Job::make(Document& document, const std::shared_ptr<const M
     return finish(document, true);
 }
 
-/// A coarse mesh in the place of one that takes long to make a ring of.
+/// Publishes a coarse mesh first, if making the ring of the mesh takes long.
 void Loader::Job::show_stand_in(const app::LoadedMesh& loaded) {
     if (loaded.mesh.triangle_count() < kLarge) return;
     say("making a coarse stand-in", 0.2);
@@ -371,11 +376,12 @@ void Loader::Job::show_stand_in(const app::LoadedMesh& loaded) {
     surface->vertex_count = mesh.vertex_count;
     document.mesh = std::make_shared<const Mesh>(std::move(mesh));
     document.surface = std::move(surface);
-    if (!make(document, std::make_shared<const Materials>(), false)) return;  // the mesh itself will say why
+    if (!make(document, std::make_shared<const Materials>(), false))
+        // The same error will come from the mesh itself.
+        return;
 }
 
-/// The figures of every format, with the ring recommended for each: once for a mesh, unless another ring was asked for
-/// before they came.
+/// Measures every format with the ring recommended for it; skips a mesh that was measured before.
 void Loader::Job::measure_formats(const Document& document) {
     {
         const std::lock_guard lock(shared_->mutex);
@@ -418,7 +424,7 @@ void Loader::Job::work() {
     } else {
         if (!begin_computing()) return;
         document = *request_.document;
-        document.optimised = true;  // shown already: the bar begins with the ring
+        document.optimised = true;  // the progress bar begins with the ring
     }
     if (stopped()) return;
     if (reads()) document.report = report_topology(*document.table);

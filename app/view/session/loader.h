@@ -1,6 +1,6 @@
 #pragma once
-// Reads, encodes and measures on threads beside the window's. The newest request is the one that counts: it stops the
-// one before it, and does not wait for a disk that the one before it waits for.
+// Reads, encodes and measures meshes on threads of its own. A new request stops the one before it, and does not wait
+// for it if it is blocked by a disk.
 
 #include <functional>
 #include <memory>
@@ -15,30 +15,31 @@ namespace lacedring::view {
 
 class Loader {
   public:
-    /// `wake` is called, by other threads, when there is news; not after the loader is gone.
+    /// `wake` is called by other threads when there is news, but never after the destructor.
     Loader(Threads& threads, std::function<void()> wake);
-    ~Loader();  ///< Stops what is being done, without waiting for it.
+    /// Stops the current request, without waiting for its thread.
+    ~Loader();
     Loader(const Loader&) = delete;
     Loader& operator=(const Loader&) = delete;
 
-    /// Reads a file. What it gives comes one by one: the mesh with a quick ring, then with the optimised one and the
-    /// packed stream, then tables, then formats.
+    /// Reads a file. Results arrive one by one: the mesh with a quick ring, the mesh with the optimized ring and the
+    /// packed stream, the LR tables, the formats.
     void open(const Input& input, const RingSettings& settings);
-    /// Makes another ring over the same mesh.
+    /// Makes another ring for the same mesh.
     void encode(std::shared_ptr<const Document> document, const RingSettings& settings);
     void cancel();
-    /// Lists the meshes in the folder of `path`: a folder may be as slow as a file.
+    /// Lists the meshes in the folder of `path`, on a thread: reading a folder may be as slow as reading a file.
     void list(const std::string& path);
 
     struct Progress {
         bool busy = false;
-        bool background = false;  ///< what is being done keeps nobody waiting
-        std::string what;
+        bool background = false;  ///< the user does not wait for it
+        std::string what;         ///< name of the current step
         double share = 0;
     };
     Progress progress() const;
 
-    /// What has come since the last call.
+    /// Results that arrived since the last take().
     struct News {
         std::shared_ptr<const Document> document;
         std::shared_ptr<const Tables> tables;
@@ -60,7 +61,7 @@ class Loader {
     void request(Request request);
 
     Threads& threads_;
-    std::shared_ptr<Shared> shared_;  // with the threads
+    std::shared_ptr<Shared> shared_;  // shared with the threads
 };
 
 }  // namespace lacedring::view

@@ -15,10 +15,11 @@ namespace lacedring::view {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::size_t kDepth = 40;  // of includes: one that includes itself ends there
+constexpr std::size_t kDepth = 40;  // deeper includes are taken for a cycle
 
 std::optional<std::string> read(const fs::path& file, std::map<std::string, Stamp>& files) {
-    files[file.string()] = stamp_of(file);  // before it is read: what is written meanwhile is seen next time
+    // Take the stamp before reading, so that a write in between is noticed the next time.
+    files[file.string()] = stamp_of(file);
     constexpr std::uint64_t kMost = std::uint64_t{16} << 20;  // no shader is that long
     const Result<std::vector<std::byte>> bytes = read_file(file, kMost);
     if (!bytes) return std::nullopt;
@@ -80,7 +81,7 @@ std::optional<EShLanguage> stage_of(const fs::path& name) {
     return at == kStages.end() ? std::nullopt : std::optional(at->second);
 }
 
-/// The errors of a log, each line once, the file in front where glslang says none.
+/// The errors of a log without duplicate lines. Adds the file's name where glslang gives none.
 Error errors(const std::string& file, const std::string& log) {
     constexpr std::string_view kError = "ERROR: ";
     std::string out;
@@ -95,7 +96,7 @@ Error errors(const std::string& file, const std::string& log) {
         if (!placed) line.insert(0, file + ": ");
         if (said.insert(line).second) out += (out.empty() ? "" : "\n") + line;
     }
-    return {ErrorCode::malformed, out.empty() ? file + ": glslang refuses it and does not say why" : out};
+    return {ErrorCode::malformed, out.empty() ? file + ": glslang refuses it without an error message" : out};
 }
 
 }  // namespace
@@ -121,11 +122,11 @@ Result<std::vector<std::uint32_t>> ShaderCompiler::compile(const std::string& na
                                                            std::map<std::string, Stamp>& files) {
     const std::string file = "shaders/" + name;
     const std::optional<EShLanguage> stage = stage_of(name);
-    if (!stage) return Error{ErrorCode::unsupported, file + ": no stage has this ending"};
+    if (!stage) return Error{ErrorCode::unsupported, file + ": no shader stage has this extension"};
     const std::optional<std::string> text = read(folder_ / name, files);
     if (!text) return Error{ErrorCode::malformed, file + ": cannot be read"};
 
-    // As glslangValidator -V --target-env vulkan1.3 does it, so that the words are the same.
+    // The same settings as glslangValidator -V --target-env vulkan1.3, for the same words.
     constexpr auto kMessages = static_cast<EShMessages>(EShMsgDefault | EShMsgSpvRules | EShMsgVulkanRules);
     glslang::TShader shader(*stage);
     const char* string = text->data();

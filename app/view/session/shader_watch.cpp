@@ -20,15 +20,17 @@ using Files = std::map<std::string, Stamp>;
 using gpu::ShaderSet;
 
 constexpr std::chrono::milliseconds kBetweenLooks{150};
-constexpr std::chrono::milliseconds kWriting{15};  // an editor takes for a file, about
+// About the time an editor takes to write a file.
+constexpr std::chrono::milliseconds kWriting{15};
 constexpr int kMostWaits = 20;
 
-/// What the thread knows of one shader.
+/// The thread's state of one shader.
 struct Known {
     const gpu::Shader* built_in = nullptr;
-    Files files;                                    ///< that it was compiled from, as they were
-    std::string error;                              ///< of the last time
-    std::shared_ptr<const ShaderSet::Words> words;  ///< null: as built in
+    /// The files that it was compiled from; empty: not compiled yet.
+    Files files;
+    std::string error;                              ///< of the last compilation
+    std::shared_ptr<const ShaderSet::Words> words;  ///< null: same as built in
 };
 
 bool as_they_were(const Files& files) {
@@ -45,7 +47,7 @@ Files files_of(const fs::path& folder) {
     return out;
 }
 
-/// As they were when the program was built: one that is newer than the program has changed.
+/// The files of the folder, with a zero stamp (changed) for those newer than the program.
 Files built_files(const fs::path& folder) {
     std::error_code error;
     const fs::file_time_type built = fs::last_write_time("/proc/self/exe", error);
@@ -80,7 +82,7 @@ bool same(const ShaderSet::Replaced& a, const ShaderSet::Replaced& b) {
                       [](const auto& x, const auto& y) { return x.first == y.first && *x.second == *y.second; });
 }
 
-/// The first few lines of all errors; an error in an included file is one line, however many include it.
+/// The first lines of all errors. An error in an included file is listed once, however many shaders include it.
 std::string told(const std::vector<Known>& shaders) {
     constexpr std::size_t kLines = 4;
     std::vector<std::string> lines;
@@ -109,7 +111,7 @@ struct ShaderWatch::Shared {
     std::mutex mutex;
     std::condition_variable wake;
     News news;
-    std::uint64_t begun = 0;  // looks
+    std::uint64_t begun = 0;  // checks of the files begun
     bool force = false, quit = false;
 
     void run();
@@ -165,17 +167,18 @@ void ShaderWatch::Shared::run() {
     } catch (const std::bad_alloc&) {
         const std::lock_guard lock(mutex);
         news.fresh = true;
-        news.error = "not enough memory to compile shaders: they are not watched any more";
+        news.error = "not enough memory to compile shaders: watching them has stopped";
     }
 }
 
 void ShaderWatch::Shared::watch() {
     std::vector<Known> shaders;
     for (const gpu::Shader& shader : spirv_all) shaders.push_back({&shader, {}, {}, nullptr});
-    // What a shader that was not compiled yet may have been built from; of another folder nothing was built.
+    // The files that shaders not compiled yet were built from; empty if the program was built from another folder.
     std::optional<Files> built;
     if (folder == built_from) built = built_files(folder);
-    std::optional<ShaderCompiler> compiler;  // until it is needed, not even its tables are made
+    // Made when first needed: it has large tables.
+    std::optional<ShaderCompiler> compiler;
     for (bool first = true;; first = false) {
         bool forced = false;
         {
@@ -191,7 +194,7 @@ void ShaderWatch::Shared::watch() {
             const bool fits = shader.files.empty() ? as_built : as_they_were(shader.files);
             if (forced || !fits) changed.push_back(&shader);
         }
-        // A file that is being written is waited for: half of it has errors that nobody made.
+        // Wait while files are still being written: a half-written file does not compile.
         for (int i = 0; !changed.empty() && i < kMostWaits; ++i) {
             const Files files = files_of(folder);
             std::this_thread::sleep_for(kWriting);

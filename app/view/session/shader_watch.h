@@ -1,6 +1,6 @@
 #pragma once
-// Looks after a folder of shaders on a thread of its own: compiles what changes, and what includes what changes, and
-// gives the words once all of it compiles. Knows of no device.
+// Watches a folder of shaders on a thread of its own. Recompiles shaders when they or their includes change, and gives
+// their SPIR-V once all of them compile. Does not use the device.
 
 #include <filesystem>
 #include <memory>
@@ -13,36 +13,40 @@ namespace lacedring::view {
 
 class ShaderWatch {
   public:
-    /// `built_from`: the folder that the program was built from, or empty. If `folder` is that one, only what changed
-    /// after the program was built is compiled; of another one everything is. Errors: kDeviceFailure (no thread).
+    /// `built_from`: the folder that the program was built from, or empty. If `folder` is the same, only shaders that
+    /// changed after the build are compiled, else all. Errors: kDeviceFailure (no thread).
     static Result<std::unique_ptr<ShaderWatch>> create(Threads& threads, std::filesystem::path folder,
                                                        std::filesystem::path built_from);
-    ~ShaderWatch();  ///< Ends the watch, without waiting for what is being compiled.
+    /// Ends the watch, without waiting for the thread.
+    ~ShaderWatch();
     ShaderWatch(const ShaderWatch&) = delete;
     ShaderWatch& operator=(const ShaderWatch&) = delete;
 
     const std::filesystem::path& folder() const;
-    /// Compiles everything, changed or not, and gives it even if it is what was given before.
+    /// Compiles all shaders, changed or not, and reports them even if the result is the same as before.
     void force();
 
     struct News {
-        bool fresh = false;    ///< something came since the last call: what follows is of now
-        std::string error;     ///< lines of "shaders/draw/surface.frag:42: why"; then `replaced` is as before
-        bool changed = false;  ///< `replaced` is to be taken
-        gpu::ShaderSet::Replaced replaced;  ///< every shader that is not as it was built in
-        std::uint32_t compiled = 0;         ///< shaders, since the beginning
-        std::uint64_t looks = 0;            ///< how often it has looked at the files, always of now
+        /// There is news since the last call; else only `looks` is current.
+        bool fresh = false;
+        /// Lines of "shaders/draw/surface.frag:42: why". With an error, `replaced` is as before.
+        std::string error;
+        bool changed = false;  ///< use `replaced`
+        /// All shaders that differ from the built-in ones.
+        gpu::ShaderSet::Replaced replaced;
+        std::uint32_t compiled = 0;  ///< shaders compiled so far
+        std::uint64_t looks = 0;     ///< number of completed checks of the files
     };
     News take();
     bool has_news() const;
-    /// The first look that sees what has been written by now.
+    /// Number of the first check that will see all files written before this call.
     std::uint64_t next_look() const;
 
   private:
     struct Shared;
     explicit ShaderWatch(std::shared_ptr<Shared> shared) : shared_(std::move(shared)) {}
 
-    std::shared_ptr<Shared> shared_;  // with the thread
+    std::shared_ptr<Shared> shared_;  // shared with the thread
 };
 
 }  // namespace lacedring::view

@@ -1,4 +1,4 @@
-// The LR tables behind a selected corner.
+// Functions of Tables (document.h): makes them, and answers questions about a selected corner.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace lacedring::view {
 namespace {
 
-/// The corner of the LR triangle at the same vertex.
+/// The corner of the LR triangle at the same vertex; null for degenerate triangles.
 CornerId to_lr(const Tables& tables, const Operators<LrView>& operators, const CornerTable& table, CornerId corner) {
     const std::uint32_t number = tables.number[triangle(corner).value];
     if (number == UINT32_MAX) return kNullCorner;
@@ -68,7 +68,7 @@ double crease_angle(const Document& document) {
             folds.push_back({table.vertex(next(c)).value, table.vertex(previous(c)).value, cosine});
         }
     }
-    // Folds that touch each other form a line; one of few edges is none that a person sees.
+    // Folds that share vertices form a line. Lines of fewer than kLine edges do not look like creases.
     constexpr std::uint32_t kLine = 6;
     std::vector<std::uint32_t> root(table.vertex_count), edges(table.vertex_count);
     const auto find = [&](std::uint32_t v) {

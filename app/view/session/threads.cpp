@@ -26,7 +26,8 @@ Result<void> Threads::start(std::function<void()> work) {
     auto ended = std::make_shared<std::atomic<bool>>(false);
     Result<std::thread> thread = start_thread([work = std::move(work), ended]() mutable {
         work();
-        work = {};  // what it shares goes before it counts as ended
+        // Release shared objects before the thread counts as ended.
+        work = {};
         *ended = true;
     });
     if (!thread) return thread.error();
@@ -47,7 +48,7 @@ bool Threads::finish(std::chrono::milliseconds patience) {
 void Threads::join_ended() {
     std::erase_if(running_, [](Running& running) {
         if (!*running.ended) return false;
-        running.thread.join();  // nothing is left but its exit
+        running.thread.join();  // returns at once: its work has ended
         return true;
     });
 }

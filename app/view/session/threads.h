@@ -1,5 +1,5 @@
 #pragma once
-// Threads that the program need not wait for: one may be reading a file from a dead network disk when it ends.
+// Threads that may outlive the program's end: one may be reading from a dead network disk.
 
 #include <atomic>
 #include <chrono>
@@ -12,23 +12,23 @@
 
 namespace lacedring::view {
 
-/// A thread, for a caller that joins it. Errors: kDeviceFailure (the system gives no more threads).
+/// Starts a thread that the caller joins. Errors: kDeviceFailure (the system gives no more threads).
 Result<std::thread> start_thread(std::function<void()> work);
 
-/// Starts threads and counts those that run. `work` must own or share all that it uses: a thread may still run when
-/// the object that started it, and this one, are gone. Not thread-safe: one thread starts and finishes them.
+/// Starts threads and keeps track of them. `work` must own or share everything it uses: a thread may still run after
+/// the object that started it and this object are destroyed. Not thread-safe.
 class Threads {
   public:
     Threads() = default;
-    ~Threads();  ///< Leaves behind the threads that still run.
+    ~Threads();  ///< Detaches the threads that still run.
     Threads(const Threads&) = delete;
     Threads& operator=(const Threads&) = delete;
 
     /// Errors: kDeviceFailure (the system gives no more threads).
     Result<void> start(std::function<void()> work);
 
-    /// Waits until all threads have ended, but no longer than `patience`. False: some still run. The program must then
-    /// end by std::_Exit, since returning from main destroys statics that they use.
+    /// Waits until all threads have ended, for at most `patience`. Returns false if some still run: the program must
+    /// then end with std::_Exit, since returning from main destroys statics that they use.
     bool finish(std::chrono::milliseconds patience);
 
   private:

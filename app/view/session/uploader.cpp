@@ -74,7 +74,8 @@ void Uploader::finish() {
     changed_.wait(lock, [&] { return !working_ && !next_; });
 }
 
-/// Those of another ring's model are the same.
+/// Uploads the model's materials, or returns those uploaded last if they are the same: models of other rings share
+/// them.
 Result<std::shared_ptr<const UploadedMaterials>> Uploader::materials_of(const OwningModel& model) {
     std::shared_ptr<const UploadedMaterials> out = materials_.lock();
     const std::uint32_t triangles = model.triangle_count();
@@ -120,7 +121,7 @@ void Uploader::run() {
         }
         lock.lock();
         working_ = false;
-        // Else something else is wanted by now, or the same again after it was stopped.
+        // Drop the result if another job was asked for, or the same one again after it was stopped.
         if (last_ == done.job && !next_ && !quit_) done_ = std::move(done);
         changed_.notify_all();
         wake_();

@@ -1,5 +1,5 @@
 #pragma once
-// Puts models on the device on a thread of its own, so that the window goes on with what it has.
+// Uploads models to the device on a thread of its own, so that the window can draw meanwhile.
 
 #include <atomic>
 #include <chrono>
@@ -17,20 +17,20 @@
 
 namespace lacedring::view {
 
-/// Materials on the device, and those that they were made of.
+/// Materials on the device, and their source.
 struct UploadedMaterials {
-    std::shared_ptr<const Materials> of;  ///< null: one grey material
+    std::shared_ptr<const Materials> of;  ///< null: one gray material
     std::uint32_t triangles = 0;
     gpu::GpuMaterials device;
 };
 
-/// A mesh on the device, with what it points to there.
+/// A mesh on the device, with the materials it points to.
 struct UploadedMesh {
     gpu::ExpandedMesh expanded;
     std::shared_ptr<const UploadedMaterials> materials;  ///< UploadKey::With::materials
 };
 
-/// What is put there of a model, and with what beside its triangles.
+/// Which form of a model is uploaded: source, path, and data besides its triangles.
 struct UploadKey {
     enum class With {
         ring,      ///< ring order, classes and the ring's lines
@@ -56,26 +56,26 @@ class Uploader {
     };
     struct Done {
         Job job;
-        std::vector<UploadedMesh> meshes;  ///< one a key
-        std::optional<Error> error;        ///< then there are none
+        std::vector<UploadedMesh> meshes;  ///< one per key; empty after an error
+        std::optional<Error> error;
     };
 
-    /// `wake` is called by the thread when something is done. Errors: kDeviceFailure (no thread, and Vulkan's).
+    /// `wake` is called by the thread when a job is done. Errors: kDeviceFailure (no thread; Vulkan).
     static Result<std::unique_ptr<Uploader>> create(gpu::Context& context, std::function<void()> wake);
-    ~Uploader();  ///< Stops what is being done, and waits for that: it uses the device.
+    /// Stops the current job and waits for the thread, which uses the device.
+    ~Uploader();
     Uploader(const Uploader&) = delete;
     Uploader& operator=(const Uploader&) = delete;
 
-    /// Queues the job, in the place of the one before it: that one is stopped if it has begun. `expander` must outlive
-    /// the job.
+    /// Queues the job; drops a queued job and stops a running one. `expander` must outlive the job.
     void ask(Job job, gpu::Expander& expander);
-    /// Asked for last, and not taken yet.
+    /// Whether this job was asked for last, and its result was not taken yet.
     bool asked(const Job& job) const;
-    /// What was asked for last, once it is done.
+    /// Takes the result of the job asked for last, if it is done.
     std::optional<Done> take();
-    /// Waits until nothing is being done. What is done by then can still be taken.
+    /// Waits until no job is queued or running. A result can still be taken afterwards.
     void finish();
-    /// Stops what is being done for good. False: it still runs after `patience`.
+    /// Stops the uploader for good. Returns false if a job still runs after `patience`.
     bool stop(std::chrono::milliseconds patience);
 
   private:
@@ -91,11 +91,11 @@ class Uploader {
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     gpu::Expander* expander_ = nullptr;
-    std::optional<Job> next_, last_;  // not begun; asked for and not taken
+    std::optional<Job> next_, last_;  // queued; asked for last and not taken
     std::optional<Done> done_;
-    std::atomic<bool> stop_ = false;  // what is being done
+    std::atomic<bool> stop_ = false;  // stops the running job
     bool working_ = false, quit_ = false;
-    std::weak_ptr<const UploadedMaterials> materials_;  // uploaded last; the thread's own
+    std::weak_ptr<const UploadedMaterials> materials_;  // uploaded last; used only by the thread
     std::thread thread_;
 };
 

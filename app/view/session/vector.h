@@ -1,5 +1,5 @@
 #pragma once
-// Points and directions of the mesh's coordinates.
+// Points and directions in the mesh's coordinates.
 
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
 #pragma once
-// What the viewer can be asked to do, by keys, mouse, panels and scripts alike.
+// Actions of the viewer, for keys, mouse, panels and scripts.
 
 #include <cstdint>
 #include <string>
@@ -16,7 +16,7 @@ struct Setting;
 namespace action {
 
 enum class Do {
-    cancel,  ///< what is being done
+    cancel,  ///< stops loading, or saving a turn
     escape,  ///< closes help, else cancels, else clears selection and errors
     frame_selection,
     begin_ring,  ///< at the selected corner
@@ -24,11 +24,11 @@ enum class Do {
     reload_shaders,
     close
 };
-/// Opens the first of the files that can be read.
+/// Opens the first file that can be read.
 struct Open {
     std::vector<std::string> paths;
 };
-/// Changes a choice. The value is one that the setting has.
+/// Sets a choice to a valid value of its setting.
 struct Set {
     const Setting* setting;
     double value;
@@ -39,7 +39,7 @@ struct FrameAll {
 struct LookFrom {
     Vector direction;
 };
-// Pixels of the picture; zoom to a point, from its upper left corner.
+// Camera movements, in pixels of the picture. Zoom keeps the point x, y, from the upper left corner, in place.
 struct Turn {
     double dx, dy;
 };
@@ -53,18 +53,19 @@ struct Zoom {
 struct Pick {
     double x, y;
 };
-/// From the selected corner to another: n p o s l r.
+/// Moves the selection by an operator: n, p, o, s, l or r.
 struct Step {
     char operation;
 };
-/// Empty: the first free name in the working folder. Likewise below.
+/// Saves the picture as a PNG file.
 struct SavePicture {
+    /// Empty: the first free name in the working folder.
     std::string path;
-    bool window = false;  ///< notices, too
+    bool window = false;  ///< with panels and notices
 };
-/// A whole turn in so many pictures without panels, one a frame, each a PNG file in the folder, which is made if it is
-/// not there.
+/// Saves a whole turn without panels, one picture per frame, as PNG files in a folder, which is created if missing.
 struct SaveTurn {
+    /// Empty: the first free name in the working folder.
     std::string folder;
     std::uint32_t pictures = 90;
 };

@@ -1,4 +1,4 @@
-// docs/viewer.md lists keys and mouse for people, draw_help (panel_help.cpp) for people in a hurry.
+// The keys and mouse actions are also listed in docs/viewer.md and panel_help.cpp.
 #include "app/view/ui/controls.h"
 
 #include <imgui.h>
@@ -12,9 +12,10 @@
 namespace lacedring::view {
 namespace {
 
-constexpr double kClick = 4;  // nominal pixels that a click may stray
+// Nominal pixels that the mouse may move during a click.
+constexpr double kClick = 4;
 
-/// As f3d: 1 front, 3 right, 7 top, 9 three-quarter.
+/// The direction for a digit key, as in f3d: 1 front, 3 right, 7 top, 9 three-quarter.
 std::optional<Vector> side(int key, const Vector& up) {
     const bool z_up = std::abs(up[2]) > 0.7;
     const Vector front = z_up ? Vector{0, -1, 0} : Vector{0, 0, 1};

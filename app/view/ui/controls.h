@@ -1,5 +1,5 @@
 #pragma once
-// Keys and the mouse over the picture, as actions.
+// Turns events of keys and mouse into actions.
 
 #include <functional>
 #include <optional>
@@ -11,7 +11,7 @@ namespace lacedring::view {
 
 class Controls {
   public:
-    /// The actions of an event, in pixels of the picture, to `perform`. `up`: the camera's.
+    /// Passes the actions of an event, whose places are in pixels of the picture, to `perform`. `up`: the camera's.
     void handle(const Event& event, const State& state, VkExtent2D extent, const Vector& up,
                 const std::function<void(Action)>& perform);
 

@@ -45,10 +45,10 @@ void mark_selection(const State& state, const Orbit& orbit, double width, double
          {previous(c), "p", rgba(150, 150, 150)},
          {next(c), "n", rgba(150, 150, 150)},
          {c, "c", kSelectedColour}}};
-    // Letters only where triangles have room for them.
+    // Draw letters only if the triangles are large enough.
     const auto a = place(c, 1), b = place(next(c), 1);
     const bool room = a && b && std::hypot((*a)[0] - (*b)[0], (*a)[1] - (*b)[1]) > static_cast<double>(px(46));
-    // The least important come first and lie below; where one would lie under another, it is a dot.
+    // The last mark is the most important. A mark that would overlap a more important one becomes a dot.
     std::vector<ImVec2> places(marks.size());
     for (std::size_t i = marks.size(); i-- > 0;) {
         const auto& [corner, text, colour] = marks[i];

@@ -8,7 +8,7 @@
 
 namespace lacedring::view {
 
-/// The divider, and letters at the selected corner and its neighbours. Between ImGui::NewFrame and Render.
+/// Draws the divider, and letters at the selected corner and its neighbors. Call between ImGui::NewFrame and Render.
 void draw_marks(const State& state, const Orbit& orbit, std::uint32_t width, std::uint32_t height);
 
 }  // namespace lacedring::view

@@ -1,4 +1,4 @@
-// Left: what is opened and how it is shown.
+// The left panel: which file is open, and how it is shown.
 #include <imgui.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace lacedring::view {
 namespace {
 
-constexpr float kLabel = 104;  // nominal pixels before a field
+constexpr float kLabel = 104;  // width of a label in nominal pixels
 
 void label(const char* text, const char* explained) {
     ImGui::AlignTextToFramePadding();
@@ -23,7 +23,7 @@ void label(const char* text, const char* explained) {
     ImGui::SetNextItemWidth(-1);
 }
 
-/// A list of a setting's values. `other`: what it shows of a value that is in no list.
+/// Draws a list of a setting's values. `other`: text for a value that is not in the list.
 void choose(State& state, const char* name, const char* title, const char* explained, const char* other = "") {
     const Setting& setting = *find_setting(name);
     const double now = setting.get(state.choices);
@@ -40,7 +40,7 @@ void choose(State& state, const char* name, const char* title, const char* expla
     ImGui::PopID();
 }
 
-/// Values of a number, as `labels` has them.
+/// Draws a list of some values of a setting that is a number.
 template <std::size_t N>
 void choose_number(State& state, const char* name, const char* title, const std::pair<const char*, int> (&values)[N],
                    const char* explained) {
@@ -76,7 +76,7 @@ void check(State& state, const char* name, const char* title, const char* explai
     explain(explained);
 }
 
-/// `end`: in the place of the setting's largest value.
+/// Draws a slider. `end` replaces the setting's largest value.
 void slide(State& state, const char* name, double end, const char* format, ImGuiSliderFlags flags = 0) {
     const Setting& setting = *find_setting(name);
     auto value = static_cast<float>(std::min(setting.get(state.choices), end));
@@ -88,7 +88,7 @@ void slide(State& state, const char* name, double end, const char* format, ImGui
     ImGui::PopID();
 }
 
-/// Scrolls to the last item, once for each path.
+/// Scrolls to the last item, once per path.
 void show_once(const std::string& path) {
     ImGuiStorage& storage = *ImGui::GetStateStorage();
     const int now = static_cast<int>(std::hash<std::string>()(path));
@@ -114,7 +114,7 @@ void list_files(State& state, const std::vector<std::string>& files, const char*
 
 void draw_files(State& state) {
     if (!ImGui::BeginTabBar("files")) return;
-    // Whole lines of it, and some even in a low window.
+    // A whole number of lines, and at least three even in a low window.
     const float line = ImGui::GetTextLineHeightWithSpacing();
     const float room = ImGui::GetContentRegionAvail().y - ImGui::GetStyle().ItemSpacing.y;
     const ImVec2 size{0, line * std::max(3.0F, std::floor(room / line))};
@@ -137,10 +137,10 @@ void draw_files(State& state) {
     ImGui::EndTabBar();
 }
 
-/// How the ring-expander is watched.
+/// Draws the controls for watching the ring-expander.
 void draw_growth(State& state) {
     const double end = state.facts.growth_end(), at = state.choices.growth;
-    label("Speed", "Triangles a second");
+    label("Speed", "Triangles per second");
     slide(state, "speed", 1e6, "%.0f /s", ImGuiSliderFlags_Logarithmic);
     label("Invaded", "Triangles so far");
     slide(state, "growth", end, "%.0f");
@@ -161,32 +161,32 @@ void draw_growth(State& state) {
 void draw_view(State& state) {
     heading("View");
     choose(state, "view", "Show",
-           "How the surface is drawn. Material: as the file says. Triangle classes: T0, T1 and T2 have none, one, two "
-           "edges on the ring. Ring order: where its vertices come along the ring. Offsets: how far apart they are "
-           "along it. Seams: edges with other normals, texture coordinates or the like on either side. Silhouette: "
-           "with outlines");
-    choose(state, "paint", "Colours",
-           "Laid over the surface. Corridors: runs of triangles between two parts of the ring. Blocks: parts of the "
-           "packed stream that decode on their own. Ring-expander: how the ring is found, triangle by triangle");
+           "How the surface is drawn. Material: with the file's materials. Triangle classes: T0, T1 and T2 have zero, "
+           "one and two edges on the ring. Ring order: place of the vertices along the ring. Offsets: distance along "
+           "the ring from a triangle's ring edge to its tip. Seams: edges at which normals, texture coordinates or "
+           "other attributes change. Silhouette: with outlines");
+    choose(state, "paint", "Colors",
+           "Colors over the surface. Corridors: runs of triangles between two parts of the ring. Blocks: parts of the "
+           "packed stream that decode on their own. Ring-expander: shows how the ring is found, triangle by triangle");
     if (state.choices.paint == Paint::growth && state.facts.document) draw_growth(state);
-    check(state, "ring-line", "ring", "The ring's line over the surface. Key E");
+    check(state, "ring-line", "ring", "Draws the ring over the surface. Key E");
     ImGui::SameLine(px(kLabel));
-    check(state, "outlines", "outlines", "Silhouettes, borders and creases, asked of the LR tables");
+    check(state, "outlines", "outlines", "Silhouettes, borders and creases, found with the LR tables");
     choose(state, "mode", "Compare",
            "The same picture from the index list and from the stream: side by side, or red where they differ");
     constexpr std::pair<const char*, int> kSamples[] = {{"1", 1}, {"4", 2}, {"9", 3}};
     choose_number(state, "samples", "Samples", kSamples,
-                  "Of each pixel, once nothing moves: more make edges smooth, and take longer. Fewer are drawn in a "
-                  "window too large for them, and where that would take longer than four seconds");
+                  "Samples of each pixel, once nothing moves. More samples make edges smoother and take longer. Fewer "
+                  "are drawn in a very large window, or if drawing would take longer than four seconds");
     const std::uint32_t drawn = state.facts.samples;
     if (drawn != 0 && drawn < state.choices.shown.samples) {
         ImGui::SetCursorPosX(px(kLabel));
         ImGui::TextDisabled("%u drawn", drawn * drawn);
     }
     constexpr std::pair<const char*, int> kCaps[] = {
-        {"30 a second", 30}, {"60 a second", 60}, {"120 a second", 120}, {"no limit", 0}};
-    choose_number(state, "fps", "Pictures", kCaps, "At most so many are drawn while something moves");
-    label("Turntable", "Turns around the mesh, so many degrees a second");
+        {"30 per second", 30}, {"60 per second", 60}, {"120 per second", 120}, {"no limit", 0}};
+    choose_number(state, "fps", "Pictures", kCaps, "Most pictures per second while something moves");
+    label("Turntable", "Turns around the mesh, at this speed in degrees per second");
     check(state, "turntable", "##turn", "Turns around the mesh. Key T");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-1);
@@ -196,36 +196,37 @@ void draw_view(State& state) {
 void draw_stream(State& state) {
     heading("Stream");
     choose(state, "source", "Format",
-           "What is on the device and drawn. Index list: three numbers for each triangle. Lean: about one. Packed: "
-           "about two bits");
+           "The format on the device that is drawn. Index list: three numbers per triangle. Lean: about one number. "
+           "Packed: about two bits");
     choose(state, "path", "Path",
-           "Where the stream becomes triangles. Compute: expanded once to an index list. The others read the stream "
-           "itself in every frame, in the shader that the name tells");
+           "Where the stream becomes triangles. Compute: it is expanded once to an index list. Others: the shader of "
+           "that name reads the stream in every frame");
     if (state.choices.shown.path == gpu::Path::compute) {
-        check(state, "decode", "decode every frame", "To see what expanding takes: it is needed only once");
+        check(state, "decode", "decode every frame", "Shows how long expanding takes; the picture needs it only once");
     }
     choose(
         state, "weld", "Weld",
-        "Which of the file's vertices are one vertex of the surface. By position: its streams hold the surface, and "
-        "which copy each corner has beside. By all attributes: only those that are the same. The file is read again");
+        "Which vertices of the file are joined to one vertex of the surface. By position: vertices at the same place; "
+        "streams hold the surface, and apart from it the copy at each corner. By all attributes: only equal vertices. "
+        "A change reads the file again");
 }
 
 void draw_ring(State& state) {
     heading("Ring");
     choose(state, "ring", "Made by",
            "The paper's two ways to find a ring. Ring-expander goes depth first; hybrid keeps parts of the ring that "
-           "are neighbours on the surface near each other along it");
+           "are neighbors on the surface near each other along it");
     if (state.choices.ring.hybrid) {
-        number(state, "k", "k", "Of the hybrid: breadth first every k triangles. 1: always");
+        number(state, "k", "k", "Period of the hybrid: breadth first every k triangles. 1: always");
     }
     number(state, "seeds", "Seeds",
-           "How many corners to start from are tried in each component; the cheapest ring is kept");
-    number(state, "seed", "Random seed", "Chooses the corners that are tried, and what the optimiser does");
+           "Number of seed corners that are tried in each component; the cheapest ring is kept");
+    number(state, "seed", "Random seed", "For random choices: seed corners, and changes by the optimizer");
     number(state, "passes", "Passes",
-           "Of the optimiser, which moves vertices along the ring so that fewer triangles are T0. 0: as it was found");
+           "Passes of the optimizer, which changes the ring so that fewer triangles are T0. 0: the ring as found");
     check(state, "warts", "skip warts",
-          "A wart is a T0 triangle next to a dead end. Lean stores the two without the T0's three numbers if it skips "
-          "them");
+          "A wart is a T0 triangle next to a dead end (T2). If lean skips warts, it does not store the three numbers "
+          "of their T0");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Keys and mouse, over the picture. docs/viewer.md has the same list, controls.cpp does what it says.
+// The help on keys and mouse, over the picture. docs/viewer.md has the same list; controls.cpp implements it.
 #include <imgui.h>
 
 #include <algorithm>
@@ -51,7 +51,7 @@ void draw_help(float left, float right, float bottom) {
         what = std::max(what, ImGui::CalcTextSize(line.what).x);
     }
     const float padding = std::min(px(22), across / 20), gap = px(16);
-    // Both columns give way in a window that is too narrow: their lines wrap.
+    // In a narrow window both columns shrink and their lines wrap.
     const float room = across - px(16) - 2 * padding - gap - ImGui::GetStyle().ScrollbarSize;
     keys = std::min(keys, room * 0.4F);
     what = std::min(what, room - keys);

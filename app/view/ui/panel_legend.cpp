@@ -1,4 +1,4 @@
-// Over the picture: what its colours mean.
+// The legend of colors over the picture.
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -15,24 +15,24 @@
 namespace lacedring::view {
 namespace {
 
-/// A swatch, a line or a ramp of colours, and what it stands for.
+/// A swatch, a line or a ramp of colors, and its meaning.
 struct Entry {
     enum Kind { swatch, line, ramp, text } kind = swatch;
     std::vector<ImU32> colours;
     std::string what;
 };
 
-/// A colour of the shaders, linear, as it looks in a bright light.
+/// Converts a linear color of the shaders to sRGB, as it looks in bright light.
 ImU32 linear(float r, float g, float b) {
     const auto srgb = [](float x) { return x <= 0.0031308F ? 12.92F * x : 1.055F * std::pow(x, 1 / 2.4F) - 0.055F; };
     return ImGui::GetColorU32(ImVec4{srgb(r), srgb(g), srgb(b), 1});
 }
 
-/// The ring is drawn black; on this ground only a pale edge shows it.
+/// The ring is drawn in black; on the dark legend, draw() puts it on a pale ground.
 const ImU32 kLine = IM_COL32(12, 12, 14, 255), kGrey = IM_COL32(176, 176, 176, 255);
 
 void add_view(const State& state, bool ring_line, std::vector<Entry>& out) {
-    const ImU32 t0 = linear(0.13F, 0.42F, 0.10F), none = linear(0.30F, 0.30F, 0.30F);  // as surface.frag has them
+    const ImU32 t0 = linear(0.13F, 0.42F, 0.10F), none = linear(0.30F, 0.30F, 0.30F);  // as in surface.frag
     switch (state.choices.shown.view) {
         case gpu::View::triangle_class:
             out.push_back({Entry::line, {kLine}, "the ring"});
@@ -70,7 +70,7 @@ void add_view(const State& state, bool ring_line, std::vector<Entry>& out) {
             break;
     }
     if (ring_line) out.push_back({Entry::line, {kLine}, "the ring"});
-    // Edges that are hardly longer than a pixel have no line.
+    // The ring's line is not drawn on edges hardly longer than a pixel.
     if (!ring_line && state.choices.layers().sides == Paint::ring)
         out.push_back({Entry::text, {}, "the ring: zoom in"});
 }
@@ -137,7 +137,8 @@ std::vector<Entry> entries(const State& state, bool ring_line) {
     return out;
 }
 
-constexpr float kMark = 42, kBetween = 18;  // nominal pixels before the words, and between entries
+// Nominal pixels before the text; between entries.
+constexpr float kMark = 42, kBetween = 18;
 
 float width_of(const Entry& entry) {
     return ImGui::CalcTextSize(entry.what.c_str()).x + (entry.kind == Entry::text ? 0 : px(kMark));
@@ -173,7 +174,7 @@ float draw_legend(const State& state, bool ring_line, float left, float right, f
     const std::vector<Entry> all = entries(state, ring_line);
     if (all.empty()) return 0;
     ImGui::PushFont(small_font());
-    // From left to right, in as many lines as that takes.
+    // Place the entries from left to right, in as many lines as needed.
     const float line = ImGui::GetTextLineHeight() + px(3), padding = px(8);
     std::vector<ImVec2> places;
     ImVec2 at{left + padding, px(4)};

@@ -1,4 +1,4 @@
-// Right: sizes, times and memory.
+// The right panel: sizes, times and memory.
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -16,7 +16,8 @@
 namespace lacedring::view {
 namespace {
 
-constexpr float kTall = 780;  // nominal pixels of a panel that has room for tall plots
+// Panels of at least this height, in nominal pixels, have tall plots.
+constexpr float kTall = 780;
 
 /// Writes at the right edge of the panel.
 void at_right(const std::string& text) {
@@ -37,7 +38,7 @@ void draw_stream_figures(const State& state) {
     heading(plain    ? "Index list"
             : packed ? "Packed stream"
                      : "Lean stream",
-            "The connectivity that is on the screen, with the ring of the panel on the left");
+            "The connectivity on the screen, with the ring chosen on the left");
     if (!state.facts.document) {
         ImGui::TextDisabled("no mesh");
         return;
@@ -49,20 +50,20 @@ void draw_stream_figures(const State& state) {
     }
     const StreamFigures& figures = plain ? document.plain : packed ? document.packed : document.lean;
     row("bits per triangle", fmt::format("{:.2f}", figures.bits),
-        "Of the connectivity, headers included, for each triangle of the file");
+        "Bits of connectivity, headers included, per triangle of the file");
     if (figures.references > 0) {
         row("references per triangle", fmt::format("{:.3f}", figures.references),
-            "Vertex numbers that are stored, for each triangle of the file. An index list has three");
+            "Stored vertex numbers per triangle of the file. An index list has three");
     }
-    row("bytes", grouped(figures.bytes), "Connectivity alone: positions and other attributes are not counted");
+    row("bytes", grouped(figures.bytes), "Connectivity only: positions and other attributes are not counted");
     if (const EncodedSeams* seams = gpu::seams_of(*document.model, state.choices.shown.source)) {
         row("seams, bits per triangle", fmt::format("{:.2f}", document.bits_per_triangle(4 * seams->words.size())),
-            "Beside the connectivity, which is that of the surface: which copy of its vertex each corner has. View "
-            "seams shows them");
+            "In addition to the connectivity of the surface: which copy of its vertex each corner has. The view Seams "
+            "shows them");
     }
     row("ACMR, FIFO of 32", fmt::format("{:.3f}", figures.acmr),
-        "Average cache miss ratio: vertices transformed for each triangle when they come in this order and the last "
-        "32 vertices are kept. 0.5 is the least, 3 the most");
+        "Average cache miss ratio: vertices transformed per triangle, in the stream's order, with a cache of the last "
+        "32 vertices. 0.5 is the least, 3 the most");
     if (!plain && !packed) {
         const LeanStatistics& ring = document.model->lean.statistics;
         row("T0 triangles", fmt::format("{} ({:.2f} %)", grouped(ring.t0), 100 * document.t0_share()),
@@ -71,17 +72,17 @@ void draw_stream_figures(const State& state) {
     }
     if (!plain) {
         row("made in", fmt::format("{:.2f} s", document.seconds),
-            "From the request to this picture's streams: reading, rings, the optimiser's passes");
-        row("optimiser",
+            "Time from the request until these streams were made: reading, rings, passes of the optimizer");
+        row("optimizer",
             !document.optimised              ? "not yet"
             : document.settings.passes == 0  ? "off"
             : document.settings.passes == 1u ? "1 pass"
                                              : fmt::format("{} passes", document.settings.passes),
-            "Passes of the optimiser over the ring, which lower the number of T0 triangles");
+            "Passes of the optimizer over the ring, which lower the number of T0 triangles");
     }
 }
 
-/// Bars of the last frames, the newest on the right.
+/// Draws bars of the last frames, the newest on the right.
 void plot(ImVec2 at, ImVec2 size, const State& state, float FrameCost::*member, float most) {
     constexpr int kFrames = 120;
     ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -108,7 +109,7 @@ void time_row(const char* name, const State& state, float FrameCost::*member, co
                                                        : fmt::format("{:.2f} s", ms / 1000);
     ImGui::TextDisabled("%s", name);
     const auto frames = static_cast<float>(std::max<std::size_t>(1, state.facts.costs.size()));
-    explain(fmt::format("{}.\nThe last {} frames drawn anew: {:.2f} ms on average, at most {:.2f}", explained,
+    explain(fmt::format("{}.\nThe last {} newly drawn frames: {:.2f} ms on average, at most {:.2f}", explained,
                         state.facts.costs.size(), sum / frames, most)
                 .c_str());
     if (tall) {
@@ -131,16 +132,16 @@ void draw_times(const State& state) {
     heading("Time of a frame", state.facts.device.c_str());
     const bool tall = ImGui::GetWindowHeight() > px(kTall);
     time_row("decode, GPU", state, &FrameCost::decode,
-             "Expanding the stream on the device. It is done once, or every frame if asked for on the left", tall);
+             "Expanding the stream on the device: once, or in every frame if chosen on the left", tall);
     time_row("draw, GPU", state, &FrameCost::draw, "Drawing the mesh on the device", tall);
     time_row("CPU", state, &FrameCost::cpu,
              "The program's own time to record a frame's commands, without waiting for the device", tall);
     row("device memory", bytes_text(state.facts.device_bytes),
-        fmt::format("Vulkan memory in use for meshes, streams and pictures, of {} that are allocated",
+        fmt::format("Vulkan memory in use for meshes, streams and pictures; {} are allocated",
                     bytes_text(state.facts.device_held))
             .c_str());
     const std::size_t host = app::resident_bytes();
-    row("host memory", host == 0 ? "-" : bytes_text(host), "What the whole program holds of the computer's memory");
+    row("host memory", host == 0 ? "-" : bytes_text(host), "Main memory that the whole program takes");
 }
 
 struct Bar {
@@ -149,13 +150,14 @@ struct Bar {
     double bits;
 };
 
-/// A line of figures, and below it a bar as long as its bits.
+/// Draws a format's figures, and below them a bar of its bits.
 void draw_format(const Bar& bar, float bits_at, float bytes_at) {
     const app::FormatNote note = app::note_on(bar.format->name);
     const bool baseline = note.origin == app::Origin::baseline;
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight();
-    constexpr double kMost = 96;  // an index list of 32 bits: a longer bar is cut, its number is not
+    // Bits of a 32-bit index list; longer bars are cut.
+    constexpr double kMost = 96;
     const float length = std::max(px(1.5F), width * static_cast<float>(std::min(1.0, bar.bits / kMost)));
     const auto put = [&](const std::string& text, float right, ImGuiCol colour) {
         ImGui::SameLine(right - ImGui::CalcTextSize(text.c_str()).x);
@@ -166,10 +168,11 @@ void draw_format(const Bar& bar, float bits_at, float bytes_at) {
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyle().Colors[baseline ? ImGuiCol_TextDisabled : ImGuiCol_Text]);
     ImGui::TextUnformatted(bar.format->name.c_str());
     ImGui::PopStyleColor();
-    const std::string recommended = bar.bytes == bar.format->bytes
-                                        ? ""
-                                        : fmt::format(". Of the ring on the screen; the recommended one takes {} bytes",
-                                                      grouped(bar.format->bytes));
+    const std::string recommended =
+        bar.bytes == bar.format->bytes
+            ? ""
+            : fmt::format(". With the ring on the screen; the recommended ring takes {} bytes",
+                          grouped(bar.format->bytes));
     explain(fmt::format("{}: {}{}", bar.format->name, note.what, recommended).c_str());
     put(grouped(bar.bytes), bytes_at, ImGuiCol_TextDisabled);
     put(fmt::format("{:.2f}", bar.bits), bits_at, ImGuiCol_Text);
@@ -185,10 +188,9 @@ void draw_formats(const State& state) {
     ImGui::Dummy({0, px(1)});
     ImGui::TextColored(ImGui::GetStyle().Colors[ImGuiCol_CheckMark], "Every format");
     explain(
-        "Bytes of the connectivity, and bits for each triangle of the file. Lean and packed: of the ring on the "
-        "screen. "
-        "The others: of the ring that the program recommends for each, as `lacedring stats` has them. Orange: LR and "
-        "what this program makes of it. Grey: others. A bar ends at 96 bits");
+        "Bytes of connectivity, and bits per triangle of the file. Lean and packed: with the ring on the screen. "
+        "Others: with the ring recommended for the format, as in `lacedring stats`. Orange: LR, lean and packed. Gray: "
+        "baselines. Bars end at 96 bits");
     if (state.facts.formats && state.facts.document) {
         ImGui::PushFont(small_font());
         for (const auto& [text, right] : {std::pair{"bytes", bytes_at}, std::pair{"bits/tri.", bits_at}}) {
@@ -202,7 +204,7 @@ void draw_formats(const State& state) {
         ImGui::TextDisabled("%s", state.facts.document ? "being measured" : "no mesh");
         return;
     }
-    // What is on the screen has one figure: that of its ring.
+    // For lean and packed, show the size with the ring on the screen, as everywhere on the panel.
     const Document& document = *state.facts.document;
     std::vector<Bar> bars;
     for (const app::MeasuredFormat& format : state.facts.formats->formats) {

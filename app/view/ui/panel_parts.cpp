@@ -1,4 +1,4 @@
-// What the panels are made of: numbers, cut and broken text, headings, explanations.
+// Parts of the panels: numbers, cut and broken text, headings, tooltips.
 #include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_internal.h>
@@ -15,7 +15,7 @@ float width_of(std::string_view text) {
     return ImGui::CalcTextSize(text.data(), text.data() + text.size()).x;
 }
 
-/// Does a character of UTF-8 begin here?
+/// Whether a UTF-8 character begins at byte i.
 bool begins(std::string_view text, std::size_t i) {
     return i >= text.size() || (static_cast<unsigned char>(text[i]) & 0xc0U) != 0x80U;
 }
@@ -41,7 +41,7 @@ std::string bytes_text(std::uint64_t bytes) {
 std::string elided(std::string_view text, float room) {
     if (width_of(text) <= room) return std::string(text);
     std::string out;
-    // As many bytes of both ends as fit; the end tells more of a file than its middle.
+    // Keep as many bytes of both ends as fit: the ends of a file name tell more than its middle.
     std::size_t low = 0, high = text.size();
     while (low < high) {
         const std::size_t kept = (low + high + 1) / 2;
@@ -61,7 +61,7 @@ std::string elided(std::string_view text, float room) {
 
 std::string broken(std::string_view text, float room) {
     std::string out;
-    std::size_t line = 0;  // where the current one begins in `out`
+    std::size_t line = 0;  // start of the current line in `out`
     while (!text.empty()) {
         std::size_t end = text.find_first_of("/ ");
         end = end == std::string_view::npos ? text.size() : end + 1;
@@ -69,7 +69,7 @@ std::string broken(std::string_view text, float room) {
             out += '\n';
             line = out.size();
         }
-        // A word that is too long for any line is cut.
+        // Cut a word that is longer than a line.
         while (end > 1 && width_of(text.substr(0, end)) > room) --end;
         while (!begins(text, end)) ++end;
         out += text.substr(0, end);

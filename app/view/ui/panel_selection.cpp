@@ -1,4 +1,4 @@
-// Bottom: the selected corner, what the operators say of it, and what streams hold of its triangle.
+// The box of the selection: the selected corner, the results of the operators, and its triangle in the streams.
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -16,7 +16,7 @@ ImVec4 colour(std::uint32_t rgba) {
     return ImGui::ColorConvertU32ToFloat4(rgba | 0xff000000U);
 }
 
-/// "L[12] = 34": the slots of the lean stream that hold a triangle.
+/// The slot of the lean stream that holds a triangle, its word and its vertices, as text.
 std::string lean_text(const Document& document, std::uint32_t t) {
     const gpu::Model& model = *document.model;
     const LeanView& view = document.views.lean;
@@ -54,7 +54,8 @@ void cell(const std::string& text) {
     ImGui::TextUnformatted(text.c_str());
 }
 
-/// A line of the table: the letter that marks the corner on the surface, and where it is.
+/// Draws a line of the table: the letter that marks the corner on the surface, the operator's name, and the numbers of
+/// corner, triangle and vertex.
 void line(const Document& document, const char* letter, const char* name, std::uint32_t rgba, CornerId c,
           const char* explained) {
     ImGui::TableNextRow();
@@ -84,14 +85,14 @@ void draw_operators(const Document& document, CornerId c) {
         ImGui::TextDisabled("  %s", name);
     }
     line(document, "c", "selected", kSelectedColour, c, "The corner nearest to where you clicked");
-    line(document, "n", "next", grey, next(c), "Of the same triangle, counterclockwise. Key N");
-    line(document, "p", "previous", grey, previous(c), "Of the same triangle, clockwise. Key P");
+    line(document, "n", "next", grey, next(c), "The next corner of the triangle, counterclockwise. Key N");
+    line(document, "p", "previous", grey, previous(c), "The previous corner of the triangle, clockwise. Key P");
     line(document, "o", "opposite", kOppositeColour, table.opposite(c),
-         "Of the triangle across the edge that faces the corner. Key O");
+         "The corner of the neighbor across the edge that faces the selected corner. Key O");
     line(document, "l", "left", kLeftColour, table.left(c), "The next corner's opposite. Key L");
     line(document, "r", "right", kRightColour, table.right(c), "The previous corner's opposite. Key R");
     line(document, "s", "swing", kFanColour, table.swing(c),
-         "Of the next triangle around the same vertex; violet: all of them. Key S");
+         "The corner of the next triangle around the same vertex. All triangles around it are violet. Key S");
     ImGui::EndTable();
 }
 
@@ -109,13 +110,13 @@ void draw_streams(const State& state, CornerId c) {
     const std::size_t fan = around(*document.table, c).size();
     ImGui::TextDisabled("%zu triangle%s around the vertex", fan, fan == 1 ? "" : "s");
     if (document.surface->has_seams()) {
-        part(
-            "vertex copy", fmt::format("{} of {}", document.copy_at(c), document.mesh->vertex_count),
-            "The file's vertex at this corner: its normal, texture coordinates and the like. Beyond a seam, corners of "
-            "the same vertex have another copy");
+        part("vertex copy", fmt::format("{} of {}", document.copy_at(c), document.mesh->vertex_count),
+             "The file's vertex at this corner, with its normal, texture coordinates and so on. Across a seam, corners "
+             "of the same vertex have another copy");
     }
     part("LR tables hold", state.facts.tables ? lr_text(*state.facts.tables, *document.table, c) : "being made",
-         "Their own numbers: L[v] and R[v] are the triangles left and right of ring edge v, VO the T0 triangles");
+         "In the tables' own numbers. L[v] and R[v] are the triangles left and right of ring edge v, VO the T0 "
+         "triangles");
     part("lean holds", lean_text(document, triangle(c).value),
          "Vertices in ring order. Slot 2v is the triangle left of ring edge v, slot 2v + 1 the one right of it");
     part("packed holds", packed_text(document, triangle(c).value),
@@ -126,7 +127,7 @@ void draw_streams(const State& state, CornerId c) {
 
 void draw_selection(const State& state) {
     const CornerId c = state.facts.selection.corner;
-    // Beside each other where there is room.
+    // Beside each other if there is room.
     const float width = ImGui::GetContentRegionAvail().x;
     if (width < px(560)) {
         draw_operators(*state.facts.document, c);

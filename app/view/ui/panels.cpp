@@ -1,4 +1,4 @@
-// Where panels, bar and notices are.
+// Places the panels; draws the bar and the notices.
 #include "app/view/ui/panels.h"
 
 #include <fmt/format.h>
@@ -16,8 +16,9 @@ namespace {
 
 constexpr float kLeft = 268, kRight = 316, kBar = 30, kLegend = 44;  // nominal pixels
 constexpr float kGap = 8;
-constexpr float kNarrow = 900;  // below it the side panels are drawers, opened from the bar
-// Lies over the picture, in front of panels, and takes no focus from them.
+// In windows narrower than this, the side panels are drawers, opened from the bar.
+constexpr float kNarrow = 900;
+// A box over the picture, in front of panels, that takes no focus from them.
 constexpr ImGuiWindowFlags kOver = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
                                    ImGuiWindowFlags_NoFocusOnAppearing;
@@ -33,7 +34,7 @@ void begin_at(const char* name, ImVec2 at, ImVec2 size, ImGuiWindowFlags more = 
     ImGui::Begin(name, nullptr, kFixed | more);
 }
 
-/// A button in the bar that ends at `right`, moved to its left.
+/// Draws a button in the bar, with its right end at `right`, and moves `right` to the left of it.
 bool bar_button(const char* text, float& right, bool pressed = false) {
     right -= ImGui::CalcTextSize(text).x + 2 * ImGui::GetStyle().FramePadding.x;
     ImGui::SetCursorPos({right, px(4)});
@@ -58,7 +59,7 @@ std::string counted(std::int64_t count, const char* one, const char* many) {
     return fmt::format("{} {}", grouped(static_cast<std::uint64_t>(count)), count == 1 ? one : many);
 }
 
-/// What is open, the more important the earlier.
+/// The document's counts as text, the most important first.
 std::vector<std::string> counts(const Document& document) {
     if (document.stand_in != 0) return {fmt::format("a coarse stand-in for {} triangles", grouped(document.stand_in))};
     std::vector<std::string> out{counted(document.mesh->triangle_count(), "triangle", "triangles"),
@@ -110,7 +111,7 @@ void draw_bar(State& state) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2{px(12), px(4)});
     begin_at("bar", {0, window.y - px(kBar)}, {window.x, px(kBar)}, ImGuiWindowFlags_NoScrollbar);
     const bool told = state.facts.clock < state.facts.note_until;
-    // From the right, then what is left for the left.
+    // Items from the right end first; the text on the left gets the remaining room.
     float right = window.x - px(12);
     if (narrow(window.x)) {
         const auto drawer = [&](const char* text, Drawer which) {
@@ -137,8 +138,8 @@ void draw_bar(State& state) {
         const std::string text = opened(document, told ? room / 2 : room);
         bar_text(text, left);
         explain(fmt::format(
-                    "{}\n{}.\nCopies: vertices of the file, where it has several at a place. Borders: loops. Genus: "
-                    "handles",
+                    "{}\n{}.\nCopies: vertices of the file, if several are at the same place. Borders: border loops. "
+                    "Genus: number of handles",
                     document.path, fmt::join(counts(document), ", "))
                     .c_str());
         left += ImGui::CalcTextSize(text.c_str()).x + px(24);
@@ -150,8 +151,7 @@ void draw_bar(State& state) {
     ImGui::PopStyleVar();
 }
 
-/// Over the picture, in its middle, from `top` on; gives where it ends. `left`, `right`: what panels leave of the
-/// window.
+/// Draws an error over the picture, centered between `left` and `right`, from `top` on. Returns its lower end.
 float draw_error(const char* name, std::string& error, float top, float left, float right) {
     if (error.empty()) return top;
     const float room = std::max(px(160), right - left - px(32));
@@ -174,7 +174,7 @@ float draw_error(const char* name, std::string& error, float top, float left, fl
     return bottom + px(kGap);
 }
 
-/// What happened, where there is no bar to tell it.
+/// Draws the note when there is no bar to show it.
 void draw_note(const State& state) {
     const ImVec2 window = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({window.x / 2, window.y - px(16)}, ImGuiCond_Always, {0.5F, 1});
@@ -185,7 +185,7 @@ void draw_note(const State& state) {
     ImGui::PopStyleVar();
 }
 
-/// In the middle of an empty window.
+/// Draws an invitation, or the progress, in the middle of an empty window.
 void invite(const State& state, float left, float right, float height) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const auto centred = [&](const char* text, float size, float y, ImU32 colour) {
@@ -200,7 +200,7 @@ void invite(const State& state, float left, float right, float height) {
     centred("glTF, GLB, OBJ, PLY, OFF, STL or LR", px(15), height / 2 + px(8), IM_COL32(100, 103, 110, 255));
 }
 
-/// The top of the box.
+/// Draws the box of the selection; returns its upper end.
 float draw_selection_box(const State& state, float left, float right, float bottom) {
     const float width = std::min(right - left - 2 * px(kGap), px(860));
     ImGui::SetNextWindowPos({left + px(kGap), bottom - px(kGap)}, ImGuiCond_Always, {0, 1});
@@ -217,7 +217,7 @@ float draw_selection_box(const State& state, float left, float right, float bott
 }  // namespace
 
 std::array<double, 2> free_area(double width, double height) {
-    // The mesh stays in the window's middle, so the wider panel counts twice, and so do two lines of a legend.
+    // The mesh stays in the window's middle, so the wider panel and the legend count twice.
     const double free_height = std::max(0.3 * height, height - 2.0 * static_cast<double>(px(kLegend)));
     if (narrow(width)) return {width, free_height};
     return {std::max(0.3 * width, width - 2.0 * static_cast<double>(px(std::max(kLeft, kRight)))), free_height};
@@ -229,7 +229,7 @@ void draw_panels(State& state, bool ring_line) {
     const bool slim = narrow(window.x);
     const bool left_panel = choices.panels && (!slim || choices.drawer == Drawer::choices);
     const bool right_panel = choices.panels && (!slim || choices.drawer == Drawer::numbers);
-    // What they leave of the picture.
+    // The part of the picture beside the panels.
     const float left = left_panel && !slim ? px(kLeft) : 0;
     const float right = right_panel && !slim ? window.x - px(kRight) : window.x;
     const float height = choices.panels ? window.y - px(kBar) : window.y;
@@ -246,7 +246,7 @@ void draw_panels(State& state, bool ring_line) {
         ImGui::End();
     }
     if (choices.panels) draw_bar(state);
-    // A drawer and help lie over what follows.
+    // A drawer or the help covers the selection and the legend.
     const bool covered = choices.help || (slim && (left_panel || right_panel));
     if (choices.panels && state.facts.document && !covered) {
         if (state.facts.selection.any()) bottom = draw_selection_box(state, left, right, bottom);

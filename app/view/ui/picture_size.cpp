@@ -7,7 +7,7 @@
 namespace lacedring::view {
 namespace {
 
-// Samples of the picture at rest: 24 bytes each, of images and their copies.
+// Most samples of a picture at rest. Each takes 24 bytes of images and copies.
 constexpr std::uint64_t kMostSamples = 24000000;
 constexpr std::uint32_t kSmallest = 64;  // pixels of a side
 
@@ -39,7 +39,8 @@ Result<PictureSize::Change> PictureSize::make(gpu::Context& context, Scene& scen
         wanted = gpu::Target::fitting_samples(context, extent_, wanted);
         const bool other_size = made_.width != extent_.width || made_.height != extent_.height;
         if (!other_size && samples_ == wanted && sides_ >= sides) return Change::none;
-        context.wait_idle();  // the window may still be taking the last picture
+        // The window may still be copying the last picture.
+        context.wait_idle();
         Result<void> made = scene.resize(extent_, wanted, sides);
         if (made && other_size) made = overlay.resize(extent_);
         if (made) {
@@ -53,7 +54,7 @@ Result<PictureSize::Change> PictureSize::make(gpu::Context& context, Scene& scen
             most_samples_ = wanted - 1;  // until the window changes
             continue;
         }
-        largest_ = std::max(extent_.width, extent_.height) / 2;  // likewise
+        largest_ = std::max(extent_.width, extent_.height) / 2;  // also until the window changes
         if (largest_ < kSmallest) return made.error();
         fit();
         most_samples_ = 3;

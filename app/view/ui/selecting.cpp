@@ -30,7 +30,7 @@ Result<void> Selecting::pick(State& state, Scene& scene, const Orbit& orbit, Pic
     if (!hit || *hit >= document->mesh->triangle_count()) return {};
     std::uint32_t t = *hit;
     const Vector along = ray_through(scene, orbit, area, x, y);
-    // A device rounds vertices to parts of a pixel: near an edge the ray through the sample may meet the neighbor.
+    // A device rounds vertices to fractions of a pixel: near an edge the ray may meet the neighbor instead.
     if (!ray_meets(*document, t, orbit.eye(), along)) t = ray_hit(*document, orbit.eye(), along).value_or(t);
     selection.corner = nearest_corner(*document, t, orbit.eye(), along);
     frames_ = kFramesToPlace;

@@ -1,5 +1,5 @@
 #pragma once
-// The selected corner: chosen by a click, moved by operators, kept in sight.
+// Selects a corner: picks it by a click, moves it by operators, and keeps it in sight.
 
 #include "app/view/scene/orbit.h"
 #include "app/view/ui/state.h"
@@ -13,23 +13,24 @@ struct PictureArea {
 
 class Selecting {
   public:
-    /// The corner nearest to pixel x, y of the scene's last picture; none where there is no surface. Errors: device
-    /// failures. Cost: O(T) where the device's triangle is not the one under the pixel.
+    /// Selects the corner nearest to pixel x, y of the scene's last picture; none if there is no surface. Errors:
+    /// device failures. Cost: O(T) if the ray through the pixel misses the triangle that the device gives.
     Result<void> pick(State& state, Scene& scene, const Orbit& orbit, PictureArea area, double x, double y);
-    /// From the selected corner by an operator; says so where there is no such corner.
+    /// Moves the selection by an operator; shows a note if there is no such corner.
     void step(Facts& facts, char operation);
-    /// A corner that panels cover, or that is outside the picture, goes to the middle of what they leave. True: the
-    /// camera moved.
+    /// If panels cover a new selection, or it is outside the picture, moves it to the middle of the free area. Returns
+    /// whether the camera moved.
     bool keep_in_sight(const Facts& facts, Orbit& orbit, PictureArea area);
 
   private:
-    int frames_ = 0;  // in which a new selection is brought into sight: the panel takes some to get its size
+    // Frames left in which a new selection is brought into sight: its panel takes some to reach its size.
+    int frames_ = 0;
 };
 
-/// The selection fills what panels leave of the picture. False: there is none.
+/// Moves the camera so that the selection fills the area free of panels. Returns false if nothing is selected.
 bool frame_selection(const Facts& facts, Orbit& orbit, PictureArea area);
 
-/// From the eye through the middle of the sample that a scene tells the triangle of.
+/// Direction from the eye through the sample of pixel x, y that Scene::triangle_at reads.
 Vector ray_through(const Scene& scene, const Orbit& orbit, PictureArea area, double x, double y);
 
 }  // namespace lacedring::view

@@ -16,7 +16,7 @@ constexpr NamedValue named(const char* name, const char* label, T value) {
 }
 
 constexpr NamedValue kOnOff[] = {named("off", "off", 0), named("on", "on", 1)};
-/// The renderer's names and labels.
+/// Values with the renderer's names and labels.
 template <class Choice, std::size_t N>
 constexpr std::array<NamedValue, N> values_of(const std::array<gpu::Named<Choice>, N>& table) {
     std::array<NamedValue, N> out;
@@ -25,7 +25,8 @@ constexpr std::array<NamedValue, N> values_of(const std::array<gpu::Named<Choice
 }
 constexpr auto kViews = values_of(gpu::kViews);
 constexpr auto kAllSources = values_of(gpu::kSources);
-constexpr auto kSources = std::span(kAllSources).first<3>();  // packed vertices are not drawn here
+// All sources but packed vertices, which the viewer does not draw.
+constexpr auto kSources = std::span(kAllSources).first<3>();
 static_assert(gpu::kSources[2].value == gpu::Source::packed);
 constexpr auto kPaths = values_of(gpu::kPaths);
 constexpr NamedValue kModes[] = {named("single", "off", Mode::single), named("split", "side by side", Mode::split),
@@ -38,7 +39,7 @@ constexpr NamedValue kWelds[] = {named("position", "by position", Weld::position
                                  named("attributes", "by all attributes", Weld::attributes),
                                  named("none", "no", Weld::none)};
 
-/// Of a field that `Field` finds in the choices; `Then` does what follows from changing it.
+/// Makes a setting. `Field` returns its field of Choices; `Then` runs after the field was changed.
 template <class Field, class Then>
 constexpr Setting setting(const char* name, std::span<const NamedValue> values, double low, double high, bool whole,
                           Field, Then) {
@@ -184,7 +185,7 @@ Action cycle(const Choices& choices, std::string_view name, bool back) {
 
 Result<Action> parse_setting(std::string_view name, const std::string& value) {
     const Setting* setting = find_setting(name);
-    if (setting == nullptr) return wrong_value(fmt::format("nothing is called {}", name));
+    if (setting == nullptr) return wrong_value(fmt::format("no setting is called {}", name));
     for (const NamedValue& one : setting->values) {
         if (value == one.name) return Action(action::Set{setting, one.value});
     }

@@ -1,5 +1,5 @@
 #pragma once
-// Choices by name: what `set NAME VALUE` of a script, the panels and the keys change.
+// Choices by name, for scripts (`set NAME VALUE`), panels and keys.
 
 #include <span>
 #include <string_view>
@@ -10,13 +10,13 @@ namespace lacedring::view {
 
 struct NamedValue {
     const char* name;   ///< in scripts
-    const char* label;  ///< in panels; null: not offered there
+    const char* label;  ///< on panels; null: not on panels
     double value;
 };
 
 struct Setting {
     const char* name;
-    std::span<const NamedValue> values;  ///< empty: a number
+    std::span<const NamedValue> values;  ///< empty: the setting is a number
     double low, high;
     bool whole;
     double (*get)(const Choices& choices);
@@ -24,17 +24,17 @@ struct Setting {
 };
 
 std::span<const Setting> settings();
-/// Null: there is none of that name.
+/// Null: no setting has this name.
 const Setting* find_setting(std::string_view name);
-/// Of names that this program has written.
+// Actions that change settings. The names must be valid.
 Action set(std::string_view name, double value);
 Action set(std::string_view name, std::string_view value);
-/// To `value`, or from there to `other`.
+/// Sets to `value`, or to `other` if it is `value` already.
 Action toggle(const Choices& choices, std::string_view name, std::string_view value = "on",
               std::string_view other = "off");
-/// The next value of a list, or the previous one.
+/// Sets to the next value of the setting's list, or to the previous one.
 Action cycle(const Choices& choices, std::string_view name, bool back);
-/// What a script wrote. Errors: invalid_argument, saying what the setting has.
+/// The action for `set NAME VALUE` of a script. Errors: invalid_argument, with the values that the setting has.
 Result<Action> parse_setting(std::string_view name, const std::string& value);
 
 }  // namespace lacedring::view

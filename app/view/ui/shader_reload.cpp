@@ -14,7 +14,7 @@ void ShaderReload::start(Threads& threads, const std::filesystem::path& asked, F
     std::string name = folder.string();
     Result<std::unique_ptr<ShaderWatch>> watch = ShaderWatch::create(threads, std::move(folder), built_from);
     if (!watch) {
-        facts.error = name + ": not watched: " + watch.error().message;
+        facts.error = name + ": cannot watch the shaders: " + watch.error().message;
         return;
     }
     facts.shaders.folder = std::move(name);
@@ -25,7 +25,7 @@ void ShaderReload::force(Facts& facts) {
     if (watch_) {
         watch_->force();
     } else {
-        facts.tell("no sources of shaders here: lacedring view --shaders DIR", 4);
+        facts.tell("no shader sources found: use lacedring view --shaders DIR", 4);
     }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Shaders that are edited while they are drawn with.
+// Reloads shaders that are edited while the viewer runs.
 
 #include <filesystem>
 #include <memory>
@@ -12,16 +12,15 @@ namespace lacedring::view {
 
 class ShaderReload {
   public:
-    /// Watches `folder`, or if that is empty the sources that the program was built from; where there are none,
-    /// nothing.
+    /// Watches `folder`; if that is empty, the sources that the program was built from, if they still exist.
     void start(Threads& threads, const std::filesystem::path& folder, Facts& facts);
-    /// Compiles all again, changed or not.
+    /// Compiles all shaders again, changed or not.
     void force(Facts& facts);
-    /// Takes what has been compiled. True: something came of it. The scene's pipelines are new if facts.shaders.reloads
-    /// has grown.
+    /// Uses newly compiled shaders. Returns whether there were news. facts.shaders.reloads grows when the scene's
+    /// pipelines were recreated.
     bool update(gpu::Context& context, Scene& scene, Facts& facts);
     bool has_news() const { return watch_ && watch_->has_news(); }
-    /// Null: nothing is watched.
+    /// Null: no folder is watched.
     const ShaderWatch* watch() const { return watch_.get(); }
 
   private:

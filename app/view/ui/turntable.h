@@ -1,5 +1,5 @@
 #pragma once
-// A whole turn as a folder of pictures, one a frame, so that the window stays alive.
+// Saves a whole turn as a folder of pictures, one per frame, so that the window keeps responding.
 
 #include <optional>
 #include <string>
@@ -14,12 +14,12 @@ class TurnSaver {
     bool running() const { return pictures_ != 0; }
     /// Errors: cannot_write, invalid_argument (no pictures).
     Result<void> start(const std::string& folder, std::uint32_t pictures, const Orbit& orbit);
-    /// The camera of the next picture. Each is turned from the start, so that no error adds up.
+    /// The camera of the next picture. Each is turned from the first one, so that errors do not accumulate.
     Orbit aim() const;
-    /// Writes the picture that aim() was for. Errors: cannot_write, naming the file.
+    /// Writes the picture drawn with aim(). Errors: cannot_write, with the file's name.
     Result<void> save(const gpu::Picture& picture);
     bool done() const { return done_ == pictures_; }
-    /// Gives the camera as it was before. `message`: how it ended.
+    /// Ends the turn; returns the camera from before it. `message` gets the outcome.
     Orbit end(std::string& message);
     /// "picture 3 of 90"
     std::string text() const;

@@ -20,9 +20,11 @@
 namespace lacedring::view {
 namespace {
 
-constexpr std::size_t kHistory = 120;            // frames of the plot
-constexpr double kNoticed = 0.03;                // seconds of a picture that a person waits for
-constexpr double kRest = 0.15, kLongRest = 0.4;  // seconds without a movement
+constexpr std::size_t kHistory = 120;  // frames in the plot
+// Pictures that take longer than kNoticed seconds wait until the camera rests: exact ones for kRest seconds, those with
+// several samples for kLongRest.
+constexpr double kNoticed = 0.03;
+constexpr double kRest = 0.15, kLongRest = 0.4;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -102,7 +104,7 @@ Shown Viewer::shown(Quality quality, const gpu::Model& model) const {
     out.exact = quality != Quality::rough || out.mode != Mode::single;
     out.samples = quality == Quality::fine ? size_.samples(out.samples) : 1;
     while (out.samples > 1 && exact_seconds_ * out.samples * out.samples > options_.patience) --out.samples;
-    if (!gpu::has_source(model, out.source)) out.source = gpu::Source::lean;  // it is being made
+    if (!gpu::has_source(model, out.source)) out.source = gpu::Source::lean;  // the stream is still being made
     return out;
 }
 
@@ -116,7 +118,7 @@ PaintLayer::Wanted Viewer::wanted_paint() const {
     if (out.layers.sides != Paint::growth) return out;
     const double end = state_.facts.growth_end();
     out.invaded = static_cast<std::uint32_t>(std::min(choices.growth, end));
-    // The last tenth of a second is told from what was invaded before, until all is done.
+    // Until the end, highlight the triangles invaded in the last tenth of a second.
     if (choices.growth < end) out.newest = static_cast<std::uint32_t>(std::max(3.0, choices.growth_speed * 0.1));
     return out;
 }
@@ -192,7 +194,7 @@ void Viewer::open_next() {
     input.path = queue_.front();
     queue_.erase(queue_.begin());
     RingSettings settings = state_.choices.ring;
-    settings.start = kNullCorner;  // was of another mesh
+    settings.start = kNullCorner;  // it was a corner of another mesh
     asked_ = state_.choices.ring;
     asked_weld_ = state_.choices.weld;
     loader_.open(input, settings);
@@ -299,7 +301,7 @@ Result<void> Viewer::on(const action::SaveTurn& save) {
     return turn_.start(save.folder.empty() ? free_name("turntable", "") : save.folder, save.pictures, orbit_);
 }
 
-// News of threads.
+// News from threads.
 
 void Viewer::take_news() {
     Facts& facts = state_.facts;
@@ -314,9 +316,9 @@ void Viewer::take_news() {
     }
     if (news_.document && visible()) take_document();
     if (news_.document) {
-        // Tables and formats are of what is still to come.
+        // Hold tables and formats back: they belong to the document that is not shown yet.
         if (!facts.progress.busy || facts.progress.background) {
-            facts.progress = {.busy = true, .background = false, .what = "to the device", .share = 1};
+            facts.progress = {.busy = true, .background = false, .what = "uploading", .share = 1};
         }
     } else {
         if (news_.tables && facts.document && news_.tables->mesh == facts.document->mesh) {
@@ -336,7 +338,7 @@ void Viewer::take_news() {
     if (facts.shaders.reloads != reloads) stale(Freshness::redraw);
 }
 
-/// Shows the document that came, once its model is on the device; the one that was shown stays until then.
+/// Shows the new document once its model is on the device; the old one stays until then.
 void Viewer::take_document() {
     Facts& facts = state_.facts;
     Choices& choices = state_.choices;
@@ -356,7 +358,7 @@ void Viewer::take_document() {
     const bool other_way = facts.document && facts.document->expansion != document->expansion;
     const bool same_file = facts.document && facts.document->path == document->path;
     facts.document = document;
-    // One that was stopped on its way goes on from there.
+    // Restart the growth if it was running or finished; a stopped one stays where it is.
     if (other_way && (choices.growing || choices.growth >= facts.growth_end())) {
         choices.growth = 0;
         choices.growing = choices.paint == Paint::growth;
@@ -364,13 +366,14 @@ void Viewer::take_document() {
     if (other && !same_file) {
         tell_error(perform(action::FrameAll{options_.camera}));
         const Vector up = options_.camera.up;
-        options_.camera = {};  // was for the first mesh; its up stays
+        // It was for the first mesh; keep only its up.
+        options_.camera = {};
         options_.camera.up = up;
     }
     stale(Freshness::redraw);
 }
 
-/// Before another mesh is shown: another file, or the same one after its stand-in or welded otherwise.
+/// Prepares for showing another mesh: another file, or the same one after its stand-in or with another weld.
 void Viewer::opened(const Document& document) {
     Facts& facts = state_.facts;
     Choices& choices = state_.choices;
@@ -398,7 +401,8 @@ Result<void> Viewer::resize() {
     LR_ASSIGN(const PictureSize::Change change,
               size_.make(context_, scene_, *overlay_, chosen.samples, chosen.sides()));
     if (change == PictureSize::Change::none) return {};
-    if (change == PictureSize::Change::size) end_turn();  // its pictures are of one size
+    // All pictures of a turn have the same size.
+    if (change == PictureSize::Change::size) end_turn();
     if (size_.smaller_than_window()) {
         state_.facts.tell(
             fmt::format("drawn at {} x {}: the device draws no larger picture", extent().width, extent().height), 4);
@@ -407,7 +411,7 @@ Result<void> Viewer::resize() {
     return {};
 }
 
-/// What panels asked for, and what follows from choices.
+/// Performs the actions that panels asked for, and requests another ring or weld if it was chosen.
 void Viewer::act() {
     for (const Action& action : std::exchange(state_.actions, {})) tell_error(perform(action));
     const auto& document = state_.facts.document;
@@ -451,7 +455,7 @@ void Viewer::update_paint() {
     const Result<bool> changed = paint_.update(scene_, wanted_paint());
     if (!changed) {
         state_.facts.error = changed.error().message;
-        // Not tried again every frame.
+        // Do not try again in every frame.
         if (state_.choices.paint == Paint::none) state_.choices.ring_line = false;
         state_.choices.paint = Paint::none;
     } else if (*changed) {
@@ -459,7 +463,8 @@ void Viewer::update_paint() {
     }
 }
 
-/// False: not yet. What cannot be is told, and not shown.
+/// Prepares the picture; returns false if it is not ready. If it is impossible, shows the error and goes back to the
+/// choices of the last picture.
 Result<bool> Viewer::prepare(const Shown& picture) {
     const Result<bool> there = scene_.prepare(picture);
     if (there || there.error().code == gpu::kDeviceFailure) return there;
@@ -470,7 +475,7 @@ Result<bool> Viewer::prepare(const Shown& picture) {
     chosen.source = drawn.source;
     chosen.path = drawn.path;
     chosen.mode = drawn.mode;
-    if (chosen == before) return there;  // nothing to go back to
+    if (chosen == before) return there;  // the last picture had the same choices
     return false;
 }
 
@@ -480,7 +485,7 @@ Result<void> Viewer::draw() {
         orbit_ = turn_.aim();
         stale(Freshness::redraw);
     }
-    // A picture that takes long waits until a person rests; a new model is shown soon. Those of a turn are saved.
+    // Slow pictures wait until the camera rests. A new model is first shown in one pass. Pictures of a turn are fine.
     const bool resting = still_seconds_ > (exact_seconds_ > kNoticed ? kRest : 0.0) && !state_.choices.growing &&
                          scene_.model() == drawn_model_;
     const bool fine = resting && still_seconds_ > (fine_seconds_ > kNoticed ? kLongRest : 0.0);
@@ -528,7 +533,7 @@ Result<void> Viewer::draw() {
     return {};
 }
 
-/// Tells once what is not drawn of the file's materials.
+/// Shows a note, once, on parts of the file's materials that are not drawn.
 void Viewer::tell_materials() {
     const gpu::GpuMaterials* materials = scene_.materials();
     if (materials == nullptr || materials == told_materials_) return;
@@ -536,7 +541,7 @@ void Viewer::tell_materials() {
     if (!materials->notes.empty()) state_.facts.tell(materials->notes.front(), 6);
 }
 
-/// The composed picture has no panels yet.
+/// Saves the composed picture, which has no panels, as the next one of the turn.
 void Viewer::save_turn_picture() {
     const Result<gpu::Picture> taken = read_picture(context_, *commands_, scene_.composed(), size_.made());
     const Result<void> saved = taken ? turn_.save(*taken) : Result<void>(taken.error());
@@ -552,7 +557,7 @@ void Viewer::end_turn() {
     stale(Freshness::redraw);
 }
 
-/// The two pictures that are drawn, once nothing moves.
+/// Compares the two pictures once nothing moves.
 Result<void> Viewer::compare() {
     if (!difference_due() || still_seconds_ <= 0 || freshness_ == Freshness::redraw || turn_.running() ||
         scene_.drawn() != shown(Quality::fine)) {

@@ -1,6 +1,6 @@
 #pragma once
-// The viewer: events and actions in, frames out. Knows of no window system, so that a script drives it as a window
-// does.
+// The viewer: takes events and actions, draws frames. It is independent of the window system, so that a script can
+// drive it like a window.
 
 #include <functional>
 #include <limits>
@@ -22,50 +22,51 @@ namespace lacedring::view {
 struct ViewerOptions {
     Input input;                ///< path may be empty
     gpu::CameraOptions camera;  ///< for the first mesh
-    double scale = 1;           ///< pixels a nominal pixel
+    double scale = 1;           ///< pixels per nominal pixel
     bool panels = true;
-    std::uint32_t frame_cap = 60;  ///< frames a second, 0: no limit
-    bool keep_recent = true;       ///< files that were opened are remembered
-    /// Seconds. Of several samples, a picture at rest has as many as do not take longer, by the time that it took with
-    /// one. Scripts wait for all: what they save does not depend on the machine.
+    std::uint32_t frame_cap = 60;  ///< frames per second; 0: no limit
+    bool keep_recent = true;       ///< save the list of opened files
+    /// Most seconds that drawing a picture at rest may take, estimated from its time with one sample; it gets fewer
+    /// samples if needed. Scripts have no limit, so that their pictures do not depend on the machine.
     double patience = std::numeric_limits<double>::infinity();
     /// Called by other threads when they have something for the next frame.
     std::function<void()> wake = [] {};
-    std::filesystem::path shaders;  ///< folder of sources to be watched; empty: those that the program was built from
+    /// Folder of shader sources to watch; empty: the one that the program was built from.
+    std::filesystem::path shaders;
 };
 
 class Viewer {
   public:
-    /// `threads` must outlive the viewer; those that it starts may outlive it.
+    /// `threads` must outlive the viewer. Threads that the viewer starts may outlive it.
     static Result<std::unique_ptr<Viewer>> create(gpu::Context& context, Threads& threads,
                                                   const ViewerOptions& options);
 
     void handle(const Event& event);
-    /// Errors: those of the action; nothing is changed then.
+    /// Errors: those of the action, which then changes nothing.
     Result<void> perform(const Action& action);
-    /// Everything for one frame `seconds` after the last one. Nothing is drawn while the picture has no size.
+    /// Advances by `seconds` and draws a frame; draws nothing while the picture has no size.
     Result<void> frame(double seconds);
-    /// The last frame is on the screen, `seconds` after it began.
+    /// Call when the last frame is on the screen, `seconds` after it began.
     void presented(double seconds);
 
-    /// The last frame, panels and all, in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL.
+    /// The last frame with panels, in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL.
     const gpu::Image& image() const { return overlay_->image(); }
-    /// Pixels of the picture: the window's, or fewer of the same shape where the device draws no picture that large.
+    /// Size of the picture: the window's, or smaller with the same aspect ratio if the device cannot draw that.
     VkExtent2D extent() const { return size_.extent(); }
     VkExtent2D window() const { return size_.window(); }
     bool visible() const { return size_.visible(); }
-    /// The last picture, with panels if they are on; else with nothing over it. Waits for the device.
+    /// The last picture, with panels if they are on. Waits for the device.
     Result<gpu::Picture> picture();
-    /// All that is in the window, notices too.
+    /// The whole window, also with notices. Waits for the device.
     Result<gpu::Picture> window_picture();
 
     bool closing() const { return closing_; }
-    /// Stops what threads do for it. False: one of them still uses the device after `patience`, and nothing on the
+    /// Stops the thread that uploads. Returns false if it still uses the device after `patience`; then nothing on the
     /// device may be destroyed.
     bool stop(std::chrono::milliseconds patience) { return scene_.stop(patience); }
     /// Animating: the next frame differs without input.
     bool moving() const { return quiet_frames_ <= 3 || animated(); }
-    /// Nothing moves, nothing is awaited: the next frame would be the last one.
+    /// Nothing moves or is awaited: the next frame would be the same.
     bool idle() const { return !moving() && !busy() && !state_.facts.progress.busy && !news(); }
     /// Nothing is pending: only input changes the picture.
     bool settled() const;
@@ -73,19 +74,19 @@ class Viewer {
     bool turning() const { return turn_.running(); }
     /// "NAME - LacedRing"
     std::string title() const;
-    /// What is to be put on the clipboard, once.
+    /// Returns text for the clipboard, once; else "".
     std::string take_clipboard() { return std::exchange(clipboard_, {}); }
 
     State& state() { return state_; }
     Orbit& orbit() { return orbit_; }
     Scene& scene() { return scene_; }
-    /// Null: there are no sources of shaders.
+    /// Null: no shaders are watched.
     const ShaderWatch* shaders() const { return shaders_.watch(); }
-    /// From a point of the picture.
+    /// Direction from the eye through a pixel of the picture.
     Vector ray(double x, double y) const { return ray_through(scene_, orbit_, area(), x, y); }
 
   private:
-    /// What the composed image needs before it is as the camera and the choices say.
+    /// What must be done to bring the composed image up to date.
     enum class Freshness { redraw, compose, current };
 
     Viewer(gpu::Context& context, Threads& threads, const ViewerOptions& options, Scene scene)
@@ -112,13 +113,13 @@ class Viewer {
     bool news() const { return loader_.has_news() || news_.document || shaders_.has_news(); }
     bool animated() const;
     bool busy() const;
-    /// Made of other than what is chosen.
+    /// Whether another ring or weld is chosen than was asked for.
     bool ring_due() const { return state_.choices.ring != asked_ || state_.choices.weld != asked_weld_; }
     bool difference_due() const { return scene_.drawn().mode != Mode::single && !state_.facts.difference; }
     void tell_error(const Result<void>& result);
     void stale(Freshness freshness) { freshness_ = std::min(freshness_, freshness); }
     void camera_moved();
-    /// In one pass; exact; exact, with all samples.
+    /// One pass and one sample; exact with one sample; exact with all samples.
     enum class Quality { rough, exact, fine };
     Shown shown(Quality quality) const;
     Shown shown(Quality quality, const gpu::Model& model) const;
@@ -154,25 +155,28 @@ class Viewer {
     Orbit orbit_;
     Controls controls_;
     Loader loader_;
-    Loader::News news_;  // not on the screen yet
+    Loader::News news_;  // arrived, but not shown yet
     ShaderReload shaders_;
     PaintLayer paint_;
     TurnSaver turn_;
-    RingSettings asked_;
+    RingSettings asked_;  // of the last request to the loader
     Weld asked_weld_ = Weld::position;
-    std::vector<std::string> queue_;  // files to be tried in turn
+    std::vector<std::string> queue_;  // files to try if the current one fails
 
     PictureSize size_;
     Selecting selecting_;
     Freshness freshness_ = Freshness::redraw;
-    double divider_ = 0;                           // of the composed image
-    const OwningModel* drawn_model_ = nullptr;     // in the last picture
-    double exact_seconds_ = 0, fine_seconds_ = 1;  // that the last exact picture took, of one sample and of several
-    double still_seconds_ = 1;                     // since the camera moved; negative: it has since the last frame
-    int quiet_frames_ = 0;                         // without events
+    // Divider of the composed image: the first column of the right picture.
+    double divider_ = 0;
+    const OwningModel* drawn_model_ = nullptr;  // in the last picture
+    // Seconds for the last exact picture with one sample, and with several.
+    double exact_seconds_ = 0, fine_seconds_ = 1;
+    // Seconds since the camera moved; -1: it has moved since the last frame.
+    double still_seconds_ = 1;
+    int quiet_frames_ = 0;  // frames since the last event
     const gpu::GpuMaterials* told_materials_ = nullptr;
-    std::shared_ptr<const Tables> outlined_;  // whose outlines are drawn
-    const Document* presented_ = nullptr;     // was on the screen
+    std::shared_ptr<const Tables> outlined_;  // the tables whose outlines are drawn
+    const Document* presented_ = nullptr;     // the last document that was on the screen
     std::chrono::steady_clock::time_point presented_asked_{};
     std::string clipboard_;
     bool closing_ = false;

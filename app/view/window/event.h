@@ -1,5 +1,5 @@
 #pragma once
-// What happens to a window. GLFW makes these (window.h), and so do scripts (script.h); the viewer cannot tell which.
+// Events of a window. They come from GLFW (window.h) or from scripts (script.h).
 
 #include <cstdint>
 #include <string>
@@ -29,10 +29,11 @@ enum Key : int {
 
 enum Modifier : unsigned { mod_shift = 1, mod_control = 2, mod_alt = 4 };
 
-/// Places and sizes are in pixels of the window, from its upper left corner.
+/// x and y are a place in pixels from the window's upper left corner, a size (resize), or steps (scroll).
 struct Event {
     enum Kind { key, text, move, button, scroll, drop, resize, close, refresh } kind = refresh;
-    int code = 0;  ///< Key; or 0 left, 1 right, 2 middle; or a Unicode character
+    /// A Key, a mouse button (0 left, 1 right, 2 middle), or a Unicode character.
+    int code = 0;
     bool down = false;
     unsigned modifiers = 0;
     double x = 0, y = 0;

@@ -74,7 +74,7 @@ Result<std::unique_ptr<Overlay>> Overlay::create(gpu::Context& context, double s
 
 Result<void> Overlay::start(gpu::Context& context, double scale) {
     ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr;  // panels have their places
+    io.IniFilename = nullptr;  // panels have fixed places
     io.LogFilename = nullptr;
     for (int i = 0; i < ImGuiKey_COUNT; ++i) io.KeyMap[i] = -1;
     constexpr std::array<std::pair<ImGuiKey, int>, 15> kMap{{{ImGuiKey_Tab, key_tab},

@@ -1,5 +1,5 @@
 #pragma once
-// The panels' pixels: ImGui's Vulkan backend over an image of ours. Debian's ImGui draws in a render pass.
+// Draws the panels: ImGui's Vulkan backend over an image of the viewer. Debian's ImGui draws in a render pass.
 
 #include <vulkan/vulkan.h>
 
@@ -12,10 +12,10 @@
 
 namespace lacedring::view {
 
-/// Fonts and colours are there once it is made. One at a time, as ImGui has it.
+/// Owns ImGui's context, with fonts and colors. Only one may exist at a time.
 class Overlay {
   public:
-    /// `scale`: pixels a nominal pixel.
+    /// `scale`: pixels per nominal pixel.
     static Result<std::unique_ptr<Overlay>> create(gpu::Context& context, double scale);
     ~Overlay();
     Overlay(const Overlay&) = delete;
@@ -24,8 +24,8 @@ class Overlay {
     Result<void> resize(VkExtent2D extent);
     /// Gives ImGui an event.
     static void feed(const Event& event);
-    /// Records a copy of `under` and what ImGui::Render made over it. `under` and image() have extent's size and are in
-    /// VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, before and after.
+    /// Records copying `under` to image() and drawing ImGui's output over it. Both have the size given to resize();
+    /// both are in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL afterwards, `under` also before.
     void record(VkCommandBuffer commands, const gpu::Image& under);
     const gpu::Image& image() const { return image_; }
 

@@ -11,7 +11,7 @@ namespace {
 float g_scale = 1;
 ImFont* g_small = nullptr;
 
-/// What file names and messages are likely to be written in: DejaVu has no more.
+/// Ranges of characters for file names and messages: Latin, Greek, Cyrillic, punctuation.
 constexpr ImWchar kLetters[] = {0x20, 0x24f, 0x370, 0x52f, 0x1e00, 0x1eff, 0x2010, 0x2027, 0};
 
 ImFont* add_font(float size) {
@@ -21,7 +21,7 @@ ImFont* add_font(float size) {
     ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
     ImFontConfig config;
     config.OversampleH = 2;
-    // The first of these that the machine has; else ImGui's own bitmap font.
+    // Take the first font that the machine has, else ImGui's own bitmap font.
     for (const char* path : kFonts) {
         std::error_code error;
         if (!std::filesystem::is_regular_file(path, error)) continue;
@@ -52,7 +52,8 @@ void apply_theme(float scale) {
     style.ItemSpacing = {8, 5};
     style.ItemInnerSpacing = {6, 4};
     style.ScrollbarSize = 11;
-    style.WindowMinSize = {16, 16};  // the bar is lower than ImGui's own least
+    // The bar is lower than ImGui's default minimum.
+    style.WindowMinSize = {16, 16};
     style.GrabMinSize = 10;
     style.WindowRounding = 0;
     style.FrameRounding = 3;
@@ -62,7 +63,8 @@ void apply_theme(float scale) {
     style.WindowBorderSize = 0;
     style.PopupBorderSize = 1;
     style.ScaleAllSizes(scale);
-    style.FrameBorderSize = scale;  // fields and empty boxes stand out from the ground
+    // A border makes fields and empty boxes visible.
+    style.FrameBorderSize = scale;
     const ImVec4 ground{0.105F, 0.11F, 0.12F, 1}, field{0.18F, 0.185F, 0.20F, 1}, over{0.24F, 0.25F, 0.27F, 1},
         accent{0.87F, 0.42F, 0.13F, 1}, bright{0.95F, 0.50F, 0.20F, 1}, dim{0.42F, 0.23F, 0.12F, 1};
     ImVec4* c = style.Colors;

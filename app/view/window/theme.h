@@ -1,15 +1,15 @@
 #pragma once
-// Colours, sizes and fonts of the panels.
+// Colors, sizes and fonts of the panels.
 
 struct ImFont;
 
 namespace lacedring::view {
 
-/// Sizes are nominal pixels times `scale`.
+/// Sets fonts, colors and sizes, with `scale` pixels per nominal pixel.
 void apply_theme(float scale);
-/// Pixels of a nominal length.
+/// Converts nominal pixels to pixels.
 float px(float nominal);
-/// For what is read at leisure: legends.
+/// The smaller font, for legends and details.
 ImFont* small_font();
 
 }  // namespace lacedring::view

@@ -23,17 +23,16 @@ Error failed(const char* what) {
     return {gpu::kNoDevice, std::string(what) + (text != nullptr ? std::string(": ") + text : "")};
 }
 
-/// Called by Xlib, on the thread that notices, when the connection to the X server is lost. Xlib ends the process with
-/// a message and a code of its own if this returns. The state of everything else is unknown here, so nothing is
-/// destroyed.
+/// Called by Xlib when the connection to the X server is lost, on the thread that notices it. It must not return, or
+/// Xlib ends the process with its own message and exit code. Destroys nothing: the state of other objects is unknown.
 int display_lost(_XDisplay*) {
     constexpr std::string_view kLine = "lacedring: display: the connection to the X server is lost\n";
-    // Standard error may be lost as well: then there is nobody to tell.
+    // Ignore a failure: standard error may be lost, too.
     (void)!::write(STDERR_FILENO, kLine.data(), kLine.size());
     ::_exit(app::no_device);
 }
 
-/// Has Xlib call display_lost, if GLFW has Xlib loaded: nothing else here knows of X.
+/// Registers display_lost with Xlib if GLFW has loaded Xlib. The program does not link to it.
 void watch_connection() {
     void* const xlib = ::dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD);
     if (xlib == nullptr) return;
@@ -91,7 +90,7 @@ void Window::listen() {
     const auto of = [](GLFWwindow* w) -> Window& { return *static_cast<Window*>(glfwGetWindowUserPointer(w)); };
     static constexpr auto self = of;
     glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int mods) {
-        // Releases are told by no modifier at all times: a shift may be let go first.
+        // A release may have other modifiers than its press: shift may be released first.
         self(w).events_.push_back(
             {.kind = Event::key, .code = key, .down = action != GLFW_RELEASE, .modifiers = modifiers(mods)});
     });
@@ -167,7 +166,7 @@ void Window::set_size(std::uint32_t width, std::uint32_t height) {
 
 void Window::limit_size(std::uint32_t side) {
     limit_ = side;
-    const int most = static_cast<int>(std::min(side / pixels(), 65535.0));  // of any window system
+    const int most = static_cast<int>(std::min(side / pixels(), 65535.0));  // more than any window system allows
     glfwSetWindowSizeLimits(window_, GLFW_DONT_CARE, GLFW_DONT_CARE, most, most);
     const VkExtent2D now = extent();
     shrink(now.width, now.height);
@@ -191,7 +190,7 @@ void Window::minimise(bool minimised) {
 
 void Window::hide() {
     glfwHideWindow(window_);
-    glfwPollEvents();  // sends it
+    glfwPollEvents();  // sends the request
     events_.clear();
 }
 

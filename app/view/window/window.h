@@ -1,5 +1,5 @@
 #pragma once
-// The window, by GLFW. The only file that knows of it.
+// The window. Only window.cpp uses GLFW.
 
 #include <vulkan/vulkan.h>
 
@@ -26,16 +26,16 @@ class Window {
     std::vector<const char*> extensions() const;
     Result<VkSurfaceKHR> surface(VkInstance instance) const;
 
-    /// What happened since the last call; waits up to `seconds` for something.
+    /// Returns the events since the last call; waits up to `seconds` for one.
     std::vector<Event> poll(double seconds);
-    /// Ends a poll that waits. From any thread.
+    /// Ends a waiting poll(). May be called from any thread.
     static void wake();
 
-    VkExtent2D extent() const;  ///< pixels; zero while minimised
-    double scale() const;       ///< pixels of the display a nominal pixel
+    VkExtent2D extent() const;  ///< pixels; zero while minimized
+    double scale() const;       ///< pixels of the display per nominal pixel
     void set_size(std::uint32_t width, std::uint32_t height);
-    /// Keeps the window from getting larger than `side` pixels: the window system is asked to, and a window that is
-    /// larger all the same is asked to shrink, once for each size.
+    /// Limits the sides of the window to `side` pixels: asks the window system for the limit, and shrinks a window that
+    /// is larger nevertheless, once for each size.
     void limit_size(std::uint32_t side);
     void minimise(bool minimised);
     void hide();
@@ -44,14 +44,14 @@ class Window {
 
   private:
     Window() = default;
-    /// Pixels a unit of the window's coordinates.
+    /// Pixels per unit of the window's coordinates.
     double pixels() const;
     void listen();
     void shrink(double width, double height);
 
     GLFWwindow* window_ = nullptr;
     std::uint32_t limit_ = UINT32_MAX;
-    double shrunk_width_ = 0, shrunk_height_ = 0;  // that was too large last
+    double shrunk_width_ = 0, shrunk_height_ = 0;  // the last size that was too large
     std::vector<Event> events_;
 };
 
