@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of the corner operators in shaders have in common: meshes, their tables, and ways to run a shader.
+// For tests of the corner operators in shaders: meshes, their tables, and functions that run a shader.
 
 #include <algorithm>
 #include <array>
@@ -20,16 +20,16 @@
 
 namespace lacedring::test {
 
-/// A mesh's tables, and which element of its corner table (fans split) each of theirs is.
+/// A mesh's LR tables and the map of their elements to its corner table (with split fans).
 struct Tables {
     CornerTable table;
-    std::vector<float> positions;  ///< of the table's vertices
+    std::vector<float> positions;  ///< by vertex of the corner table
     EncodedLr encoded;
     LrMap map;
     LrView view;
 };
 
-/// Null where no table can be made of it.
+/// Null if the mesh has no LR tables.
 inline std::unique_ptr<Tables> tables_of(const Mesh& mesh, std::vector<float> positions, bool warts) {
     Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
     if (!table) return nullptr;
@@ -61,7 +61,7 @@ struct Measured {
     double worst = 0;
 };
 
-/// One set of pipelines for every mesh: lavapipe takes long to make them.
+/// Shares pipelines between all meshes, because lavapipe takes long to create them.
 struct AdjacencyTest : GpuTest {
     AdjacencyTest() {
         const std::array<gpu::Binding, 4> bindings{{{0}, {1}, {2}, {3}}};
@@ -119,7 +119,7 @@ struct AdjacencyTest : GpuTest {
     Measured measured;
 };
 
-/// Calls check(mesh, n) for every mesh that all of this is tested with; n varies.
+/// Calls check(mesh, n) for every test mesh, with varying n.
 template <class Check>
 void every_mesh(const Check& check) {
     for (const NamedMesh& named : named_meshes()) {
@@ -142,13 +142,13 @@ void every_mesh(const Check& check) {
         check(weld(*mesh, Weld::none), 1);
         check(weld(*mesh, Weld::position), 2);
     });
-    CHECK(checked.value_or(1) > 0);  // where the variable is set
+    CHECK_MESSAGE(checked.value_or(1) > 0, "the folder LACEDRING_MESHES has meshes");
 }
 
 using Point3 = detail::Vec3<double>;
 using detail::cross, detail::dot, detail::length, detail::minus;
 
-/// The positions that are drawn, or none where there is nothing to draw.
+/// The positions that are drawn; empty if there is nothing to draw.
 inline std::vector<float> model_positions(const Mesh& mesh) {
     Result<gpu::Model> model = gpu::make_model(mesh);
     return model ? std::move(model->positions) : std::vector<float>();

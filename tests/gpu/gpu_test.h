@@ -1,5 +1,5 @@
 #pragma once
-// What every test on the device has: validation on, and no message of it.
+// The fixture of all tests on the device: validation is on, and its messages fail the test.
 
 #include <doctest/doctest.h>
 
@@ -9,9 +9,10 @@
 
 namespace lacedring::test {
 
-constexpr std::uint32_t kWidth = 160, kHeight = 120;  // of most pictures
+// The size of most pictures.
+constexpr std::uint32_t kWidth = 160, kHeight = 120;
 
-/// Fails, and does not skip, where there is no device or no validation layer.
+/// Fails if there is no device or no validation layer; never skips.
 struct GpuTest {
     GpuTest() {
         Result<std::unique_ptr<gpu::Context>> made = gpu::Context::create({{}, true});

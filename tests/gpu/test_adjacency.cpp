@@ -1,5 +1,5 @@
-// shaders/include/lacedring_operators.glsl: every operator at every corner and vertex is Operators'; the normals that
-// are made with it are the corner table's.
+// Compares shaders/include/lacedring_operators.glsl with Operators at every corner and vertex, and the normals that it
+// computes with the corner table's.
 
 #include <cstdint>
 #include <random>
@@ -24,7 +24,7 @@ struct OperatorTest : AdjacencyTest {
     OperatorTest()
         : at_corners(pipeline(spirv_operators_table_comp, 0)), at_vertices(pipeline(spirv_operators_table_comp, 1)) {}
 
-    /// Results of the device, from `words`, that are not those of Operators on `view`.
+    /// Counts the device's results, computed from `words`, that differ from those of Operators on `view`.
     std::size_t differences(std::span<const std::uint32_t> words, const LrView& view) {
         const Operators<LrView> ops(view);
         const gpu::Buffer tables = buffer(words);
@@ -80,7 +80,7 @@ struct OperatorTest : AdjacencyTest {
 
 }  // namespace
 
-TEST_CASE_FIXTURE(OperatorTest, "operators in shaders are the CPU's at every corner and vertex") {
+TEST_CASE_FIXTURE(OperatorTest, "operators in shaders equal the CPU's at every corner and vertex") {
     every_mesh([&](const Mesh& mesh, std::uint32_t) {
         for (const bool warts : {true, false}) {
             const auto tables = tables_of(mesh, {}, warts);
@@ -91,7 +91,7 @@ TEST_CASE_FIXTURE(OperatorTest, "operators in shaders are the CPU's at every cor
     MESSAGE(measured.meshes, " tables, ", measured.corners, " corners, ", measured.vertices, " vertices");
 }
 
-TEST_CASE_FIXTURE(OperatorTest, "a wrong word in the tables is seen") {
+TEST_CASE_FIXTURE(OperatorTest, "the comparison finds a wrong word in the tables") {
     const auto tables = tables_of(generated("genus", 2000), {}, true);
     CHECK(tables->encoded.words[LR_TABLE_WORD_MAGIC] == LR_TABLE_MAGIC);
     CHECK(tables->encoded.words[LR_TABLE_WORD_VERSION] == LR_TABLE_VERSION);
@@ -101,14 +101,14 @@ TEST_CASE_FIXTURE(OperatorTest, "a wrong word in the tables is seen") {
     for (std::size_t i = 0; i < 20; ++i) {
         std::vector<std::uint32_t> words = tables->encoded.words;
         const std::size_t at = kLrHeaderWords + random() % (last - kLrHeaderWords);
-        // A bit of a tip or a reference; FLIP is no operator's business.
+        // Changes a bit of a tip or a reference. No operator reads the flip bit.
         words[at] ^= 1U << random() % 10;
         CAPTURE(at);
         CHECK(differences(words, tables->view) > 0);
     }
 }
 
-TEST_CASE_FIXTURE(OperatorTest, "operators end on tables that are nonsense") {
+TEST_CASE_FIXTURE(OperatorTest, "operators terminate on random tables") {
     const auto tables = tables_of(generated("blob", 2000), {}, true);
     std::mt19937 random(7);
     for (const std::uint32_t mask : {UINT32_MAX, 0x7ffU, 0xf00007ffU}) {
@@ -126,9 +126,9 @@ TEST_CASE_FIXTURE(OperatorTest, "operators end on tables that are nonsense") {
 
 namespace {
 
-/// The device has some 46 bits, the CPU 53. Both lose as many of them as the sum at a vertex is smaller than its terms:
-/// where that is more than 28, the device's normal may be off by 1e-5, and is not compared. In all meshes that this was
-/// run on, none is between 20 and 54: what is left out are sums that are zero, where the CPU's direction is chance,
+/// Normals with more cancellation than this factor are not compared. The device computes with about 46 bits, the CPU
+/// with 53, and cancellation by 2^n loses n of them; from n = 28 the device's error may reach 1e-5. In all meshes
+/// tested, no n is between 20 and 54: the excluded sums are zero, and their directions are rounding errors on the CPU,
 /// too.
 constexpr double kMostCancelled = 1 << 28;
 
@@ -139,8 +139,8 @@ struct NormalTest : AdjacencyTest {
         normals = std::move(*made);
     }
 
-    /// Of every vertex of the corner table: by how much the sum of its triangles' cross products is smaller than the
-    /// products in it. Infinite where there is no normal but that of rounding.
+    /// For each vertex of the corner table, the cancellation in the sum of its triangles' cross products: the size of
+    /// the terms divided by the size of the sum. Infinite if the sum is zero.
     static std::vector<double> cancelled(const Tables& tables) {
         const CornerTable& table = tables.table;
         const Positions positions{std::span<const float>(tables.positions)};
@@ -199,7 +199,7 @@ struct NormalTest : AdjacencyTest {
 
 }  // namespace
 
-TEST_CASE_FIXTURE(NormalTest, "normals from positions and tables alone are the CPU's") {
+TEST_CASE_FIXTURE(NormalTest, "normals that the device computes from tables and positions equal the CPU's") {
     every_mesh([&](const Mesh& mesh, std::uint32_t seed) {
         std::vector<float> positions = model_positions(mesh);
         if (positions.empty()) return;
@@ -208,5 +208,5 @@ TEST_CASE_FIXTURE(NormalTest, "normals from positions and tables alone are the C
     });
     CHECK(measured.excluded * 100 < measured.vertices);
     MESSAGE(measured.meshes, " meshes, ", measured.vertices, " vertices; ", measured.excluded,
-            " with no normal but rounding's, of which ", measured.rounded, " not exactly zero; worst ", measured.worst);
+            " cancelled and not compared, of which ", measured.rounded, " not exactly zero; worst ", measured.worst);
 }

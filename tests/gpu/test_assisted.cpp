@@ -1,4 +1,4 @@
-// GPU-assisted validation: what shaders read and write, as they do it. Slow, so it has small meshes.
+// GPU-assisted validation checks the addresses that shaders read and write. It is slow; meshes are small.
 
 #include "lrcore/codec/lean/lean_format.h"
 #include "renderer/draw/adjacency.h"
@@ -37,9 +37,9 @@ std::vector<Range> ranges_of(const gpu::Drawable& drawable) {
     return out;
 }
 
-/// Messages so far. One that says that an address is out of bounds, and is not, does not count: lavapipe 22.3 computes
-/// wrong values behind a loop that some invocations leave early at its end, and the layer looks addresses up in such a
-/// loop (1.3.239).
+/// The number of messages so far, without those that report an address within `ranges` as out of bounds. Layer 1.3.239
+/// looks addresses up in a loop that some invocations leave early, and lavapipe 22.3 computes wrong values behind such
+/// loops.
 std::size_t messages(gpu::Context& context, const std::vector<Range>& ranges) {
     std::size_t count = 0;
     for (const std::string& message : context.validation().messages()) {
@@ -70,22 +70,22 @@ gpu::Drawable draw(gpu::Renderer& renderer, const gpu::Model& model, const gpu::
 
 }  // namespace
 
-TEST_CASE("GPU-assisted validation is clean on every source and path, and sees a vertex fetched past the last") {
-    // One renderer for all: where drivers have not cached them, its pipelines take lavapipe minutes.
+TEST_CASE("GPU-assisted validation is clean for every source and path, and reports a vertex beyond the last") {
+    // One renderer for all meshes: lavapipe takes minutes to create pipelines that are not cached.
     const auto context = assisted();
     gpu::RendererOptions options;
     options.width = options.height = kPicture;
     options.max_range = kSmallRange;
     auto renderer = gpu::Renderer::create(*context, options);
     REQUIRE(renderer);
-    for (const char* kind : {"parts", "soup"}) {  // borders, loose triangles, warts, several rings
+    for (const char* kind : {"parts", "soup"}) {
         const Mesh mesh = generated(kind, 1000);
         const gpu::Model model = gpu::make_model(mesh, {.packed = true, .vertices = VertexOptions{}}).value();
         for (const auto& [name, path, path_label] : gpu::kPaths) {
             if (path == gpu::Path::mesh && context->info().max_mesh_groups == 0) continue;
             for (const auto& [source_name, source, source_label] : gpu::kSources) {
                 if (source == gpu::Source::plain) continue;
-                // The other stages decode vertices as pull does, and take long to instrument.
+                // The other paths decode vertices like pull, and take long to instrument.
                 if (source == gpu::Source::packed_vertices && path != gpu::Path::compute && path != gpu::Path::pull)
                     continue;
                 CAPTURE(std::string(name));
@@ -109,12 +109,12 @@ TEST_CASE("GPU-assisted validation is clean on every source and path, and sees a
 
     const Mesh sphere = generated("sphere", 200);
     gpu::Model bad = model_of(sphere);
-    bad.lean.words[LR_LEAN_HEADER_WORDS + 20] = sphere.vertex_count;  // a tip; validate_lean would refuse it
+    bad.lean.words[LR_LEAN_HEADER_WORDS + 20] = sphere.vertex_count;  // an invalid tip
     const gpu::Drawable drawable = draw(*renderer, bad, {gpu::Source::lean, gpu::Path::pull});
     CHECK(messages(*context, ranges_of(drawable)) > 0);
 }
 
-TEST_CASE("GPU-assisted validation is clean where shaders ask for neighbours") {
+TEST_CASE("GPU-assisted validation is clean for shaders that read neighbors") {
     const auto context = assisted();
     const Mesh mesh = generated("parts", 1000);
     const gpu::Model model = model_of(mesh);

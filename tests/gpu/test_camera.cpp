@@ -14,7 +14,7 @@ gpu::Camera camera_of(const gpu::Model& model, const gpu::CameraOptions& options
     return *camera;
 }
 
-/// A point of the mesh in clip space, divided.
+/// A point of the mesh in normalized device coordinates.
 std::array<double, 3> project(const gpu::Model& model, const gpu::Camera& camera, std::array<double, 3> p) {
     std::array<double, 4> v{0, 0, 0, 1}, view{}, clip{};
     for (std::size_t i = 0; i < 3; ++i) v[i] = (p[i] - model.centre[i]) / model.radius;
@@ -29,7 +29,7 @@ std::array<double, 3> project(const gpu::Model& model, const gpu::Camera& camera
 
 }  // namespace
 
-TEST_CASE("the default camera shows the whole mesh, and fills the picture with it") {
+TEST_CASE("the default camera shows the whole mesh, which fills the picture") {
     for (const char* kind : {"sphere", "terrain", "genus"}) {
         CAPTURE(kind);
         const Mesh mesh = generated(kind, 1000);
@@ -48,7 +48,7 @@ TEST_CASE("the default camera shows the whole mesh, and fills the picture with i
     }
 }
 
-TEST_CASE("azimuth goes to the eye's right, elevation up, zoom nearer") {
+TEST_CASE("azimuth moves the eye to the right, elevation up, zoom nearer") {
     const Mesh mesh = generated("sphere", 1000);
     const gpu::Model model = model_of(mesh);
     gpu::CameraOptions options;
@@ -79,7 +79,7 @@ TEST_CASE("azimuth goes to the eye's right, elevation up, zoom nearer") {
     options.zoom = 2;
     CHECK(close_to(eye_of(options), {0, 0, 5}));
     options.zoom = 1;
-    options.up = {0, 0, 1};  // along the line of sight: still a picture
+    options.up = {0, 0, 1};  // along the line of sight, which is valid
     CHECK(close_to(eye_of(options), {0, 0, 10}));
 }
 

@@ -1,4 +1,4 @@
-// Classes are what the pictures' colours stand for: they must add up to the encoder's own counts.
+// Compares the triangle classes, offsets and lines that pictures show with the encoder's counts.
 
 #include <array>
 
@@ -32,7 +32,7 @@ TEST_CASE("triangle classes add up to the encoder's statistics") {
     }
 }
 
-TEST_CASE("offsets of the picture are those of the ring's tips") {
+TEST_CASE("offsets in the picture are those of the ring's tips") {
     for (const std::uint32_t k : {0U, 32U}) {
         CAPTURE(k);
         const Mesh mesh = generated("blob", 5000, 4);
@@ -44,7 +44,7 @@ TEST_CASE("offsets of the picture are those of the ring's tips") {
         REQUIRE(table);
         const Result<LrTable> lr = build_lr(*table, expand_rings(*table, {1, 1, k, true}));
         REQUIRE(lr);
-        REQUIRE(lr->ring_vertices == view->rings2);  // one ring: the lean one is the same, turned to begin elsewhere
+        REQUIRE(lr->ring_vertices == view->rings2);  // one ring: the lean stream has it from another start
         const OffsetCounts expected = count_offsets(lr->view());
         std::array<std::uint32_t, 256> count{};
         for (const std::uint8_t bits : gpu::slot_offset_bits(*view)) ++count[bits];
@@ -77,5 +77,6 @@ TEST_CASE("every edge is drawn once") {
     const std::vector<std::uint32_t> indices{0, 1, 2, 2, 1, 3, 3, 3, 0};
     CHECK(gpu::mesh_edges(indices) == std::vector<std::uint32_t>{0, 1, 0, 2, 0, 3, 1, 2, 1, 3, 2, 3});
     const Mesh sphere = generated("sphere", 2000);
-    CHECK(gpu::mesh_edges(sphere.indices).size() == sphere.indices.size());  // 3T/2 edges, two ends each
+    // 3T/2 edges of two ends each.
+    CHECK(gpu::mesh_edges(sphere.indices).size() == sphere.indices.size());
 }

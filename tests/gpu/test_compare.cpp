@@ -1,4 +1,4 @@
-// The streams' pictures are the plain path's, bit for bit, and a blank picture is no proof of it.
+// Compares the pictures of streams with those of the plain index list, bit for bit.
 
 #include <cstdlib>
 #include <cstring>
@@ -11,10 +11,10 @@ using namespace lacedring::test;
 
 namespace {
 
-// For triangles in the same place, each of which draws every pixel.
+// For triangles at the same place, each of which covers every pixel.
 constexpr std::uint32_t kTinyWidth = 64, kTinyHeight = 48;
 
-/// Every source by every path that the device has.
+/// Every source with every path that the device supports.
 std::vector<gpu::Subject> all_subjects(const gpu::Context& context) {
     std::vector<gpu::Subject> out;
     for (const gpu::Named<gpu::Path>& named : gpu::kPaths) {
@@ -24,7 +24,7 @@ std::vector<gpu::Subject> all_subjects(const gpu::Context& context) {
     return out;
 }
 
-/// Pipelines for many models: they take lavapipe long to make.
+/// A renderer for many models, because lavapipe takes long to create pipelines.
 gpu::Renderer small_renderer(gpu::Context& context, std::uint64_t max_range = 0, std::uint32_t width = kWidth,
                              std::uint32_t height = kHeight) {
     gpu::RendererOptions options;
@@ -52,7 +52,7 @@ void check_same(const gpu::Comparison& c) {
 
 void check_same(const std::vector<gpu::Comparison>& all) {
     for (std::size_t i = 0; i < all.size(); ++i) {
-        CAPTURE(i);  // of all_subjects
+        CAPTURE(i);  // in all_subjects
         check_same(all[i]);
     }
 }
@@ -70,7 +70,7 @@ Mesh from_points(std::vector<float> points, std::vector<std::uint32_t> indices) 
 
 }  // namespace
 
-TEST_CASE_FIXTURE(GpuTest, "every generated mesh gives the same pictures by every path") {
+TEST_CASE_FIXTURE(GpuTest, "generated meshes have the same pictures by every path") {
     gpu::Renderer renderer = small_renderer(*context);
     for (const GeneratorInfo& kind : generators()) {
         CAPTURE(kind.name);
@@ -81,7 +81,7 @@ TEST_CASE_FIXTURE(GpuTest, "every generated mesh gives the same pictures by ever
         CHECK(!all[0].blank);
         CHECK(all[0].distinct_ids > 1000);
         CHECK(all[0].covered_pixels > 6 * kWidth * kHeight / 20);
-        // Raw pictures of clean surfaces differ by the rounding of normals only.
+        // Raw pictures of manifold meshes differ only by the rounding of normals.
         const std::string_view name = kind.name;
         if (name != "sphere" && name != "torus" && name != "genus" && name != "blob") continue;
         for (const gpu::Comparison& c : all) {
@@ -91,7 +91,7 @@ TEST_CASE_FIXTURE(GpuTest, "every generated mesh gives the same pictures by ever
     }
 }
 
-TEST_CASE_FIXTURE(GpuTest, "meshes in many parts give the same pictures by every path") {
+TEST_CASE_FIXTURE(GpuTest, "meshes decoded in many parts have the same pictures by every path") {
     gpu::Renderer renderer = small_renderer(*context, kSmallRange);
     for (const char* kind : {"parts", "terrain"}) {
         CAPTURE(kind);
@@ -100,14 +100,14 @@ TEST_CASE_FIXTURE(GpuTest, "meshes in many parts give the same pictures by every
     }
 }
 
-TEST_CASE("mesh shaders are there where they are asked for") {
+TEST_CASE("mesh shaders are available where the environment requires them") {
     if (std::getenv("LACEDRING_REQUIRE_MESH") == nullptr) return;
     const auto context = gpu::Context::create({{}, true});
     REQUIRE(context);
     CHECK((*context)->info().max_mesh_groups > 0);
 }
 
-TEST_CASE_FIXTURE(GpuTest, "meshes of every local shape give the same pictures") {
+TEST_CASE_FIXTURE(GpuTest, "meshes of every local shape have the same pictures") {
     gpu::Renderer renderer = small_renderer(*context);
     for (const NamedMesh& named : named_meshes()) {
         if (named.mesh.triangle_count() > 400) continue;
@@ -118,26 +118,26 @@ TEST_CASE_FIXTURE(GpuTest, "meshes of every local shape give the same pictures")
     }
 }
 
-TEST_CASE_FIXTURE(GpuTest, "triangles in the same place, in any order and rotation, give the same pictures") {
+TEST_CASE_FIXTURE(GpuTest, "coinciding triangles in any order and rotation have the same pictures") {
     Mesh mesh = generated("blob", 400);
     const std::vector<std::uint32_t> once = mesh.indices;
-    for (std::size_t i = once.size(); i >= 3; i -= 3) {  // again, backwards and rotated
+    for (std::size_t i = once.size(); i >= 3; i -= 3) {  // again, in reverse order and rotated
         for (const std::size_t k : {std::size_t{2}, std::size_t{3}, std::size_t{1}})
             mesh.indices.push_back(once[i - k]);
     }
-    for (std::size_t i = 0; i < once.size(); i += 3) {  // and turned round
+    for (std::size_t i = 0; i < once.size(); i += 3) {  // and flipped
         for (const std::size_t k : {std::size_t{2}, std::size_t{1}, std::size_t{0}})
             mesh.indices.push_back(once[i + k]);
     }
     gpu::Renderer renderer = small_renderer(*context);
     const std::vector<gpu::Comparison> all = compared(renderer, model_of(mesh));
     check_same(all);
-    // The smallest number wins, so only the first copy of each is ever seen.
+    // The triangle of the smallest number is visible: only the first copy of each.
     CHECK(all[0].distinct_ids <= once.size() / 3);
     CHECK(!all[0].blank);
 }
 
-TEST_CASE_FIXTURE(GpuTest, "a mesh far from the origin, tiny or large, gives the same pictures") {
+TEST_CASE_FIXTURE(GpuTest, "a mesh far from the origin, tiny or large, has the same pictures") {
     gpu::Renderer renderer = small_renderer(*context);
     for (const float scale : {1e-20F, 1e-3F, 1e15F}) {
         CAPTURE(scale);
@@ -151,8 +151,8 @@ TEST_CASE_FIXTURE(GpuTest, "a mesh far from the origin, tiny or large, gives the
     }
 }
 
-TEST_CASE_FIXTURE(GpuTest, "a blank picture is told, and is no difference") {
-    // Triangles without area: nothing is drawn, and nothing differs.
+TEST_CASE_FIXTURE(GpuTest, "a blank picture is reported, and does not count as different") {
+    INFO("triangles without area, coinciding triangles, then another visible triangle");
     const Mesh mesh = from_points({0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0}, {0, 1, 2, 1, 3, 2});
     gpu::Renderer renderer = small_renderer(*context, 0, kTinyWidth, kTinyHeight);
     for (const gpu::Comparison& c : compared(renderer, model_of(mesh))) {
@@ -161,18 +161,18 @@ TEST_CASE_FIXTURE(GpuTest, "a blank picture is told, and is no difference") {
         CHECK(c.blank);
         CHECK(c.same());
     }
-    // Coinciding triangles: a picture of one of many.
+    // Of coinciding triangles one is visible.
     std::vector<std::uint32_t> indices;
     for (int i = 0; i < 2000; ++i) indices.insert(indices.end(), {0, 1, 2});
     const Mesh coinciding = from_points({0, 0, 0, 1, 0, 0, 0, 1, 0}, indices);
     gpu::Model model = model_of(coinciding);
     for (const gpu::Comparison& c : compared(renderer, model)) {
-        CHECK(c.covered_pixels > 2000);  // room for each of the triangles
+        CHECK_MESSAGE(c.covered_pixels > 2000, "as many pixels as triangles");
         CHECK(c.distinct_ids == 1);
         CHECK(c.blank);
         CHECK(c.same());
     }
-    // A difference is still found: another triangle is the visible one.
+    // The comparison finds that another triangle is visible.
     for (std::uint32_t& t : model.lean.slot_triangle) t = t == 0 ? 2001U : t;
     const auto wrong =
         gpu::compare(renderer, model, std::vector<gpu::Subject>{{gpu::Source::lean, gpu::Path::compute}});

@@ -1,5 +1,5 @@
-// The device's index buffers are decode_lean's and decode_packed's, integer for integer; its draw commands cover them;
-// rotating is rotating.
+// Compares the index buffers that the device decodes with decode_lean and decode_packed, and checks its draw commands
+// and the rotation of triangles.
 
 #include <algorithm>
 #include <array>
@@ -32,12 +32,12 @@ std::vector<std::uint32_t> decoded_by_cpu(const gpu::Model& model, gpu::Source s
     return out;
 }
 
-/// One renderer a range for many meshes: pipelines take lavapipe long to make.
+/// Keeps a renderer for each descriptor range, because lavapipe takes long to create pipelines.
 struct DecodeTest : GpuTest {
-    /// Both streams of a mesh. `blocks`, if asked for, counts the packed stream's parted and plain ones.
+    /// Checks both streams of a mesh. Adds the packed stream's parted and plain blocks to `blocks`.
     void check(const Mesh& mesh, std::uint64_t max_range, std::array<std::uint32_t, 2>* blocks = nullptr) {
         Result<gpu::Model> model = gpu::make_model(mesh, {.packed = true});
-        if (!model || model->packed.triangle_order.empty()) return;  // nothing to draw: test_compare has that
+        if (!model || model->packed.triangle_order.empty()) return;  // nothing to draw: see test_compare.cpp
         check(*model, gpu::Source::lean, max_range);
         check(*model, gpu::Source::packed, max_range);
         small_read = read;
@@ -71,10 +71,25 @@ struct DecodeTest : GpuTest {
         REQUIRE_MESSAGE(indices, indices.error().message);
         const std::vector<std::uint32_t> expected = decoded_by_cpu(model, source);
         REQUIRE(indices->size() == expected.size());
-        CHECK(*indices == expected);
+        CHECK_MESSAGE(*indices == expected, "the compute path decodes the CPU's indices");
+        check_draws(r, *drawable, expected.size());
+        if (max_range != 0 && expected.size() * 4 > 2 * max_range) CHECK(drawable->decode.dispatches.size() > 1);
 
-        std::vector<VkDrawIndexedIndirectCommand> commands(drawable->mesh.draws);
-        REQUIRE(r.transfer().read(drawable->mesh.commands, 0, std::as_writable_bytes(std::span(commands))));
+        Result<gpu::Drawable> pulled = r.upload(model, source, gpu::Path::pull);
+        REQUIRE_MESSAGE(pulled, pulled.error().message);
+        const auto slots = r.read_indices(*pulled);
+        REQUIRE_MESSAGE(slots, slots.error().message);
+        CHECK_MESSAGE(*slots == expected, "the pull path decodes the CPU's indices slot by slot");
+
+        const auto words = r.words_read(*pulled);
+        REQUIRE_MESSAGE(words, words.error().message);
+        read = {4 * words->most, 12 * words->all / expected.size()};
+    }
+
+    static void check_draws(gpu::Renderer& r, const gpu::Drawable& drawable, std::size_t indices) {
+        INFO("the draw commands cover all indices, once");
+        std::vector<VkDrawIndexedIndirectCommand> commands(drawable.mesh.draws);
+        REQUIRE(r.transfer().read(drawable.mesh.commands, 0, std::as_writable_bytes(std::span(commands))));
         std::uint64_t covered = 0;
         for (const VkDrawIndexedIndirectCommand& command : commands) {
             CHECK(command.firstIndex == covered);
@@ -83,40 +98,29 @@ struct DecodeTest : GpuTest {
             CHECK(command.firstInstance == 0);
             covered += command.indexCount;
         }
-        CHECK(covered == expected.size());
-        if (max_range != 0 && expected.size() * 4 > 2 * max_range) CHECK(drawable->decode.dispatches.size() > 1);
-
-        // By the stages that decode by themselves, slot by slot.
-        Result<gpu::Drawable> pulled = r.upload(model, source, gpu::Path::pull);
-        REQUIRE_MESSAGE(pulled, pulled.error().message);
-        const auto slots = r.read_indices(*pulled);
-        REQUIRE_MESSAGE(slots, slots.error().message);
-        CHECK(*slots == expected);
-
-        const auto words = r.words_read(*pulled);
-        REQUIRE_MESSAGE(words, words.error().message);
-        read = {4 * words->most, 12 * words->all / expected.size()};
+        CHECK(covered == indices);
     }
 
     std::map<std::uint64_t, gpu::Renderer> renderers;
 
   protected:
     struct Read {
-        std::uint64_t most = 0, mean = 0;  // bytes, by one triangle
+        std::uint64_t most = 0, mean = 0;  ///< bytes per triangle
     };
-    Read read, small_read;  // of the last mesh; of its packed stream of the small profile
+    Read read;        ///< of the last mesh
+    Read small_read;  ///< of its packed stream of the small profile
 };
 
 }  // namespace
 
-TEST_CASE_FIXTURE(DecodeTest, "every small mesh decodes as on the CPU") {
+TEST_CASE_FIXTURE(DecodeTest, "named meshes decode as on the CPU") {
     for (const NamedMesh& named : named_meshes()) {
         CAPTURE(named.name);
         check(named.mesh, 0);
     }
 }
 
-TEST_CASE_FIXTURE(DecodeTest, "every small mesh decodes as on the CPU through many small descriptors") {
+TEST_CASE_FIXTURE(DecodeTest, "named meshes decode as on the CPU with many small descriptors") {
     for (const NamedMesh& named : named_meshes()) {
         CAPTURE(named.name);
         check(named.mesh, kSmallRange);
@@ -142,14 +146,14 @@ TEST_CASE_FIXTURE(DecodeTest, "larger generated meshes decode as on the CPU") {
         const Mesh mesh = generated(kind.name, 60000, 3);
         check(mesh, 0);
         check(mesh, 100000);
-        // More only where there is hardly a corridor.
+        // Meshes without long corridors read more.
         if (kind.name == std::string_view("parts") || kind.name == std::string_view("soup")) continue;
         CHECK(small_read.most <= 192);
         CHECK(small_read.mean <= 80);
     }
 }
 
-TEST_CASE_FIXTURE(GpuTest, "an exact picture leaves every triangle rotated to its smallest original vertex") {
+TEST_CASE_FIXTURE(GpuTest, "an exact picture rotates every triangle to begin with its smallest original vertex") {
     const Mesh mesh = generated("blob", 5000);
     const gpu::Model model = model_of(mesh);
     gpu::RendererOptions options;
@@ -185,7 +189,7 @@ TEST_CASE_FIXTURE(GpuTest, "an exact picture leaves every triangle rotated to it
             ++triangles;
         }
         CHECK(triangles == mesh.triangle_count());
-        // Raw pictures would now be of rotated triangles.
+        // A raw picture would now show rotated triangles.
         CHECK(!renderer->draw(*drawable, model, *camera, false));
     }
 }

@@ -6,7 +6,7 @@
 using namespace lacedring;
 using namespace lacedring::test;
 
-TEST_CASE("a device that is not there is an error that lists the ones that are") {
+TEST_CASE("a missing device is an error that lists the available ones") {
     const auto context = gpu::Context::create({"no such device", false});
     REQUIRE(!context);
     CHECK(context.error().code == gpu::kNoDevice);
@@ -17,7 +17,7 @@ TEST_CASE("a device that is not there is an error that lists the ones that are")
     CHECK(context.error().message.find((*any)->info().name) != std::string::npos);
 }
 
-TEST_CASE("lavapipe is found by the name that documents give it, though its driver calls itself llvmpipe") {
+TEST_CASE("lavapipe is found by that name, although its driver is named llvmpipe") {
     const auto any = gpu::Context::create({});
     REQUIRE(any);
     if (!(*any)->info().driver.starts_with("llvmpipe")) return;
@@ -29,7 +29,7 @@ TEST_CASE("lavapipe is found by the name that documents give it, though its driv
     }
 }
 
-TEST_CASE_FIXTURE(GpuTest, "the device can be asked for by part of its name, in any case") {
+TEST_CASE_FIXTURE(GpuTest, "a device is found by a part of its name, in upper or lower case") {
     std::string part = context->info().name.substr(0, 5);
     for (char& c : part) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     const auto again = gpu::Context::create({part, false});
@@ -38,7 +38,7 @@ TEST_CASE_FIXTURE(GpuTest, "the device can be asked for by part of its name, in 
     CHECK((*again)->info().api.rfind("1.", 0) == 0);
 }
 
-TEST_CASE_FIXTURE(GpuTest, "buffers are cut from few blocks, do not overlap, and are joined again") {
+TEST_CASE_FIXTURE(GpuTest, "buffers share few blocks, do not overlap, and freed ranges are joined") {
     std::vector<gpu::Buffer> buffers;
     for (std::uint32_t i = 0; i < 500; ++i) {
         auto buffer = gpu::Buffer::create(*context, "small", 1000 + 37 * i, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
@@ -55,14 +55,14 @@ TEST_CASE_FIXTURE(GpuTest, "buffers are cut from few blocks, do not overlap, and
     CHECK(context->arena().block_count() <= 2);
     const VkDeviceSize held = context->arena().held();
     buffers.clear();
-    // Everything is one free range again, so a buffer as large as all of them needs no new block.
+    // All is one free range again: a buffer of the total size needs no new block.
     const auto large =
         gpu::Buffer::create(*context, "large", held / 2, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Memory::upload);
     REQUIRE(large);
     CHECK(context->arena().held() == held);
 }
 
-TEST_CASE_FIXTURE(GpuTest, "a block made for one large buffer goes with it") {
+TEST_CASE_FIXTURE(GpuTest, "the block of a single large buffer is freed with the buffer") {
     const VkDeviceSize held = context->arena().held();
     {
         const auto large =
@@ -73,7 +73,7 @@ TEST_CASE_FIXTURE(GpuTest, "a block made for one large buffer goes with it") {
     CHECK(context->arena().held() == held);
 }
 
-TEST_CASE_FIXTURE(GpuTest, "more than the device gives is an error") {
+TEST_CASE_FIXTURE(GpuTest, "a buffer larger than the device's memory is an error") {
     const auto buffer =
         gpu::Buffer::create(*context, "huge", context->info().max_buffer_size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     REQUIRE(!buffer);
@@ -84,7 +84,7 @@ TEST_CASE_FIXTURE(GpuTest, "more than the device gives is an error") {
     CHECK(target.error().code == gpu::kNoDevice);
 }
 
-TEST_CASE_FIXTURE(GpuTest, "bytes survive the way to the device and back, in pieces") {
+TEST_CASE_FIXTURE(GpuTest, "bytes written to the device in pieces are read back") {
     auto transfer = gpu::Transfer::create(*context);
     REQUIRE(transfer);
     std::vector<std::uint32_t> values((std::size_t{20} << 20) / 4 + 3);
@@ -98,7 +98,7 @@ TEST_CASE_FIXTURE(GpuTest, "bytes survive the way to the device and back, in pie
     CHECK(!transfer->read(*buffer, 8, std::as_writable_bytes(std::span(back))));
 }
 
-TEST_CASE("a mesh takes the device memory that was said, and none where there is too little") {
+TEST_CASE("a mesh takes at most the predicted device memory, and none if that exceeds the limit") {
     const Mesh mesh = generated("blob", 200000);
     const gpu::Model model = gpu::make_model(mesh, {.packed = true, .vertices = VertexOptions{}}).value();
     auto context = gpu::Context::create({{}, true});
@@ -118,8 +118,8 @@ TEST_CASE("a mesh takes the device memory that was said, and none where there is
                 const auto drawable = renderer->upload(model, source, path);
                 REQUIRE(drawable);
                 const std::uint64_t taken = (*context)->arena().used() - before;
-                CHECK(taken <= said + 8 * 256);  // each buffer rounded up
-                // Lines are counted as if none were shared, or all vertices were on rings.
+                CHECK(taken <= said + 8 * 256);  // buffers are rounded up
+                // The prediction counts lines as if none were shared and all vertices were on rings.
                 const bool edges = view == gpu::View::wire;
                 CHECK(said <= taken + 24000 + (edges ? 12 * mesh.triangle_count() : 2 * mesh.vertex_count));
             }

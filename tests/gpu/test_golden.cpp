@@ -1,5 +1,5 @@
-// Pictures of generated meshes and of those in assets/ against those in tests/image. A missing one fails.
-// LACEDRING_UPDATE_GOLDEN=1 test_gpu -tc="golden*" writes them anew: look at them before they are kept.
+// Compares pictures of generated meshes and of assets/ with those in tests/image; a missing one fails.
+// LACEDRING_UPDATE_GOLDEN=1 test_gpu -tc="golden*" rewrites them: look at the new ones before committing.
 
 #include <cmath>
 #include <cstdlib>
@@ -17,10 +17,10 @@ namespace {
 
 constexpr std::uint32_t kSamples = 3;
 
-// Not exact: compilers and processors with other vector units fuse and order multiplications otherwise, which moves a
-// sample of a silhouette or of a line from time to time; one sample of nine is up to 28/255 of a pixel. Lavapipe 22.3
-// stays within this with SSE4.1, AVX and AVX-512. A wrong colour, shape or class moves far more: see the end of the
-// test.
+// The comparison is not exact: compilers and vector units fuse and order multiplications differently, which moves a few
+// samples of silhouettes and lines; one sample of nine is up to 28/255 of a pixel. Lavapipe 22.3 stays within the
+// tolerance with SSE4.1, AVX and AVX-512. Wrong colors, shapes and classes differ far more, as the end of the test
+// shows.
 constexpr std::uint32_t kSameColour = 4;
 constexpr double kOtherPixels = 0.005;
 
@@ -62,8 +62,8 @@ gpu::Picture drawn(gpu::Renderer& renderer, const gpu::Model& model, gpu::Source
 
 struct Golden {
     const char* name;
-    const char* mesh;         ///< a file of assets/, or a kind to generate
-    std::uint64_t triangles;  ///< 0: a file
+    const char* mesh;         ///< a file of assets/, or the name of a generator
+    std::uint64_t triangles;  ///< 0 for a file
     gpu::View view;
 };
 
@@ -92,14 +92,14 @@ Mesh mesh_of(const Golden& golden, Materials& materials) {
 
 }  // namespace
 
-TEST_CASE_FIXTURE(GpuTest, "golden pictures") {
+TEST_CASE_FIXTURE(GpuTest, "golden pictures are drawn within the tolerance") {
     const bool update = std::getenv("LACEDRING_UPDATE_GOLDEN") != nullptr;
-    std::map<gpu::View, std::optional<gpu::Renderer>> renderers;  // pipelines take lavapipe long to make
+    std::map<gpu::View, std::optional<gpu::Renderer>> renderers;  // lavapipe takes long to create pipelines
     std::vector<gpu::Picture> goldens;
     for (const Golden& golden : kGoldens) {
         CAPTURE(std::string(golden.name));
         Materials materials;
-        const Mesh mesh = mesh_of(golden, materials);  // the model looks at both
+        const Mesh mesh = mesh_of(golden, materials);  // must outlive the model
         gpu::Model model = model_of(mesh);
         if (golden.view == gpu::View::material) gpu::add_materials(model, mesh, materials);
         const auto [at, made] = renderers.try_emplace(golden.view);
@@ -123,7 +123,7 @@ TEST_CASE_FIXTURE(GpuTest, "golden pictures") {
         CHECK(share_of_others(picture, *kept) <= kOtherPixels);
         goldens.push_back(*kept);
     }
-    // The tolerance tells them apart.
+    INFO("the pictures of different goldens differ by more than the tolerance");
     for (std::size_t i = 0; i < goldens.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) CHECK(share_of_others(goldens[i], goldens[j]) > 10 * kOtherPixels);
     }

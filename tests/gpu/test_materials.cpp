@@ -1,4 +1,4 @@
-// Materials: their textures, and pictures of them from every source, by every path.
+// Tests materials: their textures, and their pictures from every source by every path.
 
 #include <array>
 #include <filesystem>
@@ -45,7 +45,7 @@ DrawnMesh asset(const char* name) {
     return out;
 }
 
-/// A square in the plane of z = 0, seen from the front, of one material.
+/// A square of one material in the plane z = 0, seen from the front.
 struct Square {
     Mesh mesh{4, {0, 1, 2, 0, 2, 3}, {}};
     Materials materials{{Material{}}, {}, {0, 0}};
@@ -63,7 +63,7 @@ struct Square {
     }
     Material& material() { return materials.materials[0]; }
 
-    /// The pixel at a place of the square, from its left upper corner; none where nothing is drawn.
+    /// The pixel at (x, y) of the square, from its left upper corner; black if nothing is drawn there.
     std::array<std::uint8_t, 3> pixel(gpu::Renderer& renderer, double x, double y, bool behind = false) {
         gpu::Model model = model_of(mesh);
         gpu::add_materials(model, mesh, materials);
@@ -75,7 +75,7 @@ struct Square {
         REQUIRE(camera);
         const Result<gpu::Picture> picture = renderer.draw(*drawable, model, *camera, true);
         REQUIRE_MESSAGE(picture, picture.error().message);
-        // The square fills the unit sphere, and this the height of the picture, nearly.
+        // The square fills nearly all of the picture's height.
         std::uint32_t left = kWidth, right = 0, top = kHeight, bottom = 0;
         for (std::uint32_t i = 0; i < picture->pixels(); ++i) {
             if (picture->triangles[i] == 0) continue;
@@ -101,12 +101,12 @@ bool near(const std::array<std::uint8_t, 3>& a, const std::array<std::uint8_t, 3
 
 }  // namespace
 
-TEST_CASE("mip maps: the mean of four texels, colors as light") {
+TEST_CASE("mip maps: a texel is the mean of four, for colors of their linear values") {
     for (const bool is_color : {false, true}) {
-        std::vector<std::uint32_t> texels{kBlack, kWhite, kWhite, kBlack, kWhite, kWhite};  // 3 x 2
+        std::vector<std::uint32_t> texels{kBlack, kWhite, kWhite, kBlack, kWhite, kWhite};  // 3 by 2
         CHECK(gpu::append_mip_maps(texels, 3, 2, is_color) == 2);
         REQUIRE(texels.size() == 7);
-        const std::uint32_t red = texels[6] & 255;  // of black, white, black and white
+        const std::uint32_t red = texels[6] & 255;  // the mean of two black and two white texels
         CHECK(red >= (is_color ? 187 : 127));
         CHECK(red <= (is_color ? 189 : 128));
         const std::uint32_t alpha = texels[6] >> 24;
@@ -115,11 +115,11 @@ TEST_CASE("mip maps: the mean of four texels, colors as light") {
     std::vector<std::uint32_t> one{0x12345678};
     CHECK(gpu::append_mip_maps(one, 1, 1, true) == 1);
     std::vector<std::uint32_t> line(5, kWhite);
-    CHECK(gpu::append_mip_maps(line, 1, 5, true) == 3);  // 5, 2, 1
+    CHECK_MESSAGE(gpu::append_mip_maps(line, 1, 5, true) == 3, "heights 5, 2, 1");
     CHECK(line == std::vector<std::uint32_t>(8, kWhite));
 }
 
-TEST_CASE("textures: what is no image is told of, and left out") {
+TEST_CASE("textures: bytes that are no image are noted and left out") {
     Materials materials;
     materials.materials.resize(2);
     materials.materials[0].base.image = 1;
@@ -133,19 +133,19 @@ TEST_CASE("textures: what is no image is told of, and left out") {
     CHECK(whole.images[0].width == 5);
     CHECK(whole.images[0].height == 3);
     CHECK(whole.images[0].levels == 3);
-    CHECK(whole.images[2].width == 0);  // no material uses it
+    CHECK_MESSAGE(whole.images[2].width == 0, "an unused image is not decoded");
     CHECK(whole.images[3].first == 15 + 2 + 1);
     CHECK(whole.texels.size() == 15 + 2 + 1 + 14 + 3 + 1);
     CHECK(whole.texels[1] == (10U | 254U << 8 | 200U << 16 | 255U << 24));
     CHECK(whole.notes == std::vector<std::string>{"not drawn: image 1: neither PNG nor JPEG"});
-    // A decoder may give what there is of a cut image, or refuse it: neither reads beyond its bytes.
+    // A cut image may be refused or decoded in part; a sanitizer reports reads behind its end.
     while (cut.size() > 1) {
         cut.resize(cut.size() - 1);
         (void)gpu::decode_textures(materials);
     }
 }
 
-TEST_CASE_FIXTURE(GpuTest, "materials: each property of one is seen") {
+TEST_CASE_FIXTURE(GpuTest, "materials: each property changes the picture") {
     gpu::RendererOptions options;
     options.view = gpu::View::material;
     options.width = kWidth;
@@ -155,13 +155,16 @@ TEST_CASE_FIXTURE(GpuTest, "materials: each property of one is seen") {
     using Color = std::array<std::uint8_t, 3>;
     const Color none{};
     Square square;
-    square.material().base_color = {1, 0.2158605F, 0, 1};  // sRGB's 128
-    CHECK(near(square.pixel(*renderer, 0.5, 0.5), Color{255, 128, 0}));
-    CHECK(square.pixel(*renderer, 0.5, 0.5, true) == none);
-    square.material().double_sided = true;
-    CHECK(near(square.pixel(*renderer, 0.5, 0.5, true), Color{255, 128, 0}));
+    square.material().base_color = {1, 0.2158605F, 0, 1};  // green is 128 in sRGB
+    {
+        INFO("base_color, and double_sided");
+        CHECK(near(square.pixel(*renderer, 0.5, 0.5), Color{255, 128, 0}));
+        CHECK(square.pixel(*renderer, 0.5, 0.5, true) == none);
+        square.material().double_sided = true;
+        CHECK(near(square.pixel(*renderer, 0.5, 0.5, true), Color{255, 128, 0}));
+    }
 
-    // Four texels, without blending: red, green above; blue, white below.
+    // Four texels, nearest: red and green above, blue and white below.
     gpu::Picture four;
     four.width = four.height = 2;
     four.rgba = {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 255};
@@ -170,38 +173,45 @@ TEST_CASE_FIXTURE(GpuTest, "materials: each property of one is seen") {
     m.base_color = {1, 1, 1, 1};
     m.base.image = 0;
     m.base.nearest = true;
-    CHECK(near(square.pixel(*renderer, 0.25, 0.25), Color{255, 0, 0}));
-    CHECK(near(square.pixel(*renderer, 0.75, 0.25), Color{0, 255, 0}));
-    CHECK(near(square.pixel(*renderer, 0.25, 0.75), Color{0, 0, 255}));
-    CHECK(near(square.pixel(*renderer, 0.75, 0.75), Color{255, 255, 255}));
-    m.base.transform = {2, 0, 0, 0, 1, 0};  // twice across
-    CHECK(near(square.pixel(*renderer, 0.6, 0.25), Color{255, 0, 0}));
-    CHECK(near(square.pixel(*renderer, 0.9, 0.25), Color{0, 255, 0}));
+    {
+        INFO("the texture");
+        CHECK(near(square.pixel(*renderer, 0.25, 0.25), Color{255, 0, 0}));
+        CHECK(near(square.pixel(*renderer, 0.75, 0.25), Color{0, 255, 0}));
+        CHECK(near(square.pixel(*renderer, 0.25, 0.75), Color{0, 0, 255}));
+        CHECK(near(square.pixel(*renderer, 0.75, 0.75), Color{255, 255, 255}));
+    }
+    m.base.transform = {2, 0, 0, 0, 1, 0};
+    {
+        INFO("the transform: the texture twice across");
+        CHECK(near(square.pixel(*renderer, 0.6, 0.25), Color{255, 0, 0}));
+        CHECK(near(square.pixel(*renderer, 0.9, 0.25), Color{0, 255, 0}));
+    }
     m.base.wrap_u = TextureWrap::mirror;
-    CHECK(near(square.pixel(*renderer, 0.6, 0.25), Color{0, 255, 0}));
-    CHECK(near(square.pixel(*renderer, 0.9, 0.25), Color{255, 0, 0}));
+    {
+        INFO("wrapping: mirror");
+        CHECK(near(square.pixel(*renderer, 0.6, 0.25), Color{0, 255, 0}));
+        CHECK(near(square.pixel(*renderer, 0.9, 0.25), Color{255, 0, 0}));
+    }
     m.base.wrap_u = TextureWrap::clamp;
-    CHECK(near(square.pixel(*renderer, 0.9, 0.25), Color{0, 255, 0}));
+    CHECK_MESSAGE(near(square.pixel(*renderer, 0.9, 0.25), Color{0, 255, 0}), "wrapping: clamp");
     m.base.transform = {1, 0, 0, 0, 1, 0};
 
-    // Coverage: all of it is masked, or none; blended, a half of the pixels.
     m.base_color[3] = 0.4F;
     m.alpha = AlphaMode::mask;
-    CHECK(square.pixel(*renderer, 0.25, 0.25) == none);
+    CHECK_MESSAGE(square.pixel(*renderer, 0.25, 0.25) == none, "alpha below the cutoff");
     m.cutoff = 0.4F;
-    CHECK(near(square.pixel(*renderer, 0.25, 0.25), Color{255, 0, 0}));
+    CHECK_MESSAGE(near(square.pixel(*renderer, 0.25, 0.25), Color{255, 0, 0}), "alpha at the cutoff");
 
-    // Lit: emission is added, and metal without light from the sky's side would be black.
     m = Material{};
     m.base_color = {0, 0, 0, 1};
     m.emissive = {0, 0, 0.5F};
     const Color glows = square.pixel(*renderer, 0.5, 0.5);
-    CHECK(glows[2] > glows[0] + 60);
+    CHECK_MESSAGE(glows[2] > glows[0] + 60, "emission is added");
     m = Material{};
     m.roughness = 0.2F;
-    CHECK(square.pixel(*renderer, 0.5, 0.5)[1] > 60);
+    CHECK_MESSAGE(square.pixel(*renderer, 0.5, 0.5)[1] > 60, "metal reflects the sky");
 
-    // Flat: whatever the normals of vertices are.
+    INFO("flat ignores the normals of vertices, also from behind");
     m = Material{};
     m.metallic = 0;
     const Color straight = square.pixel(*renderer, 0.5, 0.5);
@@ -215,7 +225,7 @@ TEST_CASE_FIXTURE(GpuTest, "materials: each property of one is seen") {
     CHECK_FALSE(near(square.pixel(*renderer, 0.5, 0.5, true), Color{}));
 }
 
-TEST_CASE_FIXTURE(GpuTest, "materials: one picture from every source, by every path") {
+TEST_CASE_FIXTURE(GpuTest, "materials: the same picture from every source by every path") {
     for (const auto& [name, flat] : {std::pair("materials.glb", false), std::pair("globe.glb", true)}) {
         CAPTURE(name);
         DrawnMesh drawn = asset(name);
@@ -245,7 +255,7 @@ TEST_CASE_FIXTURE(GpuTest, "materials: one picture from every source, by every p
     }
 }
 
-TEST_CASE_FIXTURE(GpuTest, "materials: of another mesh they are refused, and without any there is a gray one") {
+TEST_CASE_FIXTURE(GpuTest, "materials of another mesh are refused, and a mesh without materials is drawn") {
     Square square;
     gpu::Model model = model_of(square.mesh);
     gpu::RendererOptions options;

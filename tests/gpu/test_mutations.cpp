@@ -1,4 +1,4 @@
-// Tests of the tests: what must not pass does not pass.
+// Tests of the comparison: it finds a single wrong word or bit of a stream.
 
 #include <cstring>
 
@@ -14,7 +14,7 @@ using namespace lacedring::test;
 
 namespace {
 
-/// One renderer for all mutations of a mesh: pipelines take lavapipe long to make.
+/// A renderer for all mutations of a mesh, because lavapipe takes long to create pipelines.
 gpu::Renderer mutation_renderer(gpu::Context& context) {
     gpu::RendererOptions options;
     options.width = 320;
@@ -32,7 +32,7 @@ gpu::Comparison comparison_of(gpu::Renderer& renderer, const gpu::Model& model,
     return std::move(out->front());
 }
 
-/// Payload slots whose word fits, spread over the stream.
+/// `count` slots for which fits(view, slot) holds, spread over the stream.
 template <class Fits>
 std::vector<std::uint32_t> slots_where(const gpu::Model& model, std::size_t count, const Fits& fits) {
     const Result<LeanView> view = view_lean(model.lean.words);
@@ -49,15 +49,15 @@ std::vector<std::uint32_t> slots_where(const gpu::Model& model, std::size_t coun
 
 void check_found(gpu::Renderer& renderer, const gpu::Model& model, gpu::Source source = gpu::Source::lean) {
     const gpu::Comparison c = comparison_of(renderer, model, source);
-    CHECK(!c.same());
-    CHECK(c.indices_equal_cpu);  // both decode the wrong stream alike: it is the picture that tells
-    CHECK(c.pixels_different > 0);
-    CHECK(c.triangle_ids_different > 0);
+    CHECK_MESSAGE(!c.same(), "the comparison finds the change");
+    CHECK_MESSAGE(c.indices_equal_cpu, "device and CPU decode the same wrong stream");
+    CHECK_MESSAGE(c.pixels_different > 0, "colors differ");
+    CHECK_MESSAGE(c.triangle_ids_different > 0, "triangle numbers differ");
 }
 
 }  // namespace
 
-TEST_CASE_FIXTURE(GpuTest, "one wrong word of the stream is seen") {
+TEST_CASE_FIXTURE(GpuTest, "the comparison finds one wrong word of a lean stream") {
     gpu::Renderer renderer = mutation_renderer(*context);
 
     const Mesh mesh = generated("blob", 3000, 5);
@@ -77,7 +77,7 @@ TEST_CASE_FIXTURE(GpuTest, "one wrong word of the stream is seen") {
         }
     }
     {
-        INFO("a tip, by one");
+        INFO("a tip changed by one");
         gpu::Model bad = model_of(mesh);
         const auto slots = slots_where(good, 1, [](const LeanView& view, std::uint32_t i) {
             return i > 500 && i < view.ring_slots() && (view.payload[i] & ~LR_LEAN_TIP_MASK) == 0 &&
@@ -117,7 +117,8 @@ TEST_CASE_FIXTURE(GpuTest, "one wrong word of the stream is seen") {
         });
         bad.lean.words[LR_LEAN_HEADER_WORDS + slots[0]] ^= LR_LEAN_FLIP_FLAG;
         const gpu::Comparison c = comparison_of(renderer, bad);
-        CHECK(c.triangle_ids_different > 0);  // its other side is seen; its colours are the same
+        // The other side of the triangle has the same color.
+        CHECK(c.triangle_ids_different > 0);
         CHECK(!c.same());
     }
     {
@@ -145,9 +146,8 @@ std::vector<std::uint32_t> decoded(const gpu::Model& model) {
     return out;
 }
 
-/// Flips single bits in words [begin, end) of the packed stream that leave it valid, as some other mesh: `flips` of
-/// them, spread over those words. Each must be seen. `one_index`: only bits that change a single vertex of a single
-/// triangle.
+/// Flips single bits of words [begin, end) of the packed stream: `flips` bits, spread over the words, each of which
+/// leaves a valid stream of another mesh. The comparison must find each. `one_index`: only bits that change one index.
 void check_flips_found(gpu::Renderer& renderer, const Mesh& mesh, std::size_t begin, std::size_t end, std::size_t flips,
                        bool one_index = false) {
     gpu::Model model = model_of(mesh);
@@ -174,7 +174,8 @@ void check_flips_found(gpu::Renderer& renderer, const Mesh& mesh, std::size_t be
                 const gpu::Comparison& c = all->front();
                 CHECK(!c.same());
                 CHECK(c.indices_equal_cpu);
-                CHECK(c.triangle_ids_different > 0);  // colours do not tell a triangle from its other side
+                // The other side of a triangle has the same color.
+                CHECK(c.triangle_ids_different > 0);
             }
             words[bit / 32] ^= 1U << (bit % 32);
             if (chosen) break;
@@ -186,7 +187,7 @@ void check_flips_found(gpu::Renderer& renderer, const Mesh& mesh, std::size_t be
 
 }  // namespace
 
-TEST_CASE_FIXTURE(GpuTest, "one wrong bit of the packed stream is seen") {
+TEST_CASE_FIXTURE(GpuTest, "the comparison finds one wrong bit of a packed stream") {
     gpu::Renderer renderer = mutation_renderer(*context);
 
     const Mesh mesh = generated("blob", 6000, 5);
@@ -200,8 +201,8 @@ TEST_CASE_FIXTURE(GpuTest, "one wrong bit of the packed stream is seen") {
         INFO("a turn");
         check_flips_found(renderer, mesh, turns, view->table_word(), 5);
     }
-    {  // gaps, sizes, starts: whatever leaves a record valid
-        INFO("an event");
+    {
+        INFO("a bit of the records that leaves them valid");
         check_flips_found(renderer, mesh, groups, view->words.size(), 12);
     }
     {
@@ -210,13 +211,14 @@ TEST_CASE_FIXTURE(GpuTest, "one wrong bit of the packed stream is seen") {
         std::uint32_t* head = bad.packed.words.data() + groups;
         std::uint64_t bits = 0;
         std::memcpy(&bits, head, sizeof bits);
-        // Both vertices by one: behind a word, and a bit for each block of the group but the first.
+        // Adds one to both vertices. They follow the head's fixed bits and one bit for each block except the first.
         bits += (1 + (std::uint64_t{1} << view->vertex_bits)) << (LR_PACKED_HEAD_BITS + LR_PACKED_GROUP - 1);
         std::memcpy(head, &bits, sizeof bits);
         check_found(renderer, bad, gpu::Source::packed);
     }
-    {  // the second group is the first: vertices may be anything then, so nothing is drawn
-        INFO("the table");
+    {
+        // The table makes the second group begin where the first does. Vertices may be out of range: nothing is drawn.
+        INFO("the table of groups");
         gpu::Model bad = model_of(mesh);
         bad.packed.words[view->table_word()] = 0;
         Result<gpu::Drawable> drawable = renderer.upload(bad, gpu::Source::packed);
@@ -239,7 +241,7 @@ TEST_CASE_FIXTURE(GpuTest, "one wrong bit of the packed stream is seen") {
     }
 }
 
-TEST_CASE_FIXTURE(GpuTest, "a wrong far vertex of a packed stream is seen") {
+TEST_CASE_FIXTURE(GpuTest, "the comparison finds a wrong far vertex of a packed stream") {
     gpu::Renderer renderer = mutation_renderer(*context);
 
     const Mesh mesh = generated("terrain", 6000, 5);
@@ -267,7 +269,8 @@ TEST_CASE_FIXTURE(GpuTest, "damaged packed streams neither hang nor write beyond
             words[body + random.below(static_cast<std::uint32_t>(words.size() - body))] ^= 1U << random.below(32);
         }
         Result<gpu::Drawable> drawable = renderer->upload(model, gpu::Source::packed);
-        if (!drawable) {  // it has another number of triangles: of doubles
+        // A damaged table of doubles changes the number of triangles.
+        if (!drawable) {
             ++refused;
             continue;
         }
@@ -276,7 +279,7 @@ TEST_CASE_FIXTURE(GpuTest, "damaged packed streams neither hang nor write beyond
     CHECK(refused < 50);
 }
 
-TEST_CASE("validation sees a missing barrier between the decoder and the draw") {
+TEST_CASE("validation reports a missing barrier between decoder and draw") {
     const Mesh mesh = generated("sphere", 2000);
     const gpu::Model model = model_of(mesh);
     auto context = gpu::Context::create({{}, true});
@@ -291,7 +294,7 @@ TEST_CASE("validation sees a missing barrier between the decoder and the draw") 
     REQUIRE(drawable);
     REQUIRE(renderer->draw(*drawable, model, camera, false));
     REQUIRE((*context)->validation().count() == 0);
-    // The same without what Expander::decode puts between the two.
+    // Records decoder and draw without the barrier between them.
     const gpu::LeanDecoder decoder = gpu::LeanDecoder::create(**context).value();
     const LeanView view = view_lean(model.lean.words).value();
     const gpu::DecodePlan plan = decoder.plan(drawable->descriptors, drawable->mesh, view).value();

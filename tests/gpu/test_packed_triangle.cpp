@@ -1,4 +1,4 @@
-// lr_packed_triangle of shaders/include/lacedring.glsl: any triangle on its own is decode_packed's.
+// Compares lr_packed_triangle of shaders/include/lacedring.glsl, which decodes a single triangle, with decode_packed.
 
 #include <array>
 
@@ -25,7 +25,7 @@ struct RandomAccess : GpuTest {
         pipeline = std::move(*pipe);
     }
 
-    /// One by one, and then by fours.
+    /// The triangles decoded one by one, then decoded four at a time.
     std::vector<std::uint32_t> decoded(std::span<const std::uint32_t> words, std::uint32_t triangles) {
         constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
         constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
@@ -73,7 +73,7 @@ struct RandomAccess : GpuTest {
 
 }  // namespace
 
-TEST_CASE_FIXTURE(RandomAccess, "any triangle of a packed stream on its own") {
+TEST_CASE_FIXTURE(RandomAccess, "single triangles of a packed stream decode as on the CPU") {
     for (const NamedMesh& named : named_meshes()) {
         CAPTURE(named.name);
         check(named.mesh);

@@ -1,5 +1,5 @@
-// Source::packed_vertices: pictures of positions that the device decodes are those of the CPU's, and meshes of one
-// lattice meet without cracks.
+// Tests Source::packed_vertices: pictures of positions that the device decodes equal those of the CPU's positions, and
+// meshes of one lattice meet without cracks.
 
 #include <algorithm>
 #include <array>
@@ -41,7 +41,7 @@ struct PackedVertices : GpuTest {
         return std::move(out).value();
     }
 
-    /// The paths that decode vertices one by one read half a block for each: they get small meshes.
+    /// `small`: with the paths that decode single vertices, which read half a block for each and are slow.
     std::vector<gpu::Subject> subjects(bool small) const {
         std::vector<gpu::Subject> out{{gpu::Source::packed_vertices, gpu::Path::compute}};
         if (!small) return out;
@@ -56,7 +56,7 @@ struct PackedVertices : GpuTest {
         const auto all = gpu::compare(renderer, model, subjects(small));
         REQUIRE_MESSAGE(all, all.error().message);
         for (std::size_t i = 0; i < all->size(); ++i) {
-            CAPTURE(i);  // of subjects
+            CAPTURE(i);  // in subjects()
             const gpu::Comparison& c = (*all)[i];
             CHECK(c.pixels_different == 0);
             CHECK(c.triangle_ids_different == 0);
@@ -69,8 +69,8 @@ struct PackedVertices : GpuTest {
 
 }  // namespace
 
-TEST_CASE_FIXTURE(PackedVertices, "pictures of packed vertices are the same by every path") {
-    gpu::Renderer pictures = renderer(gpu::View::smooth, kSmallRange, 80, 60);  // a block a descriptor
+TEST_CASE_FIXTURE(PackedVertices, "packed vertices have the same pictures by every path") {
+    gpu::Renderer pictures = renderer(gpu::View::smooth, kSmallRange, 80, 60);  // one block per descriptor
     for (const char* kind : {"genus", "moebius", "parts", "soup"}) {
         CAPTURE(kind);
         for (const std::uint32_t bits : {0U, 12U}) {
@@ -81,11 +81,11 @@ TEST_CASE_FIXTURE(PackedVertices, "pictures of packed vertices are the same by e
             check_same(pictures, model, true);
         }
     }
-    const Mesh mesh = generated("genus", 10000);  // several groups of 16 blocks
+    const Mesh mesh = generated("genus", 10000);  // has several groups of 16 blocks
     for (const std::uint32_t bits : {0U, 12U}) check_same(pictures, model_with(mesh, lattice(bits)), false);
 }
 
-TEST_CASE_FIXTURE(PackedVertices, "lines over packed vertices are drawn from the stream, too") {
+TEST_CASE_FIXTURE(PackedVertices, "lines over packed vertices are drawn from the stream") {
     gpu::Renderer pictures = renderer(gpu::View::triangle_class, 0, 80, 60);
     const Mesh mesh = generated("blob", 600);
     const gpu::Model model = model_with(mesh, lattice(10));
@@ -104,11 +104,11 @@ TEST_CASE_FIXTURE(PackedVertices, "lines over packed vertices are drawn from the
     }
 }
 
-TEST_CASE_FIXTURE(PackedVertices, "a vertex stream of other positions is found out") {
+TEST_CASE_FIXTURE(PackedVertices, "the comparison finds a vertex stream of other positions") {
     gpu::Renderer pictures = renderer(gpu::View::smooth, 0, 80, 60);
     const Mesh mesh = generated("sphere", 2000);
     gpu::Model model = model_with(mesh, lattice(8));
-    model.vertices.words[7] += 1;  // x of all vertices, by a step
+    model.vertices.words[7] += 1;  // moves all x by a step
     const auto moved = gpu::compare(pictures, model, subjects(false));
     REQUIRE(moved);
     CHECK(moved->front().pixels_different > 100);
@@ -132,23 +132,22 @@ Mesh mesh_with(std::vector<std::uint32_t> indices, std::span<const float> positi
     return mesh;
 }
 
-/// A mesh, and the two that it is cut into along edges. The first one has the first triangles and vertices of the
-/// whole; the second one's vertices are in the order of the whole, so that the triangles of both begin where those of
-/// the whole do.
+/// A mesh cut along edges into two parts. The first part has the first triangles and vertices of the whole. The second
+/// keeps the order of the whole's vertices, so that its triangles begin with the same vertex.
 struct Cut {
     Mesh whole;
     std::array<Mesh, 2> parts;
-    std::vector<std::uint32_t> second;  ///< the whole's vertex of each vertex of the second part
+    std::vector<std::uint32_t> second;  ///< by vertex of the second part: the whole's vertex
 
-    /// `first` says of a triangle's centre whether it goes to the first part.
+    /// first(center) tells whether a triangle with that center belongs to the first part.
     template <class First>
     Cut(const Mesh& mesh, const First& first) {
         const std::vector<float> all = positions_f32(mesh);
         std::array<std::vector<std::uint32_t>, 2> triangles;
         for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
-            std::array<float, 3> centre{};
-            for (std::size_t i = 0; i < 9; ++i) centre[i % 3] += all[3 * mesh.indices[t + i / 3] + i % 3] / 3;
-            std::vector<std::uint32_t>& part = triangles[first(centre) ? 0 : 1];
+            std::array<float, 3> center{};
+            for (std::size_t i = 0; i < 9; ++i) center[i % 3] += all[3 * mesh.indices[t + i / 3] + i % 3] / 3;
+            std::vector<std::uint32_t>& part = triangles[first(center) ? 0 : 1];
             part.insert(part.end(), &mesh.indices[t], &mesh.indices[t] + 3);
         }
         std::vector<std::uint32_t> number(mesh.vertex_count, UINT32_MAX), indices;
@@ -178,7 +177,7 @@ struct Cut {
     }
 };
 
-/// The positions that the device decodes from the encoded mesh, in the mesh's order, and the lattice's step.
+/// Encodes a mesh; returns the positions that the device decodes, in the mesh's order, and the lattice's step.
 std::pair<std::vector<float>, float> decoded_by_device(gpu::Renderer& renderer, const Mesh& mesh,
                                                        const VertexOptions& options) {
     const gpu::Model model = model_with(mesh, options);
@@ -193,12 +192,13 @@ std::pair<std::vector<float>, float> decoded_by_device(gpu::Renderer& renderer, 
     return {std::move(out), view_vertices(model.vertices.words).value().step};
 }
 
-/// Both parts drawn together, beside the whole.
+/// Compares the picture of both parts with that of the whole.
 struct Together {
-    std::uint64_t holes = 0;             ///< pixels of the whole where the two leave the background
-    std::uint64_t cracks = 0;            ///< of these, those farther from the whole's outline than a lattice moves it
-    std::uint64_t different = 0;         ///< pixels
-    std::uint64_t border = 0, open = 0;  ///< vertices of both parts; those whose two places differ
+    std::uint64_t holes = 0;      ///< pixels of the whole where the parts show the background
+    std::uint64_t cracks = 0;     ///< holes farther from the whole's outline than a lattice moves it
+    std::uint64_t different = 0;  ///< pixels that differ
+    std::uint64_t border = 0;     ///< vertices of both parts
+    std::uint64_t open = 0;       ///< of these, vertices whose two positions differ
     std::array<float, 2> steps{};
 };
 
@@ -271,7 +271,7 @@ TEST_CASE_FIXTURE(PackedVertices,
         low[i % 3] = std::min(low[i % 3], p[i]);
         high[i % 3] = std::max(high[i % 3], p[i]);
     }
-    // A corner of the ground, half as long and half as wide: on its own, it has a lattice twice as fine.
+    // The first part is a quarter of the terrain: its own lattice is twice as fine.
     const Cut cut(mesh, [&](const std::array<float, 3>& c) {
         return c[0] < (low[0] + high[0]) / 2 && c[1] < (low[1] + high[1]) / 2;
     });
@@ -284,6 +284,7 @@ TEST_CASE_FIXTURE(PackedVertices,
     decode_vertices(view_vertices(encoded->words).value(), std::as_writable_bytes(std::span(quantized)));
     const Mesh whole = mesh_with(cut.whole.indices, quantized);
 
+    INFO("first with the same step for both parts, then with the same bits");
     const Together one = drawn_together(pictures, cut, given, whole);
     CHECK(one.steps[0] == step);
     CHECK(one.steps[1] == step);

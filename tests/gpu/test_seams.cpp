@@ -1,5 +1,5 @@
-// shaders/decode/seam_decode.comp, with shaders/include/lacedring_seams.glsl: the copies that the device decodes are
-// decode_seams', corner by corner. Pictures of a mesh with seams are those of streams of its surface.
+// Compares the copies that shaders/decode/seam_decode.comp and lacedring_seams.glsl decode with decode_seams, corner by
+// corner, and the pictures of meshes with seams from all sources.
 
 #include <algorithm>
 #include <array>
@@ -41,7 +41,7 @@ struct SeamDecode : GpuTest {
     struct Decoded {
         std::vector<std::uint32_t> homes, copies, copy_vertices;
     };
-    /// `triangles` as the stream's decoder writes them.
+    /// `triangles`: as the decoder of the connectivity writes them.
     Decoded decoded(const SeamView& view, const std::vector<std::uint32_t>& triangles, std::uint64_t max_range) {
         constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
         constexpr VkBufferUsageFlags kAddress = kUsage | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
@@ -81,7 +81,8 @@ struct SeamDecode : GpuTest {
         return out;
     }
 
-    /// `triangles` have UINT32_MAX where a slot has no triangle.
+    /// Compares homes, copies and vertices of copies with the CPU's. mesh.triangles is UINT32_MAX in slots without
+    /// triangle.
     void check(const CutSurface& mesh, std::uint64_t max_range) {
         const Result<EncodedSeams> encoded = encode_seams(mesh.triangles, mesh.vertices, mesh.copies);
         REQUIRE_MESSAGE(encoded, encoded.error().message);
@@ -94,25 +95,25 @@ struct SeamDecode : GpuTest {
         for (std::size_t k = 0; k < copies.size(); k += 3) {
             if (mesh.triangles[k] != UINT32_MAX) continue;
             std::fill_n(&copies[k], 3, 0);
-            // As lean slots without a triangle, with vertices of the triangle before.
+            // A lean slot without a triangle has vertices of the preceding one.
             const std::uint32_t a = k == 0 ? 0 : triangles[k - 2], b = k == 0 ? 0 : triangles[k - 1];
             triangles[k] = triangles[k + 1] = a;
             triangles[k + 2] = b;
         }
         const Decoded device = decoded(*view, triangles, max_range);
-        CHECK(device.copies == copies);
+        CHECK_MESSAGE(device.copies == copies, "each corner has the CPU's copy");
         bool right = true;
         for (std::size_t v = 0; v < first.size(); ++v) right &= device.homes[v] >> 1 == first[v];
-        CHECK(right);
+        CHECK_MESSAGE(right, "each vertex has the CPU's first copy");
         std::vector<std::uint32_t> vertices(view->copies);
         for (std::uint32_t v = 0; v < view->vertices; ++v) vertices[first[v]] = v;
         for (std::size_t k = 0; k < copies.size(); ++k) {
             if (mesh.triangles[k] != UINT32_MAX) vertices[copies[k]] = mesh.triangles[k];
         }
-        CHECK(device.copy_vertices == vertices);
+        CHECK_MESSAGE(device.copy_vertices == vertices, "each copy has the CPU's vertex");
     }
 
-    /// The slots of both streams, cut.
+    /// Cuts the slots of both streams in the way `how` (cuts.h), and checks them.
     void check(const Mesh& mesh, std::uint32_t how, std::uint64_t max_range) {
         for (const Format format : {Format::lean, Format::packed}) {
             CAPTURE(name_of(format));
@@ -132,7 +133,7 @@ constexpr std::uint64_t kLargeRange = 1 << 27;
 
 }  // namespace
 
-TEST_CASE_FIXTURE(SeamDecode, "seams of every small mesh decode as on the CPU") {
+TEST_CASE_FIXTURE(SeamDecode, "seams of named meshes decode as on the CPU") {
     std::uint32_t n = 0;
     for (const NamedMesh& named : named_meshes()) {
         CAPTURE(named.name);
@@ -140,7 +141,7 @@ TEST_CASE_FIXTURE(SeamDecode, "seams of every small mesh decode as on the CPU") 
     }
 }
 
-TEST_CASE_FIXTURE(SeamDecode, "seams of triangles in no order of a ring decode as on the CPU") {
+TEST_CASE_FIXTURE(SeamDecode, "seams of triangles in random order decode as on the CPU") {
     for (std::uint32_t n = 0; n < 30; ++n) {
         CAPTURE(n);
         const Mesh soup = random_soup(3 + 17 * n, 40 * n + 1, n + 1, false),
@@ -163,7 +164,7 @@ TEST_CASE_FIXTURE(SeamDecode, "seams of larger meshes, of several groups of bloc
         CAPTURE(kind.name);
         check(generated(kind.name, 40000, 3), how++ % kCuts, kLargeRange);
     }
-    const Shape wheel = fan(700, true);  // more copies than a vertex has positions
+    const Shape wheel = fan(700, true);  // a vertex of 700 copies
     check(make_mesh(wheel.triangles, wheel.vertices), 3, kSmallRange);
     for (how = 0; how < kCuts; ++how) {
         CAPTURE(how);
@@ -217,7 +218,7 @@ struct SeamPictures : GpuTest {
         return std::move(out).value();
     }
 
-    /// All sources by all paths.
+    /// All sources with all paths. `small`: with those that are slow.
     std::vector<gpu::Subject> subjects(bool small) const {
         std::vector<gpu::Subject> out;
         for (const auto source : {gpu::Source::lean, gpu::Source::packed, gpu::Source::packed_vertices}) {
@@ -256,13 +257,13 @@ struct SeamPictures : GpuTest {
 
 }  // namespace
 
-TEST_CASE_FIXTURE(SeamPictures, "pictures of meshes with seams are the same from all sources by every path") {
+TEST_CASE_FIXTURE(SeamPictures, "meshes with seams have the same pictures from all sources by every path") {
     gpu::Renderer pictures = renderer(gpu::View::smooth, kSmallRange);
     std::uint64_t seed = 1;
     for (const char* kind : {"blob", "moebius", "parts", "soup"}) {
         CAPTURE(kind);
-        for (std::uint32_t how = static_cast<std::uint32_t>(seed % 2); how < kCuts;
-             how += 2) {  // half of them, in turn
+        // Half of the ways to cut, alternately.
+        for (std::uint32_t how = static_cast<std::uint32_t>(seed % 2); how < kCuts; how += 2) {
             CAPTURE(how);
             const CutMesh cut = cut_mesh(generated(kind, 300, 2), how, ++seed);
             check_same(pictures, model_of(cut, how % 2 == 0 ? VertexOptions{} : lattice()), true);
@@ -276,17 +277,17 @@ TEST_CASE_FIXTURE(SeamPictures, "pictures of meshes with seams are the same from
 }
 
 TEST_CASE_FIXTURE(SeamPictures,
-                  "pictures of a file whose texture has a seam are the same from all sources by every path") {
+                  "a file with a seam in its texture has the same pictures from all sources by every path") {
     const Result<Mesh> mesh = read_mesh((std::filesystem::path(LACEDRING_ASSETS) / "globe.glb").string());
     REQUIRE_MESSAGE(mesh, mesh.error().message);
     CutMesh globe{*mesh, find_surface(*mesh)};
     CHECK(globe.surface.has_seams());
-    move_to_surface(globe.mesh, globe.surface);  // some positions have a -0
+    move_to_surface(globe.mesh, globe.surface);  // replaces -0 by 0
     gpu::Renderer pictures = renderer(gpu::View::smooth, 0);
     check_same(pictures, model_of(globe), true);
 }
 
-TEST_CASE_FIXTURE(SeamPictures, "views of meshes with seams are the same from all sources by every path") {
+TEST_CASE_FIXTURE(SeamPictures, "all views of meshes with seams are the same from all sources by every path") {
     const CutMesh cut = cut_mesh(generated("blob", 600), 1, 7);
     const gpu::Model model = model_of(cut);
     for (const gpu::View view :
@@ -306,14 +307,14 @@ TEST_CASE_FIXTURE(SeamPictures, "views of meshes with seams are the same from al
         for (const gpu::Subject& subject : subjects(true)) {
             CHECK(gpu::difference(plain, drawn(model, subject)).pixels == 0);
         }
-        // The surface's normals and outline, as if it had no seams.
+        INFO("the outline is that of the mesh without seams");
         if (view != gpu::View::silhouette) continue;
         const Mesh whole = generated("blob", 600);
         CHECK(gpu::difference(plain, drawn(test::model_of(whole), {})).pixels == 0);
     }
 }
 
-TEST_CASE_FIXTURE(SeamPictures, "normals that the device computes of a mesh with seams are the CPU's of its surface") {
+TEST_CASE_FIXTURE(SeamPictures, "the device computes the CPU's normals of the surface for a mesh with seams") {
     const CutMesh cut = cut_mesh(generated("blob", 3000), 1, 7);
     const gpu::Model model = model_of(cut);
     auto transfer = gpu::Transfer::create(*context);
@@ -338,7 +339,7 @@ TEST_CASE_FIXTURE(SeamPictures, "normals that the device computes of a mesh with
     CHECK(worst < 1e-5F);
 }
 
-TEST_CASE_FIXTURE(SeamPictures, "a wrong seam section is found out") {
+TEST_CASE_FIXTURE(SeamPictures, "the comparison finds a wrong seam section") {
     const CutMesh cut = cut_mesh(generated("blob", 3000), 1, 7);
     const gpu::Model good = model_of(cut);
     gpu::Renderer pictures = renderer(gpu::View::smooth, 0);

@@ -1,4 +1,4 @@
-// Outlines drawn without a list of edges: which edges, and where.
+// Tests outlines that are drawn without a list of edges: which edges are drawn, and where.
 
 #include <cstdint>
 #include <numbers>
@@ -16,7 +16,7 @@ struct EdgeTest : AdjacencyTest {
 
     static constexpr double kCrease = 40;
 
-    /// What is drawn of every line, by the function that silhouette.vert has.
+    /// The kind of each line, computed on the device by the function of silhouette.vert.
     std::vector<std::uint32_t> kinds(const gpu::Adjacency& adjacency, const std::array<float, 3>& eye, double crease) {
         const std::uint32_t lines = 3 * adjacency.triangle_numbers;
         const gpu::Buffer out = buffer(std::size_t{4} * lines);
@@ -32,7 +32,7 @@ struct EdgeTest : AdjacencyTest {
         return read<std::uint32_t>(out, lines);
     }
 
-    /// The kind of the edge across from c, from the corner table. `unsure`: rounding may make it another.
+    /// The kind of the edge opposite to c, from the corner table. `unsure`: rounding may change it.
     static std::uint32_t kind_of(const Tables& tables, CornerId c, const Point3& eye, bool& unsure) {
         const CornerTable& table = tables.table;
         const CornerId o = table.opposite(c);
@@ -60,7 +60,7 @@ struct EdgeTest : AdjacencyTest {
         REQUIRE_MESSAGE(adjacency, adjacency.error().message);
         const std::array<float, 3> eye{1.3F, 0.9F, 2.7F};
         std::vector<std::uint32_t> got = kinds(*adjacency, eye, kCrease);
-        std::vector<std::uint32_t> line(tables.table.corners.size(), UINT32_MAX);  // of the corner table's corners
+        std::vector<std::uint32_t> line(tables.table.corners.size(), UINT32_MAX);  // by corner of the corner table
         const LrMap& map = tables.map;
         for (std::uint32_t t = 0; t < map.triangle.size(); ++t) {
             for (std::uint32_t k = 0; k < 3; ++k) {
@@ -77,7 +77,7 @@ struct EdgeTest : AdjacencyTest {
             if (!o.is_null() && o.value < i) continue;
             std::uint32_t kind = got[line[i]];
             if (!o.is_null()) {
-                REQUIRE((kind == 0 || got[line[o.value]] == 0));  // once
+                REQUIRE_MESSAGE((kind == 0 || got[line[o.value]] == 0), "an edge is drawn once");
                 kind |= got[line[o.value]];
             }
             bool unsure = false;
@@ -114,11 +114,12 @@ namespace {
 
 constexpr std::uint32_t kSide = 480;
 
-/// A surface, and its outline over it in pure red.
+/// The picture of a surface with its outline in pure red.
 gpu::Picture outlined(gpu::Context& context, const gpu::Model& model, const gpu::Camera& camera, double crease,
                       std::uint32_t lines_per_draw) {
     gpu::RendererOptions options;
-    options.view = gpu::View::wire;  // a surface that is pushed back a little; its own lines are left out
+    // The wire view pushes the surface back a little. Its lines are left out.
+    options.view = gpu::View::wire;
     options.width = options.height = kSide;
     auto renderer = gpu::Renderer::create(context, options);
     REQUIRE(renderer);
@@ -144,7 +145,7 @@ bool red(const gpu::Picture& picture, std::size_t pixel) {
     return p[0] == 255 && p[1] == 0 && p[2] == 0 && p[3] == 255;
 }
 
-/// Is there red around where the picture shows `point`?
+/// Whether there is red within `around` pixels of the projection of `point`.
 bool red_near(const gpu::Picture& picture, const gpu::Camera& camera, const Point3& point, int around) {
     std::array<double, 4> view{0, 0, 0, 1}, clip{};
     for (std::size_t row = 0; row < 3; ++row) {
@@ -169,7 +170,7 @@ bool red_near(const gpu::Picture& picture, const gpu::Camera& camera, const Poin
 
 }  // namespace
 
-TEST_CASE_FIXTURE(EdgeTest, "a sphere's outline is drawn where it is") {
+TEST_CASE_FIXTURE(EdgeTest, "a sphere's outline is drawn at its silhouette") {
     const Mesh mesh = generated("sphere", 500);
     const gpu::Model model = model_of(mesh);
     const auto camera = gpu::make_camera(model, {}, kSide, kSide);
@@ -192,7 +193,7 @@ TEST_CASE_FIXTURE(EdgeTest, "a sphere's outline is drawn where it is") {
             ++silhouette;
             CHECK(red_near(outline, *camera, middle, 1));
             CHECK(red_near(all, *camera, middle, 1));
-        } else if (dot(middle, eye) > 0.6 * length(middle) * length(eye)) {  // well inside the outline, in front
+        } else if (dot(middle, eye) > 0.6 * length(middle) * length(eye)) {  // in front, well inside the outline
             ++front;
             CHECK_FALSE(red_near(outline, *camera, middle, 2));
             CHECK(red_near(all, *camera, middle, 1));
@@ -201,14 +202,14 @@ TEST_CASE_FIXTURE(EdgeTest, "a sphere's outline is drawn where it is") {
     CHECK(silhouette > 20);
     CHECK(front > 100);
 
-    // Many draws are one.
+    // The outline in many draws equals that in one.
     const gpu::Difference parts = gpu::difference(outlined(*context, model, *camera, 180, 100), outline);
     CHECK(parts.pixels == 0);
     CHECK(parts.triangles == 0);
     CHECK(parts.covered > 0);
 }
 
-TEST_CASE_FIXTURE(EdgeTest, "an outline needs no surface before it") {
+TEST_CASE_FIXTURE(EdgeTest, "an outline is drawn without a surface") {
     const Mesh mesh = generated("terrain", 2000);
     const gpu::Model model = model_of(mesh);
     const auto camera = gpu::make_camera(model, {}, kSide, kSide);
@@ -228,5 +229,5 @@ TEST_CASE_FIXTURE(EdgeTest, "an outline needs no surface before it") {
     const gpu::Picture picture = target->picture();
     std::size_t drawn = 0;
     for (std::size_t i = 0; i < picture.pixels(); ++i) drawn += red(picture, i) ? 1 : 0;
-    CHECK(drawn > kSide);  // its border is longer than the picture is wide
+    CHECK_MESSAGE(drawn > kSide, "the border is longer than the picture is wide");
 }

@@ -1,5 +1,5 @@
-// shaders/decode/vertex_decode.comp, with shaders/include/lacedring_vertices.glsl: the integers and floats of a vertex
-// stream are the CPU's, bit for bit.
+// Compares the integers and floats that shaders/decode/vertex_decode.comp and lacedring_vertices.glsl decode with the
+// CPU's, bit for bit.
 
 #include <array>
 #include <bit>
@@ -40,7 +40,7 @@ struct VertexDecode : GpuTest {
         return pipeline.get();
     }
 
-    /// `stride` words a vertex: integers, or what they stand for.
+    /// Decodes integers or their values; each vertex has `stride` words.
     std::vector<std::uint32_t> decoded(const VertexView& view, bool integers, std::uint32_t stride) {
         constexpr VkBufferUsageFlags kUsage =
             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
@@ -79,17 +79,18 @@ struct VertexDecode : GpuTest {
             decode_vertex_block(*view, block,
                                 std::span(want).subspan(std::size_t{block} * kVertexBlock * view->integers));
         }
-        CHECK(decoded(*view, true, view->integers) == want);
+        CHECK_MESSAGE(decoded(*view, true, view->integers) == want, "the integers are the CPU's");
         std::vector<std::byte> bytes(view->decoded_bytes());
         decode_vertices(*view, bytes);
         std::vector<std::uint32_t> floats(bytes.size() / 4);
         std::memcpy(floats.data(), bytes.data(), bytes.size());
         if (view->mapping != VertexMapping::octahedral) {
-            CHECK(decoded(*view, false, view->integers) == floats);
+            CHECK_MESSAGE(decoded(*view, false, view->integers) == floats, "the values are the CPU's");
             return;
         }
         const std::vector<std::uint32_t> got = decoded(*view, false, 3);
-        for (std::size_t v = 0; v < view->vertices; ++v) {  // divided by its length, it is the CPU's vector
+        INFO("directions, divided by their length, are the CPU's");
+        for (std::size_t v = 0; v < view->vertices; ++v) {
             double length = 0;
             const auto at = [&](std::size_t c) {
                 return static_cast<double>(static_cast<std::int32_t>(got[3 * v + c]));
@@ -103,7 +104,7 @@ struct VertexDecode : GpuTest {
     }
 
     gpu::Layout layout;
-    std::map<std::array<std::uint32_t, 3>, gpu::PipelineHandle> pipelines;  // by specialization constants
+    std::map<std::array<std::uint32_t, 3>, gpu::PipelineHandle> pipelines;  ///< by specialization constants
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Rossignac's chapter: its definitions and procedures as it writes them, against the library. What needs positions is
-// in test_geometry.cpp. docs/chapter-map.md.
+// Compares the library with the definitions and procedures of Rossignac's chapter (docs/chapter-map.md). The tests that
+// need positions are in test_geometry.cpp.
 
 #include <doctest/doctest.h>
 
@@ -25,7 +25,7 @@ Mesh mesh_of(const test::Shape& shape) {
     return test::make_mesh(shape.triangles, shape.vertices);
 }
 
-/// The chapter's procedure, letter by letter: its c.l is c.p.o, its c.r is c.n.o.
+/// The chapter's procedure, where c.l is c.p.o and c.r is c.n.o.
 void recursive_swirl(const CornerTable& table, CornerId c, std::vector<bool>& m, std::vector<CornerId>& order) {
     if (c.is_null() || m[triangle(c).value]) return;
     m[triangle(c).value] = true;
@@ -36,7 +36,7 @@ void recursive_swirl(const CornerTable& table, CornerId c, std::vector<bool>& m,
 
 }  // namespace
 
-TEST_CASE("section 15: O is what the chapter's quadratic procedure finds") {
+TEST_CASE("section 15: the table of opposites equals the chapter's quadratic procedure") {
     std::size_t compared = 0;
     for (const auto& [name, mesh] : test::named_meshes()) {
         const CornerTable table = build(mesh);
@@ -80,7 +80,8 @@ TEST_CASE("section 9: a swirl visits every triangle of a shell once, in the chap
                 CHECK_FALSE(seen[triangle(c).value]);
                 CHECK(swirl.visited(triangle(c)));
                 seen[triangle(c).value] = true;
-                if (c.value != s) CHECK(seen[triangle(table.opposite(c)).value]);  // it came from a visited triangle
+                if (c.value != s)
+                    CHECK_MESSAGE(seen[triangle(table.opposite(c)).value], "entered from a visited triangle");
             }
             for (std::uint32_t i = 0; i < table.corners.size(); ++i) {  // whole shells: nothing open is left
                 const CornerId o = table.opposite(CornerId{i});
@@ -92,7 +93,7 @@ TEST_CASE("section 9: a swirl visits every triangle of a shell once, in the chap
     }
 }
 
-TEST_CASE("section 9: a second swirl leaves alone what the first one visited") {
+TEST_CASE("section 9: a second swirl skips the triangles that the first visited") {
     const CornerTable table = build(mesh_of(test::grid(8, 8, true, true, false)));
     Swirl swirl(table);
     std::uint32_t first = 0, second = 0;
@@ -103,7 +104,7 @@ TEST_CASE("section 9: a second swirl leaves alone what the first one visited") {
 }
 
 TEST_CASE("section 9: a swirl a million triangles deep") {
-    // In a strip every triangle has but one new neighbour: the recursion would be as deep as the strip is long.
+    // A recursive swirl descends one level per triangle of a strip.
     const CornerTable table = build(mesh_of(test::strip(1'000'000)));
     for (const std::uint32_t seed :
          {0U, 1U, 2U, 1'500'000U, 1'500'001U, 1'500'002U, 2'999'997U, 2'999'998U, 2'999'999U}) {
@@ -114,7 +115,7 @@ TEST_CASE("section 9: a swirl a million triangles deep") {
     }
 }
 
-TEST_CASE("section 8: edge-connected components by swirls are the report's shells") {
+TEST_CASE("section 8: swirl_shells visits each triangle once, shell by shell") {
     for (const auto& [name, mesh] : test::named_meshes()) {
         CAPTURE_COPY(name);
         const CornerTable table = build(mesh);
@@ -129,7 +130,7 @@ TEST_CASE("section 8: edge-connected components by swirls are the report's shell
     }
 }
 
-TEST_CASE("section 9: the table is oriented, c.n.v = c.o.p.v, whatever the input's triangles were") {
+TEST_CASE("section 9: c.n.v = c.o.p.v for any orientation of the input's triangles") {
     for (const std::uint32_t k : {1U, 2U, 3U, 7U}) {
         CAPTURE(k);
         const test::Shape shape = test::turn_some(test::shuffle(test::subdivide(test::cube()), k), k);
@@ -150,33 +151,52 @@ TEST_CASE("section 9: the table is oriented, c.n.v = c.o.p.v, whatever the input
     }
 }
 
-TEST_CASE("section 12: the smesh test and why not") {
+TEST_CASE("section 12: the smesh test names its fault") {
     using test::beside;
     using test::pinch;
     const auto fault = [](const test::Shape& shape) { return check_connectivity(mesh_of(shape)).fault; };
-    CHECK(fault(test::tetrahedron()) == SmeshFault::none);
-    CHECK(fault(test::octahedron()) == SmeshFault::none);
-    CHECK(fault(test::shuffle(test::turn_some(test::subdivide(test::cube()), 3), 9)) == SmeshFault::none);
-    CHECK(fault(test::stack_random(test::tetrahedron(), 200, 3)) == SmeshFault::none);
-    CHECK(fault({5, {}}) == SmeshFault::empty);
-    CHECK(fault({3, {{0, 0, 1}}}) == SmeshFault::empty);
-    CHECK(fault({4, {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {0, 2, 3}, {0, 0, 1}}}) == SmeshFault::degenerate);
-    CHECK(fault(pinch(pinch(beside(test::tetrahedron(), test::tetrahedron()), 4, 0), 5, 1)) ==
-          SmeshFault::nonmanifold_edge);
-    CHECK(fault({3, {{0, 1, 2}}}) == SmeshFault::border);
-    CHECK(fault(test::grid(5, 1, true, false, true)) == SmeshFault::border);  // a Moebius strip
-    CHECK(fault(beside(test::tetrahedron(), test::octahedron())) == SmeshFault::not_connected);
-    CHECK(fault(pinch(beside(test::tetrahedron(), test::tetrahedron()), 4, 0)) == SmeshFault::not_connected);
-    CHECK(fault(test::projective_plane()) == SmeshFault::not_orientable);
-    CHECK(fault(test::grid(7, 6, true, true, true)) == SmeshFault::not_orientable);  // a Klein bottle
-    CHECK(fault(pinch(test::subdivide(test::subdivide(test::octahedron())), 1, 0)) == SmeshFault::nonmanifold_vertex);
-    CHECK(fault(test::smallest_torus()) == SmeshFault::handles);
-    const SmeshCheck plate = check_connectivity(mesh_of(test::plate(5)));
-    CHECK(plate.fault == SmeshFault::handles);
-    CHECK(plate.reason == "5 handles");
+    SUBCASE("simple meshes have none") {
+        CHECK(fault(test::tetrahedron()) == SmeshFault::none);
+        CHECK(fault(test::octahedron()) == SmeshFault::none);
+        CHECK(fault(test::shuffle(test::turn_some(test::subdivide(test::cube()), 3), 9)) == SmeshFault::none);
+        CHECK(fault(test::stack_random(test::tetrahedron(), 200, 3)) == SmeshFault::none);
+    }
+    SUBCASE("no triangle, or only degenerate ones") {
+        CHECK(fault({5, {}}) == SmeshFault::empty);
+        CHECK(fault({3, {{0, 0, 1}}}) == SmeshFault::empty);
+    }
+    SUBCASE("a degenerate triangle beside a tetrahedron") {
+        CHECK(fault({4, {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {0, 2, 3}, {0, 0, 1}}}) == SmeshFault::degenerate);
+    }
+    SUBCASE("tetrahedra that share an edge") {
+        CHECK(fault(pinch(pinch(beside(test::tetrahedron(), test::tetrahedron()), 4, 0), 5, 1)) ==
+              SmeshFault::nonmanifold_edge);
+    }
+    SUBCASE("a border: a triangle, a Moebius strip") {
+        CHECK(fault({3, {{0, 1, 2}}}) == SmeshFault::border);
+        CHECK(fault(test::grid(5, 1, true, false, true)) == SmeshFault::border);
+    }
+    SUBCASE("two shells, apart or joined at a vertex") {
+        CHECK(fault(beside(test::tetrahedron(), test::octahedron())) == SmeshFault::not_connected);
+        CHECK(fault(pinch(beside(test::tetrahedron(), test::tetrahedron()), 4, 0)) == SmeshFault::not_connected);
+    }
+    SUBCASE("the projective plane and a Klein bottle") {
+        CHECK(fault(test::projective_plane()) == SmeshFault::not_orientable);
+        CHECK(fault(test::grid(7, 6, true, true, true)) == SmeshFault::not_orientable);
+    }
+    SUBCASE("a sphere two of whose vertices are one") {
+        CHECK(fault(pinch(test::subdivide(test::subdivide(test::octahedron())), 1, 0)) ==
+              SmeshFault::nonmanifold_vertex);
+    }
+    SUBCASE("handles: a torus, a plate with five holes") {
+        CHECK(fault(test::smallest_torus()) == SmeshFault::handles);
+        const SmeshCheck plate = check_connectivity(mesh_of(test::plate(5)));
+        CHECK(plate.fault == SmeshFault::handles);
+        CHECK(plate.reason == "5 handles");
+    }
 }
 
-TEST_CASE("section 12: Equations 1 and 2 say the same of every closed manifold, and both mean genus 0") {
+TEST_CASE("section 12: Equations 1 and 2 hold for the closed manifolds of genus 0, and no others") {
     std::size_t spheres = 0, others = 0;
     for (const auto& [name, mesh] : test::named_meshes()) {
         CAPTURE_COPY(name);
@@ -185,7 +205,7 @@ TEST_CASE("section 12: Equations 1 and 2 say the same of every closed manifold, 
         const SmeshCheck check = check_smesh(table, report);
         CHECK(check.is_smesh() == check.reason.empty());
         if (!check.is_smesh() && check.fault != SmeshFault::handles) continue;
-        // Edges of an edge-manifold: 3|T| = 2|E|. Equation 2: |F| - |E| + |G| = 2.
+        // A closed edge-manifold has 3|F| = 2|E|. Equation 2 is |F| - |E| + |G| = 2.
         REQUIRE(report.triangles % 2 == 0);
         const std::int64_t f = report.triangles, e = f / 2 * 3, g = report.used_vertices;
         CHECK(satisfies_equation_1(report) == (f - e + g == 2));
@@ -197,7 +217,7 @@ TEST_CASE("section 12: Equations 1 and 2 say the same of every closed manifold, 
     CHECK(others > 10);
 }
 
-TEST_CASE("section 12: genus of surfaces with known handles") {
+TEST_CASE("section 12: the genus is the number of handles") {
     for (std::uint32_t holes = 0; holes < 7; ++holes) {
         CAPTURE(holes);
         CHECK(report_topology(build(mesh_of(test::plate(holes)))).genus == holes);
@@ -210,7 +230,7 @@ TEST_CASE("section 12: genus of surfaces with known handles") {
     CHECK(holed.border_loops == 4 * 3 + 1);
 }
 
-TEST_CASE("section 11: a pseudo-manifold replicates few vertices") {
+TEST_CASE("section 11: a pseudo-manifold copies a vertex once per fan after the first") {
     const auto copies = [](const test::Shape& shape) {
         CornerTable table = build(mesh_of(shape));
         const TopologyReport before = report_topology(table);
@@ -226,10 +246,10 @@ TEST_CASE("section 11: a pseudo-manifold replicates few vertices") {
     using test::pinch;
     const test::Shape two = beside(test::tetrahedron(), test::tetrahedron());
     CHECK(copies(test::octahedron()) == 0);
-    CHECK(copies({5, {{0, 1, 2}, {0, 3, 4}}}) == 1);                        // a bow-tie
-    CHECK(copies(pinch(two, 4, 0)) == 1);                                   // at a vertex
-    CHECK(copies({6, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {1, 0, 5}}}) == 2);  // two quads through an edge
-    CHECK(copies({5, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}}) == 2);             // a quad and a page
-    // Two tetrahedra that share an edge: joined crosswise, they become one shell and both ends stay whole.
-    CHECK(copies(pinch(pinch(two, 4, 0), 5, 1)) == 0);
+    CHECK_MESSAGE(copies({5, {{0, 1, 2}, {0, 3, 4}}}) == 1, "two triangles at a vertex");
+    CHECK_MESSAGE(copies(pinch(two, 4, 0)) == 1, "two tetrahedra at a vertex");
+    CHECK_MESSAGE(copies({6, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {1, 0, 5}}}) == 2, "two quads crossing at an edge");
+    CHECK_MESSAGE(copies({5, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}}) == 2, "a quad and a triangle at its diagonal");
+    // The four triangles at the edge are joined across the tetrahedra: one shell, and each vertex has one fan.
+    CHECK_MESSAGE(copies(pinch(pinch(two, 4, 0), 5, 1)) == 0, "two tetrahedra at an edge");
 }

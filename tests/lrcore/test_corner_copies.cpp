@@ -1,4 +1,4 @@
-// Copies of single corners at random access, and seams under the operators.
+// Tests CornerCopies, which finds the vertex copy of a single corner, and seams together with the LR operators.
 
 #include <doctest/doctest.h>
 
@@ -26,7 +26,7 @@ struct Seen {
     std::size_t redundant = 0, border = 0, flipped = 0, fans = 0;
 };
 
-/// Every corner of the tables has the copy that decode_seams gives its vertex in its triangle's slot.
+/// Compares CornerCopies at every corner of the tables with `wanted`, the copies that decode_seams writes.
 template <class View>
 void check_corners(const LrStreamView<View>& tables, const Numbers& slots, const Numbers& wanted, CornerCopies& copies,
                    Seen& seen) {
@@ -49,11 +49,11 @@ void check_corners(const LrStreamView<View>& tables, const Numbers& slots, const
         seen.flipped += tables.view.flipped(own.value / 4) ? 1 : 0;
         seen.fans += v != original ? 1 : 0;
     }
-    REQUIRE(right);
-    REQUIRE(copies.copy(kNullCorner) == UINT32_MAX);
+    REQUIRE_MESSAGE(right, "each corner has the copy that decode_seams writes");
+    REQUIRE_MESSAGE(copies.copy(kNullCorner) == UINT32_MAX, "the null corner has no copy");
 }
 
-/// CornerCopies and copy_vertices against decode_seams, for one way to cut.
+/// Compares CornerCopies and copy_vertices with decode_seams, for the way `how` to cut (cuts.h).
 void check_copies(const StreamView& stream, std::uint32_t how, std::uint64_t seed, Seen& seen) {
     const Numbers slots = slot_triangles(stream);
     const test::CutSurface mesh = test::cut(slots, stream.vertices(), how, seed);
@@ -70,13 +70,14 @@ void check_copies(const StreamView& stream, std::uint32_t how, std::uint64_t see
     for (std::uint32_t v = 0; v < view->vertices; ++v) right &= vertices[first[v]] == v;
     for (std::size_t k = 0; k < slots.size(); ++k) right &= slots[k] == UINT32_MAX || vertices[wanted[k]] == slots[k];
     right &= std::ranges::all_of(vertices, [&](std::uint32_t v) { return v < view->vertices; });
-    REQUIRE(right);
+    REQUIRE_MESSAGE(right, "copy_vertices names the vertex of each copy");
 
     for (std::uint32_t b = 0; b < view->blocks(); ++b) {
         const auto begin = slots.begin() + std::ptrdiff_t{3} * kSeamBlock * b;
         Numbers alone(std::min(std::size_t{3} * kSeamBlock, static_cast<std::size_t>(slots.end() - begin)));
         slot_triangles(stream, b, alone);
-        REQUIRE(std::ranges::equal(alone, std::span(begin, alone.size())));
+        REQUIRE_MESSAGE(std::ranges::equal(alone, std::span(begin, alone.size())),
+                        "a block has the slots of the whole");
     }
 
     CornerCopies copies(stream, *view);
@@ -85,7 +86,7 @@ void check_copies(const StreamView& stream, std::uint32_t how, std::uint64_t see
         const std::uint32_t slot = random.below(stream.slots());
         for (std::uint32_t k = 0; k < 3; ++k) right &= copies.copy(slot, k) == wanted[std::size_t{3} * slot + k];
     }
-    REQUIRE(right);
+    REQUIRE_MESSAGE(right, "random slots have the copies that decode_seams writes");
     if (const auto* lr = stream.get<LrStreamView<LrView>>()) check_corners(*lr, slots, wanted, copies, seen);
     if (const auto* compact = stream.get<LrStreamView<CompactLrView>>()) {
         check_corners(*compact, slots, wanted, copies, seen);
@@ -109,7 +110,8 @@ struct Mean {
 
 constexpr std::uint32_t kSteps = 3;
 
-/// Moves each vertex to the mean of its neighbors, found by the operators. Points are in the order of the stream.
+/// Moves each vertex to the mean of its neighbors, kSteps times. `points` are in the order of the stream; the operators
+/// find the neighbors.
 template <class View>
 LatticePoints smooth(const LrStreamView<View>& tables, LatticePoints points) {
     const Operators ops(tables.view, tables.copies);
@@ -130,7 +132,7 @@ LatticePoints smooth(const StreamView& stream, const LatticePoints& points) {
     return lr != nullptr ? smooth(*lr, points) : smooth(*stream.get<LrStreamView<CompactLrView>>(), points);
 }
 
-/// The same from an index list.
+/// The same, with the neighbors of an index list.
 LatticePoints smooth(const Numbers& indices, LatticePoints points) {
     std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
     for (std::size_t c = 0; c < indices.size(); ++c) {
@@ -145,12 +147,12 @@ LatticePoints smooth(const Numbers& indices, LatticePoints points) {
     return points;
 }
 
-/// A mesh whose vertices on chart borders are there several times, with other texture coordinates.
+/// A mesh whose vertices at chart borders have one copy, with its own texture coordinate, per chart.
 struct CutMesh {
     Numbers indices;
     LatticePoints points;
     std::vector<std::array<std::uint32_t, 2>> texcoords;
-    Numbers whole;  ///< vertices of the mesh that was cut
+    Numbers whole;  ///< by copy: its vertex in the mesh before cutting
 };
 
 /// Cuts at the coordinate planes. A texture coordinate is the chart and the vertex.
@@ -172,7 +174,7 @@ CutMesh cut_into_octants(const Numbers& indices, const LatticePoints& points) {
     return out;
 }
 
-/// A mesh's LR tables, and what each vertex of the stream is there.
+/// A mesh's LR tables with the vertex order of their stream.
 struct Tables {
     Encoded encoded;
     StreamView stream;
@@ -191,7 +193,7 @@ Tables tables_of(const Numbers& indices, std::size_t vertices, Format format) {
     return {std::move(*out), *stream};
 }
 
-/// For each vertex of the stream's slots, the vertex of the cut mesh that this corner has there.
+/// For each corner of the stream's slots, its vertex in the cut mesh.
 Numbers corners_of(const Tables& surface, const Numbers& slots, const Numbers& joined, const Numbers& cut_indices) {
     Numbers out(slots.size(), UINT32_MAX);
     auto triangle = surface.encoded.triangle_order.begin();
@@ -208,7 +210,7 @@ Numbers corners_of(const Tables& surface, const Numbers& slots, const Numbers& j
     return out;
 }
 
-/// How many vertices of the cut mesh no longer are where another one of the same vertex is.
+/// Counts the copies whose position differs from the first copy's of their vertex.
 std::size_t apart(const CutMesh& mesh, const LatticePoints& points) {
     std::map<std::uint32_t, LatticePoint> place;
     std::size_t count = 0;
@@ -218,7 +220,8 @@ std::size_t apart(const CutMesh& mesh, const LatticePoints& points) {
     return count;
 }
 
-/// The corners around every vertex of the surface are of that vertex, and those of a triangle of one chart.
+/// Checks the texture coordinates at the corners of every star: they name the star's vertex, and one chart per
+/// triangle.
 template <class View>
 void check_texcoords(const LrStreamView<View>& tables, const StreamView& stream, const SeamView& seams,
                      const std::vector<std::array<std::uint32_t, 2>>& texcoords, const Numbers& whole) {
@@ -232,17 +235,17 @@ void check_texcoords(const LrStreamView<View>& tables, const StreamView& stream,
             ++corners;
         });
     }
-    CHECK(wrong == 0);
-    CHECK(corners == 3 * stream.triangles());
+    CHECK_MESSAGE(wrong == 0, "texture coordinates name the star's vertex and one chart per triangle");
+    CHECK_MESSAGE(corners == 3 * stream.triangles(), "the stars have all corners");
 }
 
 }  // namespace
 
-TEST_CASE("a corner's copy at random access is what the whole section decodes to") {
+TEST_CASE("a corner's copy at random access equals that of the decoded section") {
     std::uint32_t seed = 0;
     Seen seen;
     test::for_each_named_stream([&](const StreamView& stream) {
-        check_copies(stream, seed % test::kCuts, seed, seen);  // all ways to cut, in turn
+        check_copies(stream, seed % test::kCuts, seed, seen);
         ++seed;
     });
     CHECK(seen.redundant > 0);
@@ -251,7 +254,7 @@ TEST_CASE("a corner's copy at random access is what the whole section decodes to
     CHECK(seen.fans > 0);
 }
 
-TEST_CASE("a corner's copy is found among more blocks than are kept") {
+TEST_CASE("a corner's copy is found in a section of more blocks than CornerCopies caches") {
     const Mesh mesh = generate("terrain", 12000).value();
     Seen seen;
     for (const Format format : {Format::lean, Format::packed, Format::lr, Format::lr_compact}) {
@@ -260,7 +263,7 @@ TEST_CASE("a corner's copy is found among more blocks than are kept") {
     }
 }
 
-TEST_CASE("smoothing a cut mesh by the operators moves no seam apart") {
+TEST_CASE("smoothing a cut mesh with the operators keeps the copies of a vertex together") {
     for (const char* kind : {"blob", "torus", "terrain"}) {
         const Mesh whole = generate(kind, 3000).value();
         LatticePoints points;
@@ -273,7 +276,7 @@ TEST_CASE("smoothing a cut mesh by the operators moves no seam apart") {
         REQUIRE(mesh.points.size() > points.size() + 50);
         REQUIRE(apart(mesh, mesh.points) == 0);
 
-        // The surface: vertices of equal position joined.
+        // The surface joins vertices of equal position.
         std::map<LatticePoint, std::uint32_t> numbers;
         LatticePoints surface_points;
         Numbers joined;
@@ -318,7 +321,7 @@ TEST_CASE("smoothing a cut mesh by the operators moves no seam apart") {
                                 whole_of);
             }
 
-            // Without the surface, the borders of the charts move apart.
+            // The cut mesh smoothed without its surface comes apart at the charts' borders.
             const Tables torn = tables_of(mesh.indices, mesh.points.size(), format);
             const LatticePoints alone = smooth(torn.stream, torn.in_order(mesh.points));
             LatticePoints torn_points(mesh.points.size());

@@ -1,4 +1,4 @@
-// Rossignac's chapter, sections 6 and 12: what needs positions. docs/chapter-map.md.
+// Compares the library with sections 6 and 12 of Rossignac's chapter, which need positions (docs/chapter-map.md).
 
 #include <doctest/doctest.h>
 
@@ -19,7 +19,7 @@ using lacedring::test::build;
 
 namespace {
 
-/// A box with counterclockwise triangles, or clockwise ones.
+/// Boxes with counterclockwise or clockwise triangles.
 struct Solid {
     std::vector<double> xyz;
     std::vector<std::uint32_t> indices;
@@ -57,8 +57,8 @@ Mesh generated(std::string_view kind, std::uint64_t triangles, std::uint64_t see
 
 }  // namespace
 
-TEST_CASE("section 12: signed volume") {
-    SUBCASE("a cube, its mirror image in orientation, and a rotated list") {
+TEST_CASE("section 12: signed volumes of small shells") {
+    SUBCASE("a cube of clockwise triangles has the negative volume") {
         const std::vector<ClosedShell> right = unit_cube().shells(), wrong = unit_cube(true).shells();
         REQUIRE(right.size() == 1);
         REQUIRE(wrong.size() == 1);
@@ -69,14 +69,14 @@ TEST_CASE("section 12: signed volume") {
         CHECK(wrong[0].volume == doctest::Approx(-1.0).epsilon(1e-15));
         CHECK(wrong[0].inside_out());
     }
-    SUBCASE("a tetrahedron is a sixth of its parallelepiped, in floats too") {
+    SUBCASE("a tetrahedron of float positions is a sixth of its parallelepiped") {
         const std::vector<float> xyz{0, 0, 0, 2, 0, 0, 0, 3, 0, 0, 0, 5};
         const CornerTable table = build({0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2}, 4);
         const auto shells = closed_shells(table, Positions(std::span<const float>(xyz)));
         REQUIRE(shells.size() == 1);
         CHECK(shells[0].volume == doctest::Approx(5.0).epsilon(1e-15));
     }
-    SUBCASE("small shells far from the origin and from each other") {
+    SUBCASE("small shells far from the origin and each other have exact volumes") {
         Solid solid;
         solid.add_box({1e6, 1e6, 1e6}, {1e6 + 0.125, 1e6 + 0.25, 1e6 + 0.5});
         solid.add_box({-1e6, 0, 0}, {-1e6 + 2, 2, 2}, true);
@@ -86,13 +86,13 @@ TEST_CASE("section 12: signed volume") {
         CHECK(shells[1].volume == doctest::Approx(-8.0).epsilon(1e-14));
         CHECK(shells[1].first.value == 12);
     }
-    SUBCASE("open shells have no volume, nor have those that cannot be oriented") {
+    SUBCASE("open and non-orientable shells have no volume") {
         Solid solid = unit_cube();
         solid.indices.resize(33);
         CHECK(solid.shells().empty());
-        // Every border edge is met at another of the entered triangle's corners, for each rotation of the seed.
+        // Each rotation of the first triangle meets the border at another corner.
         for (std::uint32_t k = 0; k < 3; ++k) {
-            std::vector<std::uint32_t> cap{0, 1, 2, 0, 3, 1, 0, 2, 3};  // a tetrahedron less one
+            std::vector<std::uint32_t> cap{0, 1, 2, 0, 3, 1, 0, 2, 3};  // three sides of a tetrahedron
             std::rotate(cap.begin(), cap.begin() + k, cap.begin() + 3);
             CHECK(closed_shells(build(cap, 4), unit_cube().positions()).empty());
         }
@@ -100,7 +100,10 @@ TEST_CASE("section 12: signed volume") {
         const Mesh plane = test::make_mesh(shape.triangles, shape.vertices);
         CHECK(closed_shells(build(plane), positions_of(plane)).empty());
     }
-    SUBCASE("two triangles back to back are flat, to the last bit of whatever positions") {
+}
+
+TEST_CASE("section 12: rounding errors of the signed volume") {
+    SUBCASE("two triangles back to back are flat at any positions") {
         for (std::uint64_t seed = 1; seed < 200; ++seed) {
             CAPTURE(seed);
             test::SplitMix64 random(seed);
@@ -114,7 +117,7 @@ TEST_CASE("section 12: signed volume") {
             CHECK(check_smesh(table, report_topology(table), shells).fault == SmeshFault::flat);
         }
     }
-    SUBCASE("a dome and its own lining are flat, though a million products cancel") {
+    SUBCASE("a dome and its reversed copy are flat, though a million products cancel") {
         constexpr std::uint32_t kSide = 700;
         const test::Shape top = test::grid(kSide, kSide, false, false, false);
         const std::uint32_t row = kSide + 1;
@@ -129,12 +132,13 @@ TEST_CASE("section 12: signed volume") {
             for (auto [a, b, c] : top.triangles) {
                 if (!outwards) std::swap(b, c);
                 indices.insert(indices.end(), {a, b, c});
-                const auto lining = [&](std::uint32_t v) {  // the rim is shared
+                // Dome and lining share the rim.
+                const auto lining = [&](std::uint32_t v) {
                     const bool rim = v % row == 0 || v % row == kSide || v / row == 0 || v / row == kSide;
                     return rim ? v : v + top.vertices;
                 };
                 if (lining(a) == a && lining(b) == b && lining(c) == c) {
-                    indices.resize(indices.size() - 3);  // cut off the two corners that would lie upon themselves
+                    indices.resize(indices.size() - 3);  // all three at the rim: equal to its lining
                 } else {
                     indices.insert(indices.end(), {lining(a), lining(c), lining(b)});
                 }
@@ -147,9 +151,9 @@ TEST_CASE("section 12: signed volume") {
             CHECK(shells[0].error < 1e-10);
         }
     }
-    SUBCASE("a hundred thousand slivers, each lost beside the rest of the tetrahedron, are not lost together") {
+    SUBCASE("the sum of a hundred thousand slivers, each below the rounding error of the volume, counts") {
         constexpr std::uint32_t kSlivers = 100000;
-        // Vertices 0 and 1 see the edge from 2 to 3 of the tetrahedron, cut into pieces.
+        // A tetrahedron whose edge from 2 to 3 is cut into kSlivers + 1 pieces.
         std::vector<double> xyz{0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0};
         std::vector<std::uint32_t> edge{2};
         for (std::uint32_t i = 1; i <= kSlivers; ++i) {
@@ -161,8 +165,8 @@ TEST_CASE("section 12: signed volume") {
         for (std::size_t i = 0; i + 1 < edge.size(); ++i) {
             indices.insert(indices.end(), {0, edge[i], edge[i + 1], 1, edge[i + 1], edge[i]});
         }
-        for (std::size_t first = 0; first < 2;
-             ++first) {  // the last triangles, next to vertex 3, are nearly everything
+        // The last two triangles, at vertex 3, have nearly all of the volume: sum them first or last.
+        for (std::size_t first = 0; first < 2; ++first) {
             std::rotate(indices.begin(), indices.end() - 3, indices.end());
             for (std::size_t k = 0; k < 3; ++k) {
                 std::rotate(indices.begin(), indices.begin() + 1, indices.begin() + 3);
@@ -174,7 +178,10 @@ TEST_CASE("section 12: signed volume") {
             }
         }
     }
-    SUBCASE("any sphere is known from its inside-out twin") {
+}
+
+TEST_CASE("section 12: signed volumes of generated meshes") {
+    SUBCASE("a sphere and its inside-out twin have opposite volumes, near the ball's") {
         for (const std::uint64_t triangles : {100U, 1000U, 30000U}) {
             Mesh mesh = generated("sphere", triangles, 1);
             const auto shells = closed_shells(build(mesh), positions_of(mesh));
@@ -191,7 +198,7 @@ TEST_CASE("section 12: signed volume") {
             CHECK(std::abs(twin[0].volume + shells[0].volume) <= twin[0].error + shells[0].error);
         }
     }
-    SUBCASE("closed generators are counterclockwise and smeshes or have handles") {
+    SUBCASE("generated closed meshes are counterclockwise, and smeshes unless they have handles") {
         for (const char* kind : {"sphere", "blob", "torus", "genus"}) {
             CAPTURE(kind);
             const Mesh mesh = generated(kind, 2000, 3);
@@ -203,7 +210,7 @@ TEST_CASE("section 12: signed volume") {
             CHECK(fault == (kind[0] == 's' || kind[0] == 'b' ? SmeshFault::none : SmeshFault::handles));
         }
     }
-    SUBCASE("a vertex without a position is at the origin, and nothing is read beyond the end") {
+    SUBCASE("a vertex without a position is at the origin") {
         const std::vector<double> none;
         const auto shells = closed_shells(unit_cube().table(), Positions(std::span<const double>(none)));
         REQUIRE(shells.size() == 1);
@@ -211,7 +218,7 @@ TEST_CASE("section 12: signed volume") {
     }
 }
 
-TEST_CASE("section 12: a clockwise smesh is none until it is turned") {
+TEST_CASE("section 12: a clockwise smesh is a fault until it is turned") {
     const Solid solid = unit_cube(true);
     CornerTable table = solid.table();
     const auto fault = [&] {
@@ -225,13 +232,14 @@ TEST_CASE("section 12: a clockwise smesh is none until it is turned") {
 }
 
 TEST_CASE("section 12: making every closed shell counterclockwise") {
-    SUBCASE("only those that are not; open ones stay; flips are counted against the input") {
+    SUBCASE("clockwise closed shells are turned, others stay; flips are counted against the input") {
         Solid solid;
         solid.add_box({0, 0, 0}, {1, 1, 1});
         solid.add_box({2, 0, 0}, {3, 1, 1}, true);
         solid.add_box({4, 0, 0}, {5, 1, 1}, true);
-        std::swap(solid.indices[36 + 1], solid.indices[36 + 2]);  // a triangle of the second that was right already
-        solid.indices.resize(solid.indices.size() - 3);           // the third is open
+        // One triangle of the second box is counterclockwise, and the third box is open.
+        std::swap(solid.indices[36 + 1], solid.indices[36 + 2]);
+        solid.indices.resize(solid.indices.size() - 3);
         CornerTable table = solid.table();
         CHECK(table.topology.flipped == 1);
         CHECK(make_counterclockwise(table, solid.positions()) == 1);
@@ -246,10 +254,10 @@ TEST_CASE("section 12: making every closed shell counterclockwise") {
         REQUIRE(shells.size() == 2);
         CHECK(shells[1].volume == doctest::Approx(1.0));
     }
-    SUBCASE("turned twice, nothing is flipped any more") {
+    SUBCASE("a shell turned twice has no flipped triangle") {
         Solid solid = unit_cube();
         CornerTable table = solid.table();
-        for (double& x : solid.xyz) x = -x;  // a mirror: now it is inside out
+        for (double& x : solid.xyz) x = -x;  // mirrored: inside out
         CHECK(make_counterclockwise(table, solid.positions()) == 1);
         CHECK(table.topology.flipped == 12);
         for (double& x : solid.xyz) x = -x;
@@ -257,7 +265,7 @@ TEST_CASE("section 12: making every closed shell counterclockwise") {
         CHECK(table.topology.flipped == 0);
         CHECK(table.flip.empty());
     }
-    SUBCASE("every named mesh stays the same surface") {
+    SUBCASE("every named mesh keeps its shells, genus, fans and triangles") {
         for (const auto& [name, mesh] : test::named_meshes()) {
             CAPTURE_COPY(name);
             CornerTable table = build(mesh);
@@ -285,12 +293,13 @@ TEST_CASE("section 12: making every closed shell counterclockwise") {
 }
 
 TEST_CASE("section 6: vertex normals") {
-    SUBCASE("a box: the sum of the triangles at each corner, weighted by area") {
+    SUBCASE("at a box's vertex: the sum of its triangles' normals, weighted by area") {
         const Solid solid = unit_cube();
         const std::vector<float> normals = vertex_normals(solid.table(), solid.positions());
         for (std::uint32_t v = 0; v < 8; ++v) {
             double sum[3] = {0, 0, 0};
-            for (std::size_t t = 0; t < solid.indices.size(); t += 3) {  // the faces are axis-parallel: normals by hand
+            // A face's normal is along the axis whose bit its vertices share.
+            for (std::size_t t = 0; t < solid.indices.size(); t += 3) {
                 const std::uint32_t* i = &solid.indices[t];
                 if (std::find(i, i + 3, v) == i + 3) continue;
                 const std::uint32_t shared_bits = i[0] & i[1] & i[2], clear_bits = ~(i[0] | i[1] | i[2]);
@@ -301,7 +310,7 @@ TEST_CASE("section 6: vertex normals") {
             for (std::size_t k = 0; k < 3; ++k) CHECK(double{normals[v * 3 + k]} == doctest::Approx(sum[k] / length));
         }
     }
-    SUBCASE("a sphere's point outwards, a vertex of nothing has (0,0,1)") {
+    SUBCASE("normals of a sphere point outwards") {
         Mesh mesh = generated("sphere", 5000, 1);
         const std::vector<float> p = positions_f32(mesh), n = vertex_normals(build(mesh), positions_of(mesh));
         for (std::size_t v = 0; v < mesh.vertex_count; ++v) {
@@ -312,11 +321,13 @@ TEST_CASE("section 6: vertex normals") {
             }
             CHECK(dot > 0.99 * std::sqrt(length));
         }
+    }
+    SUBCASE("a vertex of no triangle has the normal (0, 0, 1)") {
         const Mesh loose = test::make_mesh({0, 1, 2}, 5);
         const std::vector<float> few = vertex_normals(build(loose), positions_of(loose));
         CHECK(std::vector<float>(few.begin() + 9, few.end()) == std::vector<float>{0, 0, 1, 0, 0, 1});
     }
-    SUBCASE("the same as normals_f32 where no triangle was turned, up to its single precision") {
+    SUBCASE("equal to normals_f32 within single precision, where no triangle was turned") {
         std::size_t compared = 0;
         for (const auto& [name, mesh] : test::named_meshes()) {
             const CornerTable table = build(mesh);
@@ -324,7 +335,7 @@ TEST_CASE("section 6: vertex normals") {
             CAPTURE_COPY(name);
             const std::vector<float> expected = normals_f32(mesh), normals = vertex_normals(table, positions_of(mesh));
             REQUIRE(normals.size() == expected.size());
-            // Triangles at a vertex may cancel out: the sum's error is relative to their areas, not to what is left.
+            // Normals at a vertex may cancel: the error of their sum is relative to the triangles' areas.
             std::vector<double> areas(mesh.vertex_count, 0.0), sums(std::size_t{mesh.vertex_count} * 3, 0.0);
             const std::vector<float> p = positions_f32(mesh);
             for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
@@ -354,7 +365,7 @@ TEST_CASE("section 6: vertex normals") {
         }
         CHECK(compared > 20000);
     }
-    SUBCASE("triangles count as the table oriented them") {
+    SUBCASE("triangles have the orientation of the table, not of the input") {
         Solid turned = unit_cube();
         std::swap(turned.indices[1], turned.indices[2]);
         std::swap(turned.indices[16], turned.indices[17]);

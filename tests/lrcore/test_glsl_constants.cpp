@@ -1,6 +1,6 @@
-// shaders/include/lacedring.glsl repeats the constants of the formats, so that it can be taken alone. One that differs
-// is a macro defined twice, which does not compile (-Werror on this file, in tests/lrcore/CMakeLists.txt, whatever the
-// build).
+// Checks that the constants in shaders/include/lacedring.glsl, which repeats them to be usable alone, equal those of
+// the library: a macro defined twice with different values does not compile (CMakeLists.txt sets -Werror for this
+// file).
 #include "lrcore/codec/lean/lean_format.h"
 #include "lrcore/codec/packed/packed_format.h"
 #include "shaders/include/lacedring.glsl"

@@ -1,5 +1,5 @@
-// The bytes of every format, kept as text in tests/golden: a format must not change without a new version number.
-// test_lr_file.cpp has those of .lr files.
+// Compares the bytes of every format with tests/golden: a format must not change without a new version number.
+// test_lr_file.cpp does so for .lr files.
 //
 // Each file holds the words and the vertex order of a stream. After an intended change of a format,
 // LACEDRING_WRITE_GOLDEN=1 test_core -tc='golden*' rewrites the files.
@@ -30,7 +30,7 @@ struct Stream {
 struct GoldenFormat {
     const char* name;
     Stream (*encode)(const CornerTable&);
-    Words (*decode)(const Words&);  // validates, and returns indices in the numbers of the stream
+    Words (*decode)(const Words&);  // validates; returns indices by the stream's vertex numbers
 };
 
 template <class Made>
@@ -97,10 +97,12 @@ Mesh both_sides(Mesh mesh) {
 }
 
 std::vector<Sample> samples() {
-    return {{"blob", generate("blob", 300, 7).value()},                // closed: two blocks
-            {"glued", test::random_gluing(40, 120, 11)},               // borders, non-manifold edges, turned triangles
-            {"soup", test::random_soup(60, 90, 3)},                    // anything, degenerate triangles too
-            {"sheet", both_sides(generate("blob", 300, 8).value())}};  // doubled triangles
+    // A closed mesh of two blocks; borders, non-manifold edges and turned triangles; a soup with degenerate triangles;
+    // doubled triangles.
+    return {{"blob", generate("blob", 300, 7).value()},
+            {"glued", test::random_gluing(40, 120, 11)},
+            {"soup", test::random_soup(60, 90, 3)},
+            {"sheet", both_sides(generate("blob", 300, 8).value())}};
 }
 
 std::filesystem::path path_of(const Sample& sample, const GoldenFormat& format) {
@@ -113,7 +115,7 @@ void write_words(std::ostream& out, const char* title, const Words& words) {
     out << '\n';
 }
 
-/// Reads one section; a malformed file fails a check.
+/// Reads the section `title`; a malformed file fails a check.
 Words read_words(std::istream& in, const std::string& title) {
     std::string name;
     std::size_t size = 0;
@@ -137,7 +139,7 @@ Stream read_golden(const std::filesystem::path& path) {
 
 }  // namespace
 
-TEST_CASE("golden bytes: every format encodes as it did, and what it encoded decodes as it did") {
+TEST_CASE("golden bytes: encoding gives the stored words, and these decode to the stored triangles") {
     const bool write = std::getenv("LACEDRING_WRITE_GOLDEN") != nullptr;
     for (const Sample& sample : samples()) {
         const CornerTable table = build_corner_table(sample.mesh.indices, sample.mesh.vertex_count).value();

@@ -1,4 +1,4 @@
-// encode, validate, decode, decode_block and decode_triangle, of every format, against the mesh's own triangles.
+// Compares encode, validate, decode, decode_block and decode_triangle of every format with the mesh's triangles.
 
 #include <doctest/doctest.h>
 
@@ -20,23 +20,23 @@ Triangle turned(Triangle t) {
     return t;
 }
 
-/// Every way to decode gives the triangles that the order says, with the mesh's orientation.
-void check(const Mesh& mesh, const Encoded& encoded) {
-    const Result<StreamView> view = validate(encoded.bytes());
-    REQUIRE_MESSAGE(view, view.error().message);
-    CHECK(view->format() == encoded.format);
-    CHECK(view->triangles() == encoded.report.triangles);
-    CHECK(view->triangles() == mesh.triangle_count() - encoded.report.topology.degenerate);
-    CHECK(view->vertices() == mesh.vertex_count + encoded.report.copies);
-    CHECK(encoded.vertex_order.size() == view->vertices());
+void check_view_counts(const Mesh& mesh, const Encoded& encoded, const StreamView& view) {
+    INFO("the view counts what the report counts");
+    CHECK(view.format() == encoded.format);
+    CHECK(view.triangles() == encoded.report.triangles);
+    CHECK(view.triangles() == mesh.triangle_count() - encoded.report.topology.degenerate);
+    CHECK(view.vertices() == mesh.vertex_count + encoded.report.copies);
+    CHECK(encoded.vertex_order.size() == view.vertices());
     const Result<StreamView> trusted = view_stream(encoded.words);
     REQUIRE(trusted);
-    CHECK(trusted->triangles() == view->triangles());
+    CHECK(trusted->triangles() == view.triangles());
+}
 
-    const std::vector<std::uint32_t> indices = decode(*view);
-    REQUIRE(encoded.triangle_order.size() == view->triangles());
+void check_decoded_triangles(const Mesh& mesh, const Encoded& encoded, std::span<const std::uint32_t> indices) {
+    INFO("the decoded triangles are the mesh's, in the order and orientation of triangle_order and vertex_order");
+    REQUIRE(3 * encoded.triangle_order.size() == indices.size());
     bool right = true;
-    for (std::size_t i = 0; i < view->triangles(); ++i) {
+    for (std::size_t i = 0; i < encoded.triangle_order.size(); ++i) {
         Triangle got{}, wanted{};
         for (std::size_t k = 0; k < 3; ++k) {
             got.v[k] = encoded.vertex_order[indices[3 * i + k]];
@@ -45,56 +45,100 @@ void check(const Mesh& mesh, const Encoded& encoded) {
         right &= turned(got) == turned(wanted);
     }
     CHECK(right);
+}
+
+void check_distinct_order(const Encoded& encoded) {
+    INFO("triangle_order names no triangle twice");
     std::vector<std::uint32_t> sorted = encoded.triangle_order;
     std::ranges::sort(sorted);
     CHECK(std::ranges::adjacent_find(sorted) == sorted.end());
+}
 
-    const auto check_copies = [&](const auto* tables) {
-        if (tables == nullptr) return;
-        const Operators ops(tables->view, tables->copies);
-        std::uint32_t copies = 0;
-        for (std::uint32_t v = 0; v < view->vertices(); ++v) {
-            const std::uint32_t original = ops.original(VertexId{v}).value;
-            copies += original != v ? 1 : 0;
-            CHECK(encoded.vertex_order[original] == encoded.vertex_order[v]);
-        }
-        CHECK(copies == encoded.report.copies);
-    };
-    check_copies(view->get<LrStreamView<LrView>>());
-    check_copies(view->get<LrStreamView<CompactLrView>>());
+/// Does nothing for null, which is a stream of another format.
+template <class Tables>
+void check_copies_of_tables(const Encoded& encoded, const Tables* tables) {
+    if (tables == nullptr) return;
+    INFO("a vertex copy has the mesh vertex of its original");
+    const Operators ops(tables->view, tables->copies);
+    std::uint32_t copies = 0;
+    for (std::uint32_t v = 0; v < encoded.vertex_order.size(); ++v) {
+        const std::uint32_t original = ops.original(VertexId{v}).value;
+        copies += original != v ? 1 : 0;
+        CHECK(encoded.vertex_order[original] == encoded.vertex_order[v]);
+    }
+    CHECK(copies == encoded.report.copies);
+}
 
-    std::vector<std::uint32_t> threaded(indices.size()), blocks, slots;
-    CHECK(decode(*view, threaded, 3));
+void check_threaded_decode(const StreamView& view, const std::vector<std::uint32_t>& indices) {
+    INFO("three threads decode the same indices");
+    std::vector<std::uint32_t> threaded(indices.size());
+    CHECK(decode(view, threaded, 3));
     CHECK(threaded == indices);
+}
+
+void check_block_decode(const StreamView& view, const std::vector<std::uint32_t>& indices) {
+    INFO("the blocks, one after another, decode to the same indices");
+    std::vector<std::uint32_t> blocks;
     std::array<std::uint32_t, std::size_t{3} * StreamView::kBlock> block{};
-    for (std::uint32_t b = 0; b < view->blocks(); ++b) {
-        const Result<std::uint32_t> triangles = decode_block(*view, b, block);
+    for (std::uint32_t b = 0; b < view.blocks(); ++b) {
+        const Result<std::uint32_t> triangles = decode_block(view, b, block);
         REQUIRE(triangles);
         blocks.insert(blocks.end(), block.begin(), block.begin() + std::ptrdiff_t{3} * *triangles);
     }
     CHECK(blocks == indices);
-    for (std::uint32_t slot = 0; slot < view->slots(); ++slot) {
-        if (const std::optional<Triangle> t = decode_triangle(*view, slot)) slots.insert(slots.end(), t->v, t->v + 3);
+}
+
+void check_slot_decode(const StreamView& view, const std::vector<std::uint32_t>& indices) {
+    INFO("the slots, decoded one by one, hold the same triangles");
+    std::vector<std::uint32_t> slots;
+    for (std::uint32_t slot = 0; slot < view.slots(); ++slot) {
+        if (const std::optional<Triangle> t = decode_triangle(view, slot)) slots.insert(slots.end(), t->v, t->v + 3);
     }
     CHECK(slots == indices);
-    CHECK_FALSE(decode_triangle(*view, view->slots()));
-    CHECK(decode_block(*view, view->blocks(), block).error().code == ErrorCode::invalid_argument);
-    if (view->blocks() > 0) CHECK_FALSE(decode_block(*view, 0, std::span(block).first(2)));
+}
 
+void check_16_bit_decode(const StreamView& view, const std::vector<std::uint32_t>& indices) {
+    INFO("16-bit indices are the same up to 65,536 vertices, and refused beyond");
     std::vector<std::uint16_t> narrow(indices.size());
-    if (view->vertices() <= 65536) {
-        CHECK(decode(*view, narrow));
+    if (view.vertices() <= 65536) {
+        CHECK(decode(view, narrow));
         CHECK(std::ranges::equal(narrow, indices));
     } else {
-        CHECK(decode(*view, narrow).error().code == ErrorCode::invalid_argument);
+        CHECK(decode(view, narrow).error().code == ErrorCode::invalid_argument);
     }
-    threaded.push_back(0);
-    CHECK(decode(*view, threaded).error().code == ErrorCode::invalid_argument);
+}
+
+void check_refused_arguments(const StreamView& view) {
+    INFO("slots and blocks beyond the end, and buffers of another size, are refused");
+    std::array<std::uint32_t, std::size_t{3} * StreamView::kBlock> block{};
+    CHECK_FALSE(decode_triangle(view, view.slots()));
+    CHECK(decode_block(view, view.blocks(), block).error().code == ErrorCode::invalid_argument);
+    if (view.blocks() > 0) CHECK_FALSE(decode_block(view, 0, std::span(block).first(2)));
+    std::vector<std::uint32_t> longer(std::size_t{3} * view.triangles() + 1);
+    CHECK(decode(view, longer).error().code == ErrorCode::invalid_argument);
+}
+
+/// Decodes a stream in every way and compares the triangles with the mesh's.
+void check_stream(const Mesh& mesh, const Encoded& encoded) {
+    const Result<StreamView> view = validate(encoded.bytes());
+    REQUIRE_MESSAGE(view, view.error().message);
+    check_view_counts(mesh, encoded, *view);
+    const std::vector<std::uint32_t> indices = decode(*view);
+    REQUIRE(indices.size() == std::size_t{3} * view->triangles());
+    check_decoded_triangles(mesh, encoded, indices);
+    check_distinct_order(encoded);
+    check_copies_of_tables(encoded, view->get<LrStreamView<LrView>>());
+    check_copies_of_tables(encoded, view->get<LrStreamView<CompactLrView>>());
+    check_threaded_decode(*view, indices);
+    check_block_decode(*view, indices);
+    check_slot_decode(*view, indices);
+    check_16_bit_decode(*view, indices);
+    check_refused_arguments(*view);
 }
 
 }  // namespace
 
-TEST_CASE("every format gives back every mesh, whole, by blocks and by triangles") {
+TEST_CASE("every format decodes to the mesh's triangles: whole, by block and by triangle") {
     for (const test::NamedMesh& named : test::named_meshes()) {
         CAPTURE(named.name);
         for (const Format format : kEveryFormat) {
@@ -102,19 +146,19 @@ TEST_CASE("every format gives back every mesh, whole, by blocks and by triangles
             const Result<Encoded> encoded =
                 encode(named.mesh.indices, named.mesh.vertex_count, {.format = format, .effort = 2});
             REQUIRE_MESSAGE(encoded, encoded.error().message);
-            check(named.mesh, *encoded);
+            check_stream(named.mesh, *encoded);
         }
     }
 }
 
-TEST_CASE("16-bit indices end where vertices do not fit") {
+TEST_CASE("16-bit indices of a mesh of 65,537 vertices are refused") {
     const Mesh mesh = test::random_soup(65537, 3000, 7);
     for (const Format format : kEveryFormat) {
-        check(mesh, encode(mesh.indices, mesh.vertex_count, {.format = format, .effort = 0}).value());
+        check_stream(mesh, encode(mesh.indices, mesh.vertex_count, {.format = format, .effort = 0}).value());
     }
 }
 
-TEST_CASE("more effort makes no stream larger by a hundredth, and its parts can be said one by one") {
+TEST_CASE("more effort makes no stream larger by over 1 %, and equals the options that it stands for") {
     const Mesh mesh = generate("blob", 20000, 7).value();
     for (const Format format : kEveryFormat) {
         CAPTURE(name_of(format));
@@ -137,7 +181,7 @@ TEST_CASE("more effort makes no stream larger by a hundredth, and its parts can 
     }
 }
 
-TEST_CASE("what encode refuses, and what is no stream") {
+TEST_CASE("encode refuses bad arguments, and validate words that are no stream") {
     const std::vector<std::uint32_t> indices{0, 1, 2, 0, 2, 3, 1};
     const auto code = [&](std::size_t count, std::uint32_t vertices, const EncodeOptions& options) {
         return encode(std::span(indices).first(count), vertices, options).error().code;

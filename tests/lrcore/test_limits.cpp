@@ -1,4 +1,4 @@
-// Sizes at which 32-bit arithmetic would wrap: refused, or computed in 64 bits.
+// Sizes at which 32-bit arithmetic would overflow are refused or computed in 64 bits.
 
 #include <doctest/doctest.h>
 #include <sys/mman.h>
@@ -48,23 +48,23 @@ void check_too_large(const Result<T>& result) {
 
 }  // namespace
 
-TEST_CASE("streams refuse vertices that they cannot number") {
+TEST_CASE("encoders refuse more vertices than their format can number") {
     check_too_large(encode_lean(empty_table((1U << 29) + 1), kNoRings));
     check_too_large(encode_packed(empty_table((1U << 29) + 1), kNoRings));
     check_too_large(encode_packed(empty_table((1U << 29) + 1), kNoRings, PackedProfile::cache));
     check_too_large(build_lr(empty_table((1U << 28) - 1), kNoRings));
 }
 
-TEST_CASE("a corner table refuses corners that split_fans could not name apart") {
+TEST_CASE("a corner table refuses sizes at which split_fans would run out of vertex numbers") {
     const std::uint32_t one = 0;
-    // The span is not read, only its size.
+    // Only the size of the span is read.
     const auto indices = [&](std::size_t count) { return std::span(&one, count); };
     check_too_large(build_corner_table(indices(3), (1U << 29) + 1));
     check_too_large(build_corner_table(indices(std::size_t{UINT32_MAX}), 1));
     check_too_large(build_corner_table(indices(std::size_t{UINT32_MAX} - (1U << 29) + 2), 1U << 29));
 }
 
-TEST_CASE("T0 beyond the 715 millionth are found in VO") {
+TEST_CASE("T0 number 900 million, beyond 2^32 words of VO, is read") {
     constexpr std::uint32_t kT0 = 900'000'000;
     const Sparse sparse(std::size_t{6} * (kT0 + 1));
     if (sparse.words().empty()) return;  // not enough address space

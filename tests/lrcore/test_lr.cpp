@@ -19,10 +19,11 @@ using namespace lacedring;
 
 namespace {
 
-/// Around a border vertex star() and neighbors() begin at the border, and go on in the order of swing.
+/// Checks that star() and neighbors() of a border vertex begin at the border and continue in the order of swing.
 template <class Operators>
 void check_border_order(const CornerTable& table, const Operators& ops, const LrMap& map) {
-    std::vector<CornerId> begin(table.vertex_count, kNullCorner);  // the corner that no swing leads to
+    // By vertex: the corner that is no other corner's swing.
+    std::vector<CornerId> begin(table.vertex_count, kNullCorner);
     for (std::uint32_t i = 0; i < table.corners.size(); ++i) {
         const CornerId c{i};
         if (!table.degenerate(triangle(c)) && table.right(c).is_null()) begin[table.vertex(c).value] = c;
@@ -32,7 +33,7 @@ void check_border_order(const CornerTable& table, const Operators& ops, const Lr
         if (c.is_null()) continue;
         CAPTURE(v);
         std::vector<CornerId> star, expected_star;
-        std::vector<VertexId> neighbours, expected_neighbors;
+        std::vector<VertexId> neighbors, expected_neighbors;
         for (CornerId last; !c.is_null(); c = table.swing(last)) {
             last = c;
             expected_star.push_back(c);
@@ -42,12 +43,13 @@ void check_border_order(const CornerTable& table, const Operators& ops, const Lr
         ops.star(VertexId{v}, [&](CornerId x) {
             star.push_back(corner(map.triangle[x.value / 4], (map.start[x.value / 4] + x.value % 4) % 3));
         });
-        ops.neighbors(VertexId{v}, [&](VertexId u) { neighbours.push_back(map.vertex[u.value]); });
+        ops.neighbors(VertexId{v}, [&](VertexId u) { neighbors.push_back(map.vertex[u.value]); });
         REQUIRE_FAST(star == expected_star);
-        REQUIRE_FAST(neighbours == expected_neighbors);
+        REQUIRE_FAST(neighbors == expected_neighbors);
     }
 }
 
+/// Builds standard and bit-efficient LR tables of a mesh and compares their operators with the corner table's.
 void check_lr(const Mesh& mesh, const RingOptions& rings_options, const LrOptions& options,
               const OptimizeOptions& optimize = {.passes = 0}) {
     Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
@@ -92,7 +94,7 @@ TEST_CASE("LR operators equal the corner table's on named meshes") {
     }
 }
 
-TEST_CASE("LR operators equal the corner table's on optimised rings") {
+TEST_CASE("LR operators equal the corner table's on optimized rings") {
     for (const auto& [name, mesh] : test::named_meshes()) {
         CAPTURE_COPY(name);
         check_lr(mesh, {}, {}, {.cost = kLrRingCost, .passes = 6});
@@ -129,5 +131,5 @@ TEST_CASE("LR operators equal the corner table's on the meshes of LACEDRING_MESH
             check_lr(welded, {}, {}, {.cost = kLrRingCost, .passes = 4});
         }
     });
-    CHECK(checked.value_or(1) > 0);  // where the variable is set
+    CHECK_MESSAGE(checked.value_or(1) > 0, "the folder has meshes");
 }

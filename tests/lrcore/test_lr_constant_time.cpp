@@ -1,4 +1,4 @@
-// Constant time per operator, by counting what is read: the same bound for every mesh, however large.
+// Operators take constant time: the words that each reads have the same bound on every mesh.
 
 #include <doctest/doctest.h>
 
@@ -16,7 +16,8 @@ using namespace lacedring;
 
 namespace {
 
-/// A store that counts its reads. It answers nothing itself, so the operators take their general way.
+/// A store that counts its reads. It has no shortcuts (plain_opposite, plain_fan), so that Operators takes the general
+/// path.
 template <class View>
 struct Counting {
     const View* view;
@@ -40,6 +41,7 @@ struct Counting {
     std::uint32_t used_vertices() const { return view->used_vertices(); }
 };
 
+/// The largest number of reads per operator.
 struct Most {
     std::size_t vertex = 0, opposite = 0, swing = 0, canonical = 0, corner = 0;
 };
@@ -77,7 +79,7 @@ void count(const Mesh& mesh, std::uint32_t k, Most& most) {
     count(compact->view(), most);
 }
 
-/// Each of these is a call that reads at most three words (a word of L or R, an entry of VO*, its neighbour).
+/// A read is at most three words: a word of L or R, an entry of VO* and the entry beside it.
 void check_most(const Most& most) {
     CHECK(most.vertex <= 6);
     CHECK(most.canonical <= 6);

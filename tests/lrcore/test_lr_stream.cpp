@@ -61,7 +61,7 @@ std::vector<std::uint32_t> with_checksum(std::vector<std::uint32_t> words) {
     return words;
 }
 
-/// Refused, or harmless. Returns whether it was accepted.
+/// Validates a damaged stream, and checks and decodes one that is accepted. Returns whether it was.
 template <class Validate>
 bool try_damaged(std::vector<std::uint32_t> bad, Validate validate) {
     if (bad.size() >= kLrHeaderWords) bad = with_checksum(std::move(bad));
@@ -75,7 +75,7 @@ bool try_damaged(std::vector<std::uint32_t> bad, Validate validate) {
 
 }  // namespace
 
-TEST_CASE("LR streams give back the triangles of named meshes") {
+TEST_CASE("LR streams decode to the triangles of named meshes") {
     for (const auto& [name, mesh] : test::named_meshes()) {
         CAPTURE_COPY(name);
         for (const std::uint32_t k : {0U, 5U}) {
@@ -86,7 +86,7 @@ TEST_CASE("LR streams give back the triangles of named meshes") {
     }
 }
 
-TEST_CASE("LR streams give back the triangles of random soups") {
+TEST_CASE("LR streams decode to the triangles of random soups") {
     for (std::uint64_t seed = 1; seed <= 150; ++seed) {
         CAPTURE(seed);
         const Mesh mesh = test::random_gluing(10 + static_cast<std::uint32_t>(seed % 50), 150, seed);
@@ -97,7 +97,8 @@ TEST_CASE("LR streams give back the triangles of random soups") {
 }
 
 TEST_CASE("a used vertex without a corner is refused") {
-    // Three vertices on a ring of one triangle twice; the left slot of vertex 1 is a border, so that v.c is null there.
+    // A ring of three vertices with one triangle on both sides. The left slot of vertex 1 is a border, so its v.c is
+    // null.
     const std::vector<std::uint32_t> kNullCorner =
         with_checksum({0x5443524c, 1, 4, 3, 0, 3, 0, 0, 0, 0, 2, 0x40000000, 0x5fffffff, 0, 0x90000000, 0x10000001, 2,
                        UINT32_MAX, UINT32_MAX});
@@ -106,9 +107,9 @@ TEST_CASE("a used vertex without a corner is refused") {
     CHECK(refused.error().message == "LR tables: vertex 1: no corner");
 }
 
-TEST_CASE("one vertex for several fans is refused") {
-    // Two tetrahedra that share vertex 0: a copy of it takes the second fan. Without the copy, v.c leads to one of them
-    // alone.
+TEST_CASE("a vertex with two fans is refused") {
+    // Two tetrahedra share vertex 0, and a copy of vertex 0 has the second fan. If the original replaces the copy, v.c
+    // reaches the first fan only.
     const Mesh mesh = test::make_mesh({0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2, 0, 4, 5, 0, 5, 6, 0, 6, 4, 4, 6, 5}, 7);
     for (const std::uint32_t k : {0U, 2U}) {
         const Words words = make(mesh, k);
@@ -127,7 +128,7 @@ TEST_CASE("one vertex for several fans is refused") {
     }
 }
 
-TEST_CASE("a redundant T2 names v.n.n, and VO* the opposites that the operators give") {
+TEST_CASE("tables whose redundant T2 is not v.n.n, or whose VO* has other opposites, are refused") {
     const Mesh mesh = test::random_gluing(60, 200, 5);
     const Words words = make(mesh);
     const LrView view = view_lr(words.standard)->view;
@@ -153,7 +154,7 @@ TEST_CASE("a redundant T2 names v.n.n, and VO* the opposites that the operators 
     CHECK(entries > 20);
 }
 
-TEST_CASE("damaged LR streams are refused or harmless") {
+TEST_CASE("damaged LR streams are refused or have consistent operators") {
     const auto standard = [](std::span<const std::uint32_t> w) { return validate_lr(w); };
     const auto compact = [](std::span<const std::uint32_t> w) { return validate_compact_lr(w); };
     std::size_t accepted = 0, refused = 0;
@@ -174,7 +175,7 @@ TEST_CASE("damaged LR streams are refused or harmless") {
     CHECK(refused > 10000);
 }
 
-TEST_CASE("the search for k keeps the smallest") {
+TEST_CASE("smallest_compact_lr returns the smallest tables of all k") {
     const Mesh mesh = test::random_gluing(3000, 6000, 3);
     Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
     REQUIRE(table);

@@ -1,5 +1,5 @@
-// Streams whose headers count more elements than the streams hold: decoders and validators must not allocate by such a
-// count. A separate binary, because it replaces operator new.
+// Decoders and validators allocate no memory for counts in a header that exceed the stream. A binary of its own,
+// because it replaces operator new.
 
 #include <doctest/doctest.h>
 
@@ -18,7 +18,7 @@ namespace {
 std::size_t allocated = 0;  // bytes requested since the last reset, freed or not
 }
 
-// Not inlined: the compiler would see free() of what it takes for the standard operator new's.
+// Not inlined: the compiler would warn that free() is called on memory of the standard operator new.
 [[gnu::noinline]] void* operator new(std::size_t size) {
     allocated += size;
     void* const out = std::malloc(size);
@@ -36,9 +36,10 @@ using namespace lacedring;
 
 namespace {
 
-constexpr std::size_t kLittle = 64 * 1024;  // far above the needs of the streams below
+// Far above what the streams below need.
+constexpr std::size_t kLittle = 64 * 1024;
 
-/// Bytes that work() requests.
+/// The bytes that work() allocates.
 template <class Work>
 std::size_t bytes_of(const Work& work) {
     allocated = 0;
@@ -50,7 +51,7 @@ CornerTable table_of(const Mesh& mesh) {
     return build_corner_table(mesh.indices, mesh.vertex_count).value();
 }
 
-/// Two tetrahedra that share vertex 0, so that LR tables have a copy of it.
+/// Two tetrahedra that share vertex 0, of which LR tables have a copy.
 Mesh pinched() {
     return test::make_mesh({0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2, 0, 4, 5, 0, 5, 6, 0, 6, 4, 4, 6, 5}, 7);
 }
@@ -79,7 +80,7 @@ void check_lr(const Stream& stream) {
 
 }  // namespace
 
-TEST_CASE("LR tables with vertices of no triangle decode in the memory that their words pay for") {
+TEST_CASE("LR tables of 2^28 unused vertices decode in little memory") {
     const std::vector<std::uint32_t> standard = lr_words(false, (1U << 28) - 2),
                                      compact = lr_words(true, (1U << 28) - 2);
     CHECK(bytes_of([&] { CHECK(validate_lr(standard)); }) < kLittle);
@@ -88,7 +89,7 @@ TEST_CASE("LR tables with vertices of no triangle decode in the memory that thei
     check_lr(view_compact_lr(compact));
 }
 
-TEST_CASE("a lean stream with vertices of no triangle") {
+TEST_CASE("a lean stream of 2^29 unused vertices, or of counts beyond its words, is validated in little memory") {
     std::vector<std::uint32_t> words = encode_lean(table_of(pinched()), expand_rings(table_of(pinched())))->words;
     words[LR_LEAN_WORD_VERTICES] = 1U << 29;
     words[LR_LEAN_WORD_CHECKSUM] = lean_checksum(words);
@@ -101,7 +102,7 @@ TEST_CASE("a lean stream with vertices of no triangle") {
     }
 }
 
-TEST_CASE("a packed stream that promises more than it has") {
+TEST_CASE("a packed stream of counts beyond its words is validated in little memory") {
     const std::vector<std::uint32_t> words =
         encode_packed(table_of(pinched()), expand_rings(table_of(pinched())))->words;
     CHECK(bytes_of([&] { CHECK(validate_packed(words)); }) < kLittle);
@@ -110,14 +111,14 @@ TEST_CASE("a packed stream that promises more than it has") {
             std::vector<std::uint32_t> bad = words;
             bad[count] = many;
             bad[LR_PACKED_WORD_CHECKSUM] = packed_checksum(bad);
-            // More vertices may be another mesh, valid by chance; more triangles are not there.
+            // More vertices may make a valid stream of another mesh by chance; more triangles cannot.
             CHECK(bytes_of([&] { CHECK((count == LR_PACKED_WORD_VERTICES || !validate_packed(bad))); }) < kLittle);
             CHECK(bytes_of([&] { (void)validate_packed(bad); }) < kLittle);
         }
     }
 }
 
-TEST_CASE("an .lr file whose connectivity promises more vertices than the file has") {
+TEST_CASE("an .lr file whose connectivity has more vertices than the file is refused in little memory") {
     for (const Format format : {Format::lr, Format::lr_compact}) {
         CAPTURE(static_cast<int>(format));
         const Mesh mesh = pinched();

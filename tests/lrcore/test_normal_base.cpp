@@ -1,4 +1,4 @@
-// The base of normals is what the document says, of any mesh; differences from it give the normals back.
+// Compares the base of normals with docs/storage-format.md, and checks that differences from it restore the normals.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ constexpr NormalBase base_of(std::uint32_t i) {
     return {(i & 1) != 0, (i & 2) != 0, (i & 4) != 0};
 }
 
-/// As docs/storage-format.md has it, triangle by triangle.
+/// The base as docs/storage-format.md defines it, computed triangle by triangle.
 Words documented_base(const VertexPlaces& places, const Words& triangles, std::uint32_t copies, NormalBase base,
                       std::uint32_t bits) {
     const auto vertex = [&](std::uint32_t copy) { return places.vertex_of.empty() ? copy : places.vertex_of[copy]; };
@@ -99,8 +99,8 @@ Words documented_base(const VertexPlaces& places, const Words& triangles, std::u
     return out;
 }
 
-/// Two sheets of a wavy surface whose normals are known, one of them from below; with a seam, the middle column is of
-/// two copies.
+/// Two wavy sheets with known normals, the second facing down. With a seam, the vertices of the middle column have two
+/// copies.
 struct Waves {
     Words triangles, vertex_of, positions, normals;
     std::uint32_t vertices = 0;
@@ -162,7 +162,7 @@ struct Waves {
 
 }  // namespace
 
-TEST_CASE("normal base: as documented, of any triangles at any places") {
+TEST_CASE("normal base: as documented, for random triangles and positions") {
     const std::uint32_t seed = std::random_device{}();
     CAPTURE(seed);
     std::mt19937 random(seed);
@@ -188,7 +188,7 @@ TEST_CASE("normal base: as documented, of any triangles at any places") {
     CHECK(storage::surface_normals({}, {}, 0, {}, 8).empty());
 }
 
-TEST_CASE("normal base: differences give every point back, from every base") {
+TEST_CASE("normal base: adding a difference restores every point from every base") {
     for (const std::uint32_t bits : {2U, 3U, 4U}) {
         const std::int32_t most = (1 << (bits - 1)) - 1;
         Words points;
@@ -204,11 +204,12 @@ TEST_CASE("normal base: differences give every point back, from every base") {
             CHECK(values == points);
         }
     }
+    // Words of a damaged stream may be any, but cause no signed overflow.
     Words wild{0x80000000U, 0x7fffffffU, UINT32_MAX, 0x80000000U};
-    storage::add_normals(wild, Words{511, 511, 0, 0}, 10);  // of a damaged stream: anything, but no overflow
+    storage::add_normals(wild, Words{511, 511, 0, 0}, 10);
 }
 
-TEST_CASE("normal base: normals of a surface become smaller, with seams and without") {
+TEST_CASE("normal base: normals of a surface take less, with and without seams") {
     for (const bool seam : {false, true}) {
         CAPTURE(seam);
         const Waves waves(seam);
@@ -216,18 +217,18 @@ TEST_CASE("normal base: normals of a surface become smaller, with seams and with
         const Words without = storage::store_vertices(view, waves.triangles).value();
         const Words with = test::check_stored_by_places(waves.normals, waves.triangles, waves.where());
         CHECK(3 * with.size() < 2 * without.size());
-        // What is stored without a base needs no places, but may be given some.
+        // Normals stored without a base need no places to restore; given places do not matter.
         CHECK(storage::restore_vertices(without, waves.triangles, view.vertices, 1 << 20, waves.where()));
     }
 }
 
-TEST_CASE("normal base: damage does no harm") {
+TEST_CASE("normal base: damaged streams are refused or decode the same in C") {
     const Waves waves(true);
     const VertexView view = *validate_vertices(waves.normals);
     const Words all = storage::store_vertices(view, waves.triangles, waves.where()).value();
     const auto use = [&](const Words& damaged, auto&) {
         test::check_damaged_in_c(damaged, waves.triangles, view.vertices, 100000, waves.where());
     };
-    // The header's raw bits, behind the words of symbols, more often than the rest.
+    // Half of the damage goes to the raw bits of the header, behind the words of symbols.
     test::for_each_damage(all, std::random_device{}(), test::kSanitized ? 100 : 400, use, {all[0] + 1, 8});
 }

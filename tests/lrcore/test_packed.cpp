@@ -25,35 +25,20 @@ Triangle leading_smallest(Triangle t) {
     return t;
 }
 
-/// Encodes and checks everything there is to check.
-EncodedPacked check(const Mesh& mesh, const RingOptions& ring, PackedProfile profile = PackedProfile::small,
-                    std::uint32_t passes = 0) {
-    const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
-    REQUIRE(table);
-    Result<PackedChoice> encoded =
-        encode_smallest_packed(*table, ring, {.cost = kPackedRingCost, .passes = passes}, profile);
-    REQUIRE(encoded);
-    EncodedPacked& stream = encoded->stream;
-
-    // The stream alone, in a buffer of exactly its size, so that a sanitizer sees any read beyond it.
-    const auto exact = std::make_unique<std::uint32_t[]>(stream.words.size());
-    std::copy(stream.words.begin(), stream.words.end(), exact.get());
-    const Result<PackedView> view = validate_packed(std::span<const std::uint32_t>(exact.get(), stream.words.size()));
-    REQUIRE_MESSAGE(view, view.error().message);
-    CHECK(view->triangles == table->triangle_count() - table->topology.degenerate);
-    CHECK(view->bytes() <= std::size_t{12} * view->triangles + 72);  // never above a plain list and a fixed header
-
-    const std::size_t size = std::size_t{3} * view->triangles;
-    const auto indices = std::make_unique<std::uint32_t[]>(size);
-    const std::span<std::uint32_t> decoded(indices.get(), size);
-    decode_packed(*view, decoded);
-    REQUIRE(stream.triangle_order.size() == view->triangles);
+void check_packed_vertex_order(const Mesh& mesh, const EncodedPacked& stream) {
+    INFO("vertex_order is a permutation");
     REQUIRE(stream.vertex_order.size() == mesh.vertex_count);
     std::vector<std::uint32_t> sorted = stream.vertex_order;
     std::sort(sorted.begin(), sorted.end());
     for (std::uint32_t v = 0; v < sorted.size(); ++v) REQUIRE(sorted[v] == v);
-    for (std::uint32_t i = 0; i < view->triangles; ++i) {
-        const auto one = decode_packed_triangle(*view, i);
+}
+
+void check_packed_triangles(const Mesh& mesh, const EncodedPacked& stream, const PackedView& view,
+                            std::span<const std::uint32_t> decoded) {
+    INFO("a triangle decoded alone has its decoded vertices, and is the one that triangle_order names");
+    REQUIRE(stream.triangle_order.size() == view.triangles);
+    for (std::uint32_t i = 0; i < view.triangles; ++i) {
+        const auto one = decode_packed_triangle(view, i);
         Triangle got{}, want{};
         for (std::size_t k = 0; k < 3; ++k) {
             REQUIRE(one.v[k] == decoded[std::size_t{3} * i + k]);
@@ -62,19 +47,62 @@ EncodedPacked check(const Mesh& mesh, const RingOptions& ring, PackedProfile pro
         }
         REQUIRE(leading_smallest(got) == leading_smallest(want));
     }
-    std::vector<std::uint32_t> threaded(size);
-    decode_packed(*view, threaded, 3);
-    CHECK(std::equal(threaded.begin(), threaded.end(), decoded.begin()));
-    for (std::uint32_t block = 0; block < view->blocks(); ++block) {
+}
+
+void check_packed_threads(const PackedView& view, std::span<const std::uint32_t> decoded) {
+    INFO("three threads decode the same indices");
+    std::vector<std::uint32_t> threaded(decoded.size());
+    decode_packed(view, threaded, 3);
+    CHECK(std::ranges::equal(threaded, decoded));
+}
+
+void check_packed_blocks(const PackedView& view, std::span<const std::uint32_t> decoded) {
+    INFO("a block decoded alone has its decoded indices");
+    for (std::uint32_t block = 0; block < view.blocks(); ++block) {
+        CAPTURE(block);
         const std::size_t first = std::size_t{3} * LR_PACKED_BLOCK * block;
-        const auto part = std::make_unique<std::uint32_t[]>(std::min<std::size_t>(3 * LR_PACKED_BLOCK, size - first));
-        decode_packed_block(*view, block, {part.get(), std::min<std::size_t>(3 * LR_PACKED_BLOCK, size - first)});
-        CHECK(std::equal(part.get(), part.get() + std::min<std::size_t>(3 * LR_PACKED_BLOCK, size - first),
-                         decoded.begin() + static_cast<std::ptrdiff_t>(first)));
+        const std::size_t size = std::min<std::size_t>(3 * LR_PACKED_BLOCK, decoded.size() - first);
+        const auto part = std::make_unique<std::uint32_t[]>(size);
+        decode_packed_block(view, block, {part.get(), size});
+        CHECK(std::ranges::equal(std::span(part.get(), size), decoded.subspan(first, size)));
     }
-    for (std::uint32_t& v : threaded) v = stream.vertex_order[v];
-    CHECK(test::oriented_triangles(threaded) == test::oriented_triangles(mesh.indices));
-    return std::move(stream);
+}
+
+void check_packed_mesh(const Mesh& mesh, const EncodedPacked& stream, std::span<const std::uint32_t> decoded) {
+    INFO("the stream holds the mesh's triangles");
+    std::vector<std::uint32_t> indices(decoded.begin(), decoded.end());
+    for (std::uint32_t& v : indices) v = stream.vertex_order[v];
+    CHECK(test::oriented_triangles(indices) == test::oriented_triangles(mesh.indices));
+}
+
+/// Encodes a mesh, checks the stream and its decoding, and returns the stream.
+EncodedPacked check(const Mesh& mesh, const RingOptions& ring, PackedProfile profile = PackedProfile::small,
+                    std::uint32_t passes = 0) {
+    const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
+    REQUIRE(table);
+    Result<PackedChoice> encoded =
+        encode_smallest_packed(*table, ring, {.cost = kPackedRingCost, .passes = passes}, profile);
+    REQUIRE(encoded);
+    const EncodedPacked& stream = encoded->stream;
+
+    // Buffers of exactly the size: a sanitizer reports reads and writes behind their ends.
+    const auto exact = test::exact_copy(std::span<const std::uint32_t>(stream.words));
+    const Result<PackedView> view = validate_packed(std::span<const std::uint32_t>(exact.get(), stream.words.size()));
+    REQUIRE_MESSAGE(view, view.error().message);
+    CHECK(view->triangles == table->triangle_count() - table->topology.degenerate);
+    CHECK_MESSAGE(view->bytes() <= std::size_t{12} * view->triangles + 72,
+                  "at most the bytes of an index list and a fixed header");
+    const std::size_t size = std::size_t{3} * view->triangles;
+    const auto indices = std::make_unique<std::uint32_t[]>(size);
+    const std::span<std::uint32_t> decoded(indices.get(), size);
+    decode_packed(*view, decoded);
+
+    check_packed_vertex_order(mesh, stream);
+    check_packed_triangles(mesh, stream, *view, decoded);
+    check_packed_threads(*view, decoded);
+    check_packed_blocks(*view, decoded);
+    check_packed_mesh(mesh, stream, decoded);
+    return std::move(encoded->stream);
 }
 
 std::uint32_t own_triangle(const PackedView& view, std::uint32_t triangle) {
@@ -84,14 +112,16 @@ std::uint32_t own_triangle(const PackedView& view, std::uint32_t triangle) {
     return (runs[2 * run + 1] & ~LR_PACKED_DOUBLES) + triangle - runs[2 * run];
 }
 
-/// Decodes every triangle from a copy of the stream in which all is poison but what is said of doubles, its block's
-/// turns and its group.
+/// Decodes every triangle from a copy of the stream in which all words are overwritten, except the header, the table of
+/// doubles, and the block record and group of the triangle.
 void check_random_access(const EncodedPacked& stream) {
+    INFO("a triangle is decoded from its block and group alone");
     const Result<PackedView> view = view_packed(stream.words);
     REQUIRE(view);
     std::vector<std::uint32_t> indices(std::size_t{3} * view->triangles);
     decode_packed(*view, indices);
-    const auto group_begin = [&](std::uint32_t group) -> std::size_t {  // in bytes
+    // In bytes from the first group.
+    const auto group_begin = [&](std::uint32_t group) -> std::size_t {
         const std::size_t word = view->table_word() + group - 1;
         const std::size_t groups = view->doubles_word() - view->table_word() + 1;
         if (group >= groups) return 4 * (stream.words.size() - view->groups_word());
@@ -117,7 +147,7 @@ void check_random_access(const EncodedPacked& stream) {
         REQUIRE(far);
         const std::uint32_t first = block * LR_PACKED_BLOCK;
         for (std::uint32_t t = 0; t < view->triangles; ++t) {
-            // A double's block is that of its own triangle, which comes behind it in no run.
+            // A double is decoded from the block of the triangle that it repeats.
             const std::uint32_t of = t < view->own ? t : own_triangle(*view, t);
             if (of < first || of >= first + LR_PACKED_BLOCK) continue;
             const auto got = decode_packed_triangle(*far, t);
@@ -126,9 +156,19 @@ void check_random_access(const EncodedPacked& stream) {
     }
 }
 
+/// `sheet` with its triangles [begin, end) once more, of the same orientation or `turned`.
+Mesh doubled(const Mesh& sheet, std::uint32_t begin, std::uint32_t end, bool turned) {
+    Mesh mesh = sheet;
+    for (std::uint32_t t = begin; t < end; ++t) {
+        const std::uint32_t* v = &sheet.indices[std::size_t{3} * t];
+        for (const std::uint32_t i : {v[1], turned ? v[0] : v[2], turned ? v[2] : v[0]}) mesh.indices.push_back(i);
+    }
+    return mesh;
+}
+
 }  // namespace
 
-TEST_CASE("packed streams of named meshes") {
+TEST_CASE("packed streams of named meshes decode to the mesh's triangles") {
     for (const auto& [name, mesh] : test::named_meshes()) {
         CAPTURE_COPY(name);
         check_random_access(check(mesh, {}));
@@ -138,26 +178,30 @@ TEST_CASE("packed streams of named meshes") {
     }
 }
 
-TEST_CASE("a doubled triangle is told by its number") {
+TEST_CASE("doubled triangles are stored as runs of triangle numbers") {
     const Mesh sheet = generate("blob", 20000, 1).value();
-    const auto doubled = [&](std::uint32_t begin, std::uint32_t end, bool turned) {
-        Mesh mesh = sheet;
-        for (std::uint32_t t = begin; t < end; ++t) {
-            const std::uint32_t* v = &sheet.indices[std::size_t{3} * t];
-            for (const std::uint32_t i : {v[1], turned ? v[0] : v[2], turned ? v[2] : v[0]}) mesh.indices.push_back(i);
-        }
-        return mesh;
-    };
     const auto all = static_cast<std::uint32_t>(sheet.triangle_count());
-    const EncodedPacked once = check(sheet, {}), both = check(doubled(0, all, true), {});
-    CHECK(both.statistics.doubles == all);
-    CHECK(both.words.size() == once.words.size() + LR_PACKED_DOUBLES_WORDS + LR_PACKED_RUN_WORDS);
-    CHECK(check(doubled(0, all, false), {}, PackedProfile::cache).statistics.doubles == all);
-    CHECK(check(doubled(100, 164, true), {}).statistics.doubles == 64);
-    CHECK(check(doubled(100, 116, true), {}).statistics.doubles == 0);  // too few
-    check_random_access(check(doubled(100, 3000, true), {}, PackedProfile::small, 2));
+    SUBCASE("one run doubles the whole mesh, turned") {
+        const EncodedPacked once = check(sheet, {}), both = check(doubled(sheet, 0, all, true), {});
+        CHECK(both.statistics.doubles == all);
+        CHECK(both.words.size() == once.words.size() + LR_PACKED_DOUBLES_WORDS + LR_PACKED_RUN_WORDS);
+    }
+    SUBCASE("doubles may have the same orientation") {
+        CHECK(check(doubled(sheet, 0, all, false), {}, PackedProfile::cache).statistics.doubles == all);
+    }
+    SUBCASE("64 doubles are a run, 16 are too few") {
+        CHECK(check(doubled(sheet, 100, 164, true), {}).statistics.doubles == 64);
+        CHECK(check(doubled(sheet, 100, 116, true), {}).statistics.doubles == 0);
+    }
+    SUBCASE("doubles are decoded at random access") {
+        check_random_access(check(doubled(sheet, 100, 3000, true), {}, PackedProfile::small, 2));
+    }
+}
 
-    // Runs that say something impossible.
+TEST_CASE("runs of doubled triangles that are impossible are refused") {
+    const Mesh sheet = generate("blob", 20000, 1).value();
+    const auto all = static_cast<std::uint32_t>(sheet.triangle_count());
+    const EncodedPacked both = check(doubled(sheet, 0, all, true), {});
     const std::size_t at = view_packed(both.words)->doubles_word();
     const auto refused = [&](std::size_t word, std::uint32_t value) {
         std::vector<std::uint32_t> bad = both.words;
@@ -165,21 +209,29 @@ TEST_CASE("a doubled triangle is told by its number") {
         bad[LR_PACKED_WORD_CHECKSUM] = packed_checksum(bad);
         return !validate_packed(bad);
     };
-    REQUIRE_FALSE(refused(at, all));  // how many
-    CHECK(refused(at, 0));
-    CHECK(refused(at, all + 1));
-    CHECK(refused(at, UINT32_MAX));
-    CHECK(refused(at + 1, 0));  // runs
-    CHECK(refused(at + 1, 2));
-    CHECK(refused(at + 1, UINT32_MAX));
-    CHECK(refused(at + 2, all - 1));  // where the first begins
-    CHECK(refused(at + 2, all + 1));
-    CHECK(refused(at + 3, 1));        // beyond the last own triangle
-    CHECK_FALSE(refused(at + 3, 0));  // the same way round, then
-    CHECK(refused(at + 3, all));
+    SUBCASE("the number of doubles") {
+        REQUIRE_FALSE(refused(at, all));
+        CHECK(refused(at, 0));
+        CHECK(refused(at, all + 1));
+        CHECK(refused(at, UINT32_MAX));
+    }
+    SUBCASE("the number of runs") {
+        CHECK(refused(at + 1, 0));
+        CHECK(refused(at + 1, 2));
+        CHECK(refused(at + 1, UINT32_MAX));
+    }
+    SUBCASE("the first double of a run") {
+        CHECK(refused(at + 2, all - 1));
+        CHECK(refused(at + 2, all + 1));
+    }
+    SUBCASE("the first own triangle of a run") {
+        CHECK_MESSAGE(refused(at + 3, 1), "the run ends beyond the last own triangle");
+        CHECK_MESSAGE(!refused(at + 3, 0), "the same run without the turned bit is valid");
+        CHECK(refused(at + 3, all));
+    }
 }
 
-TEST_CASE("packed streams of random soups") {
+TEST_CASE("packed streams of random soups decode to the soup's triangles") {
     std::uint32_t parted = 0, plain = 0;
     for (std::uint64_t seed = 1; seed <= 400; ++seed) {
         CAPTURE(seed);
@@ -192,11 +244,12 @@ TEST_CASE("packed streams of random soups") {
         parted += soup.statistics.parted_blocks + glued.statistics.parted_blocks + dense.statistics.parted_blocks;
         plain += soup.statistics.plain_blocks + glued.statistics.plain_blocks + dense.statistics.plain_blocks;
     }
-    CHECK(parted > 10);  // both kinds of crowded blocks occur
+    INFO("both kinds of crowded blocks occur");
+    CHECK(parted > 10);
     CHECK(plain > 10);
 }
 
-TEST_CASE("packed streams of real meshes, LACEDRING_MESHES") {
+TEST_CASE("packed streams of the meshes of LACEDRING_MESHES, where it is set, decode to the mesh's triangles") {
     const auto checked = test::for_each_real_mesh([&](const std::string& path, const Result<Mesh>& mesh) {
         REQUIRE(mesh);
         CAPTURE(path);
@@ -205,10 +258,10 @@ TEST_CASE("packed streams of real meshes, LACEDRING_MESHES") {
             check_random_access(check(weld(*mesh, mode), {}, PackedProfile::cache, 2));
         }
     });
-    CHECK(checked.value_or(1) > 0);  // where the variable is set
+    CHECK_MESSAGE(checked.value_or(1) > 0, "the folder has meshes");
 }
 
-TEST_CASE("damaged packed streams are refused or harmless") {
+TEST_CASE("damaged packed streams are refused or decode to vertices in range") {
     std::size_t accepted = 0, refused = 0;
     for (std::uint64_t shape = 1; shape <= 30; ++shape) {
         const Mesh mesh = test::random_gluing(60, 80 + 30 * static_cast<std::uint32_t>(shape), shape);
@@ -223,12 +276,13 @@ TEST_CASE("damaged packed streams are refused or harmless") {
         longer.push_back(0);
         CHECK_FALSE(validate_packed(longer));
         test::for_each_damage(good, shape, 1000, [&](std::vector<std::uint32_t>& bad, auto&) {
-            CHECK_FALSE(validate_packed(bad));  // the checksum
+            CHECK_MESSAGE(!validate_packed(bad), "the checksum differs");
             bad[LR_PACKED_WORD_CHECKSUM] = packed_checksum(bad);
             const auto exact = test::exact_copy(std::span<const std::uint32_t>(bad));
             const Result<PackedView> view = validate_packed(std::span<const std::uint32_t>(exact.get(), bad.size()));
             ++(view ? accepted : refused);
-            if (!view) return;  // else another mesh: whatever it is, decoding stays in bounds
+            if (!view) return;
+            INFO("an accepted stream decodes within bounds");
             std::vector<std::uint32_t> indices(std::size_t{3} * view->triangles);
             decode_packed(*view, indices);
             for (const std::uint32_t v : indices) CHECK(v < view->vertices);

@@ -33,14 +33,14 @@ storage::PackedLimits limits_of(const PackedView& view) {
     return {view.vertices, view.triangles};
 }
 
-/// Restores from a buffer of exactly the size.
+/// Restores from a copy in a buffer of exactly its size.
 Result<Words> restored(const Words& stored, const storage::PackedLimits& limits) {
     const auto exact = std::make_unique<std::uint32_t[]>(stored.size());
     std::ranges::copy(stored, exact.get());
     return restore_packed({exact.get(), stored.size()}, limits);
 }
 
-/// Does the stream have a storage form? If so, it gives the stream back.
+/// Returns whether the stream has a storage form, and checks that it restores the stream, and decodes in C.
 bool round_trips(const Words& words) {
     const Result<PackedView> view = validate_packed(words);
     REQUIRE(view);
@@ -53,7 +53,7 @@ bool round_trips(const Words& words) {
     return true;
 }
 
-/// Damaged words: if they restore to a valid stream, C finds its triangles. Whatever they are, it does no harm.
+/// Decodes damaged words in C; if they restore to a valid stream, C must find its triangles.
 void same_in_c(const Words& stored, const storage::PackedLimits& limits, const Result<Words>& back) {
     const auto triangles = test::triangles_in_c(stored, limits.vertices, limits.triangles);
     if (!back || !validate_packed(*back)) return;
@@ -62,7 +62,7 @@ void same_in_c(const Words& stored, const storage::PackedLimits& limits, const R
 
 }  // namespace
 
-TEST_CASE("packed streams have a storage form that gives them back bit for bit") {
+TEST_CASE("packed streams are restored from their storage form bit for bit") {
     std::size_t none = 0, all = 0;
     for (const test::NamedMesh& named : test::named_meshes()) {
         const auto& name = named.name;
@@ -73,14 +73,14 @@ TEST_CASE("packed streams have a storage form that gives them back bit for bit")
         if (!stored) ++none;
         const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
         REQUIRE(table);
-        // Which way round triangles are that do not agree with their neighbors, a stream may say in other words.
+        // With inconsistent orientations a stream may code turns in a way that has no storage form.
         if (table->topology.flipped == 0 && table->topology.nonmanifold_edges == 0) CHECK(stored);
     }
     MESSAGE(none << " of " << all << " streams stay resident");
-    CHECK(5 * none <= all);
+    CHECK_MESSAGE(5 * none <= all, "at most a fifth have no storage form");
 }
 
-TEST_CASE("streams for the vertex cache, and of random triangles, give themselves back or stay resident") {
+TEST_CASE("streams for the vertex cache and of random triangles are restored bit for bit, or have no storage form") {
     std::size_t stored = 0;
     for (const test::NamedMesh& named : test::named_meshes()) {
         const auto& name = named.name;
@@ -98,18 +98,18 @@ TEST_CASE("streams for the vertex cache, and of random triangles, give themselve
     CHECK(stored > 0);
 }
 
-TEST_CASE("the storage form of a closed surface takes the bits that it should") {
+TEST_CASE("the storage form of a closed surface takes less than 90 % of its stream") {
     const Mesh blob = generate("blob", 20000, 7).value();
     const Words words = encoded(blob);
     const std::optional<Words> stored = store_packed(*validate_packed(words));
     REQUIRE(stored);
     const double before = 32.0 * static_cast<double>(words.size()) / static_cast<double>(blob.triangle_count());
     const double after = 32.0 * static_cast<double>(stored->size()) / static_cast<double>(blob.triangle_count());
-    MESSAGE("bits a triangle: " << before << " resident, " << after << " stored");
+    MESSAGE("bits per triangle: " << before << " resident, " << after << " stored");
     CHECK(after < 0.9 * before);
 }
 
-TEST_CASE("stored packed streams cut short, changed or beyond their limits are refused, or restore to something") {
+TEST_CASE("stored packed streams: cut or beyond their limits refused; damaged ones decode the same in C, if at all") {
     std::size_t same = 0, all = 0;
     for (const test::NamedMesh& named : test::named_meshes()) {
         const auto& name = named.name;
@@ -136,7 +136,8 @@ TEST_CASE("stored packed streams cut short, changed or beyond their limits are r
             const Result<Words> back = restored(changed, limits_of(*view));
             same_in_c(changed, limits_of(*view), back);
             ++all;
-            if (back && *back == words) ++same;  // of steps that have nothing across an edge it says what is entered
+            // A bit of a step whose edge has no triangle beyond it may make no difference.
+            if (back && *back == words) ++same;
         };
         test::for_each_flip(*stored, use, test::kSanitized ? 5 : 32);
     }
@@ -144,7 +145,7 @@ TEST_CASE("stored packed streams cut short, changed or beyond their limits are r
     CHECK(50 * same < all);
 }
 
-TEST_CASE("random words are no stored packed stream, or restore to something") {
+TEST_CASE("random words are refused as stored packed stream, or decode the same in C") {
     const auto seed = std::random_device()();
     CAPTURE(seed);
     std::mt19937 engine(seed);
@@ -164,7 +165,7 @@ TEST_CASE("random words are no stored packed stream, or restore to something") {
     }
 }
 
-TEST_CASE("numbers, symbols and bits come back from the entropy coder, and nothing is left") {
+TEST_CASE("the entropy decoder returns the encoder's numbers, symbols and bits, and reads all words") {
     const auto seed = std::random_device()();
     CAPTURE(seed);
     std::mt19937 engine(seed);
@@ -172,7 +173,7 @@ TEST_CASE("numbers, symbols and bits come back from the entropy coder, and nothi
     for (const std::size_t count : {0U, 1U, 2U, 3U, 1000U, 30000U}) {
         Words values(count);
         for (std::uint32_t& v : values) v = random() >> random() % 32;
-        // The same calls on either side: an encoder returns what it is given, a decoder what was.
+        // The same calls encode and decode: an encoder returns its argument, a decoder the decoded value.
         const auto code = [&](auto& coder) {
             storage::NumberModel number;
             storage::SymbolModel symbol;

@@ -1,4 +1,4 @@
-// decode_packed and encode with threads, and without the permission to create any: this file replaces pthread_create.
+// decode_packed and encode with threads, and where creating threads fails: this file replaces pthread_create.
 
 #include <dlfcn.h>
 #include <doctest/doctest.h>
@@ -18,8 +18,9 @@
 #include "tests/support/meshes.h"
 
 namespace {
-std::atomic<int> allowed = INT_MAX, made = 0;  // threads that may be created; threads created
-}
+// The threads that pthread_create may create, and those that it created.
+std::atomic<int> allowed = INT_MAX, made = 0;
+}  // namespace
 
 extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*start)(void*),
                               void* argument) {
@@ -63,7 +64,7 @@ bool decodes(unsigned threads) {
 
 }  // namespace
 
-TEST_CASE("decode_packed with any number of threads") {
+TEST_CASE("decode_packed gives the same indices with any number of threads") {
     for (const unsigned threads : {0U, 1U, 2U, 3U, 7U, 64U, 1000U, UINT_MAX}) {
         CAPTURE(threads);
         made = 0;
@@ -73,7 +74,7 @@ TEST_CASE("decode_packed with any number of threads") {
     }
 }
 
-TEST_CASE("decode_packed where no more threads can be made") {
+TEST_CASE("decode_packed gives the same indices where threads cannot be created") {
     for (const int most : {0, 1, 2}) {
         for (const unsigned threads : {2U, 4U, 1000U, UINT_MAX}) {
             CAPTURE(most);
@@ -87,7 +88,7 @@ TEST_CASE("decode_packed where no more threads can be made") {
     }
 }
 
-TEST_CASE("encode makes no thread that was not asked for, and does without those that cannot be made") {
+TEST_CASE("encode creates only requested threads, and gives the same words where they cannot be created") {
     const Mesh mesh = generate("blob", 40000, 1).value();
     EncodeOptions options{.effort = 1};
     made = 0;
@@ -117,14 +118,15 @@ TEST_CASE("decode_packed on two threads starts none for a small stream") {
     CHECK(made == 0);
 }
 
-// With sanitizers not: their shadow memory needs the address space.
-TEST_CASE("decode_packed where no stack of a thread fits the address space" * doctest::skip(test::kSanitized)) {
+// Skipped with sanitizers: their shadow memory needs the address space.
+TEST_CASE("decode_packed gives the same indices where the address space has no room for a thread's stack" *
+          doctest::skip(test::kSanitized)) {
     REQUIRE(decodes(1));
     const pid_t child = fork();
     REQUIRE(child >= 0);
     if (child == 0) {
         std::vector<std::uint32_t> out(sample().indices.size());
-        const rlimit limit{64U << 20, 64U << 20};  // no room for another stack
+        const rlimit limit{64U << 20, 64U << 20};  // no room for a stack
         if (setrlimit(RLIMIT_AS, &limit) != 0) _exit(2);
         decode_packed(sample().view, out, 1000);
         _exit(out == sample().indices ? 0 : 1);

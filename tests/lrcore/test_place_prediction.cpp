@@ -1,4 +1,4 @@
-// Texture coordinates that go on as they are in the next triangle need few bits, and come back bit for bit.
+// Texture coordinates predicted from positions (docs/storage-format.md) take few bits and are restored bit for bit.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace {
 
 using Words = std::vector<std::uint32_t>;
 
-/// As docs/storage-format.md has it, of places that need no scale: one corner's prediction of one component.
+/// One corner's prediction of one component as docs/storage-format.md defines it, for places that need no scaling.
 std::uint32_t documented_prediction(const std::int32_t (&p)[4][3], const std::uint32_t (&values)[3]) {
     std::int64_t e[3], f[3], g[3], ee = 0, fe = 0, ge = 0;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -55,8 +55,8 @@ std::uint32_t documented_prediction(const std::int32_t (&p)[4][3], const std::ui
     return values[0] + static_cast<std::uint32_t>((moved - (moved & 65535)) / 65536);
 }
 
-/// A wavy sheet of unequal triangles; its texture is the sheet seen from above, turned. With a seam, the middle column
-/// has two copies of each vertex.
+/// A wavy sheet of unequal triangles, textured by its rotated projection to the ground. With a seam, the vertices of
+/// the middle column have two copies.
 struct Sheet {
     Words triangles, vertex_of, positions, texture;
 
@@ -102,7 +102,7 @@ struct Sheet {
 
 }  // namespace
 
-TEST_CASE("place prediction: as documented, at any places") {
+TEST_CASE("place prediction: as documented, for random places") {
     const std::uint32_t seed = std::random_device{}();
     CAPTURE(seed);
     std::mt19937 random(seed);
@@ -132,7 +132,7 @@ TEST_CASE("place prediction: as documented, at any places") {
     }
 }
 
-TEST_CASE("place prediction: texture coordinates become smaller, with seams and without") {
+TEST_CASE("place prediction: texture coordinates take less, with and without seams") {
     for (const bool seam : {false, true}) {
         CAPTURE(seam);
         const Sheet sheet(seam);
@@ -143,13 +143,13 @@ TEST_CASE("place prediction: texture coordinates become smaller, with seams and 
     }
 }
 
-TEST_CASE("place prediction: damage does no harm") {
+TEST_CASE("place prediction: damaged streams are refused or decode the same in C") {
     const Sheet sheet(true);
     const VertexView view = *validate_vertices(sheet.texture);
     const Words all = storage::store_vertices(view, sheet.triangles, sheet.where()).value();
     const auto use = [&](const Words& damaged, auto&) {
         test::check_damaged_in_c(damaged, sheet.triangles, view.vertices, 100000, sheet.where());
     };
-    // The header's raw bits, behind the words of symbols, more often than the rest.
+    // Half of the damage goes to the raw bits of the header, behind the words of symbols.
     test::for_each_damage(all, std::random_device{}(), test::kSanitized ? 100 : 400, use, {all[0] + 1, 8});
 }

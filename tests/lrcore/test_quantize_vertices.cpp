@@ -1,4 +1,4 @@
-// Values rounded before they are encoded: quantize_vertices and lattice_step.
+// Tests quantize_vertices, which rounds values before encoding, and lattice_step.
 
 #include <doctest/doctest.h>
 
@@ -21,7 +21,7 @@ std::vector<float> random_values(std::size_t count, double size, double offset, 
     return out;
 }
 
-/// Unit vectors, those of axes, edges and corners of a cube among them; with w, tangents.
+/// Random unit vectors, the first 27 to the faces, edges and corners of a cube. With w: tangents.
 std::vector<float> random_directions(std::size_t count, bool has_w, std::uint32_t seed) {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
@@ -31,7 +31,7 @@ std::vector<float> random_directions(std::size_t count, bool has_w, std::uint32_
         for (std::size_t c = 0; c < 3; ++c) {
             v[c] = i < 27 ? static_cast<double>(i / (c == 0 ? 1 : c == 1 ? 3 : 9) % 3) - 1 : normal(random);
         }
-        if (i == 13) v[2] = 1;  // not 0
+        if (i == 13) v[2] = 1;  // in the place of (0, 0, 0)
         const double length = std::hypot(v[0], v[1], v[2]);
         for (const double x : v) out.push_back(static_cast<float>(x / length));
         if (has_w) out.push_back(random() % 2 == 0 ? 1.0F : -1.0F);
@@ -62,7 +62,7 @@ double largest_difference(const std::vector<float>& a, const std::vector<float>&
     return out;
 }
 
-/// Encodes and decodes.
+/// Encodes and decodes the values.
 std::vector<float> through_stream(const std::vector<float>& values, std::uint8_t components,
                                   const VertexOptions& options, float* step = nullptr) {
     const auto encoded =
@@ -78,7 +78,7 @@ std::vector<float> through_stream(const std::vector<float>& values, std::uint8_t
 
 }  // namespace
 
-TEST_CASE("values quantized to a lattice are those that a stream of them decodes to, and stay when quantized again") {
+TEST_CASE("values quantized to a lattice equal those decoded from a stream, and stay when quantized again") {
     std::uint32_t seed = 0;
     for (const std::uint32_t bits : {1U, 2U, 8U, 14U, 22U}) {
         for (const double size : {1.0, 1e-6, 1e20, 3e-38}) {
@@ -106,7 +106,7 @@ TEST_CASE("values quantized to a lattice are those that a stream of them decodes
     }
 }
 
-TEST_CASE("directions quantized are those that a stream of them decodes to, and stay when quantized again") {
+TEST_CASE("quantized directions equal those decoded from a stream, and stay when quantized again") {
     for (std::uint32_t bits = 2; bits <= 16; ++bits) {
         for (const bool has_w : {false, true}) {
             CAPTURE(bits);
@@ -117,7 +117,7 @@ TEST_CASE("directions quantized are those that a stream of them decodes to, and 
             const Quantized once = must_quantize(values, components, options);
             REQUIRE(same_bits(once.values, through_stream(values, components, options)));
             REQUIRE(std::abs(once.error - largest_difference(values, once.values)) < 1e-6);
-            // Half a step along each axis of the octahedron, and the sphere is up to sqrt(3) times as far.
+            // Half a step along each axis of the octahedron; the sphere scales it by at most sqrt(3).
             REQUIRE(once.error <= std::sqrt(1.5 * 3) / ((1U << (bits - 1)) - 1) + 1e-6);
             const Quantized twice = must_quantize(once.values, components, options);
             REQUIRE(same_bits(twice.values, once.values));
@@ -126,7 +126,7 @@ TEST_CASE("directions quantized are those that a stream of them decodes to, and 
     }
 }
 
-TEST_CASE("what cannot be quantized is refused, and stays as it was") {
+TEST_CASE("values that cannot be quantized are refused and unchanged") {
     const std::vector<float> good = random_values(12, 1, 0, 1);
     const auto refused = [](std::vector<float> values, std::uint8_t components, const VertexOptions& options) {
         const std::vector<float> before = values;
@@ -146,11 +146,11 @@ TEST_CASE("what cannot be quantized is refused, and stays as it was") {
     CHECK(refused(good, 3, {.mapping = VertexMapping::lattice, .step = -1}));
     CHECK(refused(good, 3, {.mapping = VertexMapping::floats}));
     CHECK(refused(good, 2, {.mapping = VertexMapping::octahedral, .bits = 8}));
-    CHECK(refused(good, 4, {.mapping = VertexMapping::octahedral, .bits = 8}));  // w is not 1 or -1
+    CHECK_MESSAGE(refused(good, 4, {.mapping = VertexMapping::octahedral, .bits = 8}), "w is not 1 or -1");
     CHECK(refused(good, 3, {.mapping = VertexMapping::octahedral, .bits = 17}));
 }
 
-TEST_CASE("products of a lattice's step with its integers are floats") {
+TEST_CASE("products of a lattice's step with its integers are exact floats") {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> exponent(-150, 125), fraction(1, 2), count(-3, 25);
     for (int i = 0; i < 20000; ++i) {
@@ -160,7 +160,7 @@ TEST_CASE("products of a lattice's step with its integers are floats") {
         CAPTURE(largest);
         const float made = lattice_step(wanted, largest);
         if (made == 0) {
-            REQUIRE(std::max(wanted, largest * 0x1p-22) > 0x1p103);  // there is none, for lack of exponents
+            REQUIRE_MESSAGE(std::max(wanted, largest * 0x1p-22) > 0x1p103, "no step only beyond a float's exponents");
             continue;
         }
         const auto step = static_cast<double>(made);
@@ -169,7 +169,7 @@ TEST_CASE("products of a lattice's step with its integers are floats") {
         REQUIRE(most <= 0x1p22);
         for (int k = 0; k < 20; ++k) {
             const double integer = k == 0 ? most : std::floor(most * (fraction(random) - 1));
-            const double product = integer * step;  // exact: 22 bits and 24
+            const double product = integer * step;  // exact: 22 + 24 bits
             REQUIRE((std::abs(product) > 3.4e38 || static_cast<double>(static_cast<float>(product)) == product));
         }
         if (wanted >= 0x1p-126 && largest / wanted <= 1000) REQUIRE(step <= wanted * (1 + 0x1p-11));
@@ -184,6 +184,7 @@ TEST_CASE("a power of two is its own lattice step") {
             CHECK(static_cast<double>(lattice_step(step, integers * step)) == step);
         }
     }
-    CHECK(lattice_step(1e-45, 0) == 0x1p-126F);  // products of smaller ones would not be normal numbers
+    // Products of smaller steps would be subnormal.
+    CHECK(lattice_step(1e-45, 0) == 0x1p-126F);
     CHECK(lattice_step(0x1p104, 0) == 0);
 }

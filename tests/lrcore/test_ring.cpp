@@ -16,13 +16,21 @@ void check_ring(const Mesh& mesh, const RingOptions& options) {
 
     std::vector<bool> on_ring(mesh.vertex_count, false);
     for (const RingEdge& edge : rings.edges) on_ring[edge.start.value] = true;
-    for (const RingEdge& edge : rings.edges) {  // the region could not grow any further
-        if (!edge.right_tip.is_null()) CHECK(on_ring[edge.right_tip.value]);
+    {
+        INFO("no ring can grow: each right tip is on a ring");
+        for (const RingEdge& edge : rings.edges) {
+            if (!edge.right_tip.is_null()) CHECK(on_ring[edge.right_tip.value]);
+        }
     }
-    for (std::uint32_t t = 0; t < table->triangle_count(); ++t) {  // nor could another begin
-        if (table->degenerate(TriangleId{t})) continue;
-        CHECK((on_ring[mesh.indices[3 * t]] || on_ring[mesh.indices[3 * t + 1]] || on_ring[mesh.indices[3 * t + 2]]));
+    {
+        INFO("no other ring can begin: each triangle has a vertex on a ring");
+        for (std::uint32_t t = 0; t < table->triangle_count(); ++t) {
+            if (table->degenerate(TriangleId{t})) continue;
+            CHECK(
+                (on_ring[mesh.indices[3 * t]] || on_ring[mesh.indices[3 * t + 1]] || on_ring[mesh.indices[3 * t + 2]]));
+        }
     }
+    INFO("the same options give the same rings");
     const Rings again = expand_rings(*table, options);
     CHECK(again.first == rings.first);
     for (std::size_t i = 0; i < rings.edges.size(); ++i) CHECK(again.edges[i].left == rings.edges[i].left);
@@ -40,7 +48,7 @@ TEST_CASE("rings of named meshes are cycles that cannot grow") {
     }
 }
 
-TEST_CASE("rings of random soups") {
+TEST_CASE("rings of random soups are cycles that cannot grow") {
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
         CAPTURE(seed);
         check_ring(test::random_soup(4 + static_cast<std::uint32_t>(seed % 23),
@@ -50,7 +58,7 @@ TEST_CASE("rings of random soups") {
     }
 }
 
-TEST_CASE("a validator that accepts everything would be no check") {
+TEST_CASE("check_rings refuses damaged rings") {
     const Mesh mesh = test::make_mesh({0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5}, 6);
     const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
     REQUIRE(table);

@@ -18,7 +18,7 @@ using namespace lacedring;
 
 namespace {
 
-/// The cost, counted anew from the rings.
+/// The cost of rings, counted independently of optimize_rings.
 std::int64_t cost_of(const CornerTable& table, const Rings& rings, const RingCost& cost) {
     BitVector rung(table.triangle_count()), wart(table.triangle_count()), on_ring(table.vertex_count);
     for (const RingEdge& edge : rings.edges) {
@@ -66,10 +66,11 @@ void check_optimized(const Mesh& mesh, const RingOptions& ring_options, const Op
     if (ring_options.one_per_shell) split_fans(table);
     const Rings before = expand_rings(table, ring_options);
     const Rings after = optimize_rings(table, before, options);
-    CHECK(check_rings(table, after) == "");
-    CHECK(after.count() == before.count());
-    CHECK(cost_of(table, after, options.cost) <= cost_of(table, before, options.cost));
-    CHECK(same(after, optimize_rings(table, before, options)));
+    CHECK_MESSAGE(check_rings(table, after) == "", "optimized rings are valid");
+    CHECK_MESSAGE(after.count() == before.count(), "optimizing keeps the number of rings");
+    CHECK_MESSAGE(cost_of(table, after, options.cost) <= cost_of(table, before, options.cost),
+                  "optimizing does not raise the cost");
+    CHECK_MESSAGE(same(after, optimize_rings(table, before, options)), "optimizing is deterministic");
     if (ring_options.one_per_shell) {
         CHECK(build_lr(table, after));
     } else {
@@ -90,7 +91,7 @@ constexpr RingCost kCosts[] = {kLeanRingCost, kLrRingCost, kPackedRingCost, {1, 
 
 }  // namespace
 
-TEST_CASE("optimised rings of named meshes") {
+TEST_CASE("optimized rings of named meshes are valid, cost no more and can be encoded") {
     for (const auto& [name, mesh] : test::named_meshes()) {
         CAPTURE_COPY(name);
         if (test::kSanitized && mesh.triangle_count() > 1500) continue;
@@ -102,7 +103,7 @@ TEST_CASE("optimised rings of named meshes") {
     }
 }
 
-TEST_CASE("optimised rings of random soups") {
+TEST_CASE("optimized rings of random soups are valid, cost no more and can be encoded") {
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
         CAPTURE(seed);
         const RingCost& cost = kCosts[seed % std::size(kCosts)];
@@ -148,7 +149,7 @@ TEST_CASE("rings and words are the same for any number of threads") {
     }
 }
 
-TEST_CASE("optimising stops when told to, and never in a worse state") {
+TEST_CASE("optimizing stops when progress returns false, with rings that cost no more") {
     const Mesh mesh = test::random_gluing(300, 600, 5);
     const Result<CornerTable> table = build_corner_table(mesh.indices, mesh.vertex_count);
     REQUIRE(table);
@@ -172,7 +173,7 @@ TEST_CASE("optimising stops when told to, and never in a worse state") {
     CHECK(last < cost_of(*table, before, kLeanRingCost));
 }
 
-TEST_CASE("optimising halves the T0 left after wart skipping") {
+TEST_CASE("optimizing halves the T0 that wart skipping leaves") {
     for (const char* kind : {"blob", "terrain"}) {
         CAPTURE(kind);
         const Result<Mesh> mesh = generate(kind, 20000, 3);
@@ -188,7 +189,7 @@ TEST_CASE("optimising halves the T0 left after wart skipping") {
     }
 }
 
-TEST_CASE("optimised rings of the meshes of LACEDRING_MESHES, where that is set") {
+TEST_CASE("optimized rings of the meshes of LACEDRING_MESHES, where it is set") {
     const auto checked = test::for_each_real_mesh([&](const std::string& path, const Result<Mesh>& mesh) {
         CAPTURE(path);
         REQUIRE(mesh);
@@ -197,5 +198,5 @@ TEST_CASE("optimised rings of the meshes of LACEDRING_MESHES, where that is set"
         per_shell.one_per_shell = true;
         check_optimized(weld(*mesh, Weld::position), per_shell, options_of(kLrRingCost, 4, 1));
     });
-    CHECK(checked.value_or(1) > 0);  // where the variable is set
+    CHECK_MESSAGE(checked.value_or(1) > 0, "the folder has meshes");
 }

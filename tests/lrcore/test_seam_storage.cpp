@@ -1,4 +1,4 @@
-// The storage form of seams gives back every section bit for bit, and no words do harm.
+// The storage form of seams restores every section bit for bit; damaged words are refused or restore to valid sections.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -38,8 +38,8 @@ SeamView view_of(const Words& section, const CutSurface& mesh) {
     return *view;
 }
 
-/// Restores from a buffer of exactly the size. Whatever is restored is a valid section, and decodes to what is said; C
-/// accepts the same, and decodes it to the same copies.
+/// Restores a section from a buffer of exactly its size. Checks that a restored section is valid and decodes to the
+/// restored copies, and that C accepts the same words and decodes the same copies.
 Result<Words> restored_seams(std::span<const std::uint32_t> stored, const CutSurface& mesh) {
     const auto exact = std::make_unique<std::uint32_t[]>(stored.size());
     std::ranges::copy(stored, exact.get());
@@ -47,27 +47,27 @@ Result<Words> restored_seams(std::span<const std::uint32_t> stored, const CutSur
     const auto corners = static_cast<std::uint32_t>(mesh.triangles.size());
     const auto in_c = [&](std::uint32_t most) { return test::seams_in_c(stored, mesh.triangles, mesh.vertices, most); };
     const auto any = in_c(mesh.vertices + corners);
-    REQUIRE(any.has_value() == static_cast<bool>(out));
+    REQUIRE_MESSAGE(any.has_value() == static_cast<bool>(out), "C and C++ accept the same words");
     if (!out) {
         CHECK_FALSE(out.error().message.empty());
         return out.error();
     }
-    REQUIRE(any->copies == out->copies);
-    REQUIRE(any->vertices == out->vertices);
+    REQUIRE_MESSAGE(any->copies == out->copies, "C decodes the same copies");
+    REQUIRE_MESSAGE(any->vertices == out->vertices, "C decodes the same vertices of copies");
     const auto count = static_cast<std::uint32_t>(out->vertices.size());
     const auto exact_in_c = in_c(count);
     REQUIRE(exact_in_c);
     REQUIRE(exact_in_c->vertices == out->vertices);
-    if (count > 0) CHECK_FALSE(in_c(count - 1));
+    if (count > 0) CHECK_MESSAGE(!in_c(count - 1), "C refuses more copies than its limit");
     Words copies(mesh.triangles.size()), vertices;
     const auto view = decode_seams_checked(out->words, mesh.triangles, mesh.vertices, copies, vertices);
     REQUIRE_MESSAGE(view, view.error().message);
-    REQUIRE(out->copies == copies);
-    REQUIRE(out->vertices == vertices);
+    REQUIRE_MESSAGE(out->copies == copies, "the restored section decodes to the restored copies");
+    REQUIRE_MESSAGE(out->vertices == vertices, "the restored section decodes to the restored vertices of copies");
     return std::move(out->words);
 }
 
-/// The stored form, which gives the section back.
+/// Returns the stored form of a section, and checks that it restores the section.
 Words stored_seams(const Words& section, const CutSurface& mesh) {
     const auto stored = storage::store_seams(view_of(section, mesh), mesh.triangles);
     REQUIRE(stored);
@@ -86,7 +86,7 @@ CutSurface in_packed_order(const Mesh& mesh, std::uint32_t how, std::uint64_t se
 
 }  // namespace
 
-TEST_CASE("seams of every small mesh, cut in every way, have a storage form that gives them back") {
+TEST_CASE("seams of named meshes, cut in every way, are restored from their storage form") {
     std::size_t resident = 0, stored = 0;
     for (const test::NamedMesh& named : test::named_meshes()) {
         const auto& name = named.name;
@@ -103,7 +103,7 @@ TEST_CASE("seams of every small mesh, cut in every way, have a storage form that
     CHECK(10 * stored < 6 * resident);
 }
 
-TEST_CASE("stored seams of slots without triangles, of any order, and of blocks without copies") {
+TEST_CASE("stored seams of slots without triangles, of random triangles and of blocks without copies") {
     for (const Format format : {Format::lean, Format::lr, Format::lr_compact}) {
         const Mesh mesh = generate("parts", 900).value();
         const Encoded encoded = encode(mesh.indices, mesh.vertex_count, {.format = format, .effort = 0}).value();
@@ -130,8 +130,8 @@ TEST_CASE("stored seams of slots without triangles, of any order, and of blocks 
     CHECK(stored_seams(section_of(surface), surface).size() > none);
 }
 
-TEST_CASE("seams of vertices with many triangles are stored in time about linear in these") {
-    CutSurface fan;  // and every triangle a copy of its own
+TEST_CASE("seams of a vertex with 200,000 triangles and copies are stored in linear time") {
+    CutSurface fan;  // each triangle has a copy of the hub
     const std::uint32_t count = test::kSanitized ? 20000 : 200000;
     fan.vertices = count + 2;
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -141,11 +141,12 @@ TEST_CASE("seams of vertices with many triangles are stored in time about linear
     stored_seams(section_of(fan), fan);
 }
 
-TEST_CASE("a section with another table is stored, too, and one that the encoder does not write stays resident") {
+TEST_CASE("a valid section with another table is restored from its storage form, or has none") {
     const CutSurface mesh = in_packed_order(generate("blob", 2000).value(), 1, 2);
     const Words section = section_of(mesh);
     std::size_t stored = 0, resident = 0;
-    for (std::uint32_t bit = 0; bit < 128; ++bit) {  // of the table; most make the section invalid
+    // Flips each bit of the table; most make the section invalid.
+    for (std::uint32_t bit = 0; bit < 128; ++bit) {
         Words other = section;
         other[4 + bit / 32] ^= 1U << bit % 32;
         other[1] = crc32(std::as_bytes(std::span(other).subspan(2)));
@@ -161,7 +162,7 @@ TEST_CASE("a section with another table is stored, too, and one that the encoder
     CHECK(stored > 0);
 }
 
-TEST_CASE("stored seams cut short, of other triangles, or with more behind them") {
+TEST_CASE("stored seams that are cut, longer or of other triangles are refused or restore to another section") {
     const Mesh blob = generate("blob", 1500).value();
     const CutSurface mesh = in_packed_order(blob, 1, 4), other = in_packed_order(generate("genus", 1400).value(), 1, 4);
     const Words section = section_of(mesh), stored = stored_seams(section, mesh);
@@ -183,7 +184,7 @@ TEST_CASE("stored seams cut short, of other triangles, or with more behind them"
     CHECK_FALSE(test::seams_in_c(stored, twice, 3, UINT32_MAX));
 }
 
-TEST_CASE("damaged and random words are no stored seams, or restore to a valid section") {
+TEST_CASE("damaged and random words are refused as stored seams, or restore to a valid section") {
     const auto seed = std::random_device()();
     CAPTURE(seed);
     std::mt19937 engine(seed);

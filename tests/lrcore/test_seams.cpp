@@ -26,7 +26,7 @@ namespace {
 
 using Words = std::vector<std::uint32_t>;
 
-/// The triangles in the order and numbers of a packed stream.
+/// A mesh's triangles in the order and vertex numbers of its packed stream, cut in the way `how` (cuts.h).
 CutSurface in_stream_order(const Mesh& mesh, std::uint32_t how, std::uint64_t seed) {
     const Result<Encoded> encoded = encode(mesh.indices, mesh.vertex_count, {.effort = 0});
     REQUIRE_MESSAGE(encoded, encoded.error().message);
@@ -56,8 +56,8 @@ std::span<const std::uint32_t> block_of(std::span<const std::uint32_t> corners, 
     return corners.subspan(first, std::min<std::size_t>(corners.size() - first, 3 * kSeamBlock));
 }
 
-/// Validates and decodes in buffers of exactly the sizes, in several passes and in one; blocks give the same copies in
-/// any order.
+/// Validates and decodes a section in buffers of exactly its size. Checks that decoding while validating and decoding
+/// by block, last to first, give the same copies.
 Words decoded(const Words& words, const CutSurface& mesh) {
     const auto exact = std::make_unique<std::uint32_t[]>(words.size());
     std::ranges::copy(words, exact.get());
@@ -69,17 +69,69 @@ Words decoded(const Words& words, const CutSurface& mesh) {
     Words at_once(out.size()), vertices(view->copies), vertices_at_once;
     copy_vertices(*view, mesh.triangles, vertices);
     REQUIRE(decode_seams_checked(section, mesh.triangles, mesh.vertices, at_once, vertices_at_once));
-    REQUIRE(at_once == out);
-    REQUIRE(vertices_at_once == vertices);
+    REQUIRE_MESSAGE(at_once == out, "decoding while validating gives the same copies");
+    REQUIRE_MESSAGE(vertices_at_once == vertices, "decoding while validating gives the same vertices of copies");
     for (std::uint32_t b = view->blocks(); b-- > 0;) {
         Words alone(block_of(out, b).size());
         decode_seam_block(*view, b, block_of(mesh.triangles, b), alone);
-        REQUIRE(std::ranges::equal(alone, block_of(out, b)));
+        REQUIRE_MESSAGE(std::ranges::equal(alone, block_of(out, b)), "a block alone has the same copies");
     }
     return out;
 }
 
-/// Every corner gets its copy back; copies are numbered without gaps, homes by vertex.
+void check_home_ranges(const SeamView& view, std::span<const std::uint32_t> first) {
+    INFO("each vertex has a range of home copies, and the ranges follow each other without gaps");
+    REQUIRE(first.front() == 0);
+    REQUIRE(first.back() == view.homes);
+    REQUIRE(std::ranges::adjacent_find(first, std::greater_equal()) == first.end());
+}
+
+/// Returns the copies that corners have.
+std::vector<bool> check_corner_copies(const CutSurface& mesh, const EncodedSeams& seams, const SeamView& view,
+                                      const Words& corners, const Words& first) {
+    INFO("each corner has its encoded copy; a home copy is in the range of the corner's vertex");
+    std::vector<bool> used(view.copies);
+    bool right = true;
+    for (std::size_t c = 0; c < corners.size() && right; ++c) {
+        const std::uint32_t v = mesh.triangles[c], copy = corners[c];
+        if (v == UINT32_MAX) {
+            right = copy == UINT32_MAX;
+            continue;
+        }
+        right = copy < view.copies && seams.copy_order[copy] == mesh.copies[c] &&
+                (copy >= view.homes || (first[v] <= copy && copy < first[v + 1]));
+        if (right) used[copy] = true;
+    }
+    REQUIRE(right);
+    return used;
+}
+
+/// Marks the copies of vertices without corners as used.
+void check_vertices_without_corners(const CutSurface& mesh, const EncodedSeams& seams, const Words& first,
+                                    std::vector<bool>& used) {
+    INFO("a vertex without corners has one copy, which was none in the input");
+    std::vector<bool> has_corners(mesh.vertices);
+    for (const std::uint32_t v : mesh.triangles) {
+        if (v != UINT32_MAX) has_corners[v] = true;
+    }
+    bool right = true;
+    for (std::uint32_t v = 0; v < mesh.vertices; ++v) {
+        if (has_corners[v]) continue;
+        right &= first[v + 1] == first[v] + 1 && seams.copy_order[first[v]] == UINT32_MAX;
+        used[first[v]] = true;
+    }
+    REQUIRE(right);
+}
+
+void check_distinct_copies(const EncodedSeams& seams) {
+    INFO("no two copies are the same copy of the input");
+    Words order = seams.copy_order;
+    std::erase(order, UINT32_MAX);
+    std::ranges::sort(order);
+    REQUIRE(std::ranges::adjacent_find(order) == order.end());
+}
+
+/// Encodes and decodes the copies of a surface's corners, and checks their numbers.
 void check(const CutSurface& mesh) {
     const EncodedSeams seams = encoded(mesh);
     const Words corners = decoded(seams.words, mesh);
@@ -89,33 +141,11 @@ void check(const CutSurface& mesh) {
     REQUIRE(view->copies == seams.copy_order.size());
     Words first(std::size_t{mesh.vertices} + 1);
     first_copies(*view, first);
-    REQUIRE(first.front() == 0);
-    REQUIRE(first.back() == view->homes);
-    REQUIRE(std::ranges::adjacent_find(first, std::greater_equal()) == first.end());
-    std::vector<bool> used(view->copies), has_corners(mesh.vertices);
-    bool right = true;
-    for (std::size_t c = 0; c < corners.size() && right; ++c) {
-        const std::uint32_t v = mesh.triangles[c], copy = corners[c];
-        if (v == UINT32_MAX) {
-            right = copy == UINT32_MAX;
-            continue;
-        }
-        right = copy < view->copies && seams.copy_order[copy] == mesh.copies[c] &&
-                (copy >= view->homes || (first[v] <= copy && copy < first[v + 1]));
-        if (right) used[copy] = has_corners[v] = true;
-    }
-    REQUIRE(right);
-    for (std::uint32_t v = 0; v < mesh.vertices; ++v) {
-        if (has_corners[v]) continue;
-        right &= first[v + 1] == first[v] + 1 && seams.copy_order[first[v]] == UINT32_MAX;
-        used[first[v]] = true;
-    }
-    REQUIRE(right);
-    REQUIRE(std::ranges::find(used, false) == used.end());
-    Words order = seams.copy_order;
-    std::erase(order, UINT32_MAX);
-    std::ranges::sort(order);
-    REQUIRE(std::ranges::adjacent_find(order) == order.end());
+    check_home_ranges(*view, first);
+    std::vector<bool> used = check_corner_copies(mesh, seams, *view, corners, first);
+    check_vertices_without_corners(mesh, seams, first, used);
+    REQUIRE_MESSAGE(std::ranges::find(used, false) == used.end(), "every copy has a corner or is of such a vertex");
+    check_distinct_copies(seams);
 }
 
 void mend(Words& words) {
@@ -128,7 +158,7 @@ CutSurface blob(std::uint32_t triangles, std::uint32_t how) {
 
 }  // namespace
 
-TEST_CASE("seams of every small mesh, cut in every way, come back") {
+TEST_CASE("seams of small named meshes, cut in every way, decode to the encoded copies") {
     std::uint64_t seed = 1;
     for (const test::NamedMesh& named : test::named_meshes()) {
         if (named.mesh.triangle_count() > (test::kSanitized ? 300 : 1000)) continue;
@@ -140,7 +170,7 @@ TEST_CASE("seams of every small mesh, cut in every way, come back") {
     }
 }
 
-TEST_CASE("seams of triangles in no order of a ring come back") {
+TEST_CASE("seams of triangles in random order decode to the encoded copies") {
     for (std::uint32_t n = 0; n < 30; ++n) {
         CAPTURE(n);
         const Mesh soup = test::random_soup(3 + 17 * n, 40 * n, n + 1),
@@ -150,7 +180,7 @@ TEST_CASE("seams of triangles in no order of a ring come back") {
     }
 }
 
-TEST_CASE("seams of flipped, doubled and pinched surfaces come back") {
+TEST_CASE("seams of flipped, doubled and pinched surfaces decode to the encoded copies") {
     const test::Shape grid = test::grid(20, 20, true, false, false);
     for (const test::Shape& shape :
          {test::turn_some(grid, 3), test::double_some(grid, 2, false), test::double_some(grid, 5, true),
@@ -163,7 +193,7 @@ TEST_CASE("seams of flipped, doubled and pinched surfaces come back") {
     }
 }
 
-TEST_CASE("seams of all formats' slots come back, those without a triangle left out") {
+TEST_CASE("seams of all formats' slots decode to the encoded copies; slots without a triangle have none") {
     std::uint64_t seed = 1;
     test::for_each_named_stream([&](const StreamView& view) {
         const Words slots = slot_triangles(view);
@@ -178,7 +208,7 @@ TEST_CASE("seams of all formats' slots come back, those without a triangle left 
     check(cut(none, 10, 0, 0));
 }
 
-TEST_CASE("seams of every size around a block and a group of blocks come back") {
+TEST_CASE("seams of sizes around a block and a group of blocks decode to the encoded copies") {
     for (const std::uint32_t around : {0U, 512U, 1024U, 16384U}) {
         for (std::uint32_t k = 0; k < 5; ++k) {
             const std::uint32_t triangles = around + k - (around > 0 ? 2 : 0);
@@ -186,25 +216,25 @@ TEST_CASE("seams of every size around a block and a group of blocks come back") 
             const test::Shape strip = test::strip(triangles);
             const Mesh mesh = test::make_mesh(strip.triangles, strip.vertices);
             check(cut(mesh.indices, strip.vertices, 2, k));
-            check(cut(mesh.indices, strip.vertices + 700, 3, k));  // vertices without corners
+            check(cut(mesh.indices, strip.vertices + 700, 3, k));  // 700 vertices without corners
         }
     }
     check(cut({}, 513, 0, 0));
     check(cut({}, 0, 0, 0));
 }
 
-TEST_CASE("a section without seams is little more than its header") {
+TEST_CASE("a section without seams takes at most 30 words besides its header") {
     const CutSurface mesh = blob(20000, 0);
     CHECK(encoded(mesh).words.size() < 8 + 30);
 }
 
-TEST_CASE("charts cost about as much as their borders") {
+TEST_CASE("five striped charts take less than half a bit per triangle") {
     const CutSurface stripes = blob(20000, 1);
     const double bits = 32.0 * static_cast<double>(encoded(stripes).words.size()) / 20000;
     CHECK(bits < 0.5);
 }
 
-TEST_CASE("what cannot be encoded is refused") {
+TEST_CASE("encode_seams refuses bad copies, vertices and triangles") {
     const Words two{0, 1, 2, 2, 1, 3};
     const auto code = [](const Words& triangles, std::uint32_t vertices, const Words& copies) {
         const Result<EncodedSeams> out = encode_seams(triangles, vertices, copies);
@@ -214,15 +244,16 @@ TEST_CASE("what cannot be encoded is refused") {
     };
     CHECK(encode_seams(two, 4, Words{5, 6, 7, 7, 8, 9}));
     CHECK(encode_seams(two, 4, Words{0, UINT32_MAX, 7, 7, 8, 9}));
-    CHECK(code(two, 4, {5, 6, 7, 7, 8, 5}) == ErrorCode::invalid_argument);  // a copy of two vertices
-    CHECK(code(two, 3, {5, 6, 7, 7, 8, 9}) == ErrorCode::invalid_argument);
-    CHECK(code(two, 4, {5, 6, 7}) == ErrorCode::invalid_argument);
-    CHECK(code({0, 1}, 4, {5, 6}) == ErrorCode::invalid_argument);
-    CHECK(code({0, 1, 1}, 4, {5, 6, 6}) == ErrorCode::invalid_argument);
-    CHECK(code(two, UINT32_MAX, {5, 6, 7, 7, 8, 9}) == ErrorCode::too_large);
+    constexpr ErrorCode kInvalid = ErrorCode::invalid_argument;
+    CHECK_MESSAGE(code(two, 4, {5, 6, 7, 7, 8, 5}) == kInvalid, "a copy of two vertices");
+    CHECK_MESSAGE(code(two, 3, {5, 6, 7, 7, 8, 9}) == kInvalid, "an index beyond the vertices");
+    CHECK_MESSAGE(code(two, 4, {5, 6, 7}) == kInvalid, "fewer copies than corners");
+    CHECK_MESSAGE(code({0, 1}, 4, {5, 6}) == kInvalid, "two corners");
+    CHECK_MESSAGE(code({0, 1, 1}, 4, {5, 6, 6}) == kInvalid, "a degenerate triangle");
+    CHECK_MESSAGE(code(two, UINT32_MAX, {5, 6, 7, 7, 8, 9}) == ErrorCode::too_large, "2^32 - 1 vertices");
 }
 
-TEST_CASE("sections of other meshes, cut short or changed are refused") {
+TEST_CASE("seam sections that are cut, longer, damaged or of other triangles are refused") {
     for (const std::uint32_t how : {1U, 4U}) {
         const CutSurface mesh = blob(1500, how);
         const Words words = encoded(mesh).words;
@@ -235,7 +266,8 @@ TEST_CASE("sections of other meshes, cut short or changed are refused") {
         Words longer = words;
         longer.push_back(0);
         mend(longer);
-        CHECK(!validate_seams(longer, mesh.triangles, mesh.vertices));
+        CHECK_MESSAGE(!validate_seams(longer, mesh.triangles, mesh.vertices), "a word too many");
+        INFO("other numbers of triangles, corners and vertices");
         CHECK(!validate_seams(words, std::span(mesh.triangles).first(1500), mesh.vertices));
         CHECK(!validate_seams(words, mesh.triangles, mesh.vertices - 1));
         CHECK(!validate_seams(words, mesh.triangles, mesh.vertices + 1));
@@ -243,13 +275,13 @@ TEST_CASE("sections of other meshes, cut short or changed are refused") {
         CHECK(!validate_seams(words, std::span(mesh.triangles).first(mesh.triangles.size() - 1), mesh.vertices));
         Words other = mesh.triangles;
         other[100] = mesh.vertices;
-        CHECK(!validate_seams(words, other, mesh.vertices));
+        CHECK_MESSAGE(!validate_seams(words, other, mesh.vertices), "an index beyond the vertices");
         other[100] = other[99];
-        CHECK(!validate_seams(words, other, mesh.vertices));
+        CHECK_MESSAGE(!validate_seams(words, other, mesh.vertices), "a degenerate triangle");
     }
 }
 
-TEST_CASE("what is accepted decodes to copies of the corner's vertex, whatever was changed") {
+TEST_CASE("a damaged section that is accepted decodes to copies of one vertex each") {
     std::uint32_t accepted = 0;
     for (const std::uint32_t how : {0U, 1U, 2U, 4U}) {
         const CutSurface mesh = blob(1500, how);
@@ -260,13 +292,13 @@ TEST_CASE("what is accepted decodes to copies of the corner's vertex, whatever w
             ++accepted;
             const CutSurface again{mesh.triangles, decoded(changed, mesh), mesh.vertices};
             REQUIRE(*std::ranges::max_element(again.copies) < view->copies);
-            check(again);  // no copy is of two vertices
+            check(again);
         });
     }
     CHECK(accepted > 20);
 }
 
-TEST_CASE("a block is decoded from its bits, its vertices' blocks and groups of the directories alone") {
+TEST_CASE("a block is decoded from its bits, its vertices' blocks and their directory groups alone") {
     const CutSurface mesh = blob(20000, 4);  // two groups of blocks
     const Words words = encoded(mesh).words, copies = decoded(words, mesh);
     const Result<SeamView> view = validate_seams(words, mesh.triangles, mesh.vertices);
@@ -280,7 +312,7 @@ TEST_CASE("a block is decoded from its bits, its vertices' blocks and groups of 
         for (std::size_t k = 0; k < count; ++k, ++at) value |= std::uint64_t{words[at / 32] >> at % 32 & 1} << k;
         return static_cast<std::size_t>(value);
     };
-    // Where the groups of each directory and the blocks begin, in bits, and where the last ones end.
+    // For vertices and for triangles, in bits: the starts of the directory's groups and of the blocks, and their ends.
     std::vector<std::size_t> groups[2], begins[2];
     for (std::uint32_t kind = 0; kind < 2; ++kind) {
         const std::uint32_t length = words[3] >> 16 * kind & 255, count = words[3] >> (16 * kind + 8) & 255;
@@ -324,7 +356,7 @@ TEST_CASE("a block is decoded from its bits, its vertices' blocks and groups of 
     }
 }
 
-TEST_CASE("golden bytes: a seam section is written as it was") {
+TEST_CASE("golden bytes: seam sections have the stored checksum") {
     std::uint32_t sum = 0;
     for (std::uint32_t how = 0; how < kCuts; ++how) {
         const test::Shape grid = test::turn_some(test::grid(60, 30, true, false, false), 50);

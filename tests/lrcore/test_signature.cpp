@@ -1,4 +1,4 @@
-// Errors name the kind of stream or file that was given.
+// Errors of views and validators name the kind of stream or file that they were given.
 
 #include <doctest/doctest.h>
 
@@ -19,14 +19,14 @@ std::span<const std::byte> bytes_of(std::string_view text) {
 }
 
 struct Kind {
-    std::string name;    // as found
-    std::string wanted;  // as expected
+    std::string name;    // in "this is NAME"
+    std::string wanted;  // in "not WANTED"
     std::vector<std::uint32_t> words;
     std::string (*view)(std::span<const std::uint32_t>);
     std::string (*validate)(std::span<const std::uint32_t>);
 };
 
-/// The error message of a function; empty if it accepts the words.
+/// The error message of function(words); empty if it accepts the words.
 template <auto function>
 std::string said(std::span<const std::uint32_t> words) {
     const auto result = function(words);
@@ -49,7 +49,7 @@ std::array<Kind, 4> kinds() {
 
 }  // namespace
 
-TEST_CASE("words of another kind are named") {
+TEST_CASE("an error names the kind of stream that was given") {
     const auto all = kinds();
     for (const Kind& wanted : all) {
         for (const Kind& given : all) {
@@ -70,7 +70,8 @@ TEST_CASE("words of another kind are named") {
     CHECK(all[1].validate(all[2].words) == "packed stream: these are LR tables, not a packed stream");
 }
 
-TEST_CASE("files in the place of words, and words or meshes in the place of .lr files, are named") {
+TEST_CASE(
+    "an error names the kind of file that was given instead of words, and of words or meshes instead of an .lr file") {
     const auto all = kinds();
     LrFile file;
     file.words = all[0].words;
@@ -92,7 +93,7 @@ TEST_CASE("files in the place of words, and words or meshes in the place of .lr 
     CHECK(view_lr_file(bytes_of("v 0 0 0\n")).error().message == "not an .lr file: it looks like an OBJ file");
 }
 
-TEST_CASE("kinds of files by how they begin") {
+TEST_CASE("the kind of a file is found by its first 4 KiB") {
     const auto kind = [](std::string_view text) { return kind_by_signature(bytes_of(text)); };
     CHECK(kind("glTF\2\0\0\0") == "a GLB file");
     CHECK(kind("  { \"asset\": {} }") == "a glTF file");
@@ -110,5 +111,5 @@ TEST_CASE("kinds of files by how they begin") {
     stl[80] = 2;
     stl[81] = stl[82] = stl[83] = 0;
     CHECK(kind(stl) == "an STL file");
-    CHECK(kind(std::string(5000, '#') + "\nOFF\n") == "");  // beyond the first 4 KiB
+    CHECK_MESSAGE(kind(std::string(5000, '#') + "\nOFF\n") == "", "OFF beyond the first 4 KiB");
 }

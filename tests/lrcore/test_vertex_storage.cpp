@@ -1,4 +1,5 @@
-// The storage form of vertex streams gives back every stream bit for bit, and no bytes do harm.
+// The storage form of vertex streams restores every stream bit for bit; damaged words are refused or decode the same in
+// C.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -30,7 +31,8 @@ Bytes storage_bytes(const std::vector<T>& values) {
     return {bytes.begin(), bytes.end()};
 }
 
-/// The stored form of a stream, which gives it back. Both are in buffers of exactly their size.
+/// Returns the stored form of a stream, and checks that it restores the stream, within its limit of words, and decodes
+/// in C. Buffers have exactly their size.
 Words stored(const Words& stream, std::span<const std::uint32_t> triangles) {
     const Result<VertexView> view = validate_vertices(stream);
     REQUIRE_MESSAGE(view, view.error().message);
@@ -40,7 +42,7 @@ Words stored(const Words& stream, std::span<const std::uint32_t> triangles) {
     std::copy(out->begin(), out->end(), exact.get());
     const auto back = storage::restore_vertices({exact.get(), out->size()}, triangles, view->vertices, stream.size());
     REQUIRE_MESSAGE(back, back.error().message);
-    CHECK(*back == stream);
+    CHECK_MESSAGE(*back == stream, "the stored form restores the stream");
     const auto small =
         storage::restore_vertices({exact.get(), out->size()}, triangles, view->vertices, stream.size() - 1);
     REQUIRE_FALSE(small);
@@ -55,7 +57,7 @@ Words encoded(const VertexValues& values, const VertexOptions& options) {
     return out->words;
 }
 
-/// Values of every mapping and type: smooth ones with some noise and some wild ones.
+/// A kind of attribute. Its values are smooth with some noise, and some are random bits.
 struct Kind {
     ComponentType type;
     std::uint8_t components;
@@ -95,7 +97,7 @@ Bytes values_of(const Kind& a, std::uint32_t vertices, std::uint32_t seed) {
             }
             if (a.type == ComponentType::f32) {
                 auto f = static_cast<float>(x);
-                // Bits that are no number, where floats are stored as they are.
+                // Random bits, some of them NaNs, where floats are stored unmapped.
                 if (a.mapping == VertexMapping::floats && random() % 40 == 0)
                     f = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
                 std::memcpy(to, &f, 4);
@@ -138,7 +140,7 @@ Words grid_triangles(std::uint32_t width, std::uint32_t height) {
 
 }  // namespace
 
-TEST_CASE("vertex storage: opposite corners are those of the edges") {
+TEST_CASE("vertex storage: opposite_corners joins consecutive triangles first, then by edge and corner") {
     for (const test::NamedMesh& named : test::named_meshes()) {
         const auto& name = named.name;
         const Mesh& mesh = named.mesh;
@@ -159,7 +161,7 @@ TEST_CASE("vertex storage: opposite corners are those of the edges") {
                 all.push_back({edge(c), c});
             }
         }
-        // Triangles that follow each other, then by order.
+        // First joins consecutive triangles that share two vertices, then the remaining corners of an edge in order.
         Words expected(t.size(), storage::kNone);
         const auto join = [&](std::uint32_t a, std::uint32_t b) {
             expected[a] = b;
@@ -168,7 +170,7 @@ TEST_CASE("vertex storage: opposite corners are those of the edges") {
         for (std::size_t i = 0; i < all.size(); ++i) {
             for (std::size_t j = i < 5 ? 0 : i - 5; j < i; ++j) {
                 const auto [a, b] = std::pair(all[j], all[i]);
-                std::uint32_t vertices = 0;  // that both triangles have
+                std::uint32_t vertices = 0;  // shared by both triangles
                 for (std::uint32_t k = 0; k < 9; ++k)
                     vertices += t[a.second / 3 * 3 + k / 3] == t[b.second / 3 * 3 + k % 3];
                 if (a.first == b.first && b.second / 3 == a.second / 3 + 1 && vertices == 2 &&
@@ -187,7 +189,7 @@ TEST_CASE("vertex storage: opposite corners are those of the edges") {
     }
 }
 
-TEST_CASE("vertex storage: a walk visits each vertex once, by vertices that are known") {
+TEST_CASE("vertex storage: a walk visits each vertex once, predicted from visited vertices") {
     struct Visitor {
         const Mesh& mesh;
         std::vector<bool> known;
@@ -234,21 +236,21 @@ TEST_CASE("vertex storage: round trip of every mapping on every topology") {
     }
 }
 
-TEST_CASE("vertex storage: round trip of every number of vertices and components") {
+TEST_CASE("vertex storage: round trip of numbers of vertices around a block, and of every component count") {
     for (const std::uint32_t vertices : {0U, 1U, 2U, 5U, 128U, 129U, 130U, 2049U}) {
         CAPTURE(vertices);
         for (const Kind& a : kAttributes) {
             CAPTURE(static_cast<int>(a.mapping));
             const Words stream = stream_of(a, vertices, 7);
-            stored(stream, {});  // no triangles
+            stored(stream, {});
             Words strip;
             for (std::uint32_t v = 2; v + 10 < vertices; ++v) strip.insert(strip.end(), {v - 2, v - 1, v});
-            stored(stream, strip);  // and some isolated vertices
+            stored(stream, strip);  // the last vertices are isolated
         }
     }
 }
 
-TEST_CASE("vertex storage: random triangles") {
+TEST_CASE("vertex storage: round trip of random triangles") {
     for (std::uint32_t seed = 0; seed < 12; ++seed) {
         CAPTURE(seed);
         const Mesh soup = test::random_soup(60 + 40 * seed, 400, seed);
@@ -258,7 +260,7 @@ TEST_CASE("vertex storage: random triangles") {
     }
 }
 
-TEST_CASE("vertex storage: a smooth surface becomes smaller") {
+TEST_CASE("vertex storage: a smooth surface takes less than two thirds of its stream") {
     const std::uint32_t side = 100;
     std::vector<float> positions;
     std::mt19937 random(5);
@@ -276,16 +278,16 @@ TEST_CASE("vertex storage: a smooth surface becomes smaller") {
     CHECK(3 * stored(stream, grid_triangles(side, side)).size() < 2 * stream.size());
 }
 
-TEST_CASE("vertex storage: streams by another encoder come back, or have no stored form") {
+TEST_CASE("vertex storage: streams that our encoder does not write are restored, or have no stored form") {
     const Words triangles = grid_triangles(20, 20);
     Words stream = stream_of(kAttributes[0], 400, 3);
     SUBCASE("a lower origin and more bits") {
-        // The first component's first value has a bit more in each block: only a stream of one value shows it simply.
+        // The first value takes a bit more in each block. A stream of one value is easy to change by hand.
         stream = stream_of(kAttributes[10], 1, 3);
         stream[7] -= 1;  // low
         const std::uint32_t bits = stream[8] & 63;
         REQUIRE(bits == 0);
-        // Blocks: a bit for each predictor, 2 bits s, and then this component's F bits.
+        // A block is a bit per predictor, 2 bits s, then the F bits of this component.
         stream[8] |= 1;
         Words bits_of(stream.end() - 3, stream.end());
         bits_of[0] = 1U << 6;
@@ -294,7 +296,7 @@ TEST_CASE("vertex storage: streams by another encoder come back, or have no stor
         CHECK(validate_vertices(stream));
         stored(stream, {});
     }
-    SUBCASE("wider fields of the table") {
+    SUBCASE("the table's fields one bit wider") {
         const std::uint32_t field = stream[2] >> 18 & 31;
         const std::uint32_t words = (15 * field + 31) / 32;
         if (field < 31 && (15 * (field + 1) + 31) / 32 == words) {
@@ -320,9 +322,10 @@ TEST_CASE("vertex storage: streams by another encoder come back, or have no stor
             stored(stream, triangles);
         }
     }
-    SUBCASE("a predictor that is given though it is the usual one") {
+    SUBCASE("the header's usual predictor is another") {
         stream[8] = (stream[8] & ~(31U << 11)) | ((stream[8] >> 11 & 31) + 1) % 32 << 11;
-        mend_checksum(stream);  // blocks of the usual one decode to something else, which may be invalid
+        // Blocks with the usual predictor now decode to other values, which may be invalid.
+        mend_checksum(stream);
         if (validate_vertices(stream)) {
             const auto view = view_vertices(stream);
             if (const auto out = storage::store_vertices(*view, triangles)) {
@@ -333,7 +336,7 @@ TEST_CASE("vertex storage: streams by another encoder come back, or have no stor
     }
 }
 
-TEST_CASE("vertex storage: what is cut short is refused") {
+TEST_CASE("vertex storage: streams that are cut, longer or of other triangles are refused") {
     const Words triangles = grid_triangles(12, 12);
     for (const Kind& a : kAttributes) {
         const Words all = stored(stream_of(a, 144, 11), triangles);
@@ -353,7 +356,7 @@ TEST_CASE("vertex storage: what is cut short is refused") {
     CHECK_FALSE(storage::restore_vertices(all, std::span(triangles).first(4), 144, 1 << 20));
 }
 
-TEST_CASE("vertex storage: damage does no harm") {
+TEST_CASE("vertex storage: damaged streams are refused or decode the same in C") {
     const std::uint32_t seed = std::random_device{}();
     const Words triangles = grid_triangles(12, 13);
     for (const Kind& a : kAttributes) {
@@ -361,7 +364,7 @@ TEST_CASE("vertex storage: damage does no harm") {
             const std::uint32_t vertices = random.below(4) == 0 ? 156 + random.below(3000) : 156;
             test::check_damaged_in_c(damaged, triangles, vertices, 4000);
         };
-        // The states and the raw bits of the header more often than the rest.
+        // Half of the damage goes to the states and the raw bits of the header.
         test::for_each_damage(stored(stream_of(a, 156, 13), triangles), seed, test::kSanitized ? 300 : 2000, use,
                               {0, 12});
     }

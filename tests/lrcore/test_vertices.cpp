@@ -33,8 +33,8 @@ std::vector<float> floats_of(const Bytes& bytes) {
     return out;
 }
 
-/// Validates and decodes a stream in buffers of exactly its size, in two passes and in one; blocks give the same
-/// integers in any order.
+/// Validates and decodes a stream in buffers of exactly its size. Checks that decoding while validating gives the same
+/// values, and that blocks give the same integers in any order.
 Bytes decoded(const std::vector<std::uint32_t>& words) {
     const auto exact = std::make_unique<std::uint32_t[]>(words.size());
     std::copy(words.begin(), words.end(), exact.get());
@@ -44,7 +44,7 @@ Bytes decoded(const std::vector<std::uint32_t>& words) {
     decode_vertices(*view, out);
     Bytes at_once(out.size());
     CHECK(decode_vertices_checked(*view, at_once));
-    CHECK(at_once == out);
+    CHECK_MESSAGE(at_once == out, "decoding while validating gives the same values");
     std::vector<std::uint32_t> forward, backward;
     std::vector<std::uint32_t> block(std::size_t{kVertexBlock} * view->integers);
     const auto used = [&](std::uint32_t b) {
@@ -58,11 +58,11 @@ Bytes decoded(const std::vector<std::uint32_t>& words) {
         decode_vertex_block(*view, b, std::span(block).first(used(b)));
         backward.insert(backward.begin(), block.begin(), block.begin() + static_cast<std::ptrdiff_t>(used(b)));
     }
-    CHECK(forward == backward);
+    CHECK_MESSAGE(forward == backward, "blocks give the same integers in any order");
     return out;
 }
 
-/// Values along a walk, with jumps, runs without any change and noise, by turns.
+/// A random walk that alternates between constant, smooth, noisy and linear runs, with jumps.
 class Walk {
   public:
     explicit Walk(std::uint32_t seed) : random_(seed) {}
@@ -95,7 +95,7 @@ Bytes walked(std::uint32_t vertices, std::uint32_t components, std::uint32_t see
             if constexpr (std::is_floating_point_v<T>) {
                 out.push_back(static_cast<T>(value));
             } else {
-                out.push_back(static_cast<T>(static_cast<std::int64_t>(value)));  // cut to its type
+                out.push_back(static_cast<T>(static_cast<std::int64_t>(value)));
             }
         }
     }
@@ -136,7 +136,7 @@ void mend(std::vector<std::uint32_t>& words) {
 
 }  // namespace
 
-TEST_CASE("vertex streams give back any values of any type") {
+TEST_CASE("vertex streams decode to the encoded values of every type and size") {
     for (std::uint32_t type = 0; type < 8; ++type) {
         for (const std::uint32_t components : {1U, 2U, 3U, 4U, 8U}) {
             for (const std::uint32_t vertices : kSizes) {
@@ -160,14 +160,14 @@ TEST_CASE("vertex streams give back any values of any type") {
     }
 }
 
-TEST_CASE("vertex streams of noise whose size and plane change from run to run") {
+TEST_CASE("vertex streams of noise whose width and slopes change every 16 vertices decode to the encoded values") {
     std::mt19937 random(5);
     const auto below = [&](std::uint32_t n) { return static_cast<std::int32_t>(random() % n); };
     std::vector<std::int32_t> values;
     std::int32_t at[3] = {0, 0, 0}, bits[3] = {1, 1, 1}, slopes[2] = {0, 0};
     for (std::uint32_t v = 0; v < 60 * kVertexBlock; ++v) {
         if (v % 16 == 1) {
-            // All codes are long: one width is given, the others are one less, and so is a plane.
+            // Each run needs the longest codes: a width that changes by much, two that fall by one, and new slopes.
             bits[0] = 1 + (bits[0] + 4) % 10;
             for (std::size_t c = 1; c < 3; ++c) bits[c] = bits[c] > 4 ? bits[c] - 1 : 14;
             for (std::int32_t& s : slopes) s = below(8) - 4;
@@ -181,7 +181,7 @@ TEST_CASE("vertex streams of noise whose size and plane change from run to run")
     CHECK(decoded(encoded({ComponentType::i32, 3, false, data})) == data);
 }
 
-TEST_CASE("vertex streams keep the bits of floats that are no numbers, not normal, or zero with a sign") {
+TEST_CASE("vertex streams keep the bits of NaNs, subnormal numbers, infinities and signed zeros") {
     Walk walk(7);
     std::vector<float> values;
     for (std::uint32_t i = 0; i < 3000; ++i) {
@@ -197,7 +197,7 @@ TEST_CASE("vertex streams keep the bits of floats that are no numbers, not norma
           Bytes(data.begin(), data.begin() + 12000));
 }
 
-TEST_CASE("floats that were decimal text are stored as decimals, others among them as they are") {
+TEST_CASE("floats that were decimal text are stored as decimals, others among them as exceptions") {
     Walk walk(3);
     std::vector<float> values;
     for (std::uint32_t i = 0; i < 3000; ++i) {
@@ -216,7 +216,7 @@ TEST_CASE("floats that were decimal text are stored as decimals, others among th
     CHECK(decoded(words) == data);
 }
 
-TEST_CASE("quantized values lie on their lattice, at most half a step away") {
+TEST_CASE("quantized values are multiples of the step, at most half a step away") {
     for (const std::uint32_t bits : {1U, 8U, 12U, 14U, 16U, 22U}) {
         for (const double offset : {0.0, -3.7, 1e6, 1e-20}) {
             for (const double scale : {1.0, 1e-7, 1e24, 1e-36}) {
@@ -236,7 +236,8 @@ TEST_CASE("quantized values lie on their lattice, at most half a step away") {
                 double largest = 0, low = INFINITY, high = -INFINITY;
                 for (std::size_t i = 0; i < back.size(); ++i) {
                     const double integer = static_cast<double>(back[i]) / step;
-                    REQUIRE(integer == std::round(integer));  // exact products
+                    REQUIRE(integer == std::round(integer));
+                    // The product is exact.
                     REQUIRE(std::fma(integer, step, -static_cast<double>(back[i])) == 0);
                     largest =
                         std::max(largest, std::abs(static_cast<double>(back[i]) - static_cast<double>(values[i])));
@@ -252,7 +253,7 @@ TEST_CASE("quantized values lie on their lattice, at most half a step away") {
                 CHECK(largest == out->largest_error);
                 CHECK(largest <= step / 2);
                 CHECK(static_cast<double>(view->largest_error) >= largest);
-                // The step is what was asked for, rounded up a little where the place is near the origin.
+                // The step is at least the wanted one, and hardly more near the origin.
                 const double wanted = (high - low) / ((1U << bits) - 1);
                 CHECK(step >= wanted);
                 if (offset == 0 && bits <= 14 && wanted > 1e-37) CHECK(step <= wanted * 1.02);
@@ -261,9 +262,9 @@ TEST_CASE("quantized values lie on their lattice, at most half a step away") {
     }
 }
 
-TEST_CASE("meshes of one step meet where they met before") {
+TEST_CASE("equal positions of two meshes stay equal if both have the same step") {
     const std::vector<float> left = floats_of(walked<float>(1000, 3, 5, 0.01));
-    std::vector<float> right(left.begin(), left.begin() + 300);  // the border, then other places
+    std::vector<float> right(left.begin(), left.begin() + 300);  // the shared border
     for (std::uint32_t i = 0; i < 900; ++i) right.push_back(left[i] + 500);
     const VertexOptions options{.mapping = VertexMapping::lattice, .step = 0x1p-9F};
     const Bytes a = bytes_of(left), b = bytes_of(right);
@@ -272,13 +273,13 @@ TEST_CASE("meshes of one step meet where they met before") {
     CHECK(std::memcmp(first.data(), second.data(), 1200) == 0);
 }
 
-TEST_CASE("normals and tangents are unit vectors near those that were") {
+TEST_CASE("decoded normals and tangents are unit vectors near the encoded ones") {
     Walk walk(9);
     std::vector<float> normals, tangents;
     const auto component = [&] { return static_cast<float>(static_cast<double>(walk.bits() % 2001) / 1000 - 1); };
     for (std::uint32_t i = 0; i < 3000; ++i) {
         float v[3] = {component(), component(), component()};
-        if (i < 27) {  // corners, edges and middles of faces of a cube
+        if (i < 27) {  // to the corners, edges and faces of a cube
             v[0] = static_cast<float>(i % 3) - 1, v[1] = static_cast<float>(i / 3 % 3) - 1,
             v[2] = static_cast<float>(i / 9) - 1;
         }
@@ -310,7 +311,7 @@ TEST_CASE("normals and tangents are unit vectors near those that were") {
     }
 }
 
-TEST_CASE("what cannot be encoded is refused") {
+TEST_CASE("encode_vertices refuses values that are not of the mapping, type or size") {
     const Bytes data = bytes_of(std::vector<float>{0, 1, std::numeric_limits<float>::infinity()});
     const auto code = [](const Result<EncodedVertices>& result) {
         return result ? -1 : static_cast<int>(result.error().code);
@@ -332,7 +333,7 @@ TEST_CASE("what cannot be encoded is refused") {
     CHECK(code(encode_vertices({ComponentType::f32, 4, false, tangent}, octahedral)) == invalid);
 }
 
-TEST_CASE("every truncation, every flipped bit and every wrong word of a vertex stream is refused or decodes safely") {
+TEST_CASE("cut and damaged vertex streams are refused or decode within bounds") {
     const Bytes data = walked<float>(300, 3, 11, 0.37);
     for (const VertexMapping mapping : {VertexMapping::floats, VertexMapping::lattice, VertexMapping::octahedral}) {
         CAPTURE(static_cast<int>(mapping));
@@ -352,17 +353,17 @@ TEST_CASE("every truncation, every flipped bit and every wrong word of a vertex 
             }
             if (!valid) return;
             ++accepted;
-            // Every bit means something: the decoded values differ, but for what the header says of most blocks where
-            // no block is such, and for a slope that makes no difference.
+            // Every bit changes the decoded values, except header bits of defaults that no block has, and slopes that
+            // make no difference.
             if (bit / 32 < 13 && bit / 32 % 2 == 0 && bit % 32 >= 6) return;
             if (bit / 32 >= 7 && decoded(bad) == want) ++same;
         });
-        CHECK(accepted > 0);  // the low bits of residuals
+        CHECK_MESSAGE(accepted > 0, "changed low bits of residuals are valid");
         CHECK(100 * same < accepted);
     }
 }
 
-TEST_CASE("golden bytes: a vertex stream is written as it was") {
+TEST_CASE("golden bytes: vertex streams have the stored checksum") {
     std::vector<float> values;
     for (std::uint32_t i = 0; i < 600; ++i)
         values.push_back(static_cast<float>(i * i % 97) * 0.125F + static_cast<float>(i));

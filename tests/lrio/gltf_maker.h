@@ -11,7 +11,7 @@
 
 namespace lacedring::test {
 
-/// A document with one buffer, whose bytes are made value by value, each accessor with a view of its own.
+/// Builds a glTF document with one buffer. Each accessor has a buffer view of its own.
 class GltfMaker {
   public:
     template <class T>
@@ -38,16 +38,16 @@ class GltfMaker {
         view_json_ += (views_ == 0 ? "{" : ",{") + fields + "}";
         return views_++;
     }
-    /// Where the bytes lie in the buffer.
+    /// Appends bytes to the buffer and returns their offset.
     std::size_t append(const std::string& bytes) {
         bin_.resize((bin_.size() + 3) / 4 * 4, '\0');
         const std::size_t offset = bin_.size();
         bin_ += bytes;
         return offset;
     }
-    /// Buffers behind the first one: ",{...}".
+    /// Adds further buffers, as JSON: ",{...}".
     void add_buffers(const std::string& json) { more_buffers_ += json; }
-    /// `rest`: the document's other members.
+    /// `rest`: the other members of the document, as JSON.
     std::string glb_file(const std::string& rest) const { return glb(json(rest, ""), bin_); }
     std::string json(const std::string& rest, const std::string& uri) const {
         return fmt::format(

@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of .lr files share.
+// Helpers for the tests of .lr files.
 
 #include <doctest/doctest.h>
 
@@ -38,8 +38,8 @@ inline std::vector<std::uint32_t> indices_of_kept(const Mesh& mesh) {
     return out;
 }
 
-/// Are these the bytes in tests/golden/NAME.hex, in hexadecimal there? After an intended change of the format, which
-/// needs a new version number, LACEDRING_WRITE_GOLDEN=1 test_files -tc='golden*' rewrites them. Gives back those there.
+/// Compares bytes with the hexadecimal file `path`, and returns the file's bytes. After an intended change of the
+/// format, which needs a new version number, LACEDRING_WRITE_GOLDEN=1 test_files -tc='golden*' rewrites the files.
 inline std::vector<std::byte> check_golden(const std::string& path, std::span<const std::byte> bytes) {
     CAPTURE(path);
     std::string now;
@@ -52,7 +52,7 @@ inline std::vector<std::byte> check_golden(const std::string& path, std::span<co
     if (std::getenv("LACEDRING_WRITE_GOLDEN") != nullptr) std::ofstream(path) << now;
     std::ifstream in(path);
     const std::string golden((std::istreambuf_iterator<char>(in)), {});
-    CHECK(now == golden);
+    CHECK_MESSAGE(now == golden, "the bytes are those of the golden file");
     std::vector<std::byte> out;
     for (std::size_t i = 0; i + 1 < golden.size(); i += golden[i + 2] == '\n' ? 3 : 2) {
         out.push_back(static_cast<std::byte>(std::stoi(golden.substr(i, 2), nullptr, 16)));
@@ -60,11 +60,13 @@ inline std::vector<std::byte> check_golden(const std::string& path, std::span<co
     return out;
 }
 
-/// The sections of a file, to be changed and put together again with right checksums.
+/// A section of an .lr file.
 struct Part {
     detail::Section entry;
     std::vector<std::byte> contents;
 };
+/// Applies `change` to the header and sections of a file, and returns the changed file with valid offsets and
+/// checksums.
 inline std::vector<std::byte> with_parts(std::span<const std::byte> file,
                                          const std::function<void(detail::FileHeader&, std::vector<Part>&)>& change) {
     detail::FileHeader header;
@@ -93,13 +95,14 @@ inline std::vector<std::byte> with_parts(std::span<const std::byte> file,
     return out;
 }
 
-/// Has the mesh exactly the triangles that `of` has without degenerate ones, and its vertices and attributes?
+/// Checks that `mesh` has the triangles of `of` except the degenerate ones, in order, and its vertices and attributes.
 inline void check_same_mesh(const Result<Mesh>& mesh, const Mesh& of) {
     REQUIRE_MESSAGE(mesh, mesh.error().message);
     CHECK(mesh->vertex_count == of.vertex_count);
-    CHECK(mesh->indices == indices_of_kept(of));
+    CHECK_MESSAGE(mesh->indices == indices_of_kept(of), "the triangles are the same, in order");
     REQUIRE(mesh->attributes.size() == of.attributes.size());
     for (std::size_t a = 0; a < of.attributes.size(); ++a) {
+        INFO("attribute ", of.attributes[a].name);
         CHECK(mesh->attributes[a].name == of.attributes[a].name);
         CHECK(mesh->attributes[a].type == of.attributes[a].type);
         CHECK(mesh->attributes[a].components == of.attributes[a].components);

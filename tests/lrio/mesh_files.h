@@ -20,7 +20,7 @@
 
 namespace lacedring::test {
 
-/// A folder of this process, removed at its end.
+/// A temporary folder that is removed when the process ends.
 inline const std::filesystem::path& folder() {
     struct Folder {
         std::filesystem::path path =
@@ -37,7 +37,8 @@ inline const std::filesystem::path& folder() {
 
 inline std::filesystem::path write_text(const std::string& name, std::string_view content) {
     const std::filesystem::path path = folder() / name;
-    std::filesystem::remove(path);  // some file systems wait for the disk when a file is truncated and written again
+    // Removed first: some file systems wait for the disk when an existing file is truncated and written.
+    std::filesystem::remove(path);
     std::ofstream file(path, std::ios::binary | std::ios::trunc);
     file.write(content.data(), static_cast<std::streamsize>(content.size()));
     return path;
@@ -47,7 +48,7 @@ inline Result<Mesh> read_text(const std::string& name, std::string_view content)
     return read_mesh(write_text(name, content));
 }
 
-/// The mesh, or a failed test with the reader's message.
+/// Returns the mesh; fails the test with the reader's message if there is none.
 inline Mesh must_read(const std::string& name, std::string_view content) {
     auto mesh = read_text(name, content);
     const std::string message = mesh ? std::string() : mesh.error().message;
@@ -80,7 +81,7 @@ std::vector<T> values_of(const Mesh& mesh, std::string_view name) {
     return out;
 }
 
-/// "POSITION:f32x3 COLOR_0:u8x4n"
+/// Names and types of the attributes: "POSITION:f32x3 COLOR_0:u8x4n", where n is for normalized.
 inline std::string attributes_of(const Mesh& mesh) {
     constexpr std::string_view types[] = {"i8", "u8", "i16", "u16", "i32", "u32", "f32", "f64"};
     std::string out;
@@ -97,7 +98,7 @@ inline bool same(const Mesh& a, const Mesh& b) {
                       [](const Attribute& x, const Attribute& y) { return x.data == y.data; });
 }
 
-/// The invariant of Mesh in mesh.h.
+/// Whether the mesh keeps the invariant of Mesh (mesh.hpp).
 inline bool is_sound(const Mesh& mesh) {
     if (mesh.indices.empty() || mesh.indices.size() % 3 != 0 || mesh.attributes.empty()) return false;
     for (const std::uint32_t v : mesh.indices) {
@@ -127,7 +128,7 @@ inline std::string glb(std::string json, std::string bin) {
     return out + std::string("BIN\0", 4) + bin;
 }
 
-/// Binary STL of these corners, 9 floats a triangle.
+/// A binary STL file of triangles of 9 floats each.
 inline std::string binary_stl(std::span<const float> corners, std::string_view title = "binary") {
     std::string out(title);
     out.resize(80, '\0');

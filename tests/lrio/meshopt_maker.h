@@ -1,5 +1,5 @@
 #pragma once
-// Buffer views of a GltfMaker, compressed by meshoptimizer.
+// Buffer views for GltfMaker, compressed by meshoptimizer.
 #include <meshoptimizer.h>
 
 #include <random>
@@ -68,7 +68,8 @@ inline const std::string kPlaceholder =
     R"(,{"byteLength":1000000,"extensions":{"EXT_meshopt_compression":{"fallback":true}}})";
 inline const std::string kRequired = R"("extensionsRequired":["EXT_meshopt_compression"],)";
 
-inline constexpr std::uint32_t kSide = 30;  // 900 vertices: several blocks of the vertex codec
+// 900 vertices are several blocks of the vertex codec.
+inline constexpr std::uint32_t kSide = 30;
 
 inline Indices grid_indices() {
     Indices out;
@@ -81,7 +82,7 @@ inline Indices grid_indices() {
     return out;
 }
 
-/// 16 bytes a vertex: 3 floats, 3 signed bytes and one of nothing.
+/// 16 bytes per vertex: 3 floats, 3 signed bytes, a byte of padding.
 inline std::string grid_vertices() {
     std::mt19937 random(7);
     std::string out;

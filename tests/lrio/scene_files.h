@@ -1,5 +1,5 @@
 #pragma once
-// Scenes, packed and unpacked, for tests.
+// Helpers that pack and unpack scenes.
 
 #include <doctest/doctest.h>
 
@@ -41,7 +41,7 @@ inline Mesh mesh_of_glb(const std::string& glb) {
     return std::move(*mesh);
 }
 
-/// The document in a GLB's first chunk.
+/// The JSON document of a GLB.
 inline nlohmann::json document_of(const std::string& glb) {
     std::uint32_t size = 0;
     std::memcpy(&size, glb.data() + 12, 4);
@@ -54,7 +54,7 @@ inline PackOptions lossless() {
     return options;
 }
 
-/// Options by which nothing is lost.
+/// Options of lossless packing.
 struct NamedOptions {
     const char* name;
     PackOptions options;
@@ -82,7 +82,8 @@ inline bool same_triangles(const Mesh& a, const Mesh& b) {
     return triangles_by_values(a, numbers) == triangles_by_values(b, numbers);
 }
 
-/// The bits of values in a buffer view of their own, rows `stride` bytes apart; 0: tightly. The accessor's number.
+/// Adds values in a buffer view of their own and returns the number of their accessor. Rows are `stride` bytes apart;
+/// 0: without padding.
 template <class T>
 int add_rows(GltfMaker& maker, int component_type, const char* type, const std::vector<T>& values,
              std::size_t components, std::size_t stride = 0, const std::string& more = "") {
@@ -96,7 +97,7 @@ int add_rows(GltfMaker& maker, int component_type, const char* type, const std::
                                           component_type, values.size() / components, type, more));
 }
 
-/// A grid of size * size points, all different, and its triangles.
+/// A triangulated grid of size * size distinct points.
 struct GridScene {
     std::vector<float> positions, texcoords;
     std::vector<std::uint32_t> indices;

@@ -14,7 +14,7 @@ using namespace lacedring;
 
 namespace {
 
-/// A folder of the test's own, removed at the end.
+/// A temporary folder, removed by the destructor.
 struct Folder {
     std::filesystem::path path;
     Folder() {
@@ -37,7 +37,7 @@ Result<void> write(const std::filesystem::path& path, std::size_t size, char val
 
 }  // namespace
 
-TEST_CASE("one file written by several threads at once is whole each time") {
+TEST_CASE("a file that several threads write at once is always one thread's whole file") {
     const Folder folder;
     const std::filesystem::path path = folder.path / "out.bin";
     constexpr std::size_t kSize = 20000;
@@ -59,10 +59,11 @@ TEST_CASE("one file written by several threads at once is whole each time") {
     CHECK(folder.files() == 1);
 }
 
-TEST_CASE("what a killed writer left behind harms nobody") {
+TEST_CASE("temporary files of a killed writer do not disturb the next") {
     const Folder folder;
     const std::filesystem::path path = folder.path / "out.bin";
-    for (int i = 0; i < 64; ++i) {  // names as earlier versions made them, and folders in their place
+    // Temporary names of earlier versions, some taken by folders.
+    for (int i = 0; i < 64; ++i) {
         std::filesystem::create_directory(folder.path / ("out.bin.part" + std::to_string(::getpid() + i)));
     }
     CHECK(write(path, 10, 'a'));
@@ -70,7 +71,7 @@ TEST_CASE("what a killed writer left behind harms nobody") {
     CHECK(read_file(path).value().size() == 20);
 }
 
-TEST_CASE("links are followed, and a loop of links is an error") {
+TEST_CASE("writing follows symbolic links, and a loop of links is an error") {
     const Folder folder;
     const std::filesystem::path file = folder.path / "file", link = folder.path / "link";
     CHECK(write(file, 10, 'a'));

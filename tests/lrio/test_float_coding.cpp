@@ -1,4 +1,4 @@
-// Rows of floats, coded without loss.
+// Tests the lossless coding of rows of floats.
 
 #include <doctest/doctest.h>
 
@@ -42,7 +42,8 @@ void check_floats(const FloatBytes& bytes, std::uint32_t width, bool quaternions
 
 constexpr std::uint32_t kFloatKinds = 7;
 
-/// Bits of a float: any, or of a kind that is no ordinary number, or a step of a walk.
+/// The bits of a float of a kind: any bits, infinities and NaNs, subnormal numbers, zeros, a line, a sine, or any of
+/// these.
 std::uint32_t float_bits(std::mt19937& random, std::uint32_t kind, std::size_t row) {
     const auto any = static_cast<std::uint32_t>(random());
     switch (kind) {
@@ -51,7 +52,7 @@ std::uint32_t float_bits(std::mt19937& random, std::uint32_t kind, std::size_t r
         case 1:
             return 0x7f800000U | (any & 0x807fffffU);  // infinities and NaNs
         case 2:
-            return any & 0x807fffffU;  // denormals and zeros
+            return any & 0x807fffffU;  // subnormal numbers and zeros
         case 3:
             return (any & 1) << 31;  // 0 and -0
         case 4:
@@ -71,7 +72,7 @@ FloatBytes random_floats(std::uint32_t width, std::size_t rows, std::uint32_t ki
     return {bytes.begin(), bytes.end()};
 }
 
-/// Unit quaternions that turn; each as it is, or negated.
+/// A sequence of unit quaternions that mostly differ little; some are negated.
 std::vector<float> random_quaternions(std::size_t rows, std::uint32_t seed) {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
@@ -88,7 +89,7 @@ std::vector<float> random_quaternions(std::size_t rows, std::uint32_t seed) {
     return out;
 }
 
-/// What the format has, taken apart and put together again.
+/// The fields of coded floats, to be changed and joined again.
 struct CodedFloats {
     std::uint32_t head = 0;
     FloatBytes lengths, tail;
@@ -112,7 +113,7 @@ struct CodedFloats {
     }
 };
 
-/// Refused, or of the size that was asked for.
+/// Whether the coded floats are refused or decode to the requested size.
 bool is_safe(const FloatBytes& coded, std::size_t size) {
     const auto decoded = detail::decode_floats(coded, size);
     return !decoded || decoded->size() == size;
@@ -120,7 +121,7 @@ bool is_safe(const FloatBytes& coded, std::size_t size) {
 
 }  // namespace
 
-TEST_CASE("coded floats come back bit by bit, whatever they are") {
+TEST_CASE("coded floats of every kind and width decode bit for bit") {
     std::uint32_t seed = 0;
     for (std::uint32_t width = 1; width <= 16; ++width) {
         for (const std::size_t rows : {0U, 1U, 2U, 3U, 40U}) {
@@ -135,7 +136,7 @@ TEST_CASE("coded floats come back bit by bit, whatever they are") {
     }
 }
 
-TEST_CASE("coded quaternions come back bit by bit, and are smaller than as floats") {
+TEST_CASE("coded quaternions decode bit for bit and take less than as floats") {
     for (std::uint32_t seed = 0; seed < 20; ++seed) {
         CAPTURE(seed);
         const std::vector<float> turning = random_quaternions(300, seed);
@@ -143,7 +144,7 @@ TEST_CASE("coded quaternions come back bit by bit, and are smaller than as float
         check_floats(bytes, 4, true);
         check_floats(bytes, 4, false);
         CHECK(must_code(bytes, 4, true).size() < must_code(bytes, 4, false).size());
-        std::vector<float> long_ones = turning;  // not of unit length
+        std::vector<float> long_ones = turning;  // scaled: not of unit length
         for (float& x : long_ones) x *= 3;
         check_floats(float_bytes(long_ones), 4, true);
     }
@@ -156,7 +157,7 @@ TEST_CASE("coded quaternions come back bit by bit, and are smaller than as float
     }
 }
 
-TEST_CASE("floats on a line take no bits behind the first two rows") {
+TEST_CASE("floats on a line take no bits after the first two rows") {
     std::vector<float> line;
     for (int i = 0; i < 1000; ++i)
         line.insert(line.end(), {0.5F * static_cast<float>(i), 7, -2.0F * static_cast<float>(i)});
@@ -169,7 +170,7 @@ TEST_CASE("floats on a line take no bits behind the first two rows") {
     }
 }
 
-TEST_CASE("every truncation and every damaged byte of coded floats is refused, or gives floats of the right size") {
+TEST_CASE("cut and damaged coded floats are refused or decode to the requested size") {
     for (const bool quaternions : {false, true}) {
         CAPTURE(quaternions);
         const FloatBytes bytes = quaternions ? float_bytes(random_quaternions(20, 3)) : random_floats(4, 20, 6, 3);
@@ -195,7 +196,7 @@ TEST_CASE("every truncation and every damaged byte of coded floats is refused, o
     }
 }
 
-TEST_CASE("headers of coded floats that say what is not are refused") {
+TEST_CASE("coded floats with a wrong header, size or length are refused") {
     const FloatBytes bytes = random_floats(3, 10, 0, 9);
     const CodedFloats good(must_code(bytes, 3));
     const auto refused = [&](const CodedFloats& changed, std::size_t size) {
@@ -209,20 +210,20 @@ TEST_CASE("headers of coded floats that say what is not are refused") {
         CHECK(refused(bad, bytes.size()));
         CHECK(refused(bad, 0));
     }
-    CHECK(refused(good, 0));
-    CHECK(refused(good, std::size_t{1} << 40));  // is said, not allocated
+    CHECK_MESSAGE(refused(good, 0), "a size of 0");
+    CHECK_MESSAGE(refused(good, std::size_t{1} << 40), "a size of 2^40, which is not allocated");
     CodedFloats bad = good;
     bad.lengths.push_back(std::byte{0});
-    CHECK(refused(bad, bytes.size()));
+    CHECK_MESSAGE(refused(bad, bytes.size()), "a length too many");
     bad.lengths.resize(bad.lengths.size() - 2);
-    CHECK(refused(bad, bytes.size()));
+    CHECK_MESSAGE(refused(bad, bytes.size()), "a length too few");
     const CodedFloats zeros(must_code(FloatBytes(12), 3));
     CHECK(zeros.tail.empty());
     CodedFloats more = zeros;
     more.tail.push_back(std::byte{1});
-    CHECK(refused(more, 12));
+    CHECK_MESSAGE(refused(more, 12), "a byte behind the last bit");
     FloatBytes coded = must_code(bytes, 3);
     const std::uint32_t far = UINT32_MAX;
     std::memcpy(coded.data() + 4, &far, 4);
-    CHECK_FALSE(detail::decode_floats(coded, bytes.size()));
+    CHECK_MESSAGE(!detail::decode_floats(coded, bytes.size()), "compressed lengths beyond the end");
 }

@@ -1,4 +1,4 @@
-// EXT_meshopt_compression and KHR_meshopt_compression.
+// Tests reading EXT_meshopt_compression and KHR_meshopt_compression.
 #include <doctest/doctest.h>
 
 #include "tests/lrio/meshopt_maker.h"
@@ -22,7 +22,7 @@ Result<Mesh> read_grid(bool compressed, Mode mode, std::size_t index_stride, con
                                                 mesh_of(R"({"attributes":{"POSITION":0,"NORMAL":1},"indices":2})")));
 }
 
-/// Every vertex of a triangle list has an attribute "_V" in a filtered view.
+/// Reads a mesh whose attribute "_V" is in a filtered view.
 Result<Mesh> read_filtered(const std::string& filtered, std::size_t stride, const std::string& filter, int type,
                            const char* shape, bool normalized) {
     GltfMaker maker;
@@ -49,14 +49,14 @@ std::vector<float> unit_vectors(std::size_t count, std::size_t width) {
             squares += out.back() * out.back();
         }
         for (std::size_t c = 0; c < width; ++c) out[out.size() - 1 - c] /= std::sqrt(squares);
-        if (width == 3) out.push_back(1);  // what the octahedral filter leaves as it is
+        if (width == 3) out.push_back(1);  // the octahedral filter keeps the fourth component
     }
     return out;
 }
 
 }  // namespace
 
-TEST_CASE("glTF: compressed by meshoptimizer, the mesh is the same bit for bit") {
+TEST_CASE("glTF: a mesh compressed by meshoptimizer is read bit for bit") {
     const auto plain = read_grid(false, Mode::triangles, 4, "EXT_meshopt_compression");
     REQUIRE(message_of(plain) == "");
     for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
@@ -70,7 +70,7 @@ TEST_CASE("glTF: compressed by meshoptimizer, the mesh is the same bit for bit")
                 CHECK(mesh->attributes.size() == 2);
                 CHECK(mesh->attributes[0].data == plain->attributes[0].data);
                 CHECK(mesh->attributes[1].data == plain->attributes[1].data);
-                // The codec of triangles may turn one round.
+                // The triangle codec may rotate a triangle.
                 REQUIRE(mesh->indices.size() == plain->indices.size());
                 for (std::size_t i = 0; i < mesh->indices.size(); i += 3) {
                     Indices a(mesh->indices.begin() + static_cast<std::ptrdiff_t>(i),
@@ -113,7 +113,8 @@ TEST_CASE("glTF: meshoptimizer's filters") {
         const auto mesh = read_filtered(bytes, 8, "QUATERNION", 5122, "VEC4", true);
         REQUIRE(message_of(mesh) == "");
         const auto values = values_of<std::int16_t>(*mesh, "_V");
-        for (std::size_t i = 0; i < count; ++i) {  // q and -q are the same rotation
+        // q and -q are the same rotation.
+        for (std::size_t i = 0; i < count; ++i) {
             double dot = 0;
             for (std::size_t c = 0; c < 4; ++c)
                 dot += values[i * 4 + c] / 32767.0 * static_cast<double>(from[i * 4 + c]);
@@ -130,7 +131,7 @@ TEST_CASE("glTF: meshoptimizer's filters") {
         const auto values = values_of<float>(*mesh, "_V");
         for (std::size_t i = 0; i < values.size(); ++i) CHECK(std::abs(values[i] - from[i]) < 0.001F);
     }
-    SUBCASE("one that is not read") {
+    SUBCASE("an unknown filter is refused") {
         const auto mesh = read_filtered(std::string(count * 4, '\0'), 4, "COLOR", 5121, "VEC4", true);
         REQUIRE(!mesh);
         CHECK(mesh.error().code == ErrorCode::unsupported);
@@ -138,7 +139,7 @@ TEST_CASE("glTF: meshoptimizer's filters") {
     }
 }
 
-TEST_CASE("glTF: sparse accessors and instances in compressed views") {
+TEST_CASE("glTF: sparse accessors and instances in compressed views are read") {
     const auto read = [](bool compressed) {
         GltfMaker maker;
         maker.add_buffers(kPlaceholder);
@@ -166,7 +167,7 @@ TEST_CASE("glTF: sparse accessors and instances in compressed views") {
     CHECK(Floats(first.begin(), first.begin() + 6) == Floats{1, 0, 0, 6, 6, 7});
 }
 
-TEST_CASE("glTF: quantized positions") {
+TEST_CASE("glTF: quantized positions in compressed views are read") {
     for (const bool normalized : {false, true}) {
         for (const int type : {5120, 5121, 5122, 5123}) {
             CAPTURE(type);

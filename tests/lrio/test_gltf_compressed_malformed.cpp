@@ -1,4 +1,4 @@
-// Malformed and hostile data of EXT_meshopt_compression and KHR_meshopt_compression.
+// Malformed and hostile data in EXT_meshopt_compression and KHR_meshopt_compression is refused.
 #include <doctest/doctest.h>
 
 #include "tests/lrio/meshopt_maker.h"
@@ -6,7 +6,7 @@
 using namespace lacedring;
 using namespace lacedring::test;
 
-TEST_CASE("glTF: every field of the compression is checked") {
+TEST_CASE("glTF: every field of a compressed view is checked") {
     const std::string vertices = packed<float>({0, 0, 0, 1, 0, 0, 0, 1, 0});
     const std::string data = compress(Mode::attributes, vertices, 12);
     using Fields = std::vector<std::pair<std::string, std::string>>;
@@ -92,15 +92,15 @@ TEST_CASE("glTF: every field of the compression is checked") {
         CHECK((mesh.error().code == ErrorCode::malformed || mesh.error().code == ErrorCode::unsupported));
         CHECK(mesh.error().message.find("buffer view 0: ") != std::string::npos);
     }
-    // The extension is no object; the view's buffer does not matter.
+    INFO("an extension that is not an object is refused");
     GltfMaker maker;
     maker.add_view_json(R"("buffer":7,"byteLength":36,"extensions":{"EXT_meshopt_compression":3})");
     maker.add_accessor(accessor(0, 0, 5126, 3, "VEC3"));
     CHECK(!read_text("m.glb", maker.glb_file(one_node + mesh_of(R"({"attributes":{"POSITION":0}})"))));
 }
 
-TEST_CASE("glTF: compressed data that claims much takes no memory") {
-    // 64 times the bytes, and as many views of the same bytes as one likes.
+TEST_CASE("glTF: compressed data of huge counts is refused without allocating them") {
+    // Compressed data may decode to 64 times its bytes, and any number of views may share them.
     const std::size_t count = 1U << 21U;
     const std::string zeros(count * 32, '\0');
     const std::string data = compress(Mode::attributes, zeros, 32);
@@ -126,7 +126,7 @@ TEST_CASE("glTF: compressed data that claims much takes no memory") {
     CHECK(less.error().code == ErrorCode::memory_limit);
 }
 
-TEST_CASE("glTF: damaged compressed data is an error or some mesh") {
+TEST_CASE("glTF: damaged compressed data is refused or read as a sound mesh") {
     const Indices indices = grid_indices();
     std::mt19937 random(11);
     for (const Mode mode : {Mode::attributes, Mode::triangles, Mode::indices}) {

@@ -1,4 +1,4 @@
-// KHR_draco_mesh_compression.
+// Tests reading KHR_draco_mesh_compression.
 #include "tests/lrio/gltf_maker.h"
 
 #ifdef LACEDRING_DRACO
@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint32_t kAcross = 12, kPoints = kAcross * kAcross;
 const std::string kUsed = R"("extensionsRequired":["KHR_draco_mesh_compression"],)";
 
-/// An attribute of the meshes below, as the glTF's accessors have it.
+/// An attribute of the test meshes, with the type of its glTF accessor.
 struct Kind {
     const char* name;
     draco::GeometryAttribute::Type type;
@@ -49,7 +49,7 @@ std::string random_values(const Kind& kind, std::mt19937& random) {
     return out;
 }
 
-/// A grid with every kind of attribute. Unique ids are 10, 11, ...
+/// A grid with every kind of attribute. Draco's unique ids of the attributes are 10, 11, ...
 std::unique_ptr<draco::Mesh> grid() {
     auto made = std::make_unique<draco::Mesh>();
     draco::Mesh& mesh = *made;
@@ -86,7 +86,7 @@ std::string encode(const draco::Mesh& mesh, int method, int bits) {
     return {out.data(), out.size()};
 }
 
-/// Draco's own decoder, and the mesh as an uncompressed glTF.
+/// Decodes with Draco and returns the mesh as an uncompressed glTF.
 std::string uncompressed(const std::string& data) {
     draco::DecoderBuffer buffer;
     buffer.Init(data.data(), data.size());
@@ -121,7 +121,7 @@ std::string uncompressed(const std::string& data) {
 }
 
 struct Parts {
-    std::string primitive = R"("indices":7)";  // its fields but attributes and extensions
+    std::string primitive = R"("indices":7)";  // fields besides attributes and extensions
     std::string attributes =
         R"("POSITION":0,"NORMAL":1,"TEXCOORD_0":2,"COLOR_0":3,"JOINTS_0":4,"WEIGHTS_0":5,"_SIGNED":6)";
     std::string ids =
@@ -162,7 +162,7 @@ bool mentions(const std::string& text, const char* part) {
 
 }  // namespace
 
-TEST_CASE("glTF: compressed by Draco, the mesh is Draco's bit for bit") {
+TEST_CASE("glTF: a mesh compressed by Draco is the one that Draco decodes, bit for bit") {
     for (const int method : {draco::MESH_EDGEBREAKER_ENCODING, draco::MESH_SEQUENTIAL_ENCODING}) {
         for (const int bits : {0, 11}) {
             CAPTURE(method);
@@ -172,13 +172,13 @@ TEST_CASE("glTF: compressed by Draco, the mesh is Draco's bit for bit") {
             CHECK(same(must_read("c.glb", compressed(data)), expected));
             CHECK(same(must_read("c.glb", compressed(data, {.index_type = "5121"})), expected));
             CHECK(same(must_read("c.glb", compressed(data, {.primitive = ""})), expected));
-            // Draco has triangles, whatever the mode says.
+            // Draco data is a triangle list, also where the mode is a strip.
             CHECK(same(must_read("c.glb", compressed(data, {.primitive = R"("indices":7,"mode":5)"})), expected));
         }
     }
 }
 
-TEST_CASE("glTF: Draco's values in other types") {
+TEST_CASE("glTF: Draco's values of another type than the accessor's") {
     const std::string data = encode(*grid(), draco::MESH_EDGEBREAKER_ENCODING, 0);
     const auto colors = values_of<std::uint8_t>(must_read("u.glb", uncompressed(data)), "COLOR_0");
     const Mesh floats = must_read("c.glb", compressed(data, {.color = R"("componentType":5126,"type":"VEC4")"}));
@@ -195,7 +195,7 @@ TEST_CASE("glTF: Draco's values in other types") {
     CHECK(mentions(error_of({.ids = R"("POSITION":10,"COLOR_0":15)"}, data), "has floats, the accessor not"));
 }
 
-TEST_CASE("glTF: primitives with Draco's data, without, and with accessors in common") {
+TEST_CASE("glTF: primitives with and without Draco data may share accessors") {
     const std::string data = encode(*grid(), draco::MESH_SEQUENTIAL_ENCODING, 0);
     const auto other_mesh = grid();
     const float moved[] = {7, 8, 9};
@@ -228,13 +228,17 @@ TEST_CASE("glTF: primitives with Draco's data, without, and with accessors in co
     CHECK(mesh.triangle_count() == 3 * 242 + 1);
 }
 
-TEST_CASE("glTF: Draco's data and the primitive are checked") {
+TEST_CASE("glTF: Draco data without extensionsUsed or with fewer attributes than the primitive is read") {
     const std::string data = encode(*grid(), draco::MESH_EDGEBREAKER_ENCODING, 10);
     CHECK(error_of({}, data).empty());
     CHECK(error_of({.used = ""}, data).empty());
-    // An accessor that Draco has no attribute for is read as it is: here, zeros, but as many.
+    // An accessor without a Draco attribute is read from its own view; these have none and so are zeros.
     CHECK(error_of({.ids = R"("POSITION":10)"}, data).empty());
     CHECK(error_of({.ids = R"("POSITION":10,"OTHER":99)"}, data).empty());
+}
+
+TEST_CASE("glTF: a primitive with bad Draco attributes, view, mode or indices is refused") {
+    const std::string data = encode(*grid(), draco::MESH_EDGEBREAKER_ENCODING, 10);
     for (const auto& [ids, what] :
          {std::pair(R"("POSITION":99)", "attribute 99 does not exist"),
           std::pair(R"("POSITION":-1)", "not an unsigned integer"),
@@ -253,6 +257,10 @@ TEST_CASE("glTF: Draco's data and the primitive are checked") {
     CHECK(mentions(error_of({.primitive = R"("indices":99)"}, data), "accessor out of bounds"));
     CHECK(mentions(error_of({.index_type = "5122"}, data), "not unsigned"));
     CHECK(mentions(error_of({.index_type = "5126"}, data), "not unsigned"));
+}
+
+TEST_CASE("glTF: Draco data with a bad header is refused") {
+    const std::string data = encode(*grid(), draco::MESH_EDGEBREAKER_ENCODING, 10);
     CHECK(mentions(error_of({}, "none"), "the data has no header"));
     const auto changed = [&data](std::size_t at, char byte) {
         std::string out = data;
@@ -266,7 +274,7 @@ TEST_CASE("glTF: Draco's data and the primitive are checked") {
     CHECK(mentions(error_of({}, changed(8, 9)), "encoding method 9 is not read"));
 }
 
-TEST_CASE("glTF: Draco's data that claims much takes no memory") {
+TEST_CASE("glTF: Draco data of huge counts is refused without allocating them") {
     const auto header = [](char method) { return std::string("DRACO\2\2\1", 8) + method + std::string(2, '\0'); };
     const std::string many("\xff\xff\xff\x7f", 4);  // 2^28 - 1
     const std::string zeros(1000, '\0');
@@ -276,7 +284,7 @@ TEST_CASE("glTF: Draco's data that claims much takes no memory") {
         return mesh.error();
     };
     CHECK(error(header(0) + many + many + zeros).code == ErrorCode::memory_limit);
-    // Edgebreaker: kind, vertices, faces, tables, symbols, splits.
+    // The fields of Edgebreaker data: kind, vertices, faces, tables, symbols, splits.
     CHECK(error(header(1) + '\0' + many + many + '\0' + many + '\0' + zeros).code == ErrorCode::memory_limit);
     CHECK(error(header(1) + '\0' + '\3' + "\xff\xff\x7f" + '\xff' + '\1' + '\0' + zeros).code ==
           ErrorCode::memory_limit);
@@ -287,7 +295,7 @@ TEST_CASE("glTF: Draco's data that claims much takes no memory") {
     CHECK(little.error().code == ErrorCode::memory_limit);
 }
 
-TEST_CASE("glTF: damaged data of Draco is an error or some mesh") {
+TEST_CASE("glTF: damaged Draco data is refused or read as a sound mesh") {
     std::mt19937 random(13);
     for (const int method : {draco::MESH_EDGEBREAKER_ENCODING, draco::MESH_SEQUENTIAL_ENCODING}) {
         const std::string good = encode(*grid(), method, 10);

@@ -1,4 +1,4 @@
-// Files that a glTF may open, and unusual glTF files that are read.
+// Tests which files a glTF may open, and reading of unusual glTF files.
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 
@@ -36,7 +36,7 @@ std::string message(const Result<Mesh>& mesh) {
 
 }  // namespace
 
-TEST_CASE("glTF: a buffer outside the folder is not opened") {
+TEST_CASE("glTF: a buffer outside the folder is opened only with allow_outside") {
     const fs::path inner = folder() / "outside" / "inner";
     fs::create_directories(inner / "sub");
     write_text("outside/secret.bin", kPositions);
@@ -60,12 +60,12 @@ TEST_CASE("glTF: a buffer outside the folder is not opened") {
         CAPTURE(uri);
         CHECK(message(read_named(inner / "a.gltf", triangle_in(uri))) == "");
     }
-    // A folder whose name merely begins like the glTF's own.
+    // The path "outside/inner.bin" begins with the glTF's folder "outside/inner", but is not in it.
     write_text("outside/inner.bin", kPositions);
     CHECK(!read_named(inner / "a.gltf", triangle_in("../inner.bin")));
 }
 
-TEST_CASE("glTF: only regular files are opened, and none by a URI with a scheme") {
+TEST_CASE("glTF: only regular files are opened, and no URI with a scheme") {
     const fs::path pipe = folder() / "pipe.bin";
     REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
     const ReadOptions outside{.allow_outside = true};
@@ -78,7 +78,7 @@ TEST_CASE("glTF: only regular files are opened, and none by a URI with a scheme"
         CHECK(!read_named(folder() / "a.gltf", triangle_in(uri), outside));
     }
     fs::remove(pipe);
-    // And as the mesh itself.
+    // The same holds for the path of the mesh.
     REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
     for (const char* path : {pipe.c_str(), "/dev/zero", "/dev/null", "/proc/self/environ", "/proc/self/status"}) {
         CAPTURE(path);
@@ -90,19 +90,19 @@ TEST_CASE("glTF: only regular files are opened, and none by a URI with a scheme"
     fs::remove(pipe);
 }
 
-TEST_CASE("glTF: each file is opened once, unused buffers never, and no more is read than is stated") {
+TEST_CASE("glTF: each file of a used buffer is opened once") {
     write_text("own.bin", kPositions + std::string(1000, 'x'));
-    SUBCASE("longer than byteLength") {
+    SUBCASE("a file longer than byteLength is read") {
         ReadReport report;
         CHECK(message(read_named(folder() / "a.gltf", triangle_in("own.bin"), {}, &report)) == "");
         REQUIRE(report.files.size() == 1);
         CHECK(report.files.front().filename() == "own.bin");
     }
-    SUBCASE("shorter") {
+    SUBCASE("a file shorter than byteLength is refused") {
         const auto mesh = read_named(folder() / "a.gltf", triangle_in("own.bin", 2000));
         CHECK(message(mesh).find("byteLength is 2000") != std::string::npos);
     }
-    SUBCASE("buffers that nobody uses may lack their file, or lie outside, or have no URI") {
+    SUBCASE("the file of an unused buffer may be missing, outside the folder or without a URI") {
         for (const char* more : {R"(,{"byteLength":100})", R"(,{"byteLength":100,"uri":"absent.bin"})",
                                  R"(,{"byteLength":100,"uri":"/etc/passwd"})", R"(,{"byteLength":9,"uri":"data:x"})"}) {
             ReadReport report;
@@ -110,7 +110,7 @@ TEST_CASE("glTF: each file is opened once, unused buffers never, and no more is 
             CHECK(report.files.size() == 1);
         }
     }
-    SUBCASE("many buffers of one file, each with more of it than the one before") {
+    SUBCASE("a thousand buffers of growing byteLength in one file") {
         constexpr int kBuffers = 1000;
         std::string json = R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"primitives":[)";
         std::string accessors, views, buffers;
@@ -140,7 +140,7 @@ TEST_CASE("glTF: each file is opened once, unused buffers never, and no more is 
     }
 }
 
-TEST_CASE("glTF: URIs with blanks and percent signs") {
+TEST_CASE("glTF: URIs with blanks, percent signs and percent-encoded bytes") {
     for (const auto& [name, uri] :
          {std::pair("ten 10%.bin", "ten 10%.bin"), std::pair("a b.bin", "a%20b.bin"), std::pair("100%", "100%"),
           std::pair("5%2.bin", "5%2.bin"), std::pair("%zz.bin", "%zz.bin"), std::pair("\xC3\xA4.bin", "%C3%A4.bin")}) {
@@ -150,7 +150,7 @@ TEST_CASE("glTF: URIs with blanks and percent signs") {
     }
 }
 
-TEST_CASE("glTF: data URIs") {
+TEST_CASE("glTF: data URIs in base64 and percent-encoding are read, malformed ones refused") {
     const std::string base64 = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
     for (const std::string& uri : {"data:application/octet-stream;base64," + base64, "data:;base64," + base64,
                                    "DATA:text/plain;charset=utf-8;BASE64," + base64 + "AA==",
@@ -170,7 +170,7 @@ TEST_CASE("glTF: data URIs") {
     }
 }
 
-TEST_CASE("GLB: BIN chunks of any length, and what else the container may be") {
+TEST_CASE("GLB: BIN chunks of other lengths, unknown chunks and malformed containers") {
     const std::string json = triangle_in("");
     const auto chunk = [](const std::string& kind, const std::string& bytes) {
         std::string out;
@@ -199,13 +199,13 @@ TEST_CASE("GLB: BIN chunks of any length, and what else the container may be") {
     CHECK(!read_text("b.glb", file(chunk("JSON", json))));
     CHECK(!read_text("b.glb", file(chunk("NOSJ", json) + chunk(kBin, kPositions))));
     CHECK(!read_text("b.glb", file("")));
-    // A document whose bytes are in the JSON needs no BIN chunk, and may have an empty one.
+    // A document with data URIs may have no BIN chunk, or an empty one.
     const std::string data = triangle_in("data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA");
     CHECK(message(read_text("b.glb", file(chunk("JSON", data)))) == "");
     CHECK(message(read_text("b.glb", file(chunk("JSON", data) + chunk(kBin, "")))) == "");
 }
 
-TEST_CASE("glTF: versions and extensions that are needed") {
+TEST_CASE("glTF: other versions and unknown required extensions are refused") {
     const auto with = [](const std::string& asset, const std::string& more = "") {
         std::string json = triangle_in("data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA");
         json.replace(json.find(R"({"version":"2.0"})"), 17, asset);
@@ -239,12 +239,13 @@ TEST_CASE("glTF: versions and extensions that are needed") {
 
 TEST_CASE("glTF: skins and instances") {
     GltfMaker maker;
-    maker.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}, 3);                              // 0
-    maker.floats("VEC3", {10, 0, 0, 20, 0, 0}, 3);                                     // 1
-    maker.add<std::int16_t>(5122, "VEC4", {0, 0, 32767, 0, 0, 0, 0, 32767}, 4, true);  // 2: half a turn about z, none
-    maker.floats("VEC3", {1, 1, 1, 2, -2, 2}, 3);                                      // 3
-    maker.floats("VEC3", {1, 1, 1}, 3);                                                // 4
-    maker.floats("VEC4", {0, 0, 0, 1, 0, 0, 0, 1}, 4);                                 // 5
+    maker.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}, 3);  // 0
+    maker.floats("VEC3", {10, 0, 0, 20, 0, 0}, 3);         // 1
+    maker.add<std::int16_t>(5122, "VEC4", {0, 0, 32767, 0, 0, 0, 0, 32767}, 4,
+                            true);                      // 2: half a turn about z, and no turn
+    maker.floats("VEC3", {1, 1, 1, 2, -2, 2}, 3);       // 3
+    maker.floats("VEC3", {1, 1, 1}, 3);                 // 4
+    maker.floats("VEC4", {0, 0, 0, 1, 0, 0, 0, 1}, 4);  // 5
     const std::string mesh = mesh_of(R"({"attributes":{"POSITION":0}})", ",");
     const auto node = [&](const std::string& fields) {
         return read_text("i.glb",
@@ -256,7 +257,7 @@ TEST_CASE("glTF: skins and instances") {
         CHECK(values_of<float>(*skinned, "POSITION") == Floats{0, 0, 0, 1, 0, 0, 0, 1, 0});
         CHECK(skinned->indices == Indices{0, 1, 2});
     }
-    SUBCASE("instances are placed behind the node's transform, a mirrored one turned round") {
+    SUBCASE("the node's transform is applied after the instance's; a mirrored instance has its triangles flipped") {
         const auto placed = node(
             R"("scale":[2,2,2],"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":1,"ROTATION":2,"SCALE":3}}})");
         REQUIRE(placed.has_value());
@@ -264,7 +265,7 @@ TEST_CASE("glTF: skins and instances") {
               Floats{20, 0, 0, 18, 0, 0, 20, -2, 0, /**/ 40, 0, 0, 44, 0, 0, 40, -4, 0});
         CHECK(placed->indices == Indices{0, 1, 2, 3, 5, 4});
     }
-    SUBCASE("attributes that are missing, and those that are wrong") {
+    SUBCASE("instance attributes may be missing, but wrong ones are refused") {
         CHECK(node(R"("extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"SCALE":3,"_ID":1}}})").has_value());
         for (const char* attributes :
              {"", R"("TRANSLATION":9)", R"("TRANSLATION":-1)", R"("TRANSLATION":"x")", R"("_ID":1)",
@@ -275,7 +276,7 @@ TEST_CASE("glTF: skins and instances") {
         }
         CHECK(!node(R"("extensions":{"EXT_mesh_gpu_instancing":{}})"));
     }
-    SUBCASE("a billion instances without bytes") {
+    SUBCASE("a billion instances without bytes are refused") {
         GltfMaker small;
         small.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}, 3);
         small.add_accessor(R"("componentType":5126,"count":1000000000,"type":"VEC3")");
@@ -305,7 +306,7 @@ TEST_CASE("glTF: indices without a buffer view are zeros") {
     CHECK(indices(2) == Indices{0, 1, 2});
 }
 
-TEST_CASE("glTF: what is left out is told") {
+TEST_CASE("glTF: the report names everything that is left out") {
     GltfMaker maker;
     maker.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}, 3);
     maker.floats("VEC2", {0, 0, 1, 0, 0, 1}, 2);
@@ -335,14 +336,14 @@ TEST_CASE("glTF: what is left out is told") {
                                             "1 primitive without positions",
                                             "1 attribute that not every primitive has alike ('TEXCOORD_0')"};
     CHECK(report.left_out == expected);
-    // Files written by this project lose nothing.
+    INFO("nothing is left out of a file of one mesh");
     ReadReport plain;
     const std::string own = maker.glb_file(one_node + mesh_of(R"({"attributes":{"POSITION":0}})"));
     REQUIRE(read_mesh(std::as_bytes(std::span(own)), "x.glb", {}, &plain).has_value());
     CHECK(plain.left_out.empty());
 }
 
-TEST_CASE("glTF in memory has no folder, unless it is given one") {
+TEST_CASE("glTF: in memory, buffers in files are found only with a path") {
     write_text("own.bin", kPositions);
     const std::string json = triangle_in("own.bin");
     const auto bytes = std::as_bytes(std::span(json));
@@ -350,7 +351,7 @@ TEST_CASE("glTF in memory has no folder, unless it is given one") {
     CHECK(read_mesh(bytes, folder() / "any name").has_value());
 }
 
-TEST_CASE("what a mesh may take is limited by the bytes that were read, or by the caller") {
+TEST_CASE("the memory of a mesh is limited by the file's size or ReadOptions") {
     GltfMaker maker;
     maker.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}, 3);
     std::string nodes = R"("nodes":[{"mesh":0})";
@@ -360,7 +361,8 @@ TEST_CASE("what a mesh may take is limited by the bytes that were read, or by th
         return read_mesh(std::as_bytes(std::span(file)), "x", options);
     };
     CHECK(read({}).has_value());
-    CHECK(read({.max_bytes = 48000}).has_value());  // 1,000 triangles of 12 bytes, 3,000 vertices of 12
+    // 1,000 triangles and 3,000 vertices of 12 bytes each.
+    CHECK(read({.max_bytes = 48000}).has_value());
     CHECK(!read({.max_bytes = 47999}));
     CHECK(read({.max_bytes = 148000, .triangle_bytes = 100}).has_value());
     CHECK(!read({.max_bytes = 147999, .triangle_bytes = 100}));

@@ -1,4 +1,4 @@
-// The JSON document that is edited as text.
+// Tests JsonText, a JSON document that is edited as text.
 
 #include <doctest/doctest.h>
 
@@ -18,7 +18,7 @@ using detail::JsonValue;
 
 namespace {
 
-/// JSON with white space, and the same without.
+/// The same JSON with and without white space.
 struct JsonPair {
     std::string spaced, tight;
 
@@ -106,12 +106,12 @@ std::optional<std::uint64_t> integer_of(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("json that nobody edits is written as it was, without white space") {
+TEST_CASE("unedited JSON is written unchanged except for white space") {
     for (std::uint32_t seed = 0; seed < 2000; ++seed) {
         CAPTURE(seed);
         JsonMaker maker(seed);
         const JsonPair made = maker.value(4);
-        REQUIRE(detail::check_json(made.spaced));  // or the test makes no JSON
+        REQUIRE_MESSAGE(detail::check_json(made.spaced), "JsonMaker makes valid JSON");
         const JsonText json(made.spaced);
         REQUIRE(detail::text_of(json.root) == made.tight);
         const JsonText again(made.tight);
@@ -120,7 +120,7 @@ TEST_CASE("json that nobody edits is written as it was, without white space") {
     CHECK(detail::text_of(JsonText("\xef\xbb\xbf {\"a\": 1}").root) == "{\"a\":1}");
 }
 
-TEST_CASE("an edit of json leaves all other texts as they were") {
+TEST_CASE("an edit of a JSON member leaves the text of all others unchanged") {
     const std::string names[] = {"", "a", "b b", "\"}", "\xc3\xa9", "none"};
     for (std::uint32_t seed = 0; seed < 2000; ++seed) {
         CAPTURE(seed);
@@ -157,7 +157,7 @@ TEST_CASE("an edit of json leaves all other texts as they were") {
     }
 }
 
-TEST_CASE("integers of json are those from 0 to 2^64 - 1, without fraction and exponent") {
+TEST_CASE("JSON integers are 0 to 2^64 - 1, without fraction and exponent") {
     CHECK(integer_of("0") == 0U);
     CHECK(integer_of("7") == 7U);
     CHECK(integer_of("4294967296") == 4294967296U);
@@ -168,16 +168,16 @@ TEST_CASE("integers of json are those from 0 to 2^64 - 1, without fraction and e
         CHECK_FALSE(integer_of(text));
     }
     JsonText json(R"({"a":1,"a":2,"b":-3,"c":{"a":9},"d":[4]})");
-    CHECK(json.root.integer("a") == 2U);  // the last one
+    CHECK_MESSAGE(json.root.integer("a") == 2U, "the last member of a name counts");
     CHECK_FALSE(json.root.integer("b"));
     CHECK_FALSE(json.root.integer("c"));
     CHECK_FALSE(json.root.integer("none"));
     CHECK(json.root.list("d").size() == 1);
     CHECK(json.root.list("c").empty());
-    CHECK(json.root.find("d")->find("") == nullptr);  // an array has no names
+    CHECK_MESSAGE(json.root.find("d")->find("") == nullptr, "an array has no members");
 }
 
-TEST_CASE("texts that are made for json stand for what was given") {
+TEST_CASE("JSON texts made of floats, integers, strings and booleans have their values") {
     std::mt19937 random(5);
     JsonText json("{}");
     for (int i = 0; i < 5000; ++i) {
@@ -197,7 +197,7 @@ TEST_CASE("texts that are made for json stand for what was given") {
     CHECK(detail::text_of(JsonText::array()) == "[]");
 }
 
-TEST_CASE("json is nested 256 deep at most") {
+TEST_CASE("JSON is nested at most 256 deep") {
     const auto nested = [](std::size_t depth, const std::string& open, const std::string& inner,
                            const std::string& close) {
         std::string out;

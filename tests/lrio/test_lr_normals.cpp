@@ -1,4 +1,4 @@
-// Normals in storage form are differences from those of the surface: .lr files have to have its positions.
+// Normals in storage form are differences from normals of the surface, for which .lr files must have positions.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ using test::Part;
 
 namespace {
 
-/// A sphere around the origin: a position is a normal.
+/// A unit sphere around the origin, whose normals are its positions.
 LrFile sphere(const AttributeBits& bits, bool compressed) {
     Mesh mesh = generate("sphere", 2000).value();
     mesh.attributes.push_back({"NORMAL", ComponentType::f32, 3, false, mesh.attributes[0].data});
@@ -21,7 +21,7 @@ LrFile sphere(const AttributeBits& bits, bool compressed) {
     return file;
 }
 
-/// The file with other positions, by the section that `other` has of them.
+/// `file` with the section of positions of `other`.
 std::vector<std::byte> with_positions(std::span<const std::byte> file, std::span<const std::byte> other) {
     Part positions;
     test::with_parts(other, [&](detail::FileHeader&, std::vector<Part>& parts) { positions = parts[1]; });
@@ -30,7 +30,7 @@ std::vector<std::byte> with_positions(std::span<const std::byte> file, std::span
 
 }  // namespace
 
-TEST_CASE("stored normals need positions on a lattice, in any form") {
+TEST_CASE("stored normals are restored from positions on a lattice, stored or resident") {
     const LrFile file = sphere({.positions = 14, .normals = 10}, true);
     const std::vector<std::byte> stored = serialize_lr(file, LrForm::stored), resident = serialize_lr(file);
     CHECK(4 * stored.size() < 3 * resident.size());
@@ -43,16 +43,16 @@ TEST_CASE("stored normals need positions on a lattice, in any form") {
     };
     same_words(stored);
     same_words(with_positions(stored, resident));
-    SUBCASE("connectivity last") {
+    SUBCASE("connectivity may be last") {
         same_words(test::with_parts(stored, [](detail::FileHeader&, std::vector<Part>& parts) {
             std::rotate(parts.begin(), parts.begin() + 1, parts.end());
         }));
     }
-    SUBCASE("positions last: an error, as in every file") {
+    SUBCASE("positions behind other attributes are refused, as in every file") {
         CHECK_FALSE(parse_lr(test::with_parts(
             stored, [](detail::FileHeader&, std::vector<Part>& parts) { std::swap(parts[1], parts[2]); })));
     }
-    SUBCASE("positions that are no integers of a common scale") {
+    SUBCASE("positions without a lattice are refused") {
         for (const bool compressed : {false, true}) {
             const std::vector<std::byte> other = serialize_lr(sphere({}, compressed));
             const Result<LrFile> back = parse_lr(with_positions(stored, other));
@@ -61,7 +61,7 @@ TEST_CASE("stored normals need positions on a lattice, in any form") {
             CHECK(back.error().message.find("positions") != std::string::npos);
         }
     }
-    SUBCASE("other positions: other normals, or an error") {
+    SUBCASE("other positions give other normals, or are refused") {
         const LrFile coarse = sphere({.positions = 6}, true);
         const Result<LrFile> back = parse_lr(with_positions(stored, serialize_lr(coarse, LrForm::stored)));
         if (back) CHECK(back->attributes[0].words == coarse.attributes[0].words);

@@ -1,4 +1,4 @@
-// .lr files of meshes with seams.
+// Tests .lr files of meshes with seams.
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +30,7 @@ LrFile make_cut(const CutMesh& cut, bool keep_order, Format format) {
     return std::move(*file);
 }
 
-/// Gives each vertex a value that no other has.
+/// Adds an attribute "number": the number of each vertex.
 Mesh with_numbers(Mesh mesh) {
     std::vector<std::uint32_t> numbers;
     for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) numbers.push_back(v);
@@ -39,7 +39,7 @@ Mesh with_numbers(Mesh mesh) {
     return mesh;
 }
 
-/// Has each surface vertex one value of the attribute?
+/// Whether the attribute is equal at all copies of each surface vertex.
 bool agrees(const Attribute& attribute, const Surface& surface) {
     const std::vector<std::uint32_t> first = first_vertices(surface);
     for (std::size_t v = 0; v < surface.vertex_of.size(); ++v) {
@@ -49,35 +49,43 @@ bool agrees(const Attribute& attribute, const Surface& surface) {
     return true;
 }
 
-/// The file, written and read, has the mesh and its surface; so has the view.
-void check_file(const CutMesh& cut, const LrFile& file) {
-    REQUIRE((file.copy_count > 0) == cut.surface.has_seams());
+void check_per_copy(const CutMesh& cut, const LrFile& file) {
+    INFO("attributes that differ between the copies of a vertex are stored per copy, others per vertex");
     REQUIRE(file.attributes.size() == cut.mesh.attributes.size());
     for (std::size_t a = 0; a < file.attributes.size(); ++a) {
+        CAPTURE(a);
         REQUIRE(file.attributes[a].per_copy == !agrees(cut.mesh.attributes[a], cut.surface));
     }
-    const std::vector<std::byte> bytes = serialize_lr(file);
-    const Result<LrFile> read = parse_lr(bytes);
-    REQUIRE_MESSAGE(read, read.error().message);
-    REQUIRE(serialize_lr(*read) == bytes);
-    if (!file.corner_order.empty()) test::check_same_mesh(decode_lr_original_order(*read), cut.mesh);
+}
+
+/// Does nothing if the mesh has no attribute "number" (with_numbers).
+void check_partition(const CutMesh& cut, const Mesh& mesh, const Surface& surface) {
+    if (!surface.has_seams() || mesh.attributes.back().name != "number") return;
+    INFO("the decoded surface joins the same copies");
+    std::vector<std::uint32_t> vertex_of;
+    for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
+        std::uint32_t number = 0;
+        std::memcpy(&number, mesh.attributes.back().data.data() + 4 * std::size_t{v}, sizeof number);
+        vertex_of.push_back(cut.surface.vertex_of[number]);
+    }
+    REQUIRE(test::same_partition(surface.vertex_of, vertex_of));
+}
+
+void check_decoded_surface(const CutMesh& cut, const LrFile& read) {
     Surface surface;
-    const Result<Mesh> mesh = decode_lr(*read, &surface);
+    const Result<Mesh> mesh = decode_lr(read, &surface);
     REQUIRE(mesh);
     REQUIRE(mesh->vertex_count == cut.mesh.vertex_count);
     test::ValueNumbers numbers;
-    REQUIRE(test::triangles_by_values(*mesh, numbers) == test::triangles_by_values(cut.mesh, numbers));
+    REQUIRE_MESSAGE(test::triangles_by_values(*mesh, numbers) == test::triangles_by_values(cut.mesh, numbers),
+                    "the decoded triangles have the mesh's values");
     REQUIRE(surface.vertex_count == cut.surface.vertex_count);
     REQUIRE(surface.has_seams() == cut.surface.has_seams());
-    if (surface.has_seams() && mesh->attributes.back().name == "number") {
-        std::vector<std::uint32_t> vertex_of;
-        for (std::uint32_t v = 0; v < mesh->vertex_count; ++v) {
-            std::uint32_t number = 0;
-            std::memcpy(&number, mesh->attributes.back().data.data() + 4 * std::size_t{v}, sizeof number);
-            vertex_of.push_back(cut.surface.vertex_of[number]);
-        }
-        REQUIRE(test::same_partition(surface.vertex_of, vertex_of));
-    }
+    check_partition(cut, *mesh, surface);
+}
+
+void check_seams_view(const LrFile& file, const std::vector<std::byte>& bytes) {
+    INFO("the view has the file's copies, seams and attributes");
     const Result<LrFileView> view = view_lr_file(bytes);
     REQUIRE(view);
     REQUIRE(view->copy_count == file.copy_count);
@@ -85,10 +93,28 @@ void check_file(const CutMesh& cut, const LrFile& file) {
     REQUIRE(
         std::ranges::equal(view->attributes, file.attributes, {}, &AttributeView::per_copy, &LrAttribute::per_copy));
     REQUIRE(view->validate());
+}
+
+void check_seams_listing(const LrFile& file, const std::vector<std::byte>& bytes) {
+    INFO("the listing has the file's copies and, with copies, one section of seams");
     const Result<LrContents> listed = list_lr(bytes);
     REQUIRE(listed);
     REQUIRE(listed->copies == file.copy_count);
     REQUIRE(std::ranges::count(listed->sections, "seams", &LrSection::kind) == (file.copy_count > 0 ? 1 : 0));
+}
+
+/// Writes and reads a file and compares it with the mesh and its surface.
+void check_file(const CutMesh& cut, const LrFile& file) {
+    REQUIRE((file.copy_count > 0) == cut.surface.has_seams());
+    check_per_copy(cut, file);
+    const std::vector<std::byte> bytes = serialize_lr(file);
+    const Result<LrFile> read = parse_lr(bytes);
+    REQUIRE_MESSAGE(read, read.error().message);
+    REQUIRE_MESSAGE(serialize_lr(*read) == bytes, "a parsed file is written unchanged");
+    if (!file.corner_order.empty()) test::check_same_mesh(decode_lr_original_order(*read), cut.mesh);
+    check_decoded_surface(cut, *read);
+    check_seams_view(file, bytes);
+    check_seams_listing(file, bytes);
 }
 
 CutMesh small_cut() {
@@ -101,7 +127,7 @@ void mend(std::vector<std::uint32_t>& seams) {
 
 }  // namespace
 
-TEST_CASE("lr files give back every corner of every mesh, cut in every way") {
+TEST_CASE("lr files of named meshes, cut in every way, decode to the values at every corner") {
     std::uint64_t seed = 0;
     std::size_t extra = 0, unused = 0;
     for (const auto& [name, mesh] : test::named_meshes()) {
@@ -127,19 +153,20 @@ TEST_CASE("lr files give back every corner of every mesh, cut in every way") {
         for (const std::uint32_t v : mesh.indices) used[v] = true;
         unused += static_cast<std::size_t>(std::ranges::count(used, false));
     }
-    CHECK(extra > 100);  // or the test has no non-manifold vertices
+    CHECK_MESSAGE(extra > 100, "the meshes have non-manifold vertices");
     CHECK(unused > 10);
 }
 
-TEST_CASE("seams of several blocks travel in lr files") {
+TEST_CASE("lr files with seams of several blocks are decoded") {
     for (const Format format : test::kFormats) {
-        const bool large = format == Format::packed && !test::kSanitized;  // groups of blocks
+        // A large mesh has several groups of blocks.
+        const bool large = format == Format::packed && !test::kSanitized;
         const CutMesh cut = test::cut_mesh(generate("blob", large ? 20000 : 2000).value(), large ? 1 : 2, 7);
         check_file(cut, make_cut(cut, large, format));
     }
 }
 
-TEST_CASE("quantized attributes of copies keep to their errors, and copies are at one position") {
+TEST_CASE("quantized attributes of copies stay within their error, and copies share one position") {
     const CutMesh cut = {with_numbers(small_cut().mesh), small_cut().surface};
     for (const Format format : test::kFormats) {
         LrFile file = make_cut(cut, true, format);
@@ -181,18 +208,18 @@ TEST_CASE("every truncation and every flipped bit of an lr file with seams is re
         good, [](const auto& bad, std::size_t) { CHECK_FALSE(parse_lr(bad)); }, 1);
 }
 
-TEST_CASE("hostile lr files with seams and matching checksums") {
+TEST_CASE("lr files with bad seams and valid checksums are refused") {
     LrFile file = make_cut(small_cut(), true, Format::packed);
     REQUIRE(file.attributes[1].per_copy);
     REQUIRE_FALSE(file.attributes.back().per_copy);
-    SUBCASE("positions of copies") {
+    SUBCASE("positions stored per copy") {
         file.attributes[0].per_copy = true;
         file.attributes[0].data.resize(std::size_t{12} * file.copy_count);
     }
-    SUBCASE("an attribute of copies that says it is of vertices") {
+    SUBCASE("an attribute per copy with the flag of one per vertex") {
         file.attributes[1].per_copy = false;
     }
-    SUBCASE("an attribute of vertices that says it is of copies") {
+    SUBCASE("an attribute per vertex with the flag of one per copy") {
         file.attributes.back().per_copy = true;
     }
     SUBCASE("vertex streams with the wrong flag") {
@@ -205,12 +232,12 @@ TEST_CASE("hostile lr files with seams and matching checksums") {
     SUBCASE("copies without seams") {
         file.seams.clear();
     }
-    SUBCASE("attributes of copies, but neither copies nor seams") {
+    SUBCASE("attributes per copy, but neither copies nor seams") {
         file.seams.clear();
         file.copy_count = 0;
         file.vertex_order.clear();
     }
-    SUBCASE("a copy more") {
+    SUBCASE("one copy too many") {
         ++file.copy_count;
         for (LrAttribute& attribute : file.attributes) {
             if (attribute.per_copy) attribute.data.resize(attribute.stride() * file.copy_count);
@@ -220,11 +247,11 @@ TEST_CASE("hostile lr files with seams and matching checksums") {
     SUBCASE("fewer copies than vertices") {
         file.copy_count = file.vertex_count - 1;
     }
-    SUBCASE("seams cut short") {
+    SUBCASE("seams of fewer words") {
         file.seams.pop_back();
         mend(file.seams);
     }
-    SUBCASE("seams with a word more") {
+    SUBCASE("seams of one word too many") {
         file.seams.push_back(0);
         mend(file.seams);
     }
@@ -234,29 +261,30 @@ TEST_CASE("hostile lr files with seams and matching checksums") {
     SUBCASE("seams for slots in another order") {
         file.seams = make_cut(small_cut(), false, Format::lean).seams;
     }
-    SUBCASE("a vertex order of vertices") {
+    SUBCASE("a vertex order of vertices instead of copies") {
         file.vertex_order.resize(file.vertex_count);
     }
     SUBCASE("a copy twice in the order") {
         file.vertex_order[0] = file.vertex_order[1];
     }
-    SUBCASE("no corner order that fits") {
+    SUBCASE("a corner order of the wrong length") {
         file.corner_order.pop_back();
     }
     CHECK_FALSE(parse_lr(serialize_lr(file)));
 }
 
-TEST_CASE("a surface that has no place for a vertex is refused") {
-    CutMesh cut{test::make_mesh({0, 1, 2}, 4), {3, {0, 1, 2, 2}}};  // 3 has no corner, but is said to be a copy of 2
+TEST_CASE("a surface in which an unused vertex is a copy of another is refused") {
+    // Vertex 3 has no corner, but is a copy of 2.
+    CutMesh cut{test::make_mesh({0, 1, 2}, 4), {3, {0, 1, 2, 2}}};
     Result<LrFile> file =
         make_lr_file(cut.mesh, cut.surface, test::encode_as(Format::lean, surface_mesh(cut.mesh, cut.surface)), true);
     REQUIRE_FALSE(file);
     CHECK(file.error().code == ErrorCode::invalid_argument);
 }
 
-TEST_CASE("sections of seams occur once, at any place") {
+TEST_CASE("a file with copies has one section of seams, at any place") {
     const std::vector<std::byte> good = serialize_lr(make_cut(small_cut(), true, Format::packed));
-    // Section 1 is that of the seams. What the parser takes, the view takes, and the other way round.
+    // Section 1 is the seams. parse_lr and view_lr_file must accept the same files.
     const auto accepts = [&](const std::function<void(detail::FileHeader&, std::vector<Part>&)>& change) {
         const std::vector<std::byte> bytes =
             with_parts(good, [&](detail::FileHeader& header, std::vector<Part>& parts) {
@@ -268,28 +296,42 @@ TEST_CASE("sections of seams occur once, at any place") {
         return parsed;
     };
     const Part empty{{detail::kSeams, 0, 0, 0, 0, 0, 0}, {}};
-    CHECK(accepts([](auto&, auto&) {}));
-    CHECK(accepts([](auto&, auto& parts) { std::swap(parts[0], parts[1]); }));
-    CHECK(accepts([](auto&, auto& parts) { std::rotate(parts.begin(), parts.begin() + 2, parts.end()); }));
-    CHECK(accepts([&](auto&, auto& parts) { parts.push_back(empty); }));
-    CHECK(accepts([&](auto&, auto& parts) { parts.insert(parts.begin(), empty); }));
-    CHECK_FALSE(accepts([](auto&, auto& parts) { parts.push_back(Part(parts[1])); }));
-    CHECK_FALSE(accepts([](auto&, auto& parts) {
-        parts.insert(parts.begin(), Part(parts[0]));
-        parts[0].contents.clear();
-    }));
-    CHECK_FALSE(accepts([&](auto&, auto& parts) { parts[1] = empty; }));
-    CHECK_FALSE(accepts([](auto&, auto& parts) { parts.erase(parts.begin() + 1); }));
-    CHECK_FALSE(accepts([](auto&, auto& parts) { parts[1].entry.layout = detail::kPerCopy; }));
-    CHECK_FALSE(accepts([](auto&, auto& parts) { parts[1].entry.name_length = 1; }));
-    CHECK_FALSE(accepts([](auto&, auto& parts) { parts[1].entry.coding = 1; }));
-    CHECK_FALSE(accepts([](auto&, auto& parts) { parts[1].contents.pop_back(); }));
-    CHECK_FALSE(accepts([](auto& header, auto&) { header.copies = header.vertices - 1; }));
-    CHECK_FALSE(accepts([](auto& header, auto&) { header.version = 3; }));
-    CHECK_FALSE(accepts([](auto&, auto& parts) { parts[2].entry.layout |= 1U << 19; }));
+    SUBCASE("the section may be at any place") {
+        CHECK(accepts([](auto&, auto&) {}));
+        CHECK(accepts([](auto&, auto& parts) { std::swap(parts[0], parts[1]); }));
+        CHECK(accepts([](auto&, auto& parts) { std::rotate(parts.begin(), parts.begin() + 2, parts.end()); }));
+    }
+    SUBCASE("an empty section beside it is accepted") {
+        CHECK(accepts([&](auto&, auto& parts) { parts.push_back(empty); }));
+        CHECK(accepts([&](auto&, auto& parts) { parts.insert(parts.begin(), empty); }));
+    }
+    SUBCASE("a second section is refused") {
+        CHECK_FALSE(accepts([](auto&, auto& parts) { parts.push_back(Part(parts[1])); }));
+    }
+    SUBCASE("a second, empty connectivity is refused") {
+        CHECK_FALSE(accepts([](auto&, auto& parts) {
+            parts.insert(parts.begin(), Part(parts[0]));
+            parts[0].contents.clear();
+        }));
+    }
+    SUBCASE("a missing or empty section is refused") {
+        CHECK_FALSE(accepts([&](auto&, auto& parts) { parts[1] = empty; }));
+        CHECK_FALSE(accepts([](auto&, auto& parts) { parts.erase(parts.begin() + 1); }));
+    }
+    SUBCASE("a section with a layout, a name, a coding or a byte less is refused") {
+        CHECK_FALSE(accepts([](auto&, auto& parts) { parts[1].entry.layout = detail::kPerCopy; }));
+        CHECK_FALSE(accepts([](auto&, auto& parts) { parts[1].entry.name_length = 1; }));
+        CHECK_FALSE(accepts([](auto&, auto& parts) { parts[1].entry.coding = 1; }));
+        CHECK_FALSE(accepts([](auto&, auto& parts) { parts[1].contents.pop_back(); }));
+    }
+    SUBCASE("fewer copies than vertices, another version, or an unknown layout bit is refused") {
+        CHECK_FALSE(accepts([](auto& header, auto&) { header.copies = header.vertices - 1; }));
+        CHECK_FALSE(accepts([](auto& header, auto&) { header.version = 3; }));
+        CHECK_FALSE(accepts([](auto&, auto& parts) { parts[2].entry.layout |= 1U << 19; }));
+    }
 }
 
-TEST_CASE("whatever is accepted of changed seams decodes, and what it decodes to is encoded again") {
+TEST_CASE("damaged seams that are accepted decode to a mesh that can be encoded again") {
     test::SplitMix64 random(3);
     std::uint32_t accepted = 0;
     for (const Format format : test::kFormats) {
@@ -303,7 +345,7 @@ TEST_CASE("whatever is accepted of changed seams decodes, and what it decodes to
                     changed.seams[2 + random.below(static_cast<std::uint32_t>(file.seams.size()) - 2)];
                 word ^= 1U << random.below(32);
                 mend(changed.seams);
-                // Whatever number of copies that makes, the file's attributes go with it.
+                // The file's attributes get the number of copies of the damaged section.
                 const Result<StreamView> stream = view_stream(file.words);
                 const Result<SeamView> seams = view_seams(changed.seams, stream->slots(), stream->vertices());
                 if (!seams || seams->copies > 1000) continue;
@@ -330,7 +372,7 @@ TEST_CASE("whatever is accepted of changed seams decodes, and what it decodes to
     CHECK(accepted > 50);
 }
 
-TEST_CASE("golden bytes: lr files with seams are written as they were, and read as they were") {
+TEST_CASE("golden bytes: lr files with seams have the stored bytes, and these decode to the mesh") {
     const CutMesh cut = small_cut();
     for (const Format format : {Format::packed, Format::lr}) {
         const std::vector<std::byte> bytes =

@@ -1,4 +1,4 @@
-// glTF and GLB.
+// Tests reading glTF and GLB.
 #include <doctest/doctest.h>
 
 #include "tests/lrio/gltf_maker.h"
@@ -6,7 +6,7 @@
 using namespace lacedring;
 using namespace lacedring::test;
 
-TEST_CASE("glTF: index types, modes, and primitives that share vertices") {
+TEST_CASE("glTF: index types, strips and fans, and primitives that share vertices") {
     GltfMaker maker;
     maker.floats("VEC3", square, 3);                            // 0
     maker.add<std::uint8_t>(5121, "SCALAR", {0, 1, 2}, 1);      // 1
@@ -23,9 +23,9 @@ TEST_CASE("glTF: index types, modes, and primitives that share vertices") {
     CHECK(attributes_of(mesh_read) == "POSITION:f32x3");
 }
 
-TEST_CASE("glTF: strides, sparse values, attributes that all primitives have") {
+TEST_CASE("glTF: strides, sparse accessors, and attributes that all primitives have") {
     GltfMaker maker;
-    maker.add_view(packed<float>({0, 0, 0, 9, 1, 0, 0, 9, 0, 1, 0}), 16);  // one float short of a full last stride
+    maker.add_view(packed<float>({0, 0, 0, 9, 1, 0, 0, 9, 0, 1, 0}), 16);  // the last row has no padding
     maker.add_accessor(R"("bufferView":0,"componentType":5126,"count":3,"type":"VEC3")");  // 0
     maker.add_view(packed<std::uint16_t>({1, 2}), 0);
     maker.add_view(packed<float>({5, 6, 7, 8, 9, 10}), 0);
@@ -45,13 +45,13 @@ TEST_CASE("glTF: strides, sparse values, attributes that all primitives have") {
     CHECK(values_of<std::uint8_t>(mesh, "COLOR_0")[23] == 12);
 }
 
-TEST_CASE("glTF: node transforms, instances and mirrors") {
+TEST_CASE("glTF: node transforms") {
     GltfMaker maker;
     maker.floats("VEC3", {-0.0F, 0.1F, 0.2F, 1, 0, 0, 0, 1, 0}, 3);  // 0
     maker.floats("VEC3", {0, 0, 1, 0, 0, 1, 1, 0, 0}, 3);            // 1
     maker.floats("VEC4", {1, 0, 0, -1, 0, 1, 0, 1, 0, 0, 1, 1}, 4);  // 2
     const std::string mesh = mesh_of(R"({"attributes":{"POSITION":0,"NORMAL":1,"TANGENT":2}})", ",");
-    SUBCASE("depth first, a node before its children; identity keeps the bits") {
+    SUBCASE("nodes are placed depth first, before their children; the identity keeps the bits") {
         const Mesh read =
             must_read("nodes.glb", maker.glb_file(R"("scenes":[{"nodes":[]},{"nodes":[3,0]}],"scene":1,"nodes":[
             {"mesh":0},{"mesh":0,"translation":[10,0,0]},{"mesh":0,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,20,0,1]},
@@ -63,12 +63,12 @@ TEST_CASE("glTF: node transforms, instances and mirrors") {
         CHECK(p[3] == 22.0F);
         CHECK(p[10] == 20.1F);
         CHECK(p[12] == 2.0F);
-        CHECK(std::signbit(p[18]));  // -0 of the node without a transform
+        CHECK_MESSAGE(std::signbit(p[18]), "-0 of the node without a transform");
         const auto n = values_of<float>(read, "NORMAL");
         CHECK(n[6] == 1.0F);
         CHECK(values_of<float>(read, "TANGENT")[3] == -1.0F);
     }
-    SUBCASE("a rotation about z by 90 degrees, then a mirror") {
+    SUBCASE("a mirrored node has its triangles flipped") {
         const Mesh read = must_read("mirror.glb", maker.glb_file(R"("scenes":[{"nodes":[0]}],"nodes":[
             {"scale":[-2,4,4],"children":[1]},
             {"mesh":0,"rotation":[0,0,0.7071067811865476,0.7071067811865476]}])" +
@@ -85,7 +85,7 @@ TEST_CASE("glTF: node transforms, instances and mirrors") {
         CHECK(t[4] == doctest::Approx(1));
         CHECK(t[3] == -1.0F);
     }
-    SUBCASE("normals turn by the transposed inverse") {
+    SUBCASE("normals are transformed by the transposed inverse") {
         const Mesh read = must_read("shear.glb", maker.glb_file(R"("scenes":[{"nodes":[0]}],"nodes":[
             {"mesh":0,"matrix":[1,0,0,0,0,1,0,0,1,0,1,0,0,0,0,1]}])" +
                                                                 mesh));  // x += z
@@ -95,14 +95,14 @@ TEST_CASE("glTF: node transforms, instances and mirrors") {
         CHECK(n[6] == doctest::Approx(std::sqrt(0.5)));
         CHECK(n[8] == doctest::Approx(-std::sqrt(0.5)));
     }
-    SUBCASE("without scenes: all roots; without nodes: all meshes") {
+    SUBCASE("without scenes all roots are placed, without nodes all meshes") {
         CHECK(must_read("r.glb", maker.glb_file(R"("nodes":[{"mesh":0,"children":[1]},{"mesh":0},{"mesh":0}])" + mesh))
                   .vertex_count == 9);
         CHECK(must_read("s.glb", maker.glb_file(mesh.substr(1))).vertex_count == 3);
     }
 }
 
-TEST_CASE("glTF: quantised positions and normals") {
+TEST_CASE("glTF: quantized positions and normals") {
     GltfMaker maker;
     maker.add<std::uint16_t>(5123, "VEC3", {0, 0, 0, 65535, 0, 0, 0, 13107, 0}, 3, true);  // 0
     maker.add<std::int8_t>(5120, "VEC3", {0, 0, 127, 0, 0, 127, -128, 0, 0}, 3, true);     // 1
@@ -118,7 +118,7 @@ TEST_CASE("glTF: quantised positions and normals") {
     CHECK(values_of<float>(moved, "NORMAL") == Floats{0, 0, 1, 0, 0, 1, -1, 0, 0});
 }
 
-TEST_CASE("glTF: buffers in files and in the JSON; images are not looked at") {
+TEST_CASE("glTF: buffers in files and in the JSON are read, images are not") {
     GltfMaker maker;
     maker.add<float>(5126, "VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}, 3);
     const std::string rest =
@@ -204,13 +204,13 @@ TEST_CASE("glTF: references, bounds and cycles are checked") {
     CHECK(!read_text("m.glb", maker.glb_file(one_node + mesh_of(R"({"attributes":{"POSITION":0},"mode":7})"))));
 }
 
-TEST_CASE("glTF: nesting, and a mesh placed too often") {
+TEST_CASE("glTF: JSON nested too deep, and a mesh placed too often, are refused") {
     GltfMaker maker;
     maker.floats("VEC3", square, 3);
     const std::string mesh = mesh_of(R"({"attributes":{"POSITION":0},"mode":6})");
     const std::string deep = R"("extras":)" + std::string(200000, '[') + std::string(200000, ']') + ",";
     CHECK(!read_text("deep.glb", maker.glb_file(deep + one_node + mesh)));
-    // A chain of 50,000 nodes is odd but right.
+    // A chain of 50,000 nodes is valid.
     std::string chain = R"("nodes":[)";
     for (int i = 1; i < 50000; ++i) chain += fmt::format(R"({{"children":[{}]}},)", i);
     CHECK(must_read("chain.glb", maker.glb_file(chain + R"({"mesh":0}],)" + mesh)).triangle_count() == 2);

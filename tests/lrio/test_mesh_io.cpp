@@ -1,4 +1,4 @@
-// PLY, OBJ, OFF and STL: what each of them can say, and the real meshes where LACEDRING_MESHES names their folder.
+// Tests reading PLY, OBJ, OFF and STL, and the real meshes of the folder LACEDRING_MESHES.
 #include <doctest/doctest.h>
 
 #include <cstdlib>
@@ -29,7 +29,7 @@ const std::string four_obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 }  // namespace
 
-TEST_CASE("PLY ascii: groups, other properties, lists on vertices, polygons") {
+TEST_CASE("PLY ascii: properties become attributes, lists of vertices are skipped, polygons are cut") {
     const Mesh mesh = must_read("a.ply", R"(ply
 format ascii 1.0
 comment made by hand
@@ -71,13 +71,13 @@ end_header
     CHECK(attributes_of(mesh) == "POSITION:f32x3 NORMAL:f32x3 TEXCOORD_0:f32x2 COLOR_0:u8x4n quality:i16x1");
     CHECK(values_of<float>(mesh, "POSITION")[8] == 1.5F);
     CHECK(std::signbit(values_of<float>(mesh, "POSITION")[14]));
-    CHECK(values_of<float>(mesh, "NORMAL")[1] == 2.0F);  // ny is the file's sixth property
+    CHECK(values_of<float>(mesh, "NORMAL")[1] == 2.0F);  // ny is behind nz in the file
     CHECK(values_of<std::int16_t>(mesh, "quality") == std::vector<std::int16_t>{-5, 300, 1, 2, 3});
     CHECK(values_of<std::uint8_t>(mesh, "COLOR_0")[8] == 255);
     CHECK(is_sound(mesh));
 }
 
-TEST_CASE("PLY binary in both orders: faces before vertices, doubles, colours that stay apart") {
+TEST_CASE("PLY binary in both byte orders: faces before vertices, doubles, colors of mixed types stay apart") {
     for (const bool big : {false, true}) {
         std::string file = fmt::format("ply\r\nformat binary_{}_endian 1.0\r\n", big ? "big" : "little");
         file += "element face 1\r\nproperty list ushort uint32 vertex_index\r\nelement empty 4000000000\r\n";
@@ -98,7 +98,7 @@ TEST_CASE("PLY binary in both orders: faces before vertices, doubles, colours th
     }
 }
 
-TEST_CASE("PLY: positions of other types become floats; both spellings of every type") {
+TEST_CASE("PLY: positions of other types become floats; types have two spellings") {
     const Mesh mesh = must_read("c.ply",
                                 "ply\nformat ascii 1.0\nelement vertex 3\nproperty int8 x\nproperty double y\n"
                                 "property uint16 z\nproperty int16 i\nproperty uint32 j\nproperty float32 k\n"
@@ -116,7 +116,7 @@ TEST_CASE("PLY: positions of other types become floats; both spellings of every 
     CHECK(std::isnan(values_of<float>(mesh, "k")[2]));
 }
 
-TEST_CASE("PLY: triangle strips with restarts, beside faces") {
+TEST_CASE("PLY: triangle strips with restarts, and faces beside them") {
     const std::string head =
         "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\n"
         "property float z\n";
@@ -134,7 +134,7 @@ TEST_CASE("PLY: triangle strips with restarts, beside faces") {
     CHECK(both.indices == Indices{5, 4, 3, 0, 1, 2, 1, 3, 2});
 }
 
-TEST_CASE("PLY ascii: elements by lines, and by words") {
+TEST_CASE("PLY ascii: elements are read by line, or by word where lines do not match elements") {
     const auto head = [](int vertices, int faces) {
         return fmt::format(
             "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n"
@@ -143,7 +143,7 @@ TEST_CASE("PLY ascii: elements by lines, and by words") {
     };
     const std::string vertices = "0 0 0\n1 0 0\n0 1 0\n";
     const Indices both{0, 1, 2, 2, 1, 0};
-    // the report's: a value behind the indices of each face
+    // A value behind the indices of each face.
     CHECK(must_read("a.ply", head(3, 2) + vertices + "3 0 1 2 7\n3 2 1 0 7\n").indices == both);
     CHECK(left_out("a.ply", head(3, 2) + vertices + "3 0 1 2 7\n3 2 1 0 7\n") ==
           "2 lines with values behind their elements'");
@@ -152,11 +152,11 @@ TEST_CASE("PLY ascii: elements by lines, and by words") {
     CHECK(must_read("c.ply", head(3, 2) + "0 0 0 1 0 0\n0 1\n0 3 0 1\n2 3 2 1 0\n").indices == both);
     CHECK(must_read("d.ply", head(3, 2) + "0 0 0 1 0 0 0 1 0 3 0 1 2 3 2 1 0").indices == both);
     CHECK(must_read("e.ply", head(3, 2) + "0\n0\n0\n1 0 0\n0 1 0\n3\n0 1 2\n3 2 1 0\n").indices == both);
-    // as many lines as elements, and yet not one for each
+    // As many lines as elements, but elements continue on other lines.
     CHECK(must_read("f.ply", head(3, 2) + "0 0 0\n1 0\n0 0 1 0\n3 0 1 2\n3 2 1 0\n").indices == both);
     CHECK(must_read("g.ply", head(3, 2) + vertices + "3 0 1\n2 3 2 1 0\n").indices == both);
     CHECK(left_out("g.ply", head(3, 2) + vertices + "3 0 1\n2 3 2 1 0\n").empty());
-    // more lines than elements
+    // More lines than elements.
     CHECK(must_read("h.ply", head(3, 2) + vertices + "3 0 1 2\n3 2 1 0\nand more\n").indices == both);
     CHECK(left_out("h.ply", head(3, 2) + vertices + "3 0 1 2\n3 2 1 0\nand more\n") ==
           "9 bytes behind the last element");
@@ -166,7 +166,7 @@ TEST_CASE("PLY ascii: elements by lines, and by words") {
     CHECK(must_read("i.ply", old_mac).indices == both);
 }
 
-TEST_CASE("PLY: what is left out is said, and doubles beyond floats are refused") {
+TEST_CASE("PLY: the report names what is left out; doubles beyond the range of floats are refused") {
     const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
     const std::string faces = "element face 1\nproperty list uchar int vertex_indices\n";
     const std::string data = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
@@ -202,8 +202,8 @@ TEST_CASE("PLY: what is left out is said, and doubles beyond floats are refused"
     }
 }
 
-TEST_CASE("OBJ") {
-    SUBCASE("plain v keeps the file's vertices, unused ones too") {
+TEST_CASE("OBJ: vertices, faces and colors") {
+    SUBCASE("faces of plain v keep the file's vertices, with unused ones") {
         const Mesh mesh = must_read("a.obj",
                                     "# comment\r\nmtllib a.mtl\r\no thing\r\nv 9 9 9\r\nv 1 2 3 1\r\n"
                                     "v +1e-3 0 1e-60 # here too\r\n\r\nf 2 3 4\r\nv 1 1 1\r\nusemtl m\r\n"
@@ -213,7 +213,7 @@ TEST_CASE("OBJ") {
         CHECK(attributes_of(mesh) == "POSITION:f32x3");
         CHECK(values_of<float>(mesh, "POSITION")[6] == 0.001F);
     }
-    SUBCASE("a vertex is a distinct v/vt/vn in the order of first use; v that no face uses follow") {
+    SUBCASE("vertices are the distinct v/vt/vn in the order of first use, then the unused v") {
         const Mesh mesh = must_read("b.obj",
                                     "v 0 0 0\nv 1 0 0\nv 7 7 7\nv 0 1 0\nvt .1 .2\nvt .3\nvn 0 0 1\n"
                                     "f 4/1/1 2/2/1 1/1/1\nf 4/2/1 2/2/1 1//1\nf 4/1/1 2 1/1/\n");
@@ -230,13 +230,13 @@ TEST_CASE("OBJ") {
         CHECK(normal[17] == 0.0F);
         CHECK(normal[23] == 0.0F);
     }
-    SUBCASE("faces may come before what they use; polygons are fans") {
+    SUBCASE("faces may come before their vertices; convex polygons are fans") {
         const Mesh mesh = must_read("c.obj",
                                     "f 1//1 2//1 3//1 4//1 5//1\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\n"
                                     "vn 0 0 1\n");
         CHECK(mesh.indices == Indices{0, 1, 2, 0, 2, 3, 0, 3, 4});
     }
-    SUBCASE("colours, if every vertex has one") {
+    SUBCASE("colors are read if every vertex has one") {
         const std::string faces = "f 1 2 3\n";
         const Mesh all = must_read("d.obj", "v 0 0 0 1 .5 0\nv 1 0 0 1 .5 0\nv 0 1 0 1 .5 .25\n" + faces);
         CHECK(attributes_of(all) == "POSITION:f32x3 COLOR_0:f32x3");
@@ -246,9 +246,9 @@ TEST_CASE("OBJ") {
     }
 }
 
-TEST_CASE("OBJ: lines that go on") {
+TEST_CASE("OBJ: a backslash at the end continues a line") {
     const Indices both{0, 1, 2, 0, 2, 3};
-    // the report's: a blank behind the backslash
+    // A blank behind the backslash.
     CHECK(must_read("a.obj", four_obj + "f 1 2 3 \\ \n4\n").indices == both);
     for (const char* joint : {"\\\n", " \\\n", "\\ \t \n", "\\\r\n", " \\ \r\n \t", "\\\r", " \\\n\\\n \\ \n"}) {
         CAPTURE(joint);
@@ -256,17 +256,17 @@ TEST_CASE("OBJ: lines that go on") {
         CHECK(must_read("b.obj", four_obj + "f 1" + j + (j.back() == '\n' ? " " : "") + "2 3" + j + " 4\n").indices ==
               both);
         CHECK(must_read("c.obj", four_obj + "f" + j + " 1 2 3 4" + j + " \nf 1 2 3").indices.size() == 9);
-        // what is not read goes on, too: "f 1 2 3" is more of a group's names
+        // Lines that are not read continue, too: "f 1 2 3" are further names of a group.
         CHECK(must_read("d.obj", four_obj + "g a b" + j + " f 1 2 3\nf 1 2 3 4\n").indices == both);
         CHECK(must_read("e.obj", four_obj + "vp 1 " + j + "f 1 2 3\nf 1 2 3 4\n").indices == both);
         CHECK(must_read("f.obj", four_obj + "vn 0 0 1 5 5 " + j + "f 1 2 3\nf 1 2 3 4\n").indices == both);
-        // but not a comment
+        // Comments do not.
         CHECK(must_read("g.obj", four_obj + "f 1 2 3 # and" + j + "\nf 1 3 4\n").indices == both);
         CHECK(must_read("h.obj", four_obj + "# and" + j + "\nf 1 2 3 4\n").indices == both);
     }
 }
 
-TEST_CASE("OBJ: comments right behind words, faces of version 1") {
+TEST_CASE("OBJ: comments without a blank before them, and faces of format version 1") {
     const Indices both{0, 1, 2, 0, 2, 3};
     CHECK(must_read("a.obj", "v 0 0 0#a\nv 1 0 0# b\nv 1 1 0 #c\n#no\n#\nv 0 1 0\nf 1 2 3#comment\nf 1 3 4#").indices ==
           both);
@@ -274,7 +274,7 @@ TEST_CASE("OBJ: comments right behind words, faces of version 1") {
     CHECK(must_read("c.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nfo 1 2 3 4#f\n").indices == both);
 }
 
-TEST_CASE("OBJ: normals and texture coordinates of which the file has none at all") {
+TEST_CASE("OBJ: faces may reference normals and texture coordinates if the file has none at all") {
     const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     for (const char* face :
          {"f 1//1 2//2 3//3\n", "f 1/1/1 2/2/2 3/3/3\n", "f 1/7 2/7 3/7\n", "f -3//-3 -2//-2 -1//-1\n"}) {
@@ -287,12 +287,12 @@ TEST_CASE("OBJ: normals and texture coordinates of which the file has none at al
     CHECK(left_out("c.obj", vertices + "f 1/1/1 2/1/2 3//3\n") ==
           "2 references to texture coordinates, of which the file has none; "
           "3 references to normals, of which the file has none");
-    // later in the file is in the file
+    // Normals may follow their faces.
     CHECK(attributes_of(must_read("d.obj", "f 1//1 2//1 3//1\n" + vertices + "vn 0 0 1\n")) ==
           "POSITION:f32x3 NORMAL:f32x3");
 }
 
-TEST_CASE("OBJ: what is left out is said") {
+TEST_CASE("OBJ: the report names what is left out") {
     const std::string face = "f 1 2 3\n";
     CHECK(left_out("a.obj", "# plain\n" + four_obj + "vt 0 0\nvt 0 0 0\nvn 0 0 1\nf 1/1/1 2/2/1 3/1/1\nf 1 2 3 4\n")
               .empty());
@@ -315,7 +315,7 @@ TEST_CASE("OBJ: what is left out is said") {
     CHECK(left_out("h.obj", many) == "159 materials");
 }
 
-TEST_CASE("numbers that are none, as all programs write them, in every format of text") {
+TEST_CASE("infinities and NaNs in every spelling and text format") {
     const double infinity = std::numeric_limits<double>::infinity();
     const std::pair<const char*, double> numbers[] = {{"inf", infinity},
                                                       {"-INF", -infinity},
@@ -366,7 +366,7 @@ TEST_CASE("numbers that are none, as all programs write them, in every format of
                                      "\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
                                      "vertex 0 1 0\nendloop\nendfacet\nendsolid\n")
                   .triangle_count() == 1);
-        // and none of them is a position
+        // Positions must be finite.
         CHECK(!read_text("b.obj", "v 0 0 " + w + "\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
     }
     for (const char* word :
@@ -378,7 +378,7 @@ TEST_CASE("numbers that are none, as all programs write them, in every format of
     }
 }
 
-TEST_CASE("polygons are cut into triangles that cover them, wherever their positions are in the file") {
+TEST_CASE("polygons are cut into triangles that cover them, also where positions follow the faces") {
     const auto check = [&](const std::string& name, const std::string& text) {
         CAPTURE(name);
         CHECK(must_read(name, text).triangle_count() == 3);
@@ -398,7 +398,7 @@ TEST_CASE("polygons are cut into triangles that cover them, wherever their posit
         check("d.ply", head + vertex + face + "end_header\n" + points + "5 0 1 2 3 4\n");
         check("e.ply", head + face + vertex + "end_header\n5 0 1 2 3 4\n" + points);
     }
-    // v, vt and vn are reordered alike
+    INFO("v, vt and vn are reordered alike, and the triangles cover the polygon");
     const Mesh mesh = must_read("f.obj", obj +
                                              "vt 0 0\nvt 1 0\nvt 2 0\nvt 3 0\nvt 4 0\nvn 1 0 0\nvn 2 0 0\nvn 3 0 0\n"
                                              "vn 4 0 0\nvn 5 0 0\nf 1/1/1 2/2/2 3/3/3 4/4/4 5/5/5\n");
@@ -416,7 +416,7 @@ TEST_CASE("polygons are cut into triangles that cover them, wherever their posit
         area += own / 2;
     }
     CHECK(area == 10);
-    // between triangles and strips
+    INFO("polygons between triangles and strips keep their place");
     const Mesh mixed = must_read("g.ply",
                                  "ply\nformat ascii 1.0\nelement face 3\nproperty list uchar int vertex_indices\n"
                                  "element tristrips 1\nproperty list uchar int vertex_indices\nelement face 1\n"
@@ -436,8 +436,8 @@ TEST_CASE("OBJ: decimals are correctly rounded") {
           Floats{16777216.0F, 16777220.0F, 1.0F, 1.00000011920928955F, 3.4028235e38F, 1e-45F, 0.0F, 1.0F, -0.0F});
 }
 
-TEST_CASE("OFF") {
-    SUBCASE("plain, with comments, colours of faces, and counts on the first line") {
+TEST_CASE("OFF: attributes of vertices") {
+    SUBCASE("none, with comments and colors of faces") {
         const Mesh mesh = must_read("a.off",
                                     "# first\nOFF # word\n# counts\n4 2 0\n0 0 0\n1 0 0 # c\n\n1 1 0\n0 1 0\n"
                                     "4 0 1 2 3 255 0 0\n3 0 1 2\n");
@@ -447,7 +447,7 @@ TEST_CASE("OFF") {
         CHECK(must_read("c.off", "3 1\n0 0 0\n1 0 0\n0 1 0\n3 2 1 0").indices == Indices{2, 1, 0});
         CHECK(must_read("d.dat", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 2 1 0").vertex_count == 3);
     }
-    SUBCASE("vertex colours and normals") {
+    SUBCASE("colors, normals and texture coordinates") {
         const Mesh bytes = must_read("e.off", "COFF\n3 1 0\n0 0 0 255 0 1 9\n1 0 0 1 2 3 4\n0 1 0 0 0 0 0\n3 0 1 2\n");
         CHECK(attributes_of(bytes) == "POSITION:f32x3 COLOR_0:u8x4n");
         CHECK(values_of<std::uint8_t>(bytes, "COLOR_0")[0] == 255);
@@ -458,7 +458,7 @@ TEST_CASE("OFF") {
         CHECK(values_of<float>(reals, "COLOR_0")[3] == .5F);
         CHECK(values_of<float>(reals, "TEXCOORD_0")[5] == .7F);
     }
-    SUBCASE("whole colors are bytes only where any is above 1") {
+    SUBCASE("colors of integers are bytes only if one is above 1") {
         const auto read = [](const std::string& a, const std::string& b) {
             return must_read("u.off", "COFF\n3 1 0\n0 0 0 " + a + "\n1 0 0 " + b + "\n0 1 0 " + b + "\n3 0 1 2\n");
         };
@@ -470,7 +470,7 @@ TEST_CASE("OFF") {
         CHECK(attributes_of(read("256 0 0", "0 1 0")) == "POSITION:f32x3 COLOR_0:f32x3");
         CHECK(attributes_of(read("0 0 0", "0 0 0")) == "POSITION:f32x3 COLOR_0:f32x3");
     }
-    SUBCASE("prefixes in any order; the order in the file is Geomview's, but MeshLab's for NCOFF") {
+    SUBCASE("prefixes in any order; the values are in Geomview's order, or for NCOFF in MeshLab's") {
         const std::string tail =
             "\n3 1 0\n0 0 0 0 0 1 255 0 9 7\n1 0 0 0 0 1 255 0 9 7\n0 1 0 0 0 1 255 0 9 7\n3 0 1 2\n";
         for (const char* word : {"CNOFF", "NCOFF"}) {
@@ -496,6 +496,9 @@ TEST_CASE("OFF") {
                   must_read("s.off", "CSTOFF 3 1\n0 0 0 1 1 1 0 0\n1 0 0 1 1 1 0 0\n0 1 0 1 1 1 0 0\n3 0 1 2\n")) ==
               "POSITION:f32x3 TEXCOORD_0:f32x2 COLOR_0:f32x3");
     }
+}
+
+TEST_CASE("OFF: numbers may be on any lines") {
     SUBCASE("counts behind the word without a blank, on several lines, and without edges") {
         for (const char* head :
              {"OFF3 1 0\n", "OFF 3 1 0\n", "OFF3 1\n", "OFF\n3 1\n", "OFF3\n1\n0\n", "OFF\n3\n1\n0\n", "3\n1\n0\n",
@@ -506,7 +509,7 @@ TEST_CASE("OFF") {
         CHECK(must_read("d.dat", "COFF3 1 0\n0 0 0 1 1 1\n1 0 0 1 1 1\n0 1 0 1 1 1\n3 0 1 2\n").vertex_count == 3);
         CHECK(!read_text("e.dat", "OFFSET 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"));
     }
-    SUBCASE("vertices and faces over several lines, several vertices on a line, comments and blank lines anywhere") {
+    SUBCASE("vertices and faces on several lines, several vertices on a line, comments and blank lines") {
         const Indices quad{0, 1, 2, 0, 2, 3};
         const std::string faces = "4 0 1 2 3\n";
         for (const char* vertices :
@@ -530,7 +533,10 @@ TEST_CASE("OFF") {
             "h.off", "CNOFF 3 1 0\n0 0 0\n0 0 1\n255 0 0\n1 0 0\n0 0 1\n255 0 0\n0 1 0\n0 0 1\n255 0 0\n3 0 1 2\n");
         CHECK(attributes_of(three) == "POSITION:f32x3 NORMAL:f32x3 COLOR_0:u8x3n");
     }
-    SUBCASE("what is left out is said") {
+}
+
+TEST_CASE("OFF: the report names what is left out, and binary and 4D files are refused") {
+    SUBCASE("the report names what is left out") {
         const std::string vertices = "OFF 4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
         CHECK(left_out("l.off", vertices + "4 0 1 2 3\n3 0 1 2\n").empty());
         CHECK(left_out("l.off", vertices + "4 0 1 2 3 9\n3 0 1 2 1 2 3\n") == "2 colors of faces");
@@ -539,13 +545,13 @@ TEST_CASE("OFF") {
         CHECK(left_out("l.off", "OFF 3 1 0\n0 0 0 255 0 0\n1 0 0 255 0 0\n0 1 0 255 0 0\n3 0 1 2\n") ==
               "3 vertices with numbers behind their own");
     }
-    SUBCASE("what is not read") {
+    SUBCASE("binary and 4D files are refused") {
         CHECK(read_text("g.off", "OFF BINARY\n").error().code == ErrorCode::unsupported);
         CHECK(read_text("h.off", "4OFF\n1 1 1\n").error().code == ErrorCode::unsupported);
     }
 }
 
-TEST_CASE("STL: corners at one place are one vertex") {
+TEST_CASE("STL: corners at one position are one vertex") {
     const Floats corners{0, 0, 0, 1, 0,           0, 0, 1, 0, /* */ 1, 0, 0, 1, 1,
                          0, 0, 1, 0, /* */ -0.0F, 0, 0, 1, 0, 0,       1, 1, 0};
     const Indices indices{0, 1, 2, 1, 3, 2, 0, 1, 3};
@@ -572,12 +578,12 @@ TEST_CASE("STL: corners at one place are one vertex") {
     CHECK(must_read("d.stl", "  " + text).indices == indices);
     CHECK(must_read("e.stl", "\xEF\xBB\xBF" + text).indices == indices);
     CHECK(must_read("no-extension", "\xEF\xBB\xBF" + text).indices == indices);
-    // a title of a binary file is any 80 bytes
+    // The title of a binary file is any 80 bytes.
     CHECK(must_read("f.stl", binary_stl(corners, "\xEF\xBB\xBFsolid")).indices == indices);
     CHECK(must_read("no-extension", binary_stl(corners, "\xEF\xBB\xBF")).indices == indices);
 }
 
-TEST_CASE("STL: the bits of the first of several corners at a place are kept, and colors are said") {
+TEST_CASE("STL: a vertex has the bits of its first corner; the report names colors") {
     const Floats corners{-0.0F, 0, 0, 1, 0, 0, 0, 1, -0.0F, 0, 0, 0, 0, 1, 0, 1, 0, -0.0F};
     for (const std::string& file :
          {binary_stl(corners),
@@ -599,7 +605,7 @@ TEST_CASE("STL: the bits of the first of several corners at a place are kept, an
     CHECK(left_out("c.stl", colored) == "2 colors or attributes of triangles");
 }
 
-TEST_CASE("formats are told by content before extension") {
+TEST_CASE("the format is found by content before extension") {
     CHECK(must_read("really.obj",
                     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
                     "property float z\nelement face 1\nproperty list uchar int vertex_index\nend_header\n"
@@ -609,7 +615,7 @@ TEST_CASE("formats are told by content before extension") {
     CHECK(read_text("what.xyz", "v 0 0 0\n").error().code == ErrorCode::unsupported);
 }
 
-TEST_CASE("the real meshes of LACEDRING_MESHES") {
+TEST_CASE("the meshes of LACEDRING_MESHES, where it is set, have the triangles of their index") {
     const char* meshes = std::getenv("LACEDRING_MESHES");
     if (meshes == nullptr) return;
     std::ifstream index(std::filesystem::path(meshes) / "INDEX.tsv");
@@ -625,7 +631,7 @@ TEST_CASE("the real meshes of LACEDRING_MESHES") {
         const auto mesh = read_mesh(std::filesystem::path(meshes) / fields[0]);
         REQUIRE(mesh.has_value());
         CHECK(is_sound(*mesh));
-        // The index counts what a glTF file holds, and one file places its wheels twice.
+        // The index counts the triangles of meshes once; this file places its wheels twice.
         const std::size_t instanced = fields[0] == "CesiumMilkTruck.glb" ? 768 : 0;
         CHECK(mesh->triangle_count() == std::stoull(fields[4]) + instanced);
         const bool has_file_vertices =

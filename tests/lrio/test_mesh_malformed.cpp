@@ -1,4 +1,4 @@
-// Hostile files: whatever the bytes are, read_mesh returns, and a mesh that it returns is sound.
+// Malformed and hostile mesh files: read_mesh returns an error or a sound mesh for any bytes.
 #include <doctest/doctest.h>
 
 #include <chrono>
@@ -39,7 +39,7 @@ std::string binary_ply(bool big) {
     return out;
 }
 
-/// One file of every kind, a few hundred bytes each, all of them right.
+/// One valid file of a few hundred bytes in every format.
 std::vector<Sample> samples() {
     std::vector<Sample> out;
     const std::string vertices = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
@@ -58,8 +58,8 @@ std::vector<Sample> samples() {
                    "endfacet\nendsolid x\n"});
     out.push_back({"b.stl", binary_stl(Floats{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0})});
     Mesh mesh = must_read("s.off", out[4].bytes);
-    Attribute colour{"COLOR_0", ComponentType::u8, 3, true, std::vector<std::byte>(12)};
-    mesh.attributes.push_back(colour);
+    Attribute color{"COLOR_0", ComponentType::u8, 3, true, std::vector<std::byte>(12)};
+    mesh.attributes.push_back(color);
     REQUIRE(write_mesh(mesh, folder() / "w.glb").has_value());
     std::ifstream file(folder() / "w.glb", std::ios::binary);
     out.push_back({"s.glb", std::string((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>())});
@@ -72,7 +72,7 @@ std::vector<Sample> samples() {
     return out;
 }
 
-/// Reads, and checks what every answer must keep to.
+/// Reads a file. Whether the mesh is sound, or the error a short line of printable ASCII.
 bool survives(const Sample& sample) {
     const auto mesh = read_text(sample.name, sample.bytes);
     if (mesh) return is_sound(*mesh);
@@ -94,14 +94,14 @@ std::string message_of(const std::string& name, const std::string& bytes) {
 
 }  // namespace
 
-TEST_CASE("the samples are right") {
+TEST_CASE("the samples are valid") {
     for (const Sample& sample : samples()) {
         CAPTURE(sample.name);
         CHECK(is_sound(must_read(sample.name, sample.bytes)));
     }
 }
 
-TEST_CASE("files cut short at every byte") {
+TEST_CASE("files cut at every byte are refused or read as a sound mesh") {
     for (const Sample& sample : samples()) {
         for (std::size_t length = 0; length < sample.bytes.size(); ++length) {
             CAPTURE(sample.name);
@@ -111,7 +111,7 @@ TEST_CASE("files cut short at every byte") {
     }
 }
 
-TEST_CASE("files with bytes changed, removed and repeated") {
+TEST_CASE("files with bytes changed, removed and repeated are refused or read as a sound mesh") {
     const std::uint32_t seed = 4711;
     CAPTURE(seed);
     std::mt19937 random(seed);
@@ -147,7 +147,7 @@ TEST_CASE("files with bytes changed, removed and repeated") {
     }
 }
 
-TEST_CASE("numbers in text replaced by others") {
+TEST_CASE("text files with numbers replaced are refused or read as a sound mesh") {
     const std::uint32_t seed = 1234;
     CAPTURE(seed);
     std::mt19937 random(seed);
@@ -184,7 +184,7 @@ TEST_CASE("numbers in text replaced by others") {
     }
 }
 
-TEST_CASE("a name of one format and the bytes of another, and noise") {
+TEST_CASE("the bytes of another format than the name's, and noise, are refused or read as a sound mesh") {
     const std::uint32_t seed = 5;
     CAPTURE(seed);
     std::mt19937 random(seed);
@@ -200,7 +200,7 @@ TEST_CASE("a name of one format and the bytes of another, and noise") {
     }
 }
 
-TEST_CASE("what is not a file") {
+TEST_CASE("folders, missing files and empty files are refused") {
     CHECK(read_mesh(folder() / "missing.ply").error().code == ErrorCode::cannot_open);
     CHECK(read_mesh(folder()).error().code == ErrorCode::cannot_open);
     for (const char* name : {"e.ply", "e.obj", "e.off", "e.stl", "e.glb", "e.gltf", "e"}) {
@@ -208,7 +208,7 @@ TEST_CASE("what is not a file") {
     }
 }
 
-TEST_CASE("counts that the file has no bytes for") {
+TEST_CASE("counts beyond the bytes of the file are refused at once") {
     const auto start = std::chrono::steady_clock::now();
     const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
     const std::string faces = "property list uchar int vertex_indices\n";
@@ -239,78 +239,114 @@ TEST_CASE("counts that the file has no bytes for") {
     CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(60));
 }
 
-TEST_CASE("errors name the place and the cause") {
+TEST_CASE("PLY errors name the line and the cause") {
     const std::string ply =
         "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
         "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
-    CHECK(message_of("m.ply", ply + "0 0 0\n1 0 0\n0 nan 0\n3 0 1 2\n") == "line 12: vertex 2: 'y' is not finite");
-    CHECK(message_of("m.ply", ply + "0 0 0\n1 0 0\n0 0 0\n3 0 1 3\n") ==
-          "line 13: face 0: index 3 is out of range (3 vertices)");
-    CHECK(message_of("m.ply", ply + "0 0 0\n1 0 0\n0 0 0\n3 0 1 -1\n") ==
-          "line 13: face 0: index -1 is out of range (3 vertices)");
-    CHECK(message_of("m.ply", ply + "0 0 0\n1 zero 0\n0 0 0\n3 0 1 2\n") ==
-          "line 11: vertex 1: 'zero' is not a number of its type");
-    CHECK(message_of("m.ply", ply + "0 0 0\n1 0 0\n0 0 0\n2 0 1\n") == "has no triangles");
-    CHECK(message_of("m.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nend_header\n1 2 3\n") ==
-          "line 3: the vertices have no x, y and z");
-    CHECK(message_of("m.ply", ply + "0 0 0\n1 0\n0 0 0\n3 0 1 2\n") == "line 11: the line ends in vertex 1");
-    CHECK(message_of("m.ply", ply + "0 0 0\n1 0 0\n0 0 0\n3 0 1\n") == "line 13: the line ends in face 0");
-    CHECK(message_of("m.ply", "hello\n") == "line 1: does not begin with 'ply'");
-    CHECK(message_of("m.ply", "plyx\nformat ascii 1.0\nend_header\n") == "line 1: does not begin with 'ply'");
-    CHECK(message_of("m.ply",
-                     "ply\nformat ascii 1.0\nelement vertex 3\nelement face 1\nproperty list uchar int "
-                     "vertex_index\nend_header\n3 0 1 2\n") == "line 3: the vertices have no x, y and z");
-    CHECK(message_of("m.ply", "ply\nformat ascii 1.0\nelement vertex x\n") ==
-          "line 3: 'x' is not a number of elements");
-    CHECK(message_of("m.ply", "ply\nelement vertex 1\nproperty long x\n") == "line 3: 'long' is not a type");
-    CHECK(error_of("m.ply", "ply\nformat binary_middle_endian 1.0\nend_header\n").code == ErrorCode::unsupported);
-
-    CHECK(message_of("m.obj", "v 0 0 0\nv 0 0 0\nv 0 0 inf\n") == "line 3: vertex 3 is not finite");
-    CHECK(message_of("m.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 4\n\n") ==
-          "line 4: vertex 4 does not exist (there are 3)");
-    CHECK(message_of("m.obj", "v 0 0 0\nf 1//1 1//1 1//2\nvn 0 0 1\n") ==
-          "line 2: normal 2 does not exist (there are 1)");
-    // the first reference that does not exist, not the highest
-    CHECK(message_of("m.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 4\nf 1 2 9\nf 1 2 5\n") ==
-          "line 4: vertex 4 does not exist (there are 3)");
-    CHECK(message_of("m.obj", "v 0 0 0\nf 1//1 1//3 1//2\nf 1//9 1 1\nvn 0 0 1\n") ==
-          "line 2: normal 3 does not exist (there are 1)");
-    CHECK(message_of("m.obj", "v 0 0 0\nf 1/2/1 1/1/7 1\nvn 0 0 1\nvt 0 0\n") ==
-          "line 2: texture coordinate 2 does not exist (there are 1)");
-    CHECK(message_of("m.obj", "v 0 0 0\nf 1 1 1\nf 1//-1 1//-1 1//-1\nvn 0 0 1\n") ==
-          "line 3: normal -1 does not exist (there are 0 before it)");
-    CHECK(message_of("m.obj", "v 0 0 0\nvn 0 0 1\nf 1//-1 1//-1 1//-2\n") ==
-          "line 3: '1//-2' is not a corner of a face");
-    CHECK(message_of("m.obj", "f 1 2 3\n") == "line 1: vertex 1 does not exist (there are 0)");
-    for (const char* face : {"f 1 1 \\ 1\n", "f 1 1 1 \\", "f 1 1 1 \\ #\n1\n", "f 1 1 1 \\ \\ \n1\n"}) {
-        CHECK(message_of("m.obj", std::string("v 0 0 0\n") + face) == "line 2: '\\' is not a corner of a face");
+    SUBCASE("an index out of range") {
+        CHECK(message_of("m.ply", ply + "0 0 0\n1 0 0\n0 0 0\n3 0 1 3\n") ==
+              "line 13: face 0: index 3 is out of range (3 vertices)");
+        CHECK(message_of("m.ply", ply + "0 0 0\n1 0 0\n0 0 0\n3 0 1 -1\n") ==
+              "line 13: face 0: index -1 is out of range (3 vertices)");
     }
-    CHECK(message_of("m.obj", "v 0 0 0\nf 1 1\\1 1\n") == "line 2: '1\\1' is not a corner of a face");
-    CHECK(message_of("m.obj", "v 0 0 0\nf 1 1 1\\ 1\n") == "line 2: '1\\' is not a corner of a face");
-    CHECK(message_of("m.obj", "v 0 0 \\ 0\n") == "line 1: '\\' is not a number");
-    CHECK(message_of("m.obj", "v 0 0 0\nf 1 1 -2\n") == "line 2: '-2' is not a corner of a face");
-    CHECK(message_of("m.obj", "v 0 0 0\nf 1 1 0\n") == "line 2: '0' is not a corner of a face");
-    CHECK(message_of("m.obj", "v 0 0 0\r\nv 0 0\r\n") == "line 2: 2 numbers where 3 are due");
-    CHECK(message_of("m.obj", "v 0 0 \x1B[2J\n") == "line 1: '?[2J' is not a number");
-    CHECK(message_of("m.obj", "v 0 0 0\n") == "has no triangles");
+    SUBCASE("a value that is not a finite number") {
+        CHECK(message_of("m.ply", ply + "0 0 0\n1 0 0\n0 nan 0\n3 0 1 2\n") == "line 12: vertex 2: 'y' is not finite");
+        CHECK(message_of("m.ply", ply + "0 0 0\n1 zero 0\n0 0 0\n3 0 1 2\n") ==
+              "line 11: vertex 1: 'zero' is not a number of its type");
+    }
+    SUBCASE("a line that ends early") {
+        CHECK(message_of("m.ply", ply + "0 0 0\n1 0\n0 0 0\n3 0 1 2\n") == "line 11: the line ends in vertex 1");
+        CHECK(message_of("m.ply", ply + "0 0 0\n1 0 0\n0 0 0\n3 0 1\n") == "line 13: the line ends in face 0");
+    }
+    SUBCASE("a first line that is not 'ply'") {
+        CHECK(message_of("m.ply", "hello\n") == "line 1: does not begin with 'ply'");
+        CHECK(message_of("m.ply", "plyx\nformat ascii 1.0\nend_header\n") == "line 1: does not begin with 'ply'");
+    }
+    SUBCASE("a bad header") {
+        CHECK(message_of("m.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nend_header\n1 2 3\n") ==
+              "line 3: the vertices have no x, y and z");
+        CHECK(message_of("m.ply",
+                         "ply\nformat ascii 1.0\nelement vertex 3\nelement face 1\nproperty list uchar int "
+                         "vertex_index\nend_header\n3 0 1 2\n") == "line 3: the vertices have no x, y and z");
+        CHECK(message_of("m.ply", "ply\nformat ascii 1.0\nelement vertex x\n") ==
+              "line 3: 'x' is not a number of elements");
+        CHECK(message_of("m.ply", "ply\nelement vertex 1\nproperty long x\n") == "line 3: 'long' is not a type");
+        CHECK(error_of("m.ply", "ply\nformat binary_middle_endian 1.0\nend_header\n").code == ErrorCode::unsupported);
+    }
+    SUBCASE("no triangles") {
+        CHECK(message_of("m.ply", ply + "0 0 0\n1 0 0\n0 0 0\n2 0 1\n") == "has no triangles");
+    }
+}
 
-    CHECK(message_of("m.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 nan\n3 0 1 2\n") == "line 5: vertex 2 is not finite");
-    CHECK(message_of("m.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n") ==
-          "line 6: face 0: index 3 is out of range (3 vertices)");
-    CHECK(message_of("m.off", "COFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n") ==
-          "line 3: 0 numbers where a color is due");
+TEST_CASE("OBJ errors name the line and the cause") {
+    SUBCASE("a vertex, normal or texture coordinate that does not exist") {
+        CHECK(message_of("m.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 4\n\n") ==
+              "line 4: vertex 4 does not exist (there are 3)");
+        CHECK(message_of("m.obj", "v 0 0 0\nf 1//1 1//1 1//2\nvn 0 0 1\n") ==
+              "line 2: normal 2 does not exist (there are 1)");
+        CHECK(message_of("m.obj", "v 0 0 0\nf 1/2/1 1/1/7 1\nvn 0 0 1\nvt 0 0\n") ==
+              "line 2: texture coordinate 2 does not exist (there are 1)");
+        CHECK(message_of("m.obj", "v 0 0 0\nf 1 1 1\nf 1//-1 1//-1 1//-1\nvn 0 0 1\n") ==
+              "line 3: normal -1 does not exist (there are 0 before it)");
+        CHECK(message_of("m.obj", "f 1 2 3\n") == "line 1: vertex 1 does not exist (there are 0)");
+    }
+    SUBCASE("the first reference that does not exist, not the highest") {
+        CHECK(message_of("m.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 4\nf 1 2 9\nf 1 2 5\n") ==
+              "line 4: vertex 4 does not exist (there are 3)");
+        CHECK(message_of("m.obj", "v 0 0 0\nf 1//1 1//3 1//2\nf 1//9 1 1\nvn 0 0 1\n") ==
+              "line 2: normal 3 does not exist (there are 1)");
+    }
+    SUBCASE("a corner that is not v, v/vt, v//vn or v/vt/vn") {
+        CHECK(message_of("m.obj", "v 0 0 0\nvn 0 0 1\nf 1//-1 1//-1 1//-2\n") ==
+              "line 3: '1//-2' is not a corner of a face");
+        CHECK(message_of("m.obj", "v 0 0 0\nf 1 1\\1 1\n") == "line 2: '1\\1' is not a corner of a face");
+        CHECK(message_of("m.obj", "v 0 0 0\nf 1 1 1\\ 1\n") == "line 2: '1\\' is not a corner of a face");
+        CHECK(message_of("m.obj", "v 0 0 0\nf 1 1 -2\n") == "line 2: '-2' is not a corner of a face");
+        CHECK(message_of("m.obj", "v 0 0 0\nf 1 1 0\n") == "line 2: '0' is not a corner of a face");
+        for (const char* face : {"f 1 1 \\ 1\n", "f 1 1 1 \\", "f 1 1 1 \\ #\n1\n", "f 1 1 1 \\ \\ \n1\n"}) {
+            CHECK(message_of("m.obj", std::string("v 0 0 0\n") + face) == "line 2: '\\' is not a corner of a face");
+        }
+    }
+    SUBCASE("a number that is missing, none or not finite") {
+        CHECK(message_of("m.obj", "v 0 0 0\nv 0 0 0\nv 0 0 inf\n") == "line 3: vertex 3 is not finite");
+        CHECK(message_of("m.obj", "v 0 0 \\ 0\n") == "line 1: '\\' is not a number");
+        CHECK(message_of("m.obj", "v 0 0 0\r\nv 0 0\r\n") == "line 2: 2 numbers where 3 are due");
+        CHECK(message_of("m.obj", "v 0 0 \x1B[2J\n") == "line 1: '?[2J' is not a number");
+    }
+    SUBCASE("no triangles") {
+        CHECK(message_of("m.obj", "v 0 0 0\n") == "has no triangles");
+    }
+}
 
-    CHECK(message_of("m.stl", "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 x\n") ==
-          "line 4: 'x' where a number is due");
-    CHECK(message_of("m.off", "OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n") == "line 4: ends before a number");
-    CHECK(message_of("m.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n4 0 1 2\n3 0 1 2\n") ==
-          "line 7: face 0: index 3 is out of range (3 vertices)");
-    CHECK(message_of("m.stl", "solid\nfacet normal\nouter loop\nvertex 0 0 0\n") ==
-          "line 3: 'outer' where a number is due");
-    CHECK(message_of("m.stl", "solid\nfacet normal 0 0\nouter loop\nvertex 0 0 0\n") ==
-          "line 3: 'outer' where a number is due");
-    CHECK(message_of("m.stl", "solid\nfacet\nouter loop\nvertex 0 0 0\n") == "line 3: 'outer' where 'normal' is due");
-    CHECK(message_of("m.stl", "solid\nendsolid\n") == "has no triangles");
-    CHECK(message_of("m.stl", binary_stl(Floats{0, 0, 0, 1, 0, std::nanf(""), 0, 1, 0})) ==
-          "triangle 0: vertex 1 is not finite");
+TEST_CASE("OFF errors name the line and the cause") {
+    SUBCASE("an index out of range") {
+        CHECK(message_of("m.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n") ==
+              "line 6: face 0: index 3 is out of range (3 vertices)");
+        CHECK(message_of("m.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n4 0 1 2\n3 0 1 2\n") ==
+              "line 7: face 0: index 3 is out of range (3 vertices)");
+    }
+    SUBCASE("a missing number or color, or a number that is not finite") {
+        CHECK(message_of("m.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 nan\n3 0 1 2\n") == "line 5: vertex 2 is not finite");
+        CHECK(message_of("m.off", "COFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n") ==
+              "line 3: 0 numbers where a color is due");
+        CHECK(message_of("m.off", "OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n") == "line 4: ends before a number");
+    }
+}
+
+TEST_CASE("STL errors name the line or triangle and the cause") {
+    SUBCASE("another word than is due") {
+        CHECK(message_of("m.stl", "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 x\n") ==
+              "line 4: 'x' where a number is due");
+        CHECK(message_of("m.stl", "solid\nfacet normal\nouter loop\nvertex 0 0 0\n") ==
+              "line 3: 'outer' where a number is due");
+        CHECK(message_of("m.stl", "solid\nfacet normal 0 0\nouter loop\nvertex 0 0 0\n") ==
+              "line 3: 'outer' where a number is due");
+        CHECK(message_of("m.stl", "solid\nfacet\nouter loop\nvertex 0 0 0\n") ==
+              "line 3: 'outer' where 'normal' is due");
+    }
+    SUBCASE("no triangles, or a vertex that is not finite") {
+        CHECK(message_of("m.stl", "solid\nendsolid\n") == "has no triangles");
+        CHECK(message_of("m.stl", binary_stl(Floats{0, 0, 0, 1, 0, std::nanf(""), 0, 1, 0})) ==
+              "triangle 0: vertex 1 is not finite");
+    }
 }

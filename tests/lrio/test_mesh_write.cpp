@@ -1,4 +1,4 @@
-// What write_mesh makes comes back the same; weld.
+// Tests write_mesh, whose files read_mesh reads as the same mesh, and weld.
 #include <doctest/doctest.h>
 
 #include <fstream>
@@ -80,7 +80,7 @@ TEST_CASE("PLY keeps every attribute bit for bit, with its name") {
     CHECK(same(round_trip(doubles, "d.ply"), doubles));
 }
 
-TEST_CASE("PLY: notes that do not fit the properties are not believed") {
+TEST_CASE("PLY: comments about attributes that do not match the properties are ignored") {
     const std::string body =
         "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty uchar q\n"
         "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
@@ -101,7 +101,7 @@ TEST_CASE("PLY: notes that do not fit the properties are not believed") {
                                       body)) == "POSITION:f32x3 Q%:u8x1n");
 }
 
-TEST_CASE("GLB: what glTF knows stays, the rest is renamed or converted") {
+TEST_CASE("GLB: attributes of glTF are kept, others are renamed, converted or left out") {
     Mesh mesh = square_mesh();
     mesh.attributes.push_back(
         attribute<std::uint8_t>("COLOR_0", ComponentType::u8, 3, std::vector<std::uint8_t>(12, 200), true));
@@ -123,14 +123,14 @@ TEST_CASE("GLB: what glTF knows stays, the rest is renamed or converted") {
     }
 
     mesh = square_mesh();
-    mesh.attributes.push_back(attribute<std::uint32_t>("big", ComponentType::u32, 1, {1, 2, 3, 16777217}));  // dropped
+    mesh.attributes.push_back(attribute<std::uint32_t>("big", ComponentType::u32, 1, {1, 2, 3, 16777217}));  // left out
     mesh.attributes.push_back(attribute<std::int32_t>("exact", ComponentType::i32, 1, {-1, 2, 3, 16777216}));
     mesh.attributes.push_back(attribute<double>("half", ComponentType::f64, 1, {.5, 0.1, 0, 0}));
     mesh.attributes.push_back(
         attribute<std::int8_t>("NORMAL", ComponentType::i8, 3, {0, 0, 127, 127, 0, 0, 0, -128, 0, 0, 127, 0}, true));
     mesh.attributes.push_back(attribute<float>("TEXCOORD_0", ComponentType::f32, 3, Floats(12, .5F)));
     mesh.attributes.push_back(attribute<float>("\xFF", ComponentType::f32, 1, Floats(4, .5F)));
-    mesh.attributes.push_back(attribute<float>("six", ComponentType::f32, 6, Floats(24, .5F)));  // dropped
+    mesh.attributes.push_back(attribute<float>("six", ComponentType::f32, 6, Floats(24, .5F)));  // left out
     const Mesh back = round_trip(mesh, "x.glb");
     CHECK(attributes_of(back) ==
           "POSITION:f32x3 NORMAL:i8x3n _TEXCOORD_0:f32x3 _exact:f32x1 _half:f32x1 _\xEF\xBF\xBD:f32x1");
@@ -144,7 +144,7 @@ TEST_CASE("GLB: what glTF knows stays, the rest is renamed or converted") {
     CHECK(write_mesh(doubles, folder() / "d.glb").error().code == ErrorCode::invalid_argument);
 }
 
-TEST_CASE("GLB: values that glTF forbids are mended, and it is said") {
+TEST_CASE("GLB: values that glTF forbids are replaced, and the notes say so") {
     const auto notes_of = [](const Mesh& mesh) {
         WriteNotes notes;
         REQUIRE(write_mesh(mesh, folder() / "m.glb", &notes));
@@ -168,7 +168,8 @@ TEST_CASE("GLB: values that glTF forbids are mended, and it is said") {
     const WriteNotes notes = notes_of(mesh);
     const auto back = read_mesh(folder() / "m.glb");
     REQUIRE(back);
-    CHECK(values_of<float>(*back, "NORMAL") == Floats{0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1});  // as the triangles have it
+    // Normals without a direction are computed from the triangles.
+    CHECK(values_of<float>(*back, "NORMAL") == Floats{0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1});
     CHECK(values_of<float>(*back, "TANGENT") == Floats{1, 0, 0, 1, 0, 1, 0, -1, 1, 0, 0, 1, 1, 0, 0, -1});
     CHECK(values_of<float>(*back, "TEXCOORD_0") == Floats{0, 0, .25F, .25F, 0, 1, 2, -1});
     CHECK(attributes_of(*back) ==
@@ -182,7 +183,7 @@ TEST_CASE("GLB: values that glTF forbids are mended, and it is said") {
     CHECK(notes[5] == "not as glTF defines it, so named _NAME: 'COLOR_0', 'TEXCOORD_2', 'JOINTS_0'");
 }
 
-TEST_CASE("texture coordinates keep their origin, and change it for formats that have the other one") {
+TEST_CASE("texture coordinates keep their origin, or are flipped to the format's origin") {
     Mesh mesh = square_mesh();
     const Floats down{0, 0, .1F, .25F, .3F, 1, 1, -3}, up{0, 1, .1F, .75F, .3F, 0, 1, 4};
     mesh.attributes.push_back(attribute<float>("TEXCOORD_0", ComponentType::f32, 2, down));
@@ -208,7 +209,7 @@ TEST_CASE("texture coordinates keep their origin, and change it for formats that
               ->v_up);
 }
 
-TEST_CASE("attributes of one name get numbers, in linear time") {
+TEST_CASE("attributes of the same name are numbered, in linear time") {
     Mesh mesh = square_mesh();
     constexpr int kMany = 20000;
     for (int i = 0; i < kMany; ++i) {
@@ -220,7 +221,7 @@ TEST_CASE("attributes of one name get numbers, in linear time") {
     CHECK(same(round_trip(mesh, "u.ply"), mesh));
 }
 
-TEST_CASE("OBJ: colors are kept, and what has no place is said") {
+TEST_CASE("OBJ: colors are kept, and the notes name what is left out") {
     Mesh mesh = square_mesh();
     mesh.attributes.push_back(
         attribute<float>("COLOR_0", ComponentType::f32, 3, {0, .1F, 1, 0, 0, 0, .5F, 0, 0, 0, 0, 7}));
@@ -244,7 +245,7 @@ TEST_CASE("GLB: indices are 16 bits wide up to 65,535 vertices") {
     }
 }
 
-TEST_CASE("OBJ: shortest decimals that read back the same") {
+TEST_CASE("OBJ: decimals are read back bit for bit") {
     CHECK(same(round_trip(square_mesh(), "w.obj"), square_mesh()));
     Mesh mesh = square_mesh();
     mesh.attributes.push_back(
@@ -273,7 +274,7 @@ TEST_CASE("OBJ: shortest decimals that read back the same") {
     CHECK(same(round_trip(noise, "r.glb"), noise));
 }
 
-TEST_CASE("write_mesh refuses") {
+TEST_CASE("write_mesh refuses malformed meshes, bad paths and meshes without triangles") {
     CHECK(write_mesh(square_mesh(), folder() / "a.xyz").error().code == ErrorCode::invalid_argument);
     CHECK(write_mesh(square_mesh(), folder() / "no" / "folder.ply").error().code == ErrorCode::cannot_write);
     CHECK(write_mesh(Mesh{}, folder() / "a.ply").error().code == ErrorCode::invalid_argument);
@@ -284,51 +285,59 @@ TEST_CASE("write_mesh refuses") {
     mesh.attributes.front().data.pop_back();
     CHECK(write_mesh(mesh, folder() / "a.glb").error().code == ErrorCode::invalid_argument);
     mesh = square_mesh();
-    mesh.indices.clear();  // no reader takes it, and so no writer
+    // A mesh without triangles is refused because readers refuse it.
+    mesh.indices.clear();
     for (const char* name : {"none.glb", "none.ply", "none.obj"}) {
         CHECK(write_mesh(mesh, folder() / name).error().code == ErrorCode::unsupported);
         CHECK(!std::filesystem::exists(folder() / name));
     }
 }
 
-TEST_CASE("weld") {
+TEST_CASE("weld joins vertices of equal attributes or positions") {
     Mesh mesh;
     mesh.vertex_count = 6;
     mesh.indices = {0, 1, 2, 3, 4, 5, 0, 3, 1};
     mesh.attributes.push_back(attribute<float>("POSITION", ComponentType::f32, 3,
                                                {0, 0, 0, 1, 0, 0, 0, 1, 0, -0.0F, 0, 0, 1, 0, 0, 0, 1, 0}));
     mesh.attributes.push_back(attribute<std::uint8_t>("q", ComponentType::u8, 1, {1, 2, 3, 4, 2, 6}));
-    CHECK(same(weld(mesh, Weld::none), mesh));
-
-    const Mesh all = weld(mesh, Weld::attributes);
-    CHECK(all.indices == Indices{0, 1, 2, 3, 1, 4, 0, 3, 1});
-    CHECK(values_of<std::uint8_t>(all, "q") == std::vector<std::uint8_t>{1, 2, 3, 4, 6});
-
-    WeldReport report;
-    const Mesh position = weld(mesh, Weld::position, &report);
-    CHECK(position.indices == Indices{0, 1, 2, 0, 1, 2, 0, 0, 1});  // -0 is where 0 is
-    CHECK(values_of<std::uint8_t>(position, "q") == std::vector<std::uint8_t>{1, 2, 3});
-    CHECK(values_of<float>(position, "POSITION").size() == 9);
-    CHECK(report.vertices == 2);  // the q of 4 and 6; another one had 2 as well
-    CHECK(report.attributes == std::vector<std::string>{"q"});
-
-    // The kept vertex keeps its values.
-    mesh.indices = {3, 4, 5};
-    std::swap(mesh.attributes[0].data[3], mesh.attributes[0].data[39]);  // the sign of vertex 0's x, and of 3's
-    const Mesh negative = weld(mesh, Weld::position);
-    CHECK(std::signbit(values_of<float>(negative, "POSITION")[0]));
-    CHECK(negative.indices == Indices{0, 1, 2});
-    CHECK(weld(mesh, Weld::attributes).vertex_count == 5);
-    mesh.attributes[0] = attribute<double>("POSITION", ComponentType::f64, 3,
-                                           {0, -0.0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -0.0, 0, 1, 0});
-    CHECK(weld(mesh, Weld::position).vertex_count == 3);
+    SUBCASE("none keeps all vertices") {
+        CHECK(same(weld(mesh, Weld::none), mesh));
+    }
+    SUBCASE("attributes joins vertices that are equal in all attributes") {
+        const Mesh all = weld(mesh, Weld::attributes);
+        CHECK(all.indices == Indices{0, 1, 2, 3, 1, 4, 0, 3, 1});
+        CHECK(values_of<std::uint8_t>(all, "q") == std::vector<std::uint8_t>{1, 2, 3, 4, 6});
+    }
+    SUBCASE("position joins -0 and 0; the report counts vertices whose other attributes are lost") {
+        WeldReport report;
+        const Mesh position = weld(mesh, Weld::position, &report);
+        CHECK(position.indices == Indices{0, 1, 2, 0, 1, 2, 0, 0, 1});
+        CHECK(values_of<std::uint8_t>(position, "q") == std::vector<std::uint8_t>{1, 2, 3});
+        CHECK(values_of<float>(position, "POSITION").size() == 9);
+        CHECK(report.vertices == 2);  // with q = 4 and q = 6
+        CHECK(report.attributes == std::vector<std::string>{"q"});
+    }
+    SUBCASE("a joined vertex has the values of its first") {
+        mesh.indices = {3, 4, 5};
+        std::swap(mesh.attributes[0].data[3], mesh.attributes[0].data[39]);  // the signs of the x of vertices 0 and 3
+        const Mesh negative = weld(mesh, Weld::position);
+        CHECK(std::signbit(values_of<float>(negative, "POSITION")[0]));
+        CHECK(negative.indices == Indices{0, 1, 2});
+        CHECK(weld(mesh, Weld::attributes).vertex_count == 5);
+    }
+    SUBCASE("positions may be doubles") {
+        mesh.indices = {3, 4, 5};
+        mesh.attributes[0] = attribute<double>("POSITION", ComponentType::f64, 3,
+                                               {0, -0.0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -0.0, 0, 1, 0});
+        CHECK(weld(mesh, Weld::position).vertex_count == 3);
+    }
 }
 
 namespace {
 std::size_t comparisons = 0;
 }
 
-TEST_CASE("items whose hashes collide are grouped as others are") {
+TEST_CASE("items whose hashes collide are grouped by their values") {
     const std::uint32_t seed = 5;
     CAPTURE(seed);
     std::mt19937 random(seed);
@@ -354,7 +363,7 @@ TEST_CASE("items whose hashes collide are grouped as others are") {
     CHECK(detail::group_sorted(0, compare).count == 0);
 }
 
-TEST_CASE("weld against a slow one, with many vertices and few places") {
+TEST_CASE("weld equals a quadratic weld on many vertices at few positions") {
     const std::uint32_t seed = 99;
     CAPTURE(seed);
     std::mt19937 random(seed);

@@ -1,4 +1,4 @@
-// Part codes, against a reader that does what their document says and no more.
+// Compares the library's part codes with a reader written from docs/gltf/LACEDRING_mesh_compression.
 
 #include <doctest/doctest.h>
 
@@ -19,7 +19,7 @@ namespace {
 
 using PartList = std::vector<std::uint32_t>;
 
-/// docs/gltf/LACEDRING_mesh_compression, "Part codes": the part of each triangle, or nothing where they are not valid.
+/// The part of each triangle as the document's section "Part codes" defines it; nothing if the runs are not valid.
 std::optional<PartList> parts_by_document(std::span<const std::byte> runs, std::size_t triangles, std::size_t parts) {
     std::vector<std::uint64_t> numbers;
     std::uint64_t value = 0;
@@ -71,7 +71,7 @@ std::vector<std::byte> encoded_parts(const PartList& parts) {
     return *codes;
 }
 
-/// Both readers, of the runs: the library's reads what the document says.
+/// Checks that the library reads the same parts of the runs as parts_by_document, or refuses them as well.
 void check_runs(std::span<const std::byte> runs, std::size_t triangles, std::size_t parts) {
     const auto expected = parts_by_document(runs, triangles, parts);
     const auto codes = detail::deflate_bytes(runs);
@@ -96,7 +96,7 @@ void check_round_trip(const PartList& parts) {
     if (count > 0) CHECK_FALSE(detail::decode_part_codes(codes, parts.size(), count - 1));
 }
 
-/// Runs of parts, all below `count`, mostly of those used lately; the order in which they come first is random.
+/// Random runs that use every part below `count`, mostly one of the recent parts.
 PartList random_runs(std::uint32_t count, std::size_t runs, std::uint32_t seed) {
     std::mt19937 random(seed);
     const auto below = [&](std::size_t n) { return static_cast<std::uint32_t>(random() % n); };
@@ -119,7 +119,7 @@ PartList random_runs(std::uint32_t count, std::size_t runs, std::uint32_t seed) 
     return out;
 }
 
-/// Parts 0 to count - 1, over and over.
+/// The parts 0 to count - 1, `rounds` times.
 PartList cycled(std::uint32_t count, std::uint32_t rounds) {
     PartList out;
     for (std::uint32_t i = 0; i < count * rounds; ++i) out.push_back(i % count);
@@ -128,7 +128,7 @@ PartList cycled(std::uint32_t count, std::uint32_t rounds) {
 
 }  // namespace
 
-TEST_CASE("part codes give back the part of each triangle") {
+TEST_CASE("part codes decode to the part of each triangle") {
     for (std::uint32_t seed = 0; seed < 60; ++seed) {
         CAPTURE(seed);
         check_round_trip(random_runs(1 + seed * seed % 300, 10 + 10 * std::size_t{seed}, seed));
@@ -140,13 +140,13 @@ TEST_CASE("part codes give back the part of each triangle") {
         CAPTURE(count);
         check_round_trip(cycled(count, 4));
     }
-    check_round_trip(cycled(40000, 2));  // each triangle another part: 15 bytes at most for each
+    check_round_trip(cycled(40000, 2));  // the most bytes: each triangle has another part than the one before
     PartList backwards = cycled(20000, 1);
     std::ranges::reverse(backwards);
     check_round_trip(backwards);
 }
 
-TEST_CASE("every truncation and every flipped bit of runs of parts is refused, or is what the document says") {
+TEST_CASE("cut and damaged runs of parts are refused or read as the document says") {
     std::size_t accepted = 0;
     for (std::uint32_t seed = 0; seed < 6; ++seed) {
         CAPTURE(seed);
@@ -160,7 +160,7 @@ TEST_CASE("every truncation and every flipped bit of runs of parts is refused, o
             check_runs(bad, parts.size(), count);
         });
     }
-    CHECK(accepted > 0);  // or nothing but refusals is tested
+    CHECK_MESSAGE(accepted > 0, "some damaged runs are valid");
 }
 
 TEST_CASE("random runs of parts are read as the document says") {
@@ -176,7 +176,8 @@ TEST_CASE("random runs of parts are read as the document says") {
                                more = static_cast<std::uint8_t>(random() % 3);
             runs.push_back(static_cast<std::byte>(code));
             if (code == 0) runs.push_back(static_cast<std::byte>(kDistances[random() % std::size(kDistances)]));
-            if (random() % 8 == 0) runs.push_back(std::byte{0x80});  // a number in more bytes than it needs
+            // 0x80 makes the number one byte longer than needed.
+            if (random() % 8 == 0) runs.push_back(std::byte{0x80});
             runs.push_back(static_cast<std::byte>(more));
             triangles += more + std::size_t{1};
             parts += code == 0 ? 1 : 0;
@@ -193,7 +194,8 @@ TEST_CASE("a damaged zlib stream of part codes is refused") {
     test::for_each_cut(good, [&](auto cut) { CHECK_FALSE(detail::decode_part_codes(cut, parts.size(), 9)); });
     test::for_each_flip(good, [&](const std::vector<std::byte>& bad, std::size_t) {
         const auto read = detail::decode_part_codes(bad, parts.size(), 9);
-        CHECK((!read || *read == parts));  // bits behind the last code of deflate say nothing
+        // Bits behind the last code of deflate have no effect.
+        CHECK((!read || *read == parts));
     });
     std::vector<std::byte> longer = good;
     longer.push_back(std::byte{0});

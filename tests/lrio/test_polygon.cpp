@@ -1,4 +1,5 @@
-// Polygons cut into triangles: convex ones stay fans, simple ones are covered exactly, all others keep every corner.
+// Cutting polygons into triangles: convex polygons become fans, simple ones are covered exactly, others keep every
+// corner.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -19,7 +20,7 @@ using namespace lacedring::detail;
 
 namespace {
 
-/// Whole numbers, so that areas are exact.
+/// Coordinates are integers, so that areas are exact.
 struct GridPoint {
     std::int64_t x = 0, y = 0;
     bool operator==(const GridPoint&) const = default;
@@ -56,7 +57,7 @@ bool segments_meet(const GridPoint& a, const GridPoint& b, const GridPoint& c, c
     return turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0;
 }
 
-/// By trying all pairs of edges.
+/// Whether no two edges meet except at their shared corner. Tries all pairs.
 bool is_simple(const Polygon& p) {
     const std::size_t n = p.size();
     for (std::size_t i = 0; i < n; ++i) {
@@ -96,7 +97,7 @@ Triangles cut(const Polygon& polygon, Real scale = 1) {
     return cut_space(xyz);
 }
 
-/// A disc of n - 2 triangles that has the polygon's edges: no corner is lost, whatever its shape.
+/// Whether the n - 2 triangles are a disc whose border is the polygon's edges.
 bool is_disc(const Triangles& triangles, std::size_t n) {
     if (triangles.size() != 3 * (n - 2)) return false;
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
@@ -113,7 +114,8 @@ bool is_disc(const Triangles& triangles, std::size_t n) {
     });
 }
 
-/// All triangles as the polygon is turned, and their areas together its area: so they cover it once, and nothing else.
+/// Whether all triangles have the polygon's orientation and their areas sum up to its area, so that they cover it
+/// exactly. Counts triangles without area in `flat`.
 bool covers(const Triangles& triangles, const Polygon& polygon, std::size_t& flat) {
     std::int64_t area = 0;
     const std::int64_t whole = twice_area(polygon);
@@ -141,7 +143,7 @@ bool is_fan(const Triangles& triangles) {
     return true;
 }
 
-/// Random corners, and edges that cross are untangled.
+/// A simple polygon of random corners, made by untangling edges that cross.
 Polygon random_simple(std::mt19937& random, std::size_t n, std::int64_t size) {
     while (true) {
         Polygon p;
@@ -167,7 +169,7 @@ Polygon random_simple(std::mt19937& random, std::size_t n, std::int64_t size) {
     }
 }
 
-/// Rows of unit squares of random lengths on both sides of a line: right angles, and flat corners in between.
+/// Rows of unit squares, of random lengths on both sides of a line, which have right angles and flat corners.
 Polygon random_steps(std::mt19937& random, std::size_t rows) {
     Polygon right, left;
     for (std::size_t row = 0; row < rows; ++row) {
@@ -184,14 +186,15 @@ Polygon random_steps(std::mt19937& random, std::size_t rows) {
     return out;
 }
 
-/// A polygon with holes, each in a triangle of it and joined by an edge there and back to one of its corners.
+/// Adds holes to a polygon, each in one of its triangles and joined to a corner by a bridge, an edge that is walked in
+/// both directions.
 Polygon with_holes(std::mt19937& random, Polygon p, std::int64_t& hole_area) {
     for (GridPoint& q : p) q = {q.x * 64, q.y * 64};
     if (twice_area(p) < 0) std::reverse(p.begin(), p.end());
     const Triangles triangles = cut(p);
     hole_area = 0;
     struct Hole {
-        double angle;  // of its bridge, clockwise from the edge before
+        double angle;  // of the bridge, clockwise from the corner's preceding edge
         Polygon corners;
     };
     std::vector<std::vector<Hole>> at(p.size());
@@ -200,7 +203,8 @@ Polygon with_holes(std::mt19937& random, Polygon p, std::int64_t& hole_area) {
         const std::size_t first = random() % 3;
         const std::uint32_t corner = triangles[t + first];
         const GridPoint a = p[corner], b = p[triangles[t + (first + 1) % 3]], c = p[triangles[t + (first + 2) % 3]];
-        const auto inner = [&](std::int64_t u, std::int64_t v, std::int64_t w) {  // u + v + w = 64
+        // u + v + w is 64.
+        const auto inner = [&](std::int64_t u, std::int64_t v, std::int64_t w) {
             return GridPoint{(u * a.x + v * b.x + w * c.x) / 64, (u * a.y + v * b.y + w * c.y) / 64};
         };
         const GridPoint h[3] = {inner(44, 10, 10), inner(10, 10, 44), inner(10, 44, 10)};
@@ -233,7 +237,7 @@ Polygon comb(std::int64_t teeth) {
     return out;
 }
 
-/// A corridor that winds inwards.
+/// A corridor that spirals inwards.
 Polygon spiral(std::size_t turns, std::size_t corners_a_turn) {
     Polygon outer, inner;
     for (std::size_t i = 0; i <= turns * corners_a_turn; ++i) {
@@ -247,7 +251,7 @@ Polygon spiral(std::size_t turns, std::size_t corners_a_turn) {
     return outer;
 }
 
-/// Needles of random lengths around a point.
+/// Spikes of random lengths around a point.
 Polygon star(std::mt19937& random, std::size_t needles) {
     Polygon out;
     for (std::size_t i = 0; i < 2 * needles; ++i) {
@@ -258,7 +262,8 @@ Polygon star(std::mt19937& random, std::size_t needles) {
     return out;
 }
 
-/// The polygon and its mirror image, from every corner on: covered exactly, without flat triangles but for the fans.
+/// Checks that a simple polygon and its mirror image, started at every corner, are covered exactly, and that triangles
+/// without area occur in fans only.
 void check_simple(const Polygon& polygon) {
     for (std::size_t by = 0; by < polygon.size(); ++by) {
         Polygon p = rotated(polygon, by);
@@ -266,10 +271,10 @@ void check_simple(const Polygon& polygon) {
             CAPTURE(by);
             CAPTURE(mirrored);
             const Triangles triangles = cut(p);
-            REQUIRE(is_disc(triangles, p.size()));
+            REQUIRE_MESSAGE(is_disc(triangles, p.size()), "the triangles are a disc with the polygon's edges");
             std::size_t flat = 0;
-            REQUIRE(covers(triangles, p, flat));
-            REQUIRE((flat == 0 || is_fan(triangles)));
+            REQUIRE_MESSAGE(covers(triangles, p, flat), "the triangles cover the polygon exactly");
+            REQUIRE_MESSAGE((flat == 0 || is_fan(triangles)), "triangles without area occur in fans only");
         }
     }
 }
@@ -293,7 +298,7 @@ TEST_CASE("orientations are exact") {
     CAPTURE(seed);
     std::mt19937 random(seed);
     for (int round = 0; round < 200000; ++round) {
-        // b and c on a line through a, and b moved off it by at most one unit
+        // b and c are on a line through a, except that b is moved by at most one unit.
         const std::int64_t au = pick(random, 1U << 31U), av = pick(random, 1U << 31U);
         const std::int64_t du = pick(random, 1 << 20) - (1 << 19), dv = pick(random, 1 << 20) - (1 << 19);
         const std::int64_t i = pick(random, 64), j = pick(random, 64) << pick(random, 20), moved = pick(random, 3) - 1;
@@ -306,27 +311,31 @@ TEST_CASE("orientations are exact") {
         };
         REQUIRE(orientation(point(au, av), point(bu, bv), point(cu, cv)) == expected);
     }
-    // Coordinates so different that even their differences are rounded
+    // Even the differences of these coordinates are rounded.
     CHECK(orientation({1e30, 1e30}, {0, 0}, {1e-30, 1e-30}) == 0);
     CHECK(orientation({1e30, 1e30}, {0, 0}, {1e-30, 2e-30}) < 0);
     CHECK(orientation({1e30, 1e30}, {0, 0}, {2e-30, 1e-30}) > 0);
 }
 
-TEST_CASE("quads: the diagonal is inside") {
-    // Each corner in turn is the reflex one.
+TEST_CASE("a quad that is not convex is cut at its reflex corner") {
     const Polygon dart{{0, 0}, {4, 4}, {0, 8}, {1, 4}};
     CHECK(cut(dart) == Triangles{0, 1, 3, 1, 2, 3});
     CHECK(cut(rotated(dart, 1)) == Triangles{0, 1, 2, 0, 2, 3});
     CHECK(cut(rotated(dart, 2)) == Triangles{0, 1, 3, 1, 2, 3});
     CHECK(cut(rotated(dart, 3)) == Triangles{0, 1, 2, 0, 2, 3});
+    for (std::size_t by = 0; by < 4; ++by) check_simple(rotated(dart, by));
+}
+
+TEST_CASE("a convex quad is a fan, and one that crosses itself keeps its corners") {
     const Polygon square{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     const Polygon bow{{0, 0}, {2, 2}, {2, 0}, {0, 1}};
     for (std::size_t by = 0; by < 4; ++by) {
         CHECK(is_fan(cut(rotated(square, by))));
-        check_simple(rotated(dart, by));
         CHECK(is_disc(cut(rotated(bow, by)), 4));
     }
-    // Flat and repeated corners do not make a fan wrong; spikes and points are kept.
+}
+
+TEST_CASE("a quad with flat or repeated corners, or without area, is a fan") {
     CHECK(is_fan(cut({{0, 0}, {1, 0}, {2, 0}, {1, 1}})));
     CHECK(is_fan(cut({{0, 0}, {1, 0}, {1, 0}, {1, 1}})));
     CHECK(is_fan(cut({{0, 0}, {1, 0}, {2, 0}, {3, 0}})));
@@ -334,22 +343,22 @@ TEST_CASE("quads: the diagonal is inside") {
     CHECK(cut({{0, 0}, {1, 0}, {0, 1}}) == Triangles{0, 1, 2});
 }
 
-TEST_CASE("the report's pentagon") {
+TEST_CASE("a pentagon with one reflex corner is covered exactly") {
     const Polygon polygon{{0, 0}, {4, 0}, {4, 4}, {2, 1}, {0, 4}};
     check_simple(polygon);
     CHECK(twice_area(polygon) == 20);
 }
 
-TEST_CASE("random simple polygons are covered once and exactly, from every corner on") {
+TEST_CASE("random simple polygons are covered exactly, from every starting corner") {
     for (std::uint32_t seed = 1; seed <= 300; ++seed) {
         CAPTURE(seed);
         std::mt19937 random(seed);
-        // Few places make many corners flat.
+        // On a small grid many corners are flat.
         check_simple(random_simple(random, 4 + random() % 30, std::int64_t{1} << (4 + random() % 16)));
     }
 }
 
-TEST_CASE("combs, spirals, stars and steps") {
+TEST_CASE("combs, spirals, stars and steps are covered exactly, from every starting corner") {
     for (std::uint32_t seed = 1; seed <= 30; ++seed) {
         CAPTURE(seed);
         std::mt19937 random(seed);
@@ -360,7 +369,7 @@ TEST_CASE("combs, spirals, stars and steps") {
     }
 }
 
-TEST_CASE("holes that are joined to the outline by an edge there and back") {
+TEST_CASE("polygons with holes, joined to the outline by bridges, are covered exactly") {
     for (std::uint32_t seed = 1; seed <= 300; ++seed) {
         CAPTURE(seed);
         std::mt19937 random(seed);
@@ -378,7 +387,7 @@ TEST_CASE("holes that are joined to the outline by an edge there and back") {
     }
 }
 
-TEST_CASE("corners and edges that are there twice, and needles without width") {
+TEST_CASE("polygons with repeated corners and needles of no width are covered exactly") {
     for (std::uint32_t seed = 1; seed <= 200; ++seed) {
         CAPTURE(seed);
         std::mt19937 random(seed);
@@ -388,7 +397,7 @@ TEST_CASE("corners and edges that are there twice, and needles without width") {
             const std::size_t kind = random() % 6;
             for (std::size_t i = 0; i < (kind == 0 ? 3 : kind == 1 ? 2 : 1); ++i) polygon.push_back(q);
         }
-        // A needle outwards or inwards on some edge: the way there and back along that edge
+        // A needle is walked to and back along an edge.
         const std::size_t at = random() % (polygon.size() - 1);
         const GridPoint a = polygon[at], b = polygon[at + 1];
         const auto between = [&](std::int64_t i) {
@@ -406,7 +415,7 @@ TEST_CASE("corners and edges that are there twice, and needles without width") {
     }
 }
 
-TEST_CASE("any corners at all: a disc with the polygon's edges") {
+TEST_CASE("polygons of random corners become a disc with the polygon's edges") {
     for (std::uint32_t seed = 1; seed <= 2000; ++seed) {
         CAPTURE(seed);
         std::mt19937 random(seed);
@@ -417,7 +426,7 @@ TEST_CASE("any corners at all: a disc with the polygon's edges") {
     }
 }
 
-TEST_CASE("every scale gives the same triangles, in floats and in doubles") {
+TEST_CASE("polygons of every scale have the same triangles, in floats and doubles") {
     for (std::uint32_t seed = 1; seed <= 30; ++seed) {
         CAPTURE(seed);
         std::mt19937 random(seed);
@@ -431,14 +440,14 @@ TEST_CASE("every scale gives the same triangles, in floats and in doubles") {
             CAPTURE(scale);
             CHECK(cut(polygon, scale) == triangles);
         }
-        // far from the origin, where products of coordinates are rounded
+        // Far from the origin, products of coordinates are rounded.
         Polygon far = polygon;
         for (GridPoint& p : far) p = {p.x + (std::int64_t{1} << 50U), p.y - (std::int64_t{1} << 51U)};
         CHECK(cut<double>(far) == triangles);
     }
 }
 
-TEST_CASE("the plane is that of the largest component of the normal; heights do not matter") {
+TEST_CASE("the polygon is projected along the largest component of its normal; heights do not matter") {
     for (std::uint32_t seed = 1; seed <= 60; ++seed) {
         CAPTURE(seed);
         std::mt19937 random(seed);
@@ -449,7 +458,7 @@ TEST_CASE("the plane is that of the largest component of the normal; heights do 
             for (std::size_t i = 0; i < polygon.size(); ++i) {
                 xyz[3 * i + (axis + 1) % 3] = static_cast<float>(polygon[i].x);
                 xyz[3 * i + (axis + 2) % 3] = static_cast<float>(polygon[i].y);
-                // rough, but not so that the polygon faces another way
+                // The heights are random, but too small to change the largest component of the normal.
                 xyz[3 * i + axis] = static_cast<float>(random() % 100) / 100.0F;
             }
             CHECK(cut_space(xyz) == triangles);
@@ -457,7 +466,7 @@ TEST_CASE("the plane is that of the largest component of the normal; heights do 
     }
 }
 
-TEST_CASE("a polygon of hundreds of thousands of corners takes no longer for each than a small one") {
+TEST_CASE("polygons of 160,000 corners are cut within a minute") {
     std::mt19937 random(3);
     for (const std::size_t n : {10'000U, 160'000U}) {
         Polygon tangle(n), zigzag;

@@ -1,4 +1,4 @@
-// The primitives of scenes one by one, and the joined mesh beside them.
+// Compares the list of a scene's primitives with the joined mesh.
 #include <doctest/doctest.h>
 
 #include "lacedring/primitives.hpp"
@@ -17,7 +17,7 @@ PrimitiveList must_list(const std::string& file, ReadReport* report = nullptr) {
     return *list;
 }
 
-/// Two meshes with different attributes, one of them under a mirrored node, in an instanced node and at the root.
+/// Two meshes with different attributes, placed by a mirrored node, an instanced node and a root node.
 std::string scene() {
     GltfMaker maker;
     maker.floats("VEC3", square, 3);                                 // 0
@@ -57,48 +57,57 @@ std::vector<T> at_corners(const Mesh& mesh, std::string_view name) {
 
 }  // namespace
 
-TEST_CASE("primitives: modes, shared vertices, all attributes, places") {
+TEST_CASE("primitives: the list of primitives and placed meshes") {
     ReadReport report;
     const PrimitiveList list = must_list(scene(), &report);
     REQUIRE(list.primitives.size() == 4);
-    CHECK(report.primitives == 4);
-    CHECK(report.left_out == std::vector<std::string>{"1 primitive of points"});
-    CHECK(list.mesh_names == std::vector<std::string>{"panel", "", "not placed"});
-
-    const Primitive& strip = list.primitives[0];
-    CHECK(strip.mode == PrimitiveMode::strip);
-    CHECK(strip.geometry.indices == Indices{0, 1, 3, 1, 2, 3});
-    CHECK(attributes_of(strip.geometry) == "POSITION:f32x3 NORMAL:f32x3 TANGENT:i8x4n");
-
-    const Primitive& shared = list.primitives[1];  // vertex 2 is not its own
-    CHECK(shared.geometry.vertex_count == 3);
-    CHECK(shared.geometry.indices == Indices{2, 0, 1});
-    CHECK(values_of<float>(shared.geometry, "POSITION") == Floats{0, 0, 0, 1, 0, 0, 0, 1, 0});
-    CHECK(values_of<float>(shared.geometry, "NORMAL") == Floats{0, 0, 1, 0, 1, 0, 0, 0, -1});
-
-    const Primitive& fan = list.primitives[2];
-    CHECK(fan.mesh == 0);
-    CHECK(fan.number == 3);
-    CHECK(fan.mode == PrimitiveMode::fan);
-    CHECK(fan.geometry.indices == Indices{1, 2, 0, 2, 3, 0});
-    CHECK(attributes_of(fan.geometry) == "POSITION:f32x3");
-
-    CHECK(list.primitives[3].mesh == 1);
-    CHECK(list.primitives[3].geometry.indices == Indices{0, 1, 2, 3, 4, 5});
-    CHECK(attributes_of(list.primitives[3].geometry) == "POSITION:f32x3 TEXCOORD_0:f32x2");
-    for (const Primitive& primitive : list.primitives) CHECK(is_sound(primitive.geometry));
-
-    REQUIRE(list.placed.size() == 4);
-    CHECK(list.placed[0].mesh == 0);
-    CHECK(mirrors(list.placed[0].placement));
-    CHECK(list.placed[1].mesh == 1);
-    CHECK(list.placed[1].placement[12] == 3.0);
-    CHECK(list.placed[2].placement[13] == 5.0);
-    CHECK(list.placed[3].mesh == 0);
-    CHECK(list.placed[3].placement == kIdentity);
+    SUBCASE("the report counts primitives and names the points left out") {
+        CHECK(report.primitives == 4);
+        CHECK(report.left_out == std::vector<std::string>{"1 primitive of points"});
+    }
+    SUBCASE("meshes have names, and every primitive is sound") {
+        CHECK(list.mesh_names == std::vector<std::string>{"panel", "", "not placed"});
+        for (const Primitive& primitive : list.primitives) CHECK(is_sound(primitive.geometry));
+    }
+    SUBCASE("a strip is a triangle list, with all its attributes") {
+        const Primitive& strip = list.primitives[0];
+        CHECK(strip.mode == PrimitiveMode::strip);
+        CHECK(strip.geometry.indices == Indices{0, 1, 3, 1, 2, 3});
+        CHECK(attributes_of(strip.geometry) == "POSITION:f32x3 NORMAL:f32x3 TANGENT:i8x4n");
+    }
+    SUBCASE("a primitive that shares an accessor has only its own vertices") {
+        const Primitive& shared = list.primitives[1];
+        CHECK(shared.geometry.vertex_count == 3);
+        CHECK(shared.geometry.indices == Indices{2, 0, 1});
+        CHECK(values_of<float>(shared.geometry, "POSITION") == Floats{0, 0, 0, 1, 0, 0, 0, 1, 0});
+        CHECK(values_of<float>(shared.geometry, "NORMAL") == Floats{0, 0, 1, 0, 1, 0, 0, 0, -1});
+    }
+    SUBCASE("a fan has the numbers of its mesh and primitive") {
+        const Primitive& fan = list.primitives[2];
+        CHECK(fan.mesh == 0);
+        CHECK(fan.number == 3);
+        CHECK(fan.mode == PrimitiveMode::fan);
+        CHECK(fan.geometry.indices == Indices{1, 2, 0, 2, 3, 0});
+        CHECK(attributes_of(fan.geometry) == "POSITION:f32x3");
+    }
+    SUBCASE("a primitive without indices") {
+        CHECK(list.primitives[3].mesh == 1);
+        CHECK(list.primitives[3].geometry.indices == Indices{0, 1, 2, 3, 4, 5});
+        CHECK(attributes_of(list.primitives[3].geometry) == "POSITION:f32x3 TEXCOORD_0:f32x2");
+    }
+    SUBCASE("meshes are placed by mirrored, instanced and root nodes") {
+        REQUIRE(list.placed.size() == 4);
+        CHECK(list.placed[0].mesh == 0);
+        CHECK(mirrors(list.placed[0].placement));
+        CHECK(list.placed[1].mesh == 1);
+        CHECK(list.placed[1].placement[12] == 3.0);
+        CHECK(list.placed[2].placement[13] == 5.0);
+        CHECK(list.placed[3].mesh == 0);
+        CHECK(list.placed[3].placement == kIdentity);
+    }
 }
 
-TEST_CASE("primitives: the joined mesh is the sum of the placed ones") {
+TEST_CASE("primitives: the joined mesh has the triangles of the placed primitives") {
     const std::string file = scene();
     const PrimitiveList list = must_list(file);
     ReadReport report;
@@ -117,7 +126,7 @@ TEST_CASE("primitives: the joined mesh is the sum of the placed ones") {
     CHECK(joined->triangle_count() == 5 + 2 + 2 + 5);
 }
 
-TEST_CASE("primitives: place turns directions and triangles") {
+TEST_CASE("primitives: place() transforms normals and tangents, and flips mirrored triangles") {
     const PrimitiveList list = must_list(scene());
     const Mesh& strip = list.primitives[0].geometry;
     CHECK(same(place(strip, kIdentity), strip));
@@ -129,7 +138,7 @@ TEST_CASE("primitives: place turns directions and triangles") {
     CHECK(values_of<float>(mirrored, "TANGENT") == Floats{-1, 0, 0, 1, 0, 1, 0, -1, 0, 0, 1, 1, 1, 0, 0, 1});
 }
 
-TEST_CASE("primitives: normals of the joined mesh where not all have some") {
+TEST_CASE("primitives: the joined mesh gets normals from triangles where a primitive has none") {
     const std::string file = scene();
     ReadReport report;
     const auto joined = read_mesh(std::as_bytes(std::span(file)), "x.glb", {}, &report);
@@ -141,7 +150,7 @@ TEST_CASE("primitives: normals of the joined mesh where not all have some") {
     CHECK(has("2 primitives without normals (made from their triangles)"));
     CHECK(has("2 attributes that not every primitive has alike ('TANGENT', 'TEXCOORD_0')"));
     const Floats normals = at_corners<float>(*joined, "NORMAL");
-    // The last five triangles are the panel's without a transform: strip, triangle, fan.
+    // The last five triangles are the panel at the root: strip, triangle, fan.
     const auto last = [&](std::size_t triangle) {
         const std::size_t at = normals.size() - 9 * (5 - triangle);
         return Floats(normals.begin() + static_cast<std::ptrdiff_t>(at),
@@ -150,11 +159,11 @@ TEST_CASE("primitives: normals of the joined mesh where not all have some") {
     CHECK(last(0) == Floats{0, 0, 1, 0, 1, 0, 0, 0, -1});
     CHECK(last(2) == Floats{0, 0, -1, 0, 0, 1, 0, 1, 0});
     CHECK(last(3) == Floats{0, 0, 1, 0, 0, 1, 0, 0, 1});
-    // Both triangles of the first instance of the other mesh, which face +z; the mirrored fan does, too.
+    // The first instance of the other mesh faces +z, and so does the mirrored fan.
     const std::size_t other = 9 * 5;
     CHECK(Floats(normals.begin() + other, normals.begin() + other + 9) == Floats{0, 0, 1, 0, 0, 1, 0, 0, 1});
     CHECK(Floats(normals.begin() + 27, normals.begin() + 36)[2] == 1);
-    // Alike in all, but for the type: floats.
+    INFO("normals of different types are joined as floats");
     GltfMaker maker;
     maker.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}, 3);                                // 0
     maker.floats("VEC3", {0, 0, 1, 0, 0, 1, 0, 0, 1}, 3);                                // 1
@@ -164,7 +173,7 @@ TEST_CASE("primitives: normals of the joined mesh where not all have some") {
     CHECK(values_of<float>(mixed, "NORMAL") == Floats{0, 0, -1, 0, 0, -1, 0, 1, 0, /**/ 0, 0, 1, 0, 0, 1, 0, 0, 1});
 }
 
-TEST_CASE("primitives: a file of another format is one") {
+TEST_CASE("primitives: a file of another format has one primitive") {
     const std::string ply =
         "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double "
         "z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
@@ -177,7 +186,7 @@ TEST_CASE("primitives: a file of another format is one") {
     CHECK(read_primitives(write_text("y.ply", ply)).has_value());
 }
 
-TEST_CASE("primitives: errors name the primitive; memory is limited") {
+TEST_CASE("primitives: errors name the primitive, and memory is limited") {
     GltfMaker maker;
     maker.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}, 3);                           // 0
     maker.add<std::uint8_t>(5121, "SCALAR", {0, 1, 3}, 1);                          // 1

@@ -1,4 +1,4 @@
-// The bounds that accessors of packed and unpacked scenes say.
+// Tests the bounds (min, max) of accessors in packed and unpacked scenes.
 
 #include <doctest/doctest.h>
 
@@ -13,7 +13,7 @@ using nlohmann::json;
 using test::GltfMaker;
 using test::GridScene;
 
-TEST_CASE("bounds of positions are those of the values, however few there are") {
+TEST_CASE("bounds of positions are those of the decoded values, also of few vertices") {
     for (const float at : {5.0F, -5.0F}) {
         for (std::uint32_t vertices = 3; vertices <= 9; ++vertices) {
             CAPTURE(at);
@@ -49,7 +49,7 @@ TEST_CASE("bounds of positions are those of the values, however few there are") 
     }
 }
 
-TEST_CASE("displacements of morph targets that are no numbers have no bounds, and come back") {
+TEST_CASE("morph targets with NaN or infinity are restored; with infinity they have no bounds") {
     for (const float odd : {static_cast<float>(NAN), -static_cast<float>(INFINITY)}) {
         for (const std::size_t where : {0U, 7U}) {
             CAPTURE(odd);
@@ -70,7 +70,7 @@ TEST_CASE("displacements of morph targets that are no numbers have no bounds, an
                 const std::string packed = test::glb_of(test::must_pack(glb, options));
                 CHECK(is_packed_scene(test::bytes_of(packed)));
                 const std::string unpacked = test::glb_of(test::must_unpack(packed));
-                const json accessor = test::document_of(unpacked)["accessors"][1];  // or it is no JSON
+                const json accessor = test::document_of(unpacked)["accessors"][1];  // throws if it is not JSON
                 CHECK(accessor.contains("min") == !std::isinf(odd));
                 CHECK(test::same_triangles(test::mesh_of_glb(unpacked), test::mesh_of_glb(glb)));
             }

@@ -1,4 +1,4 @@
-// Small scenes, packed and unpacked.
+// Packs and unpacks small scenes.
 
 #include <doctest/doctest.h>
 
@@ -15,7 +15,7 @@ using test::GridScene;
 
 namespace {
 
-/// The document without what says where bytes lie.
+/// The document without buffers and buffer views, and references to these.
 json placeless(const std::string& glb) {
     json out = test::document_of(glb);
     out.erase("buffers");
@@ -27,7 +27,7 @@ json placeless(const std::string& glb) {
     return out;
 }
 
-/// A fallback's scene, as a reader without the extension sees it.
+/// A scene with a fallback as a reader without the extension sees it.
 std::string without_extension(const std::string& glb) {
     json document = test::document_of(glb);
     const std::string name = "LACEDRING_mesh_compression";
@@ -43,8 +43,8 @@ std::string without_extension(const std::string& glb) {
     return test::glb(document.dump(), glb.substr(28 + size));
 }
 
-/// Packs and unpacks the scene in every way that loses nothing. Its triangles stay, in their order where that is kept;
-/// `same_document`: so does the document.
+/// Packs and unpacks a scene with all lossless options, and checks that the triangles are the same, in order with
+/// keep_order. `same_document`: the document must be the same, too.
 void check_scene(const std::string& glb, std::size_t primitives, bool same_document = true) {
     const Mesh mesh = test::mesh_of_glb(glb);
     for (const auto& [name, options] : test::lossless_ways()) {
@@ -55,7 +55,7 @@ void check_scene(const std::string& glb, std::size_t primitives, bool same_docum
         CHECK(packed_report.primitives == primitives);
         CHECK(packed_report.max_error.empty());
         const auto again = pack_scene(test::bytes_of(packed), {}, options);
-        REQUIRE_FALSE(again);
+        REQUIRE_MESSAGE(!again, "a packed scene is not packed again");
         CHECK(again.error().code == ErrorCode::unsupported);
         UnpackReport unpacked_report;
         const std::string unpacked = test::glb_of(test::must_unpack(packed, &unpacked_report));
@@ -63,10 +63,14 @@ void check_scene(const std::string& glb, std::size_t primitives, bool same_docum
         CHECK(unpacked_report.primitives == primitives);
         CHECK(unpacked_report.triangles == packed_report.triangles);
         const Mesh back = test::mesh_of_glb(unpacked);
-        CHECK(test::same_triangles(back, mesh));
-        if (options.keep_order) CHECK(test::same(back, mesh));
-        if (options.fallback) CHECK(test::same(test::mesh_of_glb(without_extension(packed)), back));
-        if (same_document) CHECK(placeless(unpacked) == placeless(glb));
+        CHECK_MESSAGE(test::same_triangles(back, mesh), "the triangles are the same");
+        if (options.keep_order) CHECK_MESSAGE(test::same(back, mesh), "keep_order keeps vertices and triangles");
+        if (options.fallback) {
+            CHECK_MESSAGE(test::same(test::mesh_of_glb(without_extension(packed)), back),
+                          "the fallback is the unpacked mesh");
+        }
+        if (same_document) CHECK_MESSAGE(placeless(unpacked) == placeless(glb), "the document is the same");
+        INFO("an unpacked scene is unpacked unchanged");
         const std::string once_more = test::glb_of(test::must_unpack(unpacked));
         CHECK(test::same(test::mesh_of_glb(once_more), back));
         CHECK(placeless(once_more) == placeless(unpacked));
@@ -75,7 +79,7 @@ void check_scene(const std::string& glb, std::size_t primitives, bool same_docum
 
 }  // namespace
 
-TEST_CASE("scenes with indices of every type come back, document and all") {
+TEST_CASE("scenes with indices of every type are unpacked as they were, with their document") {
     GltfMaker maker;
     const GridScene small(5, 0), middle(20, 10), large(6, 40);
     std::string primitives;
@@ -92,7 +96,7 @@ TEST_CASE("scenes with indices of every type come back, document and all") {
     check_scene(maker.glb_file(test::mesh_of(primitives, test::one_node) + R"(,"extras":{"a":1.50,"b":"\u00e9"})"), 3);
 }
 
-TEST_CASE("positions that are integers come back as integers") {
+TEST_CASE("integer positions are unpacked as integers") {
     for (const bool normalized : {false, true}) {
         CAPTURE(normalized);
         GltfMaker maker;
@@ -115,7 +119,7 @@ TEST_CASE("positions that are integers come back as integers") {
     }
 }
 
-TEST_CASE("attributes with padding between their rows come back without it") {
+TEST_CASE("attributes with padding between rows are unpacked without it") {
     GltfMaker maker;
     const GridScene grid(8, -3);
     const std::vector<std::uint8_t> colors = grid.indices_as<std::uint8_t>();
@@ -131,10 +135,10 @@ TEST_CASE("attributes with padding between their rows come back without it") {
                 1);
 }
 
-TEST_CASE("primitives without indices, strips and fans come back as triangles") {
+TEST_CASE("primitives without indices, strips and fans are unpacked as triangles") {
     GltfMaker maker;
     const GridScene grid(7, 0);
-    std::vector<float> corners;  // every triangle's own
+    std::vector<float> corners;  // three positions per triangle
     for (const std::uint32_t v : grid.indices) {
         corners.insert(corners.end(), grid.positions.begin() + 3 * v, grid.positions.begin() + 3 * v + 3);
     }
@@ -163,7 +167,7 @@ TEST_CASE("primitives without indices, strips and fans come back as triangles") 
     }
 }
 
-TEST_CASE("primitives that share vertices go on sharing them, and morph targets stay with theirs") {
+TEST_CASE("primitives still share vertices after unpacking, and morph targets keep their vertices") {
     GltfMaker maker;
     const GridScene grid(12, 0);
     std::vector<float> moved;
@@ -183,7 +187,7 @@ TEST_CASE("primitives that share vertices go on sharing them, and morph targets 
     check_scene(maker.glb_file(test::mesh_of(primitives, R"("materials":[{},{},{"name":"c"}],)" + test::one_node)), 3);
 }
 
-TEST_CASE("a scene with nothing to compress comes back as it was") {
+TEST_CASE("a scene with nothing to compress is unpacked as it was") {
     GltfMaker maker;
     const GridScene grid(4, 0);
     const int positions = test::add_rows(maker, 5126, "VEC3", grid.positions, 3, 0, grid.bounds);
@@ -209,7 +213,7 @@ TEST_CASE("a scene with nothing to compress comes back as it was") {
     }
 }
 
-TEST_CASE("what packing loses is no more than it says") {
+TEST_CASE("packing loses at most the error that it reports") {
     GltfMaker maker;
     const GridScene grid(15, 100);
     std::vector<float> normals;
@@ -226,7 +230,7 @@ TEST_CASE("what packing loses is no more than it says") {
                                   positions, normal, texcoords, list),
                       test::one_node));
     PackOptions options;
-    options.keep_order = true;  // so that values can be compared one by one
+    options.keep_order = true;  // to compare values one by one
     PackReport report;
     const std::string packed = test::glb_of(test::must_pack(glb, options, &report));
     const Mesh before = test::mesh_of_glb(glb), after = test::mesh_of_glb(test::glb_of(test::must_unpack(packed)));
@@ -243,14 +247,15 @@ TEST_CASE("what packing loses is no more than it says") {
         CHECK(largest > 0);
         CHECK(largest <= report.max_error[name] * (1 + 1e-6));
     }
-    CHECK(report.max_error["POSITION"] <= 14.0 / (1 << 14));  // half a step of 14 bits along the extent, rounded up
-    // What is decoded once stays as it is: packing it again loses nothing more.
+    // Half a step of 14 bits along the extent, rounded up.
+    CHECK(report.max_error["POSITION"] <= 14.0 / (1 << 14));
+    INFO("packing the unpacked scene again loses nothing more");
     const std::string unpacked = test::glb_of(test::must_unpack(packed));
     CHECK(test::same(
         test::mesh_of_glb(test::glb_of(test::must_unpack(test::glb_of(test::must_pack(unpacked, options))))), after));
 }
 
-TEST_CASE("a packed scene that lies in files comes back from them") {
+TEST_CASE("a packed scene in several files is unpacked") {
     GltfMaker maker;
     const GridScene grid(6, 0);
     const int positions = test::add_rows(maker, 5126, "VEC3", grid.positions, 3, 0, grid.bounds);
@@ -267,11 +272,12 @@ TEST_CASE("a packed scene that lies in files comes back from them") {
     };
     const auto path = test::write_text("scene.gltf", packed.json);
     test::write_text("scene.bin", text(packed.bin));
-    CHECK_FALSE(packed.fallback.empty());  // which is not opened: it is not written
+    // The file of the fallback is not written: unpacking must not open it.
+    CHECK_FALSE(packed.fallback.empty());
     const auto unpacked = unpack_scene(test::bytes_of(packed.json), path);
     REQUIRE_MESSAGE(unpacked, unpacked.error().message);
     CHECK(test::same_triangles(test::mesh_of_glb(test::glb_of(*unpacked)), test::mesh_of_glb(glb)));
-    // And nothing of the fallback is left in what comes of it.
+    // Unpacking with and without a fallback gives the same bytes.
     options.fallback = false;
     options.json = SceneJson::plain;
     const auto bare = unpack_scene(test::bytes_of(test::must_pack(glb, options).json), path);
@@ -291,7 +297,7 @@ TEST_CASE("a packed scene that lies in files comes back from them") {
     CHECK_FALSE(refused());
 }
 
-TEST_CASE("a stream and a document that differ are refused") {
+TEST_CASE("accessors and flags that differ from the stream are refused") {
     GltfMaker maker;
     const GridScene grid(6, 0);
     const std::vector<std::uint8_t> colors(108, 9);
@@ -313,6 +319,7 @@ TEST_CASE("a stream and a document that differ are refused") {
             return unpack_scene(test::bytes_of(test::glb(document.dump(), bin)), {}).has_value();
         };
         const char* ordered = "/extensions/LACEDRING_mesh_compression/streams/0/ordered";
+        CAPTURE(keep_order);
         CHECK(accepted(ordered, keep_order));
         CHECK_FALSE(accepted(ordered, !keep_order));
         CHECK_FALSE(accepted(ordered, 1));
@@ -331,13 +338,13 @@ TEST_CASE("a stream and a document that differ are refused") {
     }
 }
 
-TEST_CASE("indices have the type that the document says, if it holds them") {
+TEST_CASE("indices are unpacked in the document's type, or refused if they do not fit it") {
     for (const std::uint32_t first : {0U, 254U}) {
         GltfMaker maker;
         const GridScene grid(20, 0);
         const int positions = test::add_rows(maker, 5126, "VEC3", grid.positions, 3);
         const int all = test::add_rows(maker, 5125, "SCALAR", grid.indices, 1);
-        // Of vertices that come first, where the order is kept, or one too many.
+        // keep_order keeps these indices. 255 does not fit a byte: it is the value that restarts primitives.
         const int few = test::add_rows(maker, 5125, "SCALAR", std::vector<std::uint32_t>{first, first + 1, 20}, 1);
         PackOptions options = test::lossless();
         options.keep_order = true;

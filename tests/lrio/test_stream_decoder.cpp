@@ -1,4 +1,4 @@
-// Streams of scenes, decoded to sets and parts, against the mesh that decode_lr gives.
+// Compares scene streams, decoded to sets and parts, with the mesh that decode_lr returns.
 
 #include <doctest/doctest.h>
 
@@ -22,20 +22,21 @@ namespace {
 
 using Rows = std::vector<std::byte>;
 
-/// A mesh whose vertices and triangles are those of sets and parts.
+/// A mesh whose vertices belong to sets and whose triangles belong to parts; a part uses the vertices of one set.
 struct Grouped {
     test::CutMesh cut;
-    std::vector<std::uint32_t> set_of;       ///< of each vertex
-    std::vector<std::uint32_t> part_of;      ///< of each triangle
-    std::vector<std::uint32_t> set_of_part;  ///< of each part
-    std::vector<std::uint32_t> vertices;     ///< of each set
+    std::vector<std::uint32_t> set_of;       ///< by vertex
+    std::vector<std::uint32_t> part_of;      ///< by triangle
+    std::vector<std::uint32_t> set_of_part;  ///< by part
+    std::vector<std::uint32_t> vertices;     ///< by set: its number of vertices
 
     StreamDecoder::Said said() const { return {set_of_part, vertices}; }
     StreamDecoder::Said unsaid() const { return {set_of_part, std::vector(vertices.size(), UINT32_MAX)}; }
 };
 
-/// Deals the components of the mesh's vertices out to at most `sets` sets, and the triangles of each to at most `parts`
-/// parts. Vertices lie set by set. Where no order is to be kept, degenerate triangles and unused vertices are left out.
+/// Distributes the connected components of a mesh to at most `sets` sets, and the triangles of each set to at most
+/// `parts` parts. Vertices are ordered by set. Without keep_order, degenerate triangles and unused vertices are left
+/// out.
 Grouped group_mesh(const test::CutMesh& whole, std::size_t sets, std::size_t parts, bool keep_order,
                    std::uint64_t seed) {
     const Mesh& mesh = whole.mesh;
@@ -57,7 +58,7 @@ Grouped group_mesh(const test::CutMesh& whole, std::size_t sets, std::size_t par
             used[v[k]] = true;
         }
     }
-    // A set needs a triangle, so those of components with one are dealt first.
+    // Each set needs a triangle: components with triangles are distributed first.
     std::vector<std::uint32_t> set_of_root(mesh.vertex_count, UINT32_MAX), set_of(mesh.vertex_count);
     std::uint32_t count = 0;
     for (std::size_t t = 0; t < kept.size(); ++t) {
@@ -104,10 +105,10 @@ Grouped group_mesh(const test::CutMesh& whole, std::size_t sets, std::size_t par
     return out;
 }
 
-/// A stream of the extension: a file, and part codes where there are several parts.
+/// A stream of the glTF extension: an .lr file, and part codes if there are several parts.
 struct Stream {
     Rows file, parts;
-    std::vector<std::uint32_t> part_of;  ///< of each triangle that decode_lr, or decode_lr_original_order, gives
+    std::vector<std::uint32_t> part_of;  ///< by triangle that decode_lr or decode_lr_original_order returns
 };
 
 Stream encode_group(const Grouped& group, Format format, bool keep_order, std::uint32_t compression) {
@@ -133,9 +134,9 @@ Stream encode_group(const Grouped& group, Format format, bool keep_order, std::u
     return out;
 }
 
-/// What a StreamDecoder gives.
+/// Everything that a StreamDecoder decodes.
 struct Sets {
-    std::vector<std::vector<Rows>> values;  ///< of each set, of each attribute
+    std::vector<std::vector<Rows>> values;  ///< by set and attribute
     std::vector<std::vector<std::uint32_t>> parts;
 };
 
@@ -160,7 +161,7 @@ Sets decode_all(StreamDecoder& decoder, std::size_t sets) {
     return out;
 }
 
-/// The bytes of a vertex's values, those of all attributes.
+/// The bytes of all attributes of a vertex.
 std::string row_of(const Mesh& mesh, std::uint32_t v) {
     std::string out;
     for (const Attribute& a : mesh.attributes) {
@@ -178,12 +179,13 @@ std::string row_of(const StreamDecoder& decoder, const std::vector<Rows>& values
     return out;
 }
 
-/// Each part has the triangles of `mesh` that are its own, in order, and each set its vertices.
+/// Checks that each part has its triangles of `mesh`, in order, and each set its vertices.
 void check_sets(const Mesh& mesh, const Stream& stream, const Grouped& group, StreamDecoder& decoder, bool keep_order) {
     const Sets sets = decode_all(decoder, group.vertices.size());
     std::vector<std::uint32_t> set_of(mesh.vertex_count, UINT32_MAX), place(mesh.vertex_count), next(sets.parts.size());
     REQUIRE(mesh.triangle_count() == stream.part_of.size());
     for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+        INFO("a part has its triangles in order, and a vertex one number in one set");
         const std::uint32_t part = stream.part_of[i / 3], set = group.set_of_part[part], v = mesh.indices[i];
         REQUIRE(next[part] < sets.parts[part].size());
         const std::uint32_t element = sets.parts[part][next[part]++];
@@ -192,15 +194,18 @@ void check_sets(const Mesh& mesh, const Stream& stream, const Grouped& group, St
         set_of[v] = set;
         place[v] = element;
     }
-    for (std::size_t p = 0; p < next.size(); ++p) REQUIRE(next[p] == sets.parts[p].size());
+    for (std::size_t p = 0; p < next.size(); ++p)
+        REQUIRE_MESSAGE(next[p] == sets.parts[p].size(), "no other triangles");
     std::vector<std::uint32_t> count(group.vertices.size(), 0);
     for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
+        INFO("a set has its vertices in order, with their values");
         const std::uint32_t set = keep_order ? group.set_of[v] : set_of[v];
         REQUIRE(set != UINT32_MAX);
         if (set_of[v] != UINT32_MAX) REQUIRE(place[v] == count[set]);
         REQUIRE(row_of(mesh, v) == row_of(decoder, sets.values[set], count[set]++));
     }
-    for (std::size_t s = 0; s < count.size(); ++s) REQUIRE(count[s] == decoder.vertices(s));
+    for (std::size_t s = 0; s < count.size(); ++s)
+        REQUIRE_MESSAGE(count[s] == decoder.vertices(s), "no other vertices");
 }
 
 void check_stream(const Grouped& group, Format format, bool keep_order, std::uint32_t compression) {
@@ -218,10 +223,11 @@ void check_stream(const Grouped& group, Format format, bool keep_order, std::uin
     CHECK(StreamDecoder::open(stream.file, stream.parts, said));
     if (keep_order) CHECK_FALSE(StreamDecoder::open(stream.file, stream.parts, group.unsaid()));
     said.vertices.back() += 1;
-    CHECK_FALSE(StreamDecoder::open(stream.file, stream.parts, said));
-    said.vertices[0] -= 1;  // with two sets, as many vertices as there are
+    CHECK_FALSE_MESSAGE(StreamDecoder::open(stream.file, stream.parts, said), "a vertex too many");
+    said.vertices[0] -= 1;
     if (said.vertices.size() > 1) {
-        // Ranges of vertices that are not the sets' are refused where a triangle shows it: all vertices may be unused.
+        // The sum of vertices is right, but a set's range is wrong. It is refused if a triangle shows it; with
+        // keep_order the vertices may be unused.
         const bool refused = !StreamDecoder::open(stream.file, stream.parts, said);
         CHECK((refused || keep_order));
     }
@@ -245,7 +251,7 @@ std::string refusal(const Stream& stream, const StreamDecoder::Said& said) {
 
 }  // namespace
 
-TEST_CASE("streams of scenes decode to the triangles and values of their files, set by set and part by part") {
+TEST_CASE("scene streams decode to the triangles of each part and the values of each set") {
     std::uint64_t seed = 0;
     std::size_t several_sets = 0, several_parts = 0;
     for (const auto& [name, mesh] : test::named_meshes()) {
@@ -254,7 +260,6 @@ TEST_CASE("streams of scenes decode to the triangles and values of their files, 
         for (const std::uint32_t how : {0U, 1U, 2U, 3U, 4U}) {
             ++seed;
             CAPTURE(seed);
-            // Uncut, or cut in several ways.
             const test::CutMesh cut =
                 how == 0 ? test::CutMesh{mesh, {mesh.vertex_count, {}}} : test::cut_mesh(mesh, how, seed);
             if (!has_triangles(cut)) continue;
@@ -273,7 +278,7 @@ TEST_CASE("streams of scenes decode to the triangles and values of their files, 
     CHECK(several_parts > 100);
 }
 
-TEST_CASE("a large stream of one set and one part, and of several parts, decodes as its file does") {
+TEST_CASE("large scene streams decode to the triangles of each part and the values of each set") {
     const test::CutMesh whole = {test::random_gluing(4000, 8000, 3), {4000, {}}};
     const test::CutMesh cut = test::cut_mesh(whole.mesh, 1, 3);
     for (const test::CutMesh* mesh : {&whole, &cut}) {
@@ -285,7 +290,7 @@ TEST_CASE("a large stream of one set and one part, and of several parts, decodes
     }
 }
 
-TEST_CASE("what a document says of a stream must be so") {
+TEST_CASE("sets and parts that differ from the stream are refused") {
     const Grouped group = two_sets(false);
     REQUIRE(group.vertices.size() == 2);
     REQUIRE(group.set_of_part.size() == 4);
@@ -298,14 +303,15 @@ TEST_CASE("what a document says of a stream must be so") {
             change(said);
             return !refusal(stream, said).empty();
         };
-        CHECK(refuses([](auto& said) { said.set_of_part[0] = 1 - said.set_of_part[0]; }));  // with a vertex of two sets
+        CHECK_MESSAGE(refuses([](auto& said) { said.set_of_part[0] = 1 - said.set_of_part[0]; }),
+                      "a vertex of two sets");
         CHECK(refuses([](auto& said) { said.set_of_part.push_back(0); }));
         CHECK(refuses([](auto& said) { said.set_of_part.pop_back(); }));
         CHECK(refuses([](auto& said) { said.vertices.push_back(1); }));
-        CHECK(refuses([](auto& said) { said = {{0}, {UINT32_MAX}}; }));  // one part has no part codes
-        CHECK_FALSE(refusal({stream.file, {}, {}}, group.unsaid()).empty());
+        CHECK_MESSAGE(refuses([](auto& said) { said = {{0}, {UINT32_MAX}}; }), "part codes for one part");
+        CHECK_FALSE_MESSAGE(refusal({stream.file, {}, {}}, group.unsaid()).empty(), "no part codes");
         std::vector<std::uint32_t> parts = stream.part_of;
-        parts.push_back(0);  // of another file
+        parts.push_back(0);  // a triangle too many
         CHECK_FALSE(refusal({stream.file, detail::encode_part_codes(parts).value(), {}}, group.unsaid()).empty());
     }
     const Grouped ordered = two_sets(true);
@@ -313,13 +319,13 @@ TEST_CASE("what a document says of a stream must be so") {
     CHECK(refusal(stream, ordered.said()).empty());
     StreamDecoder::Said said = ordered.said();
     std::swap(said.set_of_part.front(), said.set_of_part.back());
-    CHECK_FALSE(refusal(stream, said).empty());  // triangles with vertices of another set
+    CHECK_FALSE_MESSAGE(refusal(stream, said).empty(), "triangles with vertices of another set");
     said = ordered.said();
     said.vertices = {said.vertices[0] + said.vertices[1], UINT32_MAX};
     CHECK_FALSE(refusal(stream, said).empty());
 }
 
-TEST_CASE("a check sees the file before it is decoded, and its error is the decoder's") {
+TEST_CASE("the caller's check gets the file before it is decoded, and its error is returned") {
     const Grouped group = two_sets(false);
     const Stream stream = encode_group(group, Format::packed, false, 0);
     const auto refuse = [&](const LrFileView& view) -> Result<void> {
@@ -332,7 +338,7 @@ TEST_CASE("a check sees the file before it is decoded, and its error is the deco
     CHECK(decoder.error().message == "no room");
 }
 
-TEST_CASE("every truncation and every flipped bit of a scene's stream is refused") {
+TEST_CASE("cut and damaged scene streams are refused") {
     for (const bool keep_order : {false, true}) {
         const Grouped group = two_sets(keep_order);
         const Stream stream = encode_group(group, Format::packed, keep_order, 2);
@@ -344,7 +350,7 @@ TEST_CASE("every truncation and every flipped bit of a scene's stream is refused
     }
 }
 
-TEST_CASE("values of a damaged vertex stream are refused when they are decoded") {
+TEST_CASE("damaged vertex streams are refused when their values are decoded") {
     const Grouped group = two_sets(false);
     LrFile file = parse_lr(encode_group(group, Format::packed, false, 1).file).value();
     const Stream good = encode_group(group, Format::packed, false, 1);
@@ -352,7 +358,8 @@ TEST_CASE("values of a damaged vertex stream are refused when they are decoded")
         CAPTURE(a);
         LrFile bad = file;
         REQUIRE_FALSE(bad.attributes[a].words.empty());
-        bad.attributes[a].words.back() ^= 1;  // its own checksum fails, those of the sections do not
+        // The checksum of the vertex stream fails, those of the sections are valid.
+        bad.attributes[a].words.back() ^= 1;
         bad.attributes[a].words[bad.attributes[a].words.size() - 3] ^= 1;
         const Rows bytes = serialize_lr(bad);
         auto decoder = StreamDecoder::open(bytes, good.parts, group.unsaid());

@@ -33,7 +33,7 @@ Attribute position_attribute(const std::vector<Point>& points) {
             {bytes.begin(), bytes.end()}};
 }
 
-/// A soup whose vertices have one of a few positions each, and an attribute of one of two values.
+/// A soup whose vertices are at few positions and have an attribute "mark" of two values.
 Mesh random_mesh(std::uint64_t seed) {
     const auto size = static_cast<std::uint32_t>(seed);
     Mesh mesh = test::random_soup(2 + size % 30, size % 40, seed);
@@ -63,7 +63,7 @@ std::vector<std::byte> value(const Attribute& attribute, std::size_t v) {
     return {from, from + static_cast<std::ptrdiff_t>(attribute.stride())};
 }
 
-/// The position of v when it is joined with `first`, and this with -0 replaced where another copy has 0.
+/// The position of v at its surface vertex: that of its first copy, where -0 is 0 if any copy has 0.
 std::vector<std::byte> joined_value(const Mesh& mesh, std::span<const std::uint32_t> first, std::uint32_t v) {
     const Positions positions = positions_of(mesh);
     Point p = positions[VertexId{first[v]}];
@@ -88,7 +88,7 @@ std::vector<std::uint32_t> first_copies_of(const Mesh& mesh, const Surface& surf
     return out;
 }
 
-/// Pairs of vertices, one given in both orders, that triangles have.
+/// The pairs of vertices that a triangle has, in both orders.
 std::set<std::pair<std::uint32_t, std::uint32_t>> pairs_of(const Mesh& mesh) {
     std::set<std::pair<std::uint32_t, std::uint32_t>> out;
     for (const auto& t : test::oriented_triangles(mesh.indices)) {
@@ -100,7 +100,7 @@ std::set<std::pair<std::uint32_t, std::uint32_t>> pairs_of(const Mesh& mesh) {
     return out;
 }
 
-/// Which kept vertex each used one would be joined with if no triangle kept any apart.
+/// For each used vertex, the one that it would be joined with if triangles kept none apart.
 std::vector<std::uint32_t> nearest_kept(const Mesh& mesh, double tolerance,
                                         const std::set<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
     std::vector<std::uint32_t> out, kept;
@@ -108,7 +108,8 @@ std::vector<std::uint32_t> nearest_kept(const Mesh& mesh, double tolerance,
         const auto pair = pairs.lower_bound({v, 0});
         const bool used = pair != pairs.end() && pair->first == v;
         std::uint32_t best = v;
-        for (std::uint32_t w = 0; used && w < v && best == v; ++w) {  // those of one position go where its first goes
+        // Vertices of one position are joined with the same vertex.
+        for (std::uint32_t w = 0; used && w < v && best == v; ++w) {
             const auto other = pairs.lower_bound({w, 0});
             if (other != pairs.end() && other->first == w && distance(mesh, v, w) == 0) best = out[w];
         }
@@ -127,47 +128,62 @@ std::vector<std::uint32_t> nearest_kept(const Mesh& mesh, double tolerance,
     return out;
 }
 
-void check_surface(const Mesh& mesh, double tolerance) {
-    SurfaceReport report;
-    const Surface surface = find_surface(mesh, tolerance, &report);
+using VertexPairs = std::set<std::pair<std::uint32_t, std::uint32_t>>;
+
+void check_surface_numbers(const Mesh& mesh, const Surface& surface) {
     REQUIRE(surface.has_seams() == (surface.vertex_count < mesh.vertex_count));
-    const auto pairs = pairs_of(mesh);
-    const std::vector<std::uint32_t> nearest = nearest_kept(mesh, tolerance, pairs);
-    const std::vector<std::uint32_t> first = first_copies_of(mesh, surface);
-    if (surface.has_seams()) {  // numbered by their first copies
-        REQUIRE(surface.vertex_of.size() == mesh.vertex_count);
-        std::uint32_t next = 0;
-        for (const std::uint32_t s : surface.vertex_of) {
-            REQUIRE(s <= next);
-            next = std::max(next, s + 1);
-        }
-        REQUIRE(next == surface.vertex_count);
+    if (!surface.has_seams()) return;
+    INFO("surface vertices are numbered in the order of their first copies");
+    REQUIRE(surface.vertex_of.size() == mesh.vertex_count);
+    std::uint32_t next = 0;
+    for (const std::uint32_t s : surface.vertex_of) {
+        REQUIRE(s <= next);
+        next = std::max(next, s + 1);
     }
-    std::uint32_t moved = 0;
-    double largest = 0;
+    REQUIRE(next == surface.vertex_count);
+}
+
+/// `first`: the first copy of each vertex.
+void check_joined_copies(const Mesh& mesh, double tolerance, const VertexPairs& pairs,
+                         const std::vector<std::uint32_t>& first) {
+    const std::vector<std::uint32_t> nearest = nearest_kept(mesh, tolerance, pairs);
     for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
-        REQUIRE(nearest[v] == nearest[first[v]]);
-        REQUIRE(distance(mesh, v, first[v]) <= tolerance);
-        // What is not joined with the kept vertex shares a triangle with another copy of it.
+        CAPTURE(v);
+        REQUIRE_MESSAGE(nearest[v] == nearest[first[v]], "copies have the same nearest vertex");
+        REQUIRE_MESSAGE(distance(mesh, v, first[v]) <= tolerance, "copies are within the tolerance");
         bool apart = first[v] == first[nearest[v]];
         for (std::uint32_t w = 0; w < mesh.vertex_count; ++w) {
             if (first[w] == first[nearest[v]] && pairs.contains({v, w})) apart = true;
-            if (first[w] == first[v]) REQUIRE(!pairs.contains({v, w}));
+            if (first[w] == first[v]) REQUIRE_MESSAGE(!pairs.contains({v, w}), "no triangle has two copies");
         }
-        REQUIRE(apart);
+        REQUIRE_MESSAGE(apart, "a vertex is joined with its nearest unless a triangle has both");
+    }
+}
+
+void check_surface_report(const Mesh& mesh, const SurfaceReport& report, const std::vector<std::uint32_t>& first) {
+    INFO("the report counts moved vertices and has the largest move");
+    std::uint32_t moved = 0;
+    double largest = 0;
+    for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
         if (value(mesh.attributes[0], v) != joined_value(mesh, first, v)) ++moved;
         largest = std::max(largest, distance(mesh, v, first[v]));
     }
     REQUIRE(report.moved == moved);
     REQUIRE(report.largest_move == largest);
+}
+
+void check_surface_meshes(const Mesh& mesh, const Surface& surface, const std::vector<std::uint32_t>& first) {
     const std::vector<std::uint32_t> firsts = first_vertices(surface);
     REQUIRE(firsts.size() == surface.vertex_count);
-
     Mesh at_surface = mesh;
     move_to_surface(at_surface, surface);
-    REQUIRE(at_surface.indices == mesh.indices);
-    REQUIRE(at_surface.attributes[1].data == mesh.attributes[1].data);
     const Mesh joined = surface_mesh(mesh, surface);
+    {
+        INFO("move_to_surface changes positions only");
+        REQUIRE(at_surface.indices == mesh.indices);
+        REQUIRE(at_surface.attributes[1].data == mesh.attributes[1].data);
+    }
+    INFO("surface_mesh has the surface's vertices, their positions and all triangles");
     REQUIRE(joined.vertex_count == surface.vertex_count);
     REQUIRE(joined.attributes.size() == 1);
     REQUIRE(joined.indices.size() == mesh.indices.size());
@@ -181,7 +197,18 @@ void check_surface(const Mesh& mesh, double tolerance) {
     REQUIRE(test::oriented_triangles(joined.indices).size() == test::oriented_triangles(mesh.indices).size());
 }
 
-/// Copies that differ in nothing but their places are one, and all others stay.
+/// Compares find_surface() with its definition, found by trying all pairs of vertices.
+void check_surface(const Mesh& mesh, double tolerance) {
+    SurfaceReport report;
+    const Surface surface = find_surface(mesh, tolerance, &report);
+    const std::vector<std::uint32_t> first = first_copies_of(mesh, surface);
+    check_surface_numbers(mesh, surface);
+    check_joined_copies(mesh, tolerance, pairs_of(mesh), first);
+    check_surface_report(mesh, report, first);
+    check_surface_meshes(mesh, surface, first);
+}
+
+/// Checks that merge_copies joins the copies whose attributes differ in positions only, and keeps the others.
 void check_merging(const Mesh& mesh, double tolerance) {
     Surface surface = find_surface(mesh, tolerance);
     const Surface before = surface;
@@ -197,7 +224,7 @@ void check_merging(const Mesh& mesh, double tolerance) {
     for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
         wanted.emplace(own(before, v), value(mesh.attributes[1], v));
     }
-    REQUIRE(kept == wanted);
+    REQUIRE_MESSAGE(kept == wanted, "each surface vertex has one copy for each value");
     const std::vector<std::uint32_t> first = first_copies_of(mesh, before);
     for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
         const std::uint32_t v = mesh.indices[i], w = merged.indices[i];
@@ -209,7 +236,7 @@ void check_merging(const Mesh& mesh, double tolerance) {
 
 }  // namespace
 
-TEST_CASE("the surface of small random meshes is that of its definition") {
+TEST_CASE("the surface of small random meshes equals its definition") {
     for (std::uint64_t seed = 0; seed < (test::kSanitized ? 200 : 2000); ++seed) {
         CAPTURE(seed);
         const Mesh mesh = random_mesh(seed);
@@ -221,7 +248,7 @@ TEST_CASE("the surface of small random meshes is that of its definition") {
     }
 }
 
-TEST_CASE("charts of every small mesh are joined again, and their seams are those of the charts") {
+TEST_CASE("charts cut from small named meshes are joined again, and seam edges are the cuts") {
     for (const auto& [name, whole] : test::named_meshes()) {
         if (whole.triangle_count() > 1000) continue;
         CAPTURE_COPY(name);
@@ -233,7 +260,7 @@ TEST_CASE("charts of every small mesh are joined again, and their seams are thos
             REQUIRE(test::same_partition(found.vertex_of, surface.vertex_of));
             const Mesh joined = surface_mesh(mesh, surface);
             const CornerTable table = build_corner_table(joined.indices, joined.vertex_count).value();
-            // The mesh's vertices at the ends of each edge of the surface, one pair a triangle.
+            // For each edge of the surface, the mesh's vertices at its ends, a pair per triangle.
             using Edge = std::pair<std::uint32_t, std::uint32_t>;
             std::map<Edge, std::vector<Edge>> ends;
             for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
@@ -262,14 +289,15 @@ TEST_CASE("charts of every small mesh are joined again, and their seams are thos
     }
 }
 
-TEST_CASE("the vertices of one triangle stay apart, and nobody moves farther than told") {
-    // 0 is at 0, 1 and 2 on either side of it, in a triangle with it each: one would move twice the tolerance to join.
+TEST_CASE("the vertices of one triangle stay apart, and no vertex moves farther than the tolerance") {
+    // Vertices 1 and 2 are on either side of 0, each in a triangle with 0. To join each other they would have to move
+    // twice the tolerance.
     Mesh mesh = test::make_mesh({0, 1, 3, 0, 2, 4}, 5);
     mesh.attributes[0] = position_attribute<float>({{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {9, 0, 0}, {0, 9, 0}});
     SurfaceReport report;
     CHECK(find_surface(mesh, 1, &report).vertex_count == 5);
     CHECK(report.moved == 0);
-    // Without a triangle that names both, they are joined with it.
+    // Without triangles that have both, they are joined with 0.
     mesh.indices = {0, 3, 4, 1, 3, 4, 2, 3, 4};
     const Surface joined = find_surface(mesh, 1, &report);
     CHECK(joined.vertex_of == std::vector<std::uint32_t>{0, 0, 0, 1, 2});
@@ -288,7 +316,7 @@ TEST_CASE("meshes without positions, without triangles and without vertices have
         CHECK(surface_mesh(m, surface).indices == m.indices);
     };
     CHECK(find_surface(mesh).vertex_count == 3);
-    mesh.indices = {0, 0, 1};  // degenerate: no vertex is used
+    mesh.indices = {0, 0, 1};  // degenerate: uses no vertex
     whole(mesh);
     mesh.indices.clear();
     whole(mesh);
@@ -300,7 +328,7 @@ TEST_CASE("meshes without positions, without triangles and without vertices have
     whole({});
 }
 
-TEST_CASE("a zero below zero is a zero, and becomes one") {
+TEST_CASE("-0 equals 0, and is moved to 0") {
     Mesh mesh = test::make_mesh({0, 1, 2, 3, 1, 4}, 5);
     for (const bool below_first : {false, true}) {
         const double first = below_first ? -0.0 : 0.0, second = below_first ? 0.0 : -0.0;
@@ -317,7 +345,7 @@ TEST_CASE("a zero below zero is a zero, and becomes one") {
     }
 }
 
-TEST_CASE("many triangles at one position, and tolerances of every size, take no longer") {
+TEST_CASE("a hundred thousand triangles at one position take no quadratic time, at any tolerance") {
     const auto started = std::chrono::steady_clock::now();
     const std::uint32_t triangles = test::kSanitized ? 20000 : 100000;
     using Indices = std::vector<std::uint32_t>;
@@ -342,7 +370,8 @@ TEST_CASE("many triangles at one position, and tolerances of every size, take no
     }
     CHECK(find_surface(heap, 1).vertex_count == 3);
     CHECK(find_surface(hub, 1).vertex_count == 3);
-    CHECK(find_surface(fan, 1e9).vertex_count ==
-          2 * triangles + 1);  // one, and two a triangle that stay where they are
-    CHECK(std::chrono::steady_clock::now() - started < std::chrono::seconds(20));  // 0.5 where nobody else is
+    // The hubs are joined, and two vertices per triangle stay apart.
+    CHECK(find_surface(fan, 1e9).vertex_count == 2 * triangles + 1);
+    // Takes 0.5 s on an idle machine.
+    CHECK(std::chrono::steady_clock::now() - started < std::chrono::seconds(20));
 }

@@ -1,4 +1,4 @@
-// Limits of meshoptimizer's orders, and meshlets of huge coordinates.
+// Limits of meshoptimizer's orders and meshlets.
 
 #include <doctest/doctest.h>
 
@@ -36,7 +36,7 @@ TEST_CASE("valences are counted") {
     CHECK(count_valences({}, 5).squares == 0);
 }
 
-TEST_CASE("meshoptimizer's orders are left out where a vertex has too many triangles") {
+TEST_CASE("meshoptimizer's orders are left out if a vertex has too many triangles") {
     const std::uint32_t many = 3000;
     const std::vector<std::uint32_t> hub = fan(many);
     const std::vector<float> positions(std::size_t{3} * (many + 2), 1.0F);
@@ -60,7 +60,7 @@ TEST_CASE("meshoptimizer's orders are left out where a vertex has too many trian
     }
 }
 
-TEST_CASE("meshlets are left out where too many unconnected triangles lie at one place") {
+TEST_CASE("meshlets are left out if too many unconnected triangles are at one position") {
     std::vector<std::uint32_t> indices(std::size_t{3} * 5000);
     std::vector<float> piled, apart;
     for (std::uint32_t i = 0; i < indices.size(); ++i) {
@@ -70,13 +70,13 @@ TEST_CASE("meshlets are left out where too many unconnected triangles lie at one
     }
     check_too_large(make_meshlets(indices, piled));
     CHECK(make_meshlets(indices, apart));
-    // Within one component the next triangle is a neighbor: no search by place.
+    // In one component the next triangle is a neighbor, which needs no spatial search.
     std::vector<std::uint32_t> strip;
     for (std::uint32_t i = 0; i < 5000; ++i) strip.insert(strip.end(), {i, i + 1, i + 2});
     CHECK(make_meshlets(strip, std::vector<float>(std::size_t{3} * 5002, 0.0F)));
 }
 
-TEST_CASE("meshlets of large coordinates are those of small ones") {
+TEST_CASE("meshlets of huge coordinates equal those of small ones") {
     const Mesh mesh = generate("blob", 3000, 2).value();
     const std::vector<float> positions = positions_f32(mesh);
     const Result<Meshlets> small = make_meshlets(mesh.indices, positions);
@@ -91,8 +91,9 @@ TEST_CASE("meshlets of large coordinates are those of small ones") {
         CHECK(test::oriented_triangles(large->indices) == test::oriented_triangles(mesh.indices));
         CHECK(large->bytes == small->bytes);
     }
-    const std::vector<float> infinite(positions.size(),
-                                      std::numeric_limits<float>::infinity());  // as doubles beyond float become
+    const std::vector<float> infinite(
+        positions.size(),
+        std::numeric_limits<float>::infinity());  // like doubles beyond the range of floats
     const Result<Meshlets> beyond = make_meshlets(mesh.indices, infinite);
     CHECK((!beyond || beyond->indices.size() == mesh.indices.size()));
 }

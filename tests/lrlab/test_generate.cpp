@@ -30,7 +30,7 @@ std::uint64_t hash_of(const Mesh& mesh) {
     return hash;
 }
 
-/// What can be seen from the half-edges alone; quadratic nowhere, simple everywhere.
+/// Counts of a mesh, found from its half-edges by a simple algorithm.
 struct Survey {
     std::map<Edge, std::uint32_t> half_edges;
     std::size_t edges = 0;
@@ -38,9 +38,9 @@ struct Survey {
     std::size_t nonmanifold = 0;   ///< edges with three or more
     std::size_t inconsistent = 0;  ///< half-edges that two triangles share
     std::size_t used_vertices = 0;
-    std::size_t components = 0;    ///< of triangles joined by vertices
-    std::size_t border_loops = 0;  ///< where every border vertex has one border edge in and one out
-    std::size_t fans = 0;          ///< of triangles joined by edges around a vertex, summed over vertices
+    std::size_t components = 0;    ///< triangles are joined by vertices
+    std::size_t border_loops = 0;  ///< valid if each border vertex starts and ends one border edge
+    std::size_t fans = 0;          ///< sum over vertices; a fan's triangles are joined by edges
     std::size_t degenerate = 0;
     long euler = 0;
 };
@@ -55,7 +55,7 @@ Survey survey(const Mesh& mesh) {
     const auto& I = mesh.indices;
     std::vector<std::uint32_t> parent(mesh.vertex_count);
     std::iota(parent.begin(), parent.end(), 0U);
-    std::map<Edge, std::vector<std::uint32_t>> corners_of_edge;  // the two corners at either end, by triangle
+    std::map<Edge, std::vector<std::uint32_t>> corners_of_edge;  // by triangle: the corners at both ends
     std::vector<bool> used(mesh.vertex_count);
     for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
         const std::uint32_t v[3] = {I[3 * t], I[3 * t + 1], I[3 * t + 2]};
@@ -72,7 +72,7 @@ Survey survey(const Mesh& mesh) {
             used[a] = true;
         }
     }
-    std::vector<std::uint32_t> fan(I.size());  // corners at a vertex, joined across edges
+    std::vector<std::uint32_t> fan(I.size());  // union-find of the corners at a vertex
     std::iota(fan.begin(), fan.end(), 0U);
     for (const auto& [edge, corners] : corners_of_edge) {
         ++s.edges;
@@ -120,7 +120,8 @@ Mesh make(std::string_view kind, std::uint64_t triangles, std::uint64_t seed) {
     return std::move(*mesh);
 }
 
-/// Manifold (no edge of three triangles, every vertex one fan), one component, every vertex used.
+/// Checks that the mesh is manifold (at most two triangles per edge, one fan per vertex) and connected, and uses every
+/// vertex.
 void check_manifold(const Survey& s, const Mesh& mesh) {
     CHECK(s.nonmanifold == 0);
     CHECK(s.fans == s.used_vertices);
@@ -141,7 +142,35 @@ constexpr std::uint64_t sizes[] = {0, 1, 7, 8, 20, 63, 100, 251, 800, 1000, 3001
 
 }  // namespace
 
-TEST_CASE("every kind gives a valid mesh of about the size asked for, the same each time") {
+namespace {
+
+void check_triangle_count(std::uint64_t count, std::uint64_t wanted, std::uint64_t smallest) {
+    INFO("the mesh has about as many triangles as wanted");
+    CHECK(count >= 1);
+    CHECK(count <= std::max(wanted, smallest) + std::max<std::uint64_t>(64, wanted / 50));
+    if (wanted >= std::max<std::uint64_t>(smallest, 1000)) {
+        CHECK(static_cast<double>(count) >= 0.97 * static_cast<double>(wanted));
+    }
+}
+
+void check_generated(const Mesh& mesh) {
+    INFO("indices are in range, and the only attribute is finite float positions");
+    REQUIRE(mesh.indices.size() % 3 == 0);
+    CHECK(
+        std::all_of(mesh.indices.begin(), mesh.indices.end(), [&](std::uint32_t v) { return v < mesh.vertex_count; }));
+    REQUIRE(mesh.attributes.size() == 1);
+    const Attribute& position = mesh.attributes[0];
+    CHECK(position.name == "POSITION");
+    CHECK(position.type == ComponentType::f32);
+    CHECK(position.components == 3);
+    CHECK(position.data.size() == std::size_t{12} * mesh.vertex_count);
+    const std::vector<float> p = positions_f32(mesh);
+    CHECK(std::all_of(p.begin(), p.end(), [](float x) { return std::isfinite(x); }));
+}
+
+}  // namespace
+
+TEST_CASE("every generator makes a valid mesh of about the wanted size, the same on each call") {
     for (const GeneratorInfo& info : generators()) {
         CAPTURE(info.name);
         std::uint64_t smallest = 0;
@@ -151,30 +180,15 @@ TEST_CASE("every kind gives a valid mesh of about the size asked for, the same e
                 CAPTURE(seed);
                 const Mesh mesh = make(info.name, triangles, seed);
                 if (triangles == 0) smallest = std::max(smallest, std::uint64_t{mesh.triangle_count()});
-                CHECK(mesh.triangle_count() >= 1);
-                CHECK(mesh.triangle_count() <=
-                      std::max(triangles, smallest) + std::max<std::uint64_t>(64, triangles / 50));
-                if (triangles >= std::max<std::uint64_t>(smallest, 1000)) {
-                    CHECK(static_cast<double>(mesh.triangle_count()) >= 0.97 * static_cast<double>(triangles));
-                }
-                REQUIRE(mesh.indices.size() % 3 == 0);
-                CHECK(std::all_of(mesh.indices.begin(), mesh.indices.end(),
-                                  [&](std::uint32_t v) { return v < mesh.vertex_count; }));
-                REQUIRE(mesh.attributes.size() == 1);
-                const Attribute& position = mesh.attributes[0];
-                CHECK(position.name == "POSITION");
-                CHECK(position.type == ComponentType::f32);
-                CHECK(position.components == 3);
-                CHECK(position.data.size() == std::size_t{12} * mesh.vertex_count);
-                const std::vector<float> p = positions_f32(mesh);
-                CHECK(std::all_of(p.begin(), p.end(), [](float x) { return std::isfinite(x); }));
-                CHECK(hash_of(mesh) == hash_of(make(info.name, triangles, seed)));
+                check_triangle_count(mesh.triangle_count(), triangles, smallest);
+                check_generated(mesh);
+                CHECK_MESSAGE(hash_of(mesh) == hash_of(make(info.name, triangles, seed)), "the same on each call");
             }
         }
     }
 }
 
-TEST_CASE("seeds matter where there is randomness") {
+TEST_CASE("another seed makes another mesh, except of the generators without randomness") {
     const std::set<std::string_view> fixed{"sphere", "torus", "moebius"};
     for (const GeneratorInfo& info : generators()) {
         CAPTURE(info.name);
@@ -183,8 +197,8 @@ TEST_CASE("seeds matter where there is randomness") {
     }
 }
 
-TEST_CASE("the same bits everywhere") {
-    // Recorded on x86-64 with g++ 12. Any other machine and compiler must agree.
+TEST_CASE("generated meshes have the recorded bits") {
+    // Recorded on x86-64 with g++ 12; every machine and compiler must make the same.
     const std::map<std::string_view, std::uint64_t> known{
         {"sphere", 0x801403667a8191a9},  {"torus", 0xef4ce99380f4c3d1}, {"genus", 0x24fcb05a43259d2e},
         {"terrain", 0xa6da95f02abf9fed}, {"blob", 0xefb54f3282f1e648},  {"parts", 0x9dd262356bc8af4a},
@@ -244,7 +258,7 @@ TEST_CASE("terrain is a disc with several holes") {
     }
 }
 
-TEST_CASE("the Moebius strip has one border and no orientation") {
+TEST_CASE("the Moebius strip has one border and is not orientable") {
     for (const std::uint64_t triangles : sizes) {
         CAPTURE(triangles);
         const Mesh mesh = make("moebius", triangles, 1);
@@ -252,11 +266,12 @@ TEST_CASE("the Moebius strip has one border and no orientation") {
         check_manifold(s, mesh);
         CHECK(s.border_loops == 1);
         CHECK(s.euler == 0);
-        CHECK(s.inconsistent > 0);  // and no turning of triangles helps: one border loop and Euler 0 is no annulus
+        // Flipping triangles does not help: a surface with one border loop and Euler characteristic 0 is no annulus.
+        CHECK(s.inconsistent > 0);
     }
 }
 
-TEST_CASE("parts are many manifold pieces, exactly as many triangles as asked for") {
+TEST_CASE("parts are many manifold pieces of exactly the wanted number of triangles") {
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
         CAPTURE(seed);
         const Mesh mesh = make("parts", 20000, seed);
@@ -271,7 +286,7 @@ TEST_CASE("parts are many manifold pieces, exactly as many triangles as asked fo
     }
 }
 
-TEST_CASE("the soup has everything") {
+TEST_CASE("the soup has degenerate triangles, borders, non-manifold edges and vertices, and unused vertices") {
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
         CAPTURE(seed);
         const Mesh mesh = make("soup", 3000, seed);
@@ -281,8 +296,8 @@ TEST_CASE("the soup has everything") {
         CHECK(s.inconsistent > 10);
         CHECK(s.border > 10);
         CHECK(s.degenerate > 5);
-        CHECK(s.fans > s.used_vertices + 10);             // bow-ties
-        CHECK(s.used_vertices + 10 < mesh.vertex_count);  // unused vertices
+        CHECK_MESSAGE(s.fans > s.used_vertices + 10, "vertices of two fans");
+        CHECK_MESSAGE(s.used_vertices + 10 < mesh.vertex_count, "unused vertices");
         auto triangles = test::oriented_triangles(mesh.indices);
         CHECK(std::adjacent_find(triangles.begin(), triangles.end()) != triangles.end());
         std::set<std::array<std::uint32_t, 3>> set(triangles.begin(), triangles.end());
@@ -290,7 +305,7 @@ TEST_CASE("the soup has everything") {
     }
 }
 
-TEST_CASE("errors") {
+TEST_CASE("unknown generators and huge sizes are refused") {
     const auto unknown = generate("teapot", 100);
     REQUIRE(!unknown);
     CHECK(unknown.error().code == ErrorCode::invalid_argument);
@@ -307,64 +322,82 @@ TEST_CASE("errors") {
     }
 }
 
-TEST_CASE("test support: the named meshes are what their names say") {
+namespace {
+
+std::map<std::string, Mesh> named_meshes_by_name() {
     std::map<std::string, Mesh> meshes;
     for (auto& named : test::named_meshes()) {
         CAPTURE(named.name);
         CHECK(named.mesh.indices.size() % 3 == 0);
         CHECK(std::all_of(named.mesh.indices.begin(), named.mesh.indices.end(),
                           [&](std::uint32_t v) { return v < named.mesh.vertex_count; }));
-        CHECK(meshes.emplace(named.name, std::move(named.mesh)).second);
+        CHECK_MESSAGE(meshes.emplace(named.name, std::move(named.mesh)).second, "names are unique");
     }
-    const std::map<std::string, long> closed{{"tetrahedron", 0},
-                                             {"octahedron", 0},
-                                             {"cube", 0},
-                                             {"genus 1 plate", 1},
-                                             {"genus 2 plate", 2},
-                                             {"genus 5 plate", 5},
-                                             {"smallest torus", 1},
-                                             {"torus", 1},
-                                             {"Apollonian network", 0},
-                                             {"random stack", 0},
-                                             {"spiral stack", 0},
-                                             {"bipyramid of 500", 0},
-                                             {"double fan of 1", 0},
-                                             {"double fan of 200", 0},
-                                             {"double fan, shuffled", 0},
-                                             {"octahedron subdivided", 0},
-                                             {"twice stacked torus", 1}};
-    for (const auto& [mesh_name, genus] : closed) {
-        const std::string& name = mesh_name;
-        CAPTURE(name);
-        REQUIRE(meshes.count(name) == 1);
-        check_closed(meshes[name], genus);
-    }
-    for (const auto& [mesh_name, euler] : std::map<std::string, long>{{"Klein bottle", 0}, {"projective plane", 1}}) {
-        const std::string& name = mesh_name;
-        CAPTURE(name);
-        const Survey s = survey(meshes[name]);
-        check_manifold(s, meshes[name]);
-        CHECK(s.border == 0);
-        CHECK(s.euler == euler);
-        CHECK(s.inconsistent > 0);
-    }
-    for (const auto& [mesh_name, loops] : std::map<std::string, std::size_t>{{"annulus", 2},
-                                                                             {"thin annulus", 2},
-                                                                             {"disc", 1},
-                                                                             {"Moebius strip of 5", 1},
-                                                                             {"smallest Moebius strip", 1},
-                                                                             {"disc with holes", 13},
-                                                                             {"strip", 1}}) {
-        const std::string& name = mesh_name;
-        CAPTURE(name);
-        CHECK(survey(meshes[name]).border_loops == loops);
-    }
-    CHECK(survey(meshes["four triangles on an edge"]).nonmanifold == 1);
-    CHECK(survey(meshes["bow-tie"]).fans == 6);
-    CHECK(survey(meshes["degenerate triangles only"]).degenerate == 4);
+    return meshes;
 }
 
-TEST_CASE("test support: oriented triangles") {
+}  // namespace
+
+TEST_CASE("test support: named meshes have the topology that their names state") {
+    std::map<std::string, Mesh> meshes = named_meshes_by_name();
+    SUBCASE("closed orientable surfaces have their genus") {
+        const std::map<std::string, long> closed{{"tetrahedron", 0},
+                                                 {"octahedron", 0},
+                                                 {"cube", 0},
+                                                 {"genus 1 plate", 1},
+                                                 {"genus 2 plate", 2},
+                                                 {"genus 5 plate", 5},
+                                                 {"smallest torus", 1},
+                                                 {"torus", 1},
+                                                 {"Apollonian network", 0},
+                                                 {"random stack", 0},
+                                                 {"spiral stack", 0},
+                                                 {"bipyramid of 500", 0},
+                                                 {"double fan of 1", 0},
+                                                 {"double fan of 200", 0},
+                                                 {"double fan, shuffled", 0},
+                                                 {"octahedron subdivided", 0},
+                                                 {"twice stacked torus", 1}};
+        for (const auto& [mesh_name, genus] : closed) {
+            const std::string& name = mesh_name;
+            CAPTURE(name);
+            REQUIRE(meshes.count(name) == 1);
+            check_closed(meshes[name], genus);
+        }
+    }
+    SUBCASE("closed surfaces that are not orientable have their Euler characteristic") {
+        for (const auto& [mesh_name, euler] :
+             std::map<std::string, long>{{"Klein bottle", 0}, {"projective plane", 1}}) {
+            const std::string& name = mesh_name;
+            CAPTURE(name);
+            const Survey s = survey(meshes[name]);
+            check_manifold(s, meshes[name]);
+            CHECK(s.border == 0);
+            CHECK(s.euler == euler);
+            CHECK(s.inconsistent > 0);
+        }
+    }
+    SUBCASE("surfaces with borders have their number of border loops") {
+        for (const auto& [mesh_name, loops] : std::map<std::string, std::size_t>{{"annulus", 2},
+                                                                                 {"thin annulus", 2},
+                                                                                 {"disc", 1},
+                                                                                 {"Moebius strip of 5", 1},
+                                                                                 {"smallest Moebius strip", 1},
+                                                                                 {"disc with holes", 13},
+                                                                                 {"strip", 1}}) {
+            const std::string& name = mesh_name;
+            CAPTURE(name);
+            CHECK(survey(meshes[name]).border_loops == loops);
+        }
+    }
+    SUBCASE("a non-manifold edge, a vertex of two fans, degenerate triangles") {
+        CHECK(survey(meshes["four triangles on an edge"]).nonmanifold == 1);
+        CHECK(survey(meshes["bow-tie"]).fans == 6);
+        CHECK(survey(meshes["degenerate triangles only"]).degenerate == 4);
+    }
+}
+
+TEST_CASE("test support: oriented_triangles ignores order, rotation and degenerate triangles") {
     const std::vector<std::uint32_t> a{0, 1, 2, 5, 4, 3, 1, 1, 2};
     const std::vector<std::uint32_t> b{4, 3, 5, 2, 0, 1};
     const std::vector<std::uint32_t> turned{4, 5, 3, 2, 0, 1};

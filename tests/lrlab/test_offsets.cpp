@@ -1,4 +1,4 @@
-// Figure 8's distribution of offsets, and the bit-efficient tables' long references.
+// Tests the distribution of offsets (LR 2011, figure 8) and the count of long references of bit-efficient tables.
 
 #include <doctest/doctest.h>
 
@@ -12,7 +12,7 @@
 
 using namespace lacedring;
 
-TEST_CASE("significant bits of an offset, the shorter way round the rings") {
+TEST_CASE("offset_bits counts the significant bits of the shorter offset around the rings") {
     CHECK(offset_bits(5, 5, 100) == 0);
     CHECK(offset_bits(5, 6, 100) == 1);
     CHECK(offset_bits(5, 4, 100) == 1);
@@ -26,7 +26,7 @@ TEST_CASE("significant bits of an offset, the shorter way round the rings") {
     CHECK(offset_bits(0, 1U << 27, (1U << 28) - 1) == 27);
 }
 
-TEST_CASE("every triangle is counted once, and long references add up to the bytes") {
+TEST_CASE("every triangle is counted once, and the tables' bytes follow from the counts") {
     for (const test::NamedMesh& named : test::named_meshes()) {
         CAPTURE(named.name);
         Result<CornerTable> table = build_corner_table(named.mesh.indices, named.mesh.vertex_count);
@@ -52,7 +52,7 @@ TEST_CASE("every triangle is counted once, and long references add up to the byt
     }
 }
 
-TEST_CASE("breadth first has shorter offsets and more T0 than depth first") {
+TEST_CASE("the more breadth first, the shorter the offsets and the more T0") {
     const Result<Mesh> mesh = generate("blob", 20000, 3);
     REQUIRE(mesh);
     Result<CornerTable> table = build_corner_table(mesh->indices, mesh->vertex_count);

@@ -1,4 +1,4 @@
-// The pager: contents, limit, order of eviction, errors.
+// Tests PagedFile: its contents, its limit, the order of eviction, and errors.
 
 #include <doctest/doctest.h>
 #include <signal.h>
@@ -44,8 +44,8 @@ const std::uint32_t* words_of(const PagedFile& file) {
 
 TEST_CASE("a paged file has the parts' bytes and stays within its limit") {
     const std::size_t page = std::max<std::size_t>(kPage, static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)));
-    const std::vector<std::uint32_t> words = numbers(50 * page / 4 + 5);  // 51 pages, the last nearly empty
-    const PagedFile other = paged(numbers(7));                            // the handler has to find the right one
+    const std::vector<std::uint32_t> words = numbers(50 * page / 4 + 5);  // 51 pages
+    const PagedFile other = paged(numbers(7));                            // a fault must find its file
     PagedFile file = paged(words, page);
     REQUIRE(file.bytes().size() == 4 * words.size());
     CHECK(file.resident() == 0);
@@ -59,7 +59,8 @@ TEST_CASE("a paged file has the parts' bytes and stays within its limit") {
         CHECK(file.resident() <= allowed);
         std::size_t wrong = 0;
         std::mt19937 random(2);
-        for (std::size_t i = 0; i < words.size(); ++i) {  // in order, and at random
+        // Reads in order, and at random in between.
+        for (std::size_t i = 0; i < words.size(); ++i) {
             wrong += words_of(file)[i] != words[i];
             if (i % 64 != 0) continue;
             const std::size_t at = random() % words.size();
@@ -73,7 +74,7 @@ TEST_CASE("a paged file has the parts' bytes and stays within its limit") {
     CHECK(other.pages_read() == 1);
 }
 
-TEST_CASE("the page read first is the first to go") {
+TEST_CASE("the page that was read first is evicted first") {
     const std::size_t page = std::max<std::size_t>(kPage, static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)));
     const std::vector<std::uint32_t> words = numbers(20 * page / 4);
     PagedFile file = paged(words, page);
@@ -83,25 +84,34 @@ TEST_CASE("the page read first is the first to go") {
         CHECK(words_of(file)[p * page / 4 + 17] == words[p * page / 4 + 17]);
         return file.pages_read() - before;
     };
-    for (std::size_t p = 0; p < 10; ++p) CHECK(reads(p) == 1);
-    for (std::size_t p = 0; p < 10; ++p) CHECK(reads(p) == 0);
-    CHECK(reads(10) == 1);
-    CHECK(reads(0) == 1);  // 0 went for 10, and 1 goes for 0
-    CHECK(reads(2) == 0);
-    CHECK(reads(1) == 1);
-    CHECK(reads(2) == 1);
-    CHECK(file.resident() == 10 * page);
-    file.limit(8 * page);  // the two oldest go: 4 and 5
-    CHECK(file.resident() == 8 * page);
-    CHECK(reads(6) == 0);
-    CHECK(reads(5) == 1);
-    // A scan of more than the limit finds nothing; of no more than it, everything.
+    {
+        INFO("ten pages fit the limit");
+        for (std::size_t p = 0; p < 10; ++p) CHECK(reads(p) == 1);
+        for (std::size_t p = 0; p < 10; ++p) CHECK(reads(p) == 0);
+    }
+    {
+        INFO("page 10 evicts page 0, and page 0 then evicts page 1");
+        CHECK(reads(10) == 1);
+        CHECK(reads(0) == 1);
+        CHECK(reads(2) == 0);
+        CHECK(reads(1) == 1);
+        CHECK(reads(2) == 1);
+        CHECK(file.resident() == 10 * page);
+    }
+    {
+        INFO("a smaller limit evicts the two oldest pages, 4 and 5");
+        file.limit(8 * page);
+        CHECK(file.resident() == 8 * page);
+        CHECK(reads(6) == 0);
+        CHECK(reads(5) == 1);
+    }
+    INFO("a scan of more pages than the limit finds none of them resident, one of fewer pages all");
     for (std::size_t p = 0; p < 20; ++p) reads(p);
     for (std::size_t p = 0; p < 20; ++p) CHECK(reads(p) == 1);
     for (std::size_t p = 12; p < 20; ++p) CHECK(reads(p) == 0);
 }
 
-TEST_CASE("a paged file can be moved, and made again after the last is gone") {
+TEST_CASE("a paged file can be moved, and made again after all were destroyed") {
     const std::vector<std::uint32_t> words = numbers(30000);
     for (int i = 0; i < 3; ++i) {
         PagedFile a = paged(words);
@@ -113,13 +123,13 @@ TEST_CASE("a paged file can be moved, and made again after the last is gone") {
     CHECK(paged({}).bytes().empty());
 }
 
-TEST_CASE("accesses that are not the pager's end the process") {
+TEST_CASE("writes to a paged file and faults elsewhere end the process") {
     const std::vector<std::uint32_t> words = numbers(3000);
     for (const bool write : {true, false}) {
         const ::pid_t child = ::fork();
         if (child == 0) {
-            ::signal(SIGSEGV, SIG_DFL);  // the tests' own handler would report it
-            ::alarm(20);                 // a fault that is answered for ever
+            ::signal(SIGSEGV, SIG_DFL);  // not doctest's handler, which reports the signal
+            ::alarm(20);                 // ends an endless loop of faults
             const PagedFile file = paged(words);
             auto* at = const_cast<volatile std::uint32_t*>(words_of(file));
             if (!write) at = reinterpret_cast<volatile std::uint32_t*>(std::uintptr_t{64});
@@ -134,7 +144,7 @@ TEST_CASE("accesses that are not the pager's end the process") {
     }
 }
 
-TEST_CASE("no room for a paged file is an error") {
+TEST_CASE("a paged file without a folder, or of too many pages, is an error") {
     const std::vector<std::uint32_t> words = numbers(10);
     const std::span<const std::byte> parts[] = {std::as_bytes(std::span(words))};
     const Result<PagedFile> missing = PagedFile::make("/no/such/folder", parts);
@@ -143,7 +153,7 @@ TEST_CASE("no room for a paged file is an error") {
     const std::size_t page = std::max<std::size_t>(kPage, static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)));
     const std::vector<std::byte> block(page);
     const std::vector<std::span<const std::byte>> many(PagedFile::kMaxPages + 1, std::span(block));
-    const Result<PagedFile> pages = PagedFile::make(folder(), many, page);  // refused before it is written
+    const Result<PagedFile> pages = PagedFile::make(folder(), many, page);  // refused before writing
     REQUIRE_FALSE(pages);
     CHECK(pages.error().code == ErrorCode::too_large);
 }

@@ -1,4 +1,4 @@
-// Corner table with C, winged edge and SQuad against the corner table that they were built from.
+// Compares the corner table with C, the winged edge and SQuad with the corner table that they were built from.
 
 #include <doctest/doctest.h>
 
@@ -22,7 +22,7 @@ CornerTable pseudo_manifold(const Mesh& mesh) {
     return std::move(*table);
 }
 
-/// The map of a structure that keeps every number.
+/// The map of a structure that keeps the numbers of triangles and vertices.
 LrMap identity(const CornerTable& table) {
     LrMap map;
     for (std::uint32_t v = 0; v < table.vertex_count; ++v) map.vertex.push_back(VertexId{v});
@@ -33,21 +33,21 @@ LrMap identity(const CornerTable& table) {
     return map;
 }
 
-/// Stars and neighbours in swing order; at a border from one border neighbour to the other.
+/// Checks that stars and neighbors are in the order of swing, at a border from one border neighbor to the other.
 template <class Ops>
 void check_order(const Ops& ops) {
     for (std::uint32_t v = 0; v < ops.vertices; ++v) {
         CAPTURE(v);
         std::vector<CornerId> star;
-        std::vector<VertexId> neighbours, expected;
+        std::vector<VertexId> neighbors, expected;
         ops.star(VertexId{v}, [&](CornerId c) { star.push_back(c); });
-        ops.neighbors(VertexId{v}, [&](VertexId u) { neighbours.push_back(u); });
+        ops.neighbors(VertexId{v}, [&](VertexId u) { neighbors.push_back(u); });
         for (std::size_t i = 0; i < star.size(); ++i) {
             expected.push_back(ops.vertex(ops.next(star[i])));
             const CornerId after = i + 1 < star.size()          ? star[i + 1]
                                    : ops.is_border(VertexId{v}) ? kNullCorner
                                                                 : star[0];
-            REQUIRE(ops.swing(star[i]) == after);
+            REQUIRE_MESSAGE(ops.swing(star[i]) == after, "the star is in the order of swing");
         }
         if (star.empty()) continue;
         if (ops.is_border(VertexId{v})) {
@@ -56,7 +56,7 @@ void check_order(const Ops& ops) {
         } else {
             REQUIRE(star[0] == ops.corner(VertexId{v}));
         }
-        REQUIRE(neighbours == expected);
+        REQUIRE_MESSAGE(neighbors == expected, "neighbors are in the order of swing");
     }
 }
 
@@ -126,14 +126,14 @@ TEST_CASE("corner table with C, winged edge and SQuad equal the corner table on 
     }
 }
 
-TEST_CASE("SQuad's bytes") {
+TEST_CASE("SQuad's references of a triangle, a quad and a tetrahedron") {
     const auto references = [](const Mesh& mesh, const SquadOptions& options = {}) {
         return check_squad(pseudo_manifold(mesh), options).view().references();
     };
     CHECK(references(test::make_mesh(std::vector<std::uint32_t>{}, 3)) == 0);
-    CHECK(references(test::make_mesh({0, 1, 2}, 3)) == 4 + 2);               // two vertices without a record
-    CHECK(references(test::make_mesh({0, 1, 2, 2, 1, 3}, 4)) == 2 * 4 + 2);  // each triangle has a vertex
-    CHECK(references(test::make_mesh({0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2}, 4)) == 4 * 4);  // a tetrahedron: all single
+    CHECK_MESSAGE(references(test::make_mesh({0, 1, 2}, 3)) == 4 + 2, "two vertices without a record");
+    CHECK_MESSAGE(references(test::make_mesh({0, 1, 2, 2, 1, 3}, 4)) == 2 * 4 + 2, "each triangle has a vertex");
+    CHECK_MESSAGE(references(test::make_mesh({0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2}, 4)) == 4 * 4, "all records single");
     for (const char* const kind : {"sphere", "torus", "genus", "blob"}) {
         CAPTURE(kind);
         const Result<Mesh> mesh = generate(kind, 20000);

@@ -1,4 +1,4 @@
-// Whole meshes in rivals' formats, decoded again.
+// Encodes whole meshes in the formats of rivals, and decodes them.
 
 #include <doctest/doctest.h>
 
@@ -53,7 +53,7 @@ AttributeBits bits_of(std::uint32_t bits) {
 
 }  // namespace
 
-TEST_CASE("meshoptimizer gives back whole meshes, with the errors of their lattices") {
+TEST_CASE("meshoptimizer decodes whole meshes within the errors of their lattices") {
     for (const char* const kind : {"blob", "parts", "moebius"}) {
         const Mesh mesh = with_attributes(kind);
         for (const std::uint32_t bits : {0U, 8U, 12U, 16U}) {
@@ -71,7 +71,7 @@ TEST_CASE("meshoptimizer gives back whole meshes, with the errors of their latti
     }
 }
 
-TEST_CASE("Draco gives back whole meshes") {
+TEST_CASE("Draco decodes whole meshes") {
     for (const char* const kind : {"blob", "genus", "terrain"}) {
         const Mesh mesh = with_attributes(kind);
         for (const std::uint32_t bits : {0U, 12U}) {
@@ -94,7 +94,7 @@ TEST_CASE("Draco gives back whole meshes") {
     }
 }
 
-TEST_CASE("a mesh as it lies in memory") {
+TEST_CASE("the bytes of a mesh in memory") {
     const Mesh mesh = with_attributes("blob");
     CHECK(store_raw(mesh).bytes.size() == 2 * mesh.indices.size() + (12 + 12 + 8 + 16 + 3 + 8) * mesh.vertex_count);
     Mesh large = test::make_mesh({0, 1, 65536}, 65537);
@@ -102,7 +102,7 @@ TEST_CASE("a mesh as it lies in memory") {
     CHECK(store_raw(large).bytes.size() == 12);
 }
 
-TEST_CASE("general compressors") {
+TEST_CASE("general compressors restore their input") {
     const std::vector<std::byte> zeros(100000, std::byte{0});
     CHECK(deflated_size(zeros) < 200);
     CHECK(zstd_size(zeros).value_or(0) < 200);

@@ -1,5 +1,5 @@
 #pragma once
-// A corner table that must be built.
+// Builds a corner table, or fails the test.
 
 #include <doctest/doctest.h>
 

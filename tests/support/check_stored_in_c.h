@@ -1,5 +1,5 @@
 #pragma once
-// Checks of stored vertex streams: what they restore to, and that C decodes the same.
+// Checks that stored vertex streams are restored, and that C decodes the same values.
 
 #include <doctest/doctest.h>
 
@@ -15,7 +15,7 @@
 
 namespace lacedring::test {
 
-/// Compares what C decodes with the stream that it restores to.
+/// Decodes a stored stream in C and compares integers, values and header with `view`, the restored stream.
 inline void check_in_c(std::span<const std::uint32_t> stored, std::span<const std::uint32_t> triangles,
                        const VertexView& view, const storage::VertexPlaces& places = {}) {
     const auto in_c = attribute_in_c(stored, triangles, view.vertices, places);
@@ -24,10 +24,11 @@ inline void check_in_c(std::span<const std::uint32_t> stored, std::span<const st
     for (std::uint32_t block = 0; block < view.blocks(); ++block)
         decode_vertex_block(view, block,
                             std::span(integers).subspan(std::size_t{block} * kVertexBlock * view.integers));
-    CHECK(in_c->integers == integers);
+    CHECK_MESSAGE(in_c->integers == integers, "C decodes the same integers");
     std::vector<std::byte> values(view.decoded_bytes());
     decode_vertices(view, values);
-    CHECK(in_c->values == values);
+    CHECK_MESSAGE(in_c->values == values, "C decodes the same values");
+    INFO("C reads the same header");
     CHECK(in_c->header.mapping == static_cast<std::uint32_t>(view.mapping));
     CHECK(in_c->header.type == static_cast<std::uint32_t>(view.type));
     CHECK((in_c->header.normalized != 0) == view.normalized);
@@ -36,8 +37,8 @@ inline void check_in_c(std::span<const std::uint32_t> stored, std::span<const st
     CHECK(in_c->header.exception_count == view.exceptions);
 }
 
-/// Restores a stored vertex stream that may be damaged, to `most` words at most. Of what that gives, C decodes the
-/// same.
+/// Restores a stored vertex stream that may be damaged, to at most `most` words. If the result is valid, C must decode
+/// the same values.
 inline void check_damaged_in_c(std::span<const std::uint32_t> stored, std::span<const std::uint32_t> triangles,
                                std::uint32_t vertices, std::uint64_t most, const storage::VertexPlaces& places = {}) {
     const auto exact = exact_copy(stored);
@@ -49,8 +50,8 @@ inline void check_damaged_in_c(std::span<const std::uint32_t> stored, std::span<
     if (const Result<VertexView> valid = validate_vertices(*back)) check_in_c(stored, triangles, *valid, places);
 }
 
-/// Stores a vertex stream by its vertices' places, and returns what is stored. It comes back with these alone, in C,
-/// too.
+/// Stores a vertex stream with predictions from positions and returns the stored words. Checks that they are restored,
+/// in C too, with the same positions, and refused with none or fewer.
 inline std::vector<std::uint32_t> check_stored_by_places(const std::vector<std::uint32_t>& stream,
                                                          std::span<const std::uint32_t> triangles,
                                                          const storage::VertexPlaces& places) {
@@ -58,10 +59,11 @@ inline std::vector<std::uint32_t> check_stored_by_places(const std::vector<std::
     const std::vector<std::uint32_t> stored = storage::store_vertices(view, triangles, places).value();
     const auto back = storage::restore_vertices(stored, triangles, view.vertices, stream.size(), places);
     REQUIRE_MESSAGE(back, back.error().message);
-    CHECK(*back == stream);
+    CHECK_MESSAGE(*back == stream, "the stored form restores the stream");
     check_in_c(stored, triangles, view, places);
     const storage::VertexPlaces fewer{places.positions.first(places.positions.size() - 3), places.vertex_of};
     for (const storage::VertexPlaces& bad : {storage::VertexPlaces{}, fewer}) {
+        INFO("no positions, or fewer, are refused");
         const auto failed = storage::restore_vertices(stored, triangles, view.vertices, stream.size(), bad);
         CHECK_FALSE(attribute_in_c(stored, triangles, view.vertices, bad).has_value());
         REQUIRE_FALSE(failed);

@@ -15,7 +15,7 @@ void append(Attribute& attribute, T value) {
     std::memcpy(attribute.data.data() + at, &value, sizeof value);
 }
 
-/// Has the corner's triangle three vertices?
+/// Whether the corner's triangle has three distinct vertices.
 bool is_proper(const Mesh& mesh, std::size_t corner) {
     const std::uint32_t* t = &mesh.indices[corner / 3 * 3];
     return t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
@@ -24,12 +24,12 @@ bool is_proper(const Mesh& mesh, std::size_t corner) {
 }  // namespace
 
 CutMesh cut_mesh(const Mesh& whole, std::uint32_t how, std::uint64_t seed) {
-    // Each copy is a chart of its own: no two vertices share one.
+    // The number of a copy serves as its chart: vertices do not share copies.
     const std::vector<std::uint32_t> charts = cut(whole.indices, whole.vertex_count, how, seed).copies;
     CutMesh out;
     out.surface.vertex_count = whole.vertex_count;
     std::vector<std::uint32_t>& vertex_of = out.surface.vertex_of;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> numbers;  // of a vertex and a chart
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> numbers;  // by vertex and chart
     std::vector<std::uint32_t> chart_of;
     std::vector<bool> used(whole.vertex_count);
     const auto number = [&](std::uint32_t v, std::uint32_t chart) {
@@ -48,7 +48,8 @@ CutMesh cut_mesh(const Mesh& whole, std::uint32_t how, std::uint64_t seed) {
         if (!used[v]) number(v, 0);
     }
     for (std::size_t i = 0; i < whole.indices.size(); ++i) {
-        const std::uint32_t v = whole.indices[i];  // a degenerate triangle takes the first copies
+        // Degenerate triangles have the first copies of their vertices.
+        const std::uint32_t v = whole.indices[i];
         out.mesh.indices.push_back(
             (is_proper(whole, i) ? numbers.find({v, charts[i]}) : numbers.lower_bound({v, 0}))->second);
     }
@@ -63,7 +64,7 @@ CutMesh cut_mesh(const Mesh& whole, std::uint32_t how, std::uint64_t seed) {
         const float sign = chart % 2 == 0 ? 1.0F : -1.0F;
         for (const float value : {0.6F * sign, 0.8F, 0.0F * sign}) append(normal, value);
         append(texture, static_cast<float>(v) / 7.0F + static_cast<float>(chart));
-        append(texture, v % 50 == 7 ? 0x7fc00000U + chart : 0x3f000000U);  // not-a-number, whose bits count
+        append(texture, v % 50 == 7 ? 0x7fc00000U + chart : 0x3f000000U);  // a NaN, compared by its bits
         for (const std::uint32_t value : {v, chart, v / 3}) append(color, static_cast<std::uint8_t>(value));
         append(part, static_cast<std::uint16_t>(v / 10));
     }

@@ -10,7 +10,7 @@ namespace lacedring::test {
 CutSurface cut_by_chart(std::vector<std::uint32_t> triangles, std::uint32_t vertices,
                         const std::function<std::uint32_t(std::uint32_t corner)>& chart_of) {
     CutSurface out{std::move(triangles), {}, vertices};
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> numbers;  // of the copies
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> numbers;  // by vertex and chart: the copy
     for (std::uint32_t c = 0; c < out.triangles.size(); ++c) {
         const auto number = static_cast<std::uint32_t>(7 * numbers.size() + 3);
         out.copies.push_back(numbers.emplace(std::pair(out.triangles[c], chart_of(c)), number).first->second);

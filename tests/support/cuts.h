@@ -1,5 +1,5 @@
 #pragma once
-// Surfaces cut along seams, for all tests.
+// Surfaces cut along seams.
 
 #include <cstdint>
 #include <functional>
@@ -7,18 +7,19 @@
 
 namespace lacedring::test {
 
-/// A surface and the copies of its corners. Slots without a triangle are UINT32_MAX three times.
+/// A surface and the vertex copy of each corner. A slot without a triangle is UINT32_MAX three times.
 struct CutSurface {
     std::vector<std::uint32_t> triangles, copies;
     std::uint32_t vertices = 0;
 };
 
-/// Numbers the copies: corners of a vertex in charts of one number share one.
+/// Cuts a surface into charts: corners of a vertex share a copy if chart_of is equal.
 CutSurface cut_by_chart(std::vector<std::uint32_t> triangles, std::uint32_t vertices,
                         const std::function<std::uint32_t(std::uint32_t corner)>& chart_of);
 
-/// Ways to cut: no seams, stripes of triangles, random triangles, each triangle alone, random copies.
 constexpr std::uint32_t kCuts = 5;
+/// Cuts a surface in one of kCuts ways. `how` 0: no seams; 1: stripes of triangles; 2: random triangles; 3: each
+/// triangle alone; 4: random copies.
 CutSurface cut(const std::vector<std::uint32_t>& triangles, std::uint32_t vertices, std::uint32_t how,
                std::uint64_t seed);
 

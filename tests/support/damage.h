@@ -1,6 +1,6 @@
 #pragma once
-// Damaged copies of words or bytes that are valid, for tests of who reads them. Each says what was done to it where a
-// check fails, and lies in memory of exactly its size, so that a sanitizer sees who reads on behind its end.
+// Makes damaged copies of valid words or bytes. A failing check prints the damage. Cut copies have exactly their size
+// in memory, so that a sanitizer reports reads behind the end.
 
 #include <doctest/doctest.h>
 
@@ -16,7 +16,7 @@
 
 namespace lacedring::test {
 
-/// Calls use(span) with the first 0, 1, 2, ... of `good`, never all of them.
+/// Calls use(span) with every proper prefix of `good`.
 template <class T, class Use>
 void for_each_cut(const std::vector<T>& good, Use use) {
     for (std::size_t size = 0; size < good.size(); ++size) {
@@ -26,7 +26,7 @@ void for_each_cut(const std::vector<T>& good, Use use) {
     }
 }
 
-/// Calls use(changed, bit) with one bit of `good` flipped: every bit, or so many of each element.
+/// Calls use(changed, bit) with one bit of `good` flipped: each bit, or `bits_of_each` bits of each element.
 template <class T, class Use>
 void for_each_flip(const std::vector<T>& good, Use use, std::size_t bits_of_each = 8 * sizeof(T)) {
     constexpr std::size_t kWidth = 8 * sizeof(T);
@@ -42,7 +42,8 @@ void for_each_flip(const std::vector<T>& good, Use use, std::size_t bits_of_each
     }
 }
 
-/// A word after some chance: mostly one bit flipped, else its flags with a small number, or any.
+/// A word randomly damaged: one bit flipped (half of the time), its four flag bits with a small number, all ones, or
+/// random.
 inline std::uint32_t damaged_word(std::uint32_t word, detail::SplitMix64& random) {
     switch (random.below(4)) {
         case 0:
@@ -54,12 +55,13 @@ inline std::uint32_t damaged_word(std::uint32_t word, detail::SplitMix64& random
     }
 }
 
-/// Where damage is most telling: half of it goes there.
+/// The words that get half of the damage.
 struct Likely {
     std::size_t begin, size;
 };
 
-/// Calls use(changed, random) `trials` times with one to three words of `good` damaged. Never with `good` itself.
+/// Calls use(changed, random) `trials` times with one to three words of `good` damaged; `changed` always differs from
+/// it.
 template <class Use>
 void for_each_damage(const std::vector<std::uint32_t>& good, std::uint64_t seed, std::uint32_t trials, Use use,
                      Likely likely = {0, 0}) {

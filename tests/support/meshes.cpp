@@ -61,7 +61,8 @@ Mesh random_gluing(std::uint32_t vertices, std::uint32_t triangles, std::uint64_
             indices = {0, 1, 2};
             continue;
         }
-        // Mostly at one of the last triangles, so that fans and strips arise; the new tip is new, near, or any vertex.
+        // Mostly glued to one of the last triangles, which makes fans and strips. The tip is a new, a recent or any
+        // vertex.
         const std::uint32_t reach = random.below(4) == 0 ? t : std::min(t, 6U);
         const std::uint32_t base = t - 1 - random.below(reach);
         const std::uint32_t side = random.below(3);
@@ -111,7 +112,7 @@ std::vector<std::array<std::uint32_t, 3>> oriented_triangles(std::span<const std
 
 namespace {
 
-/// `shape` with every triangle of `more` added.
+/// `shape` with the triangles `more` added.
 Shape with(Shape shape, std::vector<Triangle> more) {
     shape.triangles.insert(shape.triangles.end(), more.begin(), more.end());
     return shape;
@@ -244,7 +245,7 @@ std::vector<NamedMesh> named_meshes() {
         for (const auto& [triangles, seed] :
              {std::pair{1U, 1U}, {60U, 2U}, {500U, 1U}, {500U, 2U}, {kSanitized ? 1000U : 5000U, 3U}}) {
             Result<Mesh> mesh = generate(info.name, triangles, seed);
-            if (!mesh) std::abort();  // test_generate says why
+            if (!mesh) std::abort();  // tests/lrlab/test_generate.cpp reports the error
             out.push_back({fmt::format("{} {} seed {}", info.name, triangles, seed), std::move(*mesh)});
         }
     }

@@ -1,5 +1,5 @@
 #pragma once
-// Streams of all formats, for tests of what goes with any of them.
+// Streams of all formats, for tests that must hold for each.
 
 #include <doctest/doctest.h>
 
@@ -9,7 +9,7 @@
 
 namespace lacedring::test {
 
-/// Calls use(StreamView) for the named meshes of at most 1000 triangles in every format that can encode them.
+/// Encodes each named mesh of at most 1000 triangles in every format that can, and calls use(StreamView).
 template <class Use>
 void for_each_named_stream(Use use) {
     for (const NamedMesh& named : named_meshes()) {

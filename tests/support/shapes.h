@@ -17,13 +17,14 @@ struct Shape {
     std::vector<Triangle> triangles;
 };
 
-/// The surfaces that a grid of quads makes when its sides are glued: x alone or x and y; `twist` glues x reversed.
+/// A grid of quads whose left and right sides (close_x) and lower and upper sides (close_y) may be glued; `twist` glues
+/// x reversed.
 Shape grid(std::uint32_t width, std::uint32_t height, bool close_x, bool close_y, bool twist);
-/// A grid without the cells (i, j), i and j odd: a disc with holes.
+/// A grid without the cells (i, j) where i and j are odd: a disc with holes.
 Shape grid_with_holes(std::uint32_t width, std::uint32_t height);
-/// Both sides of a plate with holes and its walls: closed; genus = holes.
+/// A plate of some thickness with holes: closed, of genus `holes`.
 Shape plate(std::uint32_t holes);
-/// Triangles around vertex 0; closed: a disc.
+/// Triangles around vertex 0; all around it if closed.
 Shape fan(std::uint32_t triangles, bool closed);
 Shape strip(std::uint32_t triangles);
 Shape tetrahedron();
@@ -31,29 +32,29 @@ Shape octahedron();
 Shape cube();
 /// Two hubs and a ring of n vertices.
 Shape bipyramid(std::uint32_t n);
-/// Hubs 0 and 1 both see every vertex of a path: a closed double fan whose halves share all border edges.
+/// Two fans over the same path, around the hubs 0 and 1, joined at all border edges: closed.
 Shape double_fan(std::uint32_t n);
 /// The projective plane on six vertices.
 Shape projective_plane();
-/// Seven vertices, every two joined by an edge: Moebius' torus.
+/// Moebius' torus: seven vertices, each pair joined by an edge.
 Shape smallest_torus();
-/// Every triangle into four, vertices at the middles of edges.
+/// Splits each triangle into four, with new vertices at the middles of edges.
 Shape subdivide(const Shape& shape);
-/// A vertex in the middle of every triangle (Apollonian network): valences double each time.
+/// Adds a vertex in the middle of each triangle (Apollonian network), which doubles the valences.
 Shape stack_all(const Shape& shape);
-/// A vertex in the middle of a random triangle, `count` times.
+/// Adds a vertex in the middle of a random triangle, `count` times.
 Shape stack_random(Shape shape, std::uint32_t count, std::uint64_t seed);
-/// A vertex put into one triangle, then one into a triangle at that vertex, and so on.
+/// Adds `count` vertices, each in a triangle at the one before.
 Shape stack_spiral(Shape shape, std::uint32_t count);
-/// Both, unconnected.
+/// Both shapes, not connected.
 Shape beside(const Shape& a, const Shape& b);
-/// The same with vertex `from` replaced by `to`: pinches the surface. The number `from` is not used any more.
+/// Replaces vertex `from` by `to`, which pinches the surface. `from` is then unused.
 Shape pinch(Shape shape, std::uint32_t from, std::uint32_t to);
-/// Every k-th triangle turned round.
+/// Flips every k-th triangle.
 Shape turn_some(Shape shape, std::uint32_t k);
-/// Every k-th triangle once more, behind the others, or its reverse.
+/// Appends every k-th triangle once more, flipped if `turned`.
 Shape double_some(Shape shape, std::uint32_t k, bool turned);
-/// Triangles in random order, rotated, and vertices renumbered at random.
+/// Shuffles and rotates the triangles, and renumbers the vertices at random.
 Shape shuffle(Shape shape, std::uint64_t seed);
 
 }  // namespace lacedring::test

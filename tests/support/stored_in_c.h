@@ -1,5 +1,5 @@
 #pragma once
-// The storage form as decoded by lacedring_storage.h and lacedring_stored_seams.h, in buffers of exactly their size.
+// Decodes the storage form with lacedring_storage.h and lacedring_stored_seams.h, in buffers of exactly their size.
 
 #include <algorithm>
 #include <cstddef>
@@ -17,7 +17,7 @@
 
 namespace lacedring::test {
 
-/// The triangles of a stored packed stream; none: it is refused.
+/// The triangles of a stored packed stream; nothing if it is refused.
 inline std::optional<std::vector<std::uint32_t>> triangles_in_c(std::span<const std::uint32_t> stored,
                                                                 std::uint32_t vertices, std::uint32_t triangles) {
     const auto words = exact_copy(stored);
@@ -39,7 +39,7 @@ struct AttributeInC {
     std::vector<std::byte> values;
 };
 
-/// The integers and the values of a stored vertex stream; none: it is refused.
+/// The integers and values of a stored vertex stream; nothing if it is refused.
 inline std::optional<AttributeInC> attribute_in_c(std::span<const std::uint32_t> stored,
                                                   std::span<const std::uint32_t> triangles, std::uint32_t vertices,
                                                   const storage::VertexPlaces& places = {}) {
@@ -71,11 +71,11 @@ inline std::optional<AttributeInC> attribute_in_c(std::span<const std::uint32_t>
 }
 
 struct SeamsInC {
-    std::vector<std::uint32_t> copies;    ///< of each corner
-    std::vector<std::uint32_t> vertices;  ///< of each copy
+    std::vector<std::uint32_t> copies;    ///< by corner
+    std::vector<std::uint32_t> vertices;  ///< by copy
 };
 
-/// The copies of a stored seam section; none: it is refused, as one of more copies than `most` is.
+/// The copies of a stored seam section; nothing if it is refused or has more than `most` copies.
 inline std::optional<SeamsInC> seams_in_c(std::span<const std::uint32_t> stored,
                                           std::span<const std::uint32_t> triangles, std::uint32_t vertices,
                                           std::uint32_t most) {
